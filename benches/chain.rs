@@ -42,9 +42,7 @@ fn scene(n: usize) -> Scene {
     scene.initial.v = vec![0.0; n];
     for i in 0..n {
         for wall in [Wall::upper(&format!("upper-{i}"), GAP), Wall::lower(&format!("lower-{i}"), -GAP)] {
-            let mut wall = wall.with_restitution(0.0);
-            wall.at = Row::dof(i);
-            scene.walls.push(wall);
+            scene.walls.push(wall.with_restitution(0.0).at(Row::dof(i)));
         }
     }
     scene.with_load(Load::harmonic(AMPLITUDE, FREQUENCY, 0.0))

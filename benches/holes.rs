@@ -7,7 +7,7 @@
 #![allow(clippy::needless_range_loop, reason = "a loop by hand")]
 
 use signorini::linear::Symmetric;
-use signorini::{Load, PlaneRows, Row, Scene, Scheme, Shape, Stepper, Structure, Support, WallLaw};
+use signorini::{Load, PlaneRows, Row, Scene, Scheme, Stepper, Structure, Wall};
 use std::f64::consts::{PI, TAU};
 use std::hint::black_box;
 
@@ -58,13 +58,9 @@ fn scene() -> Scene {
     });
     let row = |x: f64| Row::new((0..MODES).map(|mode| (mode, shape(mode, x))).collect());
     for (index, x) in HOLES.into_iter().enumerate() {
-        scene.supports.push(Support {
-            name: format!("hole-{index}"),
-            at: PlaneRows::doubled(&row(x), MODES),
-            centre: [0.0, 0.0],
-            shape: Shape::Round { gap: GAP, law: WallLaw::Rigid { restitution: RESTITUTION } },
-            friction: FRICTION,
-        });
+        let (name, at) = (format!("hole-{index}"), PlaneRows::doubled(&row(x), MODES));
+        let wall = Wall::round(&name, at.clone(), GAP).with_restitution(RESTITUTION).with_friction(FRICTION);
+        scene = scene.with_support(&name, at, [0.0, 0.0], vec![wall]);
     }
     for (x, loads) in PLACES.into_iter().zip(LOADS) {
         let at = PlaneRows::doubled(&row(x), MODES);
@@ -252,9 +248,9 @@ fn stepped(stepper: &mut Stepper, steps: u64, outcome: &mut Outcome) {
         if index + 1 == (PREDICTABLE / H).round() as u64 {
             outcome.q = step.q.to_vec();
         }
-        for hole in step.holes.iter().filter(|hole| hole.impulse > 0.0) {
+        for impulse in step.impulse.iter().filter(|impulse| **impulse > 0.0) {
             outcome.pushed += 1;
-            outcome.impulse += hole.impulse;
+            outcome.impulse += impulse;
         }
     }
 }

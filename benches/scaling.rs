@@ -42,7 +42,7 @@ fn chain(n: usize, walled: usize, driven: impl Iterator<Item = usize>) -> Scene 
     scene.probes = vec![Probe { name: "first".into(), at: Row::dof(0) }];
     for i in 0..walled {
         for wall in [Wall::upper(&format!("upper-{i}"), 1e-3), Wall::lower(&format!("lower-{i}"), -1e-3)] {
-            scene.walls.push(Wall { at: Row::dof(i), ..wall.with_restitution(0.0) });
+            scene.walls.push(wall.with_restitution(0.0).at(Row::dof(i)));
         }
     }
     for i in driven {

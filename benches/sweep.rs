@@ -4,7 +4,7 @@
 //! `cargo bench --bench sweep`
 
 use signorini::case::CaseFile;
-use signorini::sweep::{Axis, Kernel, Measure, Plan, Stretch, Sweep};
+use signorini::sweep::{Axis, Kernel, Measure, Plan, Sweep, Window};
 use signorini::{Scene, Scheme, Stepper};
 use std::time::Instant;
 
@@ -23,10 +23,10 @@ fn best<const N: usize>(mut works: [&mut dyn FnMut(); N]) -> [f64; N] {
     least
 }
 
-fn plan(case: &str, points: u64, stretch: Stretch, kernel: Kernel, measures: &[Measure]) -> Plan {
+fn plan(case: &str, points: u64, window: Window, kernel: Kernel, measures: &[Measure]) -> Plan {
     let sweep = Sweep::new(CaseFile::embedded(case).expect("a built-in case"));
     let axis = Axis::linear("load.1.harmonic.frequency", 4.0, 5.5, points).expect("a key");
-    let sweep = sweep.vary(axis).by("event").kernel(kernel).over(stretch).measure(measures.iter().copied());
+    let sweep = sweep.vary(axis).by("event").kernel(kernel).over(window).measure(measures.iter().copied());
     sweep.judged(0).plan().expect("a plan")
 }
 
@@ -51,9 +51,9 @@ fn main() {
         ("tube-loose-supports", 2, 1, 1),
     ] {
         let periods = settle + keep;
-        let stretch = Stretch::Periods { settle, keep };
+        let window = Window::Periods { settle, keep };
         let measures = [Measure::Contacts, Measure::ImpulseMean, Measure::ImpactPower];
-        let plan = plan(case, points, stretch, Kernel::Scalar, &measures);
+        let plan = plan(case, points, window, Kernel::Scalar, &measures);
         let scenes = scenes(case, points, periods);
         let mut rows = || assert_eq!(plan.rows(1).expect("rows").len() as u64, points);
         let mut steppers = || {
@@ -73,8 +73,8 @@ fn main() {
             row / engine
         );
     }
-    let stretch = Stretch::Periods { settle: 150, keep: 50 };
-    let plan = plan("rigid-walls-sine", 4096, stretch, Kernel::Batch, &[Measure::Impulse, Measure::Lyapunov]);
+    let window = Window::Periods { settle: 150, keep: 50 };
+    let plan = plan("rigid-walls-sine", 4096, window, Kernel::Batch, &[Measure::Impulse, Measure::Lyapunov]);
     let [seconds] = best([&mut || assert_eq!(plan.rows(1).expect("rows").len(), 4096)]);
     println!("batch kernel: {:.3e} s a row of 200 periods", seconds / 4096.0);
 }

@@ -4,7 +4,7 @@
 //! `cargo run --release --example hysteresis`
 
 use signorini::case::CaseFile;
-use signorini::sweep::{Axis, Follow, Measure, Samples, Stretch, Sweep};
+use signorini::sweep::{Axis, Follow, Measure, Samples, Sweep, Window};
 
 fn main() -> signorini::Result<()> {
     let frequency = Axis::linear("load.1.harmonic.frequency", 4.0, 5.5, 31)?.named("frequency");
@@ -12,7 +12,7 @@ fn main() -> signorini::Result<()> {
         .set("wall.*.restitution", 0.8)?
         .vary(frequency.followed(Follow::Both))
         .by("event")
-        .over(Stretch::Periods { settle: 200, keep: 40 })
+        .over(Window::Periods { settle: 200, keep: 40 })
         .measure([Measure::ImpactsPerPeriod, Measure::Period, Measure::DisplacementMax])
         .sample(Samples::Impacts, 40)
         .plan()?;

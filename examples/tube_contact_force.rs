@@ -32,7 +32,7 @@ fn main() -> Result<()> {
         let at = tube.at(position)?;
         let upper = Wall::upper(&format!("{name}-upper"), 2e-4).with_restitution(0.5);
         let lower = Wall::lower(&format!("{name}-lower"), -2e-4).with_restitution(0.5);
-        scene = scene.with_wall(Wall { at: at.clone(), ..upper }).with_wall(Wall { at: at.clone(), ..lower });
+        scene = scene.with_wall(upper.at(at.clone())).with_wall(lower.at(at.clone()));
         scene.probes.push(Probe { name: name.to_owned(), at });
     }
     let scene = scene.with_load(Load { at: tube.at(0.5)?, ..Load::harmonic(10.0, 25.0, 0.0) });

@@ -5,7 +5,7 @@
 //! is not in contact with it, whatever the scheme: the force that a scheme computes there is
 //! rounding, and counts as 0.
 
-use crate::scene::{Hole, LoadKind, Scene, Side, System, WallLaw};
+use crate::scene::{LoadKind, Scene, Side, System, WallLaw};
 use crate::step::{Bound, Contact, Contract};
 
 /// An impact on a rigid wall takes one step in a velocity-level scheme and up to two in a
@@ -27,7 +27,7 @@ struct Floor {
 }
 
 impl Floor {
-    /// One per wall of `scene`, then one per round support.
+    /// One per wall of `scene`.
     fn all(scene: &Scene, masses: &[f64], contract: Contract) -> Vec<Self> {
         let size = |kind: &LoadKind| match kind {
             LoadKind::Constant { force } => force.abs(),
@@ -42,19 +42,13 @@ impl Floor {
         let positions = matches!(contract.promise.rigid.displacement, Some(Bound::End | Bound::Reflected));
         let spring_of = |law: WallLaw| law.spring().map_or(0.0, |spring| spring.stiffness);
         let floor = |(wall, mass): (&crate::scene::Wall, &f64)| {
-            let place = wall.position.abs();
+            let place = wall.position().abs();
             let own = spring_of(wall.law);
-            let inertia = if positions { mass * place } else { 0.0 };
+            let displaced = if wall.is_round() { contract.promise.hole.is_some() } else { positions };
+            let inertia = if displaced { mass * place } else { 0.0 };
             Self { force: ROUNDING * (loads + (spring + own) * place), inertia: ROUNDING * inertia }
         };
-        let displaced = contract.promise.hole.is_some();
-        let hole = |(hole, mass): (Hole<'_>, &f64)| {
-            let inertia = if displaced { mass * hole.gap } else { 0.0 };
-            let own = spring_of(hole.law);
-            Self { force: ROUNDING * (loads + (spring + own) * hole.gap), inertia: ROUNDING * inertia }
-        };
-        let holes = scene.holes().zip(masses.iter().skip(scene.walls.len())).map(hole);
-        scene.walls.iter().zip(masses).map(floor).chain(holes).collect()
+        scene.walls.iter().zip(masses).map(floor).collect()
     }
 
     /// True if an impulse `p` (N s) of a step of `h` (s) is rounding; without a division, since
@@ -97,7 +91,7 @@ pub(crate) struct Rates {
 }
 
 /// Joins the impulses of a scheme on a grid into episodes, and closes an episode when a wall stops
-/// pushing. A round support counts as an upper wall along the normal of each step, with positive
+/// pushing. A round wall counts as an upper one along the normal of each step, with positive
 /// impulses.
 #[derive(Debug, Clone)]
 pub(crate) struct Episodes {
@@ -107,8 +101,8 @@ pub(crate) struct Episodes {
     /// The mass that each wall feels, kg.
     mass: Vec<f64>,
     side: Vec<Side>,
-    /// Number of walls: the entries from there on are round supports.
-    walls: usize,
+    /// The sign of each wall's impulses.
+    sign: Vec<f64>,
     open: Vec<Option<Open>>,
     any: bool,
     /// Walls that pushed in the last step.
@@ -119,20 +113,14 @@ pub(crate) struct Episodes {
 impl Episodes {
     /// For `scene`, whose walls feel `masses` (kg).
     pub(crate) fn new(scene: &Scene, masses: &[f64], contract: Contract) -> Self {
-        let holes = || scene.holes();
-        let walls = scene.walls.len() + holes().count();
+        let walls = scene.walls.len();
         Self {
             instant: contract.instant,
-            rigid: scene
-                .walls
-                .iter()
-                .map(|w| w.law.is_rigid())
-                .chain(holes().map(|hole| hole.law.is_rigid()))
-                .collect(),
+            rigid: scene.walls.iter().map(|w| w.law.is_rigid()).collect(),
             floor: Floor::all(scene, masses, contract),
             mass: masses.to_vec(),
-            side: scene.walls.iter().map(|w| w.side).chain(holes().map(|_| Side::Upper)).collect(),
-            walls: scene.walls.len(),
+            side: scene.walls.iter().map(|w| w.side()).collect(),
+            sign: scene.walls.iter().map(|w| w.sign()).collect(),
             open: vec![None; walls],
             any: false,
             pushed: Vec::with_capacity(walls),
@@ -191,7 +179,7 @@ impl Episodes {
 
     /// The sign of the impulse of an episode.
     fn sign(&self, wall: usize) -> f64 {
-        if wall < self.walls { self.side[wall].sign() } else { 1.0 }
+        self.sign[wall]
     }
 
     /// Closes the episode, if any, of a wall that does not push.

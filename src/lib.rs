@@ -36,12 +36,14 @@ pub mod flow;
 mod hash;
 mod interrupt;
 pub mod linear;
-mod notes;
 pub mod orbit;
 // The files that the tool writes; public for its benchmarks and tests.
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod output;
+// For the Python package.
+#[doc(hidden)]
+pub mod parallel;
 pub mod qp;
 #[cfg(feature = "cli")]
 mod report;
@@ -64,13 +66,13 @@ pub use interrupt::Interrupt;
 pub use residual::{Finding, Refuted};
 pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{
-    Bar, BarEnd, Beam, BeamEnd, Chain, Condensation, Damping, Flat, FlatWall, Flats, Hole, MOST_DENSE, MOST_ELEMENTS,
+    Bar, BarEnd, Beam, BeamEnd, Chain, Condensation, Damping, Face, Flat, Flats, Hole, MOST_DENSE, MOST_ELEMENTS,
     MOST_FLATS, MOST_MODES, MassMatrix, ModalData, ModalPoint, Modes, PlaneRows, Reduction, WallTruncation, heading,
     matrices,
 };
 pub use scene::{
-    Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, Shape,
-    SharedStructure, Side, State, Structure, Support, System, Table, TimeFunction, Wall, WallLaw,
+    Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SharedStructure,
+    Side, State, Structure, Support, System, Table, TimeFunction, Wall, WallLaw,
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{
@@ -78,8 +80,8 @@ pub use statistics::{
     SectorStatistics, Spectrum, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics, WearStatistics,
 };
 pub use step::{
-    Balance, Bound, Circle, Conserves, Contact, Contract, Elastic, Friction, HoleStep, Law, Normal, Path, Promise,
-    PromisedForce, Reached, Rigid, Step, Tolerance, Tolerances, Turning,
+    Balance, Bound, Circle, Conserves, Contact, Contract, Elastic, Friction, Law, Normal, Path, Promise, PromisedForce,
+    Reached, Rigid, Step, Tolerance, Tolerances, Turning,
 };
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
 pub use trajectory::{ContactWear, Recorder, Trajectory};

@@ -45,7 +45,7 @@ fn long_runs_stop() {
     // Nothing is touched: a single step of the exact scheme, which searches for a contact all the
     // way.
     let mut far = long.clone();
-    far.walls.iter_mut().for_each(|wall| wall.position *= 0.7e1);
+    far.walls.iter_mut().for_each(|wall| *wall = wall.clone().with_position(0.7e1 * wall.position()));
     far.initial.v[0] = 0.3;
     far.system = Scene::oscillator(1.0, 0.0, 100.0).system;
     stops("one arc", || run(&far.with_duration(1e5), &Scheme::Event, &options));

@@ -46,9 +46,8 @@ fn memory_follows_the_rows_in_play() {
     scene.system = structure.into();
     scene = scene.with_load(Load::constant(50.0));
     for i in 0..walls {
-        let mut wall = Wall::upper(&format!("w{i}"), 1e-3).with_restitution(if i % 2 == 0 { 0.0 } else { 0.5 });
-        wall.at = Row::dof(i * (n / walls));
-        scene = scene.with_wall(wall);
+        let wall = Wall::upper(&format!("w{i}"), 1e-3).with_restitution(if i % 2 == 0 { 0.0 } else { 0.5 });
+        scene = scene.with_wall(wall.at(Row::dof(i * (n / walls))));
     }
     let before = HELD.load(Ordering::Relaxed);
     MOST.store(before, Ordering::Relaxed);

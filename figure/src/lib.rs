@@ -5,6 +5,7 @@
 //! | [`Figure`] | panels under one another sharing the horizontal axis: responses, phase plots, work–precision charts |
 //! | [`Panel`] | one frame: [`Curve`]s, [`Stems`] (impulses) and [`Mark`]s (walls, floors) |
 //! | [`HeatMap`] | classes or numbers over two axes |
+//! | [`Animation`] | lines that move, in [`View`]s beside and under one another |
 //! | [`Scatter`] | any number of points over two axes, with [`Line`]s and [`Sign`]s over them |
 //!
 //! All figures have the same look: 160 mm wide, any sans-serif font, legend below the frame, curves
@@ -37,6 +38,7 @@
 
 #![forbid(unsafe_code)]
 
+mod animation;
 mod axis;
 mod class;
 mod curve;
@@ -56,6 +58,7 @@ mod text;
 mod thin;
 mod tone;
 
+pub use animation::{Animation, View};
 pub use axis::Scale;
 pub use class::Class;
 pub use curve::{Curve, Mark, Stems};

@@ -108,6 +108,60 @@ impl Canvas {
         self.out.push_str("/>\n");
     }
 
+    /// A line, or a dot of one point, that goes through these frames every `seconds`.
+    pub(super) fn animate(&mut self, frames: &[Vec<(f64, f64)>], stroke: Stroke, seconds: f64) {
+        let Some(first) = frames.first().filter(|first| !first.is_empty()) else { return };
+        if let &[(x, y)] = first.as_slice() {
+            self.out.push_str("<circle cx=\"");
+            self.number(x);
+            self.out.push_str("\" cy=\"");
+            self.number(y);
+            let _ = writeln!(self.out, "\" r=\"4\" fill=\"{}\">", stroke.colour);
+            for (name, part) in [("cx", 0), ("cy", 1)] {
+                self.values(name, frames, seconds, |canvas, points| {
+                    points.iter().for_each(|&(x, y)| canvas.number([x, y][part]));
+                });
+            }
+            self.out.push_str("</circle>\n");
+            return;
+        }
+        self.out.push_str("<polyline points=\"");
+        self.points(first);
+        let _ = writeln!(self.out, "\" stroke=\"{}\" stroke-width=\"{}\">", stroke.colour, stroke.width);
+        self.values("points", frames, seconds, Self::points);
+        self.out.push_str("</polyline>\n");
+    }
+
+    fn points(&mut self, points: &[(f64, f64)]) {
+        for (i, &(x, y)) in points.iter().enumerate() {
+            if i > 0 {
+                self.out.push(' ');
+            }
+            self.pair(x, y);
+        }
+    }
+
+    /// The values of an attribute of the open element, one for each frame.
+    fn values(
+        &mut self,
+        name: &str,
+        frames: &[Vec<(f64, f64)>],
+        seconds: f64,
+        value: impl Fn(&mut Self, &[(f64, f64)]),
+    ) {
+        let _ = write!(
+            self.out,
+            "<animate attributeName=\"{name}\" dur=\"{seconds}s\" repeatCount=\"indefinite\" values=\""
+        );
+        for (i, frame) in frames.iter().enumerate() {
+            if i > 0 {
+                self.out.push(';');
+            }
+            value(self, frame);
+        }
+        self.out.push_str("\"/>\n");
+    }
+
     /// A closed outline with its own filling.
     pub(super) fn shape(&mut self, corners: &[(f64, f64)], fill: &str, stroke: Stroke) {
         self.out.push_str("<path d=\"");

@@ -177,6 +177,7 @@ impl Case {
         if let Some(name) = scheme {
             plan.method = self.case.method(name).map_err(raise)?;
         }
+        plan.check_step(step)?;
         Run::make(scene, plan)
     }
 

@@ -32,4 +32,15 @@ impl Plan {
         let time = sg::TimeOptions { sample, statistics_from, ..sg::TimeOptions::with_step(step) };
         Ok(Self { method, time })
     }
+
+    /// Refuses a step that the caller gave to the exact scheme, which has none.
+    pub fn check_step(&self, given: Option<f64>) -> PyResult<()> {
+        match given {
+            Some(step) if self.method.scheme == sg::Scheme::Event => {
+                let expected = "a scheme that has a step: event has none, and sample sets its rows";
+                Err(wrong("step", format!("{step:?}"), expected))
+            }
+            _ => Ok(()),
+        }
+    }
 }

@@ -294,10 +294,11 @@ impl Run {
         Ok(view(slf, of("support", motion.supports(), motion.wear_work(), name)?))
     }
 
-    /// The names of the walls.
+    /// The names of the flat walls.
     #[getter]
     fn walls(&self) -> Vec<String> {
-        self.run.trajectory.walls().to_vec()
+        let motion = &self.run.trajectory;
+        motion.walls().iter().filter(|name| !motion.holes().contains(name)).cloned().collect()
     }
 
     /// The names of the probes.
@@ -445,7 +446,7 @@ impl Run {
         let dict = PyDict::new(py);
         dict.set_item("wall", contacts.iter().map(|c| c.wall as i64).collect::<Vec<_>>().into_pyarray(py))?;
         let motion = &self.run.trajectory;
-        dict.set_item("names", motion.walls().iter().chain(motion.holes()).collect::<Vec<_>>())?;
+        dict.set_item("names", motion.walls())?;
         dict.set_item("start", column(&|c| c.start))?;
         dict.set_item("end", column(&|c| or_nan(c.end)))?;
         dict.set_item("impulse", column(&|c| c.impulse))?;

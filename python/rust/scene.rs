@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde::{Deserialize, Serialize};
 use signorini as sg;
+use std::mem;
 
 /// M q̈ + C q̇ + K q = f(t) + Gᵀ r(t), bounded by walls, over a duration. Scenes are made by
 /// ``oscillator``, ``chain``, ``bar``, ``beam``, ``matrices``, ``modal`` and ``load``, never
@@ -99,11 +100,20 @@ impl Scene {
         if let Some(walls) = walls {
             let stand = |Wall { wall, place }: Wall| {
                 let at = self.model.row(&format!("wall {:?}", wall.name), &place, n)?;
-                Ok(sg::Wall { at, ..wall })
+                Ok(wall.at(at))
             };
-            scene.walls = walls.into_iter().map(stand).collect::<PyResult<_>>()?;
-            // The supports of a case file refer to its own walls.
-            scene.supports.clear();
+            let flat = walls.into_iter().map(stand).collect::<PyResult<_>>()?;
+            let (before, supports) = (mem::replace(&mut scene.walls, flat), mem::take(&mut scene.supports));
+            // Supports of flat walls go with these; round ones, which only a case file makes, stay.
+            for mut support in supports {
+                if let Some(round) =
+                    before.get(support.walls.clone()).filter(|walls| walls.iter().any(sg::Wall::is_round))
+                {
+                    support.walls = scene.walls.len()..scene.walls.len() + round.len();
+                    scene.walls.extend_from_slice(round);
+                    scene.supports.push(support);
+                }
+            }
         }
         if let Some(loads) = loads {
             let act = |(i, Load { load, place }): (usize, Load)| {
@@ -197,13 +207,23 @@ impl Scene {
         if let Some(tolerance) = accuracy {
             return Run::to_accuracy(slf, scheme, step, tolerance, sample, statistics_from);
         }
-        Run::make(slf, Plan::new(&slf.get().scene, scheme, step, sample, statistics_from)?)
+        let plan = Plan::new(&slf.get().scene, scheme, step, sample, statistics_from)?;
+        plan.check_step(step)?;
+        Run::make(slf, plan)
     }
 
-    /// The walls, in the order of the results.
+    /// The flat walls, in the order of the results.
     #[getter]
     fn walls<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.given().walls.iter().map(|wall| Wall { wall: wall.clone(), place: self.place(&wall.at) }))
+        let flat = self.given().walls.iter().filter(|wall| !wall.is_round());
+        let walls = flat.map(|wall| Wall { wall: wall.clone(), place: self.place(wall.row()) });
+        PyTuple::new(py, walls.collect::<Vec<_>>())
+    }
+
+    /// The names of all walls, flat and round, in the order of the results.
+    #[getter]
+    fn _wall_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.scene.walls.iter().map(|wall| &wall.name))
     }
 
     /// The loads.
@@ -256,7 +276,7 @@ impl Scene {
         let scene = self.scene.clone();
         let lines = move || {
             let mut lines = body(&scene);
-            lines.extend(walls(&scene));
+            lines.extend(walls(&scene).into_iter().map(|(_, line)| line));
             lines.push(format!("{}, {:?} s", loads(&scene), scene.duration));
             Ok(lines.join("\n"))
         };

@@ -14,8 +14,8 @@ use signorini as sg;
 use signorini::study::compare::compare;
 use signorini::study::stability::family::Question;
 use signorini::study::stability::plan::{Grid, Plan as Maps};
-use signorini::study::work_precision::{self, Effort, Kind, Outcome, Quantity, Steps};
-use signorini::sweep::{Axis, Measure, Sample, Samples, Stretch, Sweep};
+use signorini::study::work_precision::{self, Effort, Outcome, Quantity, Steps};
+use signorini::sweep::{Axis, Measure, Sample, Samples, Sweep, Window};
 
 fn parse(methods: &[String]) -> PyResult<Vec<sg::Method>> {
     methods.iter().map(|name| name.parse().map_err(raise)).collect()
@@ -82,7 +82,7 @@ pub fn _chart<'py>(
         for point in &series.points {
             rows.append(dict(py, |d| {
                 d.set_item("method", series.method.to_string())?;
-                d.set_item("kind", Kind::of(&series.method.scheme).name())?;
+                d.set_item("kind", series.method.scheme.entry().kind.name())?;
                 d.set_item("step_s", point.step)?;
                 let measured = point.measured();
                 d.set_item("seconds", measured.map(|m| m.seconds))?;
@@ -172,7 +172,7 @@ pub fn _bifurcation<'py>(
     let samples: Samples = samples.parse().map_err(raise)?;
     let sweep = Sweep::new(case.get().file.clone())
         .vary(axis)
-        .over(Stretch::Periods { settle, keep })
+        .over(Window::Periods { settle, keep })
         .by(scheme)
         .measure([Measure::Contacts])
         .sample(samples, usize::MAX);

@@ -8,8 +8,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use signorini as sg;
 use signorini::WallStatistics;
+use signorini::parallel::{Take, on_threads};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 /// A number of a wall; nan where there is none.
 type Number = fn(&WallStatistics) -> f64;
@@ -69,16 +69,6 @@ pub fn _run_many<'py>(
         );
         return Err(PyValueError::new_err(text));
     }
-    let round = scenes.iter().find(|scene| walls.is_empty() && scene.scene.holes().next().is_some());
-    if let Some(scene) = round {
-        let names: Vec<&str> = scene.scene.holes().map(|hole| hole.support.name.as_str()).collect();
-        let text = format!(
-            "the scene has no wall, only round supports ({}); expected one wall or more: the columns are those of \
-             walls, and round supports have none yet; Scene.run has those of one run",
-            names.join(", ")
-        );
-        return Err(PyValueError::new_err(text));
-    }
     let width = COLUMNS.len() * walls.len();
     let plans = scenes
         .iter()
@@ -87,51 +77,42 @@ pub fn _run_many<'py>(
             Plan::new(&scene.scene, scheme, step, Some(scene.scene.duration), statistics_from)
         })
         .collect::<PyResult<Vec<_>>>()?;
-    let next = AtomicUsize::new(0);
-    let done = Mutex::new((vec![f64::NAN; width * scenes.len()], vec![None; scenes.len()]));
-    let work = || {
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let (Some(scene), Some(plan)) = (scenes.get(index), plans.get(index)) else { return };
-            let outcome = numbers(&scene.scene, plan, judge);
-            let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-            match outcome {
-                Ok(row) => done.0[width * index..width * (index + 1)].copy_from_slice(&row),
-                // The next runs stop at once, too.
-                Err(sg::Error::Stopped) => return,
-                Err(error) => {
-                    done.1[index] = Some(kept().map_or_else(|| error.to_string(), |raised| raised.to_string()))
+    let mut table = vec![f64::NAN; width * scenes.len()];
+    let mut errors = vec![None; scenes.len()];
+    let finished = AtomicUsize::new(0);
+    let work = |index: u64, send: &mut Take<'_, (usize, Numbers)>| {
+        let index = index as usize;
+        if let (Some(scene), Some(plan)) = (scenes.get(index), plans.get(index)) {
+            let outcome = match numbers(&scene.scene, plan, judge) {
+                Err(sg::Error::Stopped) => return Err(sg::Error::Stopped),
+                outcome => {
+                    outcome.map_err(|error| kept().map_or_else(|| error.to_string(), |raised| raised.to_string()))
                 }
-            }
+            };
+            send((index, outcome));
         }
+        Ok(())
     };
-    let threads = threads.clamp(1, scenes.len().max(1));
-    let mut watch = |py: Python<'_>| match &progress {
-        Some(progress) => {
-            let share = next.load(Ordering::Relaxed).saturating_sub(threads);
-            progress.bind(py).call1((share,)).map(drop)
+    let mut receive = |row: Option<(usize, Numbers)>| {
+        if let Some((index, outcome)) = row {
+            match outcome {
+                Ok(row) => table[width * index..width * (index + 1)].copy_from_slice(&row),
+                Err(reason) => errors[index] = Some(reason),
+            }
+            finished.fetch_add(1, Ordering::Relaxed);
         }
+        Ok(())
+    };
+    let mut watch = |py: Python<'_>| match &progress {
+        Some(progress) => progress.bind(py).call1((finished.load(Ordering::Relaxed),)).map(drop),
         None => Ok(()),
     };
-    compute_beside(py, || on_threads(threads, &work), &mut watch)?;
-    let (table, errors) = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    compute_beside(py, || on_threads(scenes.len() as u64, threads, &work, &mut receive), &mut watch)?;
     Ok((PyArray1::from_vec(py, table).reshape([scenes.len(), width])?, errors))
 }
 
-/// Does `work` on several threads, which the interrupt of this thread stops too.
-fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) -> sg::Result<()> {
-    let interrupt = sg::Interrupt::current();
-    let done = || {
-        work();
-        Ok(())
-    };
-    let under = || interrupt.as_ref().map_or_else(done, |interrupt| interrupt.over(done));
-    std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(under)).collect();
-        let own = under();
-        others.into_iter().try_for_each(|other| other.join().unwrap_or(Ok(()))).and(own)
-    })
-}
+/// The numbers of a run, or the reason why there are none.
+type Numbers = Result<Vec<f64>, String>;
 
 /// The numbers of one run.
 fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Vec<f64>> {

@@ -40,7 +40,7 @@ fn wall(wall: sg::Wall, law: Law, at: Place) -> PyResult<Wall> {
         (e, None, None) => wall.with_restitution(e.unwrap_or(1.0)),
     };
     // The body starts at the wall, so that the check passes wherever the wall stands.
-    let start = if wall.position.is_finite() { wall.position } else { 0.0 };
+    let start = if wall.position().is_finite() { wall.position() } else { 0.0 };
     let one = sg::Scene::oscillator(1.0, 0.0, 0.0).with_initial(&[start], &[0.0]).with_wall(wall.clone());
     one.validate().map_err(raise)?;
     Ok(Wall { wall, place: at })
@@ -137,13 +137,13 @@ impl Wall {
     /// Its position, m.
     #[getter]
     fn position(&self) -> f64 {
-        self.wall.position
+        self.wall.position()
     }
 
     /// ``"upper"`` or ``"lower"``.
     #[getter]
     fn side(&self) -> &'static str {
-        if self.wall.side == sg::Side::Upper { "upper" } else { "lower" }
+        if self.wall.side() == sg::Side::Upper { "upper" } else { "lower" }
     }
 
     /// The restitution of a rigid wall; None for an elastic one.
@@ -171,7 +171,7 @@ impl Wall {
             other => format!("law={other:?}"),
         };
         let Self { wall, place } = self;
-        format!("Wall.{}({:?}, {:?}, {law}{})", self.side(), wall.name, wall.position, place.argument())
+        format!("Wall.{}({:?}, {:?}, {law}{})", self.side(), wall.name, wall.position(), place.argument())
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, State<'py>>> {

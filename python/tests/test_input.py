@@ -84,6 +84,8 @@ VALUES: list[tuple[Callable[[], object], str]] = [
     (lambda: ball().run("moreau-jean", step=-1.0), r"step is -1\.0"),
     (lambda: ball().run("moreau-jean", step=math.nan), "step is NaN"),
     (lambda: ball().run("event", sample=0.0), r"sample is 0\.0"),
+    (lambda: ball().run("event", step=1e-3), r"step is 0\.001; expected a scheme that has a step"),
+    (lambda: sg.load("rigid-walls-sine").run("event", step=1e-3), "event has none, and sample sets its rows"),
     (lambda: ball().run("event", statistics_from=2.0), "statistics_from"),
     (lambda: ball().run(accuracy=2.0), "accuracy is 2"),
     (lambda: ball().run(accuracy=1e-3, step=1e-3), "no step beside accuracy"),

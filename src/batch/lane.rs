@@ -92,7 +92,7 @@ impl Lane {
             velocity: first(&scene.initial.v),
         };
         for wall in &scene.walls {
-            if wall.at != Row::dof(0) {
+            if *wall.row() != Row::dof(0) {
                 let key = format!("wall {:?}: at", wall.name);
                 return Err(Error::invalid(
                     key,
@@ -100,8 +100,8 @@ impl Lane {
                     "the displacement itself: a lane of a batch has no levers",
                 ));
             }
-            let slot = if wall.side == Side::Upper { &mut lane.upper } else { &mut lane.lower };
-            if slot.replace(Stop { position: wall.position, law: wall.law }).is_some() {
+            let slot = if wall.side() == Side::Upper { &mut lane.upper } else { &mut lane.lower };
+            if slot.replace(Stop { position: wall.position(), law: wall.law }).is_some() {
                 let key = format!("wall {:?}", wall.name);
                 return Err(Error::invalid(key, "a second wall on its side", "one wall a side for a lane of a batch"));
             }

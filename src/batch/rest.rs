@@ -1,17 +1,7 @@
 //! Rest on a wall: when it begins, how long it lasts, and the force.
 
 use super::series::{Series, sin_cos};
-
-/// A flight after an impact is the tail of an accumulation of impacts if its height is below this
-/// share of the oscillator's typical displacement …
-pub(super) const TAIL_HEIGHT: f64 = 1e-12;
-
-/// … and if the pressing acceleration changes by less than this share until the impacts have
-/// accumulated; both as in the scheme `event`.
-const TAIL_CHANGE: f64 = 1e-6;
-
-/// A flight shorter than this number of units in the last place of the period is not resolved.
-const TIME_UNITS: f64 = 8.0;
+use crate::scheme::{TAIL_CHANGE, TAIL_HEIGHT, TIME_UNITS};
 
 /// Maximum number of iterations in the search for a release: it converges like Newton's method, and
 /// slowly only if the pressing acceleration touches 0.

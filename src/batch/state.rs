@@ -1,9 +1,9 @@
 //! A group of lanes: their constants, their states, and one step of fixed length.
 
 use super::lane::{Lane, Stop};
-use super::rest::TAIL_HEIGHT;
 use super::series::{COSINE, ORDER, SINE, Series};
 use super::vector::{Mask, Vector, polynomial, series};
+use crate::scheme::TAIL_HEIGHT;
 use pulp::Simd;
 
 /// Constants of one sine in every lane, as in [`super::series::Wave`].

@@ -1,72 +1,61 @@
 //! Reads base motion: the ground to which a structure and its walls are fixed accelerates.
 
 use super::builder::Builder;
-use super::columns::Given;
-use super::file;
 use super::model::{Model, Place};
 use super::planes::Planes;
 use super::table::{self, TableColumns};
-use super::value::{Number, Section, Value};
+use super::value::{Section, Value};
 use super::written::{NewLoad, Origin};
 use crate::error::Result;
 use crate::scene::{Load, LoadKind, PlaneRows, Row, System};
+use std::ops::Range;
 use toml::Spanned;
-
-/// Keys of `[[load]]` beside `base`.
-pub(super) struct Beside<'a> {
-    pub at: Option<&'a Spanned<Value>>,
-    pub direction: Option<&'a Spanned<Number>>,
-}
 
 impl Builder<'_> {
     /// The load of a base motion. In coordinates relative to the base it is −M ι a(t), with ι = 1
     /// on every displacement in the direction of the motion: the mass m that moves along times −a,
-    /// as a force, through the row M ι/m.
+    /// as a force, through the row M ι/m. The keys `at` and `direction` stand beside it.
     pub fn base(
         &mut self,
-        index: usize,
-        section: &Section<file::Base>,
-        beside: &Beside<'_>,
+        owner: &str,
+        base: &Section<'_>,
+        (at, direction): (Option<Range<usize>>, Option<&Spanned<f64>>),
         system: &System,
     ) -> Result<NewLoad> {
-        let (owner, base) = (format!("load {}", index + 1), &section.value);
-        if let Some(at) = beside.at {
+        if let Some(at) = at {
             let help = "expected no at: a base moves all of the structure";
-            return Err(self.source.error(at.span(), &format!("{owner} has a place and a base"), help));
+            return Err(self.source.error(at, &format!("{owner} has a place and a base"), help));
         }
-        let influence = base.influence.as_ref().map(|value| self.influence(&owner, value)).transpose()?;
+        let influence = base.get("influence").map(|value| self.influence(owner, value)).transpose()?;
         let whole = matches!(self.model, Model::Matrices(_) | Model::Modal(_));
-        match (whole, &base.influence) {
+        match (whole, base.span_of("influence")) {
             (true, None) => {
                 let title = format!("`influence` is missing in {owner}: base");
                 let help = "expected influence = { row = [[0, 1.0], ..] }: how far each degree of freedom moves when \
                             the base moves by 1 m and the structure is rigid";
-                return Err(self.source.error(section.span.clone(), &title, help));
+                return Err(self.source.error(base.span.clone(), &title, help));
             }
-            (false, Some(value)) => {
+            (false, Some(at)) => {
                 let title = format!("{owner}: base: influence beside a {}", self.model.kind());
                 let help = "expected no influence: it is 1 on every displacement; it is for matrices and modal data";
-                return Err(self.source.error(value.span(), &title, help));
+                return Err(self.source.error(at, &title, help));
             }
             _ => {}
         }
         let (row, mass) = self.carried(system, influence.as_deref())?;
-        let row = match (self.planes, beside.direction) {
-            (Planes::Two(n), Some(direction)) if direction.get_ref().0.is_finite() => {
-                PlaneRows::doubled(&row, n).along(direction.get_ref().0)
+        let row = match (self.planes, direction) {
+            (Planes::Two(n), Some(direction)) if direction.get_ref().is_finite() => {
+                PlaneRows::doubled(&row, n).along(*direction.get_ref())
             }
             (Planes::Two(_), Some(direction)) => {
                 return Err(self.refuse(direction.span(), &format!("{owner}: direction"), "a finite number, in deg"));
             }
             (Planes::Two(_), None) => {
                 let help = "expected direction = a number, in deg, from +y (0) towards +z (90)";
-                return Err(self.source.error(
-                    section.span.clone(),
-                    &format!("`direction` is missing in {owner}"),
-                    help,
-                ));
+                let title = format!("`direction` is missing in {owner}");
+                return Err(self.source.error(base.span.clone(), &title, help));
             }
-            (Planes::One, Some(direction)) => return Err(self.undirected(&owner, direction.span())),
+            (Planes::One, Some(direction)) => return Err(self.undirected(owner, direction.span())),
             (Planes::Named, Some(direction)) => {
                 let help = "expected no direction beside influence, which holds the degrees of freedom of both planes";
                 let title = format!("{owner} has an influence and a direction");
@@ -75,26 +64,19 @@ impl Builder<'_> {
             (Planes::One | Planes::Named, None) => row,
         };
         if mass <= 0.0 {
-            let span = base.influence.as_ref().map_or(section.span.clone(), Spanned::span);
+            let span = base.span_of("influence").unwrap_or(base.span.clone());
             let title = format!("{owner}: base: influence moves no mass");
             return Err(self.source.error(span, &title, "expected the displacements of degrees of freedom with mass"));
         }
         let plain = TableColumns { force: "acceleration_m_per_s2".to_owned(), ..TableColumns::default() };
-        let given = Given {
-            time: &base.time,
-            value: &base.acceleration,
-            delimiter: &base.delimiter,
-            decimal: &base.decimal,
-            scale: &base.scale,
-        };
-        let columns = self.columns(&format!("{owner}: base"), ("acceleration", "m/s^2"), plain, &given)?;
-        let (path, text) = self.table_file(&format!("{owner}: base"), &base.file, &columns)?;
+        let (owner, file) = (format!("{owner}: base"), base.required_word("file"));
+        let columns = self.columns(&owner, ("acceleration", "m/s^2"), plain, base)?;
+        let (path, text) = self.table_file(&owner, &file, &columns)?;
         // A mass that is not finite is refused at its own key, once the table has been read.
         let carried = if mass.is_finite() { mass } else { 1.0 };
-        let felt = TableColumns { scale: -carried * columns.scale, ..columns.clone() };
+        let felt = TableColumns { scale: -carried * columns.scale, ..columns };
         let kind = LoadKind::Table(table::read(&path, &text, &felt)?);
-        let direction = beside.direction.map(|direction| direction.get_ref().0);
-        let origin = Origin::Base { file: base.file.get_ref().clone(), columns, influence, direction };
+        let origin = Origin::Base((*file.get_ref()).to_owned());
         Ok(NewLoad { load: Load { kind, at: row }, place: Place::Row(Vec::new()), origin })
     }
 
@@ -125,7 +107,7 @@ impl Builder<'_> {
     }
 
     /// `{ row = [[0, 1.0], ..] }`.
-    fn influence(&self, owner: &str, value: &Spanned<Value>) -> Result<Vec<(usize, f64)>> {
+    fn influence(&self, owner: &str, value: &Spanned<Value<'_>>) -> Result<Vec<(usize, f64)>> {
         let key = format!("{owner}: base: influence");
         match value.get_ref() {
             Value::Table(entries) => match entries.as_slice() {

@@ -2,50 +2,52 @@
 //! module knows the position of each value in the file, and refuses combinations that the format
 //! allows but that make no sense.
 
-use super::builder::{Builder, MOST_MASSES, TableReader};
-use super::file::{self, File};
+use super::builder::{Builder, MOST_MASSES};
+use super::case_file::CaseFile;
+use super::check;
 use super::model::Model;
 use super::planes::Planes;
 use super::report::Source;
+use super::schema::CASE;
 use super::start;
-use super::value::{Number, Section};
+use super::value::Section;
 use super::wording::written;
 use super::written::NewLoad;
 use super::{Case, FileRead, PenaltyOptions, StatisticsOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result, Subject, escaped};
-use crate::scene::{Condensation, Damping, Row, Scene, Shape, State, Structure, Support, System, Wall};
+use crate::scene::{Condensation, Damping, Row, Scene, State, Structure, System, Wall};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
 use crate::study::truncation::{Start, Whole};
 use std::ops::Range;
-use std::path::Path;
 use toml::Spanned;
 
-/// Builds the case that `text` holds.
+/// Builds the case of `document`.
 ///
 /// If a `start` is given and has as many degrees of freedom as the scene, the scene starts from it
 /// instead of the file's initial state; a rigid wall behind which it lies moves the body to the
 /// wall.
-pub(super) fn case(text: &str, name: &str, tables: TableReader<'_>, start: Option<&State>) -> Result<Case> {
-    let source = Source { name, text };
-    let file: File =
-        toml::from_str(text).map_err(|error: toml::de::Error| source.toml(error.clone()).caused_by(error))?;
+pub(super) fn case(document: &CaseFile, start: Option<&State>) -> Result<Case> {
+    let (name, text) = (document.name_with_changes(), document.effective()?);
+    let source = Source { name: &name, text: &text };
+    let values = check::read(&source, &CASE)?;
     let mut builder = Builder {
         source,
         places: Vec::new(),
-        tables,
+        document,
         model: Model::Oscillator,
         planes: Planes::One,
         n: 1,
         static_correction: false,
         written: Written::default(),
     };
-    builder.case(file, start)
+    builder.case(&Section::root(&values), start)
 }
 
 impl Builder<'_> {
-    fn case(&mut self, file: File, start: Option<&State>) -> Result<Case> {
-        let modes = self.modes(&file.system.value)?;
-        let built = self.system(file.system, modes.is_some())?;
+    fn case(&mut self, file: &Section<'_>, start: Option<&State>) -> Result<Case> {
+        let (system, time) = (file.required_section("system"), file.required_section("time"));
+        let modes = self.modes(&system)?;
+        let built = self.system(&system, modes.is_some())?;
         (self.model, self.planes) = (built.model, built.planes);
         let total = built.system.degrees_of_freedom();
         self.n = if let Planes::Two(n) = self.planes { n } else { total };
@@ -54,7 +56,6 @@ impl Builder<'_> {
             return Err(self.at_key(Error::invalid("modes", more, expected)));
         }
         let modes = modes.map(|modes| modes * self.planes.modes());
-        let time = file.time.value;
         let mut scene = Scene {
             system: built.system,
             walls: Vec::new(),
@@ -62,26 +63,26 @@ impl Builder<'_> {
             loads: Vec::new(),
             probes: Vec::new(),
             initial: State { q: vec![0.0; total], v: vec![0.0; total] },
-            duration: self.number("duration", &time.end),
+            duration: self.required("duration", &time, "end"),
         };
-        if let Some(Section { value: initial, .. }) = file.initial {
+        if let Some(initial) = file.section("initial") {
             self.written.start = self.start(&initial)?;
-            scene.initial.q = self.field("displacement", initial.displacement.as_ref())?;
-            scene.initial.v = self.field("velocity", initial.velocity.as_ref())?;
+            scene.initial.q = self.field("displacement", &initial)?;
+            scene.initial.v = self.field("velocity", &initial)?;
         }
         let (mut walls, mut supports) = (Vec::new(), Vec::new());
-        for (index, wall) in file.wall.into_iter().enumerate() {
+        for (index, wall) in file.sections("wall").iter().enumerate() {
             walls.extend(self.walls(index, walls.len(), wall)?);
         }
-        for (index, support) in file.support.into_iter().enumerate() {
+        for (index, support) in file.sections("support").iter().enumerate() {
             let (support, flats) = self.support(index, walls.len(), support)?;
             supports.push(support);
             walls.extend(flats);
         }
-        let (wear, sectors) = self.wear(file.wear.as_ref())?;
+        let (wear, sectors) = self.wear(file.section("wear").as_ref())?;
         let mut second = Vec::new();
         let mut loads = Vec::new();
-        for (index, load) in file.load.into_iter().enumerate() {
+        for (index, load) in file.sections("load").iter().enumerate() {
             let mut made = self.load(index, load, scene.duration, &scene.system)?.into_iter();
             loads.extend(made.next());
             second.extend(made);
@@ -93,27 +94,27 @@ impl Builder<'_> {
             self.written.loads.push(place);
             self.written.origins.push(origin);
         }
-        scene.probes = self.probes(file.probe, &walls)?;
+        scene.probes = self.probes(&file.sections("probe"), &walls)?;
         let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
         scene.walls = all;
         scene.supports = supports;
         let time = TimeOptions {
-            step: self.number("step", &time.step),
-            sample: self.optional("sample", time.sample.as_ref()),
-            statistics_from: self.optional("statistics_from", time.statistics_from.as_ref()).unwrap_or(0.0),
+            step: self.required("step", &time, "step"),
+            sample: self.optional("sample", &time, "sample"),
+            statistics_from: self.optional("statistics_from", &time, "statistics_from").unwrap_or(0.0),
             force_averaging: self
-                .optional("force_averaging", time.force_averaging.as_ref())
+                .optional("force_averaging", &time, "force_averaging")
                 .unwrap_or(TimeOptions::FORCE_AVERAGING),
             sectors,
         };
-        let statistics = file.statistics.map(|section| self.statistics(&section.value));
-        if let Some(penalty) = file.penalty.as_ref().filter(|_| self.static_correction) {
+        let statistics = file.section("statistics").map(|section| self.statistics(&section));
+        let penalty = file.section("penalty");
+        if let Some(penalty) = penalty.as_ref().filter(|_| self.static_correction) {
             let help = "expected no [penalty]: with static_correction rigid walls are springs of the compliance \
                         that the modes leave out already";
             return Err(self.source.error(penalty.span.clone(), "`penalty` beside static_correction", help));
         }
-        let penalty = file.penalty.map(|penalty| self.penalty(penalty.value)).transpose()?.unwrap_or_default();
-        let stem = Path::new(self.source.name).file_stem().and_then(|stem| stem.to_str()).unwrap_or("case");
+        let penalty = penalty.map(|penalty| self.penalty(&penalty)).transpose()?.unwrap_or_default();
         let (scene, condensation) = self
             .condensed(scene, built.pending.as_ref().filter(|d| modes.is_none() || !matches!(d, Damping::Modal(_))))?;
         let mut scene = scene;
@@ -121,9 +122,10 @@ impl Builder<'_> {
             scene.initial.q = equilibrium(&scene).map_err(|error| self.locate(error, &scene))?;
         }
         let mut case = Case {
-            name: stem.to_owned(),
-            title: file.title.map(|title| escaped(&title).into_owned()),
-            source: file.source.map(|source| escaped(&source).into_owned()),
+            name: self.document.name().to_owned(),
+            document: self.document.clone(),
+            title: file.word("title").map(|title| escaped(title.get_ref()).into_owned()),
+            source: file.word("source").map(|source| escaped(source.get_ref()).into_owned()),
             model: self.model.clone(),
             planes: self.planes,
             places,
@@ -162,7 +164,7 @@ impl Builder<'_> {
 
     /// Full name and text of the file that the case calls `name`, or why it cannot be read.
     pub fn open(&mut self, name: &str) -> std::result::Result<(String, String), String> {
-        let (path, text) = (self.tables)(name)?;
+        let (path, text) = self.document.open(name)?;
         if self.written.files.iter().all(|known| known.file != name) {
             self.written.files.push(FileRead::new(name, &path, &text));
         }
@@ -178,10 +180,9 @@ impl Builder<'_> {
         }
         let (mut less, condensation) = scene.condensed().map_err(|error| self.locate(error, &scene))?;
         let massless = |row: &Row| row.entries().iter().any(|(i, _)| condensation.massless.contains(i));
-        let round = |support: &&Support| matches!(support.shape, Shape::Round { .. });
-        let hole = scene.supports.iter().filter(round).find(|hole| massless(&hole.at.y) || massless(&hole.at.z));
+        let hole = scene.holes().find(|hole| massless(&hole.at.y) || massless(&hole.at.z));
         if let Some(hole) = hole {
-            let span = self.nearest(&Subject::support(&hole.name).part("at")).unwrap_or(0..0);
+            let span = self.nearest(&Subject::support(hole.name).part("at")).unwrap_or(0..0);
             let title = format!("support {:?} is round, around degrees of freedom without mass", hole.name);
             let help = "expected mass there, or shape = \"flats\": their stiffness makes a rigid hole an elastic one";
             return Err(self.source.error(span, &title, help));
@@ -203,74 +204,85 @@ impl Builder<'_> {
     }
 
     /// Applies `modes` and `static_correction`.
-    fn modes(&mut self, system: &file::System) -> Result<Option<usize>> {
-        let modes = system.modes.as_ref().map(|modes| self.whole("modes", modes, MOST_MASSES)).transpose()?;
-        if let Some(correction) = system.static_correction.as_ref().filter(|word| *word.get_ref()) {
-            self.places.push(("static correction".into(), correction.span()));
+    fn modes(&mut self, system: &Section<'_>) -> Result<Option<usize>> {
+        let modes = system.number("modes").map(|modes| self.whole("modes", &modes, MOST_MASSES)).transpose()?;
+        if let Some(correction) = system.truth("static_correction") {
+            self.places.push(("static correction".into(), correction.clone()));
             self.static_correction = true;
             if modes.is_none() {
                 let help = "expected modes = k beside it: without them nothing is left out that could be corrected";
-                return Err(self.source.error(correction.span(), "`static_correction` without `modes`", help));
+                return Err(self.source.error(correction, "`static_correction` without `modes`", help));
             }
         }
         Ok(modes)
     }
 
-    fn statistics(&mut self, statistics: &file::Statistics) -> StatisticsOptions {
-        let spectra = statistics.spectra.as_ref();
-        self.places.extend(spectra.map(|word| (("statistics", "spectra").into(), word.span())));
-        let rest = self.optional(("statistics", "rest"), statistics.rest.as_ref()).unwrap_or(0.0);
-        StatisticsOptions { rest, spectra: spectra.is_some_and(|word| *word.get_ref()) }
+    fn statistics(&mut self, statistics: &Section<'_>) -> StatisticsOptions {
+        let spectra = statistics.truth("spectra");
+        self.note(("statistics", "spectra"), spectra.clone());
+        let rest = self.optional(("statistics", "rest"), statistics, "rest").unwrap_or(0.0);
+        StatisticsOptions { rest, spectra: spectra.is_some() }
     }
 
-    fn penalty(&mut self, penalty: file::Penalty) -> Result<PenaltyOptions> {
-        if let (Some(_), Some(stiffness)) = (&penalty.epsilon, &penalty.stiffness) {
+    fn penalty(&mut self, penalty: &Section<'_>) -> Result<PenaltyOptions> {
+        let (epsilon, stiffness) = (penalty.numbers("epsilon"), penalty.numbers("stiffness"));
+        if let (Some(_), Some(stiffness)) = (&epsilon, &stiffness) {
             let help = "expected epsilon for the source's law, or stiffness for the linear one";
             return Err(self.source.error(stiffness.span(), "`penalty` has both epsilon and stiffness", help));
         }
-        if let (None, Some(damping)) = (&penalty.stiffness, &penalty.damping) {
+        if let (None, Some(damping)) = (&stiffness, penalty.span_of("damping")) {
             let help = "expected damping only beside stiffness: the other law has none";
-            return Err(self.source.error(damping.span(), "`penalty.damping` is given without stiffness", help));
+            return Err(self.source.error(damping, "`penalty.damping` is given without stiffness", help));
         }
-        for (key, list) in [("epsilon", &penalty.epsilon), ("stiffness", &penalty.stiffness)] {
+        for (key, list) in [("epsilon", &epsilon), ("stiffness", &stiffness)] {
             if let Some(list) = list.as_ref().filter(|list| list.get_ref().is_empty()) {
                 return Err(self.refuse(list.span(), &format!("penalty.{key}"), "one value or more"));
             }
         }
         let mut laws = Vec::new();
-        for epsilon in penalty.epsilon.iter().flat_map(Spanned::get_ref) {
+        for epsilon in epsilon.iter().flat_map(Spanned::get_ref) {
             let epsilon = self.law(laws.len(), "epsilon", epsilon);
             laws.push(PenaltyLaw::Quartic { epsilon });
         }
-        for stiffness in penalty.stiffness.iter().flat_map(Spanned::get_ref) {
+        for stiffness in stiffness.iter().flat_map(Spanned::get_ref) {
             let key = Subject::nth("penalty law", laws.len()).part("damping");
-            let damping = self.optional(key, penalty.damping.as_ref()).unwrap_or(0.0);
+            let damping = self.optional(key, penalty, "damping").unwrap_or(0.0);
             let stiffness = self.law(laws.len(), "stiffness", stiffness);
             laws.push(PenaltyLaw::Linear { stiffness, damping });
         }
-        let integrator = match &penalty.integrator {
-            Some(name) => Some(name.get_ref().parse::<Integrator>().map_err(|_| {
+        let integrator = penalty.word("integrator").map(|name| {
+            name.get_ref().parse::<Integrator>().map_err(|_| {
                 self.refuse(name.span(), "penalty.integrator", &Integrator::ALL.map(Integrator::name).join(", "))
-            })?),
-            None => None,
-        };
-        Ok(PenaltyOptions { laws, integrator })
+            })
+        });
+        Ok(PenaltyOptions { laws, integrator: integrator.transpose()? })
     }
 
-    fn law(&mut self, index: usize, what: &'static str, value: &Spanned<Number>) -> f64 {
+    fn law(&mut self, index: usize, what: &'static str, value: &Spanned<f64>) -> f64 {
         let law = Subject::nth("penalty law", index);
         self.places.push((law.clone(), value.span()));
         self.number(law.part(what), value)
     }
 
-    /// The number; its position is noted under the subject that an error would name.
-    pub fn number(&mut self, subject: impl Into<Subject>, value: &Spanned<Number>) -> f64 {
-        self.places.push((subject.into(), value.span()));
-        value.get_ref().0
+    /// Notes the position of a value under the subject that an error would name.
+    pub fn note(&mut self, subject: impl Into<Subject>, at: Option<Range<usize>>) {
+        self.places.extend(at.map(|at| (subject.into(), at)));
     }
 
-    pub fn optional(&mut self, subject: impl Into<Subject>, value: Option<&Spanned<Number>>) -> Option<f64> {
-        value.map(|value| self.number(subject, value))
+    /// The number; its position is noted under the subject that an error would name.
+    pub fn number(&mut self, subject: impl Into<Subject>, value: &Spanned<f64>) -> f64 {
+        self.places.push((subject.into(), value.span()));
+        *value.get_ref()
+    }
+
+    /// The number at `key`, which `section` must have.
+    pub fn required(&mut self, subject: impl Into<Subject>, section: &Section<'_>, key: &str) -> f64 {
+        self.number(subject, &section.required(key))
+    }
+
+    /// The number at `key`, where `section` has one.
+    pub fn optional(&mut self, subject: impl Into<Subject>, section: &Section<'_>, key: &str) -> Option<f64> {
+        section.number(key).map(|value| self.number(subject, &value))
     }
 
     pub fn refuse(&self, span: Range<usize>, key: &str, expected: &str) -> Error {
@@ -283,11 +295,11 @@ impl Builder<'_> {
         let Error::Invalid { subject, value, expected } = &error else { return error };
         // An initial displacement that is not written is 0: in that case the error is shown at the
         // wall behind which it lies.
-        let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.at.dot(&scene.initial.q)) < 0.0;
+        let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.row().dot(&scene.initial.q)) < 0.0;
         let start = Subject::from(("initial state", "displacement"));
         let wall = || scene.walls.iter().find(behind).filter(|_| *subject == start);
-        let outside = |support: &&Support| support.holds_out(&scene.initial.q);
-        let hole = || scene.supports.iter().find(outside).filter(|_| *subject == start);
+        let outside = |wall: &&Wall| wall.holds_out(&scene.initial.q);
+        let hole = || scene.walls.iter().find(outside).filter(|_| *subject == start);
         let span = self
             .noted(subject)
             .or_else(|| wall().and_then(|wall| self.noted(&Subject::wall(&wall.name).part("position"))))

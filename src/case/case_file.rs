@@ -2,10 +2,11 @@
 
 use super::key::Key;
 use super::key_value::KeyValue;
+use super::report::Source;
 use super::text::{MOST_CASE_BYTES, MOST_TABLE_BYTES, read_text};
-use super::{Case, Embedded, build, changes, summary};
+use super::{Embedded, changes, summary};
 use crate::error::{Error, Result, escaped, nearest};
-use crate::scene::State;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -21,7 +22,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 ///
 /// let mut file = CaseFile::embedded("rigid-walls-sine")?;
 /// file.set(&"wall.upper.position".parse()?, &6e-3.into())?;
-/// assert_eq!(file.case()?.scene.walls[0].position, 6e-3);
+/// assert_eq!(file.case()?.scene.walls[0].position(), 6e-3);
 ///
 /// file.set(&"wall.*.restitution".parse()?, &2.0.into())?;
 /// assert!(file.case().unwrap_err().to_string().contains("expected a number from 0 to 1"));
@@ -31,7 +32,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct CaseFile {
     /// Its name in messages, without control characters.
     shown: String,
-    text: String,
+    text: Arc<str>,
     /// Its values, once some have been changed.
     changed: Option<toml::Table>,
     /// The changes, in words.
@@ -90,7 +91,7 @@ impl CaseFile {
     }
 
     fn new(text: &str, name: &str, files: Files) -> Self {
-        let (shown, text) = (escaped(name).into_owned(), text.to_owned());
+        let (shown, text) = (escaped(name).into_owned(), text.into());
         Self { shown, text, changed: None, changes: Vec::new(), files, read: Arc::default() }
     }
 
@@ -116,6 +117,45 @@ impl CaseFile {
         done
     }
 
+    /// Removes the value at `key`, so that its default holds; nothing where the file leaves it out.
+    ///
+    /// # Errors
+    /// As [`CaseFile::set`].
+    #[cfg(feature = "cli")]
+    pub(crate) fn remove(&mut self, key: &Key) -> Result<()> {
+        if self.get(key)?.is_some() {
+            let mut table = self.table()?;
+            changes::remove(&mut table, key);
+            self.changed = Some(table);
+            self.changes.push(format!("{key} left out"));
+        }
+        Ok(())
+    }
+
+    /// The key of the restitution of each rigid wall and support.
+    ///
+    /// # Errors
+    /// [`Error::Case`] for a text that is not TOML.
+    #[cfg(feature = "cli")]
+    pub(crate) fn restitutions(&self) -> Result<Vec<Key>> {
+        let table = self.table()?;
+        let entries = ["wall", "support"].into_iter().flat_map(|list| {
+            let all = table.get(list).and_then(toml::Value::as_array).into_iter().flatten();
+            all.filter(|entry| entry.get("stiffness").is_none())
+                .filter_map(move |entry| Some(format!("{list}.{}.restitution", entry.get("name")?.as_str()?)))
+        });
+        entries.map(|key| key.parse()).collect()
+    }
+
+    /// Its values, with the changes made so far, as JSON.
+    ///
+    /// # Errors
+    /// [`Error::Case`] for a text that is not TOML.
+    #[cfg(feature = "cli")]
+    pub(crate) fn json(&self) -> Result<serde_json::Value> {
+        serde_json::to_value(self.table()?).map_err(|error| self.unwritable(error))
+    }
+
     /// The value at `key` in the file; `None` where the file leaves it out, or where `*` refers to
     /// several values that differ.
     ///
@@ -128,12 +168,13 @@ impl CaseFile {
         }
     }
 
+    /// Its values, with the changes made so far.
     fn table(&self) -> Result<toml::Table> {
-        // The reader of case files has the better message for a text that is not TOML.
-        toml::from_str(&self.text).or_else(|error| {
-            self.case()?;
-            Err(Error::Case { report: error.to_string(), cause: None }.caused_by(error))
-        })
+        if let Some(table) = &self.changed {
+            return Ok(table.clone());
+        }
+        let source = Source { name: &self.shown, text: &self.text };
+        toml::from_str(&self.text).map_err(|error: toml::de::Error| source.toml(error.clone()).caused_by(error))
     }
 
     /// The text, with the changes made so far, from which the case is built.
@@ -141,19 +182,32 @@ impl CaseFile {
     /// # Errors
     /// Only for values that TOML cannot write.
     pub fn text(&self) -> Result<String> {
+        self.effective().map(Cow::into_owned)
+    }
+
+    /// The same, borrowed where nothing was changed.
+    pub(super) fn effective(&self) -> Result<Cow<'_, str>> {
         match &self.changed {
-            Some(table) => toml::to_string(table).map_err(|error| {
-                let report = format!("error: {}: {error}", self.shown);
-                Error::Case { report, cause: None }.caused_by(error)
-            }),
-            None => Ok(self.text.clone()),
+            Some(table) => toml::to_string(table).map(Cow::Owned).map_err(|error| self.unwritable(error)),
+            None => Ok(Cow::Borrowed(&self.text)),
         }
+    }
+
+    fn unwritable(&self, error: impl std::error::Error + Send + Sync + 'static) -> Error {
+        Error::Case { report: format!("error: {}: {error}", self.shown), cause: None }.caused_by(error)
     }
 
     /// The same file with another text, which includes `changes`.
     pub(super) fn rewritten(&self, text: String, changes: Vec<String>) -> Self {
         let (shown, files, read) = (self.shown.clone(), self.files.clone(), Arc::clone(&self.read));
-        Self { shown, text, changed: None, changes: self.changes.iter().cloned().chain(changes).collect(), files, read }
+        Self {
+            shown,
+            text: text.into(),
+            changed: None,
+            changes: self.changes.iter().cloned().chain(changes).collect(),
+            files,
+            read,
+        }
     }
 
     /// Name of the case: that of the file without folder and extension.
@@ -162,38 +216,16 @@ impl CaseFile {
         Path::new(&self.shown).file_stem().and_then(|stem| stem.to_str()).unwrap_or("case")
     }
 
-    /// Builds the case. The files that it names are read once and kept.
-    ///
-    /// # Errors
-    /// [`Error::Case`], with the position: file, line, column, key, and what would be accepted.
-    pub fn case(&self) -> Result<Case> {
-        self.build(None)
-    }
-
-    /// Builds the case with `start` in place of its own initial state, if `start` has as many
-    /// degrees of freedom (a case reduced to modes has as many as modes, and its own initial state
-    /// must be valid too). If the start lies behind a rigid wall, the body is moved to the wall and
-    /// keeps its velocity.
-    ///
-    /// # Errors
-    /// As [`CaseFile::case`].
-    pub fn case_from(&self, start: &State) -> Result<Case> {
-        self.build(Some(start))
-    }
-
-    fn build(&self, start: Option<&State>) -> Result<Case> {
-        let tables = |file: &str| self.open(file);
-        if self.changes.is_empty() {
-            return build::case(&self.text, &self.shown, &tables, start);
+    /// Its name in messages, with the changes made so far.
+    pub(super) fn name_with_changes(&self) -> Cow<'_, str> {
+        match self.changes.as_slice() {
+            [] => Cow::Borrowed(&self.shown),
+            changes => escaped(&format!("{}, changed by {}", self.shown, changes.join(", "))).into_owned().into(),
         }
-        let shown = format!("{}, changed by {}", self.shown, self.changes.join(", "));
-        let text = if self.changed.is_some() { &self.text()? } else { &self.text };
-        let case = build::case(text, &escaped(&shown), &tables, start)?;
-        Ok(Case { name: self.name().to_owned(), ..case })
     }
 
     /// Path and text of the file that the case calls `name`, or why it cannot be read.
-    fn open(&self, name: &str) -> std::result::Result<(String, String), String> {
+    pub(super) fn open(&self, name: &str) -> std::result::Result<(String, String), String> {
         // A panic in another thread leaves the map valid.
         let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = read.get(name) {
@@ -213,6 +245,13 @@ impl CaseFile {
         };
         read.insert(name.to_owned(), found.clone());
         Ok(found)
+    }
+}
+
+/// Case files are equal if their values are, however they are written.
+impl PartialEq for CaseFile {
+    fn eq(&self, other: &Self) -> bool {
+        self.table().ok() == other.table().ok()
     }
 }
 

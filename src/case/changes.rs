@@ -51,6 +51,17 @@ pub(super) fn get(file: &Table, key: &Key) -> Option<KeyValue> {
     others.iter().all(|other| other == one).then(|| KeyValue((*one).clone()))
 }
 
+/// Removes the value at `key` within a table that is no list, such as `time.sample`.
+#[cfg(feature = "cli")]
+pub(super) fn remove(file: &mut Table, key: &Key) {
+    let Some((last, tables)) = key.parts().split_last() else { return };
+    let mut table = Some(file);
+    for name in tables {
+        table = table.and_then(|table| table.get_mut(name)?.as_table_mut());
+    }
+    table.and_then(|table| table.remove(last));
+}
+
 fn empty() -> Value {
     Value::Table(Table::new())
 }

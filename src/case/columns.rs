@@ -2,28 +2,19 @@
 
 use super::builder::Builder;
 use super::table::TableColumns;
-use super::value::Number;
+use super::value::Section;
 use crate::error::Result;
 use toml::Spanned;
-
-/// The keys of the case file for the columns of a table: times and values.
-pub(super) struct Given<'a> {
-    pub time: &'a Option<Spanned<String>>,
-    pub value: &'a Option<Spanned<String>>,
-    pub delimiter: &'a Option<Spanned<String>>,
-    pub decimal: &'a Option<Spanned<String>>,
-    pub scale: &'a Option<Spanned<Number>>,
-}
 
 impl Builder<'_> {
     /// Path and text of the file of a table.
     pub fn table_file(
         &mut self,
         owner: &str,
-        file: &Spanned<String>,
+        file: &Spanned<&str>,
         columns: &TableColumns,
     ) -> Result<(String, String)> {
-        let name = file.get_ref();
+        let name = *file.get_ref();
         self.open(name).map_err(|reason| {
             let help = format!("{}; its path is relative to the case file", columns.expected());
             let help = help.replacen("expected ", "expected a CSV file: ", 1);
@@ -44,22 +35,22 @@ impl Builder<'_> {
         owner: &str,
         word: (&str, &str),
         plain: TableColumns,
-        given: &Given<'_>,
+        table: &Section<'_>,
     ) -> Result<TableColumns> {
         let (values, unit) = word;
-        let name = |word: &Option<Spanned<String>>, key: &str, plain: String| match word {
+        let name = |key: &str, plain: String| match table.word(key) {
             Some(name) if name.get_ref().trim().is_empty() => {
                 Err(self.refuse(name.span(), &format!("{owner}: {key}"), "the header of a column"))
             }
             Some(name) => Ok(name.get_ref().trim().to_owned()),
             None => Ok(plain),
         };
-        let (time, force) = (name(given.time, "time", plain.time)?, name(given.value, values, plain.force)?);
-        if let (Some(word), true) = (given.value.as_ref().or(given.time.as_ref()), time == force) {
-            return Err(self.refuse(word.span(), &format!("{owner}: {values}"), "another column than that of time"));
+        let (time, force) = (name("time", plain.time)?, name(values, plain.force)?);
+        if let (Some(at), true) = (table.span_of(values).or(table.span_of("time")), time == force) {
+            return Err(self.refuse(at, &format!("{owner}: {values}"), "another column than that of time"));
         }
-        let sign = |word: &Option<Spanned<String>>, key: &str, plain: char, of: &[char], expected: &str| {
-            let Some(word) = word else { return Ok(plain) };
+        let sign = |key: &str, plain: char, of: &[char], expected: &str| {
+            let Some(word) = table.word(key) else { return Ok(plain) };
             let mut signs = word.get_ref().chars();
             match (signs.next(), signs.next()) {
                 (Some(sign), None) if of.contains(&sign) => Ok(sign),
@@ -67,17 +58,17 @@ impl Builder<'_> {
             }
         };
         let delimiters = "one of \",\", \";\", \"\\t\", \"|\", \" \"";
-        let delimiter = sign(given.delimiter, "delimiter", plain.delimiter, &[',', ';', '\t', '|', ' '], delimiters)?;
-        let decimal = sign(given.decimal, "decimal", plain.decimal, &['.', ','], "\".\" or \",\"")?;
-        if let (Some(word), true) = (given.decimal.as_ref().or(given.delimiter.as_ref()), decimal == delimiter) {
+        let delimiter = sign("delimiter", plain.delimiter, &[',', ';', '\t', '|', ' '], delimiters)?;
+        let decimal = sign("decimal", plain.decimal, &['.', ','], "\".\" or \",\"")?;
+        if let (Some(at), true) = (table.span_of("decimal").or(table.span_of("delimiter")), decimal == delimiter) {
             let expected = "another sign than the delimiter: delimiter = \";\" beside it";
-            return Err(self.refuse(word.span(), &format!("{owner}: decimal"), expected));
+            return Err(self.refuse(at, &format!("{owner}: decimal"), expected));
         }
-        let scale = given.scale.as_ref().map_or(plain.scale, |scale| scale.get_ref().0);
-        match given.scale {
-            Some(number) if !scale.is_finite() || scale == 0.0 => {
+        let scale = table.number("scale").map_or(plain.scale, Spanned::into_inner);
+        match table.span_of("scale") {
+            Some(at) if !scale.is_finite() || scale == 0.0 => {
                 let expected = format!("a finite number other than 0: how many {unit} one unit of the column is");
-                Err(self.refuse(number.span(), &format!("{owner}: scale"), &expected))
+                Err(self.refuse(at, &format!("{owner}: scale"), &expected))
             }
             _ => Ok(TableColumns { time, force, delimiter, decimal, scale }),
         }

@@ -1,7 +1,6 @@
 //! Matrices from files, and the table `[system.damping]`.
 
 use super::builder::Builder;
-use super::file;
 use super::report::Source;
 use super::value::Section;
 use crate::error::{Result, Subject};
@@ -13,27 +12,20 @@ use toml::Spanned;
 
 impl Builder<'_> {
     /// Reads `[system.matrices]`: a structure from three files.
-    pub fn matrices(&mut self, matrices: &file::Matrices) -> Result<Structure> {
-        let mass = self.matrix("mass", &matrices.mass)?;
-        let stiffness = self.matrix("stiffness", &matrices.stiffness)?;
-        let damping = match &matrices.damping {
-            Some(file) => self.matrix("damping", file)?,
+    pub fn matrices(&mut self, matrices: &Section<'_>) -> Result<Structure> {
+        let mass = self.matrix("mass", &matrices.required_word("mass"))?;
+        let stiffness = self.matrix("stiffness", &matrices.required_word("stiffness"))?;
+        let damping = match matrices.word("damping") {
+            Some(file) => self.matrix("damping", &file)?,
             None => Symmetric::zeros(mass.size()),
         };
-        let files = [
-            ("mass", Some(&matrices.mass)),
-            ("stiffness", Some(&matrices.stiffness)),
-            ("damping", matrices.damping.as_ref()),
-        ];
-        let named = files.into_iter().filter_map(|(key, file)| Some((key, file?.get_ref().clone())));
-        self.written.matrices.extend(named);
         Ok(Structure { mass, damping, stiffness })
     }
 
-    fn matrix(&mut self, what: &str, file: &Spanned<String>) -> Result<Symmetric> {
+    fn matrix(&mut self, what: &str, file: &Spanned<&str>) -> Result<Symmetric> {
         // The structure names an invalid matrix by this key.
         self.places.push((Subject::of("system").part(format!("{what} matrix")), file.span()));
-        let name = file.get_ref();
+        let name = *file.get_ref();
         let opened = self.open(name);
         let refuse = |reason: &str| {
             let help = "expected a Matrix Market file (.mtx) or a CSV file of all rows (.csv); its path is \
@@ -54,36 +46,26 @@ impl Builder<'_> {
     }
 
     /// Reads `[system.damping]`, which must specify exactly one kind of damping.
-    pub fn damping(&mut self, section: Section<file::Damping>) -> Result<Damping> {
-        let Section { span, value: damping } = section;
-        self.places.push(("damping".into(), span.clone()));
-        let given: Vec<_> = [
-            ("rayleigh", damping.rayleigh.as_ref().map(|s| s.span.clone())),
-            ("ratio", damping.ratio.as_ref().map(Spanned::span)),
-            ("ratios", damping.ratios.as_ref().map(Spanned::span)),
-            ("matrix", damping.matrix.as_ref().map(Spanned::span)),
-        ]
-        .into_iter()
-        .filter_map(|(kind, span)| Some((kind, span?)))
-        .collect();
+    pub fn damping(&mut self, damping: &Section<'_>) -> Result<Damping> {
+        self.places.push(("damping".into(), damping.span.clone()));
+        let kinds = ["rayleigh", "ratio", "ratios", "matrix"];
+        let mut given = kinds.into_iter().filter_map(|kind| Some((kind, damping.span_of(kind)?)));
         let help = "expected one of rayleigh = { mass, stiffness }, ratio, ratios, matrix";
-        if let [(first, _), (second, span), ..] = given.as_slice() {
+        if let (Some((first, _)), Some((second, span))) = (given.next(), given.next()) {
             let title = format!("`system.damping` has two kinds, `{first}` and `{second}`");
-            return Err(self.source.error(span.clone(), &title, help));
+            return Err(self.source.error(span, &title, help));
         }
-        if let Some(Section { value: rayleigh, .. }) = &damping.rayleigh {
-            let coefficient = |key: &str, value: &Option<_>| -> Result<f64> {
-                let Some(value) = value else { return Ok(0.0) };
-                self.nonnegative(&format!("system.damping.rayleigh.{key}"), value)
+        if let Some(rayleigh) = damping.section("rayleigh") {
+            let coefficient = |key: &str| -> Result<f64> {
+                let Some(value) = rayleigh.number(key) else { return Ok(0.0) };
+                self.nonnegative(&format!("system.damping.rayleigh.{key}"), &value)
             };
-            let mass = coefficient("mass", &rayleigh.mass)?;
-            let stiffness = coefficient("stiffness", &rayleigh.stiffness)?;
-            return Ok(Damping::Rayleigh { mass, stiffness });
+            return Ok(Damping::Rayleigh { mass: coefficient("mass")?, stiffness: coefficient("stiffness")? });
         }
-        if let Some(ratio) = &damping.ratio {
-            return Ok(Damping::Modal(vec![self.nonnegative("system.damping.ratio", ratio)?]));
+        if let Some(ratio) = damping.number("ratio") {
+            return Ok(Damping::Modal(vec![self.nonnegative("system.damping.ratio", &ratio)?]));
         }
-        if let Some(ratios) = &damping.ratios {
+        if let Some(ratios) = damping.numbers("ratios") {
             if ratios.get_ref().is_empty() {
                 return Err(self.refuse(ratios.span(), "system.damping.ratios", "one ratio or more"));
             }
@@ -95,23 +77,22 @@ impl Builder<'_> {
             }
             return Ok(Damping::Modal(all));
         }
-        match &damping.matrix {
+        match damping.word("matrix") {
             Some(file) => {
                 self.places.push((("damping", "matrix").into(), file.span()));
-                self.written.matrices.push(("matrix", file.get_ref().clone()));
-                Ok(Damping::Matrix(self.matrix("damping", file)?))
+                Ok(Damping::Matrix(self.matrix("damping", &file)?))
             }
-            None => Err(self.source.error(span, "`system.damping` has no kind of damping", help)),
+            None => Err(self.source.error(damping.span.clone(), "`system.damping` has no kind of damping", help)),
         }
     }
 
-    fn above_minus_one(&self, key: &str, value: &Spanned<super::value::Number>) -> Result<f64> {
-        let x = value.get_ref().0;
+    fn above_minus_one(&self, key: &str, value: &Spanned<f64>) -> Result<f64> {
+        let x = *value.get_ref();
         if x.is_finite() && x > -1.0 { Ok(x) } else { Err(self.refuse(value.span(), key, "a finite number above -1")) }
     }
 
-    fn nonnegative(&self, key: &str, value: &Spanned<super::value::Number>) -> Result<f64> {
-        let x = value.get_ref().0;
+    fn nonnegative(&self, key: &str, value: &Spanned<f64>) -> Result<f64> {
+        let x = *value.get_ref();
         if x.is_finite() && x >= 0.0 {
             Ok(x)
         } else {

@@ -4,7 +4,6 @@ use super::builder::Builder;
 use super::model::Place;
 use super::place::Site;
 use super::planes::Planes;
-use super::value::Number;
 use crate::error::{Error, Result};
 use std::ops::Range;
 use toml::Spanned;
@@ -22,11 +21,11 @@ impl Builder<'_> {
     pub fn towards(
         &self,
         site: Site,
-        direction: Option<&Spanned<Number>>,
+        direction: Option<&Spanned<f64>>,
         owner: &str,
         span: &Range<usize>,
     ) -> Result<Site> {
-        let degrees = direction.map(|value| (value.get_ref().0, value.span()));
+        let degrees = direction.map(|value| (*value.get_ref(), value.span()));
         match (degrees, self.planes.is_two(), &site.place) {
             (None, false, _) | (None, true, Place::Row(_)) => Ok(site),
             (None, true, _) => {

@@ -1,10 +1,9 @@
 //! Reads the table `[initial]`: fields over the structure.
 
 use super::builder::Builder;
-use super::file;
 use super::model::Model;
 use super::planes::Planes;
-use super::value::Value;
+use super::value::{Name, Section, Value};
 use crate::error::{Result, Subject};
 use crate::study::truncation::Start;
 use toml::Spanned;
@@ -31,32 +30,30 @@ impl Builder<'_> {
     }
 
     /// Whether the start is given, or a static equilibrium.
-    pub fn start(&mut self, initial: &file::Initial) -> Result<Start> {
-        let Some(equilibrium) = initial.equilibrium.as_ref().filter(|word| *word.get_ref()) else {
-            return Ok(Start::Given);
-        };
-        self.places.push((("initial state", "equilibrium").into(), equilibrium.span()));
-        match initial.displacement.as_ref().or(initial.velocity.as_ref()) {
+    pub fn start(&mut self, initial: &Section<'_>) -> Result<Start> {
+        let Some(equilibrium) = initial.truth("equilibrium") else { return Ok(Start::Given) };
+        self.places.push((("initial state", "equilibrium").into(), equilibrium));
+        match initial.span_of("displacement").or(initial.span_of("velocity")) {
             Some(given) => {
                 let help = "expected no displacement and no velocity: an equilibrium is at rest where the constant \
                             loads hold it";
-                Err(self.source.error(given.span(), "`initial.equilibrium` beside a start", help))
+                Err(self.source.error(given, "`initial.equilibrium` beside a start", help))
             }
             None => Ok(Start::Equilibrium),
         }
     }
 
     /// A displacement or velocity of every degree of freedom; 0 where none is given.
-    pub fn field(&mut self, part: &'static str, value: Option<&Spanned<Value>>) -> Result<Vec<f64>> {
+    pub fn field(&mut self, part: &'static str, initial: &Section<'_>) -> Result<Vec<f64>> {
         let total = self.total();
-        let Some(value) = value else { return Ok(vec![0.0; total]) };
+        let Some(value) = initial.get(part) else { return Ok(vec![0.0; total]) };
         let subject = Subject::from(("initial state", part));
         self.places.push((subject.clone(), value.span()));
         let unit = if part == "velocity" { "m/s" } else { "m" };
         let field = |name: &str| Field { key: format!("initial.{part}{name}"), subject: subject.clone(), unit };
         match (self.planes, value.get_ref()) {
             (Planes::Two(n), Value::Table(planes))
-                if planes.iter().all(|(name, _)| ["y", "z"].contains(&name.get_ref().as_str())) =>
+                if planes.iter().all(|(name, _)| ["y", "z"].contains(&name.get_ref().as_ref())) =>
             {
                 let mut both = vec![0.0; total];
                 for (name, value) in planes {
@@ -71,7 +68,7 @@ impl Builder<'_> {
     }
 
     /// A field of `n` degrees of freedom: those of one plane, or all.
-    fn over(&mut self, field: &Field, value: &Spanned<Value>, n: usize) -> Result<Vec<f64>> {
+    fn over(&mut self, field: &Field, value: &Spanned<Value<'_>>, n: usize) -> Result<Vec<f64>> {
         let (key, wanted) = (&field.key, self.takes_field(field.unit, n));
         match value.get_ref() {
             Value::Number(x) if n == 1 => Ok(vec![*x]),
@@ -116,8 +113,8 @@ impl Builder<'_> {
     fn profile(
         &mut self,
         Field { key, subject, .. }: &Field,
-        name: &Spanned<String>,
-        list: &Spanned<Value>,
+        name: &Name<'_>,
+        list: &Spanned<Value<'_>>,
         wanted: &str,
     ) -> Result<Vec<f64>> {
         let mut points = Vec::new();

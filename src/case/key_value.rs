@@ -19,12 +19,6 @@ use std::str::FromStr;
 pub struct KeyValue(pub(super) toml::Value);
 
 impl KeyValue {
-    /// A value of a TOML file.
-    #[cfg(feature = "cli")]
-    pub(crate) fn from_toml(value: toml::Value) -> Self {
-        Self(value)
-    }
-
     /// The number, if it is one.
     #[must_use]
     pub fn number(&self) -> Option<f64> {
@@ -57,6 +51,12 @@ impl From<f64> for KeyValue {
 impl From<i64> for KeyValue {
     fn from(x: i64) -> Self {
         Self(toml::Value::Integer(x))
+    }
+}
+
+impl From<&[f64]> for KeyValue {
+    fn from(list: &[f64]) -> Self {
+        Self(toml::Value::Array(list.iter().map(|&x| toml::Value::Float(x)).collect()))
     }
 }
 

@@ -1,13 +1,10 @@
 //! Reads the tables `[[load]]`.
 
-use super::base::Beside;
 use super::builder::Builder;
-use super::columns::Given;
-use super::file;
 use super::place::Site;
 use super::random::NewRandom;
 use super::table::{self, TableColumns};
-use super::value::{Number, Section, Value};
+use super::value::{Section, Value};
 use super::written::{NewLoad, Origin};
 use crate::error::{Result, Subject};
 use crate::scene::{Load, LoadKind, RandomForce, System};
@@ -16,83 +13,84 @@ use toml::Spanned;
 impl Builder<'_> {
     /// The load in table `index`, for a run until `end` of `system`; of a random load in both
     /// directions the signal along y, then the one along z.
-    pub fn load(&mut self, index: usize, load: Section<file::Load>, end: f64, system: &System) -> Result<Vec<NewLoad>> {
-        let key = |what: &'static str| Subject::nth("load", index).part(what);
-        let file::Load { at, direction, constant, harmonic, impulse, table, random, base } = load.value;
+    pub fn load(&mut self, index: usize, load: &Section<'_>, end: f64, system: &System) -> Result<Vec<NewLoad>> {
+        let owner = format!("load {}", index + 1);
         self.places.push((Subject::nth("load", index), load.span.clone()));
-        let given: Vec<_> = [
-            ("constant", constant.as_ref().map(|s| s.span.clone())),
-            ("harmonic", harmonic.as_ref().map(|s| s.span.clone())),
-            ("impulse", impulse.as_ref().map(|s| s.span.clone())),
-            ("table", table.as_ref().map(|s| s.span.clone())),
-            ("random", random.as_ref().map(|s| s.span.clone())),
-            ("base", base.as_ref().map(|s| s.span.clone())),
-        ]
-        .into_iter()
-        .filter_map(|(kind, span)| Some((kind, span?)))
-        .collect();
-        if let [(first, _), (second, span), ..] = given.as_slice() {
+        let kinds = ["constant", "harmonic", "impulse", "table", "random", "base"];
+        let mut given = kinds.into_iter().filter_map(|kind| Some((kind, load.section(kind)?)));
+        let (first, second) = (given.next(), given.next());
+        if let (Some((first, _)), Some((second, section))) = (&first, second) {
             return Err(self.source.error(
-                span.clone(),
-                &format!("load {} has two kinds, `{first}` and `{second}`", index + 1),
+                section.span,
+                &format!("{owner} has two kinds, `{first}` and `{second}`"),
                 "expected one kind in each [[load]]; loads add up, so write a second [[load]]",
             ));
         }
-        let owner = format!("load {}", index + 1);
-        let both = direction.as_ref().filter(|value| matches!(value.get_ref(), Value::Word(word) if word == "both"));
-        if let (Some(both), None) = (both, &random) {
+        let Some((kind, section)) = first else {
+            let help = "expected one of constant = { force }, harmonic = { amplitude, frequency, phase }, \
+                        impulse = { impulse, time }, table = { file }, random = { rms, from, to, seed }, \
+                        base = { file }";
+            return Err(self.source.error(load.span.clone(), &format!("{owner} has no kind"), help));
+        };
+        let direction = load.get("direction");
+        let both = direction.filter(|value| matches!(value.get_ref(), Value::Word(word) if word == "both"));
+        if let Some(both) = both.filter(|_| kind != "random") {
             return Err(self.refuse(
                 both.span(),
                 &format!("{owner}: direction"),
                 "a finite number, in deg; \"both\" is for random loads",
             ));
         }
-        let angle = match (both, &direction) {
-            (None, Some(value)) => Some(self.angle(&owner, value)?),
-            _ => None,
-        };
-        if let Some(section) = base {
-            let beside = Beside { at: at.as_ref(), direction: angle.as_ref() };
-            return Ok(vec![self.base(index, &section, &beside, system)?]);
+        let angle = load.number("direction");
+        if let Some(other) = direction.filter(|_| both.is_none() && angle.is_none()) {
+            return Err(self.refuse(other.span(), &format!("{owner}: direction"), "a finite number, in deg"));
         }
-        let mut sites = self.sites((&owner, Subject::nth("load", index)), at.as_ref(), load.span.clone(), true)?;
+        if kind == "base" {
+            return Ok(vec![self.base(&owner, &section, (load.span_of("at"), angle.as_ref()), system)?]);
+        }
+        let mut sites = self.sites((&owner, Subject::nth("load", index)), load, true)?;
         let site = sites.pop().ok_or_else(|| self.refuse(load.span.clone(), &owner, "a place"))?;
         let sites = match both {
             Some(both) => self.sites_of_both(&owner, &site, both)?,
             None => vec![self.towards(site, angle.as_ref(), &owner, &load.span)?],
         };
-        let stated = |kind: LoadKind| (kind, Origin::Stated);
-        let (kind, origin) = match (constant, harmonic, impulse, table, random) {
-            (Some(Section { value, .. }), ..) => {
-                stated(LoadKind::Constant { force: self.number(key("force"), &value.force) })
-            }
-            (_, Some(Section { value: sine, .. }), ..) => stated(LoadKind::Harmonic {
-                amplitude: self.number(key("amplitude"), &sine.amplitude),
-                frequency: self.number(key("frequency"), &sine.frequency),
-                phase: self.optional(key("phase"), sine.phase.as_ref()).unwrap_or(0.0),
-            }),
-            (_, _, Some(Section { value: blow, .. }), ..) => stated(LoadKind::Impulse {
-                impulse: self.number(key("impulse"), &blow.impulse),
-                time: self.optional(key("time"), blow.time.as_ref()).unwrap_or(0.0),
-            }),
-            (_, _, _, Some(Section { value: table, .. }), _) => self.table(&owner, &table)?,
-            (_, _, _, _, Some(section)) => return self.random_loads(index, &section, end, sites),
-            _ => {
-                let help = "expected one of constant = { force }, harmonic = { amplitude, frequency, phase }, \
-                            impulse = { impulse, time }, table = { file }, random = { rms, from, to, seed }, \
-                            base = { file }";
-                return Err(self.source.error(load.span, &format!("load {} has no kind", index + 1), help));
-            }
-        };
-        let new = |site: Site| NewLoad { load: Load { kind, at: site.row }, place: site.place, origin };
+        if kind == "random" {
+            return self.random_loads(index, &section, end, sites);
+        }
+        let kind = self.kind(index, kind, &section)?;
+        let new = |site: Site| NewLoad { load: Load { kind, at: site.row }, place: site.place, origin: Origin::Stated };
         Ok(sites.into_iter().next().map(new).into_iter().collect())
+    }
+
+    /// A load whose numbers or table stand in `section`.
+    fn kind(&mut self, index: usize, kind: &str, section: &Section<'_>) -> Result<LoadKind> {
+        let subject = |what: &'static str| Subject::nth("load", index).part(what);
+        let mut number = |what| self.required(subject(what), section, what);
+        Ok(match kind {
+            "constant" => LoadKind::Constant { force: number("force") },
+            "harmonic" => LoadKind::Harmonic {
+                amplitude: number("amplitude"),
+                frequency: number("frequency"),
+                phase: self.optional(subject("phase"), section, "phase").unwrap_or(0.0),
+            },
+            "impulse" => LoadKind::Impulse {
+                impulse: number("impulse"),
+                time: self.optional(subject("time"), section, "time").unwrap_or(0.0),
+            },
+            _ => {
+                let owner = format!("load {}: table", index + 1);
+                let columns = self.columns(&owner, ("force", "N"), TableColumns::default(), section)?;
+                let (path, text) = self.table_file(&owner, &section.required_word("file"), &columns)?;
+                LoadKind::Table(table::read(&path, &text, &columns)?)
+            }
+        })
     }
 
     /// A random load at each of `sites`: one, or one along y and one along z.
     fn random_loads(
         &mut self,
         index: usize,
-        section: &Section<file::Random>,
+        section: &Section<'_>,
         end: f64,
         sites: Vec<Site>,
     ) -> Result<Vec<NewLoad>> {
@@ -117,7 +115,7 @@ impl Builder<'_> {
     }
 
     /// The location along y and along z.
-    fn sites_of_both(&self, owner: &str, site: &Site, both: &Spanned<Value>) -> Result<Vec<Site>> {
+    fn sites_of_both(&self, owner: &str, site: &Site, both: &Spanned<Value<'_>>) -> Result<Vec<Site>> {
         if !self.planes.is_two() {
             return Err(self.undirected(owner, both.span()));
         }
@@ -128,29 +126,6 @@ impl Builder<'_> {
                 let help = "expected a place that moves along y and along z, which a row does not name";
                 Err(self.source.error(both.span(), &format!("{owner} has no place in both planes"), help))
             }
-        }
-    }
-
-    fn table(&mut self, owner: &str, table: &file::Table) -> Result<(LoadKind, Origin)> {
-        let given = Given {
-            time: &table.time,
-            value: &table.force,
-            delimiter: &table.delimiter,
-            decimal: &table.decimal,
-            scale: &table.scale,
-        };
-        let owner = format!("{owner}: table");
-        let columns = self.columns(&owner, ("force", "N"), TableColumns::default(), &given)?;
-        let (path, text) = self.table_file(&owner, &table.file, &columns)?;
-        let read = table::read(&path, &text, &columns)?;
-        Ok((LoadKind::Table(read), Origin::Table { file: table.file.get_ref().clone(), columns }))
-    }
-
-    /// The direction of a load.
-    fn angle(&self, owner: &str, direction: &Spanned<Value>) -> Result<Spanned<Number>> {
-        match direction.get_ref() {
-            Value::Number(x) => Ok(Spanned::new(direction.span(), Number(*x))),
-            _ => Err(self.refuse(direction.span(), &format!("{owner}: direction"), "a finite number, in deg")),
         }
     }
 }

@@ -12,22 +12,23 @@
 //!
 #![doc = include_str!("../../cases/README.md")]
 
-mod accepted;
 mod base;
 mod build;
 mod builder;
 mod case_file;
 mod changes;
+mod check;
 mod columns;
 mod damping;
 mod digest;
 mod direction;
 mod embedded;
-mod file;
 mod flats;
 mod initial;
 mod key;
+mod key_entry;
 mod key_value;
+mod keys;
 mod loads;
 mod method;
 mod modal;
@@ -39,6 +40,7 @@ mod planes;
 mod random;
 mod read;
 mod report;
+mod schema;
 mod start;
 mod statistics;
 mod summary;
@@ -56,13 +58,21 @@ mod written;
 
 pub use case_file::CaseFile;
 #[cfg(feature = "cli")]
+pub(crate) use check::read as read_values;
+#[cfg(feature = "cli")]
 pub(crate) use digest::sha256;
 pub use embedded::Embedded;
 pub use key::Key;
+#[cfg(feature = "cli")]
+pub(crate) use key_entry::{KeyEntry, Kind, REQUIRED, entry};
 pub use key_value::KeyValue;
 pub use model::{Model, Place};
 pub use penalty::PenaltyOptions;
 pub use planes::Planes;
+#[cfg(feature = "cli")]
+pub(crate) use report::Source;
+#[cfg(feature = "cli")]
+pub(crate) use schema::{SETTABLE, Schema};
 pub use statistics::StatisticsOptions;
 #[cfg(feature = "cli")]
 pub(crate) use statistics::rows_of;
@@ -71,6 +81,8 @@ pub use template::Template;
 #[cfg(feature = "cli")]
 pub(crate) use text::{MOST_TABLE_BYTES, open_regular, read_text};
 pub use truncated::Truncated;
+#[cfg(feature = "cli")]
+pub(crate) use value::{Section, Value};
 pub use wear::WearOptions;
 pub use written::{FileRead, Origin, Scarred, Support, Written};
 
@@ -78,9 +90,11 @@ use crate::error::{Error, Result};
 use crate::scene::{Condensation, Scene};
 use crate::time::TimeOptions;
 
-/// The contents of a case file.
+/// The contents of a case file. Another value makes another case: [`Case::with`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
+    /// The file from which the case was built, with all changes of its values.
+    pub document: CaseFile,
     /// Name of the file without folder and extension.
     pub name: String,
     /// One line that describes the case.
@@ -115,21 +129,13 @@ pub struct Case {
 }
 
 impl Case {
-    /// Checks the case as [`Case::parse`] does; for a case whose values were changed afterwards.
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] for the first invalid value.
-    pub fn validate(&self) -> Result<()> {
-        self.check().map_err(wording::in_keys)
-    }
-
     /// True where walls, loads and probes have a place: not for one degree of freedom.
     #[cfg(feature = "cli")]
     pub(crate) fn has_places(&self) -> bool {
         !matches!(self.model, Model::Oscillator) || self.planes.is_two()
     }
 
-    /// The same check, with errors in the terms of scene and options.
+    /// Checks scene and options, with errors in their terms.
     fn check(&self) -> Result<()> {
         self.scene.validate()?;
         self.time.validate(self.scene.duration)?;

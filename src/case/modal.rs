@@ -1,13 +1,11 @@
 //! Reads the table `[system.modal]`: modes as finite-element programs export them.
 
 use super::builder::Builder;
-use super::file;
 use super::report::Source;
-use super::value::{Number, Value};
+use super::value::{Section, Value};
 use crate::error::{Result, Subject};
 use crate::scene::{ModalData, ModalPoint};
 use std::f64::consts::TAU;
-use std::ops::Range;
 use toml::Spanned;
 
 /// Description of the file of shapes, for messages.
@@ -16,23 +14,23 @@ const SHAPES: &str = "expected a row for each point: its name, then its displace
 
 impl Builder<'_> {
     /// The modes, and the points whose shapes are known.
-    pub fn modal(&mut self, modal: &file::Modal, span: Range<usize>) -> Result<ModalData> {
-        let omega = match (&modal.frequencies, &modal.omega) {
+    pub fn modal(&mut self, modal: &Section<'_>) -> Result<ModalData> {
+        let omega = match (modal.numbers("frequencies"), modal.numbers("omega")) {
             (Some(_), Some(omega)) => {
                 let help = "expected frequencies (Hz) or omega (rad/s)";
                 return Err(self.source.error(omega.span(), "`system.modal` has both frequencies and omega", help));
             }
             (None, None) => {
                 let help = "expected frequencies = a list of numbers, 0 or more, in Hz, or omega = the same in rad/s";
-                return Err(self.source.error(span, "`frequencies` is missing in `system.modal`", help));
+                return Err(self.source.error(modal.span.clone(), "`frequencies` is missing in `system.modal`", help));
             }
-            (Some(list), None) => self.each("frequencies", "omega", list, TAU)?,
-            (None, Some(list)) => self.each("omega", "omega", list, 1.0)?,
+            (Some(list), None) => self.each("frequencies", "omega", &list, TAU)?,
+            (None, Some(list)) => self.each("omega", "omega", &list, 1.0)?,
         };
         let k = omega.len();
-        let masses = self.of_modes("masses", modal.masses.as_ref(), 1.0, k)?;
-        let ratios = self.of_modes("damping_ratios", modal.damping_ratios.as_ref(), 0.0, k)?;
-        let points = match &modal.shapes {
+        let masses = self.of_modes("masses", modal.get("masses"), 1.0, k)?;
+        let ratios = self.of_modes("damping_ratios", modal.get("damping_ratios"), 0.0, k)?;
+        let points = match modal.get("shapes") {
             None => Vec::new(),
             Some(shapes) => self.shapes(shapes, k)?,
         };
@@ -44,7 +42,7 @@ impl Builder<'_> {
         &mut self,
         key: &str,
         name: &'static str,
-        list: &Spanned<Vec<Spanned<Number>>>,
+        list: &Spanned<Vec<Spanned<f64>>>,
         factor: f64,
     ) -> Result<Vec<f64>> {
         let wanted = "a list of numbers, 0 or more: one for each mode";
@@ -53,7 +51,7 @@ impl Builder<'_> {
         }
         let mut values = Vec::with_capacity(list.get_ref().len());
         for (i, item) in list.get_ref().iter().enumerate() {
-            let x = item.get_ref().0;
+            let x = *item.get_ref();
             if !(x.is_finite() && x >= 0.0) {
                 return Err(self.refuse(item.span(), &format!("system.modal.{key}: value {}", i + 1), "0 or more"));
             }
@@ -67,7 +65,7 @@ impl Builder<'_> {
     fn of_modes(
         &mut self,
         name: &'static str,
-        value: Option<&Spanned<Value>>,
+        value: Option<&Spanned<Value<'_>>>,
         plain: f64,
         k: usize,
     ) -> Result<Vec<f64>> {
@@ -89,7 +87,7 @@ impl Builder<'_> {
         }
     }
 
-    fn shapes(&mut self, shapes: &Spanned<Value>, k: usize) -> Result<Vec<ModalPoint>> {
+    fn shapes(&mut self, shapes: &Spanned<Value<'_>>, k: usize) -> Result<Vec<ModalPoint>> {
         let key = "system.modal.shapes";
         let subject = Subject::from(("modal data", "shapes"));
         self.places.push((subject.clone(), shapes.span()));
@@ -105,8 +103,8 @@ impl Builder<'_> {
                 let mut points = Vec::with_capacity(entries.len());
                 for (name, shape) in entries {
                     let key = format!("{key}.{}", name.get_ref());
-                    self.name(&key, name)?;
-                    self.places.push((subject.clone().part(name.get_ref().clone()), shape.span()));
+                    self.name(&key, name.get_ref(), name.span())?;
+                    self.places.push((subject.clone().part(name.get_ref().to_string()), shape.span()));
                     let Value::List(items) = shape.get_ref() else {
                         return Err(self.refuse(
                             shape.span(),
@@ -125,13 +123,8 @@ impl Builder<'_> {
                     }
                     let wanted = "a finite number";
                     let shape = items.iter().map(|item| self.finite(&key, item, wanted)).collect::<Result<_>>()?;
-                    points.push(ModalPoint { name: name.get_ref().clone(), shape });
+                    points.push(ModalPoint { name: name.get_ref().to_string(), shape });
                 }
-                // In the order of the file; the order in the parsed table may differ.
-                let at = |point: &ModalPoint| {
-                    entries.iter().find(|e| *e.0.get_ref() == point.name).map(|e| e.0.span().start)
-                };
-                points.sort_by_key(at);
                 Ok(points)
             }
             _ => Err(self.refuse_as(shapes.span(), key)),

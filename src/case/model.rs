@@ -133,6 +133,16 @@ impl Place {
     pub fn point(name: &str) -> Self {
         Self::Points(vec![(name.to_owned(), 1.0)])
     }
+
+    /// Where along a bar or beam the place is, m; `None` of another place.
+    #[must_use]
+    pub fn position(&self) -> Option<f64> {
+        match self {
+            Self::Position(x) => Some(*x),
+            Self::Towards { place, .. } => place.position(),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for Place {

@@ -3,10 +3,9 @@
 use super::builder::Builder;
 use super::model::{Model, Place};
 use super::planes::Planes;
-use super::value::Value;
+use super::value::{Entry, Name, Section, Value};
 use crate::error::{Error, Part, Result, Subject};
 use crate::scene::Row;
-use std::ops::Range;
 use toml::Spanned;
 
 /// A location, its row, and the suffix of the names there: empty, or `-` and a number where `at` is
@@ -59,22 +58,16 @@ impl Builder<'_> {
         }
     }
 
-    /// The locations that `at` refers to. `owner` is the wall, load or probe, by name and as the
-    /// subject of errors; its table is at `span` of the file. Only loads may be spread.
-    pub fn sites(
-        &mut self,
-        (owner, subject): (&str, Subject),
-        at: Option<&Spanned<Value>>,
-        span: Range<usize>,
-        load: bool,
-    ) -> Result<Vec<Site>> {
+    /// The locations that `at` in the table of `owner` refers to. `owner` is the wall, load or
+    /// probe, by name and as the subject of errors. Only loads may be spread.
+    pub fn sites(&mut self, (owner, subject): (&str, Subject), table: &Section<'_>, load: bool) -> Result<Vec<Site>> {
         let key = format!("{owner}: at");
-        let Some(at) = at else {
+        let Some(at) = table.get("at") else {
             if self.n == 1 {
                 return Ok(vec![Site { suffix: String::new(), place: Place::Dof(0), row: Row::dof(0) }]);
             }
             let title = format!("`at` is missing in {owner}");
-            return Err(self.source.error(span, &title, &format!("expected {}", self.takes(load))));
+            return Err(self.source.error(table.span.clone(), &title, &format!("expected {}", self.takes(load))));
         };
         let kind = match subject.parts() {
             [Part::Named(kind, _)] => kind,
@@ -104,10 +97,8 @@ impl Builder<'_> {
             }
             [(kind, value)] => self.place(&key, kind, value, load)?,
             [] => return Err(self.refuse(at.span(), &key, &self.takes(load))),
-            [_, _, ..] => {
-                // In the order of the file; the order in the parsed table may differ.
-                let later =
-                    entries.iter().map(|entry| entry.0.span()).max_by_key(|span| span.start).unwrap_or(at.span());
+            [_, .., last] => {
+                let later = last.0.span();
                 let title = format!("{key} gives more than one place");
                 return Err(self.source.error(later, &title, &format!("expected one of {}", self.takes(load))));
             }
@@ -129,9 +120,9 @@ impl Builder<'_> {
         Ok(vec![Site { suffix: String::new(), place, row }])
     }
 
-    fn place(&mut self, key: &str, kind: &Spanned<String>, value: &Spanned<Value>, load: bool) -> Result<Place> {
+    fn place(&mut self, key: &str, kind: &Name<'_>, value: &Spanned<Value<'_>>, load: bool) -> Result<Place> {
         let on_line = matches!(self.model, Model::Bar(_) | Model::Beam(_));
-        match kind.get_ref().as_str() {
+        match kind.get_ref().as_ref() {
             "dof" if self.planes == Planes::Named => {
                 let title = format!("{key}: a degree of freedom of matrices in two planes has no direction");
                 Err(self.source.error(kind.span(), &title, &format!("expected {}", self.takes(load))))
@@ -170,10 +161,10 @@ impl Builder<'_> {
     }
 
     /// One point of modes by its name, or pairs of a name and a weight.
-    fn points(&self, key: &str, value: &Spanned<Value>) -> Result<Place> {
+    fn points(&self, key: &str, value: &Spanned<Value<'_>>) -> Result<Place> {
         let Model::Modal(modal) = &self.model else { return Ok(Place::Points(Vec::new())) };
-        let known = |word: &Spanned<Value>| match word.get_ref() {
-            Value::Word(name) if modal.points.iter().any(|point| point.name == *name) => Ok(name.clone()),
+        let known = |word: &Spanned<Value<'_>>| match word.get_ref() {
+            Value::Word(name) if modal.points.iter().any(|point| point.name == *name) => Ok(name.to_string()),
             _ => {
                 let names: Vec<&str> = modal.points.iter().map(|point| point.name.as_str()).take(MOST_POINTS).collect();
                 let more = if modal.points.len() > MOST_POINTS { ", .." } else { "" };
@@ -202,7 +193,7 @@ impl Builder<'_> {
     }
 
     /// The rows along y and along z of matrices of both planes.
-    fn rows_of(&mut self, key: &str, entries: &[(Spanned<String>, Spanned<Value>)]) -> Result<Place> {
+    fn rows_of(&mut self, key: &str, entries: &[Entry<'_>]) -> Result<Place> {
         let (mut y, mut z) = (Vec::new(), Vec::new());
         for (plane, value) in entries {
             let row = self.row(&format!("{key}: {}", plane.get_ref()), value)?;
@@ -212,7 +203,7 @@ impl Builder<'_> {
     }
 
     /// The number of one of `n` degrees of freedom.
-    pub fn dof(&self, key: &str, value: &Spanned<Value>, n: usize) -> Result<usize> {
+    pub fn dof(&self, key: &str, value: &Spanned<Value<'_>>, n: usize) -> Result<usize> {
         let last = n.saturating_sub(1);
         match value.get_ref() {
             Value::Number(x) if x.fract() == 0.0 && (0.0..=last as f64).contains(x) => Ok(*x as usize),
@@ -221,7 +212,7 @@ impl Builder<'_> {
     }
 
     /// Weights of degrees of freedom, in two planes of both.
-    pub fn row(&self, key: &str, value: &Spanned<Value>) -> Result<Vec<(usize, f64)>> {
+    pub fn row(&self, key: &str, value: &Spanned<Value<'_>>) -> Result<Vec<(usize, f64)>> {
         let wanted = "pairs of a degree of freedom and a weight, each once: [[0, 1.0], [1, -1.0]]";
         let entries = self.pairs(key, value, wanted)?;
         let mut row: Vec<(usize, f64)> = Vec::new();
@@ -247,9 +238,9 @@ impl Builder<'_> {
     pub fn pairs<'v>(
         &self,
         key: &str,
-        value: &'v Spanned<Value>,
+        value: &'v Spanned<Value<'v>>,
         wanted: &str,
-    ) -> Result<Vec<(&'v Spanned<Value>, &'v Spanned<Value>)>> {
+    ) -> Result<Vec<(&'v Spanned<Value<'v>>, &'v Spanned<Value<'v>>)>> {
         let Value::List(items) = value.get_ref() else { return Err(self.refuse(value.span(), key, wanted)) };
         if items.is_empty() {
             return Err(self.refuse(value.span(), key, wanted));
@@ -265,7 +256,7 @@ impl Builder<'_> {
     }
 
     /// A finite number.
-    pub fn finite(&self, key: &str, value: &Spanned<Value>, wanted: &str) -> Result<f64> {
+    pub fn finite(&self, key: &str, value: &Spanned<Value<'_>>, wanted: &str) -> Result<f64> {
         match value.get_ref() {
             Value::Number(x) if x.is_finite() => Ok(*x),
             _ => Err(self.refuse(value.span(), key, wanted)),
@@ -273,7 +264,7 @@ impl Builder<'_> {
     }
 
     /// The error of a bar or beam, shown at the value that it refers to.
-    fn at_value(&self, key: &str, error: Error, value: &Spanned<Value>) -> Error {
+    fn at_value(&self, key: &str, error: Error, value: &Spanned<Value<'_>>) -> Error {
         match error {
             Error::Invalid { value: found, expected, .. } => {
                 self.source.error(value.span(), &format!("{key} is {found}"), &format!("expected {expected}"))

@@ -2,9 +2,8 @@
 
 use super::Case;
 use super::builder::Builder;
-use super::file;
 use super::table::{self, TableColumns};
-use super::value::{Number, Section};
+use super::value::Section;
 use super::written::Origin;
 use crate::error::{Error, Part, Result};
 use crate::scene::{Density, LoadKind, RandomForce, Table};
@@ -27,28 +26,26 @@ pub(super) struct NewRandom {
 
 impl Builder<'_> {
     /// The random force of load `index`, over a run until `end`.
-    pub fn random(&mut self, index: usize, section: &Section<file::Random>, end: f64) -> Result<NewRandom> {
+    pub fn random(&mut self, index: usize, section: &Section<'_>, end: f64) -> Result<NewRandom> {
         let owner = format!("load {}: random", index + 1);
-        let file::Random { rms, from, to, psd, file, seed } = &section.value;
+        let [rms, from, to] = ["rms", "from", "to"].map(|key| section.number(key).map(Spanned::into_inner));
         let one = "expected rms (N), from and to (Hz), or psd = [[Hz, N^2/Hz], ..], or file = \"psd.csv\"";
         let given: Vec<Range<usize>> = [
-            rms.as_ref().or(from.as_ref()).or(to.as_ref()).map(Spanned::span),
-            psd.as_ref().map(Spanned::span),
-            file.as_ref().map(Spanned::span),
+            ["rms", "from", "to"].iter().find_map(|key| section.span_of(key)),
+            section.span_of("psd"),
+            section.span_of("file"),
         ]
         .into_iter()
         .flatten()
         .collect();
         let last = given.iter().max_by_key(|span| span.start).cloned().unwrap_or(section.span.clone());
-        let density = match (rms, from, to, psd, file) {
+        let (psd, file) = (section.get("psd"), section.word("file"));
+        let density = match (rms, from, to, psd, &file) {
             _ if given.len() != 1 => {
                 let has = if given.is_empty() { "no density" } else { "two densities" };
                 return Err(self.source.error(last, &format!("{owner} has {has}"), one));
             }
-            (Some(rms), Some(from), Some(to), ..) => {
-                let [rms, from, to] = [rms, from, to].map(|value| value.get_ref().0);
-                Density::Flat { rms, from, to }
-            }
+            (Some(rms), Some(from), Some(to), ..) => Density::Flat { rms, from, to },
             (_, _, _, Some(psd), _) => {
                 let (key, wanted) = (format!("{owner}: psd"), "pairs of a frequency, in Hz, and a density, in N^2/Hz");
                 let number = |value| self.finite(&key, value, wanted);
@@ -57,28 +54,19 @@ impl Builder<'_> {
             }
             (_, _, _, _, Some(file)) => Density::Points(self.density(&owner, file)?),
             _ => {
-                let missing = if rms.is_none() {
-                    "rms"
-                } else if from.is_none() {
-                    "from"
-                } else {
-                    "to"
-                };
+                let missing = ["rms", "from"].into_iter().find(|key| section.get(key).is_none()).unwrap_or("to");
                 let title = format!("`{missing}` is missing in {owner}");
                 return Err(self.source.error(section.span.clone(), &title, one));
             }
         };
-        let seed = match seed {
-            None => 0,
-            Some(seed) => self.seed(&owner, seed)?,
-        };
+        let seed = section.number("seed").map_or(Ok(0), |seed| self.seed(&owner, &seed))?;
         let force = RandomForce { density, seed, stream: 2 * index as u64 };
         let table = force.table(end).map_err(|error| self.at_random(&owner, section, error))?;
-        Ok(NewRandom { force, table, file: file.as_ref().map(|file| file.get_ref().clone()) })
+        Ok(NewRandom { force, table, file: file.map(|file| (*file.get_ref()).to_owned()) })
     }
 
-    fn seed(&self, owner: &str, seed: &Spanned<Number>) -> Result<u64> {
-        let x = seed.get_ref().0;
+    fn seed(&self, owner: &str, seed: &Spanned<f64>) -> Result<u64> {
+        let x = *seed.get_ref();
         if x.fract() == 0.0 && (0.0..=MOST_SEED).contains(&x) {
             Ok(x as u64)
         } else {
@@ -87,13 +75,13 @@ impl Builder<'_> {
     }
 
     /// The density in a file.
-    fn density(&mut self, owner: &str, file: &Spanned<String>) -> Result<Vec<[f64; 2]>> {
+    fn density(&mut self, owner: &str, file: &Spanned<&str>) -> Result<Vec<[f64; 2]>> {
         let columns = TableColumns {
             time: "frequency_Hz".to_owned(),
             force: "density_N2_per_Hz".to_owned(),
             ..TableColumns::default()
         };
-        let name = file.get_ref();
+        let name = *file.get_ref();
         let (path, text) = self.open(name).map_err(|reason| {
             let help = format!("{}; its path is relative to the case file", columns.expected());
             self.source.error(file.span(), &format!("{owner}: file {name:?}: {reason}"), &help)
@@ -103,15 +91,13 @@ impl Builder<'_> {
     }
 
     /// An error of a random force, at the key that it is about.
-    fn at_random(&self, owner: &str, section: &Section<file::Random>, error: Error) -> Error {
+    fn at_random(&self, owner: &str, section: &Section<'_>, error: Error) -> Error {
         let Error::Invalid { subject, value, expected } = &error else { return error };
-        let file::Random { rms, from, to, psd, file, .. } = &section.value;
-        let density = || psd.as_ref().map(Spanned::span).or(file.as_ref().map(Spanned::span));
+        let density = || section.span_of("psd").or(section.span_of("file"));
         let span = match subject.parts().get(1) {
             Some(Part::Name(name)) => match name.as_ref() {
-                "rms" => rms.as_ref().map(Spanned::span),
-                "from" => from.as_ref().map(Spanned::span),
-                "to" | "band" => to.as_ref().map(Spanned::span).or_else(density),
+                key @ ("rms" | "from") => section.span_of(key),
+                "to" | "band" => section.span_of("to").or_else(density),
                 "psd" => density(),
                 // An invalid end of the run is refused at its own key.
                 _ => None,
@@ -164,8 +150,8 @@ impl Case {
             return Err(Error::invalid("realisation", 0, "1 or more: the first is the case itself"));
         };
         let mut case = self.clone();
-        for origin in &mut case.written.origins {
-            let (Origin::Random { force, .. } | Origin::Second(force)) = origin else { continue };
+        for (index, origin) in case.written.origins.iter_mut().enumerate() {
+            let (Origin::Random { force, .. } | Origin::Second(force)) = &mut *origin else { continue };
             let seed = force.seed.saturating_add(more);
             if seed as f64 > MOST_SEED {
                 let most = MOST_SEED as u64 - force.seed.min(MOST_SEED as u64) + 1;
@@ -173,6 +159,10 @@ impl Case {
                 return Err(Error::invalid("realisation", number, expected));
             }
             force.seed = seed;
+            if let Origin::Random { .. } = origin {
+                // A load of the file has its number in the scene.
+                case.document.set(&format!("load.{}.random.seed", index + 1).parse()?, &(seed as i64).into())?;
+            }
         }
         case.make_random(case.scene.duration)?;
         Ok(case)
@@ -200,16 +190,5 @@ impl Case {
             }
         }
         Ok(())
-    }
-
-    /// Changes the end of the run. The lines of a random force are multiples of 1/end, so random
-    /// loads are computed again.
-    ///
-    /// # Errors
-    /// Those of the reduction to modes, and [`Error::Invalid`] where a random force has no line at
-    /// this end or too many rows.
-    pub fn change_end(&mut self, end: f64) -> Result<()> {
-        self.make_random(end)?;
-        self.change(|scene| scene.duration = end)
     }
 }

@@ -1,8 +1,9 @@
 //! Reads cases from files, from text, and from the built-in cases.
 
 use super::case_file::CaseFile;
-use super::{Case, Embedded};
+use super::{Case, Embedded, Key, KeyValue, build};
 use crate::error::Result;
+use crate::scene::State;
 use std::path::Path;
 
 impl Case {
@@ -26,12 +27,51 @@ impl Case {
         CaseFile::from_text(text, name, folder).case()
     }
 
+    /// The case of the same document with `value` at `key`, built anew; see [`Key`] for keys.
+    ///
+    /// ```
+    /// use signorini::case::Case;
+    ///
+    /// let case = Case::embedded("tube-loose-supports")?.with("system.modes", 4)?;
+    /// assert_eq!(case.scene.system.degrees_of_freedom(), 4);
+    /// # Ok::<(), signorini::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`CaseFile::set`] and [`CaseFile::case`].
+    pub fn with(&self, key: &str, value: impl Into<KeyValue>) -> Result<Self> {
+        let mut document = self.document.clone();
+        document.set(&key.parse::<Key>()?, &value.into())?;
+        document.case()
+    }
+
     /// The built-in case of that name.
     ///
     /// # Errors
     /// [`crate::Error::Unknown`], listing the names that exist.
     pub fn embedded(name: &str) -> Result<Self> {
         Embedded::named(name)?.case()
+    }
+}
+
+impl CaseFile {
+    /// Builds the case. The files that it names are read once and kept.
+    ///
+    /// # Errors
+    /// [`crate::Error::Case`], with file, line, column and key, and what would be accepted.
+    pub fn case(&self) -> Result<Case> {
+        build::case(self, None)
+    }
+
+    /// Builds the case with `start` in place of its own initial state, if `start` has as many
+    /// degrees of freedom (a case reduced to modes has as many as modes, and its own initial state
+    /// must be valid too). If the start lies behind a rigid wall, the body is moved to the wall and
+    /// keeps its velocity.
+    ///
+    /// # Errors
+    /// As [`CaseFile::case`].
+    pub fn case_from(&self, start: &State) -> Result<Case> {
+        build::case(self, Some(start))
     }
 }
 

@@ -1,15 +1,15 @@
 //! Errors that show the position in the file: what is wrong, file, line and column, the line
 //! itself, and what would be accepted.
 
-use super::accepted::{accepted, elsewhere};
-use crate::error::{Error, escaped, nearest};
+use super::schema::{accepted, is_list};
+use crate::error::{Error, escaped};
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use std::borrow::Cow;
 use std::ops::Range;
 
 /// A text that was read, and its name in messages.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Source<'a> {
+pub(crate) struct Source<'a> {
     pub name: &'a str,
     pub text: &'a str,
 }
@@ -82,51 +82,22 @@ impl Source<'_> {
         start..start + line
     }
 
-    /// The error of the TOML reader, in the terms of a case file.
+    /// The error of a text that is not TOML, in the terms of a case file.
     pub fn toml(&self, mut error: toml::de::Error) -> Error {
         error.set_input(None);
         let span = error.span().unwrap_or(0..0);
-        let said = error.to_string();
-        let path = said.lines().find_map(|line| line.strip_prefix("in `")?.strip_suffix('`')).unwrap_or_default();
         let message = error.message();
-        let quoted = |text: &str| text.split('`').nth(1).unwrap_or_default().to_owned();
-        let dotted = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
-        let place = if path.is_empty() { "the case file".to_owned() } else { format!("`{path}`") };
-        let or = |path: &str, text: &str| format!("expected {}", accepted(path).unwrap_or(text));
-
-        if message.starts_with("missing field") {
-            let key = quoted(message);
-            return self.error(span, &format!("`{key}` is missing in {place}"), &or(&dotted(&key), "that key"));
-        }
-        if message.starts_with("unknown field") {
-            let key = quoted(message);
-            let known = message.split_once(", ").map_or("", |(_, known)| known).replace('`', "");
-            let known = known.trim_start_matches("expected ").trim_start_matches("one of ");
-            let meant = match nearest(&key, known.split(", ").flat_map(|known| known.split(" or "))) {
-                Some(near) => format!("; did you mean `{near}`?"),
-                None => String::new(),
-            };
-            let known = elsewhere(&dotted(&key)).unwrap_or(known);
-            return self.error(span, &format!("unknown key `{key}` in {place}{meant}"), &format!("expected {known}"));
-        }
-        if let Some((found, wanted)) = message.strip_prefix("invalid type: ").and_then(|m| m.split_once(", expected "))
-        {
-            let found = found.replace("map", "a table or a date").replace("sequence", "a list");
-            let wanted = wanted.replace("a sequence", "a list");
-            let title = format!("`{path}` takes {wanted}, not {found}");
-            return self.error(span, &title, &or(path, &wanted));
-        }
         let (title, wanted) = message.split_once(", expected ").unwrap_or((message, "TOML"));
         if title == "duplicate key" {
             let key = self.slice(span.clone());
             let title = format!("duplicate key `{key}`");
             let help = match key {
-                "wall" | "support" | "load" | "probe" => accepted(key).unwrap_or_default(),
-                _ => "each key once in a table",
+                list if is_list(list) => accepted(list).unwrap_or_default(),
+                _ => "each key once in a table".to_owned(),
             };
             return self.error(span, &title, &format!("expected {help}"));
         }
-        let path = if path.is_empty() { self.key_at(span.start) } else { path.to_owned() };
+        let path = self.key_at(span.start);
         if let Some((comma, number)) = self.decimal_comma(span.start) {
             let key = if path.is_empty() { String::new() } else { format!("`{path}`: ") };
             let takes = accepted(&path).map_or_else(String::new, |takes| format!("; {takes}"));
@@ -141,6 +112,13 @@ impl Source<'_> {
                 self.error(span, title, &help)
             }
         }
+    }
+
+    /// The error for a number beyond those of 64 bits.
+    pub fn overflow(&self, span: Range<usize>) -> Error {
+        let path = self.key_at(span.start);
+        let help = accepted(&path).unwrap_or_else(|| "a number up to 1.8e308".to_owned());
+        self.error(span, &format!("`{path}`: number overflow"), &format!("expected {help}"))
     }
 
     /// The number with a decimal comma on the line of the byte `at`, such as `0,5` in `gap = 0,5`,

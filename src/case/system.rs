@@ -1,11 +1,10 @@
 //! Reads the table `[system]`: from measured quantities to M, C and K.
 
-use super::accepted::accepted;
 use super::builder::{Builder, MOST_MASSES};
-use super::file;
 use super::model::Model;
 use super::planes::Planes;
-use super::value::{Number, Section, Value};
+use super::schema::accepted;
+use super::value::{Section, Value};
 use super::wording::written;
 use crate::error::{Error, Result, Subject};
 use crate::scene::{Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MOST_ELEMENTS, MassMatrix, Oscillator, System};
@@ -32,51 +31,33 @@ enum End {
 
 impl Builder<'_> {
     /// The system and its model; `cut` if it will be reduced to modes.
-    pub fn system(&mut self, section: Section<file::System>, cut: bool) -> Result<Built> {
-        let Section { span, value: system } = section;
-        let given: Vec<(&'static str, Range<usize>)> = [
-            ("oscillator", system.oscillator.as_ref().map(|s| s.span.clone())),
-            ("chain", system.chain.as_ref().map(|s| s.span.clone())),
-            ("bar", system.bar.as_ref().map(|s| s.span.clone())),
-            ("beam", system.beam.as_ref().map(|s| s.span.clone())),
-            ("matrices", system.matrices.as_ref().map(|s| s.span.clone())),
-            ("modal", system.modal.as_ref().map(|s| s.span.clone())),
-        ]
-        .into_iter()
-        .filter_map(|(kind, span)| Some((kind, span?)))
-        .collect();
+    pub fn system(&mut self, system: &Section<'_>, cut: bool) -> Result<Built> {
+        let kinds = ["oscillator", "chain", "bar", "beam", "matrices", "modal"];
+        let mut given = kinds.into_iter().filter_map(|kind| Some((kind, system.section(kind)?)));
         let one = "expected one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], \
                    [system.matrices], [system.modal]";
-        match given.as_slice() {
-            [] => return Err(self.source.error(span, "`system` does not say what vibrates", one)),
-            [_] => {}
-            [(first, a), (second, b), ..] => {
-                let later = if a.start > b.start { a } else { b };
-                let title = format!("two systems, `{first}` and `{second}`");
-                return Err(self.source.error(later.clone(), &title, one));
-            }
+        let Some((kind, table)) = given.next() else {
+            return Err(self.source.error(system.span.clone(), "`system` does not say what vibrates", one));
+        };
+        if let Some((second, other)) = given.next() {
+            let later = if table.span.start > other.span.start { table.span } else { other.span };
+            return Err(self.source.error(later, &format!("two systems, `{kind}` and `{second}`"), one));
         }
-        let table = if given[0].0 == "modal" { "modal data" } else { given[0].0 };
-        self.places.push(("system".into(), given[0].1.clone()));
-        self.places.push((table.into(), given[0].1.clone()));
-        let two = self.two_planes(system.planes.as_ref(), given[0].0)?;
-        if let Some(oscillator) = system.oscillator {
-            for (key, span) in [
-                ("damping", system.damping.as_ref().map(|s| s.span.clone())),
-                ("modes", system.modes.as_ref().map(Spanned::span)),
-                ("static_correction", system.static_correction.as_ref().map(Spanned::span)),
-            ] {
-                if let Some(span) = span {
+        let name = if kind == "modal" { "modal data" } else { kind };
+        self.places.push(("system".into(), table.span.clone()));
+        self.places.push((name.into(), table.span.clone()));
+        let two = self.two_planes(system.number("planes"), kind)?;
+        if kind == "oscillator" {
+            for key in ["damping", "modes", "static_correction"] {
+                if let Some(span) = system.span_of(key) {
                     let title = format!("`system.{key}` beside an oscillator");
-                    let help = "expected it beside a chain, bar, beam or matrices; an oscillator has one mode, \
-                                and its damping in N s/m";
+                    let help = "expected it beside a chain, bar, beam or matrices; an oscillator has one degree of \
+                                freedom, and its damping in N s/m";
                     return Err(self.source.error(span, &title, help));
                 }
             }
-            let o = oscillator.value;
-            let mass = self.number(("oscillator", "mass"), &o.mass);
-            let damping = self.number(("oscillator", "damping"), &o.damping);
-            let stiffness = self.number(("oscillator", "stiffness"), &o.stiffness);
+            let [mass, damping, stiffness] =
+                ["mass", "damping", "stiffness"].map(|key| self.required(("oscillator", key), &table, key));
             let system = System::Oscillator(Oscillator { mass, damping, stiffness });
             let (system, planes) = if two {
                 system.validate().map_err(|error| self.at_key(error))?;
@@ -87,39 +68,42 @@ impl Builder<'_> {
             return Ok(Built { model: Model::Oscillator, system, planes, pending: None });
         }
         let (mut own_damping, mut pending) = (None, None);
-        let (model, structure) = if let Some(chain) = system.chain {
-            let chain = self.chain(chain.value)?;
-            let structure = chain.structure();
-            (Model::Chain(chain), structure)
-        } else if let Some(bar) = system.bar {
-            let bar = self.bar(bar.value)?;
-            let structure = bar.structure();
-            (Model::Bar(bar), structure)
-        } else if let Some(beam) = system.beam {
-            let beam = self.beam(beam.value)?;
-            let structure = beam.structure();
-            (Model::Beam(beam), structure)
-        } else if let Some(matrices) = system.matrices {
-            own_damping = matrices.value.damping.as_ref().map(Spanned::span);
-            let structure = self.matrices(&matrices.value)?;
-            (Model::Matrices(structure.mass.size()), Ok(structure))
-        } else if let Some(modal) = system.modal {
-            own_damping = modal.value.damping_ratios.as_ref().map(Spanned::span);
-            let modal = self.modal(&modal.value, modal.span)?;
-            let structure = modal.structure();
-            (Model::Modal(modal), structure)
-        } else {
-            return Err(self.source.error(span, "`system` does not say what vibrates", one));
+        let (model, structure) = match kind {
+            "chain" => {
+                let chain = self.chain(&table)?;
+                let structure = chain.structure();
+                (Model::Chain(chain), structure)
+            }
+            "bar" => {
+                let bar = self.bar(&table)?;
+                let structure = bar.structure();
+                (Model::Bar(bar), structure)
+            }
+            "beam" => {
+                let beam = self.beam(&table)?;
+                let structure = beam.structure();
+                (Model::Beam(beam), structure)
+            }
+            "matrices" => {
+                own_damping = table.get("damping");
+                let structure = self.matrices(&table)?;
+                (Model::Matrices(structure.mass.size()), Ok(structure))
+            }
+            _ => {
+                own_damping = table.get("damping_ratios");
+                let modal = self.modal(&table)?;
+                let structure = modal.structure();
+                (Model::Modal(modal), structure)
+            }
         };
         let mut structure = structure.map_err(|error| self.at_key(error))?;
-        if let Some(damping) = system.damping {
+        if let Some(damping) = system.section("damping") {
             if own_damping.is_some() {
                 let help = "expected the damping beside the matrices or modes, or [system.damping]";
                 return Err(self.source.error(damping.span, "`system` gives its damping twice", help));
             }
             let massless = !structure.massless().is_empty();
-            let damping = self.damping(damping)?;
-            self.written.damping = Some(damping.clone());
+            let damping = self.damping(&damping)?;
             match damping {
                 ratios @ Damping::Modal(_) if cut => pending = Some(ratios),
                 later @ (Damping::Modal(_) | Damping::Rayleigh { .. }) if massless => pending = Some(later),
@@ -143,9 +127,9 @@ impl Builder<'_> {
     }
 
     /// True for `planes = 2`, which `kind` must allow.
-    fn two_planes(&mut self, planes: Option<&Spanned<Number>>, kind: &str) -> Result<bool> {
+    fn two_planes(&mut self, planes: Option<Spanned<f64>>, kind: &str) -> Result<bool> {
         let Some(planes) = planes else { return Ok(false) };
-        match (planes.get_ref().0, kind) {
+        match (*planes.get_ref(), kind) {
             (1.0, _) => Ok(false),
             (2.0, "oscillator" | "chain" | "beam" | "matrices") => Ok(true),
             (2.0, kind) => {
@@ -160,14 +144,17 @@ impl Builder<'_> {
         }
     }
 
-    fn chain(&mut self, chain: file::Chain) -> Result<Chain> {
+    fn chain(&mut self, chain: &Section<'_>) -> Result<Chain> {
+        let (Some(masses), Some(springs)) = (chain.get("masses"), chain.get("springs")) else {
+            return Err(self.refuse_as(chain.span.clone(), "system.chain"));
+        };
         let (key, subject) = ("system.chain.masses", Subject::from(("chain", "masses")));
-        self.places.push((subject.clone(), chain.masses.span()));
-        let masses = match (chain.masses.get_ref(), &chain.mass) {
+        self.places.push((subject.clone(), masses.span()));
+        let masses = match (masses.get_ref(), chain.number("mass")) {
             (Value::Number(x), Some(mass)) => {
-                let count = self.count(key, *x, chain.masses.span(), MOST_MASSES)?;
+                let count = self.count(key, *x, masses.span(), MOST_MASSES)?;
                 self.places.push((subject.value(0), mass.span()));
-                vec![self.number(("chain", "mass"), mass); count]
+                vec![self.number(("chain", "mass"), &mass); count]
             }
             (Value::List(items), None) => self.list(key, subject, items)?,
             (Value::List(_), Some(mass)) => {
@@ -176,26 +163,24 @@ impl Builder<'_> {
             }
             (Value::Number(_), None) => {
                 let help = "expected mass = a number above 0, in kg: that of each";
-                return Err(self.source.error(chain.masses.span(), "`mass` is missing in `system.chain`", help));
+                return Err(self.source.error(masses.span(), "`mass` is missing in `system.chain`", help));
             }
-            _ => return Err(self.refuse_as(chain.masses.span(), key)),
+            _ => return Err(self.refuse_as(masses.span(), key)),
         };
         let (key, subject) = ("system.chain.springs", Subject::from(("chain", "springs")));
-        self.places.push((subject.clone(), chain.springs.span()));
-        let springs = match chain.springs.get_ref() {
+        self.places.push((subject.clone(), springs.span()));
+        let springs = match springs.get_ref() {
             Value::Number(k) => {
-                self.places.push((subject.value(0), chain.springs.span()));
+                self.places.push((subject.value(0), springs.span()));
                 vec![*k; masses.len().saturating_sub(1)]
             }
             Value::List(items) => self.list(key, subject, items)?,
-            _ => return Err(self.refuse_as(chain.springs.span(), key)),
+            _ => return Err(self.refuse_as(springs.span(), key)),
         };
         let mut grounds = [0.0; 2];
-        for (side, end, ground) in
-            [("left", &chain.left, 0), ("right", &chain.right, 1)].map(|(side, end, i)| (side, end, i))
-        {
-            let Some(end) = end else { continue };
-            grounds[ground] = match self.end("system.chain", side, end)? {
+        for (side, ground) in ["left", "right"].into_iter().zip(&mut grounds) {
+            let Some(end) = chain.get(side) else { continue };
+            *ground = match self.end("system.chain", side, end)? {
                 End::Free => 0.0,
                 End::Sprung { stiffness, .. } => stiffness,
                 End::Pinned | End::Clamped => return Err(self.refuse_as(end.span(), &format!("system.chain.{side}"))),
@@ -204,63 +189,60 @@ impl Builder<'_> {
         Ok(Chain { masses, springs, grounds })
     }
 
-    fn bar(&mut self, bar: file::Bar) -> Result<Bar> {
-        let mass = match bar.mass_matrix.as_ref().map(|word| word.get_ref().as_str()) {
-            None | Some("consistent") => MassMatrix::Consistent,
-            Some("lumped") => MassMatrix::Lumped,
-            Some(_) => {
-                let span = bar.mass_matrix.map_or(0..0, |word| word.span());
-                return Err(self.refuse_as(span, "system.bar.mass_matrix"));
-            }
+    fn bar(&mut self, bar: &Section<'_>) -> Result<Bar> {
+        let mass = match bar.word("mass_matrix") {
+            None => MassMatrix::Consistent,
+            Some(word) => match *word.get_ref() {
+                "consistent" => MassMatrix::Consistent,
+                "lumped" => MassMatrix::Lumped,
+                _ => return Err(self.refuse_as(word.span(), "system.bar.mass_matrix")),
+            },
         };
         let mut ends = [BarEnd::Free; 2];
-        for (i, (side, end)) in [("left", &bar.left), ("right", &bar.right)].into_iter().enumerate() {
-            ends[i] = match self.end("system.bar", side, end)? {
+        for (side, made) in ["left", "right"].into_iter().zip(&mut ends) {
+            let Some(end) = bar.get(side) else { continue };
+            *made = match self.end("system.bar", side, end)? {
                 End::Free => BarEnd::Free,
                 End::Clamped => BarEnd::Fixed,
                 End::Sprung { stiffness, .. } => BarEnd::Sprung { stiffness },
                 End::Pinned => return Err(self.refuse_as(end.span(), &format!("system.bar.{side}"))),
             };
         }
-        Ok(Bar {
-            length: self.number(("bar", "length"), &bar.length),
-            area: self.number(("bar", "area"), &bar.area),
-            youngs_modulus: self.number(("bar", "youngs_modulus"), &bar.youngs_modulus),
-            density: self.number(("bar", "density"), &bar.density),
-            elements: self.whole(("bar", "elements"), &bar.elements, MOST_ELEMENTS)?,
-            left: ends[0],
-            right: ends[1],
-            mass,
-        })
+        let [left, right] = ends;
+        let mut number = |key| self.required(("bar", key), bar, key);
+        let [length, area] = ["length", "area"].map(&mut number);
+        let [youngs_modulus, density] = ["youngs_modulus", "density"].map(&mut number);
+        let elements = self.whole(("bar", "elements"), &bar.required("elements"), MOST_ELEMENTS)?;
+        Ok(Bar { length, area, youngs_modulus, density, elements, left, right, mass })
     }
 
-    fn beam(&mut self, beam: file::Beam) -> Result<Beam> {
+    fn beam(&mut self, beam: &Section<'_>) -> Result<Beam> {
         let mut ends = [BeamEnd::Free; 2];
-        for (i, (side, end)) in [("left", &beam.left), ("right", &beam.right)].into_iter().enumerate() {
-            ends[i] = match self.end("system.beam", side, end)? {
+        for (side, made) in ["left", "right"].into_iter().zip(&mut ends) {
+            let Some(end) = beam.get(side) else { continue };
+            *made = match self.end("system.beam", side, end)? {
                 End::Free => BeamEnd::Free,
                 End::Pinned => BeamEnd::Pinned,
                 End::Clamped => BeamEnd::Clamped,
                 End::Sprung { stiffness, rotational } => BeamEnd::Sprung { stiffness, rotational },
             };
         }
-        Ok(Beam {
-            length: self.number(("beam", "length"), &beam.length),
-            youngs_modulus: self.number(("beam", "youngs_modulus"), &beam.youngs_modulus),
-            density: self.number(("beam", "density"), &beam.density),
-            outer_diameter: self.number(("beam", "outer_diameter"), &beam.outer_diameter),
-            inner_diameter: self.optional(("beam", "inner_diameter"), beam.inner_diameter.as_ref()).unwrap_or(0.0),
-            added_mass: self.optional(("beam", "added_mass"), beam.added_mass.as_ref()).unwrap_or(0.0),
-            elements: self.whole(("beam", "elements"), &beam.elements, MOST_ELEMENTS)?,
-            left: ends[0],
-            right: ends[1],
-        })
+        let [left, right] = ends;
+        let mut number = |key| self.required(("beam", key), beam, key);
+        let [length, youngs_modulus] = ["length", "youngs_modulus"].map(&mut number);
+        let [density, outer_diameter] = ["density", "outer_diameter"].map(&mut number);
+        let mut or_0 = |key| self.optional(("beam", key), beam, key).unwrap_or(0.0);
+        let [inner_diameter, added_mass] = ["inner_diameter", "added_mass"].map(&mut or_0);
+        let elements = self.whole(("beam", "elements"), &beam.required("elements"), MOST_ELEMENTS)?;
+        let made =
+            Beam { length, youngs_modulus, density, outer_diameter, inner_diameter, added_mass, elements, left, right };
+        Ok(made)
     }
 
-    fn end(&mut self, table: &str, side: &str, end: &Spanned<Value>) -> Result<End> {
+    fn end(&mut self, table: &str, side: &str, end: &Spanned<Value<'_>>) -> Result<End> {
         let key = format!("{table}.{side}");
         match end.get_ref() {
-            Value::Word(word) => match word.as_str() {
+            Value::Word(word) => match word.as_ref() {
                 "free" => Ok(End::Free),
                 "pinned" => Ok(End::Pinned),
                 "clamped" => Ok(End::Clamped),
@@ -269,17 +251,17 @@ impl Builder<'_> {
             Value::Table(entries) => {
                 let (mut stiffness, mut rotational) = (None, 0.0);
                 for (name, value) in entries {
-                    let key = format!("{key}.{}", name.get_ref());
+                    let part = format!("{key}.{}", name.get_ref());
                     let known =
                         name.get_ref() == "stiffness" || (name.get_ref() == "rotational" && table == "system.beam");
                     if !known {
                         let title = format!("unknown key `{}` in `{table}.{side}`", name.get_ref());
-                        let help = format!("expected {}", accepted(&format!("{table}.{side}")).unwrap_or_default());
+                        let help = format!("expected {}", accepted(&key).unwrap_or_default());
                         return Err(self.source.error(name.span(), &title, &help));
                     }
-                    let x = self.finite(&key, value, "a number, 0 or more")?;
+                    let x = self.finite(&part, value, "a number, 0 or more")?;
                     if x < 0.0 {
-                        return Err(self.refuse(value.span(), &key, "a number, 0 or more"));
+                        return Err(self.refuse(value.span(), &part, "a number, 0 or more"));
                     }
                     if name.get_ref() == "stiffness" { stiffness = Some(x) } else { rotational = x }
                 }
@@ -291,7 +273,7 @@ impl Builder<'_> {
     }
 
     /// A list of numbers, with the position of each noted.
-    pub fn list(&mut self, key: &str, subject: Subject, items: &[Spanned<Value>]) -> Result<Vec<f64>> {
+    pub fn list(&mut self, key: &str, subject: Subject, items: &[Spanned<Value<'_>>]) -> Result<Vec<f64>> {
         let mut list = Vec::with_capacity(items.len());
         for (i, item) in items.iter().enumerate() {
             let Value::Number(x) = item.get_ref() else { return Err(self.refuse_as(item.span(), key)) };
@@ -302,7 +284,7 @@ impl Builder<'_> {
     }
 
     /// A whole number from 1 to `most`.
-    pub fn whole(&mut self, subject: impl Into<Subject>, value: &Spanned<Number>, most: usize) -> Result<usize> {
+    pub fn whole(&mut self, subject: impl Into<Subject>, value: &Spanned<f64>, most: usize) -> Result<usize> {
         let subject = subject.into();
         let x = self.number(subject.clone(), value);
         self.count(&written(&subject), x, value.span(), most)
@@ -318,6 +300,6 @@ impl Builder<'_> {
 
     /// An error at a key, with the accepted values of that key.
     pub fn refuse_as(&self, span: Range<usize>, key: &str) -> Error {
-        self.refuse(span, key, accepted(key).unwrap_or("another value"))
+        self.refuse(span, key, &accepted(key).unwrap_or_default())
     }
 }

@@ -1,5 +1,6 @@
 //! Text files, and reasons why one cannot be read.
 
+use crate::error::unnumbered;
 use std::fs;
 use std::io::{Read, Take};
 use std::path::Path;
@@ -13,7 +14,7 @@ fn said(error: std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "no such file".to_owned(),
         std::io::ErrorKind::PermissionDenied => "not allowed to read it".to_owned(),
-        _ => error.to_string(),
+        _ => unnumbered(&error.to_string()),
     }
 }
 

@@ -1,148 +1,178 @@
-//! Values of a case file, each with its position in the text.
+//! Values of a file, each with its position in the text.
 
-use serde::Deserialize;
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
-use std::fmt;
-use std::marker::PhantomData;
+use super::report::Source;
+use crate::error::Result;
+use std::borrow::Cow;
+use std::ops::Range;
 use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
-/// A number, written as a float or an integer.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Number(pub f64);
-
-impl<'de> Deserialize<'de> for Number {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct AnyNumber;
-        impl Visitor<'_> for AnyNumber {
-            type Value = Number;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number")
-            }
-            fn visit_f64<E>(self, x: f64) -> Result<Number, E> {
-                Ok(Number(x))
-            }
-            fn visit_i64<E>(self, x: i64) -> Result<Number, E> {
-                Ok(Number(x as f64))
-            }
-            fn visit_u64<E>(self, x: u64) -> Result<Number, E> {
-                Ok(Number(x as f64))
-            }
-            fn visit_i128<E>(self, x: i128) -> Result<Number, E> {
-                Ok(Number(x as f64))
-            }
-            fn visit_u128<E>(self, x: u128) -> Result<Number, E> {
-                Ok(Number(x as f64))
-            }
-        }
-        deserializer.deserialize_any(AnyNumber)
-    }
-}
-
-/// A value of a key that accepts several forms; the reader of the key decides which.
+/// A value of a case or sweep file.
 #[derive(Debug)]
-pub(super) enum Value {
+pub(crate) enum Value<'a> {
     Number(f64),
-    Word(String),
-    List(Vec<Spanned<Value>>),
-    Table(Vec<(Spanned<String>, Spanned<Value>)>),
-    /// `true` or `false`: no key of several forms accepts it.
-    Truth,
+    Word(Cow<'a, str>),
+    Truth(bool),
+    List(Vec<Spanned<Value<'a>>>),
+    Table(Vec<Entry<'a>>),
+    Date,
 }
 
-impl<'de> Deserialize<'de> for Value {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct AnyValue;
-        impl<'de> Visitor<'de> for AnyValue {
-            type Value = Value;
+/// A key and its value.
+pub(crate) type Entry<'a> = (Name<'a>, Spanned<Value<'a>>);
+pub(crate) type Name<'a> = Spanned<Cow<'a, str>>;
 
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number, a word in quotes, a list or a table")
-            }
-            fn visit_f64<E>(self, x: f64) -> Result<Value, E> {
-                Ok(Value::Number(x))
-            }
-            fn visit_i64<E>(self, x: i64) -> Result<Value, E> {
-                Ok(Value::Number(x as f64))
-            }
-            fn visit_u64<E>(self, x: u64) -> Result<Value, E> {
-                Ok(Value::Number(x as f64))
-            }
-            fn visit_i128<E>(self, x: i128) -> Result<Value, E> {
-                Ok(Value::Number(x as f64))
-            }
-            fn visit_u128<E>(self, x: u128) -> Result<Value, E> {
-                Ok(Value::Number(x as f64))
-            }
-            fn visit_bool<E>(self, _: bool) -> Result<Value, E> {
-                Ok(Value::Truth)
-            }
-            fn visit_str<E>(self, word: &str) -> Result<Value, E> {
-                Ok(Value::Word(word.to_owned()))
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Value, A::Error> {
-                let mut items = Vec::new();
-                while let Some(item) = list.next_element()? {
-                    items.push(item);
-                }
-                Ok(Value::List(items))
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Value, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(Value::Table(entries))
-            }
-        }
-        deserializer.deserialize_any(AnyValue)
+impl<'a> Value<'a> {
+    /// The values in the text of `source`.
+    pub fn parse(source: &Source<'a>) -> Result<Spanned<Self>> {
+        let table = DeTable::parse(source.text).map_err(|error| source.toml(error.clone()).caused_by(error))?;
+        let span = table.span();
+        Ok(Spanned::new(span.clone(), Self::new(source, span, DeValue::Table(table.into_inner()))?))
     }
-}
 
-impl Value {
+    fn new(source: &Source<'a>, span: Range<usize>, value: DeValue<'a>) -> Result<Self> {
+        let spanned = |value: Spanned<DeValue<'a>>| {
+            let span = value.span();
+            Ok(Spanned::new(span.clone(), Self::new(source, span, value.into_inner())?))
+        };
+        Ok(match value {
+            DeValue::String(word) => Self::Word(word),
+            DeValue::Integer(x) if x.radix() == 10 => {
+                // Of the integer −0 the sign is no part.
+                Self::Number(x.as_str().parse().map_or(f64::NAN, |x: f64| x + 0.0))
+            }
+            DeValue::Integer(x) => match u128::from_str_radix(x.as_str(), x.radix()) {
+                Ok(x) => Self::Number(x as f64),
+                Err(_) => return Err(source.overflow(span)),
+            },
+            DeValue::Float(x) => match x.as_str().parse::<f64>() {
+                Ok(number) if number.is_finite() || x.as_str().contains(['n', 'N']) => Self::Number(number),
+                _ => return Err(source.overflow(span)),
+            },
+            DeValue::Boolean(truth) => Self::Truth(truth),
+            DeValue::Datetime(_) => Self::Date,
+            DeValue::Array(list) => Self::List(list.into_iter().map(spanned).collect::<Result<_>>()?),
+            DeValue::Table(table) => {
+                let entry = |(key, value)| Ok((key, spanned(value)?));
+                Self::Table(table.into_iter().map(entry).collect::<Result<_>>()?)
+            }
+        })
+    }
+
     /// The kind of the value, for messages.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Number(_) => "a number",
             Self::Word(_) => "text",
+            Self::Truth(_) => "true or false",
             Self::List(_) => "a list",
-            Self::Table(_) => "a table or a date",
-            Self::Truth => "true or false",
+            Self::Table(_) => "a table",
+            Self::Date => "a date",
         }
     }
 }
 
-/// A table and its position. Unlike a bare struct, which serde also reads from a list by position,
-/// it accepts only a table.
-#[derive(Debug)]
-pub(super) struct Section<T> {
-    pub span: std::ops::Range<usize>,
-    pub value: T,
+/// A table of the file and its position. Its keys have the types of their schema, so that a value
+/// of another type is not met here.
+#[derive(Debug, Clone)]
+pub(crate) struct Section<'a> {
+    pub span: Range<usize>,
+    entries: &'a [Entry<'a>],
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Section<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let table = Spanned::<TableOnly<T>>::deserialize(deserializer)?;
-        Ok(Self { span: table.span(), value: table.into_inner().0 })
+impl<'a> Section<'a> {
+    /// The whole file.
+    pub fn root(values: &'a Spanned<Value<'a>>) -> Self {
+        Self::of(values).unwrap_or(Self { span: 0..0, entries: &[] })
+    }
+
+    /// The table at `value`; `None` for another value.
+    pub fn of(value: &'a Spanned<Value<'a>>) -> Option<Self> {
+        match value.get_ref() {
+            Value::Table(entries) => Some(Self { span: value.span(), entries }),
+            _ => None,
+        }
+    }
+
+    pub fn entries(&self) -> &'a [Entry<'a>] {
+        self.entries
+    }
+
+    /// The value at `key`.
+    pub fn get(&self, key: &str) -> Option<&'a Spanned<Value<'a>>> {
+        self.entries.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value)
+    }
+
+    /// The position of the value at `key`.
+    pub fn span_of(&self, key: &str) -> Option<Range<usize>> {
+        self.get(key).map(Spanned::span)
+    }
+
+    pub fn number(&self, key: &str) -> Option<Spanned<f64>> {
+        number(self.get(key)?)
+    }
+
+    /// A number that the table must have, which has been checked; where it is missing all the same,
+    /// it is not a number, which nothing accepts.
+    pub fn required(&self, key: &str) -> Spanned<f64> {
+        self.number(key).unwrap_or_else(|| Spanned::new(self.span.clone(), f64::NAN))
+    }
+
+    pub fn numbers(&self, key: &str) -> Option<Spanned<Vec<Spanned<f64>>>> {
+        let value = self.get(key)?;
+        let Value::List(items) = value.get_ref() else { return None };
+        Some(Spanned::new(value.span(), items.iter().filter_map(number).collect()))
+    }
+
+    pub fn word(&self, key: &str) -> Option<Spanned<&'a str>> {
+        let value = self.get(key)?;
+        let Value::Word(word) = value.get_ref() else { return None };
+        Some(Spanned::new(value.span(), word))
+    }
+
+    /// A word that the table must have, which has been checked; where it is missing all the same,
+    /// it is empty, which nothing accepts.
+    pub fn required_word(&self, key: &str) -> Spanned<&'a str> {
+        self.word(key).unwrap_or_else(|| Spanned::new(self.span.clone(), ""))
+    }
+
+    /// The position of `key` where it is true.
+    pub fn truth(&self, key: &str) -> Option<Range<usize>> {
+        self.get(key).filter(|value| matches!(value.get_ref(), Value::Truth(true))).map(Spanned::span)
+    }
+
+    pub fn section(&self, key: &str) -> Option<Section<'a>> {
+        Section::of(self.get(key)?)
+    }
+
+    /// A table that this one must have, which has been checked; empty where it is missing all the
+    /// same.
+    pub fn required_section(&self, key: &str) -> Section<'a> {
+        self.section(key).unwrap_or_else(|| Section { span: self.span.clone(), entries: &[] })
+    }
+
+    #[cfg(feature = "cli")]
+    pub fn words(&self, key: &str) -> Option<Vec<String>> {
+        let Value::List(items) = self.get(key)?.get_ref() else { return None };
+        let word = |item: &Spanned<Value<'_>>| match item.get_ref() {
+            Value::Word(word) => Some(word.to_string()),
+            _ => None,
+        };
+        Some(items.iter().filter_map(word).collect())
+    }
+
+    /// The tables in double brackets under `key`.
+    pub fn sections(&self, key: &str) -> Vec<Section<'a>> {
+        match self.get(key).map(Spanned::get_ref) {
+            Some(Value::List(tables)) => tables.iter().filter_map(Section::of).collect(),
+            _ => Vec::new(),
+        }
     }
 }
 
-struct TableOnly<T>(T);
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for TableOnly<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct AnyTable<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for AnyTable<T> {
-            type Value = TableOnly<T>;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a table")
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TableOnly<T>, A::Error> {
-                T::deserialize(MapAccessDeserializer::new(map)).map(TableOnly)
-            }
-        }
-        deserializer.deserialize_any(AnyTable(PhantomData))
+fn number(value: &Spanned<Value<'_>>) -> Option<Spanned<f64>> {
+    match value.get_ref() {
+        Value::Number(x) => Some(Spanned::new(value.span(), *x)),
+        _ => None,
     }
 }

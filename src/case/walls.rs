@@ -1,11 +1,10 @@
 //! Reads the tables `[[wall]]`, and makes the default probes.
 
 use super::builder::Builder;
-use super::file;
 use super::model::{Model, Place};
 use super::place::{MOST_PLACES, Site};
 use super::planes::Planes;
-use super::value::{Number, Section};
+use super::value::Section;
 use crate::error::{Error, Result, Subject};
 use crate::scene::{ModalData, Probe, Row, Side, Wall, WallLaw};
 use std::ops::Range;
@@ -20,17 +19,16 @@ pub(super) struct NewWall {
 
 impl Builder<'_> {
     /// The walls of table `index`, the first of which has index `first` in the scene.
-    pub fn walls(&mut self, index: usize, first: usize, section: Section<file::Wall>) -> Result<Vec<NewWall>> {
-        let Section { span, value: wall } = section;
-        let base = self.name(&format!("wall {}: name", index + 1), &wall.name)?;
+    pub fn walls(&mut self, index: usize, first: usize, wall: &Section<'_>) -> Result<Vec<NewWall>> {
+        let base = self.name_of(&format!("wall {}: name", index + 1), wall)?;
         let owner = format!("wall {base:?}");
-        let sides = self.sides(&owner, &wall, span.clone())?;
-        let law = self.law_of(&owner, [&wall.restitution, &wall.stiffness, &wall.damping])?;
+        let sides = self.sides(&owner, wall)?;
+        let law = self.law_of(&owner, wall)?;
         let mut walls = Vec::new();
-        let sites = self.sites((&owner, Subject::wall(&base)), wall.at.as_ref(), span.clone(), false)?;
+        let sites = self.sites((&owner, Subject::wall(&base)), wall, false)?;
         let count = first + sites.len() * sides.len();
         if count > MOST_PLACES {
-            let place = wall.at.as_ref().map_or(span.clone(), Spanned::span);
+            let place = wall.span_of("at").unwrap_or(wall.span.clone());
             return Err(self.source.error(
                 place,
                 &format!("{owner} makes {count} walls"),
@@ -38,13 +36,13 @@ impl Builder<'_> {
             ));
         }
         for site in sites {
-            let site = self.towards(site, wall.direction.as_ref(), &owner, &span)?;
+            let site = self.towards(site, wall.number("direction").as_ref(), &owner, &wall.span)?;
             let name = format!("{base}{}", site.suffix);
             for &(side, position, suffix) in &sides {
                 let full = format!("{name}{suffix}");
-                self.note(first + walls.len(), &full, &wall);
+                self.note_wall(first + walls.len(), &full, wall);
                 let Site { place, row, .. } = &site;
-                let wall = Wall { name: full, side, position, law, at: row.clone() };
+                let wall = Wall { law, ..Wall::flat(&full, side, position).at(row.clone()) };
                 walls.push(NewWall { wall, site: name.clone(), place: place.clone() });
             }
         }
@@ -52,34 +50,28 @@ impl Builder<'_> {
     }
 
     /// Notes the positions of the values of a wall, under the name that it has in the scene.
-    fn note(&mut self, number: usize, name: &str, wall: &file::Wall) {
-        self.places.push((Subject::nth("wall", number).part("name"), wall.name.span()));
-        let position = wall.position.as_ref().or(wall.gap.as_ref());
-        let keys = [
-            ("position", position.map(Spanned::span)),
-            ("restitution", wall.restitution.as_ref().map(Spanned::span)),
-            ("stiffness", wall.stiffness.as_ref().map(Spanned::span)),
-            ("damping", wall.damping.as_ref().map(Spanned::span)),
-            ("at", wall.at.as_ref().map(Spanned::span)),
-        ];
-        for (key, span) in keys {
-            self.places.extend(span.map(|span| (Subject::wall(name).part(key), span)));
+    pub fn note_wall(&mut self, number: usize, name: &str, table: &Section<'_>) {
+        self.note(Subject::nth("wall", number).part("name"), table.span_of("name"));
+        self.note(Subject::wall(name).part("position"), table.span_of("position").or(table.span_of("gap")));
+        for key in ["restitution", "stiffness", "damping", "at"] {
+            self.note(Subject::wall(name).part(key), table.span_of(key));
         }
     }
 
     /// Side, position, and the suffix of its name.
-    fn sides(&self, owner: &str, wall: &file::Wall, span: Range<usize>) -> Result<Vec<(Side, f64, &'static str)>> {
-        let side = match wall.side.get_ref().as_str() {
+    fn sides(&self, owner: &str, wall: &Section<'_>) -> Result<Vec<(Side, f64, &'static str)>> {
+        let (word, span) = (wall.required_word("side"), wall.span.clone());
+        let side = match *word.get_ref() {
             "upper" => Side::Upper,
             "lower" => Side::Lower,
             "both" => {
-                let Some(gap) = &wall.gap else {
+                let Some(gap) = wall.number("gap") else {
                     let help =
                         "expected gap = a number, 0 or more, in m: how far each of the two walls stands from position";
                     return Err(self.source.error(span, "`gap` is missing in `wall`", help));
                 };
-                let centre = wall.position.as_ref().map_or(0.0, |x| x.get_ref().0);
-                let half = gap.get_ref().0;
+                let centre = wall.number("position").map_or(0.0, Spanned::into_inner);
+                let half = *gap.get_ref();
                 if !(half.is_finite() && half >= 0.0) {
                     return Err(self.refuse(gap.span(), &format!("{owner}: gap"), "a finite number, 0 or more, in m"));
                 }
@@ -87,19 +79,16 @@ impl Builder<'_> {
             }
             _ => {
                 let expected = "\"upper\" or \"lower\", or \"both\" with gap";
-                return Err(self.refuse(wall.side.span(), &format!("{owner}: side"), expected));
+                return Err(self.refuse(word.span(), &format!("{owner}: side"), expected));
             }
         };
-        if let Some(gap) = &wall.gap {
+        if let Some(gap) = wall.span_of("gap") {
             let title = format!("{owner} has a gap and one side");
-            return Err(self.source.error(
-                gap.span(),
-                &title,
-                "expected position, in m; gap goes with side = \"both\"",
-            ));
+            let help = "expected position, in m; gap goes with side = \"both\"";
+            return Err(self.source.error(gap, &title, help));
         }
-        match &wall.position {
-            Some(position) => Ok(vec![(side, position.get_ref().0, "")]),
+        match wall.number("position") {
+            Some(position) => Ok(vec![(side, position.into_inner(), "")]),
             None => {
                 Err(self.source.error(span, "`position` is missing in `wall`", "expected position = a number, in m"))
             }
@@ -107,32 +96,29 @@ impl Builder<'_> {
     }
 
     /// The law of a wall or support from its restitution, stiffness and damping.
-    pub fn law_of(&self, owner: &str, values: [&Option<Spanned<Number>>; 3]) -> Result<WallLaw> {
-        let number = |value: &Option<Spanned<Number>>| value.as_ref().map(|x| x.get_ref().0);
-        let at = |value: &Option<Spanned<Number>>| value.as_ref().map_or(0..0, Spanned::span);
-        let [restitution, stiffness, damping] = values;
-        if let (Some(e), true, None) = (restitution, self.static_correction, stiffness) {
+    pub fn law_of(&self, owner: &str, table: &Section<'_>) -> Result<WallLaw> {
+        let number = |key| table.number(key).map(Spanned::into_inner);
+        let at = |key| table.span_of(key).unwrap_or(0..0);
+        let [restitution, stiffness, damping] = ["restitution", "stiffness", "damping"].map(number);
+        if let (Some(_), true, None) = (restitution, self.static_correction, stiffness) {
             let help = "expected no restitution beside static_correction: the rigid wall becomes one of the \
                         compliance that the modes leave out, \
                         which has no mass, and what has no mass cannot rebound";
-            return Err(self.source.error(
-                e.span(),
-                &format!("{owner} has restitution, and static_correction is true"),
-                help,
-            ));
+            let title = format!("{owner} has restitution, and static_correction is true");
+            return Err(self.source.error(at("restitution"), &title, help));
         }
-        match (number(restitution), number(stiffness), number(damping)) {
+        match (restitution, stiffness, damping) {
             (None, None, None) => Ok(WallLaw::Rigid { restitution: 1.0 }),
             (Some(restitution), None, None) => Ok(WallLaw::Rigid { restitution }),
             (None, Some(stiffness), damping) => Ok(WallLaw::Elastic { stiffness, damping: damping.unwrap_or(0.0) }),
             (Some(_), Some(_), _) => Err(self.source.error(
-                at(restitution),
+                at("restitution"),
                 &format!("{owner} has both restitution and stiffness"),
                 "expected restitution for a rigid wall, or stiffness for an elastic one; what an elastic wall gives \
                  back follows from its stiffness and damping",
             )),
             (_, None, Some(_)) => Err(self.source.error(
-                at(damping),
+                at("damping"),
                 &format!("{owner} has damping without stiffness"),
                 "expected stiffness beside it, in N/m (an elastic wall); a rigid wall loses energy by restitution",
             )),
@@ -142,24 +128,28 @@ impl Builder<'_> {
     /// The probes of the file, or the default ones: one at each location with walls, with the name
     /// of the first wall there; without walls one in the middle of a bar or beam, else one at the
     /// first degree of freedom. With one degree of freedom there is a single probe, without a name.
-    pub fn probes(&mut self, probes: Vec<Section<file::Probe>>, walls: &[NewWall]) -> Result<Vec<Probe>> {
+    pub fn probes(&mut self, probes: &[Section<'_>], walls: &[NewWall]) -> Result<Vec<Probe>> {
         let mut all: Vec<Probe> = Vec::new();
         if probes.is_empty() {
             return self.default_probes(walls);
         }
-        for (index, Section { span, value: probe }) in probes.into_iter().enumerate() {
+        for (index, probe) in probes.iter().enumerate() {
             let key = format!("probe {}: name", index + 1);
-            let base = self.name(&key, &probe.name)?;
+            let base = self.name_of(&key, probe)?;
             let owner = format!("probe {base:?}");
-            for site in self.sites((&owner, Subject::probe(&base)), probe.at.as_ref(), span.clone(), false)? {
-                let ways = match &probe.direction {
-                    Some(_) => vec![("", self.towards(site, probe.direction.as_ref(), &owner, &span)?)],
+            for site in self.sites((&owner, Subject::probe(&base)), probe, false)? {
+                let ways = match probe.number("direction") {
+                    Some(direction) => vec![("", self.towards(site, Some(&direction), &owner, &probe.span)?)],
                     None => self.both_ways(&site)?,
                 };
                 for (way, Site { suffix, place, row }) in ways {
                     let name = format!("{base}{suffix}{way}");
                     if all.iter().any(|other| other.name == name) {
-                        return Err(self.refuse(probe.name.span(), &key, "a name of its own for each probe"));
+                        return Err(self.refuse(
+                            probe.required_word("name").span(),
+                            &key,
+                            "a name of its own for each probe",
+                        ));
                     }
                     self.written.probes.push(place);
                     all.push(Probe { name, at: row });
@@ -167,7 +157,11 @@ impl Builder<'_> {
             }
             if all.len() > MOST_PLACES {
                 let title = format!("{} probes with those of {owner}", all.len());
-                return Err(self.source.error(span, &title, &format!("expected at most {MOST_PLACES} in all")));
+                return Err(self.source.error(
+                    probe.span.clone(),
+                    &title,
+                    &format!("expected at most {MOST_PLACES} in all"),
+                ));
             }
         }
         Ok(all)
@@ -185,17 +179,8 @@ impl Builder<'_> {
                 Place::Towards { place, .. } => {
                     Site { suffix: site.clone(), place: Place::clone(place), row: Row::new(Vec::new()) }
                 }
-                _ => Site { suffix: site.clone(), place: place.clone(), row: wall.at.clone() },
+                _ => Site { suffix: site.clone(), place: place.clone(), row: wall.row().clone() },
             };
-            for (way, Site { suffix, place, row }) in self.both_ways(&site)? {
-                if all.iter().all(|probe| probe.at != row) {
-                    self.written.probes.push(place);
-                    all.push(Probe { name: format!("{suffix}{way}"), at: row });
-                }
-            }
-        }
-        for support in self.written.supports.clone().into_iter().filter(|support| support.flats.is_none()) {
-            let site = Site { suffix: support.name, place: support.place, row: Row::new(Vec::new()) };
             for (way, Site { suffix, place, row }) in self.both_ways(&site)? {
                 if all.iter().all(|probe| probe.at != row) {
                     self.written.probes.push(place);
@@ -221,14 +206,20 @@ impl Builder<'_> {
         Ok(all)
     }
 
-    /// A name that is valid in CSV headers.
-    pub fn name(&self, key: &str, name: &Spanned<String>) -> Result<String> {
+    /// The name of a wall, support or probe.
+    pub fn name_of(&self, key: &str, table: &Section<'_>) -> Result<String> {
+        let name = table.required_word("name");
+        self.name(key, name.get_ref(), name.span())?;
+        Ok((*name.get_ref()).to_owned())
+    }
+
+    /// Refuses a name that is not valid in CSV headers.
+    pub fn name(&self, key: &str, name: &str, span: Range<usize>) -> Result<()> {
         let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-        let word = name.get_ref();
-        if word.is_empty() || !word.chars().all(fits) {
-            return Err(self.refuse(name.span(), key, "letters, digits, - and _"));
+        if name.is_empty() || !name.chars().all(fits) {
+            return Err(self.refuse(span, key, "letters, digits, - and _"));
         }
-        Ok(word.clone())
+        Ok(())
     }
 
     /// The error of a builder, shown at its key.

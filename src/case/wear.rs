@@ -1,11 +1,9 @@
 //! Reads the table `[wear]`, and makes the law of wear of each support.
 
 use super::builder::Builder;
-use super::file;
 use super::value::Section;
 use super::{Case, TimeOptions};
 use crate::error::Result;
-use crate::scene::Shape;
 use crate::wear::{Archard, Bearing, Scar};
 use std::ops::Range;
 use toml::Spanned;
@@ -25,14 +23,14 @@ pub struct WearOptions {
 
 impl Builder<'_> {
     /// The table `[wear]` and its number of sectors; all supports have been read.
-    pub fn wear(&mut self, wear: Option<&Section<file::Wear>>) -> Result<(WearOptions, usize)> {
+    pub fn wear(&mut self, wear: Option<&Section<'_>>) -> Result<(WearOptions, usize)> {
         let own = self
             .written
             .supports
             .iter()
             .find(|support| support.scarred.coefficient.is_some() || support.scarred.support_coefficient.is_some());
         let own = own.map(|support| support.name.clone());
-        let Some(Section { span, value: wear }) = wear else {
+        let Some(wear) = wear else {
             return match own.and_then(|name| self.coefficient_of(&name).map(|at| (name, at))) {
                 Some((name, at)) => {
                     let title = format!("support {name:?} has a wear coefficient, and there is no service");
@@ -43,35 +41,32 @@ impl Builder<'_> {
         };
         if self.written.supports.is_empty() {
             let help = "expected one [[support]] or more beside it: only at these something slides";
-            return Err(self.source.error(span.clone(), "`wear` without a support", help));
+            return Err(self.source.error(wear.span.clone(), "`wear` without a support", help));
         }
         let options = WearOptions {
-            coefficient: self.above_0("wear", "coefficient", "1/Pa", wear.coefficient.as_ref())?,
-            support_coefficient: self.above_0(
-                "wear",
-                "support_coefficient",
-                "1/Pa",
-                wear.support_coefficient.as_ref(),
-            )?,
-            service: self.above_0("wear", "service", "s", wear.service.as_ref())?,
+            coefficient: self.above_0("wear", "coefficient", "1/Pa", wear)?,
+            support_coefficient: self.above_0("wear", "support_coefficient", "1/Pa", wear)?,
+            service: self.above_0("wear", "service", "s", wear)?,
         };
-        let coefficient = wear.coefficient.as_ref().or(wear.support_coefficient.as_ref());
-        match (coefficient, &wear.service) {
-            (Some(at), None) => Err(self.source.error(at.span(), "`wear` has a coefficient and no service", SERVICE)),
+        let coefficient = wear.span_of("coefficient").or(wear.span_of("support_coefficient"));
+        match (coefficient, wear.span_of("service")) {
+            (Some(at), None) => Err(self.source.error(at, "`wear` has a coefficient and no service", SERVICE)),
             (None, Some(at)) if own.is_none() => {
                 let help = "expected coefficient beside it, in 1/Pa: volume = coefficient x work rate x service";
-                Err(self.source.error(at.span(), "`wear` has a service and no coefficient", help))
+                Err(self.source.error(at, "`wear` has a service and no coefficient", help))
             }
-            _ if own.is_some() && options.service.is_none() => {
-                Err(self.source.error(span.clone(), "`wear` has no service, and a support has a coefficient", SERVICE))
-            }
-            _ => Ok((options, self.sectors(wear.sectors.as_ref())?)),
+            _ if own.is_some() && options.service.is_none() => Err(self.source.error(
+                wear.span.clone(),
+                "`wear` has no service, and a support has a coefficient",
+                SERVICE,
+            )),
+            _ => Ok((options, self.sectors(wear.number("sectors"))?)),
         }
     }
 
-    fn sectors(&mut self, sectors: Option<&Spanned<super::value::Number>>) -> Result<usize> {
+    fn sectors(&mut self, sectors: Option<Spanned<f64>>) -> Result<usize> {
         let Some(value) = sectors else { return Ok(TimeOptions::SECTORS) };
-        self.whole("sectors", value, TimeOptions::MOST_SECTORS)
+        self.whole("sectors", &value, TimeOptions::MOST_SECTORS)
     }
 
     /// The position of the coefficient of the support `name`, if it has one.
@@ -94,10 +89,8 @@ impl Case {
         let coefficient = scarred.coefficient.or(self.wear.coefficient);
         let support_coefficient = scarred.support_coefficient.or(self.wear.support_coefficient);
         coefficient.or(support_coefficient)?;
-        let bearing = match self.scene.supports.get(index)?.shape {
-            Shape::Round { gap, .. } => Bearing::Hole { gap },
-            Shape::Flats(_) => Bearing::Flat,
-        };
+        let hole = self.scene.supports.get(index)?.hole(&self.scene.walls);
+        let bearing = hole.map_or(Bearing::Flat, |hole| Bearing::Hole { gap: hole.gap });
         let scar = scarred.scar.map(|(width, radius)| Scar { width, radius, bearing });
         Some(Archard { coefficient, support_coefficient, service: self.wear.service?, scar })
     }

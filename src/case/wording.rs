@@ -1,6 +1,6 @@
 //! The keys of a case file for the values of a scene.
 
-use crate::error::{Error, Part, Subject};
+use crate::error::{Part, Subject};
 
 /// The subject of an error, as a case file writes it.
 pub(super) fn written(subject: &Subject) -> String {
@@ -28,14 +28,4 @@ pub(super) fn written(subject: &Subject) -> String {
         _ => return subject.to_string(),
     };
     key + &rest
-}
-
-/// The same error, with the key of the case file as its subject.
-pub(super) fn in_keys(error: Error) -> Error {
-    match error {
-        Error::Invalid { subject, value, expected } => {
-            Error::Invalid { subject: written(&subject).into(), value, expected }
-        }
-        other => other,
-    }
 }

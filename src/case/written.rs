@@ -4,10 +4,9 @@
 use super::Case;
 use super::Place;
 use super::digest::sha256;
-use super::table::TableColumns;
-use crate::scene::{Damping, Flats, Load, RandomForce};
 #[cfg(feature = "cli")]
-use crate::scene::{Row, Wall, WallLaw};
+use crate::scene::Row;
+use crate::scene::{Flats, Load, RandomForce};
 use crate::study::truncation::Start;
 use serde::Serialize;
 
@@ -25,11 +24,6 @@ pub struct Written {
     pub supports: Vec<Support>,
     /// The start: given, or a static equilibrium.
     pub start: Start,
-    /// `[system.damping]`; `None` where the file has no such table.
-    pub damping: Option<Damping>,
-    /// Files of matrices by the key that names them: `mass`, `stiffness`, `damping`, and `matrix`
-    /// of `[system.damping]`.
-    pub matrices: Vec<(&'static str, String)>,
     /// Every file that was read.
     pub files: Vec<FileRead>,
 }
@@ -38,15 +32,8 @@ pub struct Written {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Origin {
-    /// By its numbers, which the scene shows.
+    /// By its numbers or as a table, which the scene shows.
     Stated,
-    /// As a table.
-    Table {
-        /// Name of the file.
-        file: String,
-        /// The columns that were read.
-        columns: TableColumns,
-    },
     /// As a random force.
     Random {
         /// The force, of which the scene has a table.
@@ -58,17 +45,8 @@ pub enum Origin {
     },
     /// The signal along z of such a force; these come after all loads of the file.
     Second(RandomForce),
-    /// As a motion of the base.
-    Base {
-        /// Name of the file.
-        file: String,
-        /// The columns that were read.
-        columns: TableColumns,
-        /// ι of matrices and modal data: pairs (degree of freedom, displacement).
-        influence: Option<Vec<(usize, f64)>>,
-        /// The direction of the motion in two planes, degrees from +y towards +z.
-        direction: Option<f64>,
-    },
+    /// As a motion of the base, from the file of that name.
+    Base(String),
 }
 
 /// A load of the scene, its location, and how the file gave it.
@@ -126,39 +104,15 @@ impl PartialEq for FileRead {
     }
 }
 
-/// Used by summaries, which contain the case.
 #[cfg(feature = "cli")]
 impl Case {
     /// The row of a location of the file in the scene that is condensed but not reduced; `None`
     /// where it includes condensed degrees of freedom.
     pub(crate) fn sees(&self, place: &Place) -> Option<Row> {
         let row = self.planes.row(&self.model, place).ok()?;
-        self.kept(&row)
-    }
-
-    /// The row on the system of the file in the scene that is condensed but not reduced.
-    fn kept(&self, row: &Row) -> Option<Row> {
-        let Some(condensation) = &self.condensation else { return Some(row.clone()) };
+        let Some(condensation) = &self.condensation else { return Some(row) };
         let kept = |&(i, weight): &(usize, f64)| Some((condensation.kept.binary_search(&i).ok()?, weight));
         row.entries().iter().map(kept).collect::<Option<_>>().map(Row::new)
-    }
-
-    /// The law of the walls of support number `index`, if the scene has them as the file gave them;
-    /// only their law may have been changed since, and must be the same for all of them.
-    pub(crate) fn law_of_flats(&self, index: usize) -> Option<WallLaw> {
-        let (flats, first) = self.written.supports.get(index)?.flats.as_ref()?;
-        let made = flats.walls().ok()?;
-        let there = self.whole().walls.get(*first..first + made.len())?;
-        let law = there.first()?.law;
-        let same = |(wall, made): (&Wall, &Wall)| {
-            self.kept(&made.at).is_some_and(|at| *wall == Wall { at, law, ..made.clone() })
-        };
-        there.iter().zip(&made).all(same).then_some(law)
-    }
-
-    /// The number in the file of degree of freedom `i` of the scene before its reduction.
-    pub(crate) fn numbered(&self, i: usize) -> usize {
-        self.condensation.as_ref().and_then(|condensation| condensation.kept.get(i)).copied().unwrap_or(i)
     }
 }
 

@@ -1,17 +1,17 @@
 //! `signorini chart`: accuracy against speed.
 
-use super::pace::Pace;
-use super::refuted::Refutations;
+use super::case_args::CaseArgs;
+use super::estimate::DurationEstimate;
+use super::pipeline::{Destination, Shown};
+use super::request::Request;
 use super::ui::Ui;
-use super::{request, values};
+use super::values;
 use crate::case::Case;
 use crate::error::{Error, Result};
-use crate::output::asked::{asked, with};
 use crate::output::cheapest::{cheapest, conclusion, rows, table};
-use crate::output::document;
+use crate::output::request::{extended, request};
 use crate::output::results::Results;
-use crate::output::summary;
-use crate::output::work_precision as output;
+use crate::output::{document, work_precision as output};
 use crate::study::work_precision::{Effort, Outcome, Peer, Series, Steps, WorkPrecision, every_method, read, study};
 use serde_json::json;
 use std::path::PathBuf;
@@ -35,12 +35,8 @@ program,method,error_over_gap,seconds; benches/peers makes one.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in
-    /// case
-    #[arg(value_hint = clap::ValueHint::FilePath)]
-    case: String,
     #[command(flatten)]
-    changes: request::Changes,
+    case: CaseArgs,
     /// End of the run, s; the comparison ends earlier where the motion is too sensitive
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     end: Option<f64>,
@@ -67,24 +63,21 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     with: Option<PathBuf>,
     #[command(flatten)]
-    place: request::Destination,
+    place: Destination,
 }
 
-pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let request = args.request();
-    let case = request.case(ui)?;
+pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+    let Args { end, restitution, .. } = *args;
+    let settings = Request { case: args.case.clone(), end, restitution, ..Request::default() };
+    let case = settings.read(ui)?;
     let methods = match &args.schemes {
-        Some(list) => {
-            super::compare::split(list).map(|name| request.method(name, &case)).collect::<Result<Vec<_>>>()?
-        }
+        Some(list) => settings.methods(list, &case)?,
         None => every_method(&case.penalty.laws),
     };
     let effort = args.effort()?;
     let peers = args.with.as_deref().map(read).transpose()?.unwrap_or_default();
-    /// Resolution of the progress bar.
-    const UNITS: f64 = 1000.0;
-    let asked = with(
-        asked("chart", &case, &methods),
+    let asked = extended(
+        request("chart", &case, &methods),
         json!({
             "step_s": null,
             "sample_s": null,
@@ -95,68 +88,42 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
             "with": args.with,
         }),
     );
-    let mut results = request.results(&case, "chart", asked)?;
-    let pace = Pace::of_chart(&case.scene, &methods, args.levels, args.longest);
-    let progress = ui.paced("charting", UNITS as u64, pace);
-    let chart = study(&case.scene, &methods, &effort, &|share| progress.set((UNITS * share) as u64));
-    progress.finish();
-    let chart = chart?;
-    let refuted = refutations(&chart);
-    refuted.announce(ui);
+    let mut results = args.place.open(&case, "chart", asked)?;
+    let estimate = DurationEstimate::of_chart(&case.scene, &methods, args.levels, args.longest);
+    let chart = ui.with_estimate("charting", estimate, |bar| {
+        study(&case.scene, &methods, &effort, &|share| bar.set_share(share))
+    })?;
+    refute(&chart, ui);
     any_ran(&chart)?;
     write(&mut results, &case, &chart, &peers)?;
-    results.tell("case_file", summary::case_file(&case));
-    results.tell("remarks", json!(case.notes()));
     let best = cheapest(&chart, &peers);
     let conclusion = conclusion(&case.scene, &chart, &peers, &best);
+    results.tell("case_file", case.document.json()?);
+    results.tell("remarks", json!(case.notes()));
     results.tell("conclusion", json!(conclusion));
     results.tell("cheapest", rows(&best));
-    super::run::finish(&mut results, "", !request.place.no_report, ui)?;
-    if ui.json() {
-        let mut document = document::chart(&case, &chart);
-        document["conclusion"] = json!(conclusion);
-        document["cheapest"] = rows(&best);
-        ui.document(&super::run::with_folder(document, &results))?;
-    } else {
-        ui.table(&table(&best), "work-precision.csv")?;
-        ui.message(&conclusion);
-    }
-    report(&case, &chart, ui);
-    refuted.verdict()
+    let mut document = document::chart(&case, &chart);
+    document["conclusion"] = json!(conclusion);
+    document["cheapest"] = rows(&best);
+    let mut shown = Shown::of(results, !args.place.no_report, document);
+    shown.table(table(&best), "work-precision.csv");
+    shown.remarks([conclusion]);
+    shown.messages(messages(&case, &chart));
+    Ok(shown)
 }
 
-/// The points that the judge has refuted: the CSV marks their rows, the picture does not show them.
-fn refutations(chart: &WorkPrecision) -> Refutations {
-    let mut refuted = Refutations::default();
+/// Reports the points that the judge has refuted: the CSV marks their rows, the picture does not
+/// show them.
+fn refute(chart: &WorkPrecision, ui: &Ui) {
     for (series, point) in chart.series.iter().flat_map(|s| s.points.iter().map(move |p| (s, p))) {
         if let Outcome::Failed(error) = &point.outcome {
             let step = point.step.map_or_else(String::new, |h| format!(", h = {h:.2e} s"));
-            refuted.see_error(&format!("{}{step}", series.method), error);
+            ui.refute_failed(&format!("{}{step}", series.method), error);
         }
     }
-    refuted
 }
 
 impl Args {
-    fn request(&self) -> request::Request {
-        request::Request {
-            case: self.case.clone(),
-            changes: self.changes.clone(),
-            step: None,
-            end: self.end,
-            sample: None,
-            force_averaging: None,
-            restitution: self.restitution,
-            modes: None,
-            epsilon: None,
-            qp: None,
-            theta: None,
-            rho: None,
-            integrator: None,
-            place: self.place.clone(),
-        }
-    }
-
     fn effort(&self) -> Result<Effort> {
         let mut steps = Steps { levels: Some(self.levels), ..Steps::default() };
         if let Some(text) = &self.steps {
@@ -200,43 +167,44 @@ fn write(results: &mut Results, case: &Case, chart: &WorkPrecision, peers: &[Pee
     Ok(())
 }
 
-fn report(case: &Case, chart: &WorkPrecision, ui: &Ui) {
+/// Up to when the methods are compared, with which reference, and what each of them reached.
+fn messages(case: &Case, chart: &WorkPrecision) -> Vec<String> {
     let (horizon, reference) = (&chart.horizon, &chart.reference);
-    ui.message(&format!(
+    let mut messages = Vec::new();
+    messages.push(format!(
         "compared up to t = {:.4} s of {} s: a small change of the start grows by {:.1e} until then, {:.1e} \
          over all ({})",
         horizon.end, case.scene.duration, horizon.growth, horizon.growth_of_all, horizon.how
     ));
-    ui.message(&format!(
-        "reference: {}; known to {:.1e} of the gap",
-        reference.how, reference.uncertainty.displacement
-    ));
+    messages
+        .push(format!("reference: {}; known to {:.1e} of the gap", reference.how, reference.uncertainty.displacement));
     for floor in &chart.floors {
         match (&floor.reference, &floor.errors) {
-            (Ok(own), Some(errors)) => ui.message(&format!(
+            (Ok(own), Some(errors)) => messages.push(format!(
                 "penalty {}: no step reduces its error against the rigid walls below {:.1e} of the gap; its own \
                  motion up to t = {:.4} s: {}, known to {:.1e}",
                 floor.law, errors.displacement, floor.end, own.how, own.uncertainty.displacement
             )),
             (Err(error), _) => {
-                ui.message(&format!("penalty {}: no motion of its own to compare with: {error}", floor.law))
+                messages.push(format!("penalty {}: no motion of its own to compare with: {error}", floor.law))
             }
             _ => {}
         }
     }
     for series in &chart.series {
         if let Some(order) = series.order(chart.known(&series.method.scheme)) {
-            ui.message(&format!("{}: order {order:.2} in the displacement{}", series.method, own_words(series)));
+            messages.push(format!("{}: order {order:.2} in the displacement{}", series.method, own_words(series)));
         }
         let failures = series.points.iter().filter(|p| p.measured().is_none()).count();
         if failures > 0 {
-            ui.message(&format!(
+            messages.push(format!(
                 "{}: {failures} of {} runs have no result; the CSV says why",
                 series.method,
                 series.points.len()
             ));
         }
     }
+    messages
 }
 
 fn own_words(series: &Series) -> &'static str {

@@ -1,16 +1,17 @@
 //! `signorini compare`: methods side by side, the main command.
 
-use super::drawing::Stretch;
-use super::noted;
-use super::pace::Pace;
-use super::refuted::Refutations;
+use super::drawing::PlotSpan;
+use super::estimate::DurationEstimate;
+use super::pipeline::Shown;
 use super::request::Request;
+use super::run_notes::run_notes;
 use super::ui::Ui;
 use super::{values, verdicts};
 use crate::case::Case;
 use crate::error::Result;
-use crate::output::asked::{asked, with};
 use crate::output::compare as output;
+use crate::output::document::under_head;
+use crate::output::request::{extended, request};
 use crate::output::results::Results;
 use crate::output::shape::{self, Shape};
 use crate::output::summary;
@@ -45,81 +46,84 @@ pub struct Args {
     #[arg(long)]
     no_verdict: bool,
     #[command(flatten)]
-    stretch: Stretch,
+    span: PlotSpan,
 }
 
-pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let case = args.request.case(ui)?;
-    let methods = match &args.schemes {
-        Some(list) => split(list).map(|name| args.request.method(name, &case)).collect::<Result<Vec<_>>>()?,
-        None => {
-            let chosen = args.request.method(&choice::choose(&case.scene).method.to_string(), &case)?;
-            let integrator = case.penalty.integrator.unwrap_or_default();
-            let penalty = |&law| Method::new(Scheme::Penalty { law, integrator });
-            let penalties = case.penalty.laws.iter().map(penalty);
-            if case.scene.turns_or_rubs() {
-                // No quadratic programme, which Clarabel could solve too.
-                std::iter::once(chosen).chain(penalties).collect()
-            } else if case.scene.walls.is_empty() {
-                vec![chosen]
-            } else {
-                default_methods(chosen, penalties)
-            }
-        }
-    };
+pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+    let case = args.request.read(ui)?;
+    let methods = args.methods(&case)?;
     args.request.check_use(&methods)?;
     // A stretch outside the run is refused before anything runs.
-    let span = args.stretch.span(&case, case.scene.duration)?;
-    let request = with(asked("compare", &case, &methods), json!({ "verdict": !args.no_verdict }));
-    let mut results = args.request.results(&case, "compare", request)?;
-    // The exact run is among the methods asked for, or is added to them.
-    let count = methods.iter().filter(|method| method.scheme != Scheme::Event).count() as f64 + 2.0;
-    let checks = if args.no_verdict { 0.0 } else { (count - 1.0) * verdict::COST };
-    let pace = Pace::of_all(&case.scene, &methods, case.time.step);
-    let progress = ui.paced("comparing", UNITS as u64, pace);
-    let done = |runs: f64| progress.share(runs / (count + checks));
-    let comparison = compare(&case.scene, &methods, &case.time, &done)?;
-    let mut verdicts = vec![None; comparison.rows.len()];
-    if !args.no_verdict {
-        verdicts = verdicts::check(&case, &comparison, &|rows| done(count + rows as f64 * verdict::COST));
-    }
-    progress.finish();
-    let refuted = refutations(&comparison, &verdicts);
-    refuted.announce(ui);
+    let span = args.span.within(&case, case.scene.duration)?;
+    let asked = extended(request("compare", &case, &methods), json!({ "verdict": !args.no_verdict }));
+    let mut results = args.request.place.open(&case, "compare", asked)?;
+    let (comparison, verdicts) = compared(args, &case, &methods, ui)?;
+    refute(&comparison, &verdicts, ui);
     any_succeeded(&comparison)?;
-    let common = args.stretch.span(&case, comparison.horizon)?;
+    let common = args.span.within(&case, comparison.horizon)?;
     let report = !args.request.place.no_report;
     if report {
         draw(&case, &comparison, &mut results)?;
     }
     let rows = output::write(&mut results, &case, &comparison, &verdicts, [span, common])?;
-    let notes = noted::of_rows(&comparison).into_iter().chain(case.notes());
-    results.tell("remarks", json!(comparison.findings.iter().cloned().chain(notes).collect::<Vec<_>>()));
-    super::run::finish(&mut results, "", report, ui)?;
-    if ui.json() {
-        ui.document(&document(&case, &comparison, rows, &results))?;
-    } else {
-        ui.table(&output::table(&case, &comparison), "compare.csv")?;
-        output::remark(&case).iter().for_each(|remark| ui.message(remark));
+    let notes: Vec<String> = run_notes(&comparison).into_iter().chain(case.notes()).collect();
+    let findings = comparison.findings.iter();
+    results.tell("remarks", json!(findings.clone().chain(&notes).collect::<Vec<_>>()));
+    let mut shown = Shown::of(results, report, document(&case, &comparison, rows, &notes));
+    shown.table(output::table(&case, &comparison), "compare.csv");
+    shown.remarks(output::remark(&case));
+    let failure = comparison.rows.iter().filter_map(|row| Some((row.method, row.outcome.as_ref().err()?)));
+    shown.messages(failure.map(|(method, error)| format!("- {method} failed: {error}")));
+    shown.messages(findings.map(|finding| format!("- {finding}")));
+    if case.penalty.laws.is_empty()
+        && args.schemes.is_none()
+        && case.scene.walls.iter().any(|wall| wall.law.is_rigid() && !wall.is_round())
+    {
+        shown.messages(["- the case has no [penalty] table: no penalty was compared".to_owned()]);
     }
-    for row in &comparison.rows {
-        if let Err(error) = &row.outcome {
-            ui.message(&format!("- {} failed: {error}", row.method));
-        }
-    }
-    for finding in &comparison.findings {
-        ui.message(&format!("- {finding}"));
-    }
-    if case.penalty.laws.is_empty() && args.schemes.is_none() && case.scene.walls.iter().any(|w| w.law.is_rigid()) {
-        ui.message("- the case has no [penalty] table: no penalty was compared");
-    }
-    for note in noted::of_rows(&comparison).iter().chain(&case.notes()) {
-        ui.message(&format!("- {note}"));
-    }
+    shown.messages(notes.iter().map(|note| format!("- {note}")));
     if !args.no_verdict {
-        ui.message(&format!("refinement: {}", verdicts::line(&comparison, &verdicts)));
+        shown.messages([format!("refinement: {}", verdicts::line(&comparison, &verdicts))]);
     }
-    refuted.verdict()
+    Ok(shown)
+}
+
+impl Args {
+    /// The methods asked for, or those that are compared by default.
+    fn methods(&self, case: &Case) -> Result<Vec<Method>> {
+        if let Some(list) = &self.schemes {
+            return self.request.methods(list, case);
+        }
+        let chosen = self.request.method(&choice::choose(&case.scene).method.to_string(), case)?;
+        let integrator = case.penalty.integrator.unwrap_or_default();
+        let penalties = case.penalty.laws.iter().map(|&law| Method::new(Scheme::Penalty { law, integrator }));
+        Ok(if case.scene.turns_or_rubs() {
+            // No quadratic programme, which Clarabel could solve too.
+            std::iter::once(chosen).chain(penalties).collect()
+        } else if case.scene.walls.is_empty() {
+            vec![chosen]
+        } else {
+            default_methods(chosen, penalties)
+        })
+    }
+}
+
+/// The comparison, and what half the step changes in each of its rows.
+fn compared(args: &Args, case: &Case, methods: &[Method], ui: &Ui) -> Result<(Comparison, Vec<Option<Verdict>>)> {
+    // The exact run is among the methods asked for, or is added to them.
+    let count = methods.iter().filter(|method| method.scheme != Scheme::Event).count() as f64 + 2.0;
+    let checks = if args.no_verdict { 0.0 } else { (count - 1.0) * verdict::COST };
+    let estimate = DurationEstimate::of_comparison(&case.scene, methods, case.time.step);
+    ui.with_estimate("comparing", estimate, |bar| {
+        let done = |runs: f64| bar.set_share(runs / (count + checks));
+        let comparison = compare(&case.scene, methods, &case.time, &done)?;
+        let verdicts = if args.no_verdict {
+            vec![None; comparison.rows.len()]
+        } else {
+            verdicts::check(case, &comparison, &|rows| done(count + rows as f64 * verdict::COST))
+        };
+        Ok((comparison, verdicts))
+    })
 }
 
 /// Runs the first method that succeeded once more, with the places from which the report draws a
@@ -136,60 +140,32 @@ fn draw(case: &Case, comparison: &Comparison, results: &mut Results) -> Result<(
     Ok(())
 }
 
-/// The rows that the judge has refuted, and the refuted checks of these rows.
-fn refutations(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Refutations {
-    let mut refuted = Refutations::default();
+/// Reports the rows that the judge has refuted, and the refuted checks of these rows.
+fn refute(comparison: &Comparison, verdicts: &[Option<Verdict>], ui: &Ui) {
     for (row, verdict) in comparison.rows.iter().zip(verdicts) {
         match &row.outcome {
-            Ok(run) => refuted.see(&row.method.to_string(), &run.findings),
-            Err(error) => refuted.see_error(&row.method.to_string(), error),
+            Ok(run) => ui.refute(&row.method.to_string(), &run.findings),
+            Err(error) => ui.refute_failed(&row.method.to_string(), error),
         }
         if let Some(verdict) = verdict {
-            refuted.see(&format!("the check of {}", row.method), &verdict.findings);
+            ui.refute(&format!("the check of {}", row.method), &verdict.findings);
         }
     }
     if let Some((method, run)) = &comparison.refined {
-        refuted.see(&format!("{method} as reference"), &run.findings);
+        ui.refute(&format!("{method} as reference"), &run.findings);
     }
-    refuted
 }
 
 /// The comparison as one JSON document: what all methods share, then one row per method.
-fn document(case: &Case, comparison: &Comparison, rows: Vec<Value>, results: &Results) -> Value {
+fn document(case: &Case, comparison: &Comparison, rows: Vec<Value>, notes: &[String]) -> Value {
     let document = json!({
-        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
-        "case": case.name,
-        "title": case.title,
-        "source": case.source,
         "scene": summary::scene(case),
         "horizon_s": comparison.horizon,
         "growth": comparison.growth,
         "reference_failure": comparison.reference.as_ref().err().map(ToString::to_string),
         "rows": rows,
         "findings": comparison.findings,
-        "notes": noted::of_rows(comparison).into_iter().chain(case.notes()).collect::<Vec<_>>(),
+        "notes": notes,
     });
-    super::run::with_folder(document, results)
-}
-
-/// Resolution of the progress bar.
-const UNITS: f64 = 1000.0;
-
-/// Methods separated by semicolons or commas; a comma before a setting (`integrator=trapezoidal`)
-/// belongs to the method before it.
-pub(super) fn split(list: &str) -> impl Iterator<Item = &str> {
-    let by_semicolon = list.contains(';');
-    let mut parts = Vec::new();
-    let mut start = 0;
-    for (i, c) in list.char_indices() {
-        let next = list[i + c.len_utf8()..].split([',', ';']).next().unwrap_or("");
-        // `integrator=trapezoidal` is a setting, `penalty:epsilon=1e-9` and `event` are methods.
-        let begins = next.contains(':') || !next.contains('=');
-        if c == ';' || (c == ',' && !by_semicolon && begins) {
-            parts.push(&list[start..i]);
-            start = i + c.len_utf8();
-        }
-    }
-    parts.push(&list[start..]);
-    parts.into_iter().map(str::trim).filter(|part| !part.is_empty())
+    under_head(case, document)
 }

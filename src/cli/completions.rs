@@ -1,7 +1,6 @@
 //! `signorini completions`: completion scripts for shells.
 
-use super::ui::Ui;
-use crate::error::Result;
+use super::pipeline::Shown;
 use clap_complete::Shell;
 
 /// Print completions for a shell
@@ -12,13 +11,12 @@ pub struct Args {
     shell: Shell,
 }
 
-/// Prints completions for `command`, the whole tool.
-pub fn execute(args: &Args, mut command: clap::Command, ui: &Ui) -> Result<()> {
+/// Completions for `command`, the whole tool.
+pub fn answer(args: &Args, mut command: clap::Command) -> Shown {
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut command, "signorini", &mut text);
-    let script = String::from_utf8_lossy(&text);
-    if ui.json() {
-        return ui.document(&serde_json::json!({ "shell": args.shell.to_string(), "script": script }));
-    }
-    ui.answer(&script)
+    let script = String::from_utf8_lossy(&text).into_owned();
+    let mut shown = Shown::new(serde_json::json!({ "shell": args.shell.to_string(), "script": script }));
+    shown.verbatim(script);
+    shown
 }

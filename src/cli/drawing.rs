@@ -8,7 +8,7 @@ use crate::output::format::Format;
 
 /// The stretch of time that pictures show.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
-pub struct Stretch {
+pub struct PlotSpan {
     /// Pictures from this time on, s [default: the start]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     from: Option<f64>,
@@ -17,13 +17,13 @@ pub struct Stretch {
     to: Option<f64>,
 }
 
-impl Stretch {
+impl PlotSpan {
     /// The stretch asked for; without `--to` it ends at `until` (s), or at the end of the run where
     /// `until` lies before its beginning.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a stretch that does not lie within the run.
-    pub fn span(&self, case: &Case, until: f64) -> Result<Span> {
+    pub fn within(&self, case: &Case, until: f64) -> Result<Span> {
         let end = case.scene.duration;
         let from = self.from.unwrap_or(0.0);
         if !(0.0..end).contains(&from) {

@@ -1,8 +1,8 @@
 //! `signorini figures`: the figures of the source, from the built-in cases.
 
 use super::drawing::Formats;
-use super::refuted::Refutations;
-use super::run::perform;
+use super::estimate::DurationEstimate;
+use super::pipeline::Shown;
 use super::ui::Ui;
 use crate::case::{Case, Embedded};
 use crate::error::{Error, Result};
@@ -10,7 +10,7 @@ use crate::output::Span;
 use crate::output::figure::{Curve, Figure, Mark, Panel};
 use crate::output::pictures::{Labelled, Sheet};
 use crate::output::results::Results;
-use crate::run::Run;
+use crate::run::{Options, Run, run_with_progress};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice;
 use serde_json::json;
@@ -64,53 +64,37 @@ const PLATES: [Plate; 8] = [
 /// Time shown, s: enough periods to see the motion, few enough to tell them apart.
 const SHOWN: f64 = 2.0;
 
-pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let request = json!({ "command": "figures" }).as_object().cloned().unwrap_or_default();
     let mut results = Results::open(&args.out, request, args.force, args.formats.usable()?)?;
     // Each method has one look in all figures: its index in the order in which methods first
     // appear.
     let mut known = Vec::new();
-    let mut refuted = Refutations::default();
+    let mut written = Vec::new();
     for plate in &PLATES {
         let mut case = Case::embedded(plate.case)?;
         case.scene.duration = case.scene.duration.min(SHOWN);
         case.time.sample = Some(case.time.step.max(case.scene.duration / 4000.0));
-        for (name, svg) in plate.draw(&case, &mut known, ui, &mut refuted)? {
-            for path in results.draw(&format!("fig{}-{name}", plate.number), &svg)? {
-                ui.message(&format!("wrote {}", path.display()));
-            }
+        for (name, svg) in plate.draw(&case, &mut known, ui)? {
+            written.extend(results.draw(&format!("fig{}-{name}", plate.number), &svg)?);
         }
     }
-    super::run::finish(&mut results, "", false, ui)?;
-    if ui.json() {
-        ui.document(&super::run::with_folder(json!({ "command": "figures" }), &results))?;
-    }
-    refuted.verdict()
+    let mut shown = Shown::of(results, false, json!({ "command": "figures" }));
+    shown.messages(written.iter().map(|path| format!("wrote {}", path.display())));
+    Ok(shown)
 }
 
 impl Plate {
-    fn draw(
-        &self,
-        case: &Case,
-        known: &mut Vec<String>,
-        ui: &Ui,
-        refuted: &mut Refutations,
-    ) -> Result<Vec<(&'static str, String)>> {
-        let chosen = choice::choose(&case.scene).method;
+    /// The pictures of this figure, by their names.
+    fn draw(&self, case: &Case, known: &mut Vec<String>, ui: &Ui) -> Result<Vec<(&'static str, String)>> {
         let integrator = case.penalty.integrator.unwrap_or_default();
-        let mut methods = vec![chosen];
+        let mut methods = vec![choice::choose(&case.scene).method];
         if self.content == Content::Penalties {
             methods.extend(case.penalty.laws.iter().map(|&law| Method::new(Scheme::Penalty { law, integrator })));
         } else {
             methods.push(Method::new(Scheme::Event));
         }
-        let runs = methods.iter().map(|m| perform(case, m, ui)).collect::<Result<Vec<Run>>>()?;
-        for (method, run) in methods.iter().zip(&runs) {
-            let mut here = Refutations::default();
-            here.see(&format!("figure {}, {method}", self.number), &run.findings);
-            here.announce(ui);
-            refuted.join(here);
-        }
+        let runs = methods.iter().map(|method| self.run(case, method, ui)).collect::<Result<Vec<Run>>>()?;
         let labels: Vec<String> = methods.iter().map(|m| label(m, integrator)).collect();
         let title =
             format!("{} ({})", case.title.as_deref().unwrap_or(&case.name), case.source.as_deref().unwrap_or("source"));
@@ -126,15 +110,20 @@ impl Plate {
                 Labelled { label, run, reference: m.scheme == Scheme::Event, look }
             })
             .collect();
-        let sheet = Sheet {
-            title: &title,
-            scene: &case.scene,
-            runs: &labelled,
-            span: Span { from: 0.0, to: case.scene.duration },
-        };
-        let figures = sheet.figures()?.into_iter();
+        let span = Span { from: 0.0, to: case.scene.duration };
+        let sheet = Sheet { title: &title, scene: &case.scene, runs: &labelled, span };
         let force = self.content == Content::Force;
-        Ok(figures.filter(|(name, _)| (*name == "contact-force") == force).collect())
+        Ok(sheet.figures()?.into_iter().filter(|(name, _)| (*name == "contact-force") == force).collect())
+    }
+
+    fn run(&self, case: &Case, method: &Method, ui: &Ui) -> Result<Run> {
+        let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step);
+        let end = case.scene.duration;
+        let run = ui.with_estimate(&method.to_string(), estimate, |bar| {
+            run_with_progress(&case.scene, method, &Options::new(case.time), &mut |time| bar.set_share(time / end))
+        })?;
+        ui.refute(&format!("figure {}, {method}", self.number), &run.findings);
+        Ok(run)
     }
 }
 
@@ -170,7 +159,7 @@ fn independent(case: &Case, title: &str, labels: &[String], runs: &[Run], known:
     let shown = shown.flat_map(|(t, u)| [(t, 1e3 * u), (t, f64::NAN)]);
     panel = panel.curve(Curve::new("50-digit reference", shown).marked().look(place(known, "50-digit reference")));
     for wall in &case.scene.walls {
-        panel = panel.mark(Mark::wall(1e3 * wall.position, wall.name.as_str()));
+        panel = panel.mark(Mark::wall(1e3 * wall.position(), wall.name.as_str()));
     }
     Ok(Figure::new(title, "Time (s)").panel(panel).to_svg())
 }

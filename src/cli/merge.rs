@@ -1,10 +1,9 @@
 //! `signorini merge`: joins the shards of a sweep.
 
+use super::command_line::command_line;
 use super::drawing::Formats;
-use super::report::quoted;
-use super::run::last_line;
-use super::sweep::{tell_pictures, tell_status};
-use super::ui::Ui;
+use super::pipeline::Shown;
+use super::sweep::{picture_messages, status_document, status_messages};
 use crate::error::Result;
 use crate::sweep::{Merged, merge_in, write_summary};
 use serde_json::json;
@@ -23,49 +22,43 @@ pub struct Args {
     /// Replace the results of another request
     #[arg(long)]
     force: bool,
+    /// Write no report.html
+    #[arg(long)]
+    no_report: bool,
     #[command(flatten)]
     formats: Formats,
 }
 
-pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+pub fn answer(args: &Args) -> Result<Shown> {
     let formats = args.formats.usable()?;
     let (merged, mut results) = merge_in(&args.folders, &args.out, args.force, formats)?;
     let Merged { rows, shards, tables, request, title, picture, differing_arithmetic, unverified } = merged;
-    let (drawn, left_out) = picture.draw(&mut results, &request, &title)?;
-    let counts: serde_json::Map<String, serde_json::Value> =
-        tables.counts.iter().map(|(status, count)| (status.clone(), json!(count))).collect();
+    let pictures = picture.draw(&mut results, &request, &title)?;
     let document = json!({
         "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
         "case": request.get("case"),
         "rows": rows,
         "shards": shards,
-        "status": counts,
+        "command_line": command_line(),
+        "status": status_document(&tables),
         "first_error": tables.first_error,
         "differing_arithmetic": differing_arithmetic,
         "request": request,
-        "pictures": drawn,
+        "pictures": pictures.drawn,
         "results": args.out,
     });
     let document = write_summary(&mut results, document)?;
-    results.finish()?;
-    for folder in unverified {
-        let folder = folder.display();
-        ui.message(&format!("{folder}: of a version that recorded no digests: its tables are not verified"));
-    }
+    let mut shown = Shown::of(results, !args.no_report, document);
+    shown.messages(unverified.iter().map(|folder| {
+        format!("{}: of a version that recorded no digests: its tables are not verified", folder.display())
+    }));
     if differing_arithmetic {
-        ui.message(
-            "the shards come from machines whose sines and exponentials differ in their last digits: rows that \
-             are sensitive to them \
-             may differ from those of one machine",
-        );
+        let text = "the shards come from machines whose sines and exponentials differ in their last digits: rows that \
+                    are sensitive to them may differ from those of one machine";
+        shown.messages([text.to_owned()]);
     }
-    ui.message(&format!("{rows} rows of {shards} shards"));
-    tell_status(&args.out, &tables, rows, ui)?;
-    tell_pictures((&drawn, &left_out), ui);
-    let page = format!("; `signorini report {}` writes a page to open", quoted(&args.out.display().to_string()));
-    ui.close_with(last_line(&args.out, &page, false));
-    if ui.json() {
-        ui.document(&document)?;
-    }
-    Ok(())
+    shown.messages([format!("{rows} rows of {shards} shards")]);
+    shown.messages(status_messages(&args.out, &tables, rows)?);
+    shown.messages(picture_messages(&pictures));
+    Ok(shown)
 }

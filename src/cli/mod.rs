@@ -1,28 +1,31 @@
-//! The command-line tool: parse, call, print. One file per command.
+//! The command-line tool: parse, call, print. One file per command; `pipeline` has what all of
+//! them share.
 
+mod bar;
+mod case_args;
 mod chart;
+mod command_line;
 mod compare;
 mod completions;
 mod continuation;
 mod drawing;
+mod estimate;
 mod explain;
 mod figures;
 mod merge;
 mod new;
-mod noted;
 mod orbit;
-mod pace;
-mod refuted;
+mod pipeline;
 mod report;
 mod request;
 mod run;
-mod seeds;
+mod run_notes;
 mod stability;
 mod sweep;
+mod terminal;
 mod ui;
 mod values;
 mod verdicts;
-mod watch;
 
 use crate::error::Result;
 use clap::{Parser, Subcommand};
@@ -93,9 +96,7 @@ pub fn main(stdout: Stdout) -> ExitCode {
         Err(text) => return answer(&text, stdout),
     };
     let ui = Ui::new(cli.quiet, cli.json, stdout);
-    let done = execute(&cli.command, &ui);
-    ui.close();
-    match done {
+    match execute(&cli.command, &ui) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             ui.error(&error);
@@ -118,21 +119,22 @@ fn answer(text: &clap::Error, stdout: Stdout) -> ExitCode {
 }
 
 fn execute(command: &Command, ui: &Ui) -> Result<()> {
-    match command {
-        Command::Run(args) => run::execute(args, ui),
-        Command::Chart(args) => chart::execute(args, ui),
-        Command::Compare(args) => compare::execute(args, ui),
-        Command::Explain(args) => explain::execute(args, ui),
-        Command::Figures(args) => figures::execute(args, ui),
-        Command::Merge(args) => merge::execute(args, ui),
-        Command::Orbit(args) => orbit::execute(args, ui),
-        Command::Continue(args) => continuation::execute(args, ui),
-        Command::New(args) => new::execute(args, ui),
-        Command::Report(args) => report::execute(args, ui),
-        Command::Stability(args) => stability::execute(args, ui),
-        Command::Sweep(args) => sweep::execute(args, ui),
-        Command::Completions(args) => completions::execute(args, self::command(), ui),
-    }
+    let shown = match command {
+        Command::Run(args) => run::answer(args, ui)?,
+        Command::Chart(args) => chart::answer(args, ui)?,
+        Command::Compare(args) => compare::answer(args, ui)?,
+        Command::Explain(args) => explain::answer(args, ui)?,
+        Command::Figures(args) => figures::answer(args, ui)?,
+        Command::Merge(args) => merge::answer(args)?,
+        Command::Orbit(args) => orbit::answer(args, ui)?,
+        Command::Continue(args) => continuation::answer(args, ui)?,
+        Command::New(args) => new::answer(args)?,
+        Command::Report(args) => report::answer(args)?,
+        Command::Stability(args) => stability::answer(args, ui)?,
+        Command::Sweep(args) => sweep::answer(args, ui)?,
+        Command::Completions(args) => completions::answer(args, self::command()),
+    };
+    shown.conclude(ui)
 }
 
 /// The tool's command, for shell completions.

@@ -1,6 +1,6 @@
 //! `signorini new`: writes a case file to start from.
 
-use super::ui::Ui;
+use super::pipeline::Shown;
 use super::values;
 use crate::case::Embedded;
 use crate::error::{Error, Result};
@@ -23,17 +23,8 @@ pub struct Args {
     force: bool,
 }
 
-pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let Some(name) = &args.name else {
-        let title = |case: &Embedded| case.case().ok().and_then(|c| c.title).unwrap_or_default();
-        let cases = Embedded::all().iter().map(|case| (case.name, title(case)));
-        if ui.json() {
-            let list: Vec<_> = cases.map(|(case, title)| json!({ "case": case, "title": title })).collect();
-            return ui.document(&json!({ "cases": list }));
-        }
-        let lines: Vec<_> = cases.map(|(case, title)| format!("{case:20} {title}")).collect();
-        return ui.answer(&lines.join("\n"));
-    };
+pub fn answer(args: &Args) -> Result<Shown> {
+    let Some(name) = &args.name else { return Ok(list()) };
     let embedded = Embedded::named(name)?;
     let path = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
     let tables = embedded.tables.iter().map(|(file, text)| (path.with_file_name(file), *text));
@@ -42,13 +33,20 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
         let reason = "already exists; --out FILE writes elsewhere, --force replaces it".to_owned();
         return Err(Error::io(taken.display(), reason, true));
     }
-    for (path, text) in &files {
-        write_whole(path, text.as_bytes())?;
-        ui.message(&format!("wrote {}", path.display()));
-    }
-    if ui.json() {
-        let paths: Vec<_> = files.iter().map(|(path, _)| path).collect();
-        ui.document(&json!({ "files_written": paths }))?;
-    }
-    Ok(())
+    files.iter().try_for_each(|(path, text)| write_whole(path, text.as_bytes()))?;
+    let paths: Vec<_> = files.iter().map(|(path, _)| path).collect();
+    let mut shown = Shown::new(json!({ "files_written": paths }));
+    shown.messages(paths.iter().map(|path| format!("wrote {}", path.display())));
+    Ok(shown)
+}
+
+/// The built-in cases and their titles.
+fn list() -> Shown {
+    let title = |case: &Embedded| case.case().ok().and_then(|c| c.title).unwrap_or_default();
+    let cases: Vec<_> = Embedded::all().iter().map(|case| (case.name, title(case))).collect();
+    let documents: Vec<_> = cases.iter().map(|(case, title)| json!({ "case": case, "title": title })).collect();
+    let mut shown = Shown::new(json!({ "cases": documents }));
+    let lines: Vec<_> = cases.iter().map(|(case, title)| format!("{case:20} {title}")).collect();
+    shown.verbatim(lines.join("\n"));
+    shown
 }

@@ -1,6 +1,6 @@
 //! `signorini report`: the report on results that exist.
 
-use super::ui::Ui;
+use super::pipeline::Shown;
 use crate::error::{Error, Result};
 use crate::output::atomic::write_whole;
 use crate::output::manifest::{self, MANIFEST};
@@ -27,7 +27,7 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
-pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
+pub fn answer(args: &Args) -> Result<Shown> {
     let Some(manifest) = manifest::read(&args.folder) else {
         let reason =
             format!("holds no {MANIFEST} that can be read; expected a folder of results, such as out/CASE/run");
@@ -35,33 +35,18 @@ pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
     };
     let page = report::page(&args.folder, &manifest)?;
     let path = args.out.clone().unwrap_or_else(|| args.folder.join(report::FILE));
-    if manifest.get(TABLES).is_none() {
-        ui.message("the version that made these results recorded no digests: their tables are not verified");
-    }
+    let verified = manifest.get(TABLES).is_some();
     match &args.out {
         Some(path) => write_whole(path, page.as_bytes())?,
         // Listed, so that a later run without a report takes this one away.
         None => manifest::add(&args.folder, manifest, report::FILE, page.as_bytes())?,
     }
-    ui.close_with(format!("wrote the page; open {}", path.display()));
-    if ui.json() {
-        ui.document(&json!({ "command": "report", "results": args.folder, "files_written": [path] }))?;
+    let document = json!({ "command": "report", "results": args.folder, "files_written": [path] });
+    let mut shown = Shown::new(document);
+    if !verified {
+        let text = "the version that made these results recorded no digests: their tables are not verified";
+        shown.messages([text.to_owned()]);
     }
-    Ok(())
-}
-
-/// The command line of this process as a POSIX shell takes it.
-pub(super) fn command_line() -> String {
-    let words = std::env::args_os().skip(1).map(|word| quoted(&word.to_string_lossy()));
-    std::iter::once("signorini".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
-}
-
-/// A word as a POSIX shell takes it.
-pub(super) fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=+.,/:@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
-    }
+    shown.last_line(format!("wrote the page; open {}", path.display()));
+    Ok(shown)
 }

@@ -1,28 +1,20 @@
-//! The case of a command, and the changes by the command line.
+//! The arguments of `run` and `compare`: the case, its changes, and the settings of methods.
 
-use super::drawing::Formats;
-use super::report::{command_line, quoted};
+use super::case_args::{CaseArgs, built, set_restitution};
+use super::pipeline::Destination;
 use super::ui::Ui;
 use super::values;
-use crate::case::{Case, CaseFile, Embedded, KeyValue};
+use crate::case::{Case, CaseFile, Key, KeyValue};
 use crate::error::{Error, Result};
-use crate::output::results::Results;
 use crate::qp::Backend;
-use crate::scene::{Shape, System, WallLaw};
-use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme};
-use serde_json::{Map, Value, json};
-use std::path::{Path, PathBuf};
+use crate::scene::System;
+use crate::scheme::{Integrator, Method, Scheme};
 
 /// Arguments common to `run` and `compare`.
-#[derive(Debug, Clone, clap::Args)]
+#[derive(Debug, Clone, Default, clap::Args)]
 pub struct Request {
-    /// Case file, summary.json of a run, or the name of a built-in case; a file is taken before a
-    /// built-in case
-    #[arg(value_hint = clap::ValueHint::FilePath)]
-    pub case: String,
-    /// Changes of the case by its keys
     #[command(flatten)]
-    pub changes: Changes,
+    pub case: CaseArgs,
     /// Step of the stepping schemes, s
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub step: Option<f64>,
@@ -41,7 +33,7 @@ pub struct Request {
     pub restitution: Option<f64>,
     /// Modes to keep, in place of the case's
     #[arg(long, value_name = "K")]
-    pub modes: Option<usize>,
+    pub modes: Option<i64>,
     /// Penalty parameter ε, m³/N, in place of the case's
     #[arg(long, value_name = "EPS", allow_hyphen_values = true)]
     pub epsilon: Option<f64>,
@@ -63,196 +55,47 @@ pub struct Request {
     pub place: Destination,
 }
 
-/// Where results are written, and the formats of their pictures.
-#[derive(Debug, Clone, Default, clap::Args)]
-pub struct Destination {
-    /// Folder for the results [default: out/CASE/COMMAND]
-    #[arg(long, value_name = "DIR", value_hint = clap::ValueHint::DirPath)]
-    pub out: Option<PathBuf>,
-    /// Replace the results of another request
-    #[arg(long)]
-    pub force: bool,
-    /// Write no report.html, nor the shape.csv or orbits.csv from which it draws motions
-    #[arg(long)]
-    pub no_report: bool,
-    /// File formats of pictures
-    #[command(flatten)]
-    pub formats: Formats,
-}
-
-impl Destination {
-    /// The folder for the results of `command` on `case`: `--out`, or `out/CASE/COMMAND`. It must
-    /// be writable and must not hold results of another request than `request`.
-    ///
-    /// # Errors
-    /// As [`Results::open`]; [`Error::Invalid`] for a format that this build cannot write.
-    pub fn results(&self, case: &Case, command: &str, request: Map<String, Value>) -> Result<Results> {
-        let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(&case.name).join(command));
-        let mut results = Results::open(&folder, request, self.force, self.formats.usable()?)?;
-        results.tell("command_line", json!(command_line()));
-        results.tell("title", json!(case.title));
-        Ok(results)
-    }
-}
-
-/// Finds the case `name`: the file of that name; else, for a name without an extension, the file
-/// NAME.toml in the current folder; else the built-in case of that name. Says which it took
-/// wherever there is a built-in case of that name.
-///
-/// # Errors
-/// As [`CaseFile::read`].
-pub fn case_file(name: &str, ui: &Ui) -> Result<CaseFile> {
-    let file = Path::new(name);
-    let beside = PathBuf::from(format!("{name}.toml"));
-    // `..` and `.toml` do not get an extension.
-    let bare = !name.is_empty() && file.extension().is_none() && file.file_name().is_some();
-    let built_in = Embedded::named(name);
-    let taken = match &built_in {
-        _ if file.is_file() => file,
-        _ if bare && beside.is_file() => &beside,
-        Ok(embedded) => {
-            ui.message(&format!("{name}: the built-in case"));
-            return CaseFile::embedded(embedded.name);
-        }
-        Err(_) => file,
-    };
-    if built_in.is_ok() || taken != file {
-        let other = if built_in.is_ok() { ", not the built-in case of that name" } else { "" };
-        ui.message(&format!("{name}: the file {}{other}", taken.display()));
-    }
-    CaseFile::read(taken)
-}
-
-/// Values of the case that the command line changes by their keys.
-#[derive(Debug, Clone, Default, clap::Args)]
-pub struct Changes {
-    /// Set a value of the case by its key, such as wall.upper.position=6e-3,
-    /// load.1.harmonic.frequency=4, wall.*.restitution=0.8; may be given several times
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-}
-
-impl Changes {
-    /// The file of the case `name`, found by [`case_file`], with the values set.
-    ///
-    /// # Errors
-    /// As [`case_file`] and [`CaseFile::set`]; [`Error::Invalid`] for an argument that is not
-    /// KEY=VALUE.
-    pub fn case_file(&self, name: &str, ui: &Ui) -> Result<CaseFile> {
-        let mut file = case_file(name, ui)?;
-        if !self.set.is_empty() {
-            // Errors of the file itself are shown with its own lines, before any change.
-            file.case()?;
-        }
-        for (key, value) in self.pairs()? {
-            file.set(&key.parse()?, &value)?;
-        }
-        Ok(file)
-    }
-
-    /// The keys and values as they were given.
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] for an argument that is not KEY=VALUE.
-    pub fn pairs(&self) -> Result<Vec<(String, KeyValue)>> {
-        let pair = |text: &String| {
-            let expected = "KEY=VALUE, such as wall.upper.position=6e-3";
-            let wrong = || Error::invalid("--set", format_args!("{text:?}"), expected);
-            let (key, value) = text.split_once('=').ok_or_else(wrong)?;
-            Ok((key.to_owned(), value.parse()?))
-        };
-        self.set.iter().map(pair).collect()
-    }
-
-    /// The command line that asks `command` of the case `name` with the values set, without its
-    /// other options.
-    #[must_use]
-    pub fn command_line(&self, command: &str, name: &str) -> String {
-        let sets = self.set.iter().map(|pair| format!(" --set {}", quoted(pair)));
-        format!("signorini {command} {}{}", quoted(name), sets.collect::<String>())
-    }
-
-    /// The case of that file. Says the size of random forces that take time and memory.
-    ///
-    /// # Errors
-    /// As [`Changes::case_file`] and [`CaseFile::case`].
-    pub fn case(&self, name: &str, ui: &Ui) -> Result<Case> {
-        let case = self.case_file(name, ui)?.case()?;
-        case.large_random_forces().for_each(|said| ui.message(&said));
-        Ok(case)
-    }
-
-    /// The same case with another restitution at every rigid wall, checked.
-    ///
-    /// # Errors
-    /// As [`Changes::case`], and [`Error::Invalid`] for an invalid restitution.
-    pub fn case_with_restitution(&self, name: &str, restitution: Option<f64>, ui: &Ui) -> Result<Case> {
-        let mut case = self.case(name, ui)?;
-        set_restitution(&mut case, restitution)?;
-        case.validate()?;
-        Ok(case)
-    }
-}
-
-fn set_restitution(case: &mut Case, restitution: Option<f64>) -> Result<()> {
-    let Some(restitution) = restitution else { return Ok(()) };
-    let holes = case.whole().holes().any(|hole| hole.law.is_rigid());
-    if !holes && !case.whole().walls.iter().any(|wall| wall.law.is_rigid()) {
-        return Err(Error::invalid("--restitution", restitution, "a case with a rigid wall; this one has none"));
-    }
-    if case.truncated.as_ref().is_some_and(|truncated| truncated.whole.static_correction) {
-        let expected = "a case without static_correction: the compliance that modes leave out has no mass, and \
-                        what has no mass cannot rebound";
-        return Err(Error::invalid("--restitution", restitution, expected));
-    }
-    case.change(|scene| {
-        for wall in scene.walls.iter_mut().filter(|wall| wall.law.is_rigid()) {
-            wall.law = WallLaw::Rigid { restitution };
-        }
-        for support in &mut scene.supports {
-            if let Shape::Round { law, .. } = &mut support.shape
-                && law.is_rigid()
-            {
-                *law = WallLaw::Rigid { restitution };
-            }
-        }
-    })
-}
-
 impl Request {
-    /// The case with the command line's changes, checked.
+    /// The case with the command line's changes.
     ///
     /// # Errors
-    /// As [`Changes::case`], and [`Error::Invalid`] for an invalid change.
-    pub fn case(&self, ui: &Ui) -> Result<Case> {
-        let read = self.changes.case(&self.case, ui)?;
-        let mut case = read.clone();
-        if let Some(modes) = self.modes {
-            case = case.with_modes(modes)?;
-        }
+    /// As [`CaseArgs::read`], and [`Error::Case`] for an invalid change.
+    pub fn read(&self, ui: &Ui) -> Result<Case> {
+        let mut file = self.case.file(ui)?;
         if let Some(end) = self.end {
-            case.change_end(end)?;
-            let until_end = |x: &f64| *x <= end;
-            case.time.sample = case.time.sample.filter(until_end);
-            if case.time.statistics_from >= end {
-                case.time.statistics_from = 0.0;
+            self.set_end(&mut file, end)?;
+        }
+        let integrator = self.integrator.map(|integrator| KeyValue::from(integrator.name()));
+        let values = [
+            ("system.modes", self.modes.map(KeyValue::from)),
+            ("time.step", self.step.map(KeyValue::from)),
+            ("time.sample", self.sample.map(KeyValue::from)),
+            ("time.force_averaging", self.force_averaging.map(KeyValue::from)),
+            ("penalty.integrator", integrator),
+        ];
+        for (key, value) in values {
+            value.map_or(Ok(()), |value| file.set(&key.parse()?, &value))?;
+        }
+        if let Some(epsilon) = self.epsilon {
+            file.remove(&"penalty.stiffness".parse()?)?;
+            file.remove(&"penalty.damping".parse()?)?;
+            file.set(&"penalty.epsilon".parse()?, &KeyValue::from(&[epsilon][..]))?;
+        }
+        set_restitution(&mut file, self.restitution)?;
+        built(&file, ui)
+    }
+
+    /// Sets the end of the run, and leaves out rows and a window of statistics that lie beyond it.
+    fn set_end(&self, file: &mut CaseFile, end: f64) -> Result<()> {
+        // Errors of the file itself are shown with its own lines, before any change.
+        file.case()?;
+        for (key, beyond) in [("time.sample", f64::gt as fn(&f64, &f64) -> bool), ("time.statistics_from", f64::ge)] {
+            let key: Key = key.parse()?;
+            if file.get(&key)?.and_then(|value| value.number()).is_some_and(|x| beyond(&x, &end)) {
+                file.remove(&key)?;
             }
         }
-        case.time.step = self.step.unwrap_or(case.time.step);
-        case.time.sample = self.sample.or(case.time.sample);
-        case.time.force_averaging = self.force_averaging.unwrap_or(case.time.force_averaging);
-        set_restitution(&mut case, self.restitution)?;
-        if let Some(epsilon) = self.epsilon {
-            case.penalty.laws = vec![PenaltyLaw::Quartic { epsilon }];
-        }
-        if self.integrator.is_some() {
-            case.penalty.integrator = self.integrator;
-        }
-        // A case that was only read has been checked already.
-        if case != read {
-            case.validate()?;
-        }
-        Ok(case)
+        file.set(&"time.end".parse()?, &end.into())
     }
 
     /// The method named `name`; settings that it leaves open come from the command line and the
@@ -283,20 +126,64 @@ impl Request {
         Ok(method)
     }
 
+    /// The methods of a list, separated as [`method_names`] does.
+    ///
+    /// # Errors
+    /// As [`Request::method`].
+    pub fn methods(&self, list: &str, case: &Case) -> Result<Vec<Method>> {
+        method_names(list).map(|name| self.method(name, case)).collect()
+    }
+
+    /// The options that set something of a scheme.
+    fn options(&self) -> [SchemeOption; 5] {
+        let number = |x: Option<f64>| x.map(|x| x.to_string());
+        let penalty = |scheme: &Scheme| matches!(scheme, Scheme::Penalty { .. });
+        [
+            SchemeOption {
+                name: "--qp",
+                value: self.qp.map(|qp| qp.to_string()),
+                settings: &["qp="],
+                concerns: Scheme::has_qp,
+                scheme: "a scheme that solves quadratic programmes",
+            },
+            SchemeOption {
+                name: "--rho",
+                value: number(self.rho),
+                settings: &["rho="],
+                concerns: |scheme| matches!(scheme, Scheme::GeneralizedAlpha { .. }),
+                scheme: "generalized-alpha",
+            },
+            SchemeOption {
+                name: "--theta",
+                value: number(self.theta),
+                settings: &["theta="],
+                concerns: |scheme| matches!(scheme, Scheme::MoreauJean { .. }),
+                scheme: "moreau-jean",
+            },
+            SchemeOption {
+                name: "--epsilon",
+                value: number(self.epsilon),
+                settings: &["epsilon=", "stiffness="],
+                concerns: penalty,
+                scheme: "penalty",
+            },
+            SchemeOption {
+                name: "--integrator",
+                value: self.integrator.map(|integrator| integrator.to_string()),
+                settings: &["integrator="],
+                concerns: penalty,
+                scheme: "penalty",
+            },
+        ]
+    }
+
     /// Refuses an option that the name of the method sets as well.
     fn check_against(&self, name: &str) -> Result<()> {
-        let given = |key: &str| name.split([':', ',']).any(|part| part.trim().starts_with(key));
-        let number = |x: Option<f64>| x.map(|x| x.to_string());
-        let options = [
-            ("--theta", number(self.theta), given("theta=")),
-            ("--rho", number(self.rho), given("rho=")),
-            ("--epsilon", number(self.epsilon), given("epsilon=") || given("stiffness=")),
-            ("--integrator", self.integrator.map(|i| i.to_string()), given("integrator=")),
-            ("--qp", self.qp.map(|q| q.to_string()), given("qp=")),
-        ];
-        for (option, value, beside) in options {
-            if let (Some(value), true) = (value, beside) {
-                return Err(Error::invalid(option, value, format!("either the option or the setting in {name:?}")));
+        let given = |key: &&str| name.split([':', ',']).any(|part| part.trim().starts_with(key));
+        for option in self.options() {
+            if let (Some(value), true) = (option.value, option.settings.iter().any(given)) {
+                let expected = format!("either the option or the setting in {name:?}");
+                return Err(Error::invalid(option.name, value, expected));
             }
         }
         Ok(())
@@ -307,41 +194,52 @@ impl Request {
     /// # Errors
     /// [`Error::Invalid`] naming the option.
     pub fn check_use(&self, methods: &[Method]) -> Result<()> {
-        let any = |test: fn(&Scheme) -> bool| methods.iter().any(|m| test(&m.scheme));
-        let penalty = |s: &Scheme| matches!(s, Scheme::Penalty { .. });
-        let unused = |option: &'static str, value: String, scheme: &str| {
-            Err(Error::invalid(option, value, format!("a request with {scheme} in it")))
-        };
         for (index, method) in methods.iter().enumerate() {
             if methods[..index].contains(method) {
                 return Err(Error::invalid("--schemes", format!("{method}, twice"), "each method once"));
             }
         }
-        if let (Some(step), false) = (self.step, any(|s| *s != Scheme::Event)) {
+        if let (Some(step), true) = (self.step, methods.iter().all(|method| method.scheme == Scheme::Event)) {
             let expected = "a request with a scheme that has a step in it: event has none, and --sample sets its rows";
             return Err(Error::invalid("--step", step, expected));
         }
-        if let (Some(qp), false) = (self.qp, any(Scheme::has_qp)) {
-            return unused("--qp", qp.to_string(), "a scheme that solves quadratic programmes");
-        }
-        if let (Some(rho), false) = (self.rho, any(|s| matches!(s, Scheme::GeneralizedAlpha { .. }))) {
-            return unused("--rho", rho.to_string(), "generalized-alpha");
-        }
-        match (self.theta, self.epsilon, self.integrator) {
-            (Some(theta), _, _) if !any(|s| matches!(s, Scheme::MoreauJean { .. })) => {
-                unused("--theta", theta.to_string(), "moreau-jean")
+        for SchemeOption { name, value, concerns, scheme, .. } in self.options() {
+            if let (Some(value), false) = (value, methods.iter().any(|method| concerns(&method.scheme))) {
+                return Err(Error::invalid(name, value, format!("a request with {scheme} in it")));
             }
-            (_, Some(epsilon), _) if !any(penalty) => unused("--epsilon", epsilon.to_string(), "penalty"),
-            (_, _, Some(integrator)) if !any(penalty) => unused("--integrator", integrator.to_string(), "penalty"),
-            _ => Ok(()),
+        }
+        Ok(())
+    }
+}
+
+/// An option that sets something of a scheme.
+struct SchemeOption {
+    name: &'static str,
+    /// The value given.
+    value: Option<String>,
+    /// The same as settings in the name of a method.
+    settings: &'static [&'static str],
+    /// True for a scheme that it concerns.
+    concerns: fn(&Scheme) -> bool,
+    /// These schemes in words.
+    scheme: &'static str,
+}
+
+/// Methods separated by semicolons or commas; a comma before a setting (`integrator=trapezoidal`)
+/// belongs to the method before it.
+fn method_names(list: &str) -> impl Iterator<Item = &str> {
+    let by_semicolon = list.contains(';');
+    let mut parts = Vec::new();
+    let mut start = 0;
+    for (i, c) in list.char_indices() {
+        let next = list[i + c.len_utf8()..].split([',', ';']).next().unwrap_or("");
+        // `integrator=trapezoidal` is a setting, `penalty:epsilon=1e-9` and `event` are methods.
+        let begins = next.contains(':') || !next.contains('=');
+        if c == ';' || (c == ',' && !by_semicolon && begins) {
+            parts.push(&list[start..i]);
+            start = i + c.len_utf8();
         }
     }
-
-    /// The folder for the results of `command` on the case, for `request`.
-    ///
-    /// # Errors
-    /// As [`Destination::results`].
-    pub fn results(&self, case: &Case, command: &str, request: Map<String, Value>) -> Result<Results> {
-        self.place.results(case, command, request)
-    }
+    parts.push(&list[start..]);
+    parts.into_iter().map(str::trim).filter(|part| !part.is_empty())
 }

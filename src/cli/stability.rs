@@ -1,16 +1,14 @@
 //! `signorini stability`: where each scheme fails on a case.
 
-use super::pace::Pace;
-use super::refuted::Refutations;
-use super::request;
+use super::case_args::CaseArgs;
+use super::estimate::DurationEstimate;
+use super::pipeline::{Destination, Shown};
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
-use crate::output::asked::asked;
-use crate::output::document;
-use crate::output::stability as output;
-use crate::output::summary;
+use crate::output::request::request;
 use crate::output::table::Table;
+use crate::output::{document, stability as output};
 use crate::scheme::{PenaltyLaw, Scheme};
 use crate::study::stability::family::{Family, Question};
 use crate::study::stability::impact::{self, ImpactMap};
@@ -50,69 +48,64 @@ const KAPPA: f64 = 0.1;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Args {
-    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in
-    /// case
-    #[arg(value_hint = clap::ValueHint::FilePath)]
-    case: String,
     #[command(flatten)]
-    changes: request::Changes,
+    case: CaseArgs,
     /// Restitution of every rigid wall, 0 to 1
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     restitution: Option<f64>,
     #[command(flatten)]
-    place: request::Destination,
+    place: Destination,
 }
 
-/// Runs the command.
+/// Maps, then energy and lasting contacts.
 ///
 /// # Errors
 /// A case that makes no sense or has no wall, a folder that cannot be written, a reference run that
 /// fails.
-pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let case = args.changes.case_with_restitution(&args.case, args.restitution, ui)?;
-    let mut results = args.place.results(&case, "stability", asked("stability", &case, &[]))?;
+pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+    let case = args.case.read_with_restitution(args.restitution, ui)?;
+    let mut results = args.place.open(&case, "stability", request("stability", &case, &[]))?;
     let question = Question { scene: &case.scene, laws: &case.penalty.laws };
     let plan = Plan::new(question, &Grid::of(&case.scene))?;
     let e = impact::wall_restitution(&case.scene);
     let impacts = impact::maps(plan.scale.mass, case.time.step, e);
     output::impacts(&results.place("impact-map.csv")?, &impacts)?;
     results.draw("impact-map", &output::impact_figure(&impacts, e))?;
-    let pace = Pace::of_maps(&case.scene, plan.work(), plan.subjects.len());
-    let bar = ui.paced("stability", plan.work(), pace);
-    let maps = plan.run(&|done| bar.set(done));
-    bar.finish();
-    let maps = maps?;
+    let work = plan.work();
+    let estimate = DurationEstimate::of_maps(&case.scene, work, plan.subjects.len());
+    let maps = ui.with_estimate("stability", estimate, |bar| {
+        plan.run(&|done| bar.set_share(done as f64 / work.max(1) as f64))
+    })?;
     output::cells(&results.place("stability.csv")?, &maps)?;
     for (name, svg) in output::maps_figures(&maps, case.title.as_deref().unwrap_or(&case.name)) {
         results.draw(&name, &svg)?;
     }
-    let schemes = schemes(&case);
+    let quality = lasting_contacts(&case, &maps, ui)?;
+    output::quality(&results.place("lasting-contact.csv")?, &quality)?;
+    results.tell("case_file", case.document.json()?);
+    results.tell("remarks", json!(case.notes()));
+    let document = document::stability(&case, &maps, &quality, &|scheme| range(scheme, &impacts));
+    let mut shown = Shown::of(results, !args.place.no_report, document);
+    show_maps(&mut shown, &maps, &impacts);
+    show_contacts(&mut shown, &quality);
+    Ok(shown)
+}
+
+/// Energy and lasting contacts of each scheme.
+fn lasting_contacts(case: &Case, maps: &Maps, ui: &Ui) -> Result<Quality> {
+    let schemes = schemes(case);
     // Each at four times, one and a quarter of the step, in parallel; judged and recorded.
     let runs = 2.0 * MULTIPLES.iter().map(|multiple| 1.0 / multiple).sum::<f64>() * schemes.len() as f64;
     let threads = std::thread::available_parallelism().map_or(1.0, |count| count.get() as f64);
-    let bar = ui.paced("contacts", 0, Pace::of_contacts(&case.scene, case.time.step, runs / threads));
-    let quality = Quality::of(&case.scene, &schemes, &case.time, &maps.scale);
-    bar.finish();
-    let quality = quality?;
-    output::quality(&results.place("lasting-contact.csv")?, &quality)?;
-    let mut refuted = Refutations::default();
+    let estimate = DurationEstimate::of_contacts(&case.scene, case.time.step, runs / threads);
+    let quality =
+        ui.with_estimate("contacts", estimate, |_| Quality::of(&case.scene, &schemes, &case.time, &maps.scale))?;
     for line in &quality.lines {
         if let Err(error) = &line.outcome {
-            refuted.see_error(&format!("{}, h = {:.2e} s", line.scheme, line.step), error);
+            ui.refute_failed(&format!("{}, h = {:.2e} s", line.scheme, line.step), error);
         }
     }
-    refuted.announce(ui);
-    results.tell("case_file", summary::case_file(&case));
-    results.tell("remarks", json!(case.notes()));
-    super::run::finish(&mut results, "", !args.place.no_report, ui)?;
-    if ui.json() {
-        let document = document::stability(&case, &maps, &quality, &|scheme| range(scheme, &impacts));
-        ui.document(&super::run::with_folder(document, &results))?;
-        return refuted.verdict();
-    }
-    report(&maps, &impacts, ui)?;
-    contacts(&quality, ui)?;
-    refuted.verdict()
+    Ok(quality)
 }
 
 /// The schemes of the maps with the case's own penalties, or with a spring of `KAPPA` at its step.
@@ -128,15 +121,15 @@ fn schemes(case: &Case) -> Vec<Scheme> {
     Family::all().into_iter().map(scheme).collect()
 }
 
-/// Prints what each scheme does to the energy and to the force of a lasting contact.
-fn contacts(quality: &Quality, ui: &Ui) -> Result<()> {
+/// Shows what each scheme does to the energy and to the force of a lasting contact.
+fn show_contacts(shown: &mut Shown, quality: &Quality) {
     let lasts = |line: &Line| line.outcome.as_ref().is_ok_and(|seen| seen.contact.is_some());
     let what = if quality.lines.iter().any(lasts) {
         "and the force of the largest lasting contact"
     } else {
         "; no contact lasts"
     };
-    ui.message(&format!("energy, in shares of {:.3e} J, {what}:", quality.energy));
+    shown.remarks([format!("energy, in shares of {:.3e} J, {what}:", quality.energy)]);
     let headers = [
         "scheme",
         "step (s)",
@@ -148,11 +141,10 @@ fn contacts(quality: &Quality, ui: &Ui) -> Result<()> {
         "impulse (N s)",
         "contact (s)",
     ];
-    let rows: Vec<Vec<String>> = quality.lines.iter().map(contact_line).collect();
-    ui.table(&Table::new(&headers, rows), "lasting-contact.csv")
+    shown.table(Table::new(&headers, quality.lines.iter().map(contact_cells).collect()), "lasting-contact.csv");
 }
 
-fn contact_line(line: &Line) -> Vec<String> {
+fn contact_cells(line: &Line) -> Vec<String> {
     let mut row = vec![line.scheme.to_string(), format!("{:.2e}", line.step)];
     match &line.outcome {
         Err(error) => {
@@ -181,21 +173,21 @@ fn share(x: f64) -> String {
     if x.abs() < 1e4 { format!("{x:.3}") } else { format!("{x:.2e}") }
 }
 
-fn report(maps: &Maps, impacts: &[ImpactMap], ui: &Ui) -> Result<()> {
+/// Shows the largest safe step of each scheme.
+fn show_maps(shown: &mut Shown, maps: &Maps, impacts: &[ImpactMap]) {
     let (first, last) = (maps.steps.first().copied().unwrap_or(0.0), maps.steps.last().copied().unwrap_or(0.0));
-    ui.message(&format!(
+    shown.remarks([format!(
         "{} steps from {first:.2e} to {last:.2e} s, runs of {:.4} s, {} ({:.4} rad/s)",
         maps.steps.len(),
         maps.horizon,
         maps.scale.origin.describe(),
         maps.scale.omega
-    ));
+    )]);
     let headers = ["scheme", "largest safe step (s)", "hω", "h²k_w/m", "restitution of one free impact", "beyond it"];
-    let rows: Vec<Vec<String>> = maps.own().map(|row| line(row, maps, impacts)).collect();
-    ui.table(&Table::new(&headers, rows), "stability.csv")
+    shown.table(Table::new(&headers, maps.own().map(|row| map_cells(row, maps, impacts)).collect()), "stability.csv");
 }
 
-fn line(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> Vec<String> {
+fn map_cells(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> Vec<String> {
     let subject = &row.subject;
     let step = row.safe.as_ref().and_then(|safe| safe.step);
     let beyond = row.safe.as_ref().and_then(|safe| safe.beyond.as_ref());

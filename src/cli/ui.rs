@@ -1,20 +1,16 @@
 //! Output of the tool: data on stdout, messages and progress on stderr; control characters of
 //! names and paths are escaped in both.
 
-use super::pace::Pace;
-use super::watch::Watch;
+use super::bar::Bar;
+use super::estimate::DurationEstimate;
+use super::terminal::{print_message, width, wrapped};
 use crate::error::{Error, Result, escaped_lines};
 use crate::output::json;
 use crate::output::table::Table;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use crate::residual::Finding;
 use serde_json::Value;
 use std::cell::{Cell, RefCell};
-use std::io::{self, IsTerminal, Write};
-use std::os::fd::AsFd;
-use std::time::{Duration, Instant};
-
-/// After this time a progress bar appears, and a line says how long the work will take.
-const PATIENCE: Duration = Duration::from_secs(1);
+use std::io::{self, Write};
 
 /// Whether the process was started with a stdout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,15 +42,16 @@ pub struct Ui {
     printed: Cell<bool>,
     /// True once the reader of stdout has closed it, as `head` does.
     deserted: Cell<bool>,
-    /// The last line of the command.
-    last: RefCell<Option<String>>,
+    /// The runs that the judge has refuted.
+    refuted: RefCell<Vec<String>>,
 }
 
 impl Ui {
     /// Quiet, JSON, or neither.
     #[must_use]
     pub fn new(quiet: bool, json: bool, stdout: Stdout) -> Self {
-        Self { quiet, json, stdout, printed: Cell::new(false), deserted: Cell::new(false), last: RefCell::new(None) }
+        let refuted = RefCell::default();
+        Self { quiet, json, stdout, printed: Cell::new(false), deserted: Cell::new(false), refuted }
     }
 
     /// True if the answer is a JSON document.
@@ -66,20 +63,7 @@ impl Ui {
     /// Prints text on stderr, unless quiet; on a terminal its lines break between words.
     pub fn message(&self, text: &str) {
         if !self.quiet {
-            // If stderr is closed, the message is lost.
-            let _ = writeln!(io::stderr(), "{}", wrapped(&escaped_lines(text), width(&io::stderr())));
-        }
-    }
-
-    /// Keeps `text` for the last line of the command, in place of what was kept before.
-    pub fn close_with(&self, text: String) {
-        self.last.replace(Some(text));
-    }
-
-    /// Prints the line kept for the end.
-    pub fn close(&self) {
-        if let Some(text) = self.last.take() {
-            self.message(&text);
+            print_message(text);
         }
     }
 
@@ -136,17 +120,33 @@ impl Ui {
         Ok(())
     }
 
-    /// Prints text on stderr, also with `--quiet`.
-    pub fn alarm(&self, text: &str) {
-        let _ = writeln!(io::stderr(), "{}", wrapped(&escaped_lines(text), width(&io::stderr())));
+    /// Prints the findings of the run `run`, also with `--quiet`, and remembers the run: the
+    /// command fails in the end.
+    pub fn refute(&self, run: &str, findings: &[Finding]) {
+        self.refute_for(run, &findings.iter().map(ToString::to_string).collect::<Vec<_>>());
     }
 
-    /// The same while `progress` shows a bar.
-    pub fn beside(&self, progress: &Progress, text: &str) {
-        match progress.bar.as_ref().filter(|bar| !bar.is_hidden()) {
-            Some(bar) => bar.suspend(|| self.message(text)),
-            None => self.message(text),
+    /// The same for a run that was refuted where it was made; any other error is none of these.
+    pub fn refute_failed(&self, run: &str, error: &Error) {
+        if let Error::Refuted { runs } = error {
+            self.refute_for(run, runs);
         }
+    }
+
+    fn refute_for(&self, run: &str, reasons: &[String]) {
+        if !reasons.is_empty() {
+            self.refuted.borrow_mut().push(run.to_owned());
+            reasons.iter().for_each(|reason| print_message(&format!("refuted: {run}: {reason}")));
+        }
+    }
+
+    /// Whether any run of the command was refuted.
+    ///
+    /// # Errors
+    /// [`Error::Refuted`] with the runs that were.
+    pub fn verdict(&self) -> Result<()> {
+        let runs = self.refuted.take();
+        if runs.is_empty() { Ok(()) } else { Err(Error::Refuted { runs }) }
     }
 
     /// Prints an error on stderr, also with `--quiet`; with `--json` also as the document, if none
@@ -163,38 +163,18 @@ impl Ui {
         if text.starts_with("error: ") {
             let _ = writeln!(io::stderr(), "{text}");
         } else {
-            self.alarm(&format!("error: {text}"));
+            print_message(&format!("error: {text}"));
         }
     }
 
-    /// A bar of `total` units that appears on stderr after a second, if that is a terminal and
-    /// `--quiet` is not given.
-    #[must_use]
-    pub fn progress(&self, label: &str, total: u64) -> Progress {
-        let bar = (!self.quiet && io::stderr().is_terminal()).then(|| {
-            let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
-            let style = ProgressStyle::with_template("{msg:20} {wide_bar} {percent:>3} % {eta}");
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-            bar.set_message(label.to_owned());
-            bar
-        });
-        Progress { bar, total, watch: None, started: Instant::now() }
+    /// Does `work` with a progress bar.
+    pub fn with_bar<T>(&self, label: &str, work: impl FnOnce(&Bar) -> T) -> T {
+        work(&Bar::new(label, None, self.quiet))
     }
 
-    /// The same for work whose pace is known: after a second, a line says how long it will take,
-    /// and why.
-    #[must_use]
-    pub fn paced(&self, label: &str, total: u64, pace: Pace) -> Progress {
-        let progress = self.progress(label, total);
-        let bar = progress.bar.clone();
-        let say = move |line: &str| {
-            let line = wrapped(line, width(&io::stderr()));
-            match &bar {
-                Some(bar) => bar.suspend(|| drop(writeln!(io::stderr(), "{line}"))),
-                None => drop(writeln!(io::stderr(), "{line}")),
-            }
-        };
-        Progress { watch: (!self.quiet).then(|| Watch::new(pace, PATIENCE, say)), ..progress }
+    /// The same for work whose duration can be estimated.
+    pub fn with_estimate<T>(&self, label: &str, estimate: DurationEstimate, work: impl FnOnce(&Bar) -> T) -> T {
+        work(&Bar::new(label, Some(estimate), self.quiet))
     }
 }
 
@@ -203,90 +183,30 @@ pub(super) fn unwritable(error: &io::Error) -> Error {
     Error::io("standard output", error.to_string(), false)
 }
 
-/// Columns of text that `stream` has: `COLUMNS`, else those of the terminal; `None` for a file or a
-/// pipe, which take any width.
-fn width(stream: &impl AsFd) -> Option<usize> {
-    let asked = std::env::var("COLUMNS").ok().and_then(|text| text.trim().parse::<usize>().ok()).filter(|&n| n > 0);
-    asked.or_else(|| terminal_size::terminal_size_of(stream).map(|(width, _)| usize::from(width.0)))
-}
-
-/// The text with its lines broken between words, so that none has more than `width` columns unless
-/// a single word has. A line that goes on is indented by two columns more than it began with.
-fn wrapped(text: &str, width: Option<usize>) -> String {
-    let Some(width) = width else { return text.to_owned() };
-    let mut lines: Vec<String> = Vec::new();
-    for line in text.split('\n') {
-        if line.chars().count() <= width {
-            lines.push(line.to_owned());
-            continue;
-        }
-        let begin = line.chars().take_while(|c| *c == ' ').count();
-        let (mut now, mut columns, mut words) = (" ".repeat(begin), begin, 0);
-        for word in line.split_whitespace() {
-            let length = word.chars().count();
-            if words > 0 && columns + 1 + length > width {
-                lines.push(std::mem::replace(&mut now, " ".repeat(begin + 2)));
-                (columns, words) = (begin + 2, 0);
-            }
-            if words > 0 {
-                now.push(' ');
-                columns += 1;
-            }
-            now.push_str(word);
-            (columns, words) = (columns + length, words + 1);
-        }
-        lines.push(now);
-    }
-    lines.join("\n")
-}
-
-/// Progress of work; shared between threads by reference.
-#[derive(Debug)]
-pub struct Progress {
-    bar: Option<ProgressBar>,
-    total: u64,
-    /// Reports how long the work takes; `None` where that is not wanted.
-    watch: Option<Watch>,
-    started: Instant,
-}
-
-impl Progress {
-    /// Sets the amount of work done.
-    pub fn set(&self, done: u64) {
-        self.share(done as f64 / self.total.max(1) as f64);
-    }
-
-    /// Sets the share of the work done.
-    pub fn share(&self, share: f64) {
-        if let Some(watch) = &self.watch {
-            watch.share(share);
-        }
-        let Some(bar) = &self.bar else { return };
-        if bar.is_hidden() && self.started.elapsed() > PATIENCE {
-            bar.set_draw_target(ProgressDrawTarget::stderr());
-        }
-        bar.set_position((share * self.total as f64) as u64);
-    }
-
-    /// Removes the bar; no estimate is printed any more.
-    pub fn finish(self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::wrapped;
+    use super::*;
+    use crate::residual::Refuted;
 
     #[test]
-    fn lines_break_between_words_and_a_word_that_is_too_long_stays_whole() {
-        let text = "note: the body stays on the wall\n  and an indented line of seven words";
-        assert_eq!(wrapped(text, None), text);
-        let lines = "note: the body\n  stays on the\n  wall\n  and an\n    indented\n    line of\n    seven words";
-        assert_eq!(wrapped(text, Some(15)), lines);
-        assert_eq!(wrapped("results in /a/very/long/path", Some(12)), "results in\n  /a/very/long/path");
-        assert_eq!(wrapped("θ = ½ and φ", Some(5)), "θ = ½\n  and\n  φ");
+    fn a_command_with_a_refuted_run_fails_and_names_it() {
+        let ui = Ui::new(true, false, Stdout::Open);
+        ui.refute("moreau-jean", &[]);
+        assert!(ui.verdict().is_ok());
+        let finding = Finding {
+            refuted: Refuted::Penetration,
+            residual: 26.6,
+            tolerance: 1e-6,
+            reason: "rounding".into(),
+            time_s: 266.0,
+            wall: Some("stop".into()),
+        };
+        ui.refute("event", &[finding]);
+        ui.refute_failed("newmark", &Error::Refuted { runs: vec!["the energy".to_owned()] });
+        ui.refute_failed("penalty", &unwritable(&io::Error::other("full")));
+        let error = ui.verdict().expect_err("two refuted runs");
+        let text = error.to_string();
+        assert!(!error.is_request() && text.contains("event") && text.contains("newmark"), "{text}");
+        assert!(!text.contains("penalty"), "{text}");
     }
 }

@@ -1,9 +1,9 @@
 //! The values that options accept, so that the shell can complete them.
 
-use crate::case::Embedded;
+use crate::case::{Embedded, SETTABLE};
 use crate::output::format::Format;
 use crate::qp::Backend;
-use crate::scheme::{Integrator, NAMES};
+use crate::scheme::{Integrator, Scheme};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::ffi::OsStr;
 
@@ -28,7 +28,13 @@ impl TypedValueParser for Offered {
 /// the case at hand.
 #[must_use]
 pub fn schemes() -> Offered {
-    Offered(NAMES.to_vec())
+    Offered(Scheme::ALL.map(|scheme| scheme.entry().name).to_vec())
+}
+
+/// A key of a case and its value, for `--set`.
+#[must_use]
+pub fn settings() -> Offered {
+    Offered(SETTABLE.iter().map(String::as_str).collect())
 }
 
 /// The name of a built-in case.

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::linear::Symmetric;
-use crate::scene::{Load, PlaneRows, Row, Shape, Structure, Support, Wall};
+use crate::scene::{Load, PlaneRows, Row, Structure, Wall};
 use crate::step::{Balance, Conserves, Promise, Tolerances};
 
 fn contract(hole: Option<Bound>) -> Contract {
@@ -19,13 +19,9 @@ fn at_hole([load, stiffness, gap, mass]: [f64; 4]) -> [f64; 2] {
     let unit = |x: f64| Symmetric::diagonal(&[x, x]);
     let structure = Structure { mass: unit(mass), damping: unit(0.0), stiffness: unit(1.0) };
     let mut scene = Scene::structure(structure).with_load(Load::constant(-load));
-    scene.supports.push(Support {
-        name: "ring".into(),
-        at: PlaneRows { y: Row::dof(0), z: Row::dof(1) },
-        centre: [0.0; 2],
-        shape: Shape::Round { gap, law: WallLaw::Elastic { stiffness, damping: 0.0 } },
-        friction: 0.0,
-    });
+    let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+    let wall = Wall { law: WallLaw::Elastic { stiffness, damping: 0.0 }, ..Wall::round("ring", at.clone(), gap) };
+    scene = scene.with_support("ring", at, [0.0; 2], vec![wall]);
     let floor = Floor::all(&scene, &[mass], contract(Some(Bound::End)))[0];
     // A scheme that bounds velocities has no rounding of displacements.
     assert_eq!(Floor::all(&scene, &[mass], contract(None))[0].inertia, 0.0);

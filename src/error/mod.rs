@@ -5,6 +5,7 @@ mod escape;
 mod subject;
 
 pub use cause::Cause;
+pub(crate) use cause::unnumbered;
 pub(crate) use escape::{escaped, escaped_lines};
 pub use subject::{Part, Subject};
 
@@ -167,7 +168,7 @@ impl Error {
 
     /// An [`Error::Io`], of a wrong request or not.
     pub(crate) fn io(path: impl fmt::Display, reason: impl Into<String>, request: bool) -> Self {
-        Self::Io { path: path.to_string(), reason: reason.into(), request, cause: None }
+        Self::Io { path: path.to_string(), reason: unnumbered(&reason.into()), request, cause: None }
     }
 
     /// An [`Error::Qp`]: the programme of the step that starts at `time` (s) was not solved, and

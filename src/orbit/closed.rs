@@ -87,7 +87,7 @@ struct Linear {
 pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
     scene.validate()?;
     if let Some(hole) = scene.holes().next() {
-        let found = format!("round, at the support {:?}", hole.support.name);
+        let found = format!("round, at the support {:?}", hole.name);
         let expected = "walls and flats: in a round hole no orbit in closed form is known";
         return Err(Error::invalid("support", found, expected));
     }
@@ -199,11 +199,11 @@ impl Linear {
     ) {
         let n = self.still.len();
         // The row towards the wall, and the gap in its direction.
-        let toward = -wall.side.sign();
-        let row = DVector::from_iterator(n, dense(&wall.at, n).into_iter().map(|x| toward * x));
+        let toward = -wall.side().sign();
+        let row = DVector::from_iterator(n, dense(wall.row(), n).into_iter().map(|x| toward * x));
         let direction = &self.inverse_mass * &row;
         let direction = &direction / row.dot(&direction);
-        let gap = toward * wall.position - row.dot(&self.still);
+        let gap = toward * wall.position() - row.dot(&self.still);
         let mut jump = DVector::zeros(2 * n);
         jump.rows_mut(n, n).copy_from(&(&direction * (-(1.0 + restitution))));
         // y⁻ = sign E (y⁻ + v jump).

@@ -72,7 +72,7 @@ impl Problem {
                     return Err(Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall"));
                 }
             };
-            Ok(Boundary { position: wall.position, toward: -wall.side.sign(), law })
+            Ok(Boundary { position: wall.position(), toward: -wall.side().sign(), law })
         };
         let boundaries = scene.walls.iter().map(boundary).collect::<Result<Vec<_>>>()?;
         let period = forcing_period(&scene)?;
@@ -143,7 +143,7 @@ impl Problem {
             }
             BoundaryLaw::Rigid(_) => None,
         };
-        let support = support.and_then(|wall| Some(Support { wall, side: self.scene.walls.get(wall)?.side }));
+        let support = support.and_then(|wall| Some(Support { wall, side: self.scene.walls.get(wall)?.side() }));
         arc.begin(&from, touching.iter().filter_map(touch), support);
     }
 

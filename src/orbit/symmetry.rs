@@ -38,7 +38,8 @@ pub(super) fn mirror(scene: &Scene, period: f64) -> Option<Vec<usize>> {
     let mut opposite = Vec::with_capacity(scene.walls.len());
     for wall in &scene.walls {
         let fits = |(index, other): (usize, &crate::scene::Wall)| {
-            let opposite = other.side != wall.side && other.position == -wall.position && other.at == wall.at;
+            let opposite =
+                other.side() != wall.side() && other.position() == -wall.position() && other.row() == wall.row();
             !taken[index] && opposite && other.law == wall.law
         };
         let index = scene.walls.iter().enumerate().position(fits)?;

@@ -141,7 +141,7 @@ impl<'a> Turns<'a> {
             let now = if sample == SAMPLES { series.end() } else { start + width * sample as f64 };
             series.state(now, &mut self.q, &mut self.v);
             for (wall, place) in self.walls.iter().enumerate() {
-                let (w, speed) = (place.at.dot(&self.q), place.at.dot(&self.v));
+                let (w, speed) = (place.row().dot(&self.q), place.row().dot(&self.v));
                 self.largest = self.largest.max(w.abs());
                 let last = std::mem::replace(&mut self.last[wall], speed);
                 if sample > 0 && last * speed < 0.0 {
@@ -159,12 +159,12 @@ impl<'a> Turns<'a> {
         let (mut q, mut v) = (self.q.clone(), self.v.clone());
         let mut speed = |t: f64| {
             series.state(t, &mut q, &mut v);
-            place.at.dot(&v)
+            place.row().dot(&v)
         };
-        let approaches = place.side.sign() * speed(from) < 0.0;
+        let approaches = place.side().sign() * speed(from) < 0.0;
         let time = bisect(speed, from, to);
         series.state(time, &mut self.q, &mut self.v);
-        let w = place.at.dot(&self.q);
+        let w = place.row().dot(&self.q);
         self.largest = self.largest.max(w.abs());
         let gap = place.gap(w);
         if approaches && !acts {

@@ -54,7 +54,7 @@ impl<'a> Watch<'a> {
 
     /// Speed into wall number `wall`, m/s.
     fn toward(&self, wall: &Wall) -> f64 {
-        -wall.side.sign() * wall.at.dot(&self.v)
+        -wall.side().sign() * wall.row().dot(&self.v)
     }
 
     pub fn see(&mut self, step: &Step<'_>) {
@@ -106,7 +106,7 @@ impl<'a> Watch<'a> {
             if place.law.is_rigid() || now == self.touching.contains(&wall) {
                 continue;
             }
-            let on_face = place.gap(place.at.dot(&self.q)).abs() <= 1e-9 * self.length;
+            let on_face = place.gap(place.row().dot(&self.q)).abs() <= 1e-9 * self.length;
             let toward = self.toward(place);
             let (kind, speed) = match (now, on_face) {
                 (true, true) => (Kind::Enter, toward),

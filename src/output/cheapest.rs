@@ -4,7 +4,8 @@
 use super::table::Table;
 use super::work_precision::label;
 use crate::scene::Scene;
-use crate::study::work_precision::{Kind, Peer, Quantity, WorkPrecision};
+use crate::scheme::SchemeKind;
+use crate::study::work_precision::{Peer, Quantity, WorkPrecision};
 use serde_json::{Value, json};
 
 /// The errors for which the table names the cheapest methods.
@@ -42,7 +43,8 @@ struct Cheapest {
 pub fn cheapest(chart: &WorkPrecision, peers: &[Peer]) -> Vec<Best> {
     let mut rows = Vec::new();
     for quantity in Quantity::ALL {
-        for kind in Kind::ALL.into_iter().filter(|k| chart.series.iter().any(|s| Kind::of(&s.method.scheme) == *k)) {
+        let present = |kind: &SchemeKind| chart.series.iter().any(|s| s.method.scheme.entry().kind == *kind);
+        for kind in SchemeKind::ALL.into_iter().filter(present) {
             for (tolerance, within) in TOLERANCES {
                 let best = chart.cheapest(kind, quantity, tolerance);
                 let method = best.map(|(series, step, m)| Cheapest {
@@ -52,7 +54,14 @@ pub fn cheapest(chart: &WorkPrecision, peers: &[Peer]) -> Vec<Best> {
                     seconds: m.seconds,
                     reached: quantity.of(&m.errors).unwrap_or(f64::NAN),
                 });
-                rows.push(Best { quantity, tolerance, within, kind: kind.name(), exact: kind == Kind::Exact, method });
+                rows.push(Best {
+                    quantity,
+                    tolerance,
+                    within,
+                    kind: kind.name(),
+                    exact: kind == SchemeKind::Exact,
+                    method,
+                });
             }
         }
     }
@@ -116,7 +125,7 @@ pub fn conclusion(scene: &Scene, chart: &WorkPrecision, peers: &[Peer], best: &[
 /// The least error of the displacement that a kind comes to with its finest steps; one that a
 /// coarse run has by chance does not count, as in the table.
 fn least(chart: &WorkPrecision, peers: &[Peer], kind: &str) -> Option<f64> {
-    let of_kind = chart.series.iter().filter(|series| Kind::of(&series.method.scheme).name() == kind);
+    let of_kind = chart.series.iter().filter(|series| series.method.scheme.entry().kind.name() == kind);
     let own = of_kind.filter_map(|series| series.measured().last().map(|(_, m)| m.errors.displacement));
     let others = peers.iter().filter(|_| kind == OTHER).map(|peer| peer.error);
     own.chain(others).filter(|error| error.is_finite()).reduce(f64::min)

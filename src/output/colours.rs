@@ -37,7 +37,7 @@ impl Places {
 
     /// The places of a scene.
     pub fn of(scene: &Scene) -> Self {
-        let walls = scene.walls.iter().map(|wall| wall.name.as_str());
+        let walls = scene.walls.iter().filter(|wall| !wall.is_round()).map(|wall| wall.name.as_str());
         Self::new(walls, scene.supports.iter().map(|support| support.name.as_str()))
     }
 

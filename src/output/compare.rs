@@ -12,8 +12,7 @@ use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
 use crate::run::Run;
-use crate::scene::Shape;
-use crate::scheme::{Method, Scheme};
+use crate::scheme::Method;
 use crate::study::choice;
 use crate::study::compare::{Comparison, Row};
 use crate::study::difference::rows;
@@ -104,7 +103,7 @@ fn figures(results: &mut Results, case: &Case, comparison: &Comparison, span: Sp
         .enumerate()
         .filter_map(|(look, (row, label))| {
             let run = row.outcome.as_ref().ok()?;
-            Some(Labelled { label, run, reference: row.method.scheme == Scheme::Event, look })
+            Some(Labelled { label, run, reference: row.method.scheme.is_exact(), look })
         })
         .collect();
     let refined =
@@ -129,7 +128,7 @@ fn distance(results: &mut Results, case: &Case, comparison: &Comparison) -> Resu
     let gap = case.scene.gap_scale();
     let mut names = Vec::new();
     let mut columns: Vec<Vec<f64>> = Vec::new();
-    for row in comparison.rows.iter().filter(|row| row.method.scheme != Scheme::Event) {
+    for row in comparison.rows.iter().filter(|row| !row.method.scheme.is_exact()) {
         let Ok(run) = &row.outcome else { continue };
         names.push(row.method.to_string());
         columns.push(rows(&run.trajectory, &reference.trajectory).map(|(_, distance)| distance / gap).collect());
@@ -173,7 +172,7 @@ fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Resul
                 return line;
             }
         };
-        let exact = row.method.scheme == Scheme::Event;
+        let exact = row.method.scheme.is_exact();
         let e = row.restitution;
         line.push(digits((!exact).then_some(run.grid.step)));
         line.extend([e.map(|e| e.median), e.map(|e| e.least), e.map(|e| e.largest)].map(digits));
@@ -218,14 +217,9 @@ fn largest(columns: &[Vec<f64>]) -> f64 {
 
 /// Deepest position behind a wall or a hole that the scene calls rigid, m.
 fn penetration(case: &Case, run: &Run) -> f64 {
-    let rigid = |shape: &Shape| match shape {
-        Shape::Round { law, .. } => Some(law.is_rigid()),
-        Shape::Flats(_) => None,
-    };
-    let walls = case.scene.walls.iter().map(|wall| wall.law.is_rigid()).zip(&run.residuals.depth_m);
-    let holes = case.scene.supports.iter().filter_map(|support| rigid(&support.shape));
-    let all = walls.chain(holes.zip(&run.residuals.hole_depth_m));
-    all.filter(|(rigid, _)| *rigid).fold(0.0, |most, (_, depth)| most.max(*depth))
+    let rigid =
+        case.scene.walls.iter().map(|wall| wall.law).zip(&run.residuals.depth_m).filter(|(law, _)| law.is_rigid());
+    rigid.fold(0.0, |most, (_, depth)| most.max(*depth))
 }
 
 /// Largest force of all contacts in the window whose force is finite, N.
@@ -246,7 +240,7 @@ pub fn table(case: &Case, comparison: &Comparison) -> Table {
     };
     let short = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") };
     let dash = || "-".to_owned();
-    let exact = |row: &Row| row.method.scheme == Scheme::Event;
+    let exact = |row: &Row| row.method.scheme.is_exact();
     if comparison.rows.iter().any(|row| row.outcome.as_ref().is_ok_and(|run| !run.findings.is_empty())) {
         quantity("judge", &|_, run| if run.findings.is_empty() { "kept".into() } else { "REFUTED".to_owned() });
     }

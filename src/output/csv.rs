@@ -29,7 +29,8 @@ pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
         header.extend([format!("displacement{suffix}_m"), format!("velocity{suffix}_m_per_s")]);
         columns.extend([displacement, velocity]);
     }
-    for (wall, word) in trajectory.walls().iter().zip(words(trajectory.walls())) {
+    let flats = trajectory.walls().iter().zip(words(trajectory.walls()));
+    for (wall, word) in flats.filter(|(wall, _)| !trajectory.holes().contains(wall)) {
         header.extend([format!("contact_force_{word}_N"), format!("contact_impulse_{word}_N_s")]);
         columns.extend([trajectory.contact_force(wall)?, trajectory.contact_impulse(wall)?]);
     }
@@ -60,10 +61,7 @@ pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
     if wears {
         header.extend(["angle_deg", "work_J", "sliding_m"]);
     }
-    let name = |index: usize| {
-        let hole = || trajectory.holes().get(index.checked_sub(trajectory.walls().len())?);
-        trajectory.walls().get(index).or_else(hole).cloned().unwrap_or_default()
-    };
+    let name = |index: usize| trajectory.walls().get(index).cloned().unwrap_or_default();
     let rows = trajectory.contacts().iter().enumerate().map(|(index, c)| {
         let mut row = contact_cells(name(c.wall), c);
         if wears {

@@ -8,22 +8,13 @@ use crate::study::stability::plan::{Maps, Row};
 use crate::study::work_precision::{Errors, Measured, Outcome, Point, Series, WorkPrecision};
 use serde_json::{Value, json};
 
-fn head(case: &Case) -> Value {
-    json!({
-        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
-        "case": case.name,
-        "title": case.title,
-        "source": case.source,
-    })
-}
-
-/// `value`, preceded by the keys that every document has.
-fn under_head(case: &Case, value: Value) -> Value {
-    let mut document = head(case);
-    if let (Some(document), Value::Object(own)) = (document.as_object_mut(), value) {
-        document.extend(own);
-    }
-    document
+/// `value`, an object, with the keys that every document has: program and case.
+pub(crate) fn under_head(case: &Case, mut value: Value) -> Value {
+    value["program"] = json!(format!("signorini {}", env!("CARGO_PKG_VERSION")));
+    value["case"] = json!(case.name);
+    value["title"] = json!(case.title);
+    value["source"] = json!(case.source);
+    value
 }
 
 /// Accuracy against speed: every point of every method.

@@ -83,7 +83,7 @@ impl Episodes {
     pub fn table(&self, scene: &Scene) -> Option<Table> {
         let own = |one: &&EpisodeStatistics| {
             let wall = || scene.walls.iter().position(|wall| wall.name == one.place.name);
-            one.place.kind == PlaceKind::Support || wall().is_none_or(|wall| !scene.is_flat(wall))
+            one.place.kind == PlaceKind::Support || wall().is_none_or(|wall| scene.support_of(wall).is_none())
         };
         let mut shown: Vec<(usize, &EpisodeStatistics)> = self.places.iter().filter(own).enumerate().collect();
         let impulse = |one: &EpisodeStatistics| one.impulse_n_s.as_ref().map_or(0.0, |d| d.mean * one.episodes as f64);

@@ -1,5 +1,5 @@
 //! `request.json`: what was asked, when it was done, which files belong to it, and what is recorded
-//! of its tables.
+//! of its tables and documents.
 
 use super::atomic::{sync_folder, write_whole};
 use super::lock::Lock;

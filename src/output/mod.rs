@@ -7,7 +7,7 @@
 //! | `manifest` | `request.json`: the contents of a folder of results |
 //! | `record` | rows, length and digest of a table, and whether it still has them |
 //! | `lock` | one writer in a folder at a time |
-//! | [`asked`] | the request, as recorded beside its results |
+//! | [`request`] | the request, as recorded beside its results |
 //! | [`csv`] | `trajectory.csv` and `contacts.csv` |
 //! | [`supports`] | `supports.csv`, `sectors.csv`, the table of supports and their part of the summary |
 //! | [`summary`] | `summary.json` |
@@ -18,7 +18,7 @@
 //! | [`realisations`] | `realisations.csv`, and its table |
 //! | [`periodic`] | a periodic orbit: its document, motion and pictures |
 //! | [`branches`] | branches of orbits: tables, document and picture |
-//! | [`beneath`] | `beneath.csv`: points of a sweep beneath the branches |
+//! | [`sweep_overlay`] | `beneath.csv`: points of a sweep beneath the branches |
 //! | [`orbits`] | `orbits.csv`: the motion of the orbits along branches, for a drawing |
 //! | [`loci`] | curves of special points over two keys |
 //! | [`table`] | tables for people, as wide as the terminal |
@@ -28,11 +28,11 @@
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
 //! | [`shape`] | `shape.csv`: the displacement of the whole structure, for a drawing |
+//! | `animation` | `animation.svg`: a tube in motion between its walls |
 //! | [`mod@format`] | figures as files: SVG, PDF, PNG |
 
-pub mod asked;
+pub(crate) mod animation;
 pub mod atomic;
-pub mod beneath;
 pub mod branches;
 pub(crate) mod cheapest;
 pub(crate) mod colours;
@@ -57,6 +57,7 @@ pub mod pictures;
 mod places;
 pub mod realisations;
 pub(crate) mod record;
+pub mod request;
 pub mod results;
 pub(crate) mod ring;
 mod rubbed;
@@ -67,6 +68,7 @@ mod spectra;
 pub mod stability;
 pub mod summary;
 pub mod supports;
+pub mod sweep_overlay;
 pub mod table;
 mod values;
 mod window;

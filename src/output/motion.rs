@@ -43,7 +43,7 @@ pub(super) fn motion(scene: &Scene, run: &Run, probe: usize, whole: Span, fine: 
     let mut out = Vec::with_capacity(knots.len() + parts * count);
     for (i, knot) in knots.iter().enumerate() {
         if let Some(before) = i.checked_sub(1).and_then(|i| knots.get(i)) {
-            let sure = run.scheme == Scheme::Event || (knot.row && before.row);
+            let sure = run.scheme.is_exact() || (knot.row && before.row);
             if parts > 1 && sure && fine.holds(knot.t) && fine.holds(before.t) {
                 divide(before, knot, parts, &mut out);
             }
@@ -60,12 +60,11 @@ fn knots(scene: &Scene, run: &Run, probe: usize, span: Span, corners: bool) -> V
     let velocity = t.velocities().get(probe).into_iter().flatten();
     let rows = t.time().iter().zip(displacement).zip(velocity).map(|((&t, &q), &v)| Instant { t, q, v, row: true });
     let spacing = t.time().get(1).copied().unwrap_or(0.0);
-    let sparse = run.scheme == Scheme::Event || spacing > 1.5 * run.grid.step;
+    let sparse = run.scheme.is_exact() || spacing > 1.5 * run.grid.step;
     // The rows show contacts that last. On a grid only the contacts that fit between rows are
     // inserted.
     let short = |c: &Contact| c.end.is_some_and(|end| end - c.start < 3.0 * spacing);
-    let wanted =
-        |c: &Contact| run.scheme == Scheme::Event || (corners && c.peak_force.is_none()) || (sparse && short(c));
+    let wanted = |c: &Contact| run.scheme.is_exact() || (corners && c.peak_force.is_none()) || (sparse && short(c));
     let mut instants = contact_instants(scene, run, probe, wanted);
     instants.sort_by(|a, b| a.t.total_cmp(&b.t));
     let mut instants = instants.into_iter().peekable();
@@ -88,9 +87,9 @@ fn contact_instants(scene: &Scene, run: &Run, probe: usize, wanted: impl Fn(&Con
     let springs = matches!(run.scheme, Scheme::Penalty { .. });
     let mut out = Vec::new();
     for c in run.trajectory.contacts().iter().filter(|c| wanted(c)) {
-        let Some(wall) = scene.walls.get(c.wall).filter(|w| Some(&w.at) == place) else { continue };
-        let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid() && !springs);
-        let at = |t: f64, v: f64| Instant { t, q: wall.position, v, row: false };
+        let Some(wall) = scene.walls.get(c.wall).filter(|w| Some(w.row()) == place) else { continue };
+        let (sign, rigid) = (wall.side().sign(), wall.law.is_rigid() && !springs);
+        let at = |t: f64, v: f64| Instant { t, q: wall.position(), v, row: false };
         // A contact that exists at the start of the run has no arrival.
         if c.start > 0.0 || c.approach_speed > 0.0 {
             out.push(at(c.start, -sign * c.approach_speed));
@@ -101,7 +100,7 @@ fn contact_instants(scene: &Scene, run: &Run, probe: usize, wanted: impl Fn(&Con
             // show where.
             (end, departure) if rigid => {
                 out.push(at(c.start, 0.0));
-                let end = end.filter(|_| run.scheme == Scheme::Event);
+                let end = end.filter(|_| run.scheme.is_exact());
                 out.extend(end.map(|end| at(end, sign * departure.unwrap_or(0.0))));
             }
             // A spring without damping releases the body where it met it; with a damper it does so

@@ -116,9 +116,9 @@ fn stations(scene: &Scene) -> Vec<Station> {
         let other = along(&format!("{name}-z"))?;
         let rows = [&probe.at, &scene.probes.get(other)?.at];
         let flats = scene.walls.iter().filter_map(|wall| {
-            let [a, b] = seen(&wall.at, rows)?;
-            let sign = -wall.side.sign();
-            Some(Flat { a: sign * a, b: sign * b, c: sign * wall.position })
+            let [a, b] = seen(wall.row(), rows)?;
+            let sign = -wall.side().sign();
+            Some(Flat { a: sign * a, b: sign * b, c: sign * wall.position() })
         });
         let rings = Ring::around(scene, [probe, scene.probes.get(other)?]);
         Some(Station { name: name.to_owned(), probes: [index, other], flats: flats.collect(), rings })
@@ -213,8 +213,8 @@ mod tests {
     fn the_edges_of_a_square_hole_meet_at_its_corners() {
         let at = PlaneRows::doubled(&Row::new(vec![(0, 0.5), (1, 2.0)]), 3);
         let flats = [20.0, 110.0, 200.0, 290.0].map(|direction| crate::scene::Flat { direction, gap: 1e-3 }).to_vec();
-        let support =
-            Flats { name: "s".to_owned(), at, flats, centre: [2e-3, 0.0], law: WallLaw::Rigid { restitution: 1.0 } };
+        let law = WallLaw::Rigid { restitution: 1.0 };
+        let support = Flats { name: "s".to_owned(), at, flats, centre: [2e-3, 0.0], law, friction: 0.0 };
         let mut scene = Scene::oscillator(1.0, 0.0, 1.0);
         scene.walls = support.walls().unwrap();
         scene.probes = vec![

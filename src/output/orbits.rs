@@ -55,7 +55,7 @@ pub fn write(path: &Path, drawn: &Drawn<'_>, family: &Family<'_>) -> Result<()> 
 /// place of wall number `place`.
 fn motion(scene: Scene, point: &Point, place: usize) -> Result<Vec<[f64; 3]>> {
     if let (Some(strobe), Some(wall)) = (&point.strobe, scene.walls.get(place)) {
-        return path(&scene, strobe, point.orbit.signature.periods, &wall.at);
+        return path(&scene, strobe, point.orbit.signature.periods, wall.row());
     }
     let problem = Problem::new(scene)?;
     let flights = problem.flights(&point.orbit)?;
@@ -67,12 +67,12 @@ fn motion(scene: Scene, point: &Point, place: usize) -> Result<Vec<[f64; 3]>> {
 /// wall number `place`.
 #[must_use]
 pub fn walls(scene: &Scene, other: &Scene, place: usize) -> Value {
-    let at = scene.walls.get(place).map(|wall| &wall.at);
+    let at = scene.walls.get(place).map(|wall| wall.row());
     let wall = |(wall, other): (&Wall, &Wall)| {
         json!({
             "name": wall.name,
-            "side": if wall.side == Side::Upper { "upper" } else { "lower" },
-            "position_m": (wall.position == other.position && Some(&wall.at) == at).then_some(wall.position),
+            "side": if wall.side() == Side::Upper { "upper" } else { "lower" },
+            "position_m": (wall.position() == other.position() && Some(wall.row()) == at).then_some(wall.position()),
             "rigid": wall.law.is_rigid(),
         })
     };

@@ -58,8 +58,8 @@ impl Known<'_> {
         let walls = judged.walls.iter().zip(&scene.walls).map(|(share, wall)| {
             json!({
                 "wall": wall.name,
-                "side": if wall.side == Side::Upper { "upper" } else { "lower" },
-                "position_m": wall.position,
+                "side": if wall.side() == Side::Upper { "upper" } else { "lower" },
+                "position_m": wall.position(),
                 "rigid": wall.law.is_rigid(),
                 "contacts": share.contacts,
                 "impulse_n_s": share.impulse,
@@ -125,7 +125,7 @@ impl Known<'_> {
         let points = self.judged.motion.iter().map(|at| (at.displacement, at.velocity));
         let mut panel = Panel::new("Velocity (m/s)").curve(Curve::new("", points));
         for wall in &self.problem.scene().walls {
-            panel = panel.mark(Mark::wall(wall.position, wall.name.clone()).upright());
+            panel = panel.mark(Mark::wall(wall.position(), wall.name.clone()).upright());
         }
         Figure::new(title, "Displacement (m)").panel(panel).to_svg()
     }
@@ -137,7 +137,7 @@ impl Known<'_> {
         let over = |value: fn(&crate::orbit::Instant) -> f64| motion.iter().map(move |at| (at.time, value(at)));
         let mut first = Panel::new("Displacement (m)").curve(Curve::new("", over(|at| at.displacement)));
         for wall in &self.problem.scene().walls {
-            first = first.mark(Mark::wall(wall.position, wall.name.clone()));
+            first = first.mark(Mark::wall(wall.position(), wall.name.clone()));
         }
         let second = Panel::new("Velocity (m/s)").curve(Curve::new("", over(|at| at.velocity)));
         let mut figure = Figure::new(title, "Time (s)").panel(first).panel(second);

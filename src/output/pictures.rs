@@ -2,7 +2,7 @@
 //!
 //! With one degree of freedom each figure has one panel. With several, each probe has a panel, and
 //! in the figure of forces each place at which walls stand. Where there are more than a page holds,
-//! those with the most contact are drawn, and the title says how many there are.
+//! those with the most contact are drawn, and the title names the others.
 
 use super::figure::{Curve, Figure, Mark, Panel};
 pub use super::labelled::Labelled;
@@ -57,7 +57,7 @@ impl Sheet<'_> {
         if let Some(orbits) = orbits(&title, self.scene, self.runs, window.detail()) {
             figures.push(("orbit", orbits));
         }
-        if !self.scene.walls.is_empty() {
+        if self.scene.walls.iter().any(|wall| !wall.is_round()) {
             figures.push(("contact-force", self.contact_force(&window)?));
         }
         let title = |remarks: Vec<String>| self.title(remarks);
@@ -74,6 +74,12 @@ impl Sheet<'_> {
 
     fn probes(&self) -> Chosen<usize> {
         Chosen::probes(self.scene, self.leading().map(|run| &run.trajectory), self.span)
+    }
+
+    /// Text for the title where probes are left out.
+    fn unshown(&self, probes: &Chosen<usize>) -> Option<String> {
+        let name = |&probe: &usize| self.scene.probes.get(probe).map_or_else(String::new, |p| p.name.clone());
+        probes.left_out("probes", name)
     }
 
     /// The title, with the method where there is only one run, and with what is left out.
@@ -96,8 +102,8 @@ impl Sheet<'_> {
     /// The walls on the probe's row; they are marked in its panel only.
     fn marks(&self, probe: usize) -> impl Iterator<Item = Mark> {
         let place: Option<&Row> = self.scene.probes.get(probe).map(|p| &p.at);
-        let seen = self.scene.walls.iter().filter(move |wall| Some(&wall.at) == place);
-        seen.map(|wall| Mark::wall(MM * wall.position, wall.name.as_str()))
+        let seen = self.scene.walls.iter().filter(move |wall| Some(wall.row()) == place);
+        seen.map(|wall| Mark::wall(MM * wall.position(), wall.name.as_str()))
     }
 
     fn curve(&self, labelled: &Labelled<'_>, points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
@@ -118,7 +124,7 @@ impl Sheet<'_> {
     }
 
     fn displacement(&self, probes: &Chosen<usize>, window: &Window) -> String {
-        let mut figure = window.over_time(Figure::new(self.title(probes.left_out("probes")), "Time (s)"));
+        let mut figure = window.over_time(Figure::new(self.title(self.unshown(probes)), "Time (s)"));
         for &probe in &probes.shown {
             let mut panel = self.moving("Displacement (mm)", probe, |run| run.trajectory.displacements());
             for labelled in self.runs {
@@ -131,7 +137,7 @@ impl Sheet<'_> {
     }
 
     fn velocity(&self, probes: &Chosen<usize>, window: &Window) -> String {
-        let mut figure = window.over_time(Figure::new(self.title(probes.left_out("probes")), "Time (s)"));
+        let mut figure = window.over_time(Figure::new(self.title(self.unshown(probes)), "Time (s)"));
         for &probe in &probes.shown {
             let mut panel = self.moving("Velocity (mm/s)", probe, |run| run.trajectory.velocities());
             for labelled in self.runs {
@@ -145,7 +151,7 @@ impl Sheet<'_> {
 
     /// Orbits of the last periods. A rigid impact is a vertical line at the wall.
     fn phase(&self, probes: &Chosen<usize>, window: &Window) -> String {
-        let remarks = probes.left_out("probes").into_iter().chain(window.words());
+        let remarks = self.unshown(probes).into_iter().chain(window.words());
         let mut figure = Figure::new(self.title(remarks), "Displacement (mm)");
         let largest = |columns: &[Vec<f64>]| columns.iter().flatten().fold(0.0_f64, |a, x| a.max(x.abs()));
         let leading = self.leading().map(|run| &run.trajectory);
@@ -171,10 +177,11 @@ impl Sheet<'_> {
     /// separate panels, each drawn only where it occurs.
     fn contact_force(&self, window: &Window) -> Result<String> {
         let places = Chosen::places(self.scene, self.leading().map(|run| &run.trajectory), self.span);
-        let mut figure = window.over_time(Figure::new(self.title(places.left_out("places")), "Time (s)"));
+        let mut figure = window
+            .over_time(Figure::new(self.title(places.left_out("places", |place| place.name(self.scene))), "Time (s)"));
         let headed = |label: &str, place: &WallPlace| {
             let panel = Panel::new(label);
-            if places.count > 1 { panel.heading(place.name(self.scene)) } else { panel }
+            if places.shown.len() + places.left.len() > 1 { panel.heading(place.name(self.scene)) } else { panel }
         };
         for place in &places.shown {
             let mut force = headed("Contact force (N)", place);
@@ -225,7 +232,7 @@ impl Sheet<'_> {
         points.retain(|point| self.span.holds(point.0));
         // The exact scheme gives its forces at every row. A step that met a rigid wall reports
         // impulse/h, which is not a force to draw.
-        let exact = run.scheme == crate::scheme::Scheme::Event;
+        let exact = run.scheme.is_exact();
         let blur = if exact { 0.0 } else { 1.5 * spacing.max(2.0 * run.grid.step) };
         // In a penalty run the walls are springs, also those that the scene calls rigid.
         let springs = matches!(run.scheme, crate::scheme::Scheme::Penalty { .. });
@@ -233,7 +240,7 @@ impl Sheet<'_> {
         let here = |c: &&Contact| walls.contains(&c.wall) && self.shows(c);
         for c in t.contacts().iter().filter(here) {
             let end = c.end.unwrap_or(self.span.to);
-            let sign = self.scene.walls.get(c.wall).map_or(0.0, |w| if w.side == Side::Upper { -1.0 } else { 1.0 });
+            let sign = self.scene.walls.get(c.wall).map_or(0.0, |w| if w.side() == Side::Upper { -1.0 } else { 1.0 });
             let Some(peak) = c.peak_force else {
                 let near = |point: &&mut (f64, f64)| (point.0 - c.start).abs() <= blur;
                 points.iter_mut().filter(near).for_each(|point| point.1 = 0.0);

@@ -7,6 +7,9 @@ use crate::trajectory::Trajectory;
 /// Most panels on one page, one below the other.
 const MOST: usize = 4;
 
+/// Most names in a title of what is left out.
+const MOST_NAMED: usize = 6;
+
 /// A place at which walls stand: all walls with the same row.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct WallPlace {
@@ -24,9 +27,13 @@ impl WallPlace {
     /// Every place of a scene, in the order of its first wall.
     fn all(scene: &Scene) -> Vec<Self> {
         let mut places: Vec<Self> = Vec::new();
-        for (index, wall) in scene.walls.iter().enumerate() {
+        for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round()) {
             let same = |place: &&mut Self| {
-                place.walls.first().and_then(|&first| scene.walls.get(first)).is_some_and(|first| first.at == wall.at)
+                place
+                    .walls
+                    .first()
+                    .and_then(|&first| scene.walls.get(first))
+                    .is_some_and(|first| first.row() == wall.row())
             };
             match places.iter_mut().find(same) {
                 Some(place) => place.walls.push(index),
@@ -53,26 +60,41 @@ impl WallPlace {
 pub(super) struct Chosen<T> {
     /// The items selected, in the scene's order.
     pub shown: Vec<T>,
-    /// Number of items there are in all.
-    pub count: usize,
+    /// The others, in the scene's order.
+    pub left: Vec<T>,
 }
 
 impl<T> Chosen<T> {
-    /// Text for the title where some are left out.
-    pub fn left_out(&self, what: &str) -> Option<String> {
-        (self.shown.len() < self.count)
-            .then(|| format!("the {} of {} {what} with the most contact", self.shown.len(), self.count))
+    /// Text for the title where some are left out, with their names, of which the first few are
+    /// given.
+    pub fn left_out(&self, what: &str, name: impl Fn(&T) -> String) -> Option<String> {
+        if self.left.is_empty() {
+            return None;
+        }
+        let (shown, all) = (self.shown.len(), self.shown.len() + self.left.len());
+        Some(format!("the {shown} of {all} {what} with the most contact, without {}", named(&self.left, name)))
     }
 
     /// The items of the largest weight, in their order; of equal weights, the first ones.
     fn heaviest(weighted: Vec<(f64, T)>) -> Self {
-        let count = weighted.len();
         let mut numbered: Vec<(usize, (f64, T))> = weighted.into_iter().enumerate().collect();
         numbered.sort_by(|a, b| b.1.0.total_cmp(&a.1.0));
-        numbered.truncate(MOST);
-        numbered.sort_by_key(|entry| entry.0);
-        Self { shown: numbered.into_iter().map(|(_, (_, item))| item).collect(), count }
+        let others = numbered.split_off(MOST.min(numbered.len()));
+        let [shown, left] = [numbered, others].map(|mut some| {
+            some.sort_by_key(|entry| entry.0);
+            some.into_iter().map(|(_, (_, item))| item).collect()
+        });
+        Self { shown, left }
     }
+}
+
+/// The names of the first few items, and the number of the others.
+fn named<T>(items: &[T], name: impl Fn(&T) -> String) -> String {
+    let mut names: Vec<String> = items.iter().take(MOST_NAMED).map(name).collect();
+    if items.len() > MOST_NAMED {
+        names.push(format!("{} more", items.len() - MOST_NAMED));
+    }
+    names.join(", ")
 }
 
 impl Chosen<WallPlace> {
@@ -90,7 +112,7 @@ impl Chosen<usize> {
         let weight = |index: usize| {
             let at = scene.probes.get(index).map(|p| &p.at);
             let seen =
-                |place: &&WallPlace| place.walls.first().and_then(|&wall| scene.walls.get(wall)).map(|w| &w.at) == at;
+                |place: &&WallPlace| place.walls.first().and_then(|&wall| scene.walls.get(wall)).map(|w| w.row()) == at;
             places.iter().find(seen).map_or(0.0, |place| place.impulse(motion, span))
         };
         Self::heaviest((0..scene.probes.len()).map(|index| (weight(index), index)).collect())
@@ -104,8 +126,7 @@ mod tests {
 
     #[test]
     fn walls_of_one_row_are_one_place_and_carry_its_names() {
-        let mut there = Wall::upper("there", 1.0);
-        there.at = Row::new(vec![(0, 1.0), (1, -1.0)]);
+        let there = Wall::upper("there", 1.0).at(Row::new(vec![(0, 1.0), (1, -1.0)]));
         let scene = Scene::oscillator(1.0, 0.0, 1.0)
             .with_wall(Wall::upper("upper", 1.0))
             .with_wall(there)
@@ -116,11 +137,14 @@ mod tests {
     }
 
     #[test]
-    fn the_heaviest_are_kept_in_their_order_and_the_title_says_of_how_many() {
+    fn the_heaviest_are_kept_in_their_order_and_the_title_names_the_others() {
         let weighted = [1.0, 5.0, 2.0, 0.0, 3.0, 4.0].into_iter().zip(0..6).collect();
         let chosen = Chosen::heaviest(weighted);
         assert_eq!(chosen.shown, [1, 2, 4, 5]);
-        assert_eq!(chosen.left_out("probes").unwrap(), "the 4 of 6 probes with the most contact");
-        assert_eq!(Chosen::heaviest(vec![(0.0, 7)]).left_out("probes"), None);
+        let text = "the 4 of 6 probes with the most contact, without p0, p3";
+        assert_eq!(chosen.left_out("probes", |i| format!("p{i}")).unwrap(), text);
+        assert_eq!(Chosen::heaviest(vec![(0.0, 7)]).left_out("probes", i32::to_string), None);
+        let many: Vec<i32> = (0..9).collect();
+        assert_eq!(named(&many, i32::to_string), "0, 1, 2, 3, 4, 5, 3 more");
     }
 }

@@ -59,8 +59,9 @@ fn places(study: &Realisations) -> Vec<&ContactPlace> {
 /// are many, those of the largest mean forces.
 fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a ContactPlace> {
     let wall = |place: &ContactPlace| scene.walls.iter().position(|wall| wall.name == place.name);
-    let own =
-        |place: &&ContactPlace| place.kind == PlaceKind::Support || wall(place).is_none_or(|wall| !scene.is_flat(wall));
+    let own = |place: &&ContactPlace| {
+        place.kind == PlaceKind::Support || wall(place).is_none_or(|wall| scene.support_of(wall).is_none())
+    };
     let mut places: Vec<(usize, &ContactPlace)> = places(study).into_iter().filter(own).enumerate().collect();
     let force = |place: &ContactPlace| find(study, place, Measure::MeanForce).map_or(0.0, |one| one.mean);
     places.sort_by(|a, b| force(b.1).total_cmp(&force(a.1)));
@@ -114,7 +115,7 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
              not know what is slower than a batch; --seeds 5 or more gives that of independent realisations"
             .to_owned(),
     }];
-    if scene.supports.iter().any(|support| support.friction == 0.0) {
+    if scene.supports.iter().any(|support| support.friction(&scene.walls) == 0.0) {
         remarks.push("work rates without friction are upper figures".to_owned());
     }
     let measures = [Measure::MeanForce, Measure::WorkRate];

@@ -1,5 +1,5 @@
-//! What is recorded of a finished table: its rows, its length and its SHA-256. A table that was
-//! emptied, shortened or changed since does not have them.
+//! What is recorded of a finished table or document: its rows, its length and its SHA-256. A file
+//! that was emptied, shortened or changed since does not have them.
 
 use crate::case::open_regular;
 use crate::error::{Error, Result};
@@ -12,10 +12,14 @@ use std::path::Path;
 /// The key of a manifest, and of a summary, under which tables are recorded by their names.
 pub(crate) const TABLES: &str = "tables";
 
+/// The key of a manifest under which JSON documents are recorded by their names.
+pub(crate) const DOCUMENTS: &str = "documents";
+
 /// Most bytes of a file of results of which nothing is recorded.
 pub(crate) const MOST_BYTES: u64 = 1 << 32;
 
-/// Rows below the header, length and digest of a table.
+/// Rows below the header, length and digest of a table; a document has its lines below the first in
+/// place of rows.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Record {
     pub rows: u64,
@@ -49,13 +53,14 @@ impl Record {
         Ok(Self { rows: lines.saturating_sub(1), bytes, sha256 })
     }
 
-    /// The record of the table `name` in a manifest; `None` where there is none, as in manifests of
-    /// versions before records.
+    /// The record of the table or document `name` in a manifest; `None` where there is none, as in
+    /// manifests of versions before records.
     pub fn read(manifest: &Value, name: &str) -> Option<Self> {
-        serde_json::from_value(manifest.get(TABLES)?.get(name)?.clone()).ok()
+        let found = [TABLES, DOCUMENTS].iter().find_map(|key| manifest.get(key)?.get(name))?;
+        serde_json::from_value(found.clone()).ok()
     }
 
-    /// The bytes of the file at `path`, which is the table that was recorded.
+    /// The bytes of the file at `path`, which is the one that was recorded.
     ///
     /// # Errors
     /// [`Error::Io`], a wrong request, that says what was recorded and what is there.
@@ -75,7 +80,7 @@ impl Record {
 
     fn check(&self, path: &Path, take: impl FnMut(&[u8])) -> Result<()> {
         let damaged = |found: String| {
-            let written = format!("{} rows in {} bytes were written", self.rows, self.bytes);
+            let written = format!("{} were written", size(path, self.rows, self.bytes));
             let help = "the command that wrote it writes it again";
             Error::io(path.display(), format!("{found}, where {written}\nhelp: {help}"), true)
         };
@@ -89,7 +94,7 @@ impl Record {
         let found = Self::of(Passed { source: file.take(self.bytes), take })
             .map_err(|error| damaged(format!("cannot be read ({error})")))?;
         if found.bytes != self.bytes {
-            return Err(damaged(format!("has {} rows in {} bytes", found.rows, found.bytes)));
+            return Err(damaged(format!("has {}", size(path, found.rows, found.bytes))));
         }
         if found.sha256 != self.sha256 {
             let reason = format!("was changed, to the SHA-256 {} from {}", found.sha256, self.sha256);
@@ -97,6 +102,12 @@ impl Record {
         }
         Ok(())
     }
+}
+
+/// The size of the file at `path` in words.
+fn size(path: &Path, rows: u64, bytes: u64) -> String {
+    let is_table = path.extension().is_some_and(|extension| extension == "csv");
+    if is_table { format!("{rows} rows in {bytes} bytes") } else { format!("{bytes} bytes") }
 }
 
 /// A source whose bytes are also passed to `take`.

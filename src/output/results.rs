@@ -4,9 +4,9 @@
 //! One process at a time writes into a folder. Files are first written into a folder of their own
 //! within it, onto the disk; only when all are there do they take the places of earlier results,
 //! and then `request.json` says what was asked, when it was done, which files belong to it, and
-//! what is recorded of each table. An interruption before that leaves the earlier results as they
-//! were. One amidst it leaves a manifest that says so, and the same request replaces everything
-//! that it lists.
+//! what is recorded of each table and document. An interruption before that leaves the earlier
+//! results as they were. One amidst it leaves a manifest that says so, and the same request
+//! replaces everything that it lists.
 
 #[cfg(test)]
 mod tests;
@@ -15,10 +15,11 @@ use super::atomic::{STAGE, check_folder, remove_abandoned, sync_files, sync_fold
 use super::format::Format;
 use super::lock::Lock;
 use super::manifest::{self, UNFINISHED};
-use super::record::{Record, TABLES};
+use super::record::{DOCUMENTS, Record, TABLES};
 use crate::error::{Error, Result};
 use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::time::SystemTime;
@@ -38,6 +39,7 @@ pub struct Results {
     /// True once the manifest says that the files in their places are whole.
     finished: bool,
     tables: BTreeMap<String, Record>,
+    documents: BTreeMap<String, Record>,
     /// Further entries of the manifest, which do not affect what may be replaced.
     told: Map<String, Value>,
     /// The file from which this request goes on after an interruption.
@@ -115,6 +117,7 @@ impl Results {
             placed: 0,
             finished: false,
             tables: BTreeMap::new(),
+            documents: BTreeMap::new(),
             told: Map::new(),
             journal: None,
             entered,
@@ -174,7 +177,7 @@ impl Results {
     }
 
     /// The manifest: what was asked, when it was done, which files belong to it, and what is
-    /// recorded of its tables.
+    /// recorded of its tables and documents.
     #[must_use]
     pub fn manifest(&self) -> Value {
         let mut manifest = Map::new();
@@ -185,6 +188,7 @@ impl Results {
         manifest.insert("request".to_owned(), json!(self.request));
         manifest.insert("files".to_owned(), json!(self.files));
         manifest.insert(TABLES.to_owned(), json!(self.tables));
+        manifest.insert(DOCUMENTS.to_owned(), json!(self.documents));
         Value::Object(manifest)
     }
 
@@ -203,11 +207,16 @@ impl Results {
     }
 
     fn record(&mut self) -> Result<()> {
-        for name in self.files.iter().skip(self.placed).filter(|name| name.ends_with(".csv")) {
-            if !self.tables.contains_key(name) {
+        for name in self.files.iter().skip(self.placed) {
+            let records = match Path::new(name).extension().and_then(OsStr::to_str) {
+                Some("csv") => &mut self.tables,
+                Some("json") => &mut self.documents,
+                _ => continue,
+            };
+            if !records.contains_key(name) {
                 let path = self.folder.join(STAGE).join(name);
                 let record = fs::File::open(&path).and_then(Record::of).map_err(|error| failure(&path, error))?;
-                self.tables.insert(name.clone(), record);
+                records.insert(name.clone(), record);
             }
         }
         Ok(())
@@ -271,7 +280,8 @@ impl Results {
         // The folder itself is written with the manifest.
         folders.iter().filter(|folder| **folder != self.folder).try_for_each(|folder| sync_folder(folder))?;
         self.placed = self.files.len();
-        let before = self.before.take();
+        // Results that are taken over are not replaced.
+        let (before, taken_over) = (self.before.take(), self.finished);
         if let Some(before) = &before {
             let stays = |name: &String| self.files.contains(name) || self.journal.as_ref() == Some(name);
             before.files.iter().filter(|name| !stays(name)).for_each(|name| self.take_away(name));
@@ -286,7 +296,7 @@ impl Results {
             let made = before.made.map_or_else(String::new, |time| format!(", made {time}"));
             format!("replaced the results in {}{made}", self.folder.display())
         };
-        Ok(before.map(replaced))
+        Ok(before.filter(|_| !taken_over).map(replaced))
     }
 
     /// Removes a file of the earlier results, and its folder if that is then empty. The manifest

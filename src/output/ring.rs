@@ -36,7 +36,7 @@ impl Ring {
     pub fn around(scene: &Scene, [y, z]: [&Probe; 2]) -> Vec<Self> {
         let there = scene.supports.iter().enumerate().filter(|(_, s)| s.at.y == y.at && s.at.z == z.at);
         let ring = |(index, support): (usize, &Support)| {
-            let hole = support.hole().map(|hole| hole.gap);
+            let hole = support.hole(&scene.walls).map(|hole| hole.gap);
             let gap = support.gaps(&scene.walls).into_iter().fold(0.0, f64::max);
             Self { index, centre: support.centre, hole, inside: INSIDE * reach(gap, hole.is_some()) }
         };
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
     use crate::output::labelled::Labelled;
     use crate::run::{Options, run};
-    use crate::scene::{PlaneRows, Row, Shape, Structure, WallLaw};
+    use crate::scene::{PlaneRows, Row, Structure, Wall};
     use crate::scheme::Scheme;
 
     /// A free mass of 1 kg in a hole of 1 mm about (0.2, 0) mm.
@@ -119,9 +119,8 @@ mod tests {
             .zip([0, 1])
             .map(|(name, i)| Probe { name: name.to_owned(), at: Row::dof(i) })
             .collect();
-        let shape = Shape::Round { gap: 1e-3, law: WallLaw::Rigid { restitution: 0.9 } };
-        scene.supports.push(Support { name: "s".to_owned(), at, centre: [0.2e-3, 0.0], shape, friction: 0.0 });
-        scene
+        let wall = Wall::round("s", at.clone(), 1e-3).with_centre([0.2e-3, 0.0]).with_restitution(0.9);
+        scene.with_support("s", at, [0.2e-3, 0.0], vec![wall])
     }
 
     #[test]

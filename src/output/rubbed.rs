@@ -4,7 +4,7 @@ use super::colours::Places;
 use super::figure::{Curve, Figure, Panel};
 use super::labelled::Labelled;
 use super::window::Window;
-use crate::scene::{Scene, Shape};
+use crate::scene::Scene;
 use crate::trajectory::Trajectory;
 
 /// Most supports in one figure.
@@ -35,10 +35,9 @@ impl Rubbed<'_> {
     /// The force of each round support, in the mean from row to row; `None` without any.
     pub fn force(&self) -> Option<String> {
         let points = |motion: &Trajectory, index: usize| {
-            let round = |s: &&crate::scene::Support| matches!(s.shape, Shape::Round { .. });
-            self.scene.supports.get(index).filter(round)?;
-            let before = self.scene.supports.iter().take(index).filter(round).count();
-            let [y, z] = motion.hole_impulses().get(before)?;
+            let wall = self.scene.supports.get(index)?.hole(&self.scene.walls)?.index;
+            let number = self.scene.holes().position(|hole| hole.index == wall)?;
+            let [y, z] = motion.hole_impulses().get(number)?;
             let mean = |((pair, y), z): ((&[f64], &f64), &f64)| match pair {
                 [from, to] => Some((*to, y.hypot(*z) / (to - from))),
                 _ => None,
@@ -72,7 +71,7 @@ impl Rubbed<'_> {
         let mut figure = self.window.over_time(Figure::new(title, "Time (s)"));
         let places = Places::of(self.scene);
         for support in supports.iter().filter_map(|(index, _)| Some((*index, self.scene.supports.get(*index)?))) {
-            let remark = if support.1.friction == 0.0 { frictionless } else { "" };
+            let remark = if support.1.friction(&self.scene.walls) == 0.0 { frictionless } else { "" };
             let mut panel = Panel::new(label).heading(format!("{}{remark}", support.1.name));
             for labelled in self.runs {
                 let Some(points) = points(&labelled.run.trajectory, support.0) else { continue };

@@ -112,7 +112,7 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
 /// The remarks below the table of walls, a sentence each.
 #[must_use]
 pub fn remarks(run: &Run) -> Vec<String> {
-    let all = run.statistics.walls.len();
+    let all = flats(run).count();
     if all == 0 {
         return Vec::new();
     }
@@ -126,7 +126,7 @@ pub fn remarks(run: &Run) -> Vec<String> {
             run.statistics.from_s
         ));
     }
-    if let Some(stretch) = run.statistics.walls.iter().find_map(|wall| wall.force?.rms_averaged_over_s) {
+    if let Some(stretch) = flats(run).find_map(|wall| wall.force?.rms_averaged_over_s) {
         remarks.push(format!(
             "mean of |force| over time; RMS at rigid walls of the mean over stretches of {stretch:.3e} s, since \
              that of impulse/h has no limit \
@@ -135,7 +135,7 @@ pub fn remarks(run: &Run) -> Vec<String> {
     }
     let window = run.statistics.to_s - run.statistics.from_s;
     let rounding = ROUNDING * run.residuals.energy.exchanged_j / window;
-    if run.statistics.walls.iter().any(|wall| wall.arrived_less_departed_power_w < -rounding) {
+    if flats(run).any(|wall| wall.arrived_less_departed_power_w < -rounding) {
         remarks.push(
             "arrived - left is negative: load and structure did work on the body during contact, so that it \
              left with more energy than it arrived with"
@@ -173,15 +173,20 @@ fn fixed(x: f64, digits: usize) -> String {
     format!("{x:.digits$}")
 }
 
-/// The walls of the largest impulses, in the scene's order.
+/// The flat walls: a round one is in the table of its support.
+fn flats(run: &Run) -> impl Iterator<Item = &WallStatistics> {
+    run.statistics.walls.iter().filter(|wall| !wall.round)
+}
+
+/// The flat walls of the largest impulses, in the scene's order.
 fn busiest(run: &Run) -> Vec<&WallStatistics> {
-    let walls = &run.statistics.walls;
+    let walls: Vec<&WallStatistics> = flats(run).collect();
     let impulse = |wall: &WallStatistics| wall.force.map_or(0.0, |force| force.impulse_n_s.abs());
-    let mut order: Vec<(usize, f64)> = walls.iter().map(impulse).enumerate().collect();
+    let mut order: Vec<(usize, f64)> = walls.iter().map(|wall| impulse(wall)).enumerate().collect();
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
     order.truncate(MOST_ROWS);
     order.sort_by_key(|entry| entry.0);
-    order.into_iter().filter_map(|(i, _)| walls.get(i)).collect()
+    order.into_iter().filter_map(|(i, _)| walls.get(i).copied()).collect()
 }
 
 /// How the steps that met a wall were solved, and how many there were.

@@ -103,6 +103,13 @@ impl Shape {
         file.finish()
     }
 
+    /// Where the stations are.
+    #[must_use]
+    pub fn stations(&self) -> Option<Stations> {
+        let names = self.probes.iter().map(|probe| probe.name.clone());
+        Stations::of(&std::iter::once("time_s".to_owned()).chain(names).collect::<Vec<_>>())
+    }
+
     /// True where there is nothing to draw.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -116,19 +123,10 @@ fn along(case: &Case, length: f64) -> Vec<(String, Place)> {
     let mut at: Vec<f64> = (0..ALONG).map(|i| length * (i as f64 / (ALONG - 1) as f64)).collect();
     let places = case.places.iter().chain(&case.written.loads);
     let supports = case.written.supports.iter().map(|support| &support.place);
-    at.extend(places.chain(supports).filter_map(position));
+    at.extend(places.chain(supports).filter_map(Place::position));
     at.sort_by(f64::total_cmp);
     at.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * length);
     at.into_iter().map(|x| (column(x), Place::Position(x))).collect()
-}
-
-/// Where along a bar or beam the place is, m.
-fn position(place: &Place) -> Option<f64> {
-    match place {
-        Place::Position(x) => Some(*x),
-        Place::Towards { place, .. } => position(place),
-        _ => None,
-    }
 }
 
 /// The row of the scene that sees `place`, in modal coordinates where the case is reduced to modes.

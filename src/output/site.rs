@@ -15,8 +15,10 @@ pub(super) enum Site<'a> {
 impl<'a> Site<'a> {
     /// All of a case.
     pub fn all(case: &'a Case) -> impl Iterator<Item = Self> {
-        let walls = case.scene.walls.iter().enumerate().map(|(index, wall)| Self::Wall(index, &wall.name));
-        let supports = case.scene.supports.iter().enumerate().filter(|(_, support)| support.hole().is_some());
+        let scene = &case.scene;
+        let flats = scene.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round());
+        let walls = flats.map(|(index, wall)| Self::Wall(index, &wall.name));
+        let supports = scene.supports.iter().enumerate().filter(|(_, support)| support.hole(&scene.walls).is_some());
         walls.chain(supports.map(|(index, support)| Self::Round(index, &support.name)))
     }
 

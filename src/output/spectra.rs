@@ -7,7 +7,7 @@ use super::results::Results;
 use crate::case::{Case, rows_of};
 use crate::error::Result;
 use crate::run::Run;
-use crate::scene::{Shape, heading};
+use crate::scene::{Face, heading};
 use crate::statistics::Spectrum;
 use serde::Serialize;
 use std::collections::HashSet;
@@ -104,21 +104,21 @@ pub(super) fn of(case: &Case, run: &Run) -> Result<Vec<SpectrumFile>> {
         here.chunks_exact(rows).map(|part| part.iter().sum::<f64>() / stretch).collect()
     };
     let of_wall = |wall: usize| averaged(motion.contact_impulses().get(wall).map_or(&[], Vec::as_slice));
-    for (index, wall) in scene.walls.iter().enumerate().filter(|(index, _)| !scene.is_flat(*index)) {
+    for (index, wall) in scene.walls.iter().enumerate().filter(|(index, _)| scene.support_of(*index).is_none()) {
         add(&wall.name, Quantity::ContactForce, vec![("", of_wall(index))], stretch)?;
     }
-    let mut holes = motion.hole_impulses().iter();
     for support in &scene.supports {
-        let Shape::Flats(flats) = &support.shape else {
-            let Some([y, z]) = holes.next() else { continue };
+        if let Some(hole) = support.hole(&scene.walls) {
+            let number = scene.holes().position(|other| other.index == hole.index);
+            let Some([y, z]) = number.and_then(|number| motion.hole_impulses().get(number)) else { continue };
             add(&support.name, Quantity::ContactForce, vec![("y", averaged(y)), ("z", averaged(z))], stretch)?;
             continue;
-        };
+        }
         let mut ways = [("y", Vec::new()), ("z", Vec::new())];
-        for flat in flats {
-            let Some(wall) = scene.walls.get(flat.wall) else { continue };
-            let normal = heading(flat.direction).map(|x| -wall.side.sign() * x);
-            let force = of_wall(flat.wall);
+        for (index, wall) in support.members(&scene.walls) {
+            let Face::Flat { side, direction: Some(degrees), .. } = wall.face else { continue };
+            let normal = heading(degrees).map(|x| -side.sign() * x);
+            let force = of_wall(index);
             for ((_, sum), n) in ways.iter_mut().zip(normal) {
                 sum.resize(force.len(), 0.0);
                 sum.iter_mut().zip(&force).for_each(|(sum, f)| *sum += n * f);

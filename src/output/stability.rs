@@ -177,7 +177,7 @@ pub fn impact_figure(maps: &[ImpactMap], e: f64) -> String {
     let mut panel = Panel::new("Restitution (–)").heading("Walls as constraints").range(-0.15, 3.15);
     for map in maps.iter().filter(|map| map.kappa.is_none()) {
         let curve = Curve::new(map.label.clone(), points(map));
-        panel = panel.curve(if map.scheme == Scheme::Event { curve.backdrop() } else { curve });
+        panel = panel.curve(if map.scheme.is_exact() { curve.backdrop() } else { curve });
     }
     figure = figure.panel(panel);
     for kappa in KAPPAS {

@@ -12,14 +12,10 @@
 //! decides the signs there.
 
 use super::delassus::Delassus;
+use super::envelope::DEPENDENT;
 use super::side::Side;
 use super::sums::dot;
 use super::{Failure, NOISE, ROUNDING, ULPS};
-
-/// A pivot of the factor below this share of Wᵢᵢ means that the row depends on those before it
-/// (dimensionless; the pivot is sin² of the angle between them, so this is an angle of 1e-6, and
-/// 1e4 times its rounding error).
-const DEPENDENT: f64 = 1e-12;
 
 /// The rows in play, the factor of W on them, and work space for all m rows.
 pub(super) struct ActiveSet {
@@ -181,40 +177,23 @@ impl ActiveSet {
             }
             // Push that brings the row onto its bound: its violation over the Schur complement of
             // W.
-            let full = if independent {
-                let y =
-                    self.rows.iter().zip(&self.force).fold(system.y[row], |y, (&j, f)| y + system.entry(row, j) * f)
-                        + system.entry(row, row) * r[row];
-                let (lo, hi) = bounds(row);
-                let bound = if side == Side::Lower { lo } else { hi };
-                let pivot = self.factor[k * self.m + k];
-                (side.sign() * (bound - y)).max(0.0) / (pivot * pivot)
-            } else {
-                f64::INFINITY
-            };
-            let push = full.min(blocking.0);
-            if push.is_infinite() {
-                // Farkas's lemma, as in `pivoting`.
-                let term = |row: usize, side: Side, part: f64| {
-                    let (lo, hi) = bounds(row);
-                    part * if side == Side::Lower { lo } else { hi }
-                };
-                let own = term(row, side, side.sign());
-                let (sum, size) = (0..k).fold((own, own.abs()), |(sum, size), i| {
-                    let term = term(self.rows[i], self.sides[i], self.change[i]);
-                    (sum + term, size + term.abs())
-                });
-                if sum <= NOISE * size {
+            let y = self.rows.iter().zip(&self.force).fold(system.y[row], |y, (&j, f)| y + system.entry(row, j) * f)
+                + system.entry(row, row) * r[row];
+            let (lo, hi) = bounds(row);
+            let bound = if side == Side::Lower { lo } else { hi };
+            let pivot = self.factor[k * self.m + k].powi(2);
+            let reaching = (side.sign() * (bound - y)).max(0.0) / pivot;
+            let mut full = if independent { reaching } else { f64::INFINITY };
+            if full.min(blocking.0).is_infinite() {
+                self.check_crossing(system, &bounds, (row, side))?;
+                // The bounds do not cross: a row that is not parallel to one in play is brought
+                // onto its own by what is left of its pivot.
+                if pivot <= DEPENDENT * system.entry(row, row) {
                     return Err(Failure::NotSolved { status: "rows too nearly dependent" });
                 }
-                let Some(i) = self.strongest(system) else { return Err(Failure::Infeasible { row, against: row }) };
-                let against = self.rows[i];
-                let (row, against) = match (side, self.sides[i]) {
-                    (Side::Upper, Side::Lower) => (against, row),
-                    _ => (row, against),
-                };
-                return Err(Failure::Infeasible { row, against });
+                full = reaching;
             }
+            let push = full.min(blocking.0);
             for (force, change) in self.force.iter_mut().zip(&self.change[..k]) {
                 *force += push * change;
             }
@@ -231,6 +210,34 @@ impl ActiveSet {
                 self.refactor(system, i);
             }
         }
+    }
+
+    /// An error if the bounds of the rows in play and that of `row`, which depends on them, cross:
+    /// by Farkas's lemma, as in `pivoting`.
+    fn check_crossing(
+        &self,
+        system: &Delassus,
+        bounds: impl Fn(usize) -> (f64, f64),
+        (row, side): (usize, Side),
+    ) -> Result<(), Failure> {
+        let term = |row: usize, side: Side, part: f64| {
+            let (lo, hi) = bounds(row);
+            part * if side == Side::Lower { lo } else { hi }
+        };
+        let own = term(row, side, side.sign());
+        let (sum, size) = (0..self.rows.len()).fold((own, own.abs()), |(sum, size), i| {
+            let term = term(self.rows[i], self.sides[i], self.change[i]);
+            (sum + term, size + term.abs())
+        });
+        if sum <= NOISE * size {
+            return Ok(());
+        }
+        let Some(i) = self.strongest(system) else { return Err(Failure::Infeasible { row, against: row }) };
+        let against = self.rows[i];
+        Err(match (side, self.sides[i]) {
+            (Side::Upper, Side::Lower) => Failure::Infeasible { row: against, against: row },
+            _ => Failure::Infeasible { row, against },
+        })
     }
 
     /// Which of the rows in play reacts most to an impossible push.
@@ -284,7 +291,13 @@ impl ActiveSet {
             line[j] = (system.entry(row, self.rows[j]) - dot(&above[..j], &line[..j])) / above[j];
             pivot -= line[j] * line[j];
         }
-        let independent = pivot > DEPENDENT * system.entry(row, row);
+        // N = eₖ − Σ cⱼ eⱼ of the combination c of the rows in play that comes nearest to the row:
+        // the rounding error of the pivot NᵀW N is 1e-16 of NᵀD N, D = diag(Wᵢᵢ).
+        let c = &mut self.change[..k];
+        c.copy_from_slice(&line[..k]);
+        backward(done, m, c);
+        let size = c.iter().zip(&self.rows).fold(system.square(row), |sum, (c, &j)| sum + c * c * system.square(j));
+        let independent = pivot > DEPENDENT * size;
         // Kept positive so that nothing is ever divided by zero, whatever rounding did.
         line[k] = pivot.max(f64::MIN_POSITIVE).sqrt();
         independent
@@ -297,7 +310,12 @@ fn triangular(factor: &[f64], m: usize, k: usize, v: &mut [f64]) {
         let line = &factor[i * m..=i * m + i];
         v[i] = (v[i] - dot(&line[..i], &v[..i])) / line[i];
     }
-    for i in (0..k).rev() {
+    backward(factor, m, &mut v[..k]);
+}
+
+/// Solves Lᵀ v = v in place for the leading rows of a factor stored with stride m.
+fn backward(factor: &[f64], m: usize, v: &mut [f64]) {
+    for i in (0..v.len()).rev() {
         v[i] /= factor[i * m + i];
         for j in 0..i {
             v[j] -= factor[i * m + j] * v[i];

@@ -4,7 +4,7 @@ use super::column;
 use super::folder::{Cells, Folder};
 use super::run::case_text;
 use crate::error::Result;
-use crate::output::{beneath, orbits};
+use crate::output::{orbits, sweep_overlay};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 
@@ -70,8 +70,8 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     } else {
         notes.push("there is no orbits.csv, from which the motion along each orbit is drawn".to_owned());
     }
-    if folder.has(beneath::FILE) {
-        let points = folder.numbers(beneath::FILE)?;
+    if folder.has(sweep_overlay::FILE) {
+        let points = folder.numbers(sweep_overlay::FILE)?;
         let [x, y] = &points.columns[..] else {
             return Err(points.wrong("expected two columns, the key and the approach speed"));
         };

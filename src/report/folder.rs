@@ -57,9 +57,12 @@ impl Folder<'_> {
         Ok((rows, columns))
     }
 
-    /// The JSON document in the file `name`.
+    /// The JSON document in the file `name`, the one that was recorded when it was written.
     pub fn json(&self, name: &str) -> Result<Value> {
         let path = self.path.join(name);
+        if let Some(record) = Record::read(self.manifest, name) {
+            record.verify(&path)?;
+        }
         let text = read_text(&path, MOST_TABLE_BYTES).map_err(|reason| wrong(&path, reason))?;
         serde_json::from_str(&text).map_err(|error| wrong(&path, format!("not valid JSON: {error}")).caused_by(error))
     }

@@ -39,14 +39,16 @@ use folder::Folder;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
-/// Why the results in `path` get no report beside them, although their command writes one: their
-/// tables are too large for a page. `None` where they are not.
+/// Why the results in `path` get no report beside them, although their command writes one, and what
+/// to do: their tables are too large for a page. `None` where they are not.
 ///
 /// # Errors
 /// [`Error::Io`] where a table cannot be read.
 pub fn too_large(path: &Path, manifest: &Value) -> Result<Option<String>> {
     match manifest["request"]["command"].as_str() {
-        Some("sweep") => sweep::too_large(&Folder { path, manifest }),
+        Some("sweep") => {
+            Ok(sweep::too_large(&Folder { path, manifest })?.map(|reason| sweep::without_page(path, &reason)))
+        }
         _ => Ok(None),
     }
 }

@@ -3,7 +3,7 @@
 
 use super::column::{extremes, f32, f64, i16, u32, words};
 use super::folder::{Cells, Folder, Numbers};
-use super::scene::place;
+use super::scene::in_keys;
 use crate::error::{Error, Result};
 use crate::output::shape::{self, Stations};
 use serde_json::{Value, json};
@@ -80,9 +80,9 @@ fn beside(summary: &Value) -> usize {
     supports.iter().map(|support| if support["shape"] == "round" { 5 } else { 1 }).sum()
 }
 
-/// Names of the probes, and where each is: from the case in the summary, else from the header.
+/// Names of the probes, and where each is: from the scene in the summary, else from the header.
 fn probe_names(table: &Numbers, summary: &Value, count: usize) -> Vec<(String, Value)> {
-    let listed = summary["case_file"]["probe"].as_array().filter(|list| list.len() == count);
+    let listed = summary["scene"]["probes"].as_array().filter(|list| list.len() == count);
     let of_header = |index: usize| {
         let name = table.header.get(1 + 2 * index).map_or("", String::as_str);
         let name = name.strip_prefix("displacement").unwrap_or(name);
@@ -90,7 +90,7 @@ fn probe_names(table: &Numbers, summary: &Value, count: usize) -> Vec<(String, V
     };
     (0..count)
         .map(|index| match listed.and_then(|list| list.get(index)) {
-            Some(probe) => (probe["name"].as_str().unwrap_or_default().to_owned(), place(probe)),
+            Some(probe) => (probe["name"].as_str().unwrap_or_default().to_owned(), in_keys(&probe["at"])),
             None => (of_header(index), Value::Null),
         })
         .collect()

@@ -67,6 +67,7 @@ fn notes(summary: &Value, run: &Value) -> Value {
 /// The key figures.
 fn facts(summary: &Value) -> Value {
     let walls = summary["statistics"]["walls"].as_array().map_or(&[][..], Vec::as_slice);
+    let walls: Vec<&Value> = walls.iter().filter(|wall| wall["round"] != true).collect();
     let number = |value: &Value| value.as_f64();
     let fact = |label: &str, value: String, unit: &str| json!({ "label": label, "value": value, "unit": unit });
     let mut facts = Vec::new();

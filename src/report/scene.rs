@@ -56,8 +56,8 @@ fn support(support: &Value) -> Value {
     })
 }
 
-/// Where a load or probe of a case file is, its direction with it.
-pub(super) fn place(entry: &Value) -> Value {
+/// Where a load of a case file is, its direction with it.
+fn place(entry: &Value) -> Value {
     let mut at = entry["at"].clone();
     if let (Some(map), Some(direction)) = (at.as_object_mut(), entry.get("direction")) {
         map.insert("direction".to_owned(), direction.clone());
@@ -65,11 +65,10 @@ pub(super) fn place(entry: &Value) -> Value {
     at
 }
 
-/// The place of a wall of the scene in the keys of a case file, so that it can be compared with the
-/// place of a probe.
-fn in_keys(at: &Value) -> Value {
+/// A place of the scene in the keys of a case file.
+pub(super) fn in_keys(at: &Value) -> Value {
     let Some(at) = at.as_object() else { return Value::Null };
-    let key = |key: &str| key.trim_end_matches("_deg").trim_end_matches("_m").to_owned();
+    let key = |key: &str| key.trim_end_matches("_deg").trim_end_matches("_m").trim_start_matches("row_").to_owned();
     Value::Object(at.iter().map(|(name, value)| (key(name), value.clone())).collect())
 }
 

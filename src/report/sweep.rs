@@ -49,6 +49,15 @@ pub(super) fn too_large(folder: &Folder<'_>) -> Result<Option<String>> {
     Ok((count > MOST_CELLS).then(|| format!("its tables have {count} cells; a report holds {MOST_CELLS} at most")))
 }
 
+/// What to do where the tables in `folder` are too large for a page, for this reason.
+pub(super) fn without_page(folder: &Path, reason: &str) -> String {
+    format!(
+        "no {FILE}: {reason}; the tables and the pictures are complete. For a page, ask for fewer points, measures or \
+         --most-samples in another --out; in Python, pandas.read_csv({:?}) reads the table",
+        folder.join(TABLE).display().to_string()
+    )
+}
+
 /// The walls of these names.
 fn names(list: &Value) -> Vec<Value> {
     list.as_array().into_iter().flatten().map(|name| json!({ "name": name })).collect()
@@ -89,6 +98,14 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_sweep_too_large_for_a_page_says_what_to_do() {
+        let said = without_page(Path::new("out/s"), "its tables have 4100000 cells; a report holds 4000000 at most");
+        for words in ["4100000 cells", "fewer points, measures or --most-samples", "read_csv(\"out/s/sweep.csv\")"] {
+            assert!(said.contains(words), "{words}: {said}");
+        }
+    }
 
     #[test]
     fn tables_of_more_cells_than_a_page_holds_are_too_large() {

@@ -11,7 +11,7 @@ impl Judge {
     /// Checks an exact step: a stretch between two events, or an instant.
     pub(super) fn see_arc(&mut self, step: &Step<'_>, arc: &Arc) {
         for (index, wall) in self.scene.walls.iter().enumerate() {
-            self.tension = self.tension.max(-wall.side.sign() * step.jump[index]);
+            self.walls.tension = self.walls.tension.max(-wall.side().sign() * step.jump[index]);
         }
         let mut along = Along::default();
         // An instant has impulses, but no forces.
@@ -33,10 +33,9 @@ impl Judge {
         }
         let weight = self.weights.root_mass.first().copied().unwrap_or(1.0);
         let balance = open / (step.end - step.start);
-        self.balance = self.balance.max(balance);
-        self.normal_balance = self.balance / weight;
-        self.balance_scale = self.balance_scale.max(along.largest_force / weight);
-        self.doubt_balance(balance / weight);
+        self.balance.see_largest(balance);
+        self.balance.see_scale(along.largest_force / weight);
+        self.balance.see(&self.noise, balance / weight, 0.0);
     }
 
     /// Computes the loads at instants inside an arc. Tables jump at their ends, where an arc ends:
@@ -56,12 +55,12 @@ impl Judge {
     /// Adds up what acts at the instants of a panel, and checks the force laws of the walls there.
     fn look(&mut self, arc: &Arc, at: &mut Instants, along: &mut Along) {
         let force = self.energy.look(&self.scene, at, along);
-        self.rounding.load(force * self.weights.per_root_mass.first().copied().unwrap_or(1.0));
+        self.noise.load(force * self.weights.per_root_mass.first().copied().unwrap_or(1.0));
         let (mut low, mut high, mut fastest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
         for (&q, v) in at.q[..at.count].iter().zip(&at.v) {
             (low, high, fastest) = (-most(-low, -q), most(high, q), most(fastest, v.abs()));
         }
-        self.rounding.state(&[most(-low, high)], &[fastest], 0.0, &self.weights);
+        self.noise.state(&[most(-low, high)], &[fastest], 0.0, &self.weights);
         // In flight, most instants are in front of all walls.
         let clear = |sight: &Sight| sight.is_clear((sight.of(&[low]), sight.of(&[high])), 0.0);
         if arc.is_rest() || arc.touches() || !self.sights.iter().all(clear) {
@@ -74,8 +73,8 @@ impl Judge {
         let (t, q, v) = (at.t[k], at.q[k], at.v[k]);
         for index in 0..self.scene.walls.len() {
             let wall = &self.scene.walls[index];
-            let (sign, rigid) = (wall.side.sign(), wall.law.is_rigid());
-            let (w, wdot) = (wall.at.dot(&[q]), wall.at.dot(&[v]));
+            let (sign, rigid) = (wall.side().sign(), wall.law.is_rigid());
+            let (w, wdot) = (wall.row().dot(&[q]), wall.row().dot(&[v]));
             let (gap, r) = (wall.gap(w), arc.force_at(index, t, (q, v)));
             if rigid && r == 0.0 && gap >= 0.0 {
                 continue;
@@ -85,23 +84,18 @@ impl Judge {
                 along.add_damped(-at.weight[k] * r * v);
             }
             let pressure = sign * r;
-            self.force_scale = most(self.force_scale, pressure.abs());
-            self.tension = most(self.tension, -pressure);
-            self.depth[index] = most(self.depth[index], -gap);
-            self.rounding.push(index, pressure, rigid);
-            let size = self.extent.reach.max(w.abs()) + wall.position.abs() + wdot.abs() * t;
+            self.walls.see_force(&mut self.noise, index, (pressure, pressure.abs()), rigid);
+            self.walls.see_depth(index, -gap);
+            let size = self.extent.reach.max(w.abs()) + wall.position().abs() + wdot.abs() * t;
             if rigid {
-                self.pairs.add(gap, pressure);
-                self.doubt_gap(index, gap, size, pressure);
+                self.walls.see_gap(&self.noise, index, (gap, size), pressure);
             } else {
                 let rounding = PLACE_UNITS * f64::EPSILON * size;
                 let law = |s: f64| wall.law.pressure(s, -sign * wdot);
                 let (low, high) = (law(-gap - rounding), law(-gap + rounding));
                 // Any force between the two is right. They differ by the wall's stiffness times the
                 // rounding of the place, except at the face of a damped wall, where its law jumps.
-                let error = (low - pressure).max(pressure - high);
-                self.law_error = self.law_error.max(error);
-                self.doubt_law(index, error, 0.0);
+                self.walls.see_law(&self.noise, index, (low - pressure).max(pressure - high), 0.0);
             }
         }
     }

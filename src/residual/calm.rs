@@ -39,7 +39,8 @@ impl Judge {
     /// run, with which its sums begin, counts as one in which a wall is, and so does one before
     /// which a wall still pushed.
     fn clear(&self, calm: &Calm, from: usize) -> usize {
-        if self.sums.steps == 0 || self.energy.walls_store() || self.held.iter().any(|&force| force != 0.0) {
+        if self.sums.steps == 0 || self.energy.walls_store() || self.walls.last_force.iter().any(|&force| force != 0.0)
+        {
             return 0;
         }
         let (before, _) = calm.velocities();
@@ -85,25 +86,24 @@ impl Judge {
             extra: &zeros[..n],
             blow: &zeros[..n],
         };
-        (self.span, self.clock) = (h, 1.0);
+        self.noise.begin(h, calm.end()[steps.end - 1]);
         let path = scratch.means(self.contract.balance, h, &moves, weights, n);
-        self.rounding.step(&moves, &scratch.load, weights, (h, per_h), n);
-        self.balance_scale = scratch.products(&self.matrices, (h, per_h), zeros, weights, n, self.balance_scale);
-        let (balance, worst) = scratch.open(per_h, weights, n, self.balance);
-        if worst > self.rounding.force(h, 1.0) || path > self.rounding.path() {
+        self.noise.step(&moves, &scratch.load, weights, (h, per_h), n);
+        self.balance.scale = scratch.products(&self.matrices, (h, per_h), zeros, weights, n, self.balance.scale);
+        let (largest, worst) = scratch.open(per_h, weights, n, self.balance.largest);
+        if worst > self.noise.force() || path > self.noise.path() {
             // One of the steps will be accused: see them one by one to find out when.
             return steps.for_each(|k| self.see(&calm.step(k)));
         }
-        self.rounding.book(1.0, n as f64, h);
-        self.balance = balance;
-        self.normal_balance = self.normal_balance.max(worst);
-        self.kinematics = self.kinematics.max(path);
+        self.noise.book(1.0, n as f64);
+        self.balance.largest = largest;
+        self.balance.see(&self.noise, worst, path);
         self.energy.see_calm(&self.matrices, (h, per_h), &moves, &scratch.load, n);
         if self.sums.whole {
             self.sums.add_all(&moves, scratch, (h, per_h), n);
         }
         self.sums.steps += n as u64;
         self.extent.see(&places[1..=n], moves.after, weights, n);
-        (*q, *load, self.now) = (places[n], loads[n], calm.end()[steps.end - 1]);
+        (*q, *load) = (places[n], loads[n]);
     }
 }

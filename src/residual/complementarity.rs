@@ -3,49 +3,6 @@
 use crate::scene::{Scene, Side, Wall, WallLaw};
 use crate::step::{Bound, Law, Path};
 
-/// Pairs (γ, |r|) that should be complementary, kept because their scales are known only at the end
-/// of the run: of the pairs with both values positive, those that no other pair exceeds in both.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Pairs {
-    /// Largest −γ and largest −|r| (a pull).
-    outside: f64,
-    pull: f64,
-    staircase: Vec<(f64, f64)>,
-}
-
-/// Maximum number of such pairs: beyond it, two are replaced by one that is at least as large as
-/// both.
-const STAIRS: usize = 64;
-
-impl Pairs {
-    pub fn add(&mut self, slack: f64, pressure: f64) {
-        self.outside = self.outside.max(-slack);
-        self.pull = self.pull.max(-pressure);
-        if slack <= 0.0 || pressure <= 0.0 {
-            return;
-        }
-        if self.staircase.iter().any(|&(s, p)| s >= slack && p >= pressure) {
-            return;
-        }
-        self.staircase.retain(|&(s, p)| s > slack || p > pressure);
-        if self.staircase.len() == STAIRS
-            && let Some((s, p)) = self.staircase.pop()
-        {
-            self.staircase.push((s.max(slack), p.max(pressure)));
-        } else {
-            self.staircase.push((slack, pressure));
-        }
-    }
-
-    /// Largest |min(γ/γ₀, r/r₀)|.
-    pub fn worst(&self, gap_scale: f64, force_scale: f64) -> f64 {
-        let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
-        let both = |&(s, p): &(f64, f64)| over(s, gap_scale).min(over(p, force_scale));
-        let stairs = self.staircase.iter().map(both).fold(0.0, f64::max);
-        stairs.max(over(self.outside, gap_scale)).max(over(self.pull, force_scale))
-    }
-}
-
 /// γ of a rigid wall at the bound that the scheme promises, from the displacements at both ends of
 /// a step and the velocity after its blows.
 pub(super) fn slack(
@@ -64,13 +21,13 @@ pub(super) fn slack(
         _ => shared_restitution(scene, wall, back),
     };
     let e = e.or(wall.law.restitution()).unwrap_or(0.0);
-    wall.side.sign() * ((w1 - wall.position) + e * (back - wall.position))
+    wall.side().sign() * ((w1 - wall.position()) + e * (back - wall.position()))
 }
 
 /// The speed of rebound of a rigid wall, m/s, from the velocities after the step's blows and after
 /// the step, with the restitution e.
 pub(super) fn rebound(wall: &Wall, e: f64, struck: f64, after: f64) -> f64 {
-    let sign = wall.side.sign();
+    let sign = wall.side().sign();
     let epsilon = if sign * struck <= 0.0 { e } else { 1.0 };
     sign * (after + epsilon * struck)
 }
@@ -84,10 +41,10 @@ fn least_restitution(scene: &Scene) -> Option<f64> {
 /// bounds (1+e)g − e w⁻ would cross.
 fn shared_restitution(scene: &Scene, wall: &Wall, back: f64) -> Option<f64> {
     let (mut lo, mut hi, mut least) = (f64::NEG_INFINITY, f64::INFINITY, 1.0_f64);
-    for other in scene.walls.iter().filter(|other| other.at == wall.at) {
+    for other in scene.walls.iter().filter(|other| other.row() == wall.row()) {
         let Some(e) = other.law.restitution() else { continue };
-        let bound = (1.0 + e) * other.position - e * back;
-        (lo, hi) = if other.side == Side::Upper { (lo, hi.min(bound)) } else { (lo.max(bound), hi) };
+        let bound = (1.0 + e) * other.position() - e * back;
+        (lo, hi) = if other.side() == Side::Upper { (lo, hi.min(bound)) } else { (lo.max(bound), hi) };
         least = least.min(e);
     }
     (lo > hi).then_some(least)
@@ -117,7 +74,7 @@ pub(super) fn expected_pressure(
         }
         Law::Ends(theta) => (1.0 - theta) * law.pressure(s0, 0.0) + theta * law.pressure(s1, 0.0) + c * rate,
         Law::Start if s0 <= 0.0 => 0.0,
-        Law::Start => law.pressure(s0, 0.0) - wall.side.sign() * c * 0.5 * (before + after),
+        Law::Start => law.pressure(s0, 0.0) - wall.side().sign() * c * 0.5 * (before + after),
         Law::Gradient => mean_pressure(law, s0, s1) + c * rate,
         Law::Throughout => 0.0,
     };
@@ -141,50 +98,6 @@ pub(super) fn mean_pressure(law: &WallLaw, s0: f64, s1: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The largest violation by definition, over all pairs.
-    fn worst(pairs: &[(f64, f64)], gap_scale: f64, force_scale: f64) -> f64 {
-        pairs.iter().map(|&(s, p)| (s / gap_scale).min(p / force_scale).abs()).fold(0.0, f64::max)
-    }
-
-    fn of(pairs: &[(f64, f64)]) -> Pairs {
-        let mut all = Pairs::default();
-        pairs.iter().for_each(|&(slack, pressure)| all.add(slack, pressure));
-        all
-    }
-
-    /// `count` pairs none of which exceeds another in both, in an order that is neither rising nor
-    /// falling.
-    fn stairs(count: usize) -> Vec<(f64, f64)> {
-        (0..count).map(|i| (i * 37 % count) as f64).map(|i| (1.0 + i, count as f64 - i)).collect()
-    }
-
-    const SCALES: [(f64, f64); 5] = [(1.0, 1.0), (1e-3, 1.0), (1.0, 1e-3), (7.0, 3.0), (1e-6, 1e6)];
-
-    #[test]
-    fn few_pairs_are_kept_as_they_are_whatever_the_scales() {
-        let mut pairs = stairs(STAIRS);
-        // Pairs that another exceeds in both, equal ones, and what is behind a wall or pulls, or
-        // touches without force.
-        pairs.extend([(0.5, 0.5), pairs[3], (-2.0, 0.0), (0.0, -3.0), (0.0, 9e9), (9e9, 0.0), (-1.0, 5.0)]);
-        for (gap, force) in SCALES {
-            assert_eq!(of(&pairs).worst(gap, force), worst(&pairs, gap, force), "{gap}, {force}");
-        }
-        // One that exceeds them all takes their place.
-        pairs.push((1e3, 1e3));
-        assert_eq!(of(&pairs).staircase, [(1e3, 1e3)]);
-    }
-
-    #[test]
-    fn a_pair_under_another_takes_no_room_from_later_ones() {
-        // One value stays while the other rises or falls, for more than STAIRS pairs.
-        for k in 0..4 {
-            let number = |i: u32| f64::from(if k < 2 { i } else { 101 - i });
-            let pair = |i: u32| if k % 2 == 0 { (1.0, number(i)) } else { (number(i), 1.0) };
-            let expected = if k % 2 == 0 { (1.0, 100.0) } else { (100.0, 1.0) };
-            assert_eq!(of(&(1..=100).map(pair).collect::<Vec<_>>()).staircase, [expected], "{k}");
-        }
-    }
-
     #[test]
     fn at_its_face_a_damped_wall_does_not_push_yet() {
         // The law at the step's start holds while s > 0.
@@ -192,25 +105,6 @@ mod tests {
         let at = |w0: f64| expected_pressure(&wall, Law::Start, 0.5, (w0, 2.0), (1.0, 3.0));
         // 8 N/m times 0.25 m, and 4 N s/m times the mean of 1 and 3 m/s.
         assert_eq!([0.75, 1.0, 1.25].map(at), [0.0, 0.0, 10.0]);
-    }
-
-    #[test]
-    fn many_pairs_are_merged_upwards_never_down() {
-        for count in [STAIRS + 1, 100, 1000] {
-            let pairs = stairs(count);
-            let all = of(&pairs);
-            assert!(all.staircase.len() <= STAIRS, "{}", all.staircase.len());
-            // Each pair is under a stair: no violation is lost, at any scales.
-            for &(slack, pressure) in &pairs {
-                assert!(all.staircase.iter().any(|&(s, p)| s >= slack && p >= pressure), "{slack}, {pressure}");
-            }
-            for (gap, force) in SCALES {
-                let (found, least) = (all.worst(gap, force), worst(&pairs, gap, force));
-                // And no stair is higher than the largest of either.
-                let most = (count as f64 / gap).min(count as f64 / force);
-                assert!(least <= found && found <= most, "{count}, {gap}, {force}: {least} <= {found} <= {most}");
-            }
-        }
     }
 
     #[test]
@@ -238,12 +132,5 @@ mod tests {
             let found = mean_pressure(&quartic, s0, s1);
             assert!((found - mean).abs() <= 8.0 * f64::EPSILON * mean, "{s0}, {s1}: {found}, expected {mean}");
         }
-    }
-
-    #[test]
-    fn a_scale_of_nothing_measures_nothing() {
-        // No wall ever pushed: the scale of forces is 0, and so is every force.
-        assert_eq!(of(&[(1.0, 0.0), (0.0, 0.0)]).worst(1.0, 0.0), 0.0);
-        assert_eq!(of(&[(-1.0, 0.0)]).worst(2.0, 0.0), 0.5);
     }
 }

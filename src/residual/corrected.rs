@@ -33,15 +33,15 @@ impl Judge {
             scratch.mean_q[i] = step.q[i] - self.q[i] - h * before[i];
             let given = pushed.abs().max(self.blows.impulse[i].abs());
             let terms = s_end[i].abs().max(force_end[i].abs()).max(given / h);
-            self.balance_scale = self.balance_scale.max(terms / self.weights.root_mass[i]);
+            self.balance.see_scale(terms / self.weights.root_mass[i]);
         }
         let system = &self.scene.system;
         system.add_mass(1.0, &scratch.mean_v, &mut scratch.residual);
         system.add_mass(1.0 / h, &scratch.mean_q, &mut scratch.inertia);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse).filter(|(wall, _)| wall.law.is_rigid()) {
-            for &(i, weight) in wall.at.entries() {
+            for &(i, weight) in wall.row().entries() {
                 scratch.residual[i] -= weight * p;
-                self.balance_scale = self.balance_scale.max((weight * p).abs() / (h * self.weights.root_mass[i]));
+                self.balance.see_scale((weight * p).abs() / (h * self.weights.root_mass[i]));
             }
         }
         if self.supports.is_some() {
@@ -51,33 +51,31 @@ impl Judge {
         let (from, to) = (step.start, step.end);
         if self.loads.has_blows() && self.loads.blow_moment(from, to, to - 0.5 * h, &mut self.blows.felt) {
             divide(&self.scene, self.mass.as_mut(), &mut self.blows.felt);
-            let drives = |wall: &Wall| wall.law.is_rigid() && wall.side.sign() * wall.at.dot(&self.blows.struck) < 0.0;
+            let drives =
+                |wall: &Wall| wall.law.is_rigid() && wall.side().sign() * wall.row().dot(&self.blows.struck) < 0.0;
             let either = closed && (self.scene.walls.iter().any(drives) || self.drives_into_hole(step));
             self.take_felt(either, step);
         }
         let (mut worst, mut path) = (0.0_f64, 0.0_f64);
         for (i, weight) in self.weights.root_mass.iter().enumerate() {
             let residual = self.scratch.residual[i].abs();
-            self.balance = self.balance.max(residual / h);
+            self.balance.see_largest(residual / h);
             worst = worst.max(residual / (h * weight));
             // The balance of the displacement is checked as a length: divided by h² it would be
             // dominated by the rounding error of q.
             if !closed {
                 path = path.max(h * self.scratch.inertia[i].abs() / weight);
             }
-            self.rounding.load(s_end[i].abs().max(force_end[i].abs()) / weight);
+            self.noise.load(s_end[i].abs().max(force_end[i].abs()) / weight);
             self.scratch.spring[i] = force_end[i] + step.extra[i];
         }
-        self.normal_balance = self.normal_balance.max(worst);
-        self.kinematics = self.kinematics.max(path);
-        self.rounding.state(step.q, step.v, h, &self.weights);
+        self.noise.state(step.q, step.v, h, &self.weights);
         std::mem::swap(s, s_end);
         std::mem::swap(force, force_end);
         self.memory = Some(memory);
         let moves = Moves::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
         let (hs, n) = ((h, 1.0 / h), self.q.len());
         self.energy.see_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
-        self.doubt_balance(worst);
-        self.doubt_path(path);
+        self.balance.see(&self.noise, worst, path);
     }
 }

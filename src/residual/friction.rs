@@ -7,9 +7,9 @@
 //! ([`Friction`]).
 
 use super::Judge;
+use super::front::ComplementarityFront;
 use super::pushes::terms;
-use super::supports::Rubs;
-use crate::scene::{Shape, Support, heading};
+use crate::scene::{Face, PlaneRows, heading};
 #[cfg(doc)]
 use crate::step::Friction;
 use crate::step::Step;
@@ -17,7 +17,7 @@ use crate::step::Step;
 /// A contact with friction in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rub {
-    /// Index of the wall, or number of walls plus that of the hole.
+    /// Index of the wall.
     pub place: usize,
     pub friction: f64,
     /// p and f, N s.
@@ -41,39 +41,35 @@ impl Judge {
     }
 
     /// Checks the friction of one contact.
-    pub(super) fn rub(&mut self, step: &Step<'_>, support: &Support, rub: &Rub, rubs: &mut Rubs) {
+    pub(super) fn rub(&self, step: &Step<'_>, at: &PlaneRows, rub: &Rub, rubs: &mut ComplementarityFront) {
         let [p, f] = rub.impulse.map(|impulse| impulse / self.h);
         if p == 0.0 && f == 0.0 {
             return;
         }
-        let after = support.seen(step.velocity_after);
+        let after = at.dot(step.velocity_after);
         let rate = rub.tangent[0] * after[0] + rub.tangent[1] * after[1];
         let most = rub.friction * p.max(0.0);
-        let speeds = terms(support, step.velocity_before)
-            + terms(support, step.velocity_after)
-            + terms(support, &self.blows.struck);
-        let noise = self.rounding.met(speeds, self.energy.gap_scale / self.span);
-        let force = self.rounding.wall_force(rub.place, self.span, self.clock);
+        let speeds = terms(at, step.velocity_before) + terms(at, step.velocity_after) + terms(at, &self.blows.struck);
+        let noise = self.noise.velocity(speeds, self.noise.span);
+        let force = self.noise.wall_force(rub.place);
         for (slack, missing) in [(0.0, most - f.abs()), (rate.abs(), most + f * rate.signum())] {
-            rubs.pairs.add(slack, missing);
-            rubs.doubts.add((slack, noise), (missing, force), self.now, rub.place);
+            rubs.add((slack, noise), (missing, force), self.noise.end, rub.place);
         }
     }
 
     /// Checks the friction of all flats.
-    pub(super) fn rub_flats(&mut self, step: &Step<'_>, rubs: &mut Rubs) {
+    pub(super) fn rub_flats(&mut self, step: &Step<'_>, rubs: &mut ComplementarityFront) {
         let scene = std::sync::Arc::clone(&self.scene);
-        for support in &scene.supports {
-            let Shape::Flats(flats) = &support.shape else { continue };
-            for flat in flats {
-                let (Some(&p), Some(&f)) = (step.impulse.get(flat.wall), step.friction.get(flat.wall)) else {
-                    continue;
-                };
-                let [y, z] = heading(flat.direction);
-                let rub = Rub { place: flat.wall, friction: support.friction, impulse: [p.abs(), f], tangent: [-z, y] };
-                self.force_scale = self.force_scale.max(f.abs() / self.h);
-                self.rub(step, support, &rub, rubs);
-            }
+        for (index, wall) in scene.walls.iter().enumerate() {
+            let (Some(&p), Some(&f)) = (step.impulse.get(index), step.friction.get(index)) else { continue };
+            let (Face::Flat { direction: Some(degrees), .. }, Some(support)) = (&wall.face, scene.support_of(index))
+            else {
+                continue;
+            };
+            let [y, z] = heading(*degrees);
+            let rub = Rub { place: index, friction: wall.friction, impulse: [p.abs(), f], tangent: [-z, y] };
+            self.walls.force_scale = self.walls.force_scale.max(f.abs() / self.h);
+            self.rub(step, &support.at, &rub, rubs);
         }
     }
 }

@@ -30,20 +30,20 @@ impl Judge {
     fn see_grid_of(&mut self, step: &Step<'_>, n: usize) {
         let beyond = self.loads.has_blows() && self.find_beyond(step);
         let (h, per_h) = (self.h, 1.0 / self.h);
-        (self.now, self.span, self.clock) = (step.end, h, 1.0);
+        self.noise.begin(h, step.end);
         let moves = moves!(self, step, beyond);
         let path = self.scratch.means(self.contract.balance, h, &moves, &self.weights, n);
-        self.rounding.step(&moves, &self.scratch.load, &self.weights, (h, per_h), n);
-        self.rounding.book(n as f64, 1.0, h);
+        self.noise.step(&moves, &self.scratch.load, &self.weights, (h, per_h), n);
+        self.noise.book(n as f64, 1.0);
         self.walls_on_grid(step, beyond);
         if self.supports.is_some() {
             self.supports_on_grid(step, beyond);
         }
         let (hs, blow) = ((h, per_h), &self.blows.impulse);
-        self.balance_scale = self.scratch.products(&self.matrices, hs, blow, &self.weights, n, self.balance_scale);
+        self.balance.scale = self.scratch.products(&self.matrices, hs, blow, &self.weights, n, self.balance.scale);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
             if p != 0.0 {
-                for &(i, weight) in wall.at.entries() {
+                for &(i, weight) in wall.row().entries() {
                     self.scratch.residual[i] -= weight * p;
                 }
             }
@@ -52,17 +52,14 @@ impl Judge {
             self.feel_blows(step, beyond);
         }
         let worst;
-        (self.balance, worst) = self.scratch.open(per_h, &self.weights, n, self.balance);
-        self.normal_balance = self.normal_balance.max(worst);
-        self.kinematics = self.kinematics.max(path);
+        (self.balance.largest, worst) = self.scratch.open(per_h, &self.weights, n, self.balance.largest);
         let moves = moves!(self, step, beyond);
         self.energy.see_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
         if beyond {
             self.energy.displace(&self.scene, &self.matrices, h, step);
             self.sums.displace(&self.matrices, &self.blows.beyond, &mut self.scratch.mean_q);
         }
-        self.doubt_balance(worst);
-        self.doubt_path(path);
+        self.balance.see(&self.noise, worst, path);
         self.sum(step, per_h, n);
         self.go_on(step, n);
     }

@@ -2,7 +2,7 @@
 //! the steps only, no scheme and no QP.
 
 mod arc;
-mod beyond;
+mod balance;
 mod blows;
 mod calm;
 mod circle;
@@ -13,11 +13,13 @@ mod energy;
 mod extent;
 mod finding;
 mod friction;
+mod front;
 mod grid;
 mod matrices;
 mod memory;
 mod most;
 mod moves;
+mod noise;
 mod pushes;
 mod quadrature;
 mod recorded;
@@ -36,6 +38,7 @@ mod verdict;
 mod walls;
 mod weights;
 mod whole;
+mod worst;
 
 pub use energy::Energy;
 pub use finding::{Finding, Refuted};
@@ -45,13 +48,13 @@ pub use residuals::Residuals;
 use crate::linear::Factor;
 use crate::scene::{Forcing, GridForcing, Loads, Scene, System};
 use crate::step::{Contract, Path, Step};
-use beyond::{Doubts, Rounding, Worst};
+use balance::BalanceCheck;
 use blows::Blows;
-use complementarity::Pairs;
 use extent::Extent;
 use matrices::Matrices;
 use memory::Memory;
 use most::most;
+use noise::NoiseModel;
 use room::Room;
 use scales::Scales;
 use scratch::Scratch;
@@ -59,6 +62,7 @@ use sight::Sight;
 use std::sync::Arc;
 use sums::Sums;
 use supports::Supports;
+use walls::WallCheck;
 use weights::Weights;
 
 /// Rounding error of the position of a body along exact motion, in units in the last place of its
@@ -90,55 +94,22 @@ pub struct Judge {
     scratch: Scratch,
     /// Work space for several steps at once; `None` where each is to be seen alone.
     room: Option<Box<Room>>,
-    /// Pairs of gap (m) and pressure (N), and of speed of rebound (m/s) and pressure (N).
-    pairs: Pairs,
-    rebounds: Pairs,
-    law_error: f64,
-    depth: Vec<f64>,
-    tension: f64,
-    balance: f64,
-    /// The largest residual of the momentum balance and the largest force in it, in the metric of
-    /// the mass, N/√kg, and the largest difference of q⁺ − q from what the velocities give, m √kg.
-    normal_balance: f64,
-    balance_scale: f64,
-    kinematics: f64,
+    walls: WallCheck,
+    balance: BalanceCheck,
     extent: Extent,
-    force_scale: f64,
     /// Largest velocity in the metric of the mass along exact motion, √J.
     normal_speed: f64,
     scales: Scales,
     /// Quantities of a generalized-α run that carry over from step to step.
     memory: Option<Box<Memory>>,
-    /// Force of each elastic wall at the end of the last step, N.
-    held: Vec<f64>,
     /// Round holes and friction; `None` in scenes without them.
     supports: Option<Box<Supports>>,
-    /// Distance within which a wall counts as touched, m.
-    touch: f64,
     energy: energy::Ledger,
-    /// The current step: the time at its end and its length, s, and `clock`, which for exact
-    /// motion, whose ends are known to an ulp, is 1 plus the end time over the length, else 1.
-    now: f64,
-    span: f64,
-    clock: f64,
-    rounding: Rounding,
-    /// The residuals minus their rounding errors.
-    doubts: Residue,
-    /// The momentum of the whole run.
-    sums: Sums,
-}
-
-/// Residuals minus their rounding errors, each with its place.
-#[derive(Debug, Default)]
-struct Residue {
-    gaps: Doubts,
-    rebounds: Doubts,
-    law: Worst,
-    /// N/√kg and m√kg.
-    balance: Worst,
-    path: Worst,
+    noise: NoiseModel,
     /// True once a step was handed to another scheme, which may not conserve energy.
     handed: bool,
+    /// The momentum of the whole run.
+    sums: Sums,
 }
 
 impl Judge {
@@ -171,10 +142,12 @@ impl Judge {
         };
         let fit = |x: &[f64]| x.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect::<Vec<f64>>();
         let (q, v) = (fit(q), fit(v));
-        let held: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(&q), w.at.dot(&v))).collect();
+        let walls = WallCheck::new(scene, &q, &v);
         let grid_load = scene.is_line().then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
         let sights = Sight::all(scene);
         let (weights, blows) = (Weights::new(scene), loads.has_blows());
+        let mut noise = NoiseModel::new(&weights, masses, scene.gap_scale());
+        noise.begin(h, 0.0);
         Self {
             contract,
             h,
@@ -187,34 +160,21 @@ impl Judge {
             energy: energy::Ledger::new(scene, contract, &q, &v),
             scales: Scales::new(scene, masses),
             sums: Sums::new(scene, &q, &v),
-            memory: Memory::new(scene, contract, (&q, &v), &load, &held),
-            held,
+            memory: Memory::new(scene, contract, (&q, &v), &load, &walls.last_force),
+            walls,
             supports: Supports::new(scene, masses),
-            touch: scene.touching_distance(),
             q,
             load,
             load_end: zero(),
             blows: Blows::new(n),
             scratch: Scratch::new(n),
             room: Room::new(scene, contract, &weights, blows),
-            pairs: Pairs::default(),
-            rebounds: Pairs::default(),
-            law_error: 0.0,
-            depth: vec![0.0; scene.walls.len()],
-            tension: 0.0,
-            balance: 0.0,
-            normal_balance: 0.0,
-            balance_scale: 0.0,
-            kinematics: 0.0,
+            balance: BalanceCheck::default(),
             extent: Extent::default(),
-            force_scale: 0.0,
             normal_speed: 0.0,
-            now: 0.0,
-            span: h,
-            clock: 1.0,
-            rounding: Rounding::new(&weights, masses),
+            noise,
+            handed: false,
             weights,
-            doubts: Residue::default(),
             scene: Arc::clone(scene),
         }
     }
@@ -222,14 +182,14 @@ impl Judge {
     /// Checks one step. Steps must come in order, none left out. A step of another scene, with
     /// another number of walls or degrees of freedom than the judge was made for, is ignored.
     pub fn see(&mut self, step: &Step<'_>) {
-        let (n, walls) = (self.q.len(), self.depth.len());
+        let (n, walls) = (self.q.len(), self.scene.walls.len());
+        let planar = if self.supports.is_some() { walls } else { 0 };
         let moved = [step.q, step.v, step.velocity_before, step.velocity_after, step.extra];
         let pushed = [step.impulse, step.jump, step.force];
         if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != walls) {
             return;
         }
-        let (holes, rubbing) = self.supports.as_ref().map_or((0, 0), |supports| (supports.holes.len(), walls));
-        if step.holes.len() != holes || step.friction.len() != rubbing {
+        if [step.friction.len(), step.normal.len(), step.turned.len()] != [planar; 3] {
             return;
         }
         let fits = match step.path {
@@ -257,7 +217,7 @@ impl Judge {
             Path::Exact(arc) => self.see_apart(step, |judge| judge.see_arc(step, arc)),
             Path::Series(series) => self.see_apart(step, |judge| judge.see_series(step, series)),
             Path::Handed { contract, step: h } => {
-                self.doubts.handed = true;
+                self.handed = true;
                 let own = (self.contract, self.h);
                 (self.contract, self.h) = (*contract, h);
                 self.see_grid(step);
@@ -274,8 +234,8 @@ impl Judge {
         self.prepare(step);
         see(self);
         self.sum(step, 1.0 / self.h, n);
-        for (wall, depth) in self.scene.walls.iter().zip(&mut self.depth) {
-            *depth = depth.max(-wall.gap(wall.at.dot(step.q)));
+        for (index, wall) in self.scene.walls.iter().enumerate() {
+            self.walls.see_depth(index, -wall.gap(wall.row().dot(step.q)));
         }
         self.go_on(step, n);
     }

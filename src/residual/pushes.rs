@@ -1,39 +1,45 @@
 //! The impulses of round holes and of friction in a step.
 
-use crate::scene::{Row, Scene, Shape, Support, heading};
-use crate::step::{HoleStep, Step};
+use crate::scene::{Face, PlaneRows, Row, Scene, heading};
+use crate::step::Step;
 
-/// What a support did in a step beside the normal impulses of its flats: the impulses along the
-/// normal of a hole and along the tangent, N s in y and z, of one contact.
+/// What a wall did in a step beside the normal impulse of a flat: its index, its place, and the
+/// impulses along the normal of a round wall and along the tangent, N s in y and z.
 pub(super) fn pushes<'a>(
     scene: &'a Scene,
     step: &'a Step<'_>,
-) -> impl Iterator<Item = (usize, &'a Support, [[f64; 2]; 2])> {
-    let mut holes = step.holes.iter();
-    scene.supports.iter().enumerate().flat_map(move |(index, support)| {
-        let hole = match support.shape {
-            Shape::Round { .. } => holes.next().map(of_hole),
-            Shape::Flats(_) => None,
-        };
-        let flats = if let Shape::Flats(flats) = &support.shape { &flats[..] } else { &[] };
-        let rubbed = flats.iter().filter_map(|flat| {
-            let f = *step.friction.get(flat.wall)?;
-            let [y, z] = heading(flat.direction);
-            (f != 0.0).then_some([[0.0; 2], [-f * z, f * y]])
-        });
-        hole.into_iter().chain(rubbed).map(move |push| (index, support, push))
+) -> impl Iterator<Item = (usize, &'a PlaneRows, [[f64; 2]; 2])> {
+    scene.walls.iter().enumerate().filter_map(move |(index, wall)| match &wall.face {
+        Face::Round { at, .. } => {
+            let ([y, z], p, f) = (*step.normal.get(index)?, step.impulse.get(index)?, step.friction.get(index)?);
+            Some((index, at, [[-p * y, -p * z], [-f * z, f * y]]))
+        }
+        Face::Flat { direction, .. } => {
+            let f = *step.friction.get(index).filter(|f| **f != 0.0)?;
+            let [y, z] = heading((*direction)?);
+            Some((index, &scene.support_of(index)?.at, [[0.0; 2], [-f * z, f * y]]))
+        }
     })
 }
 
-fn of_hole(hole: &HoleStep) -> [[f64; 2]; 2] {
-    let ([y, z], p, f) = (hole.normal, hole.impulse, hole.friction);
-    [[-p * y, -p * z], [-f * z, f * y]]
+/// The place of a wall in two planes; `None` in one.
+pub(super) fn place_of(scene: &Scene, wall: usize) -> Option<&PlaneRows> {
+    match &scene.walls.get(wall)?.face {
+        Face::Round { at, .. } => Some(at),
+        Face::Flat { .. } => Some(&scene.support_of(wall)?.at),
+    }
+}
+
+/// The places of all supports, and of the round walls outside of supports.
+pub(super) fn places(scene: &Scene) -> impl Iterator<Item = &PlaneRows> {
+    let alone = scene.holes().filter(|hole| scene.support_of(hole.index).is_none());
+    scene.supports.iter().map(|support| &support.at).chain(alone.map(|hole| hole.at))
 }
 
 /// Sum of the magnitudes of the terms of both rows of a place.
-pub(super) fn terms(support: &Support, x: &[f64]) -> f64 {
+pub(super) fn terms(at: &PlaneRows, x: &[f64]) -> f64 {
     let row = |row: &Row| -> f64 {
         row.entries().iter().map(|&(i, weight)| (weight * x.get(i).copied().unwrap_or(0.0)).abs()).sum()
     };
-    row(&support.at.y) + row(&support.at.z)
+    row(&at.y) + row(&at.z)
 }

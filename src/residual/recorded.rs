@@ -1,6 +1,6 @@
 //! The momentum balance of a whole run, from its recorded trajectory.
 
-use crate::scene::{Loads, Row, Scene, Shape, heading};
+use crate::scene::{Face, Loads, Row, Scene, heading};
 use crate::trajectory::Trajectory;
 
 /// The residual of a run's momentum balance with the recorded impulses of the walls,
@@ -70,7 +70,7 @@ pub fn momentum(scene: &Scene, trajectory: &Trajectory) -> Option<Momentum> {
     for (wall, impulses) in scene.walls.iter().zip(trajectory.contact_impulses()) {
         let (sum, sizes) = impulses.iter().fold((0.0, 0.0), |(sum, sizes), p| (sum + p, sizes + f64::abs(*p)));
         let most = impulses.iter().fold(0.0, |most, p| f64::max(most, p.abs()));
-        for &(i, weight) in wall.at.entries() {
+        for &(i, weight) in wall.row().entries() {
             if let (Some(open), Some(exchanged)) = (open.get_mut(i), exchanged.get_mut(i)) {
                 *open -= weight * sum;
                 *exchanged += weight.abs() * sizes;
@@ -92,17 +92,17 @@ pub fn momentum(scene: &Scene, trajectory: &Trajectory) -> Option<Momentum> {
         largest = largest.max(if spacing > 0.0 { most / spacing } else { 0.0 });
     };
     for (hole, [y, z]) in scene.holes().zip(trajectory.hole_impulses()) {
-        add(&hole.support.at.y, y, 1.0);
-        add(&hole.support.at.z, z, 1.0);
+        add(&hole.at.y, y, 1.0);
+        add(&hole.at.z, z, 1.0);
     }
-    for support in &scene.supports {
-        let Shape::Flats(flats) = &support.shape else { continue };
-        for flat in flats {
-            let Some(column) = trajectory.friction_impulses().get(flat.wall) else { continue };
-            let [y, z] = heading(flat.direction);
-            add(&support.at.y, column, -z);
-            add(&support.at.z, column, y);
-        }
+    for (index, wall) in scene.walls.iter().enumerate() {
+        let (Some(column), Some(support)) = (trajectory.friction_impulses().get(index), scene.support_of(index)) else {
+            continue;
+        };
+        let Face::Flat { direction: Some(degrees), .. } = wall.face else { continue };
+        let [y, z] = heading(degrees);
+        add(&support.at.y, column, -z);
+        add(&support.at.z, column, y);
     }
     let worst = |x: &[f64]| x.iter().fold(0.0, |worst, x| f64::max(worst, x.abs()));
     Some(Momentum { residual_n_s: worst(&open), step_n_s: largest * spacing, exchanged_n_s: worst(&exchanged) })

@@ -1,5 +1,6 @@
 //! The residuals of a run.
 
+use super::worst::over;
 use super::{Energy, Judge};
 #[cfg(doc)]
 use crate::step::Promise;
@@ -17,11 +18,9 @@ pub struct Residuals {
     /// alike: the largest part of a hole's force that is not along its normal over r₀, and the
     /// largest min(|ẇ_t|/v₀, |μp − friction|/r₀) of sliding and missing friction.
     pub complementarity: f64,
-    /// Deepest position behind each wall at the end of a step, m, ≥ 0, in the scene's order.
+    /// Deepest position behind each wall, then behind each round hole, at the end of a step, m, ≥
+    /// 0, in the scene's order.
     pub depth_m: Vec<f64>,
-    /// Deepest position behind each round hole at the end of a step, m, ≥ 0, in the scene's order.
-    #[serde(default)]
-    pub hole_depth_m: Vec<f64>,
     /// Deepest position behind a rigid wall or hole, m.
     pub penetration_m: f64,
     /// Largest force with which a wall pulled, N, ≥ 0.
@@ -58,33 +57,29 @@ impl Judge {
         let rigid = self.contract.promise.rigid;
         let speeds_only = rigid.displacement.is_none() && rigid.velocity.is_some();
         let gap_scale = if speeds_only { speed_scale } else { self.energy.gap_scale };
-        let over = |x: f64, scale: f64| if x == 0.0 { 0.0 } else { x / scale };
         // Where no wall ever pushed, the force error of an elastic wall is measured by its force
         // over the gap scale.
-        let law = over(self.law_error, if force_scale > 0.0 { force_scale } else { self.scales.wall });
-        let walls = self.pairs.worst(self.energy.gap_scale, force_scale);
-        let rebounds = self.rebounds.worst(speed_scale, force_scale);
-        let force = self.scales.normal_force(self.force_scale).max(self.scales.spring);
-        let balance = over(self.normal_balance, self.balance_scale.max(force));
-        let path = over(self.kinematics, self.extent.normal_reach.max(self.scales.gap));
-        let rigid = self.scene.walls.iter().zip(&self.depth).filter(|(w, _)| w.law.is_rigid());
-        let holes = self.supports.as_ref().map_or(&[][..], |supports| &supports.depth);
-        let rigid_holes = self.scene.holes().zip(holes).filter(|(hole, _)| hole.law.is_rigid()).map(|(_, depth)| depth);
+        let law = over(self.walls.law.value, if force_scale > 0.0 { force_scale } else { self.scales.wall });
+        let gaps = self.walls.gaps.worst(self.energy.gap_scale, force_scale);
+        let rebounds = self.walls.rebounds.worst(speed_scale, force_scale);
+        let balance = over(self.balance.force.value, self.balance_scale());
+        let path = over(self.balance.path.value, self.path_scale());
+        let rigid = self.scene.walls.iter().map(|wall| wall.law).zip(&self.walls.depth);
+        let rigid = rigid.filter(|(law, _)| law.is_rigid());
         let supports = self.supports.as_ref().map_or(0.0, |supports| {
-            let laws = over(supports.askew, force_scale).max(over(supports.struck, speed_scale));
-            supports.rubs.pairs.worst(speed_scale, force_scale).max(laws)
+            let laws = over(supports.askew.value, force_scale).max(over(supports.struck.value, speed_scale));
+            supports.rubs.worst(speed_scale, force_scale).max(laws)
         });
         Residuals {
-            complementarity: walls.max(rebounds).max(law).max(supports),
-            depth_m: self.depth.clone(),
-            hole_depth_m: holes.to_vec(),
-            penetration_m: rigid.map(|(_, depth)| depth).chain(rigid_holes).fold(0.0, |most, depth| most.max(*depth)),
-            tension_n: self.tension,
-            force_balance_n: self.balance,
+            complementarity: gaps.max(rebounds).max(law).max(supports),
+            depth_m: self.walls.depth.clone(),
+            penetration_m: rigid.fold(0.0, |most, (_, depth)| most.max(*depth)),
+            tension_n: self.walls.tension,
+            force_balance_n: self.balance.largest,
             force_balance: balance.max(path),
             energy: self.energy.report(),
             gap_scale,
-            force_scale_n: self.force_scale,
+            force_scale_n: self.walls.force_scale,
         }
     }
 }

@@ -2,22 +2,24 @@
 //! ([`Elastic`](crate::step::Elastic)), from the displacements at both ends of a step.
 
 use super::Judge;
-use super::beyond::Worst;
 use super::complementarity::mean_pressure;
-use crate::scene::{Support, WallLaw, WallSpring};
-use crate::step::{HoleStep, Law, Step};
+use super::round::HolePush;
+use super::worst::Residual;
+use crate::scene::{Hole, WallSpring};
+use crate::step::{Law, Step};
 
 impl Judge {
-    /// Checks a ring of this gap and law; returns the part of its force that is not along the
-    /// normal, N. `end` is w at the step's end without what blows add.
+    /// Checks a ring of this gap and law, and notes the part of its force that is not along the
+    /// normal in `askew` (N). `end` is w at the step's end without what blows add.
     pub(super) fn hold_ring(
         &mut self,
         step: &Step<'_>,
-        (place, support, gap, law): (usize, &Support, f64, WallLaw),
-        (did, end): (&HoleStep, [f64; 2]),
-        doubt: &mut Worst,
-    ) -> f64 {
-        let (start, h) = (support.offset(&self.q), self.h);
+        hole: &Hole<'_>,
+        (did, end): (&HolePush, [f64; 2]),
+        askew: &mut Residual,
+    ) {
+        let (start, h) = (hole.offset(&self.q), self.h);
+        let (place, gap, law) = (hole.index, hole.gap, hole.law);
         let (r0, r1, c) = (start[0].hypot(start[1]), end[0].hypot(end[1]), law.damping());
         // The vector along which the ring pushes, its pressure, and how that changes with depth.
         let (at, expected, slope) = match (law.spring(), self.contract.promise.elastic.law) {
@@ -36,20 +38,17 @@ impl Judge {
                 let share = 2.0 * at[0].hypot(at[1]) / (r0 + r1);
                 (at, mean * share, law.tangent(s0.max(s1).max(f64::MIN_POSITIVE)) + 2.0 * c / h)
             }
-            _ => return 0.0,
+            _ => return,
         };
         let distance = at[0].hypot(at[1]);
         let pressure = did.impulse / h;
         let error = (pressure - expected.max(0.0)).abs();
-        self.law_error = self.law_error.max(error);
-        let noise = self.rounding.met(self.way(step, support, gap), self.energy.gap_scale);
-        self.doubt_law(place, error, slope * noise);
-        if pressure == 0.0 {
-            return 0.0;
+        let noise = self.noise.place(self.way(step, hole));
+        self.walls.see_law(&self.noise, place, error, slope * noise);
+        if pressure != 0.0 {
+            let across = pressure * (did.normal[0] - at[0] / distance).hypot(did.normal[1] - at[1] / distance);
+            let noise = pressure * noise / distance + self.noise.wall_force(place);
+            askew.see(across, noise, self.noise.end, Some(place));
         }
-        let askew = pressure * (did.normal[0] - at[0] / distance).hypot(did.normal[1] - at[1] / distance);
-        let force_noise = self.rounding.wall_force(place, self.span, self.clock);
-        doubt.see(askew - pressure * noise / distance - force_noise, self.now, Some(place));
-        askew
     }
 }

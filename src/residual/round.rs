@@ -3,11 +3,11 @@
 //! the velocity at the end keeps the bound.
 
 use super::Judge;
-use super::beyond::Worst;
 use super::friction::Rub;
-use super::pushes::{pushes, terms};
-use crate::scene::Support;
-use crate::step::{Bound, HoleStep, Normal, Step, Turning};
+use super::pushes::{places, pushes, terms};
+use super::worst::Residual;
+use crate::scene::Hole;
+use crate::step::{Bound, Normal, Step, Turning};
 
 impl Judge {
     /// Checks round holes and friction, and adds their impulses to the momentum balance of the
@@ -16,31 +16,27 @@ impl Judge {
     pub(super) fn supports_on_grid(&mut self, step: &Step<'_>, beyond: bool) {
         let Some(mut supports) = self.supports.take() else { return };
         let scene = std::sync::Arc::clone(&self.scene);
-        for (hole, &(index, gap, e)) in supports.holes.iter().enumerate() {
-            let (Some(support), Some(did)) = (scene.supports.get(index), step.holes.get(hole)) else { continue };
-            let [y, z] = support.offset(step.q);
-            if let Some(depth) = supports.depth.get_mut(hole) {
-                *depth = depth.max(y.hypot(z) - gap);
-            }
-            let seen = Seen { place: scene.walls.len() + hole, support, gap, e, did };
-            let askew = self.hold_hole(step, &seen, beyond, &mut supports.doubt);
-            supports.askew = supports.askew.max(askew);
+        for hole in scene.holes() {
+            let Some(did) = HolePush::of(step, hole.index) else { continue };
+            let [y, z] = hole.offset(step.q);
+            self.walls.see_depth(hole.index, y.hypot(z) - hole.gap);
+            self.hold_hole(step, (&hole, &did), beyond, &mut supports.askew);
             let rub = Rub {
-                place: seen.place,
-                friction: support.friction,
+                place: hole.index,
+                friction: hole.friction,
                 impulse: [did.impulse, did.friction],
                 tangent: [-did.normal[1], did.normal[0]],
             };
-            self.rub(step, support, &rub, &mut supports.rubs);
+            self.rub(step, hole.at, &rub, &mut supports.rubs);
         }
         self.rub_flats(step, &mut supports.rubs);
         supports.pushed.copy_from_slice(step.impulse);
-        for support in &scene.supports {
-            self.extent.speed = self.extent.speed.max(terms(support, step.velocity_after));
+        for at in places(&scene) {
+            self.extent.speed = self.extent.speed.max(terms(at, step.velocity_after));
         }
-        for (index, support, [push, rub]) in pushes(&scene, step) {
+        for (index, at, [push, rub]) in pushes(&scene, step) {
             let force = [push[0] + rub[0], push[1] + rub[1]];
-            for (row, force) in [(&support.at.y, force[0]), (&support.at.z, force[1])] {
+            for (row, force) in [(&at.y, force[0]), (&at.z, force[1])] {
                 for &(i, weight) in row.entries() {
                     if let Some(residual) = self.scratch.residual.get_mut(i) {
                         *residual -= weight * force;
@@ -55,40 +51,38 @@ impl Judge {
         self.supports = Some(supports);
     }
 
-    /// Checks one hole; returns the part of its force that is not along the normal, N.
-    fn hold_hole(&mut self, step: &Step<'_>, seen: &Seen<'_>, beyond: bool, doubt: &mut Worst) -> f64 {
-        let Seen { place, support, gap, did, .. } = *seen;
+    /// Checks one hole, and notes the part of its force that is not along the normal in `askew`
+    /// (N).
+    fn hold_hole(&mut self, step: &Step<'_>, (hole, did): (&Hole<'_>, &HolePush), beyond: bool, askew: &mut Residual) {
+        let (place, gap) = (hole.index, hole.gap);
         let force = did.impulse.hypot(did.friction) / self.h;
         let pressure = did.impulse / self.h;
-        self.force_scale = self.force_scale.max(force);
-        self.tension = self.tension.max(-pressure);
-        let law = support.hole().map(|hole| hole.law).filter(|law| !law.is_rigid());
-        self.rounding.push(place, force, law.is_none());
-        if let Some(law) = law {
-            let end = support.offset(if beyond { &self.blows.arrived } else { step.q });
-            return self.hold_ring(step, (place, support, gap, law), (did, end), doubt);
+        self.walls.see_force(&mut self.noise, place, (pressure, force), hole.law.is_rigid());
+        if !hole.law.is_rigid() {
+            let end = hole.offset(if beyond { &self.blows.arrived } else { step.q });
+            return self.hold_ring(step, hole, (did, end), askew);
         }
         if self.contract.promise.hole == Some(Bound::End) {
-            self.hold_disk(step, (place, support, gap), pressure);
+            self.hold_disk(step, hole, pressure);
         }
         let Some(turning) = self.contract.promise.round else {
-            return self.along_end(step, (place, support, gap), did, doubt);
+            return self.along_end(step, hole, did, askew);
         };
-        let (before, given) = (support.seen(step.velocity_before), support.seen(&self.blows.struck));
-        let (start, after) = (support.offset(&self.q), support.seen(step.velocity_after));
+        let (before, given) = (hole.seen(step.velocity_before), hole.seen(&self.blows.struck));
+        let (start, after) = (hole.offset(&self.q), hole.seen(step.velocity_after));
         let rate = [before[0] + given[0], before[1] + given[1]];
-        let end = support.offset(step.q);
+        let end = hole.offset(step.q);
         let ahead = [0, 1].map(|i: usize| match turning.normal {
             Normal::Ahead(part) => start[i] + part * self.h * rate[i],
             Normal::Middle(_) => start[i] + end[i],
         });
         let reach = ahead[0].hypot(ahead[1]);
-        let speeds = terms(support, step.velocity_before)
-            + terms(support, step.velocity_after)
-            + terms(support, &self.blows.struck);
-        let centre = support.centre[0].abs() + support.centre[1].abs();
-        let size = terms(support, &self.q) + terms(support, step.q) + centre + gap + self.h * speeds;
-        let place_noise = self.rounding.of(size);
+        let speeds = terms(hole.at, step.velocity_before)
+            + terms(hole.at, step.velocity_after)
+            + terms(hole.at, &self.blows.struck);
+        let centre = hole.centre[0].abs() + hole.centre[1].abs();
+        let size = terms(hole.at, &self.q) + terms(hole.at, step.q) + centre + gap + self.h * speeds;
+        let place_noise = self.noise.of(size);
         let middle = matches!(turning.normal, Normal::Middle(_));
         let far = if middle { end[0].hypot(end[1]) } else { reach };
         let way = far - gap * (1.0 - turning.touching);
@@ -96,13 +90,11 @@ impl Judge {
         let closes = middle && did.impulse != 0.0;
         let (reached, edge) = (way >= 0.0 || closes, way.abs() <= place_noise + turning.touching * gap);
         if !reached && !edge {
-            self.law_error = self.law_error.max(force);
-            self.doubt_law(place, force, 0.0);
-            return 0.0;
+            return self.walls.see_law(&self.noise, place, force, 0.0);
         }
         if edge && force == 0.0 {
             // Rounding decides whether the hole is in reach: either is accepted.
-            return 0.0;
+            return;
         }
         let crosses = match turning.normal {
             Normal::Middle(share) => {
@@ -116,7 +108,8 @@ impl Judge {
         let (ahead, reach) = if crosses { (end, far) } else { (ahead, reach) };
         let normal = ahead.map(|x| x / reach);
         let wedged = self.contract.promise.friction.is_some() && step.wedged.contains(&place);
-        let bound = |touches| bound(seen.e, (start, rate, normal), touches).max(if wedged { 0.0 } else { f64::MIN });
+        let bound =
+            |touches| bound(hole.restitution, (start, rate, normal), touches).max(if wedged { 0.0 } else { f64::MIN });
         let left = |bound: f64| bound - (normal[0] * after[0] + normal[1] * after[1]);
         // Rounding may decide whether the body touched at the start.
         let distance = start[0].hypot(start[1]);
@@ -127,28 +120,30 @@ impl Judge {
             let other = left(bound(brim < 0.0));
             slack = if other.abs() < slack.abs() { other } else { slack };
         }
-        self.rebounds.add(slack, pressure);
-        let noise = self.rounding.met(speeds, self.energy.gap_scale / self.span) + place_noise / gap * speeds;
-        let force_noise = self.rounding.wall_force(place, self.span, self.clock);
-        self.doubts.rebounds.add((slack, noise), (pressure, force_noise), self.now, place);
-        if force == 0.0 {
-            return 0.0;
+        let noise = self.noise.velocity(speeds, self.noise.span) + place_noise / gap * speeds;
+        self.walls.see_rebound(&self.noise, place, (slack, noise), pressure);
+        if force != 0.0 {
+            let across = force * (did.normal[0] - normal[0]).hypot(did.normal[1] - normal[1]);
+            let noise = force * place_noise / reach + self.noise.wall_force(place);
+            askew.see(across, noise, self.noise.end, Some(place));
         }
-        let askew = force * (did.normal[0] - normal[0]).hypot(did.normal[1] - normal[1]);
-        doubt.see(askew - force * place_noise / reach - force_noise, self.now, Some(place));
-        askew
     }
 }
 
-/// A hole and what it did.
+/// The impulse of a hole in a step on a grid.
 #[derive(Debug, Clone, Copy)]
-struct Seen<'a> {
-    /// Number of walls plus index of the hole.
-    place: usize,
-    support: &'a Support,
-    gap: f64,
-    e: f64,
-    did: &'a HoleStep,
+pub(super) struct HolePush {
+    pub normal: [f64; 2],
+    pub impulse: f64,
+    pub friction: f64,
+}
+
+impl HolePush {
+    pub fn of(step: &Step<'_>, place: usize) -> Option<Self> {
+        let (normal, impulse, friction) =
+            (step.normal.get(place)?, step.impulse.get(place)?, step.friction.get(place)?);
+        Some(Self { normal: *normal, impulse: *impulse, friction: *friction })
+    }
 }
 
 /// τ.

@@ -17,7 +17,7 @@ const MOMENTUM_UNITS: f64 = 4.0;
 impl Judge {
     pub(super) fn see_series(&mut self, step: &Step<'_>, series: &Series) {
         for (index, wall) in self.scene.walls.iter().enumerate() {
-            self.tension = self.tension.max(-wall.side.sign() * step.jump[index]);
+            self.walls.tension = self.walls.tension.max(-wall.sign() * step.jump[index]);
         }
         let mut moved = Moved::default();
         self.scratch.damper.copy_from_slice(step.velocity_before);
@@ -62,34 +62,26 @@ impl Judge {
                 s.inertia[i] += weight * s.mean_q[i];
                 s.spring[i] += weight * s.mean_v[i];
                 let weight = self.weights.root_mass[i];
-                self.balance_scale = self.balance_scale.max(s.load[i].abs() / weight);
+                self.balance.see_scale(s.load[i].abs() / weight);
                 self.normal_speed = self.normal_speed.max(s.mean_v[i].abs() * weight);
             }
-            self.rounding.state(&s.mean_q, &s.mean_v, 0.0, &self.weights);
+            self.noise.state(&s.mean_q, &s.mean_v, 0.0, &self.weights);
             let force = |wall: usize| series.contact_force(wall, t);
             moved.largest = moved.largest.max(Ledger::energy_at(&self.scene, &s.mean_q, &s.mean_v, force));
-            for (index, wall) in self.scene.walls.iter().enumerate() {
-                let (sign, r) = (wall.side.sign(), force(index));
-                let (w, rate) = (wall.at.dot(&s.mean_q), wall.at.dot(&s.mean_v));
+            for (index, wall) in self.scene.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round()) {
+                let (sign, r) = (wall.side().sign(), force(index));
+                let (w, rate) = (wall.row().dot(&s.mean_q), wall.row().dot(&s.mean_v));
                 let pressure = sign * r;
-                self.force_scale = self.force_scale.max(pressure.abs());
-                self.tension = self.tension.max(-pressure);
-                self.depth[index] = self.depth[index].max(-wall.gap(w));
-                for &(i, g) in wall.at.entries() {
+                let (gap, rigid) = (wall.gap(w), wall.law.is_rigid());
+                self.walls.see_force(&mut self.noise, index, (pressure, pressure.abs()), rigid);
+                self.walls.see_depth(index, -gap);
+                for &(i, g) in wall.row().entries() {
                     s.residual[i] += weight * g * r;
                 }
-                let rigid = wall.law.is_rigid();
-                self.rounding.push(index, pressure, rigid);
-                let terms: f64 = wall.at.entries().iter().map(|&(i, g)| (g * s.mean_q[i]).abs()).sum();
-                let size = terms + wall.position.abs() + rate.abs() * t;
+                let terms: f64 = wall.row().entries().iter().map(|&(i, g)| (g * s.mean_q[i]).abs()).sum();
+                let size = terms + wall.position().abs() + rate.abs() * t;
                 if rigid {
-                    let gap = wall.gap(w);
-                    self.pairs.add(gap, pressure);
-                    if gap < 0.0 || pressure != 0.0 {
-                        let noise = self.rounding.met(size, self.energy.gap_scale);
-                        let force = self.rounding.wall_force(index, self.span, self.clock);
-                        self.doubts.gaps.add((gap, noise), (pressure, force), self.now, index);
-                    }
+                    self.walls.see_gap(&self.noise, index, (gap, size), pressure);
                     continue;
                 }
                 if wall.law.damping() > 0.0 {
@@ -97,11 +89,8 @@ impl Judge {
                 }
                 let rounding = PLACE_UNITS * f64::EPSILON * size;
                 let law = |depth: f64| wall.law.pressure(depth, -sign * rate);
-                let (low, high) = (law(-wall.gap(w) - rounding), law(-wall.gap(w) + rounding));
-                let error = (low - pressure).max(pressure - high);
-                self.law_error = self.law_error.max(error);
-                let noise = self.rounding.wall_force(index, self.span, self.clock);
-                self.doubts.law.see(error - noise, self.now, Some(index));
+                let (low, high) = (law(-gap - rounding), law(-gap + rounding));
+                self.walls.see_law(&self.noise, index, (low - pressure).max(pressure - high), 0.0);
             }
         }
         if self.supports.is_some() {
@@ -142,11 +131,12 @@ impl Judge {
             let (open, stopped) = (s.inertia[i] - s.residual[i], s.mean_q[i]);
             let beyond = |open: f64| (open.abs() - rounding * weight).max(0.0);
             let force = (beyond(open) / span).max(beyond(stopped) / radian);
-            self.balance = self.balance.max(force);
+            self.balance.see_largest(force);
             worst = worst.max(force / weight);
             doubtful = doubtful.max(beyond(open + stopped) / (span * weight));
         }
-        self.normal_balance = self.normal_balance.max(worst);
-        self.doubt_balance(doubtful);
+        let balance = &mut self.balance.force;
+        balance.value = balance.value.max(worst);
+        balance.excess.see(doubtful - self.noise.force(), self.noise.end, None);
     }
 }

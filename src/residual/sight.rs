@@ -73,17 +73,19 @@ impl View {
 }
 
 impl Sight {
-    /// All of a scene: each wall is in one of them.
+    /// All of a scene: each flat wall is in one of them.
     pub fn all(scene: &Scene) -> Vec<Self> {
-        let distinct = distinct(scene.walls.iter().map(|wall| &wall.at));
+        let flats: Vec<usize> = (0..scene.walls.len()).filter(|&wall| !scene.walls[wall].is_round()).collect();
+        let distinct = distinct(flats.iter().map(|&wall| scene.walls[wall].row()));
         let (touch, everywhere) = (scene.touching_distance(), (f64::NEG_INFINITY, f64::INFINITY));
         let new = |row: &&Row| Self { row: View::new(row), clear: everywhere, walls: Vec::new() };
         let mut sights: Vec<Self> = distinct.rows.iter().map(new).collect();
-        for (index, (wall, &row)) in scene.walls.iter().zip(&distinct.of).enumerate() {
+        for (&index, &row) in flats.iter().zip(&distinct.of) {
+            let wall = &scene.walls[index];
             let (low, high) = &mut sights[row].clear;
-            match wall.side {
-                Side::Lower => *low = low.max(wall.position + touch),
-                Side::Upper => *high = high.min(wall.position - touch),
+            match wall.side() {
+                Side::Lower => *low = low.max(wall.position() + touch),
+                Side::Upper => *high = high.min(wall.position() - touch),
             }
             sights[row].walls.push(index);
         }
@@ -156,9 +158,8 @@ mod tests {
         let mut scene = Scene::oscillator(1.0, 0.0, 1.0).with_initial(&[0.0; 10], &[0.0; 10]);
         scene.system = Structure { mass: one(1.0), damping: one(0.0), stiffness: one(1.0) }.into();
         for (k, row) in rows.iter().enumerate() {
-            for mut wall in [Wall::upper(&format!("u{k}"), 2.0 + k as f64), Wall::lower(&format!("l{k}"), -1.0)] {
-                wall.at = row.clone();
-                scene = scene.with_wall(wall);
+            for wall in [Wall::upper(&format!("u{k}"), 2.0 + k as f64), Wall::lower(&format!("l{k}"), -1.0)] {
+                scene = scene.with_wall(wall.at(row.clone()));
             }
         }
         scene

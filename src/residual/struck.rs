@@ -3,7 +3,7 @@
 use super::Judge;
 use super::blows::divide;
 use super::pushes::pushes;
-use crate::scene::{Scene, Wall};
+use crate::scene::{PlaneRows, Scene, Wall};
 use crate::step::{Balance, Bound, Path, Promise, Step};
 
 /// True if the blows, which give the velocity `given`, drive the body into a rigid wall that pushes
@@ -12,7 +12,7 @@ use crate::step::{Balance, Bound, Path, Promise, Step};
 /// the blows.
 fn answered(scene: &Scene, promise: Promise, impulse: &[f64], given: &[f64]) -> bool {
     let drives =
-        |(wall, &p): (&Wall, &f64)| wall.law.is_rigid() && p != 0.0 && wall.side.sign() * wall.at.dot(given) < 0.0;
+        |(wall, &p): (&Wall, &f64)| wall.law.is_rigid() && p != 0.0 && wall.side().sign() * wall.row().dot(given) < 0.0;
     promise.rigid.displacement != Some(Bound::End) && scene.walls.iter().zip(impulse).any(drives)
 }
 
@@ -43,9 +43,8 @@ impl Judge {
         let span = step.end - step.start;
         for (impulse, weight) in self.blows.impulse.iter().zip(&self.weights.root_mass) {
             let force = impulse.abs() / span;
-            self.balance = self.balance.max(force);
-            self.normal_balance = self.normal_balance.max(force / weight);
-            self.doubts.balance.see(force / weight, step.end, None);
+            self.balance.see_largest(force);
+            self.balance.force.see(force / weight, 0.0, step.end, None);
         }
     }
 
@@ -78,9 +77,9 @@ impl Judge {
         self.loads.blow(start, end, given);
         divide(&self.scene, self.mass.as_mut(), &mut s.beyond);
         divide(&self.scene, self.mass.as_mut(), given);
-        let by_hole = |(index, _, [push, _]): (usize, _, [[f64; 2]; 2])| {
-            let given = self.scene.supports[index].seen(given);
-            let rigid = self.scene.supports[index].hole().is_none_or(|hole| hole.law.is_rigid());
+        let by_hole = |(index, at, [push, _]): (usize, &PlaneRows, [[f64; 2]; 2])| {
+            let given = at.dot(given);
+            let rigid = self.scene.walls[index].law.is_rigid();
             rigid && push[0] * given[0] + push[1] * given[1] < 0.0
         };
         let by_hole = |push| self.contract.promise.hole.is_none() && by_hole(push);
@@ -149,7 +148,7 @@ impl Judge {
             s.residual[i] += felt;
             self.blows.impulse[i] -= felt;
             lost += 0.5 * felt * (step.velocity_before[i] + step.velocity_after[i]);
-            self.balance_scale = self.balance_scale.max(felt.abs() / (self.h * self.weights.root_mass[i]));
+            self.balance.see_scale(felt.abs() / (self.h * self.weights.root_mass[i]));
         }
         self.energy.damp(lost);
     }

@@ -15,9 +15,9 @@ mod struck;
 
 use super::*;
 use crate::linear::Symmetric;
-use crate::scene::{PlaneRows, Row, Shape, Structure, Support, WallLaw};
+use crate::scene::{PlaneRows, Row, Structure, Wall, WallLaw};
 use crate::step::Balance;
-use crate::step::{Conserves, HoleStep, Promise, Tolerances};
+use crate::step::{Conserves, Promise, Tolerances};
 
 /// A body with these masses (kg) in two planes, dashpots (N s/m) and no springs.
 fn body(mass: [f64; 2], damping: f64) -> Scene {
@@ -27,11 +27,10 @@ fn body(mass: [f64; 2], damping: f64) -> Scene {
 }
 
 /// The scene with a round hole around the body.
-fn with_hole(mut scene: Scene, name: &str, gap: f64, law: WallLaw) -> Scene {
+fn with_hole(scene: Scene, name: &str, gap: f64, law: WallLaw) -> Scene {
     let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
-    let shape = Shape::Round { gap, law };
-    scene.supports.push(Support { name: name.to_owned(), at, centre: [0.0; 2], shape, friction: 0.0 });
-    scene
+    let wall = Wall { law, ..Wall::round(name, at.clone(), gap) };
+    scene.with_support(name, at, [0.0; 2], vec![wall])
 }
 
 const RIGID: WallLaw = WallLaw::Rigid { restitution: 0.5 };
@@ -54,7 +53,8 @@ struct Made {
     jump: Vec<f64>,
     force: Vec<f64>,
     friction: Vec<f64>,
-    holes: Vec<HoleStep>,
+    normal: Vec<[f64; 2]>,
+    turned: Vec<[f64; 2]>,
     wedged: Vec<usize>,
     resting: Vec<usize>,
     extra: Vec<f64>,
@@ -63,8 +63,9 @@ struct Made {
 impl Made {
     /// The first step of `h` seconds on `scene`, in which nothing moves.
     fn rest(scene: &Scene, h: f64) -> Self {
-        let (n, walls) = (scene.system.degrees_of_freedom(), scene.walls.len());
-        let (zero, none) = (vec![0.0; n], vec![0.0; walls]);
+        let (n, contacts) = (scene.system.degrees_of_freedom(), scene.walls.len());
+        let planar = if scene.turns_or_rubs() { contacts } else { 0 };
+        let (zero, none) = (vec![0.0; n], vec![0.0; contacts]);
         Self {
             start: 0.0,
             end: h,
@@ -73,13 +74,20 @@ impl Made {
             after: zero.clone(),
             impulse: none.clone(),
             jump: none.clone(),
-            force: none.clone(),
-            friction: if scene.turns_or_rubs() { none } else { Vec::new() },
-            holes: vec![HoleStep::default(); scene.holes().count()],
+            force: none,
+            friction: vec![0.0; planar],
+            normal: vec![[0.0; 2]; planar],
+            turned: vec![[0.0; 2]; planar],
             wedged: Vec::new(),
             resting: Vec::new(),
             extra: zero,
         }
+    }
+
+    /// The same with a push of a round hole, counted after the walls, along its normal, N s.
+    fn pushing(mut self, hole: usize, normal: [f64; 2], impulse: f64) -> Self {
+        (self.normal[hole], self.impulse[hole]) = (normal, impulse);
+        self
     }
 
     fn step(&self) -> Step<'_> {
@@ -99,7 +107,8 @@ impl Made {
             jump: &self.jump,
             force: &self.force,
             friction: &self.friction,
-            holes: &self.holes,
+            normal: &self.normal,
+            turned: &self.turned,
             wedged: &self.wedged,
             resting: &self.resting,
             extra: &self.extra,

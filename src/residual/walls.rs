@@ -1,9 +1,83 @@
-//! Checks of the walls of a step on a grid against the scheme's promise.
+//! Checks of walls against the scheme's promise: what a run shows of them, and those of a step on a
+//! grid.
 
 use super::Judge;
 use super::complementarity::{expected_pressure, rebound, slack};
-use crate::scene::Wall;
+use super::front::ComplementarityFront;
+use super::noise::NoiseModel;
+use super::worst::Residual;
+use crate::scene::{Scene, Wall};
 use crate::step::{Bound, PromisedForce, Reached, Step};
+
+/// What a run has shown of its walls; vectors have one entry per wall.
+#[derive(Debug, Default)]
+pub(super) struct WallCheck {
+    /// Pairs of gap (m) and pressure (N), and of speed of rebound (m/s) and pressure (N).
+    pub gaps: ComplementarityFront,
+    pub rebounds: ComplementarityFront,
+    /// Errors of forces against the law of their wall, N.
+    pub law: Residual,
+    /// Deepest place behind each wall, m.
+    pub depth: Vec<f64>,
+    /// Largest pull, N.
+    pub tension: f64,
+    /// Largest force, N.
+    pub force_scale: f64,
+    /// Force of each elastic wall at the end of the last step, N.
+    pub last_force: Vec<f64>,
+    /// Distance within which a wall counts as touched, m.
+    pub touch: f64,
+}
+
+impl WallCheck {
+    /// Of a run that starts from the state `q` (m), `v` (m/s).
+    pub fn new(scene: &Scene, q: &[f64], v: &[f64]) -> Self {
+        Self {
+            depth: vec![0.0; scene.walls.len()],
+            last_force: scene.walls.iter().map(|wall| wall.law_force(wall.row().dot(q), wall.row().dot(v))).collect(),
+            touch: scene.touching_distance(),
+            ..Self::default()
+        }
+    }
+
+    /// Notes the `pressure` of a wall, N, and the largest force that it had in the step.
+    pub fn see_force(&mut self, noise: &mut NoiseModel, wall: usize, (pressure, largest): (f64, f64), rigid: bool) {
+        self.force_scale = self.force_scale.max(largest);
+        self.tension = self.tension.max(-pressure);
+        noise.push(wall, largest, rigid);
+    }
+
+    /// Notes how far the body is behind a wall, m.
+    #[inline(always)]
+    pub fn see_depth(&mut self, wall: usize, depth: f64) {
+        if let Some(deepest) = self.depth.get_mut(wall) {
+            *deepest = deepest.max(depth);
+        }
+    }
+
+    /// Notes the gap of a rigid wall (or the slack of a bound), whose terms are of this `size`, m,
+    /// and its pressure, N.
+    pub fn see_gap(&mut self, noise: &NoiseModel, wall: usize, (gap, size): (f64, f64), pressure: f64) {
+        if gap < 0.0 || pressure != 0.0 {
+            let pressure = (pressure, noise.wall_force(wall));
+            self.gaps.add((gap, noise.place(size)), pressure, noise.end, wall);
+        }
+    }
+
+    /// Notes the speed by which a rebound exceeds what the law demands, m/s, with its rounding
+    /// error, and the wall's pressure, N.
+    pub fn see_rebound(&mut self, noise: &NoiseModel, wall: usize, slack: (f64, f64), pressure: f64) {
+        self.rebounds.add(slack, (pressure, noise.wall_force(wall)), noise.end, wall);
+    }
+
+    /// Notes the `error` of a wall's force against its law, N, of which the rounding error of the
+    /// body's place explains `place`.
+    pub fn see_law(&mut self, noise: &NoiseModel, wall: usize, error: f64, place: f64) {
+        if error > 0.0 || error.is_nan() {
+            self.law.see(error, place + noise.wall_force(wall), noise.end, Some(wall));
+        }
+    }
+}
 
 /// The quantities of a step at one wall.
 #[derive(Debug, Clone, Copy)]
@@ -28,7 +102,9 @@ impl Judge {
         let blows = self.loads.has_blows();
         for place in 0..self.sights.len() {
             let sight = &self.sights[place];
-            let still = |&wall: &usize| step.impulse[wall] == 0.0 && step.force[wall] == 0.0 && self.held[wall] == 0.0;
+            let still = |&wall: &usize| {
+                step.impulse[wall] == 0.0 && step.force[wall] == 0.0 && self.walls.last_force[wall] == 0.0
+            };
             if !beyond && sight.walls.iter().all(still) {
                 let mut rate = sight.of(step.velocity_before).abs();
                 if blows {
@@ -50,7 +126,7 @@ impl Judge {
     fn hold(&mut self, step: &Step<'_>, beyond: bool, index: usize) -> bool {
         let promise = self.contract.promise;
         let wall = &self.scene.walls[index];
-        let (sign, is_rigid) = (wall.side.sign(), wall.law.is_rigid());
+        let (sign, is_rigid) = (wall.side().sign(), wall.law.is_rigid());
         let p = step.impulse[index];
         // Most impulses are 0: avoid the division.
         let mean = if p == 0.0 { 0.0 } else { p / self.h };
@@ -60,24 +136,21 @@ impl Judge {
         };
         let pressure = sign * force;
         let largest = pressure.abs().max(mean.abs());
-        self.force_scale = self.force_scale.max(largest);
-        self.tension = self.tension.max(-pressure).max(-sign * mean);
-        self.rounding.push(index, largest, is_rigid);
+        self.walls.see_force(&mut self.noise, index, (pressure.min(sign * mean), largest), is_rigid);
         // A bound on the displacement at the end includes what the blows add to it; everything else
         // is without that.
         let bound_there = is_rigid && promise.rigid.displacement == Some(Bound::End);
         let end = if bound_there || !beyond { step.q } else { &self.blows.arrived };
-        let before = wall.at.dot(step.velocity_before);
+        let before = wall.row().dot(step.velocity_before);
         let seen = Seen {
             index,
             pressure,
-            w: (wall.at.dot(&self.q), wall.at.dot(end)),
+            w: (wall.row().dot(&self.q), wall.row().dot(end)),
             before,
-            struck: if is_rigid { before + wall.at.dot(&self.blows.struck) } else { before },
-            after: wall.at.dot(step.velocity_after),
+            struck: if is_rigid { before + wall.row().dot(&self.blows.struck) } else { before },
+            after: wall.row().dot(step.velocity_after),
         };
-        let (shown, depth) = (wall.at.dot(step.q), &mut self.depth[index]);
-        *depth = depth.max(-wall.gap(shown));
+        self.walls.see_depth(index, -wall.gap(wall.row().dot(step.q)));
         if is_rigid {
             self.hold_rigid(step, seen)
         } else {
@@ -89,8 +162,15 @@ impl Judge {
     /// Size of the terms that add up to the body's position, for its rounding error, and of its way
     /// within a step, m.
     fn size(&self, step: &Step<'_>, wall: &Wall, seen: &Seen) -> f64 {
-        let terms = wall.at.entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * self.q[i]).abs());
-        terms.sum::<f64>() + wall.position.abs() + self.h * (seen.before.abs() + seen.after.abs())
+        let terms = wall.row().entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * self.q[i]).abs());
+        terms.sum::<f64>() + wall.position().abs() + self.h * (seen.before.abs() + seen.after.abs())
+    }
+
+    /// Size of the terms that add up to the body's velocities in a step, for their rounding error,
+    /// m/s.
+    pub(super) fn speeds(&self, step: &Step<'_>, wall: &Wall) -> f64 {
+        let speeds = |v: &[f64]| wall.row().entries().iter().map(|&(i, g)| (g * v[i]).abs()).sum::<f64>();
+        speeds(step.velocity_before) + speeds(step.velocity_after) + speeds(&self.blows.struck)
     }
 
     fn hold_elastic(&mut self, step: &Step<'_>, seen: Seen, mean: f64) {
@@ -99,17 +179,16 @@ impl Judge {
         let mut error =
             (seen.pressure - expected_pressure(wall, promise.law, self.h, seen.w, (seen.before, seen.after))).abs();
         if promise.force == PromisedForce::Trapezoid
-            && let Some(held) = self.held.get_mut(seen.index)
+            && let Some(last) = self.walls.last_force.get_mut(seen.index)
         {
             let force = step.force[seen.index];
-            error = error.max((mean - 0.5 * (*held + force)).abs());
-            *held = force;
+            error = error.max((mean - 0.5 * (*last + force)).abs());
+            *last = force;
         }
-        self.law_error = self.law_error.max(error);
         let size = self.size(step, wall, &seen);
         let depth = (-wall.gap(seen.w.0)).max(-wall.gap(seen.w.1)).max(f64::MIN_POSITIVE);
         let slope = wall.law.tangent(depth) + 2.0 * wall.law.damping() / self.h;
-        self.doubt_law(seen.index, error, slope * self.rounding.met(size, self.energy.gap_scale));
+        self.walls.see_law(&self.noise, seen.index, error, slope * self.noise.place(size));
     }
 
     /// Checks a rigid wall. Returns whether it is closed after the step, where the promise depends
@@ -120,53 +199,45 @@ impl Judge {
         let wall = &self.scene.walls[index];
         if let Some(bound) = promise.displacement {
             let slack = slack(&self.scene, index, (bound, step.path), self.h, w, struck);
-            self.pairs.add(slack, pressure);
             if slack < 0.0 || pressure != 0.0 {
-                self.doubt_gap(index, slack, self.size(step, wall, &seen), pressure);
+                self.walls.see_gap(&self.noise, index, (slack, self.size(step, wall, &seen)), pressure);
             }
         }
-        let wall = &self.scene.walls[index];
         let (reached, way) = match promise.velocity {
             Some(Reached::Ahead(at)) => {
                 let gap = wall.gap(w.0 + at * self.h * struck);
-                (gap <= self.touch, gap)
+                (gap <= self.walls.touch, gap)
             }
             Some(Reached::Closed) => {
                 let gap = wall.gap(w.1);
-                (gap <= self.touch || pressure != 0.0, gap)
+                (gap <= self.walls.touch || pressure != 0.0, gap)
             }
             None => (false, f64::INFINITY),
         };
         let e = wall.law.restitution().filter(|&e| !self.gives_up(step, index, e, struck)).unwrap_or(0.0);
         let slack = if reached { rebound(wall, e, struck, after) } else { 0.0 };
-        if reached {
-            self.rebounds.add(slack, pressure);
-        }
-        if pressure == 0.0 && slack >= 0.0 {
-            // Nothing to check: the wall does not push, and the body does not pass it.
-        } else if promise.velocity == Some(Reached::Closed) {
-            // The promise does not cover a wall that is closed only by the rounding error of its
-            // gap.
-            if reached && (pressure != 0.0 || way <= 0.0) {
-                self.doubt_rebound(index, slack, step, pressure);
-            }
-        } else if reached || promise.displacement.is_none() {
-            // Near the limit, rounding decides whether the body reaches the wall within the step:
-            // either is accepted.
-            let edge = (way - self.touch).abs() <= self.rounding.of(self.size(step, wall, &seen));
-            if !reached {
-                self.law_error = self.law_error.max(pressure.abs());
-            }
-            if !edge && reached {
-                self.doubt_rebound(index, slack, step, pressure);
-            } else if !edge {
-                self.doubt_law(index, pressure.abs(), 0.0);
+        if pressure != 0.0 || slack < 0.0 {
+            let closes = promise.velocity == Some(Reached::Closed);
+            let is_edge = if closes {
+                // The promise does not cover a wall that is closed only by the rounding error of
+                // its gap.
+                pressure == 0.0 && way > 0.0
+            } else {
+                // Near the limit, rounding decides whether the body reaches the wall within the
+                // step: either is accepted.
+                (way - self.walls.touch).abs() <= self.noise.of(self.size(step, wall, &seen))
+            };
+            let accepted = if is_edge { f64::INFINITY } else { 0.0 };
+            if reached {
+                let noise = self.noise.velocity(self.speeds(step, wall), self.noise.span);
+                self.walls.see_rebound(&self.noise, index, (slack, noise + accepted), pressure);
+            } else if !closes && promise.displacement.is_none() {
+                self.walls.see_law(&self.noise, index, pressure.abs(), accepted);
             }
         }
         // A wall at which the walls' correction of the displacement left the body is closed, also
         // where the displacement is so large that its rounding error exceeds the touching distance.
-        let wall = &self.scene.walls[index];
         promise.velocity == Some(Reached::Closed)
-            && (reached || way - self.touch <= self.rounding.of(self.size(step, wall, &seen)))
+            && (reached || way - self.walls.touch <= self.noise.of(self.size(step, wall, &seen)))
     }
 }

@@ -23,7 +23,7 @@ impl Weights {
         let root_mass: Vec<f64> = diagonals[0].iter().map(|m| m.sqrt()).collect();
         let mut seen = vec![0.0_f64; n];
         for wall in scene.walls.iter().filter(|wall| wall.law.is_rigid()) {
-            if let &[(i, weight)] = wall.at.entries()
+            if let &[(i, weight)] = wall.row().entries()
                 && let Some(seen) = seen.get_mut(i)
             {
                 *seen = seen.max(weight.abs());

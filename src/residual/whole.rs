@@ -11,9 +11,10 @@
 //! two nearly balance, as under heavy damping, their sum changes little while each may change much.
 
 use super::Judge;
-use super::beyond::Worst;
 use super::moves::Moves;
+use super::pushes::place_of;
 use super::sums::Forces;
+use super::worst::Worst;
 use crate::step::{Balance, Path, Step};
 
 /// The weights of a scheme differ from those of the trapezoid rule by at most this many steps in
@@ -33,20 +34,19 @@ impl Judge {
     /// As [`Judge::hear`], for the sums of each round support's impulses along y and z, N s: normal
     /// and friction together, in the order of the scene's round supports.
     pub fn hear_holes(&mut self, impulses: &[[f64; 2]]) {
-        if let Some(supports) = self.supports.as_mut().filter(|supports| supports.holes.len() == impulses.len()) {
+        let holes = self.scene.holes().count();
+        if let Some(supports) = self.supports.as_mut().filter(|_| holes == impulses.len()) {
             supports.recorded = Some(impulses.to_vec());
         }
     }
 
-    /// The impulse of each support over the run along y and z, without the normal ones of flats,
-    /// with the recorder's sums where they are known, and the sum of the magnitudes, N s.
-    fn of_supports(&self) -> Vec<([f64; 2], f64)> {
+    /// The impulse of each wall over the run along y and z, without the normal ones of flats, with
+    /// the recorder's sums where they are known, and the sum of the magnitudes, N s.
+    fn planar(&self) -> Vec<([f64; 2], f64)> {
         let Some(supports) = &self.supports else { return Vec::new() };
         let mut all: Vec<_> = supports.impulse.iter().copied().zip(supports.size.iter().copied()).collect();
-        for ((index, _, _), told) in supports.holes.iter().zip(supports.recorded.iter().flatten()) {
-            if let Some(one) = all.get_mut(*index) {
-                one.0 = *told;
-            }
+        for (hole, told) in self.scene.holes().zip(supports.recorded.iter().flatten()) {
+            all[hole.index].0 = *told;
         }
         all
     }
@@ -98,17 +98,13 @@ impl Judge {
         let impulses = sums.recorded.as_ref().unwrap_or(&sums.seen);
         for (wall, ((p, seen), size)) in impulses.iter().zip(&sums.seen).zip(&sums.sizes).enumerate() {
             let rounding = sums.steps as f64 * f64::EPSILON * size;
-            worst.see(over((p - seen).abs() - rounding, *size), self.now, Some(wall));
+            worst.see(over((p - seen).abs() - rounding, *size), self.noise.end, Some(wall));
         }
         if let Some(supports) = &self.supports {
-            let seen = supports.impulse.iter().zip(&supports.size);
-            for (((index, _, _), told), place) in
-                supports.holes.iter().zip(supports.recorded.iter().flatten()).zip(impulses.len()..)
-            {
-                if let Some(([y, z], size)) = seen.clone().nth(*index) {
-                    let apart = (told[0] - y).hypot(told[1] - z) - sums.steps as f64 * f64::EPSILON * size;
-                    worst.see(over(apart, *size), self.now, Some(place));
-                }
+            for (hole, told) in self.scene.holes().zip(supports.recorded.iter().flatten()) {
+                let ([y, z], size) = (supports.impulse[hole.index], supports.size[hole.index]);
+                let apart = (told[0] - y).hypot(told[1] - z) - sums.steps as f64 * f64::EPSILON * size;
+                worst.see(over(apart, size), self.noise.end, Some(hole.index));
             }
         }
         if !sums.whole || sums.steps == 0 || self.contract.balance == Balance::Exact {
@@ -129,7 +125,7 @@ impl Judge {
         // The last step of a staggered rule contains the blows up to its middle.
         let until = match self.contract.balance {
             Balance::Staggered(_) => (sums.steps as f64 - 0.5).mul_add(self.h, sums.from),
-            _ => self.now,
+            _ => self.noise.end,
         };
         self.loads.blow(sums.from, until, &mut blows);
         let mut exchanged: Vec<f64> = sums.forces.iter().map(|force| force.exchanged).collect();
@@ -149,32 +145,33 @@ impl Judge {
             ends[i] += begin[i].abs() + (self.load[i] - load).abs() + (end[i] - self.load[i] - own).abs();
         }
         for (wall, (p, size)) in self.scene.walls.iter().zip(impulses.iter().zip(&sums.sizes)) {
-            for &(i, weight) in wall.at.entries() {
+            for &(i, weight) in wall.row().entries() {
                 open[i] -= weight * p;
                 exchanged[i] += weight.abs() * size;
                 // A wall that is a spring also pushes over the last half step, and its force is not
                 // among the loads.
                 if !wall.law.is_rigid() {
-                    let last = wall.law_force(wall.at.dot(&self.q), wall.at.dot(&sums.last));
-                    ends[i] += weight.abs() * self.force_scale.max(last.abs());
+                    let last = wall.law_force(wall.row().dot(&self.q), wall.row().dot(&sums.last));
+                    ends[i] += weight.abs() * self.walls.force_scale.max(last.abs());
                 }
             }
         }
-        for (support, ([y, z], size)) in self.scene.supports.iter().zip(self.of_supports()) {
-            for (row, push) in [(&support.at.y, y), (&support.at.z, z)] {
+        for (index, ([y, z], size)) in self.planar().into_iter().enumerate() {
+            let Some(at) = place_of(&self.scene, index) else { continue };
+            for (row, push) in [(&at.y, y), (&at.z, z)] {
                 for &(i, weight) in row.entries() {
                     open[i] -= weight * push;
                     exchanged[i] += weight.abs() * size;
                 }
             }
         }
-        let rounding = sums.steps as f64 * self.h * self.rounding.force(self.h, 1.0);
+        let rounding = sums.steps as f64 * self.h * self.noise.force_over(self.h);
         let roots = &self.weights.root_mass;
         let largest = exchanged.iter().zip(roots).map(|(x, root)| x / root).fold(0.0, f64::max);
         for i in 0..n {
             let missed = STEPS * self.h * (sums.forces[i].changes + ends[i]);
             let left = (open[i] - blows[i]).abs() - missed;
-            worst.see(over(left / roots[i] - rounding, largest), self.now, None);
+            worst.see(over(left / roots[i] - rounding, largest), self.noise.end, None);
         }
         worst
     }

@@ -14,7 +14,7 @@
 use crate::error::Error;
 use crate::linear::{Factor, Symmetric};
 use crate::residual::{Finding, Refuted};
-use crate::scene::{Checked, Hole, LoadKind, Scene, State};
+use crate::scene::{Checked, LoadKind, Scene, State};
 use crate::scheme::{Integrator, Scheme, Stepper};
 
 /// A run that is this much faster than its start and its loads allow has diverged. A scheme's own
@@ -112,7 +112,7 @@ impl Divergence {
         match self.scheme {
             Scheme::Penalty { integrator: Integrator::CentralDifference, .. } => {
                 let masses = self.scene.wall_masses();
-                let laws = self.scene.contact_laws().map(|law| law.tangent(f64::MIN_POSITIVE));
+                let laws = self.scene.walls.iter().map(|wall| wall.law).map(|law| law.tangent(f64::MIN_POSITIVE));
                 let walls = laws.zip(masses).map(|(k, m)| k / m).fold(0.0, f64::max);
                 let [_, fastest] = self.scene.system.frequencies();
                 let limit = 2.0 / (fastest * fastest + walls).sqrt();
@@ -142,13 +142,8 @@ impl Diverged {
 
 /// Energy of motion and of all springs at `state`, J.
 fn energy(scene: &Scene, State { q, v }: &State) -> f64 {
-    let walls: f64 = scene.walls.iter().map(|wall| wall.law.energy(-wall.gap(wall.at.dot(q)))).sum();
-    let hole = |hole: Hole<'_>| {
-        let [y, z] = hole.support.offset(q);
-        hole.law.energy(y.hypot(z) - hole.gap)
-    };
-    let holes: f64 = scene.holes().map(hole).sum();
-    0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + walls + holes
+    let walls: f64 = scene.walls.iter().map(|wall| wall.law.energy(-wall.gap(wall.coordinate(q)))).sum();
+    0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + walls
 }
 
 /// Bounds on the impulse of all loads on each degree of freedom, N s; `of` gives that of a load.

@@ -2,6 +2,7 @@
 
 mod divergence;
 mod finished;
+pub(crate) mod notes;
 mod observers;
 mod options;
 
@@ -12,7 +13,7 @@ pub use options::{Judged, Judging, Options, Recorded, Recording, Unjudged, Unrec
 use crate::error::Result;
 use crate::residual::Finding;
 use crate::scene::{Checked, Scene};
-use crate::scheme::{Method, Scheme, Stepper};
+use crate::scheme::{Method, Stepper};
 use observers::Observers;
 use std::time::Instant;
 
@@ -23,7 +24,7 @@ const PROGRESS_STRIDE: u64 = 1 << 14;
 /// two, since a step may take a nanosecond or a second.
 const PROGRESS_SHARE: u64 = 8;
 
-/// Runs `scene` by `method`, a [`Scheme`] or a [`Method`], to its end.
+/// Runs `scene` by `method`, a [`Scheme`](crate::Scheme) or a [`Method`], to its end.
 ///
 /// ```
 /// use signorini::{Load, Options, Scene, Scheme, Wall, run};
@@ -73,7 +74,7 @@ pub fn run_with_progress<J: Judging, R: Recording>(
 ) -> Result<Run<J, R>> {
     let scene = &Checked::new(scene)?;
     let method: Method = (*method).into();
-    let exact = method.scheme == Scheme::Event;
+    let exact = method.scheme.is_exact();
     let grid = options.grid(scene, exact)?;
     let started = Instant::now();
     let mut stepper = Stepper::by(scene, method, grid.step)?;
@@ -135,8 +136,8 @@ pub fn run_with_progress<J: Judging, R: Recording>(
         notes: Vec::new(),
         cautions: Vec::new(),
     };
-    run.cautions = crate::notes::cautions(scene, &run);
-    run.notes = [crate::notes::remarks(scene, &run), run.cautions.clone()].concat();
+    run.cautions = notes::cautions(scene, &run);
+    run.notes = [notes::remarks(scene, &run), run.cautions.clone()].concat();
     Ok(run)
 }
 

@@ -1,6 +1,6 @@
 //! Moves a state that lies behind rigid walls and holes to them.
 
-use super::{Row, Scene, Shape, Side, Support, System};
+use super::{Face, Row, Scene, Side, System, Wall};
 
 /// Most passes over the walls and holes behind which the state lies.
 const PASSES: usize = 50;
@@ -12,26 +12,26 @@ impl Scene {
         // Several walls may require different moves: each is applied in turn, in several passes.
         for _ in 0..PASSES {
             let mut moved = false;
-            for wall in self.walls.iter().filter(|wall| wall.law.is_rigid()) {
-                let w = wall.at.dot(&self.initial.q);
-                let beyond = match wall.side {
-                    Side::Upper => (w - wall.position).max(0.0),
-                    Side::Lower => (w - wall.position).min(0.0),
+            for wall in self.walls.iter().filter(|wall| wall.law.is_rigid() && !wall.is_round()) {
+                let w = wall.row().dot(&self.initial.q);
+                let beyond = match wall.side() {
+                    Side::Upper => (w - wall.position()).max(0.0),
+                    Side::Lower => (w - wall.position()).min(0.0),
                 };
                 if beyond == 0.0 {
                     continue;
                 }
                 moved = true;
-                if let (System::Oscillator(_), [(0, 1.0)]) = (&self.system, wall.at.entries()) {
-                    self.initial.q = vec![wall.position];
+                if let (System::Oscillator(_), [(0, 1.0)]) = (&self.system, wall.row().entries()) {
+                    self.initial.q = vec![wall.position()];
                     continue;
                 }
                 // The smallest move that brings w = g · q to the wall, and its rounding on the free
                 // side.
-                let square: f64 = wall.at.entries().iter().map(|(_, weight)| weight * weight).sum();
-                let size = self.initial.q.iter().fold(wall.position.abs(), |most, q| most.max(q.abs()));
+                let square: f64 = wall.row().entries().iter().map(|(_, weight)| weight * weight).sum();
+                let size = self.initial.q.iter().fold(wall.position().abs(), |most, q| most.max(q.abs()));
                 let by = beyond + (4.0 * f64::EPSILON * size).copysign(beyond);
-                for &(index, weight) in wall.at.entries() {
+                for &(index, weight) in wall.row().entries() {
                     if let Some(q) = self.initial.q.get_mut(index) {
                         *q -= by * weight / square;
                     }
@@ -47,46 +47,39 @@ impl Scene {
     /// One pass over the rigid holes. Returns whether the state was behind one.
     fn step_out_of_holes(&mut self) -> bool {
         let mut moved = false;
-        let Self { supports, initial, .. } = self;
-        for support in supports {
-            if support.holds_out(&initial.q) {
-                move_onto(support, &mut initial.q);
+        let Self { walls, initial, .. } = self;
+        for wall in walls.iter() {
+            if wall.holds_out(&initial.q) {
+                move_onto(wall, &mut initial.q);
                 moved = true;
             }
         }
         moved
     }
 
-    /// Moves an initial state that touches the rigid walls and holes `pressed`, up to rounding,
-    /// exactly onto all of them; their indices are those of contacts ([`Scene::contact_name`]).
+    /// Moves an initial state that touches the rigid walls `pressed`, up to rounding, exactly onto
+    /// all of them.
     pub(crate) fn press_onto(&mut self, pressed: &[usize]) {
-        let Self { walls, supports, initial, .. } = self;
-        let rounds: Vec<&Support> = supports.iter().filter(|support| support.hole().is_some()).collect();
+        let Self { walls, initial, .. } = self;
         for _ in 0..PASSES {
-            for &index in pressed {
-                match (walls.get(index), index.checked_sub(walls.len()).and_then(|hole| rounds.get(hole))) {
-                    (Some(wall), _) if wall.law.is_rigid() => {
-                        let by = wall.at.dot(&initial.q) - wall.position;
-                        move_along(&wall.at, by, &mut initial.q);
-                    }
-                    (None, Some(support)) => move_onto(support, &mut initial.q),
-                    _ => {}
-                }
+            for wall in pressed.iter().filter_map(|&index| walls.get(index)).filter(|wall| wall.law.is_rigid()) {
+                move_onto(wall, &mut initial.q);
             }
         }
     }
 }
 
-/// Moves `q` onto the circle of a rigid hole by the smallest move.
-fn move_onto(support: &Support, q: &mut [f64]) {
-    let gap = match support.shape {
-        Shape::Round { gap, law } if law.is_rigid() => gap,
-        _ => return,
-    };
-    let [y, z] = support.offset(q);
-    let distance = y.hypot(z);
-    if distance > 0.0 {
-        move_along(&support.at.towards([y / distance, z / distance]), distance - gap, q);
+/// Moves `q` onto a wall by the smallest move.
+fn move_onto(wall: &Wall, q: &mut [f64]) {
+    match &wall.face {
+        Face::Flat { at, position, .. } => move_along(at, at.dot(q) - position, q),
+        Face::Round { at, centre, gap } => {
+            let [y, z] = [0, 1].map(|axis: usize| at.dot(q)[axis] - centre[axis]);
+            let distance = y.hypot(z);
+            if distance > 0.0 {
+                move_along(&at.towards([y / distance, z / distance]), distance - gap, q);
+            }
+        }
     }
 }
 

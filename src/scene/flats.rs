@@ -1,8 +1,9 @@
 //! Supports made of flats, around a structure that moves in two planes.
 
 use super::planes::{PlaneRows, heading};
-use super::support::{FlatWall, Shape, Support};
+use super::support::Support;
 use super::system::{finite, nonnegative};
+use super::wall::Face;
 use super::{Side, Wall, WallLaw};
 use crate::error::{Error, Result, Subject};
 
@@ -36,11 +37,12 @@ pub struct Flat {
 ///     flats: [0.0, 90.0, 180.0, 270.0].map(|direction| Flat { direction, gap: 0.2e-3 }).to_vec(),
 ///     centre: [0.0, 0.0],
 ///     law: WallLaw::Rigid { restitution: 0.5 },
+///     friction: 0.0,
 /// };
 /// let walls = square.walls()?;
 /// // The one opposite to the first.
-/// assert_eq!((walls[2].side, walls[2].position), (Side::Lower, -0.2e-3));
-/// assert_eq!(walls[2].at, walls[0].at);
+/// assert_eq!((walls[2].side(), walls[2].position()), (Side::Lower, -0.2e-3));
+/// assert_eq!(walls[2].row(), walls[0].row());
 /// # Ok::<(), signorini::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -55,6 +57,8 @@ pub struct Flats {
     pub centre: [f64; 2],
     /// The contact law of every flat.
     pub law: WallLaw,
+    /// Coefficient of Coulomb friction of every flat.
+    pub friction: f64,
 }
 
 impl Flats {
@@ -81,7 +85,7 @@ impl Flats {
             nonnegative(key("gap").value(index), flat.gap)?;
             let (direction, side) = facing(flat.direction);
             let at = self.at.along(direction);
-            if walls.iter().any(|other| other.at == at && other.side == side) {
+            if walls.iter().any(|other| *other.row() == at && other.side() == side) {
                 let value = format!("{:?}, for the second time", flat.direction);
                 return Err(Error::invalid(key("directions").value(index), value, "each direction once"));
             }
@@ -89,7 +93,8 @@ impl Flats {
             let centre = y * self.centre[0] + z * self.centre[1];
             let position = centre - side.sign() * flat.gap;
             let name = format!("{}-flat-{}", self.name, index + 1);
-            walls.push(Wall { name, side, position, law: self.law, at });
+            let face = Face::Flat { side, position, at, direction: Some(flat.direction) };
+            walls.push(Wall { name, face, law: self.law, friction: self.friction });
         }
         Ok(walls)
     }
@@ -97,15 +102,9 @@ impl Flats {
     /// The support that these flats make, where the first of their walls has index `first` in the
     /// scene.
     #[must_use]
-    pub fn support(&self, first: usize, friction: f64) -> Support {
-        let wall = |(index, flat): (usize, &Flat)| FlatWall { wall: first + index, direction: flat.direction };
-        Support {
-            name: self.name.clone(),
-            at: self.at.clone(),
-            centre: self.centre,
-            shape: Shape::Flats(self.flats.iter().enumerate().map(wall).collect()),
-            friction,
-        }
+    pub fn support(&self, first: usize) -> Support {
+        let walls = first..first + self.flats.len();
+        Support { name: self.name.clone(), at: self.at.clone(), centre: self.centre, walls }
     }
 
     /// True if the flats leave a direction in which the structure is not bounded: all normals lie
@@ -139,6 +138,7 @@ mod tests {
             flats: directions.iter().map(|&direction| Flat { direction, gap: 1e-3 }).collect(),
             centre: [0.3e-3, -0.2e-3],
             law: WallLaw::Rigid { restitution: 1.0 },
+            friction: 0.0,
         }
     }
 
@@ -150,8 +150,8 @@ mod tests {
             // the whole one; a few roundings of 1e-3.
             let [y, z] = heading(flat.direction);
             let met = [support.centre[0] + flat.gap * y, support.centre[1] + flat.gap * z];
-            assert!(wall.gap(wall.at.dot(&met)).abs() < 1e-18, "{wall:?}");
-            assert!((wall.gap(wall.at.dot(&support.centre)) - flat.gap).abs() < 1e-18, "{wall:?}");
+            assert!(wall.gap(wall.row().dot(&met)).abs() < 1e-18, "{wall:?}");
+            assert!((wall.gap(wall.row().dot(&support.centre)) - flat.gap).abs() < 1e-18, "{wall:?}");
         }
     }
 

@@ -43,9 +43,9 @@ pub(crate) use row::distinct;
 pub use row::{Probe, Row};
 pub use shared::SharedStructure;
 pub use structure::Structure;
-pub use support::{FlatWall, Hole, Shape, Support};
+pub use support::{Hole, Support};
 pub use system::{Oscillator, System};
-pub use wall::{Side, Wall};
+pub use wall::{Face, Side, Wall};
 
 use crate::error::{Error, Result, Subject};
 use serde::{Deserialize, Serialize};
@@ -88,8 +88,7 @@ pub struct Scene {
     pub system: System,
     /// The walls; results name them.
     pub walls: Vec<Wall>,
-    /// The supports around places that move in two planes; empty in one plane. The flats of a
-    /// support are walls too.
+    /// The supports around places that move in two planes: groups of walls; empty in one plane.
     #[serde(default)]
     pub supports: Vec<Support>,
     /// The loads; they add up.
@@ -162,6 +161,17 @@ impl Scene {
         self
     }
 
+    /// The scene with one more support of these walls, which follow the scene's; the place and the
+    /// centre are those of the support.
+    #[must_use]
+    pub fn with_support(mut self, name: &str, at: PlaneRows, centre: [f64; 2], walls: Vec<Wall>) -> Self {
+        let first = self.walls.len();
+        let walls_of = first..first + walls.len();
+        self.walls.extend(walls);
+        self.supports.push(Support { name: name.to_owned(), at, centre, walls: walls_of });
+        self
+    }
+
     /// Index of the wall of that name.
     ///
     /// # Errors
@@ -183,7 +193,7 @@ impl Scene {
     pub fn gap_scale(&self) -> f64 {
         let positive = |x: &f64| x.is_finite() && *x > 0.0;
         self.gap()
-            .or_else(|| self.walls.iter().map(|w| w.position.abs()).filter(positive).reduce(f64::max))
+            .or_else(|| self.walls.iter().map(|w| w.position().abs()).filter(positive).reduce(f64::max))
             .or_else(|| self.initial.q.iter().map(|q| q.abs()).filter(positive).reduce(f64::max))
             .unwrap_or(1.0)
     }
@@ -194,10 +204,11 @@ impl Scene {
     pub(crate) fn gap(&self) -> Option<f64> {
         let positive = |x: &f64| x.is_finite() && *x > 0.0;
         let (place, lower) = self.lower_walls();
-        let uppers = self.walls.iter().zip(place).filter(|(w, _)| w.side == Side::Upper);
-        let spans = uppers
-            .flat_map(|(upper, place)| lower[place].iter().map(move |lower| 0.5 * (upper.position - lower.position)));
-        let start = |w: &Wall| w.gap(w.at.dot(&self.initial.q)).abs();
+        let uppers = self.walls.iter().zip(place).filter(|(w, _)| w.side() == Side::Upper && !w.is_round());
+        let spans = uppers.flat_map(|(upper, place)| {
+            lower[place].iter().map(move |lower| 0.5 * (upper.position() - lower.position()))
+        });
+        let start = |w: &Wall| w.gap(w.row().dot(&self.initial.q)).abs();
         let least = spans.chain(self.holes().map(|hole| hole.gap)).filter(positive).reduce(f64::min);
         least.or_else(|| self.walls.iter().map(start).filter(positive).reduce(f64::max))
     }
@@ -206,7 +217,7 @@ impl Scene {
     /// compute with numbers. A wall behind a lever makes the oscillator a structure of 1 × 1
     /// matrices.
     pub(crate) fn is_line(&self) -> bool {
-        matches!(self.system, System::Oscillator(_)) && self.walls.iter().all(|wall| wall.at == Row::dof(0))
+        matches!(self.system, System::Oscillator(_)) && self.walls.iter().all(|wall| *wall.row() == Row::dof(0))
     }
 
     /// Distance within which a wall counts as in contact, m: 1e-12 of [`Scene::gap_scale`].
@@ -218,9 +229,9 @@ impl Scene {
     /// For each wall, which of the distinct rows it has; and for each of those rows, its lower
     /// walls.
     fn lower_walls(&self) -> (Vec<usize>, Vec<Vec<&Wall>>) {
-        let places = distinct(self.walls.iter().map(|wall| &wall.at));
+        let places = distinct(self.walls.iter().map(|wall| wall.row()));
         let mut lower = vec![Vec::new(); places.rows.len()];
-        for (wall, &place) in self.walls.iter().zip(&places.of).filter(|(wall, _)| wall.side == Side::Lower) {
+        for (wall, &place) in self.walls.iter().zip(&places.of).filter(|(wall, _)| wall.side() == Side::Lower) {
             lower[place].push(wall);
         }
         (places.of, lower)
@@ -270,9 +281,12 @@ impl Scene {
             }
         }
         for wall in &self.walls {
+            if wall.is_round() {
+                continue;
+            }
             wall.validate()?;
-            self.check_row(|| Subject::wall(&wall.name), &wall.at)?;
-            if wall.at.is_blind() {
+            self.check_row(|| Subject::wall(&wall.name), wall.row())?;
+            if wall.row().is_blind() {
                 let key = Subject::wall(&wall.name).part("at");
                 return Err(Error::invalid(key, "a place that nothing moves", "a place that can move"));
             }
@@ -281,10 +295,10 @@ impl Scene {
         for (wall, place) in self.walls.iter().zip(place) {
             check_crossing(wall, &lower[place])?;
         }
-        for wall in &self.walls {
+        for wall in self.walls.iter().filter(|wall| !wall.is_round()) {
             self.check_start(wall)?;
         }
-        self.check_supports(|support, row| self.check_row(|| Subject::support(&support.name), row))
+        self.check_supports(|name, row| self.check_row(|| Subject::support(name), row))
     }
 
     fn check_row(&self, owner: impl Fn() -> Subject, row: &Row) -> Result<()> {
@@ -300,10 +314,10 @@ impl Scene {
     }
 
     fn check_start(&self, wall: &Wall) -> Result<()> {
-        let w = wall.at.dot(&self.initial.q);
+        let w = wall.row().dot(&self.initial.q);
         if wall.law.is_rigid() && wall.gap(w) < 0.0 {
-            let relation = if wall.side == Side::Upper { "at most" } else { "at least" };
-            let expected = format!("{relation} {:?}, the position of the rigid wall {:?}", wall.position, wall.name);
+            let relation = if wall.side() == Side::Upper { "at most" } else { "at least" };
+            let expected = format!("{relation} {:?}, the position of the rigid wall {:?}", wall.position(), wall.name);
             return Err(Error::invalid(("initial state", "displacement"), format_args!("{w:?}"), expected));
         }
         Ok(())
@@ -312,14 +326,14 @@ impl Scene {
 
 /// Refuses a rigid upper wall below a rigid lower one of its row.
 fn check_crossing(upper: &Wall, lower: &[&Wall]) -> Result<()> {
-    if upper.side == Side::Lower || !upper.law.is_rigid() {
+    if upper.side() == Side::Lower || !upper.law.is_rigid() {
         return Ok(());
     }
-    match lower.iter().find(|lower| lower.law.is_rigid() && lower.position > upper.position) {
+    match lower.iter().find(|lower| lower.law.is_rigid() && lower.position() > upper.position()) {
         Some(lower) => Err(Error::invalid(
             Subject::wall(&upper.name).part("position"),
-            format_args!("{:?}", upper.position),
-            format!("at least {:?}, the position of the rigid lower wall {:?}", lower.position, lower.name),
+            format_args!("{:?}", upper.position()),
+            format!("at least {:?}, the position of the rigid lower wall {:?}", lower.position(), lower.name),
         )),
         None => Ok(()),
     }

@@ -63,11 +63,23 @@ impl PlaneRows {
         Self { y: row.clone(), z: Row::new(z) }
     }
 
+    /// (g_y · x, g_z · x) for `x` of one value per degree of freedom.
+    #[must_use]
+    pub fn dot(&self, x: &[f64]) -> [f64; 2] {
+        [self.y.dot(x), self.z.dot(x)]
+    }
+
     /// The row of the displacement in a direction, in degrees from +y towards +z: cos α g_y +
     /// sin α g_z.
     #[must_use]
     pub fn along(&self, degrees: f64) -> Row {
         self.towards(heading(degrees))
+    }
+
+    /// The same place on a structure in other coordinates, where `row` turns each row into that of
+    /// the same place there.
+    pub(crate) fn carried(&self, mut row: impl FnMut(&Row) -> Row) -> Self {
+        Self { y: row(&self.y), z: row(&self.z) }
     }
 
     /// The row of the displacement along the unit vector (y, z).

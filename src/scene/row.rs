@@ -12,6 +12,9 @@ pub struct Row {
 }
 
 impl Row {
+    /// A row without entries.
+    pub(crate) const NONE: Self = Self { entries: Vec::new() };
+
     /// The row that picks degree of freedom `index` (from 0).
     #[must_use]
     pub fn dof(index: usize) -> Self {

@@ -69,15 +69,19 @@ fn power(a: &Symmetric, factor: Option<Factor>, b: &Symmetric) -> Option<f64> {
 
 impl Scene {
     /// The mass that each wall feels, kg, in the scene's order: 1/(g M⁻¹ gᵀ). An impulse over this
-    /// mass is the change of velocity there. Infinite for a wall with a zero row. After the walls
-    /// come the round supports: the least mass that each feels over all its directions.
+    /// mass is the change of velocity there. Infinite for a wall with a zero row. Of a
+    /// round wall it is the least mass over all its directions.
     #[must_use]
     pub fn wall_masses(&self) -> Vec<f64> {
         let mut masses = self.masses_at_walls();
         if self.holes().next().is_some() {
             let structure = self.system.structure();
             let mut factor = structure.mass_factor().ok();
-            masses.extend(self.holes().map(|hole| least_mass(&hole, structure.mass.size(), factor.as_mut())));
+            for hole in self.holes() {
+                if let Some(mass) = masses.get_mut(hole.index) {
+                    *mass = least_mass(&hole, structure.mass.size(), factor.as_mut());
+                }
+            }
         }
         masses
     }
@@ -86,7 +90,7 @@ impl Scene {
         match &self.system {
             System::Oscillator(o) => {
                 let weight = |row: &Row| row.entries().iter().map(|entry| entry.1).sum::<f64>();
-                self.walls.iter().map(|w| o.mass / weight(&w.at).powi(2)).collect()
+                self.walls.iter().map(|w| o.mass / weight(w.row()).powi(2)).collect()
             }
             System::Structure(s) => {
                 let Ok(mut factor) = s.mass_factor() else { return vec![f64::INFINITY; self.walls.len()] };
@@ -114,7 +118,7 @@ impl Scene {
                     1.0 / inverse
                 };
                 // Walls at one place have the same mass.
-                let places = distinct(self.walls.iter().map(|wall| &wall.at));
+                let places = distinct(self.walls.iter().map(|wall| wall.row()));
                 let masses: Vec<f64> = places.rows.into_iter().map(mass).collect();
                 places.of.into_iter().filter_map(|place| masses.get(place).copied()).collect()
             }
@@ -126,7 +130,7 @@ impl Scene {
 /// M⁻¹ Pᵀ; infinite where M has no factor.
 fn least_mass(hole: &Hole<'_>, n: usize, mass: Option<&mut Factor>) -> f64 {
     let Some(mass) = mass else { return f64::INFINITY };
-    let (y, z) = (&hole.support.at.y, &hole.support.at.z);
+    let (y, z) = (&hole.at.y, &hole.at.z);
     let mut response = |row: &Row| {
         let mut x = vec![0.0; n];
         for &(i, weight) in row.entries() {

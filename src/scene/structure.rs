@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 /// }
 /// .with_damping(&Damping::Rayleigh { mass: 0.0, stiffness: 1e-4 })?;
 /// let mut scene = Scene::structure(structure)
-///     .with_wall(Wall { at: Row::dof(1), ..Wall::upper("stop", 1e-3).with_restitution(0.5) })
+///     .with_wall(Wall::upper("stop", 1e-3).with_restitution(0.5).at(Row::dof(1)))
 ///     .with_load(Load { at: Row::dof(0), ..Load::harmonic(50.0, 8.0, 0.0) });
 /// scene.probes.push(Probe { name: "tip".to_owned(), at: Row::dof(1) });
 ///

@@ -1,21 +1,22 @@
-//! Supports around a place of a structure that moves in two planes: flats or a round hole, with
-//! friction.
+//! Supports: walls around one place of a structure that moves in two planes.
 
 use super::planes::{PlaneRows, heading};
 use super::system::{finite, nonnegative, positive};
-use super::{Row, Scene, Wall, WallLaw};
+use super::wall::{Face, Wall};
+use super::{Row, Scene, WallLaw};
 use crate::error::{Error, Result, Subject};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
+use std::ops::Range;
 
 /// Largest coefficient of friction that is accepted.
 const MOST_FRICTION: f64 = 10.0;
 
-/// Rounding allowance: share of its gap by which a start may lie outside of a round hole.
+/// Rounding allowance: share of its gap by which a start may lie outside of a round wall.
 const TOUCHING: f64 = 1e-12;
 
-/// A support around one place of a structure that moves in two planes. The displacement there from
-/// the support's centre c is w = (g_y · q, g_z · q) − c.
+/// A support around one place of a structure that moves in two planes: one round wall or several
+/// flat ones. The displacement there from the support's centre c is w = (g_y · q, g_z · q) − c.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Support {
     /// Name; results name it.
@@ -24,48 +25,30 @@ pub struct Support {
     pub at: PlaneRows,
     /// The centre c, m.
     pub centre: [f64; 2],
-    /// What bounds w.
-    pub shape: Shape,
-    /// Coefficient of Coulomb friction μ, from 0 to 10.
-    pub friction: f64,
+    /// Its walls, which follow one another in the scene.
+    pub walls: Range<usize>,
 }
 
-/// What bounds the displacement w at a support.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub enum Shape {
-    /// Flats: walls of the scene, which bound w along their normals.
-    Flats(Vec<FlatWall>),
-    /// A round hole: |w| ≤ γ. It pushes towards the centre.
-    Round {
-        /// The radial gap γ, m, above 0.
-        gap: f64,
-        /// The contact law along the normal.
-        law: WallLaw,
-    },
-}
-
-/// A flat of a support, as a wall of the scene.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct FlatWall {
-    /// Index of the wall in the scene.
-    pub wall: usize,
-    /// The direction of the flat's outward normal, degrees from +y towards +z.
-    pub direction: f64,
-}
-
-/// A round support, with gap, restitution and law of its hole.
+/// A round wall of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Hole<'a> {
-    /// The support.
-    pub support: &'a Support,
+    /// Its index among the scene's walls.
+    pub index: usize,
+    /// Its name.
+    pub name: &'a str,
+    /// The place that it surrounds.
+    pub at: &'a PlaneRows,
+    /// Its centre c, m.
+    pub centre: [f64; 2],
     /// The radial gap γ, m.
     pub gap: f64,
     /// The coefficient of restitution e along the normal.
     pub restitution: f64,
     /// The contact law along the normal.
     pub law: WallLaw,
+    /// The coefficient of Coulomb friction μ.
+    pub friction: f64,
 }
 
 impl Support {
@@ -73,7 +56,7 @@ impl Support {
     /// degree of freedom: (g_y · q, g_z · q), without the centre.
     #[must_use]
     pub fn seen(&self, q: &[f64]) -> [f64; 2] {
-        [self.at.y.dot(q), self.at.z.dot(q)]
+        self.at.dot(q)
     }
 
     /// The displacement w of the place from the centre of the support, m, for the displacement `q`
@@ -84,87 +67,102 @@ impl Support {
         [y - self.centre[0], z - self.centre[1]]
     }
 
+    /// Its walls among those of the scene, with their indices.
+    pub fn members<'a>(&self, walls: &'a [Wall]) -> impl Iterator<Item = (usize, &'a Wall)> + Clone + use<'a> {
+        let (start, end) = (self.walls.start, self.walls.end);
+        walls.iter().enumerate().take(end).skip(start)
+    }
+
     /// The distance of each flat from the centre, m, where `walls` are those of the scene; of a
-    /// round support the radial gap.
+    /// round wall the radial gap.
     #[must_use]
     pub fn gaps(&self, walls: &[Wall]) -> Vec<f64> {
-        let distance = |flat: &FlatWall| {
-            let wall = walls.get(flat.wall)?;
-            let [y, z] = heading(flat.direction);
-            Some(-wall.side.sign() * wall.position - y * self.centre[0] - z * self.centre[1])
-        };
-        match &self.shape {
-            Shape::Flats(flats) => flats.iter().filter_map(distance).collect(),
-            Shape::Round { gap, .. } => vec![*gap],
-        }
-    }
-
-    /// The hole of a round support.
-    #[must_use]
-    pub fn hole(&self) -> Option<Hole<'_>> {
-        match &self.shape {
-            Shape::Round { gap, law } => {
-                Some(Hole { support: self, gap: *gap, restitution: law.restitution().unwrap_or(0.0), law: *law })
+        let distance = |(_, wall): (usize, &Wall)| match wall.face {
+            Face::Flat { side, position, direction, .. } => {
+                let [y, z] = heading(direction?);
+                Some(-side.sign() * position - y * self.centre[0] - z * self.centre[1])
             }
-            Shape::Flats(_) => None,
-        }
+            Face::Round { gap, .. } => Some(gap),
+        };
+        self.members(walls).filter_map(distance).collect()
     }
 
-    /// True for a rigid round support if the structure at `q` is outside of its hole, by more than
-    /// the rounding of a place on its circle.
-    pub(crate) fn holds_out(&self, q: &[f64]) -> bool {
-        let [y, z] = self.offset(q);
-        let distance = y.hypot(z);
-        matches!(&self.shape, Shape::Round { gap, law } if law.is_rigid() && distance > gap * (1.0 + TOUCHING))
+    /// The round wall of the support, among those of the scene.
+    #[must_use]
+    pub fn hole<'a>(&self, walls: &'a [Wall]) -> Option<Hole<'a>> {
+        self.members(walls).find_map(|(index, wall)| wall.hole(index))
+    }
+
+    /// The largest coefficient of friction of its walls, among those of the scene.
+    #[must_use]
+    pub fn friction(&self, walls: &[Wall]) -> f64 {
+        self.members(walls).fold(0.0, |most, (_, wall)| wall.friction.max(most))
     }
 
     /// The same support, seen by a structure in other coordinates, where `row` turns each row into
     /// that of the same place there.
-    pub(crate) fn carried(&self, mut row: impl FnMut(&Row) -> Row) -> Self {
-        Self { at: PlaneRows { y: row(&self.at.y), z: row(&self.at.z) }, ..self.clone() }
+    pub(crate) fn carried(&self, row: impl FnMut(&Row) -> Row) -> Self {
+        Self { at: self.at.carried(row), ..self.clone() }
+    }
+}
+
+impl Hole<'_> {
+    /// (g_y · x, g_z · x), without the centre.
+    #[must_use]
+    pub fn seen(&self, x: &[f64]) -> [f64; 2] {
+        self.at.dot(x)
+    }
+
+    /// The displacement w of the place from the centre, m, for the displacement `q` (m).
+    #[must_use]
+    pub fn offset(&self, q: &[f64]) -> [f64; 2] {
+        let [y, z] = self.seen(q);
+        [y - self.centre[0], z - self.centre[1]]
+    }
+}
+
+impl Wall {
+    /// A round wall as such, with its index in the scene.
+    pub(crate) fn hole(&self, index: usize) -> Option<Hole<'_>> {
+        let Face::Round { at, centre, gap } = &self.face else { return None };
+        let restitution = self.law.restitution().unwrap_or(0.0);
+        let (law, friction) = (self.law, self.friction);
+        Some(Hole { index, name: &self.name, at, centre: *centre, gap: *gap, restitution, law, friction })
+    }
+
+    /// True for a rigid round wall if the structure at `q` is outside of it, by more than the
+    /// rounding of a place on its circle.
+    pub(crate) fn holds_out(&self, q: &[f64]) -> bool {
+        self.is_round() && self.law.is_rigid() && self.coordinate(q) > self.position() * (1.0 + TOUCHING)
     }
 }
 
 impl Scene {
-    /// True if a support of the scene is a round hole or has friction: not every scheme steps such
-    /// scenes.
+    /// True if a wall of the scene is round or has friction: not every scheme steps such scenes.
     #[must_use]
     pub fn turns_or_rubs(&self) -> bool {
-        self.supports.iter().any(|support| support.friction > 0.0 || matches!(support.shape, Shape::Round { .. }))
+        self.walls.iter().any(|wall| wall.friction > 0.0 || wall.is_round())
     }
 
-    /// The round supports, in the scene's order: [`Step::holes`](crate::Step::holes) has one entry
-    /// for each.
+    /// The round walls, in the scene's order.
     pub fn holes(&self) -> impl Iterator<Item = Hole<'_>> {
-        self.supports.iter().filter_map(Support::hole)
+        self.walls.iter().enumerate().filter_map(|(index, wall)| wall.hole(index))
     }
 
-    /// The laws of all places that a [`Contact`](crate::Contact) refers to: those of the walls,
-    /// then those of the round supports.
-    pub(crate) fn contact_laws(&self) -> impl Iterator<Item = WallLaw> {
-        self.walls.iter().map(|wall| wall.law).chain(self.holes().map(|hole| hole.law))
-    }
-
-    /// The name of the wall or round support that a [`Contact`](crate::Contact) refers to: first
-    /// the walls are counted, then the round supports.
+    /// The name of wall number `wall`, as a [`Contact`](crate::Contact) refers to it.
     #[must_use]
-    pub fn contact_name(&self, index: usize) -> Option<&str> {
-        let hole = || self.holes().nth(index.checked_sub(self.walls.len())?).map(|hole| &*hole.support.name);
-        self.walls.get(index).map(|wall| &*wall.name).or_else(hole)
+    pub fn wall_name(&self, wall: usize) -> Option<&str> {
+        self.walls.get(wall).map(|wall| &*wall.name)
     }
 
-    /// True if wall number `wall` is a flat of a support.
-    #[cfg(feature = "cli")]
-    pub(crate) fn is_flat(&self, wall: usize) -> bool {
-        let of = |shape: &Shape| match shape {
-            Shape::Flats(flats) => flats.iter().any(|flat| flat.wall == wall),
-            Shape::Round { .. } => false,
-        };
-        self.supports.iter().any(|support| of(&support.shape))
+    /// The support that wall number `wall` belongs to, if any.
+    #[must_use]
+    pub fn support_of(&self, wall: usize) -> Option<&Support> {
+        self.supports.iter().find(|support| support.walls.contains(&wall))
     }
 
     /// Checks the supports; `check_row` checks a row of one.
-    pub(super) fn check_supports(&self, check_row: impl Fn(&Support, &Row) -> Result<()>) -> Result<()> {
+    pub(super) fn check_supports(&self, check_row: impl Fn(&str, &Row) -> Result<()>) -> Result<()> {
         let mut names = HashSet::new();
         for support in &self.supports {
             let key = |part: &'static str| Subject::support(&support.name).part(part);
@@ -172,85 +170,105 @@ impl Scene {
                 let value = format!("{:?}, which another support has", support.name);
                 return Err(Error::invalid(key("name"), value, "a name of its own for each support"));
             }
-            check_row(support, &support.at.y)?;
-            check_row(support, &support.at.z)?;
-            support.check_planes()?;
+            check_row(&support.name, &support.at.y)?;
+            check_row(&support.name, &support.at.z)?;
+            check_planes(&support.name, &support.at)?;
             support.centre.iter().try_for_each(|&x| finite(key("centre"), x))?;
-            nonnegative(key("friction"), support.friction)?;
-            if support.friction > MOST_FRICTION {
+            if support.walls.end > self.walls.len() {
+                let value = format!("{:?}", support.walls);
+                return Err(Error::invalid(key("walls"), value, format!("some of the {} walls", self.walls.len())));
+            }
+            support.members(&self.walls).try_for_each(|(_, wall)| support.check_wall(wall))?;
+        }
+        for (index, wall) in self.walls.iter().enumerate() {
+            let support = self.support_of(index);
+            let owner = match support {
+                Some(support) => Subject::support(&support.name),
+                None => Subject::wall(&wall.name),
+            };
+            nonnegative(owner.clone().part("friction"), wall.friction)?;
+            if wall.friction > MOST_FRICTION {
                 let expected = format!("from 0 to {MOST_FRICTION}");
-                return Err(Error::invalid(key("friction"), format!("{:?}", support.friction), expected));
+                return Err(Error::invalid(owner.part("friction"), format!("{:?}", wall.friction), expected));
             }
-            match &support.shape {
-                Shape::Flats(flats) => flats.iter().try_for_each(|flat| support.check_flat(flat, &self.walls))?,
-                Shape::Round { gap, law } => support.check_hole(*gap, law, &self.initial.q)?,
+            if wall.friction > 0.0 && support.is_none() {
+                let expected = "0, or a wall of a support, around a place that moves in two planes";
+                return Err(Error::invalid(owner.part("friction"), wall.friction, expected));
             }
+            if let Face::Round { at, centre, gap } = &wall.face {
+                check_row(&wall.name, &at.y)?;
+                check_row(&wall.name, &at.z)?;
+                check_planes(&wall.name, at)?;
+                centre.iter().try_for_each(|&x| finite(owner.clone().part("centre"), x))?;
+                self.check_hole(wall, &owner, *gap)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_hole(&self, wall: &Wall, owner: &Subject, gap: f64) -> Result<()> {
+        positive(owner.clone().part("gap"), gap)?;
+        if !wall.law.is_linear() {
+            let found = "that of a penalty";
+            return Err(Error::invalid(owner.clone().part("law"), found, "a rigid or an elastic hole"));
+        }
+        wall.law.validate(|part: &'static str| owner.clone().part(part))?;
+        if wall.holds_out(&self.initial.q) {
+            let distance = wall.coordinate(&self.initial.q);
+            let value = format!("{distance:?} m from the centre of the round support {:?}", wall.name);
+            let expected = format!("at most its gap, {gap:?} m");
+            return Err(Error::invalid(("initial state", "displacement"), value, expected));
         }
         Ok(())
     }
 }
 
 impl Support {
-    fn check_flat(&self, flat: &FlatWall, walls: &[Wall]) -> Result<()> {
-        let key = || Subject::support(&self.name).part("flats");
-        finite(key(), flat.direction)?;
-        let Some(wall) = walls.get(flat.wall) else {
-            let expected = format!("the index of one of the {} walls", walls.len());
-            return Err(Error::invalid(key(), flat.wall, expected));
+    /// Refuses a wall that does not stand around the place of the support.
+    fn check_wall(&self, wall: &Wall) -> Result<()> {
+        let key = || Subject::support(&self.name).part("walls");
+        let across = |rest: &[(&Row, f64)]| {
+            let size = |row: &Row| row.entries().iter().map(|entry| entry.1.abs()).fold(0.0, f64::max);
+            let scale = size(&self.at.y).max(size(&self.at.z));
+            let entries = rest.iter().flat_map(|(row, share)| row.entries().iter().map(move |(i, x)| (*i, share * x)));
+            let entries: Vec<(usize, f64)> = entries.collect();
+            let left = |i: usize| entries.iter().filter(|entry| entry.0 == i).map(|entry| entry.1).sum::<f64>();
+            entries.iter().any(|entry| left(entry.0).abs() > 1e-9 * scale)
         };
-        // The wall's side and row must agree with the direction, or friction would act elsewhere.
-        let [y, z] = heading(flat.direction);
-        let sign = -wall.side.sign();
-        let size = |row: &Row| row.entries().iter().map(|entry| entry.1.abs()).fold(0.0, f64::max);
-        let scale = size(&self.at.y).max(size(&self.at.z));
-        let parts = [(&wall.at, sign), (&self.at.y, -y), (&self.at.z, -z)];
-        let entries = parts.iter().flat_map(|(row, share)| row.entries().iter().map(move |(i, x)| (*i, share * x)));
-        let entries: Vec<(usize, f64)> = entries.collect();
-        let rest = |i: usize| entries.iter().filter(|entry| entry.0 == i).map(|entry| entry.1).sum::<f64>();
-        if entries.iter().any(|entry| rest(entry.0).abs() > 1e-9 * scale) {
-            let value = format!("the wall {:?}, {:?}° from +y", wall.name, flat.direction);
-            return Err(Error::invalid(key(), value, "a wall across that direction, at the place of the support"));
-        }
-        Ok(())
-    }
-
-    /// Refuses a place that can move along one line only.
-    fn check_planes(&self) -> Result<()> {
-        let product = |a: &Row, b: &Row| -> f64 {
-            let beside =
-                |i: usize| b.entries().iter().filter(move |entry| entry.0 == i).map(|entry| entry.1).sum::<f64>();
-            a.entries().iter().map(|&(i, weight)| weight * beside(i)).sum()
+        let (apart, expected) = match &wall.face {
+            // Side and row of the wall must agree with the direction, or friction acts elsewhere.
+            Face::Flat { side, at, direction, .. } => {
+                let [y, z] = heading(direction.unwrap_or(f64::NAN));
+                let sign = -side.sign();
+                let apart = across(&[(at, sign), (&self.at.y, -y), (&self.at.z, -z)]);
+                (apart || direction.is_none(), "a wall across its direction, at the place of the support")
+            }
+            Face::Round { at, centre, .. } => {
+                let other = across(&[(&at.y, 1.0), (&self.at.y, -1.0)]) || across(&[(&at.z, 1.0), (&self.at.z, -1.0)]);
+                (other || *centre != self.centre, "a round wall around the place and the centre of the support")
+            }
         };
-        let (y, z) = (&self.at.y, &self.at.z);
-        let (yy, zz, yz) = (product(y, y), product(z, z), product(y, z));
-        if yy * zz - yz * yz <= 1e-12 * yy * zz {
-            let value = "a place that moves along one line only";
-            return Err(Error::invalid(
-                Subject::support(&self.name).part("at"),
-                value,
-                "a place that moves in both planes",
-            ));
+        match (apart, &wall.face) {
+            (false, _) => Ok(()),
+            (true, Face::Flat { direction: Some(degrees), .. }) => {
+                Err(Error::invalid(key(), format!("the wall {:?}, {degrees:?}° from +y", wall.name), expected))
+            }
+            (true, _) => Err(Error::invalid(key(), format!("the wall {:?}", wall.name), expected)),
         }
-        Ok(())
     }
+}
 
-    fn check_hole(&self, gap: f64, law: &WallLaw, start: &[f64]) -> Result<()> {
-        let key = |part: &'static str| Subject::support(&self.name).part(part);
-        positive(key("gap"), gap)?;
-        if !law.is_linear() {
-            return Err(Error::invalid(key("law"), "that of a penalty", "a rigid or an elastic hole"));
-        }
-        law.validate(key)?;
-        let [y, z] = self.seen(start);
-        let distance = (y - self.centre[0]).hypot(z - self.centre[1]);
-        if self.holds_out(start) {
-            let value = format!("{distance:?} m from the centre of the round support {:?}", self.name);
-            return Err(Error::invalid(
-                ("initial state", "displacement"),
-                value,
-                format!("at most its gap, {gap:?} m"),
-            ));
-        }
-        Ok(())
+/// Refuses a place that can move along one line only.
+fn check_planes(name: &str, at: &PlaneRows) -> Result<()> {
+    let product = |a: &Row, b: &Row| -> f64 {
+        let beside = |i: usize| b.entries().iter().filter(move |entry| entry.0 == i).map(|entry| entry.1).sum::<f64>();
+        a.entries().iter().map(|&(i, weight)| weight * beside(i)).sum()
+    };
+    let (y, z) = (&at.y, &at.z);
+    let (yy, zz, yz) = (product(y, y), product(z, z), product(y, z));
+    if yy * zz - yz * yz <= 1e-12 * yy * zz {
+        let value = "a place that moves along one line only";
+        return Err(Error::invalid(Subject::support(name).part("at"), value, "a place that moves in both planes"));
     }
+    Ok(())
 }

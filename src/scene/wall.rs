@@ -1,6 +1,7 @@
 //! Walls: the bounds on displacements.
 
 use super::law::WallLaw;
+use super::planes::PlaneRows;
 use super::row::Row;
 use super::system::finite;
 use crate::error::{Error, Result, Subject};
@@ -26,7 +27,7 @@ impl Side {
     }
 }
 
-/// One wall, which bounds the displacement of its row on one side.
+/// One wall, flat or round.
 ///
 /// ```
 /// use signorini::{Row, Wall};
@@ -37,22 +38,47 @@ impl Side {
 /// assert_eq!(stop.gap(4e-3), 5e-3 - 4e-3); // m, before it
 /// assert_eq!(pad.law_force(-6e-3, 0.0).round(), 10.0); // N, 1 mm inside: a lower wall pushes up
 ///
-/// // On a structure a wall watches a row: here the distance between two masses, which may shrink by 1 mm.
-/// let between = Wall { at: Row::new(vec![(1, 1.0), (0, -1.0)]), ..Wall::lower("bumper", -1e-3) };
-/// assert!(between.gap(between.at.dot(&[0.0, -2e-3])) < 0.0); // they would overlap
+/// // On a structure a wall stands at a row: here the distance between two masses, which may shrink by 1 mm.
+/// let between = Wall::lower("bumper", -1e-3).at(Row::new(vec![(1, 1.0), (0, -1.0)]));
+/// assert!(between.gap(between.coordinate(&[0.0, -2e-3])) < 0.0); // they would overlap
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Wall {
     /// Name: letters, digits, `-` and `_`; results are looked up by it.
     pub name: String,
-    /// Which side of the body it stands on.
-    pub side: Side,
-    /// Position g, m, in the coordinate w = g · q of the row `at`.
-    pub position: f64,
-    /// The contact law.
+    /// Where it stands.
+    pub face: Face,
+    /// The contact law, of a round wall along its normal.
     pub law: WallLaw,
-    /// The row of the bounded displacement, through which the wall also pushes.
-    pub at: Row,
+    /// Coefficient of Coulomb friction μ, from 0 to 10; above 0 in two planes only.
+    #[serde(default)]
+    pub friction: f64,
+}
+
+/// Where a wall stands, and what it bounds: its *coordinate*.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Face {
+    /// A flat wall bounds the coordinate w = g · q of its row on one side.
+    Flat {
+        /// Which side of the body it stands on.
+        side: Side,
+        /// Its position g, m, in that coordinate.
+        position: f64,
+        /// The row of the coordinate, through which the wall also pushes.
+        at: Row,
+        /// The direction of its outward normal, degrees from +y towards +z; `None` in one plane.
+        direction: Option<f64>,
+    },
+    /// A round wall bounds the distance |w| of a place from its centre c, w = (g_y · q, g_z · q) −
+    /// c, from above; it pushes towards the centre.
+    Round {
+        /// The place.
+        at: PlaneRows,
+        /// The centre c, m.
+        centre: [f64; 2],
+        /// The radial gap γ, m, above 0: |w| ≤ γ.
+        gap: f64,
+    },
 }
 
 impl Wall {
@@ -60,18 +86,58 @@ impl Wall {
     /// `position` (m).
     #[must_use]
     pub fn upper(name: &str, position: f64) -> Self {
-        Self::new(name, Side::Upper, position)
+        Self::flat(name, Side::Upper, position)
     }
 
     /// A rigid lower wall (e = 1) on the first degree of freedom: the body may not go below
     /// `position` (m).
     #[must_use]
     pub fn lower(name: &str, position: f64) -> Self {
-        Self::new(name, Side::Lower, position)
+        Self::flat(name, Side::Lower, position)
     }
 
-    fn new(name: &str, side: Side, position: f64) -> Self {
-        Self { name: name.to_owned(), side, position, law: WallLaw::Rigid { restitution: 1.0 }, at: Row::dof(0) }
+    /// A rigid flat wall (e = 1) on this side of the first degree of freedom, at `position` (m).
+    #[must_use]
+    pub fn flat(name: &str, side: Side, position: f64) -> Self {
+        Self::new(name, Face::Flat { side, position, at: Row::dof(0), direction: None })
+    }
+
+    /// A rigid round wall (e = 1) around a place that moves in two planes: its distance from the
+    /// origin may not exceed `gap` (m).
+    #[must_use]
+    pub fn round(name: &str, at: PlaneRows, gap: f64) -> Self {
+        Self::new(name, Face::Round { at, centre: [0.0; 2], gap })
+    }
+
+    fn new(name: &str, face: Face) -> Self {
+        Self { name: name.to_owned(), face, law: WallLaw::Rigid { restitution: 1.0 }, friction: 0.0 }
+    }
+
+    /// The same wall at another row; a round wall stays where it is.
+    #[must_use]
+    pub fn at(mut self, row: Row) -> Self {
+        if let Face::Flat { at, .. } = &mut self.face {
+            *at = row;
+        }
+        self
+    }
+
+    /// The same wall at another position, m; of a round wall its gap.
+    #[must_use]
+    pub fn with_position(mut self, to: f64) -> Self {
+        match &mut self.face {
+            Face::Flat { position: place, .. } | Face::Round { gap: place, .. } => *place = to,
+        }
+        self
+    }
+
+    /// The same wall around another centre, m; a flat wall stays as it is.
+    #[must_use]
+    pub fn with_centre(mut self, to: [f64; 2]) -> Self {
+        if let Face::Round { centre, .. } = &mut self.face {
+            *centre = to;
+        }
+        self
     }
 
     /// The same wall, rigid with restitution `e` in [0, 1].
@@ -88,17 +154,111 @@ impl Wall {
         self
     }
 
-    /// Gap at displacement `w` (m): positive before the wall, negative behind it.
+    /// The same wall with Coulomb friction of this coefficient.
     #[must_use]
-    pub fn gap(&self, w: f64) -> f64 {
-        self.side.sign() * (w - self.position)
+    pub fn with_friction(mut self, coefficient: f64) -> Self {
+        self.friction = coefficient;
+        self
     }
 
-    /// Signed force r on the body (N) of an elastic or penalised wall at displacement `w` (m) and
-    /// velocity `wdot` (m/s).
+    /// The side of the body on which it stands; of a round wall, which bounds a distance from
+    /// above, the upper one.
+    #[must_use]
+    pub fn side(&self) -> Side {
+        match self.face {
+            Face::Flat { side, .. } => side,
+            Face::Round { .. } => Side::Upper,
+        }
+    }
+
+    /// Its position in its coordinate, m: of a round wall its gap γ.
+    #[must_use]
+    pub fn position(&self) -> f64 {
+        match self.face {
+            Face::Flat { position, .. } => position,
+            Face::Round { gap, .. } => gap,
+        }
+    }
+
+    /// The row of a flat wall; of a round wall, which has no row of its own, one without entries.
+    #[must_use]
+    pub fn row(&self) -> &Row {
+        match &self.face {
+            Face::Flat { at, .. } => at,
+            Face::Round { .. } => {
+                static NONE: Row = Row::NONE;
+                &NONE
+            }
+        }
+    }
+
+    /// Its coordinate at the displacement `q` (m, one value per degree of freedom): g · q, or the
+    /// distance |w| from the centre of a round wall.
+    #[must_use]
+    pub fn coordinate(&self, q: &[f64]) -> f64 {
+        match &self.face {
+            Face::Flat { at, .. } => at.dot(q),
+            Face::Round { .. } => self.offset(q).map_or(0.0, |[y, z]| y.hypot(z)),
+        }
+    }
+
+    /// The rate of the coordinate, m/s, for the displacement `q` (m) and the velocity `v` (m/s); 0
+    /// at the very centre of a round wall.
+    #[must_use]
+    pub fn rate(&self, q: &[f64], v: &[f64]) -> f64 {
+        match &self.face {
+            Face::Flat { at, .. } => at.dot(v),
+            Face::Round { at, .. } => {
+                let ([y, z], [vy, vz]) = (self.offset(q).unwrap_or_default(), at.dot(v));
+                let distance = y.hypot(z);
+                if distance > 0.0 { (y * vy + z * vz) / distance } else { 0.0 }
+            }
+        }
+    }
+
+    /// The displacement w (m) from the centre of a round wall; `None` of a flat one.
+    #[must_use]
+    pub fn offset(&self, q: &[f64]) -> Option<[f64; 2]> {
+        let Face::Round { at, centre, .. } = &self.face else { return None };
+        let [y, z] = at.dot(q);
+        Some([y - centre[0], z - centre[1]])
+    }
+
+    /// The sign with which results count the force of the wall: along the row of a flat one, +1 of
+    /// a lower and −1 of an upper one; +1 of a round one, whose pushes count by their magnitude.
+    #[must_use]
+    pub fn sign(&self) -> f64 {
+        if self.is_round() { 1.0 } else { self.side().sign() }
+    }
+
+    /// The same wall, seen by a structure in other coordinates, where `row` turns each row into
+    /// that of the same place there.
+    pub(crate) fn carried(&self, mut row: impl FnMut(&Row) -> Row) -> Self {
+        let mut carried = self.clone();
+        match &mut carried.face {
+            Face::Flat { at, .. } => *at = row(at),
+            Face::Round { at, .. } => *at = at.carried(row),
+        }
+        carried
+    }
+
+    /// True for a round wall.
+    #[must_use]
+    pub fn is_round(&self) -> bool {
+        matches!(self.face, Face::Round { .. })
+    }
+
+    /// Gap at the coordinate `w` (m): positive before the wall, negative behind it.
+    #[must_use]
+    pub fn gap(&self, w: f64) -> f64 {
+        self.side().sign() * (w - self.position())
+    }
+
+    /// Signed force r on the body (N) of an elastic or penalised wall at the coordinate `w` (m) and
+    /// its rate `wdot` (m/s).
     #[must_use]
     pub fn law_force(&self, w: f64, wdot: f64) -> f64 {
-        let sign = self.side.sign();
+        let sign = self.side().sign();
         sign * self.law.pressure(-self.gap(w), -sign * wdot)
     }
 
@@ -113,7 +273,9 @@ impl Wall {
 
     pub(crate) fn validate(&self) -> Result<()> {
         let key = |what: &'static str| Subject::wall(&self.name).part(what);
-        finite(key("position"), self.position)?;
+        if !self.is_round() {
+            finite(key("position"), self.position())?;
+        }
         self.law.validate(key)
     }
 }

@@ -1,7 +1,7 @@
 //! The structure, its loads and its walls, as every scheme on a grid uses them.
 
 use super::blows::Blows;
-use super::face::Face;
+use super::flat_row::FlatRow;
 use super::frame::Frame;
 use super::space::{Space, zero};
 use crate::error::Result;
@@ -18,7 +18,7 @@ pub(super) struct Body<S: Space> {
     pub damping: S::Operator,
     pub stiffness: S::Operator,
     /// The faces of the walls, and the row of each wall.
-    pub walls: Vec<Face>,
+    pub walls: Vec<FlatRow>,
     pub rows: S::Rows,
     /// Distance within which a wall counts as touched, m: 1e-12 of the gap scale.
     pub touch: f64,
@@ -47,8 +47,8 @@ impl<S: Space> Body<S> {
             mass: S::operator(&matrices.mass),
             damping: S::operator(&matrices.damping),
             stiffness: S::operator(&matrices.stiffness),
-            walls: scene.walls.iter().enumerate().map(|(index, wall)| Face::new(index, wall)).collect(),
-            rows: S::rows(n, scene.walls.iter().map(|wall| &wall.at)),
+            walls: scene.walls.iter().enumerate().map(|(index, wall)| FlatRow::new(index, wall)).collect(),
+            rows: S::rows(n, scene.walls.iter().map(|wall| wall.row())),
             touch: scene.touching_distance(),
             damped: matrices.damping.diagonal_entries().iter().any(|&c| c != 0.0),
             blows: Blows::new(scene, &matrices)?.map(Box::new),

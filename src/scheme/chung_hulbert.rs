@@ -29,6 +29,14 @@ use crate::error::{Error, Result};
 use crate::linear::Symmetric;
 use crate::step::Balance;
 
+/// The rule's weights (Chung & Hulbert 1993, doi:10.1115/1.2900803, eqs 17, 20 and 25): order 2,
+/// and the least damping of slow vibrations that ρ∞ allows.
+pub(super) fn weights(rho: f64) -> Balance {
+    let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
+    let gamma = 0.5 + alpha_f - alpha_m;
+    Balance::GeneralizedAlpha { alpha_m, alpha_f, beta: 0.25 * (gamma + 0.5).powi(2), gamma }
+}
+
 /// The rule, with its acceleration.
 #[derive(Debug)]
 pub(super) struct ChungHulbert<S: Space> {

@@ -3,7 +3,7 @@
 use crate::error::{Error, Result, Subject};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{Backend, DiskBound, DiskProblem, DiskSolver, Failure, Problem, Rhs, Solver};
-use crate::scene::{LoadKind, Loads, Row, Scene, Shape, Side, State, Support, Wall, WallLaw};
+use crate::scene::{Face, LoadKind, Loads, Scene, Side, State, Wall, WallLaw};
 
 /// Most programmes solved: with a stiffness that holds every motion two or three are enough.
 const MOST_ROUNDS: usize = 200;
@@ -82,28 +82,30 @@ impl Held {
     fn new(scene: &Scene, a: Symmetric, scale: f64) -> std::result::Result<Self, Failure> {
         let n = a.size();
         let compliance = |law: &WallLaw| law.spring().map_or(0.0, |spring| 1.0 / spring.stiffness);
-        let mut soft: Vec<f64> = scene.walls.iter().map(|wall| compliance(&wall.law)).collect();
-        let bound = |wall: &Wall, side: Side, none: f64| if wall.side == side { wall.position } else { none };
+        let soft: Vec<f64> = scene.walls.iter().map(|wall| compliance(&wall.law)).collect();
+        let bound = |wall: &Wall, side: Side, none: f64| if wall.side() == side { wall.position() } else { none };
         let (lo, hi) = (
             scene.walls.iter().map(|wall| bound(wall, Side::Lower, f64::NEG_INFINITY)),
             scene.walls.iter().map(|wall| bound(wall, Side::Upper, f64::INFINITY)),
         );
-        let round = |support: &'_ Support| matches!(support.shape, Shape::Round { .. });
-        let mut rows: Vec<&Row> = scene.walls.iter().map(|wall| &wall.at).collect();
-        if !scene.supports.iter().any(round) {
-            let g = Rows::new(n, rows.iter().map(|row| row.entries()));
+        if !scene.walls.iter().any(Wall::is_round) {
+            let g = Rows::new(n, scene.walls.iter().map(|wall| wall.row().entries()));
             let solver = Solver::new(Problem { a, g, compliance: soft }, Backend::Condensed, scale)?;
             return Ok(Self::Walls { solver: Box::new(solver), lo: lo.collect(), hi: hi.collect() });
         }
-        let strip = |(lo, hi)| DiskBound::Strip { normal: [1.0, 0.0], lo, hi };
-        let mut bounds: Vec<DiskBound> = lo.zip(hi).map(strip).collect();
-        let mut blocks = vec![1; rows.len()];
-        for support in &scene.supports {
-            if let Shape::Round { gap, law } = &support.shape {
-                rows.extend([&support.at.y, &support.at.z]);
-                blocks.push(2);
-                soft.push(compliance(law));
-                bounds.push(DiskBound::Disk { centre: support.centre, radius: *gap });
+        let (mut rows, mut blocks, mut bounds) = (Vec::new(), Vec::new(), Vec::new());
+        for (wall, (lo, hi)) in scene.walls.iter().zip(lo.zip(hi)) {
+            match &wall.face {
+                Face::Flat { at, .. } => {
+                    rows.push(at);
+                    bounds.push(DiskBound::Strip { normal: [1.0, 0.0], lo, hi });
+                    blocks.push(1);
+                }
+                Face::Round { at, centre, gap } => {
+                    rows.extend([&at.y, &at.z]);
+                    bounds.push(DiskBound::Disk { centre: *centre, radius: *gap });
+                    blocks.push(2);
+                }
             }
         }
         let g = Rows::new(n, rows.iter().map(|row| row.entries()));
@@ -156,7 +158,7 @@ fn pull(scene: &Scene, force: &[f64], scale: f64) -> f64 {
 
 /// Why there is no equilibrium.
 fn refused(scene: &Scene, failure: &Failure) -> Error {
-    let name = |row: usize| scene.contact_name(row).map_or_else(String::new, |name| format!("{name:?}"));
+    let name = |row: usize| scene.wall_name(row).map_or_else(String::new, |name| format!("{name:?}"));
     let key = Subject::from(("initial state", "equilibrium"));
     match *failure {
         Failure::Infeasible { row, against } => {

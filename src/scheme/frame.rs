@@ -31,6 +31,11 @@ pub(super) struct Frame<S: Space> {
     pub impulse: Vec<f64>,
     pub force: Vec<f64>,
     jump: Vec<f64>,
+    /// Friction of each wall, N s, and the normal of each hole; both, and what the turning of the
+    /// normal adds, which is nothing here, empty in scenes without friction and round holes.
+    pub friction: Vec<f64>,
+    pub normal: Vec<[f64; 2]>,
+    turned: Vec<[f64; 2]>,
     /// True if all walls took the same restitution in the step, because with their own ones no
     /// displacement satisfies all bounds.
     pub one_restitution: bool,
@@ -42,6 +47,7 @@ impl<S: Space> Frame<S> {
     /// The state at the start of `scene`, after any blow at t = 0.
     pub fn new(scene: &Scene) -> Result<Self> {
         let (n, walls) = (scene.initial.q.len(), scene.walls.len());
+        let planar = if scene.turns_or_rubs() { walls } else { 0 };
         let mut v = S::vector(&scene.initial.v);
         let mut blow = zero::<S>(n);
         if Loads::new(&scene.loads).initial_blow(blow.as_mut()) {
@@ -61,6 +67,9 @@ impl<S: Space> Frame<S> {
             impulse: vec![0.0; walls],
             force: vec![0.0; walls],
             jump: vec![0.0; walls],
+            friction: vec![0.0; planar],
+            normal: vec![[0.0; 2]; planar],
+            turned: vec![[0.0; 2]; planar],
             one_restitution: false,
             pushing: Vec::with_capacity(walls),
         })
@@ -100,10 +109,19 @@ impl<S: Space> Frame<S> {
     /// Not inlined: most steps touch no wall.
     #[inline(never)]
     pub fn let_go(&mut self) {
+        if !self.friction.is_empty() {
+            self.pushing.iter().for_each(|&wall| self.friction[wall] = 0.0);
+        }
         for wall in self.pushing.drain(..) {
             self.impulse[wall] = 0.0;
             self.force[wall] = 0.0;
         }
+    }
+
+    /// Adds the impulse of wall number `wall` in a step of `h` seconds, N s, which is not 0.
+    pub fn push(&mut self, wall: usize, impulse: f64, h: f64) {
+        (self.impulse[wall], self.force[wall]) = (impulse, impulse / h);
+        self.pushing.push(wall);
     }
 
     /// Lists the walls whose force is not zero, and sets their impulses: the force times the step
@@ -162,8 +180,9 @@ impl<S: Space> Frame<S> {
             impulse: &self.impulse,
             jump: &self.jump,
             force: &self.force,
-            friction: &[],
-            holes: &[],
+            friction: &self.friction,
+            normal: &self.normal,
+            turned: &self.turned,
             wedged: &[],
             resting: &[],
             extra: self.extra.as_ref(),

@@ -35,16 +35,53 @@
 
 use super::Counters;
 use super::body::Body;
-use super::chung_hulbert::ChungHulbert;
-use super::face::Face;
+use super::chung_hulbert::{ChungHulbert, weights};
+use super::entry::{Coverage, NO_SPEED_TO_STICK_AT, ONES_FOR_RINGS, Realised, SchemeEntry, SchemeKind};
+use super::flat_row::FlatRow;
 use super::frame::Frame;
 use super::programme::Programme;
 use super::rule::Rule;
 use super::space::{Space, zero};
+use super::supports::{CROSSING, TURNING};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
-use crate::step::Balance;
+use crate::step::{
+    Balance, Bound, Conserves, Contract, Law, Normal, Promise, PromisedForce, Reached, Tolerances, Turning,
+};
+
+/// Default ρ∞: each step takes a fifth off the amplitude of the fastest free vibrations, and almost
+/// nothing off those that it resolves.
+pub(super) const RHO: f64 = 0.8;
+
+/// What is known of the scheme beside its rule.
+pub(super) const ENTRY: SchemeEntry = SchemeEntry {
+    name: "generalized-alpha",
+    settings: &["rho"],
+    default: "ρ∞, default 0.8",
+    kind: SchemeKind::Qp,
+    restitution: Realised::PerWall,
+    realises: "e, per wall",
+    purpose: "stiff structures: order 2 between impacts; vibrations that the step does not resolve shrink by the \
+              factor ρ∞ per step; no rigid wall or round hole is ever penetrated",
+    fails: "order 1 through impacts (2 at e = 0); each impact gains or loses energy of order h (reported), so \
+            prefer moreau-jean where impacts are many",
+    round: Coverage::Stepped(
+        "has the law of moreau-jean, after it has put the body within the circle, which it never \
+                             passes",
+    ),
+    elastic_round: Coverage::Refused(ONES_FOR_RINGS),
+    friction: Coverage::Refused(NO_SPEED_TO_STICK_AT),
+};
+
+/// What every step with this ρ∞ satisfies.
+pub(super) fn contract(rho: f64) -> Contract {
+    let mut promise = Promise::constraints(Some(Bound::End), Some(Reached::Closed), Law::Depth(1.0));
+    promise.elastic.force = PromisedForce::Trapezoid;
+    promise.hole = Some(Bound::End);
+    promise.round = Some(Turning { normal: Normal::Middle(CROSSING), ..TURNING });
+    Contract { balance: weights(rho), promise, instant: 0.5, tolerances: Tolerances::of(Conserves::Nothing) }
+}
 
 #[derive(Debug)]
 pub(super) struct GeneralizedAlpha<S: Space> {
@@ -273,7 +310,7 @@ impl<S: Space> Rule<S> for GeneralizedAlpha<S> {
 
 /// True if a rigid wall is closed at `q` (m).
 fn closed<S: Space>(body: &Body<S>, q: &S::Vector) -> bool {
-    let rests = |(wall, face): (usize, &Face)| face.law.is_rigid() && face.depth(body.seen(wall, q)) >= -body.touch;
+    let rests = |(wall, face): (usize, &FlatRow)| face.law.is_rigid() && face.depth(body.seen(wall, q)) >= -body.touch;
     body.walls.iter().enumerate().any(rests)
 }
 

@@ -30,7 +30,7 @@ impl<S: Space> Grid<S> {
     pub fn new(scene: &Scene, masses: &[f64], mut rule: Box<dyn Rule<S>>, contract: Contract, h: f64) -> Result<Self> {
         let frame = Frame::new(scene)?;
         rule.restart(scene, 0.0, &frame)?;
-        let rows = S::rows(scene.initial.q.len(), scene.walls.iter().map(|wall| &wall.at));
+        let rows = S::rows(scene.initial.q.len(), scene.walls.iter().map(|wall| wall.row()));
         Ok(Self { rule, frame, episodes: Episodes::new(scene, masses, contract), rows, h, forced: false })
     }
 

@@ -4,6 +4,7 @@
 use super::central_difference::CentralDifference;
 use super::disks::Disks;
 use super::event::Event;
+use super::fits;
 use super::generalized_alpha::GeneralizedAlpha;
 use super::grid::Grid;
 use super::line::Line;
@@ -19,7 +20,6 @@ use super::structure_event::StructureEvent;
 use super::supports::Supports;
 use super::{Integrator, Method, Scheme};
 use crate::error::{Error, Result};
-use crate::qp::Backend;
 use crate::scene::{Checked, Scene};
 use crate::step::{Calm, Step};
 
@@ -52,73 +52,14 @@ fn rule<S: Space>(scene: &Scene, Method { scheme, backend }: Method, h: f64) -> 
     })
 }
 
-/// What a scheme without friction expects instead.
-const ONE_FOR_FRICTION: &str = "moreau-jean, the one scheme for friction";
-
-/// `scheme` on a scene with round holes or friction. Only moreau-jean has friction; without it the
-/// exact motion is known.
-fn supported(scene: &Checked, Method { scheme, backend }: Method, h: f64) -> Result<Box<dyn Motion>> {
-    if scheme == Scheme::Event {
-        if let Some(support) = scene.supports.iter().find(|support| support.friction > 0.0) {
-            let found = format!("event, with friction at the support {:?}", support.name);
-            let expected = "moreau-jean, or no friction: where a contact sticks, slips or turns round in the middle \
-                            of an impact, the exact scheme has no law for it";
-            return Err(Error::invalid("scheme", found, expected));
-        }
-        if let Some(ring) = scene.holes().find(|hole| !hole.law.is_rigid()) {
-            let found = format!("event, with the elastic round support {:?}", ring.support.name);
-            let expected = "a scheme with a step: the force of an elastic hole has no series of its own";
-            return Err(Error::invalid("scheme", found, expected));
-        }
-        return Ok(Box::new(StructureEvent::new(scene.shared(), h)?));
-    }
-    if backend != Backend::Auto {
-        let expected = "auto: with round supports or friction a step is no quadratic programme, and sweeps over its \
-                        contacts solve it";
-        return Err(Error::invalid("QP solver", backend, expected));
-    }
-    let round = scene.holes().next().is_some();
-    let ring = scene.holes().find(|hole| !hole.law.is_rigid());
-    let rubs = scene.supports.iter().any(|support| support.friction > 0.0);
-    if let Scheme::Penalty { integrator, .. } = scheme {
-        if rubs {
-            return Err(Error::invalid("scheme", scheme, ONE_FOR_FRICTION));
-        }
-        if integrator == Integrator::DiscreteGradient {
-            return Ok(Box::new(Disks::new(scene, scheme.contract(), h)?));
-        }
-        let expected = "discrete-gradient: of the penalties, only that one keeps energy and angular momentum in a \
-                        round hole";
-        return Err(Error::invalid("integrator", integrator, expected));
-    }
-    if let Some(ring) = ring {
-        let found = format!("{scheme}, with the elastic round support {:?}", ring.support.name);
-        let expected = match scheme {
-            Scheme::MoreauJean { .. } | Scheme::ImplicitEuler if rubs => {
-                "no friction, or rigid round supports: the normal of an elastic one follows from the step's end"
-            }
-            Scheme::MoreauJean { .. } | Scheme::ImplicitEuler => {
-                return Ok(Box::new(Disks::new(scene, scheme.contract(), h)?));
-            }
-            _ => "moreau-jean, implicit-euler or penalty, the schemes for elastic round supports",
-        };
-        return Err(Error::invalid("scheme", found, expected));
-    }
-    let expected = match scheme {
-        Scheme::MoreauJean { theta } => return Ok(Box::new(Supports::new(scene, theta, scheme.contract(), h)?)),
-        Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. } if !rubs => {
-            return Ok(Box::new(Disks::new(scene, scheme.contract(), h)?));
-        }
-        Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. } => {
-            "moreau-jean, or no friction: a bound on the displacement leaves a contact no velocity \
-             at which it could stick"
-        }
-        Scheme::PaoliSchatzman | Scheme::Newmark if round => {
-            "moreau-jean: this scheme does not keep the energy of a body in a round hole"
-        }
-        _ => ONE_FOR_FRICTION,
-    };
-    Err(Error::invalid("scheme", scheme, expected))
+/// `scheme` on a scene with round holes or friction that it does not refuse.
+fn planar(scene: &Checked, scheme: Scheme, h: f64) -> Result<Box<dyn Motion>> {
+    let rigid = scene.holes().all(|hole| hole.law.is_rigid());
+    Ok(match scheme {
+        Scheme::Event => Box::new(StructureEvent::new(scene.shared(), h)?),
+        Scheme::MoreauJean { theta } if rigid => Box::new(Supports::new(scene, theta, scheme.contract(), h)?),
+        _ => Box::new(Disks::new(scene, scheme.contract(), h)?),
+    })
 }
 
 fn grid<S: Space>(scene: &Checked, method: Method, h: f64) -> Result<Grid<S>> {
@@ -129,8 +70,9 @@ impl Kernel {
     /// `method` on `scene` with steps of `step` seconds; for the exact motion, the maximum length
     /// of a step.
     pub fn new(scene: &Checked, method: Method, step: f64) -> Result<Self> {
+        fits::check(scene, method)?;
         if scene.turns_or_rubs() {
-            return Ok(Self::Other(supported(scene, method, step)?));
+            return Ok(Self::Other(planar(scene, method.scheme, step)?));
         }
         let line = scene.is_line();
         Ok(match method.scheme {

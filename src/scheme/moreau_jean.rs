@@ -26,15 +26,45 @@
 
 use super::Counters;
 use super::body::Body;
+use super::entry::{Coverage, Realised, SchemeEntry, SchemeKind};
 use super::frame::{Frame, all_finite};
 use super::programme::Programme;
 use super::rule::Rule;
 use super::space::{Space, zero};
+use super::supports::TURNING;
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
-use crate::step::Calm;
+use crate::step::{Balance, Calm, Conserves, Contract, Friction, Law, Promise, Reached, Tolerances};
 use std::mem::take;
+
+/// What is known of the scheme beside its rule.
+pub(super) const ENTRY: SchemeEntry = SchemeEntry {
+    name: "moreau-jean",
+    settings: &["theta"],
+    default: "θ, default ½",
+    kind: SchemeKind::Qp,
+    restitution: Realised::PerWall,
+    realises: "e, per wall",
+    purpose: "the default: impacts and lasting contact; round holes, and alone of all friction \
+              ([docs/holes.md](docs/holes.md))",
+    fails: "order 1; penetrates by up to h v(1 − e/2); a body that comes to rest stays at the depth at which it \
+            arrived, and the contact force is too small by stiffness times that depth (reported); the body stands \
+            still when h v exceeds the gap (reported)",
+    round: Coverage::Stepped(
+        "lets rebound by the restitution what arrives, and reflects what only the turning of the normal adds",
+    ),
+    elastic_round: Coverage::Stepped("presses with the force of the ring at θ"),
+    friction: Coverage::Stepped("keeps Coulomb's law with the velocity at the end of the step"),
+};
+
+/// What every step with this θ satisfies.
+pub(super) fn contract(theta: f64) -> Contract {
+    let mut promise = Promise::constraints(None, Some(Reached::Ahead(0.5)), Law::Depth(theta));
+    (promise.round, promise.friction) = (Some(TURNING), Some(Friction::EndVelocity));
+    let conserves = if theta == 0.5 { Conserves::RigidWalls } else { Conserves::Nothing };
+    Contract { balance: Balance::Theta(theta), promise, instant: 0.5, tolerances: Tolerances::of(conserves) }
+}
 
 #[derive(Debug)]
 pub(super) struct MoreauJean<S: Space> {

@@ -1,31 +1,20 @@
 //! Schemes as words: `moreau-jean:theta=0.6`, `penalty:epsilon=1e-9,integrator=trapezoidal`.
 
+use super::generalized_alpha::RHO;
 use super::{Integrator, PenaltyLaw, Scheme};
 use crate::error::{Error, Result};
 use std::fmt;
 use std::str::FromStr;
 
-/// The schemes by name, in the order in which tables list them.
-pub const NAMES: [&str; 7] =
-    ["implicit-euler", "paoli-schatzman", "moreau-jean", "generalized-alpha", "newmark", "penalty", "event"];
-
-/// Default ρ∞ of generalized-alpha: each step takes a fifth off the amplitude of the fastest free
-/// vibrations, and almost nothing off those that it resolves.
-const RHO: f64 = 0.8;
-
 impl fmt::Display for Scheme {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.entry().name)?;
         match *self {
-            Self::ImplicitEuler => f.write_str("implicit-euler"),
-            Self::PaoliSchatzman => f.write_str("paoli-schatzman"),
-            Self::MoreauJean { theta: 0.5 } => f.write_str("moreau-jean"),
-            Self::MoreauJean { theta } => write!(f, "moreau-jean:theta={theta}"),
-            Self::GeneralizedAlpha { rho: RHO } => f.write_str("generalized-alpha"),
-            Self::GeneralizedAlpha { rho } => write!(f, "generalized-alpha:rho={rho}"),
-            Self::Newmark => f.write_str("newmark"),
-            Self::Event => f.write_str("event"),
-            Self::Penalty { law, integrator } if integrator == Integrator::default() => write!(f, "penalty:{law}"),
-            Self::Penalty { law, integrator } => write!(f, "penalty:{law},integrator={integrator}"),
+            Self::MoreauJean { theta } if theta != 0.5 => write!(f, ":theta={theta}"),
+            Self::GeneralizedAlpha { rho } if rho != RHO => write!(f, ":rho={rho}"),
+            Self::Penalty { law, integrator } if integrator == Integrator::default() => write!(f, ":{law}"),
+            Self::Penalty { law, integrator } => write!(f, ":{law},integrator={integrator}"),
+            _ => Ok(()),
         }
     }
 }
@@ -74,33 +63,24 @@ impl FromStr for Scheme {
     /// its epsilon or its stiffness.
     fn from_str(text: &str) -> Result<Self> {
         let (name, settings) = text.split_once(':').unwrap_or((text, ""));
-        let keys: &[&str] = match name {
-            "moreau-jean" => &["theta"],
-            "generalized-alpha" => &["rho"],
-            "penalty" => &["epsilon", "stiffness", "damping", "integrator"],
-            _ => &[],
-        };
-        let unknown = || Error::Unknown {
-            kind: "scheme",
-            name: name.to_owned(),
-            known: NAMES.iter().map(|&n| n.to_owned()).collect(),
-        };
-        if !NAMES.contains(&name) {
-            return Err(unknown());
-        }
-        if keys.is_empty() && !settings.trim().is_empty() {
+        let mut scheme = Self::ALL.into_iter().find(|scheme| scheme.entry().name == name).ok_or_else(|| {
+            let known = Self::ALL.map(|scheme| scheme.entry().name.to_owned()).to_vec();
+            Error::Unknown { kind: "scheme", name: name.to_owned(), known }
+        })?;
+        let entry = scheme.entry();
+        if entry.settings.is_empty() && !settings.trim().is_empty() {
             return Err(Error::invalid(format!("setting of {name}"), settings, "none: this scheme has no settings"));
         }
-        let settings = Settings::parse(settings, keys)?;
-        let scheme = match name {
-            "implicit-euler" => Self::ImplicitEuler,
-            "paoli-schatzman" => Self::PaoliSchatzman,
-            "moreau-jean" => Self::MoreauJean { theta: settings.theta.unwrap_or(0.5) },
-            "generalized-alpha" => Self::GeneralizedAlpha { rho: settings.rho.unwrap_or(RHO) },
-            "newmark" => Self::Newmark,
-            "event" => Self::Event,
-            _ => Self::Penalty { law: penalty_law(&settings)?, integrator: settings.integrator.unwrap_or_default() },
-        };
+        let settings = Settings::parse(settings, entry.settings)?;
+        match &mut scheme {
+            Self::MoreauJean { theta } => *theta = settings.theta.unwrap_or(*theta),
+            Self::GeneralizedAlpha { rho } => *rho = settings.rho.unwrap_or(*rho),
+            Self::Penalty { law, integrator } => {
+                *law = penalty_law(&settings)?;
+                *integrator = settings.integrator.unwrap_or_default();
+            }
+            _ => {}
+        }
         scheme.validate()?;
         Ok(scheme)
     }

@@ -40,13 +40,14 @@ pub(super) struct Walls {
     s: Vec<f64>,
     /// y₀, m entries, written by the caller.
     pub free: Vec<f64>,
-    /// The forces found, m entries.
+    /// y, the forces of the laws there, and −dr/dy, m entries each.
+    pub y: Vec<f64>,
     pub force: Vec<f64>,
-    /// −dr/dy there.
     pub slope: Vec<f64>,
-    y: Vec<f64>,
+    /// The forces that make y. A stiff law turns the rounding error of y into a far larger one of
+    /// `force`; these have only their own.
+    pub guess: Vec<f64>,
     size: Vec<f64>,
-    guess: Vec<f64>,
     step: Vec<f64>,
     shift: Vec<f64>,
     active: Vec<usize>,
@@ -222,13 +223,29 @@ impl Walls {
         guess.iter_mut().zip(step.iter()).for_each(|(guess, step)| *guess += t * step);
     }
 
-    /// x with (I + D S) x = D `change`: the change of the forces when y₀ changes, to first order.
-    pub fn respond(&mut self, change: &[f64]) -> &[f64] {
+    /// Corrects the forces `guess` where they make the `made` y in place of y₀ + S · guess: until
+    /// they are the forces of the laws there, which to first order are `force` − D (`made` − y). A
+    /// wall that would pull, which is rounding error, has no force.
+    pub fn refine(&mut self, made: &[f64]) {
         for (i, step) in self.step.iter_mut().enumerate() {
-            *step = self.slope[i] * change[i];
+            *step = self.force[i] - self.slope[i] * (made[i] - self.y[i]) - self.guess[i];
         }
-        self.correct();
-        &self.step
+        for _ in 0..=self.m {
+            self.correct();
+            let mut pulls = false;
+            for i in 0..self.m {
+                self.guess[i] += self.step[i];
+                let pull = self.guess[i] != 0.0 && self.guess[i] * self.force[i] <= 0.0;
+                self.step[i] = if pull { -self.guess[i] } else { 0.0 };
+                if pull {
+                    (self.force[i], self.slope[i]) = (0.0, 0.0);
+                }
+                pulls |= pull;
+            }
+            if !pulls {
+                break;
+            }
+        }
     }
 }
 

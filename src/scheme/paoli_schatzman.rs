@@ -25,6 +25,9 @@
 
 use super::Counters;
 use super::body::Body;
+use super::entry::{
+    Coverage, NO_ENERGY_ON_A_CIRCLE, ONE_FOR_FRICTION, ONES_FOR_RINGS, Realised, SchemeEntry, SchemeKind,
+};
 use super::frame::Frame;
 use super::programme::Programme;
 use super::rule::Rule;
@@ -34,6 +37,29 @@ use crate::error::{Error, Result};
 use crate::linear::Symmetric;
 use crate::qp::Backend;
 use crate::scene::{Scene, WallSpring};
+use crate::step::{Balance, Bound, Conserves, Contract, Law, Promise, Tolerances};
+
+/// What is known of the scheme beside its rule.
+pub(super) const ENTRY: SchemeEntry = SchemeEntry {
+    name: "paoli-schatzman",
+    settings: &[],
+    default: "",
+    kind: SchemeKind::Qp,
+    restitution: Realised::PerWall,
+    realises: "e, per wall",
+    purpose: "the same on positions; order 2 at e = 0",
+    fails: "order 1 at e > 0; penetrates by up to 2ehv/(1+e)",
+    round: Coverage::Refused(NO_ENERGY_ON_A_CIRCLE),
+    elastic_round: Coverage::Refused(ONES_FOR_RINGS),
+    friction: Coverage::Refused(ONE_FOR_FRICTION),
+};
+
+/// What every step satisfies.
+pub(super) fn contract() -> Contract {
+    let promise = Promise::constraints(Some(Bound::Reflected), None, Law::MeanDepth(0.25));
+    let tolerances = Tolerances::of(Conserves::Nothing);
+    Contract { balance: Balance::Staggered(0.25), promise, instant: 0.0, tolerances }
+}
 
 #[derive(Debug)]
 pub(super) struct PaoliSchatzman<S: Space> {

@@ -2,7 +2,7 @@
 
 use super::PenaltyLaw;
 use crate::error::Result;
-use crate::scene::{Scene, Shape};
+use crate::scene::Scene;
 
 impl Scene {
     /// The scene with every rigid wall and round hole replaced by the penalty `law`; elastic ones
@@ -15,11 +15,6 @@ impl Scene {
         for (wall, original) in scene.walls.iter_mut().zip(&self.walls) {
             wall.law = law.at(original, &self.walls)?;
             wall.validate()?;
-        }
-        for support in &mut scene.supports {
-            if let Shape::Round { gap, law: own } = &mut support.shape {
-                *own = law.round(*gap, *own);
-            }
         }
         Ok(scene)
     }

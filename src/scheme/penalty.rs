@@ -15,18 +15,57 @@
 //!
 //! One degree of freedom: Newton's method on v_θ itself, in a bracket. Several: the walls'
 //! velocities y = G v_θ satisfy y = y_free + θh W P̄(y) with W = G A⁻¹ Gᵀ, which is solved first.
-//! One Newton step for the whole v_θ follows: it removes the rounding error of the condensation,
-//! which a stiff wall would turn into energy.
+//! The forces that make this y make δ, after one correction for the y that δ then has in fact: it
+//! removes the rounding error of the condensation, which a stiff wall would turn into energy.
+//!
+//! The forces of a step are those that make its motion, on the tangents of the laws at the solution
+//! found, rather than the laws at the rounded solution. These differ by k_w times the rounding
+//! error of a depth; where h²k_w is 1e10 m, a force that is wrong by that much moves the body 1e10
+//! times as far as the rounding error, and across a face of a wall.
 
-use super::Counters;
 use super::body::Body;
+use super::entry::{Coverage, ONE_FOR_FRICTION, Realised, SchemeEntry, SchemeKind};
 use super::frame::Frame;
 use super::newton::{Answer, Walls};
 use super::rule::Rule;
 use super::space::{Space, zero};
+use super::{Counters, Integrator};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
+use crate::step::{Balance, Conserves, Contract, Law, Promise, Tolerances};
+
+/// What is known of the scheme beside its rules.
+pub(super) const ENTRY: SchemeEntry = SchemeEntry {
+    name: "penalty",
+    settings: &["epsilon", "stiffness", "damping", "integrator"],
+    default: "",
+    kind: SchemeKind::Penalty,
+    restitution: Realised::BySprings,
+    realises: "≈ 1 while h²k_w/m ≪ 1",
+    purpose: "comparison, and stops that are known springs",
+    fails: "`trapezoidal` and `central-difference` gain energy beyond that, `implicit-euler` loses it; \
+            `discrete-gradient` (the default) conserves it",
+    round: Coverage::Stepped(
+        "(discrete-gradient) replaces a rigid round support by a ring that keeps energy and angular momentum; it \
+         tends to restitution 1",
+    ),
+    elastic_round: Coverage::Stepped("(discrete-gradient) keeps energy and angular momentum"),
+    friction: Coverage::Refused(ONE_FOR_FRICTION),
+};
+
+/// What every step by this integrator satisfies.
+pub(super) fn contract(integrator: Integrator) -> Contract {
+    let (balance, law, instant) = match integrator {
+        Integrator::Trapezoidal => (Balance::Theta(0.5), Law::Ends(0.5), 0.5),
+        Integrator::ImplicitEuler => (Balance::Theta(1.0), Law::Ends(1.0), 1.0),
+        Integrator::CentralDifference => (Balance::Staggered(0.0), Law::Start, 0.0),
+        Integrator::DiscreteGradient => (Balance::Theta(0.5), Law::Gradient, 0.5),
+    };
+    let conserves =
+        if integrator == Integrator::DiscreteGradient { Conserves::UndampedWalls } else { Conserves::Nothing };
+    Contract { balance, promise: Promise::springs(law), instant, tolerances: Tolerances::of(conserves) }
+}
 
 /// Maximum number of Newton iterations. A few are enough; reaching this many means that numbers are
 /// not finite.
@@ -46,18 +85,17 @@ pub(super) struct Penalty<S: Space> {
     body: Body<S>,
     theta: f64,
     mean: Mean,
-    /// A, and its factor.
-    a: S::Operator,
+    /// The factor of A.
     factor: S::Factor,
+    /// A/θ of one degree of freedom.
+    alone: f64,
     walls: Walls,
     b: S::Vector,
     /// (v_θ − v)/θ.
     delta: S::Vector,
     /// v_θ as it changes, m/s.
     mean_velocity: S::Vector,
-    residual: S::Vector,
-    change: S::Vector,
-    /// G q, m, and G v_θ as it changes, m/s.
+    /// G q, m, and G v_θ as it changes, m/s; the latter is G itself for one degree of freedom.
     place: Vec<f64>,
     rate: Vec<f64>,
 }
@@ -69,19 +107,20 @@ impl<S: Space> Penalty<S> {
         let mut factor = S::factor(&a)?;
         let walls = Walls::new(&mut factor, &body, h * theta);
         let (over, along) = (zero::<S>(body.n), vec![0.0; body.walls.len()]);
+        let mut one = over.clone();
+        one.as_mut()[0] = 1.0;
+        let rate = (0..along.len()).map(|wall| body.seen(wall, &one)).collect();
         Ok(Self {
             theta,
             mean,
-            a: S::operator(&a),
             factor,
+            alone: a.diagonal_entries()[0] / theta,
             walls,
             b: over.clone(),
             delta: over.clone(),
-            mean_velocity: over.clone(),
-            residual: over.clone(),
-            change: over,
-            place: along.clone(),
-            rate: along,
+            mean_velocity: over,
+            place: along,
+            rate,
             body,
         })
     }
@@ -100,99 +139,116 @@ impl<S: Space> Penalty<S> {
     /// root of (A/θ)(v_θ − v) − b − h Gᵀ P̄, a function that increases with it.
     #[inline(never)]
     fn meet_alone(&mut self, frame: &mut Frame<S>, step: u64) -> Result<f64> {
-        let (h, theta, v, b) = (self.body.h, self.theta, frame.v[0], self.b[0]);
-        // The rows' entries and A, as products with 1.
-        self.residual[0] = 1.0;
-        self.change[0] = 0.0;
-        S::add_product(&self.a, 1.0, &self.residual, &mut self.change);
-        for (wall, weight) in self.rate.iter_mut().enumerate() {
-            *weight = self.body.seen(wall, &self.residual);
-        }
-        let a = self.change[0] / theta;
+        let v = frame.v[0];
         let (mut lo, mut hi) = (f64::NEG_INFINITY, f64::INFINITY);
-        let mut mean = v + theta * self.delta[0];
-        let (mut residual, mut found) = (f64::NAN, None);
+        let mut mean = v + self.theta * self.delta[0];
         for _ in 0..NEWTON_LIMIT {
             self.walls.iterations += 1;
-            residual = a * (mean - v) - b;
-            let mut slope = a;
-            let mut size = a * (mean.abs() + v.abs()) + b.abs();
-            for wall in 0..self.rate.len() {
-                let weight = self.rate[wall];
-                let Answer { force, slope: tangent, noise } = self.answer(wall, weight * mean);
-                residual -= h * weight * force;
-                slope += h * weight * weight * tangent;
-                // The depth itself has the rounding error of its terms.
-                size += h * weight.abs() * (force.abs() + tangent * (noise + (weight * mean).abs()));
-            }
-            let next = mean - residual / slope;
+            let size = self.look(mean, v);
+            let (residual, slope) = self.balance(mean, v);
             // Below two units of rounding of the terms that cancel, the residual is rounding error.
-            // Newton's iterates come from one side: the last correction removes this bias, which
-            // would change the energy.
             if residual.abs() <= 2.0 * f64::EPSILON * size {
-                found = Some(next);
-                break;
+                return Ok(self.carry(mean, frame));
             }
             if residual > 0.0 {
                 hi = hi.min(mean);
             } else {
                 lo = lo.max(mean);
             }
+            let next = mean - residual / slope;
             let bracketed = lo.is_finite() && hi.is_finite() && !(next > lo && next < hi);
             let next = if bracketed { 0.5 * (lo + hi) } else { next };
             if next == mean || next == lo || next == hi {
-                found = Some(next);
-                break;
+                // A face may lie between both ends: the steeper side has all walls in contact.
+                let steepness = |this: &mut Self, mean: f64| {
+                    this.look(mean, v);
+                    this.balance(mean, v).1
+                };
+                let other = if next == mean || next == lo { hi } else { lo };
+                let steeper = other.is_finite() && steepness(self, other) > steepness(self, next);
+                let mean = if steeper { other } else { next };
+                self.look(mean, v);
+                return Ok(self.carry(mean, frame));
             }
             mean = next;
         }
-        let Some(mean) = found else {
-            return Err(Error::Newton { time: frame.start, step, residual: residual.abs() / h });
-        };
+        let (residual, _) = self.balance(mean, v);
+        Err(Error::Newton { time: frame.start, step, residual: residual.abs() / self.body.h })
+    }
+
+    /// Takes the forces of the walls and their slopes at v_θ = `mean`, and returns the size of the
+    /// terms of [`Self::balance`].
+    fn look(&mut self, mean: f64, v: f64) -> f64 {
+        let mut size = self.alone * (mean.abs() + v.abs()) + self.b[0].abs();
         for wall in 0..self.rate.len() {
-            frame.force[wall] = self.answer(wall, self.rate[wall] * mean).force;
+            let weight = self.rate[wall];
+            let Answer { force, slope, noise } = self.answer(wall, weight * mean);
+            (self.walls.force[wall], self.walls.slope[wall]) = (force, slope);
+            // The depth itself has the rounding error of its terms.
+            size += self.body.h * weight.abs() * (force.abs() + slope * (noise + (weight * mean).abs()));
         }
-        frame.push_by_force(h);
-        Ok(mean)
+        size
+    }
+
+    /// (A/θ)(v_θ − v) − b − h Gᵀ P̄ at v_θ = `mean` with the forces taken there, and its slope.
+    fn balance(&self, mean: f64, v: f64) -> (f64, f64) {
+        let (mut residual, mut slope) = (self.alone * (mean - v) - self.b[0], self.alone);
+        for wall in 0..self.rate.len() {
+            let (h, weight) = (self.body.h, self.rate[wall]);
+            residual -= h * weight * self.walls.force[wall];
+            slope += h * weight * weight * self.walls.slope[wall];
+        }
+        (residual, slope)
+    }
+
+    /// v_θ where the tangents of the laws at `mean` keep the balance, and writes the impulses of
+    /// these forces. A wall that would pull, which is rounding error, has no force.
+    fn carry(&mut self, mean: f64, frame: &mut Frame<S>) -> f64 {
+        loop {
+            let (residual, slope) = self.balance(mean, frame.v[0]);
+            let shift = -residual / slope;
+            let mut pulls = false;
+            for wall in 0..self.rate.len() {
+                let force = self.walls.force[wall] - self.walls.slope[wall] * self.rate[wall] * shift;
+                frame.force[wall] = force;
+                if force * self.walls.force[wall] < 0.0 {
+                    (self.walls.force[wall], self.walls.slope[wall], pulls) = (0.0, 0.0, true);
+                }
+            }
+            if !pulls {
+                frame.push_by_force(self.body.h);
+                return mean + shift;
+            }
+        }
     }
 
     /// Solves for δ of a step that may meet a wall, and writes the walls' impulses. Not inlined:
     /// most steps meet no wall.
     #[inline(never)]
     fn meet(&mut self, frame: &mut Frame<S>, step: u64) -> Result<()> {
-        let (h, theta) = (self.body.h, self.theta);
         // The solver is moved out, since it calls `self.answer`.
         let mut walls = std::mem::take(&mut self.walls);
         let solved = walls.solve(|wall, rate| self.answer(wall, rate));
         self.walls = walls;
         solved.map_err(|residual| Error::Newton { time: frame.start, step, residual })?;
-        self.delta.clone_from(&self.b);
-        self.body.push(h, &self.walls.force, &mut self.delta);
-        S::solve(&mut self.factor, &mut self.delta);
-        // A δ − b − h Gᵀ P̄ where P̄ is what the laws make of this very δ.
-        self.see_rates(frame);
-        self.residual.as_mut().iter_mut().zip(self.b.as_ref()).for_each(|(residual, b)| *residual = -b);
-        S::add_product(&self.a, 1.0, &self.delta, &mut self.residual);
-        for wall in 0..self.rate.len() {
-            let answer = self.answer(wall, self.rate[wall]);
-            self.walls.slope[wall] = answer.slope;
-            S::add_transposed(&self.body.rows, wall, -h * answer.force, &mut self.residual);
-        }
-        self.change.clone_from(&self.residual);
-        S::solve(&mut self.factor, &mut self.change);
-        for (wall, rate) in self.rate.iter_mut().enumerate() {
-            *rate = -theta * self.body.seen(wall, &self.change);
-        }
-        let more = self.walls.respond(&self.rate);
-        self.body.push(h, more, &mut self.residual);
-        S::solve(&mut self.factor, &mut self.residual);
-        self.delta.as_mut().iter_mut().zip(self.residual.as_ref()).for_each(|(delta, change)| *delta -= change);
-        self.see_rates(frame);
-        for wall in 0..self.rate.len() {
-            frame.force[wall] = self.answer(wall, self.rate[wall]).force;
-        }
-        frame.push_by_force(h);
+        self.push(frame);
         Ok(())
+    }
+
+    /// Makes δ by the forces of the walls, corrected until they are those of the laws at this very
+    /// δ, and writes their impulses.
+    fn push(&mut self, frame: &mut Frame<S>) {
+        for correct in [true, false] {
+            self.delta.clone_from(&self.b);
+            self.body.push(self.body.h, &self.walls.guess, &mut self.delta);
+            S::solve(&mut self.factor, &mut self.delta);
+            if correct {
+                self.see_rates(frame);
+                self.walls.refine(&self.rate);
+            }
+        }
+        frame.force.copy_from_slice(&self.walls.guess);
+        frame.push_by_force(self.body.h);
     }
 
     /// G v_θ = G(v + θδ).

@@ -31,7 +31,8 @@ pub enum PenaltyLaw {
 impl PenaltyLaw {
     /// The law that `wall`, one of `walls`, has in a penalty run: its own unless it is rigid.
     ///
-    /// The φ² law spans from the wall to the nearest wall on the other side of the same row.
+    /// The φ² law spans from the wall to the nearest wall on the other side of the same row; of a
+    /// round wall its diameter.
     ///
     /// # Errors
     /// [`Error::Invalid`] where the φ² law finds no wall on the other side, or none a positive
@@ -40,9 +41,12 @@ impl PenaltyLaw {
         match *self {
             _ if !wall.law.is_rigid() => Ok(wall.law),
             Self::Linear { stiffness, damping } => Ok(WallLaw::Elastic { stiffness, damping }),
+            Self::Quartic { epsilon } if wall.is_round() => {
+                Ok(WallLaw::Quartic { epsilon, span: 2.0 * wall.position() })
+            }
             Self::Quartic { epsilon } => {
                 let span = span(wall, walls).ok_or_else(|| {
-                    let facing = if wall.side == Side::Upper { "a lower" } else { "an upper" };
+                    let facing = if wall.side() == Side::Upper { "a lower" } else { "an upper" };
                     Error::invalid(
                         "epsilon",
                         format!("{epsilon:e} with nothing facing the wall {:?}", wall.name),
@@ -54,17 +58,6 @@ impl PenaltyLaw {
                 })?;
                 Ok(WallLaw::Quartic { epsilon, span })
             }
-        }
-    }
-
-    /// The law that a round hole of this radial gap (m) and law has in a penalty run: its own
-    /// unless it is rigid. The φ² law spans its diameter.
-    #[must_use]
-    pub fn round(&self, gap: f64, own: WallLaw) -> WallLaw {
-        match *self {
-            _ if !own.is_rigid() => own,
-            Self::Linear { stiffness, damping } => WallLaw::Elastic { stiffness, damping },
-            Self::Quartic { epsilon } => WallLaw::Quartic { epsilon, span: 2.0 * gap },
         }
     }
 
@@ -97,8 +90,7 @@ impl PenaltyLaw {
             }
         };
         let walls = &scene.walls;
-        let rigid = walls.iter().any(|wall| wall.law.is_rigid()) || scene.holes().any(|hole| hole.law.is_rigid());
-        if !rigid {
+        if !walls.iter().any(|wall| wall.law.is_rigid()) {
             return Err(Error::invalid(key, self, "a scene with a rigid wall for the penalty to stand in for"));
         }
         walls.iter().try_for_each(|wall| self.at(wall, walls).map(|_| ()))
@@ -108,8 +100,11 @@ impl PenaltyLaw {
 /// Distance from `wall` to the nearest wall that faces it on its row, m; `None` unless it is
 /// positive.
 fn span(wall: &Wall, walls: &[Wall]) -> Option<f64> {
-    let facing = walls.iter().filter(|other| other.side != wall.side && other.at == wall.at);
-    facing.map(|other| wall.side.sign() * (other.position - wall.position)).reduce(f64::min).filter(|span| *span > 0.0)
+    let facing = walls.iter().filter(|other| other.side() != wall.side() && other.row() == wall.row());
+    facing
+        .map(|other| wall.side().sign() * (other.position() - wall.position()))
+        .reduce(f64::min)
+        .filter(|span| *span > 0.0)
 }
 
 impl fmt::Display for PenaltyLaw {
@@ -206,8 +201,11 @@ mod tests {
         }
         assert!(law.validate(&scene(&walls[1])).is_err_and(|e| e.to_string().contains("rigid wall")));
         assert!(PenaltyLaw::Linear { stiffness: 1e8, damping: 0.0 }.validate(&scene(&walls[0])).is_ok());
-        assert_eq!(law.round(0.5, walls[0].law), WallLaw::Quartic { epsilon: 1e-9, span: 1.0 });
-        assert_eq!(law.round(0.5, walls[1].law), walls[1].law);
+        let at = crate::scene::PlaneRows::doubled(&crate::scene::Row::dof(0), 1);
+        let round = Wall::round("hole", at, 0.5);
+        assert_eq!(law.at(&round, &walls), Ok(WallLaw::Quartic { epsilon: 1e-9, span: 1.0 }));
+        let ring = round.with_elasticity(100.0, 0.0);
+        assert_eq!(law.at(&ring, &walls), Ok(ring.law));
     }
 
     #[test]

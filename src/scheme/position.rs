@@ -18,6 +18,10 @@
 
 use super::Counters;
 use super::body::Body;
+use super::entry::{
+    Coverage, NO_ENERGY_ON_A_CIRCLE, NO_SPEED_TO_STICK_AT, ONE_FOR_FRICTION, ONES_FOR_RINGS, Realised, SchemeEntry,
+    SchemeKind,
+};
 use super::frame::Frame;
 use super::programme::Programme;
 use super::rule::Rule;
@@ -27,6 +31,48 @@ use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::qp::Backend;
 use crate::scene::{Scene, Wall};
+use crate::step::{Balance, Bound, Conserves, Contract, Law, Promise, PromisedForce, Tolerances};
+
+/// What is known of θ = 1 beside its rule.
+pub(super) const IMPLICIT_EULER: SchemeEntry = SchemeEntry {
+    name: "implicit-euler",
+    settings: &[],
+    default: "",
+    kind: SchemeKind::Qp,
+    restitution: Realised::Zero,
+    realises: "0, whatever the case asks for",
+    purpose: "plastic impacts, e = 0",
+    fails: "order 1; damps, also what slides round a hole; force of an impact ∝ 1/h",
+    round: Coverage::Stepped(
+        "puts the body within the circle, stops what arrives, whatever the restitution, and slows what slides",
+    ),
+    elastic_round: Coverage::Stepped("presses with the force of the ring at the step's end"),
+    friction: Coverage::Refused(NO_SPEED_TO_STICK_AT),
+};
+
+/// What is known of θ = ½ beside its rule.
+pub(super) const NEWMARK: SchemeEntry = SchemeEntry {
+    name: "newmark",
+    settings: &[],
+    default: "",
+    kind: SchemeKind::Qp,
+    restitution: Realised::ByChance,
+    realises: "between 1/3 and 3, by chance",
+    purpose: "a demonstration: what happens without care at the walls",
+    fails: "**gains energy**",
+    round: Coverage::Refused(NO_ENERGY_ON_A_CIRCLE),
+    elastic_round: Coverage::Refused(ONES_FOR_RINGS),
+    friction: Coverage::Refused(ONE_FOR_FRICTION),
+};
+
+/// What every step with this θ satisfies: walls on the displacement at its end, by the force there.
+pub(super) fn contract(theta: f64) -> Contract {
+    let mut promise = Promise::constraints(Some(Bound::End), None, Law::Depth(1.0));
+    (promise.rigid.force, promise.elastic.force) = (PromisedForce::End, PromisedForce::End);
+    promise.hole = Some(Bound::End);
+    let tolerances = Tolerances::of(Conserves::Nothing);
+    Contract { balance: Balance::Theta(theta), promise, instant: 1.0, tolerances }
+}
 
 #[derive(Debug)]
 pub(super) struct Position<S: Space> {
@@ -51,7 +97,7 @@ impl<S: Space> Position<S> {
         let programme = Programme::new(scene, a, scene.gap_scale(), |k, c| 1.0 / (k + c / h), backend)?;
         let (n, walls) = (body.n, body.walls.len());
         let (held, holding) = (vec![0.0; walls], Vec::with_capacity(walls));
-        let square = |wall: &Wall| wall.at.entries().iter().map(|entry| entry.1 * entry.1).sum();
+        let square = |wall: &Wall| wall.row().entries().iter().map(|entry| entry.1 * entry.1).sum();
         let weights = scene.walls.iter().map(square).collect();
         Ok(Self { body, theta, force: zero::<S>(n), held, holding, weights, programme, b: zero::<S>(n) })
     }

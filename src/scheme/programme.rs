@@ -7,7 +7,7 @@
 //! that stand at that bound share its force equally.
 
 use super::Counters;
-use super::face::Face;
+use super::flat_row::FlatRow;
 use super::space::{Solve, Space};
 use super::wall_rows::WallRows;
 use crate::error::{Error, Result};
@@ -62,12 +62,12 @@ impl<S: Space> Programme<S> {
         let first: Vec<&Wall> =
             (0..m).filter_map(|row| layout.first(row).and_then(|wall| scene.walls.get(wall))).collect();
         let soft = |wall: &&Wall| wall.law.spring().map_or(0.0, |s| compliance(s.stiffness, s.damping));
-        let g = Rows::new(n, first.iter().map(|wall| wall.at.entries()));
+        let g = Rows::new(n, first.iter().map(|wall| wall.row().entries()));
         let problem = qp::Problem { a, g, compliance: first.iter().map(soft).collect() };
         let solver = S::Solver::new(problem, backend, scale).map_err(|f| failure(&f, None, 0.0, 0))?;
         Ok(Self {
             solver,
-            rows: S::rows(n, first.into_iter().map(|wall| &wall.at)),
+            rows: S::rows(n, first.into_iter().map(|wall| wall.row())),
             bound: vec![0.0; layout.count_walls()],
             layout,
             lo: vec![f64::NEG_INFINITY; m],
@@ -131,7 +131,7 @@ impl<S: Space> Programme<S> {
 
     /// The wall of that number.
     #[inline]
-    pub fn wall(&self, number: usize) -> Face {
+    pub fn wall(&self, number: usize) -> FlatRow {
         self.layout.wall(number)
     }
 

@@ -45,7 +45,7 @@ impl<S: Space> StartForce<S> {
     pub fn new(scene: &Scene, body: &Body<S>, q: &S::Vector, v: &S::Vector) -> Result<Self> {
         let Self { mut total, mut wall } = Self::smooth(body, q, v);
         let rests = |index: usize| {
-            let row = scene.walls.get(index).map(|wall| wall.at.entries()).unwrap_or_default();
+            let row = scene.walls.get(index).map(|wall| wall.row().entries()).unwrap_or_default();
             let speed = |i: usize| v.as_ref().get(i).copied().unwrap_or(0.0);
             let terms: f64 = row.iter().map(|&(i, weight)| (weight * speed(i)).abs()).sum();
             let still = body.seen(index, v).abs() <= REST_UNITS * f64::EPSILON * terms;

@@ -3,7 +3,7 @@
 use super::jumps::Jumps;
 use super::kernel::Kernel;
 use super::{Handed, Method, Scheme};
-use crate::error::{Error, Result, Subject};
+use crate::error::{Error, Result};
 use crate::interrupt::Asking;
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene, State, Wall};
@@ -80,8 +80,7 @@ impl Stepper {
         }
         let scene = match scheme {
             Scheme::Penalty { law, .. } => scene.with_laws(|scene| scene.penalised(law))?,
-            Scheme::Event => scene.clone(),
-            _ => without_quartic(scene)?.clone(),
+            _ => scene.clone(),
         };
         let kernel = Kernel::new(&scene, Method { scheme, backend }, step)?;
         let backend = kernel.motion().backend().unwrap_or(backend);
@@ -209,8 +208,7 @@ impl Stepper {
                 self.make(None)?;
                 let step = self.kernel.step(self.index - 1);
                 let pushed = |p: &f64| *p != 0.0;
-                let met = step.impulse.iter().any(pushed) || step.holes.iter().any(|hole| hole.impulse != 0.0);
-                if met || !step.closed.is_empty() || self.index == end {
+                if step.impulse.iter().any(pushed) || !step.closed.is_empty() || self.index == end {
                     break;
                 }
             }
@@ -281,15 +279,15 @@ impl Stepper {
             }
         }
         let touch = self.scene.touching_distance();
-        let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.at.dot(&state.q)) < -touch;
+        let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.row().dot(&state.q)) < -touch;
         if let (true, Some(wall)) = (exact, self.scene.walls.iter().find(behind)) {
-            let found = format!("{:?} at the rigid wall {:?}", wall.at.dot(&state.q), wall.name);
-            let expected = format!("a place before it, which stands at {:?}", wall.position);
+            let found = format!("{:?} at the rigid wall {:?}", wall.row().dot(&state.q), wall.name);
+            let expected = format!("a place before it, which stands at {:?}", wall.position());
             return Err(Error::invalid(("state", "displacement"), found, expected));
         }
-        if let (true, Some(support)) = (exact, self.scene.supports.iter().find(|s| s.holds_out(&state.q))) {
-            let [y, z] = support.offset(&state.q);
-            let found = format!("{:?} m from the centre of the round support {:?}", y.hypot(z), support.name);
+        if let (true, Some(wall)) = (exact, self.scene.walls.iter().find(|wall| wall.holds_out(&state.q))) {
+            let distance = wall.coordinate(&state.q);
+            let found = format!("{distance:?} m from the centre of the round support {:?}", wall.name);
             return Err(Error::invalid(("state", "displacement"), found, "a place inside of its hole"));
         }
         self.kernel.restart(&self.scene, time, &state.q, &state.v)?;
@@ -390,18 +388,6 @@ impl Stepper {
         let mut counters = Counters { steps: made + (self.index - index), ..Counters::default() };
         self.kernel.motion().count(&mut counters);
         counters
-    }
-}
-
-/// The scene, if a quadratic programme can represent its walls: the φ² law cannot be.
-fn without_quartic(scene: &Checked) -> Result<&Checked> {
-    match scene.walls.iter().find(|wall| !wall.law.is_linear()) {
-        Some(wall) => Err(Error::invalid(
-            Subject::wall(&wall.name).part("law"),
-            "the φ² penalty",
-            "a rigid or an elastic wall, or the scheme penalty, which steps through that law",
-        )),
-        None => Ok(scene),
     }
 }
 

@@ -3,14 +3,14 @@
 //! Rigid walls at one place (one row g) share a row of the programme; an elastic wall has a row of
 //! its own.
 
-use super::face::Face;
+use super::flat_row::FlatRow;
 use crate::scene::{Scene, Side, Wall, WallLaw, distinct};
 
 /// Which walls have which row. A wall has a number here, in the order of the rows.
 #[derive(Debug)]
 pub(super) struct WallRows {
     /// The walls in the order of their rows, and the number of the first wall of each row.
-    faces: Vec<Face>,
+    faces: Vec<FlatRow>,
     starts: Vec<usize>,
     /// The row of each wall of the scene.
     row_of: Vec<usize>,
@@ -23,7 +23,7 @@ impl WallRows {
     /// For the walls of `scene` whose law is `wanted`.
     pub fn new(scene: &Scene, wanted: impl Fn(&WallLaw) -> bool) -> Self {
         let mut places: Vec<Vec<usize>> = Vec::new();
-        let distinct = distinct(scene.walls.iter().map(|wall| &wall.at));
+        let distinct = distinct(scene.walls.iter().map(|wall| wall.row()));
         // The place of the rigid walls of each distinct row.
         let mut shared: Vec<Option<usize>> = vec![None; distinct.rows.len()];
         for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| wanted(&wall.law)) {
@@ -39,16 +39,16 @@ impl WallRows {
         }
         let (mut faces, mut starts, mut row_of) = (Vec::new(), vec![0], vec![0; scene.walls.len()]);
         for (row, place) in places.iter().enumerate() {
-            faces.extend(place.iter().filter_map(|&wall| Some(Face::new(wall, scene.walls.get(wall)?))));
+            faces.extend(place.iter().filter_map(|&wall| Some(FlatRow::new(wall, scene.walls.get(wall)?))));
             starts.push(faces.len());
             place.iter().for_each(|&wall| row_of[wall] = row);
         }
         let touch = scene.touching_distance();
         let interval = |place: &Vec<usize>| {
-            let ends = |(lo, hi): (f64, f64), w: &Wall| match (w.law.is_rigid(), w.side) {
+            let ends = |(lo, hi): (f64, f64), w: &Wall| match (w.law.is_rigid(), w.side()) {
                 (false, _) => (f64::INFINITY, f64::NEG_INFINITY),
-                (true, Side::Upper) => (lo, hi.min(w.position - 2.0 * touch)),
-                (true, Side::Lower) => (lo.max(w.position + 2.0 * touch), hi),
+                (true, Side::Upper) => (lo, hi.min(w.position() - 2.0 * touch)),
+                (true, Side::Lower) => (lo.max(w.position() + 2.0 * touch), hi),
             };
             place.iter().filter_map(|&w| scene.walls.get(w)).fold((f64::NEG_INFINITY, f64::INFINITY), ends)
         };
@@ -85,7 +85,7 @@ impl WallRows {
 
     /// The wall of that number.
     #[inline]
-    pub fn wall(&self, number: usize) -> Face {
+    pub fn wall(&self, number: usize) -> FlatRow {
         self.faces[number]
     }
 }

@@ -3,7 +3,6 @@
 use super::Statistics;
 use super::distribution::Distribution;
 use super::place::{ContactPlace, PlaceKind};
-use super::support::parts;
 use crate::scene::Scene;
 use crate::step::Contact;
 use serde::Serialize;
@@ -44,29 +43,29 @@ struct Episode {
 }
 
 impl EpisodeStatistics {
-    /// Those of every wall, then of every support of `scene`, from the `contacts` of a run
+    /// Those of every flat wall, then of every support of `scene`, from the `contacts` of a run
     /// with these `statistics` and their window, joined where less than `rest` (s) lies between
     /// them.
     #[must_use]
     pub fn of(scene: &Scene, statistics: &Statistics, contacts: &[Contact], rest: f64) -> Vec<Self> {
         let window = [statistics.from_s, statistics.to_s];
-        // Round supports are counted after the walls.
-        let mut by_wall = vec![Vec::new(); scene.walls.len() + scene.supports.len()];
+        let mut by_wall = vec![Vec::new(); scene.walls.len()];
         for contact in contacts {
             if let Some(list) = by_wall.get_mut(contact.wall) {
                 list.push(*contact);
             }
         }
         let mut all = Vec::with_capacity(scene.walls.len() + scene.supports.len());
-        for (wall, own) in statistics.walls.iter().zip(&by_wall) {
+        let flats = scene.walls.iter().zip(statistics.walls.iter().zip(&by_wall)).filter(|(wall, _)| !wall.is_round());
+        for (_, (wall, own)) in flats {
             let place = ContactPlace { name: wall.wall.clone(), kind: PlaceKind::Wall };
             let elastic = wall.force.is_some_and(|force| force.rms_averaged_over_s.is_none());
             all.push(Self::at(place, own.clone(), elastic, window, rest));
         }
-        for (name, parts) in parts(scene) {
-            let place = ContactPlace { name: name.to_owned(), kind: PlaceKind::Support };
-            let of = |part: &usize| by_wall.get(*part).cloned().unwrap_or_default();
-            all.push(Self::at(place, parts.iter().flat_map(of).collect(), false, window, rest));
+        for support in &scene.supports {
+            let place = ContactPlace { name: support.name.clone(), kind: PlaceKind::Support };
+            let own = by_wall.get(support.walls.clone()).unwrap_or_default();
+            all.push(Self::at(place, own.concat(), false, window, rest));
         }
         all
     }

@@ -65,6 +65,8 @@ pub struct Forces {
     at: u64,
     walls: Vec<Tally>,
     supports: Vec<SupportTally>,
+    /// True if a wall is round.
+    round: bool,
 }
 
 impl Forces {
@@ -79,7 +81,16 @@ impl Forces {
         let bins = BATCHES as u64 * stretches as u64;
         let tally = |rigid| Tally { rigid, ..Tally::default() };
         let walls = scene.walls.iter().map(|wall| tally(wall.law.is_rigid())).collect();
-        Self { from, length, bin: length / bins as f64, bins, at: 0, walls, supports: SupportTally::all(scene) }
+        Self {
+            from,
+            length,
+            bin: length / bins as f64,
+            bins,
+            at: 0,
+            walls,
+            supports: SupportTally::all(scene),
+            round: scene.holes().next().is_some(),
+        }
     }
 
     /// Adds one step; steps must come in order. A step of a scene with another number of walls is
@@ -89,12 +100,12 @@ impl Forces {
         if step.impulse.len() != self.walls.len() || self.length <= 0.0 || step.end < self.from {
             return;
         }
-        if step.impulse.iter().all(|&p| p == 0.0) && step.holes.iter().all(|hole| hole.impulse == 0.0) {
+        if step.impulse.iter().all(|&p| p == 0.0) {
             return;
         }
         // Where all impulses are jumps at the end of the step, there is no force to integrate over
         // it.
-        let along = !step.holes.is_empty() || step.impulse.iter().zip(step.jump).any(|(p, jump)| p != jump);
+        let along = self.round || step.impulse.iter().zip(step.jump).any(|(p, jump)| p != jump);
         let mut from = if along { step.start.max(self.from) } else { end };
         while from < end {
             let edge = self.move_to(from);
@@ -106,20 +117,17 @@ impl Forces {
                 }
             }
             if !self.supports.is_empty() {
-                let batch = self.batch();
-                self.supports.iter_mut().for_each(|support| support.add(batch, step, [from, to]));
+                self.supports.iter_mut().for_each(|support| support.add(step, [from, to]));
             }
             // By rounding, the edge of an interval may coincide with the time itself.
             from = if to > from { to } else { from.next_up() };
         }
-        let jumps = step.jump.iter().any(|&p| p != 0.0) || step.holes.iter().any(|hole| hole.jump != 0.0);
-        if jumps && end >= step.end {
+        if step.jump.iter().any(|&p| p != 0.0) && end >= step.end {
             self.move_to(end);
             for (wall, &p) in step.jump.iter().enumerate() {
                 self.add(wall, p, 0.0);
             }
-            let batch = self.batch();
-            self.supports.iter_mut().for_each(|support| support.jump(batch, step));
+            self.supports.iter_mut().for_each(|support| support.jump(step));
         }
     }
 
@@ -255,7 +263,8 @@ mod tests {
                 jump: &[0.0],
                 force: &[100.0 * p],
                 friction: &[],
-                holes: &[],
+                normal: &[],
+                turned: &[],
                 wedged: &[],
                 resting: &[],
                 extra: &[0.0],

@@ -63,6 +63,9 @@ pub struct HalfWidths {
 pub struct WallStatistics {
     /// The wall's name.
     pub wall: String,
+    /// True for a round wall, whose impulse and force count by their magnitude.
+    #[serde(default)]
+    pub round: bool,
     /// Number of contact episodes that began in the window.
     pub contacts: usize,
     /// That number per second.
@@ -123,8 +126,7 @@ impl Statistics {
     pub(crate) fn of(scene: &Scene, masses: &[f64], contacts: &[Contact], from: f64) -> Self {
         let to = scene.duration;
         let from = from.min(to);
-        // Round supports are counted after the walls.
-        let mut by_wall = vec![Vec::new(); scene.walls.len() + scene.supports.len()];
+        let mut by_wall = vec![Vec::new(); scene.walls.len()];
         for contact in contacts {
             if let Some(list) = by_wall.get_mut(contact.wall) {
                 list.push(contact);
@@ -161,15 +163,6 @@ impl Statistics {
     /// where it is not known.
     pub(crate) fn impulse(&self, wall: usize) -> f64 {
         self.walls.get(wall).and_then(|wall| wall.force).map_or(0.0, |force| force.impulse_n_s)
-    }
-
-    /// Contacts of round support number `hole` of `scene` in the window, and its impulse Σ|p|, N s,
-    /// which is 0 where only the contacts are known.
-    pub(crate) fn round(&self, scene: &Scene, hole: usize) -> (usize, f64) {
-        let rounds = scene.supports.iter().zip(&self.supports).filter(|(support, _)| support.hole().is_some());
-        let found = rounds.map(|(_, statistics)| statistics).nth(hole);
-        let impulse = |force: SupportForce| force.mean_n * (self.to_s - self.from_s);
-        found.map_or((0, 0.0), |support| (support.contacts, support.force.map_or(0.0, impulse)))
     }
 }
 
@@ -211,6 +204,7 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> Wa
     });
     WallStatistics {
         wall: wall.name.clone(),
+        round: wall.is_round(),
         contacts,
         contact_rate_per_s: per_time(contacts as f64),
         contact_time_ratio: per_time(touching([from, to])),

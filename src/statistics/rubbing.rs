@@ -123,7 +123,7 @@ impl Rubbing {
         let from = from.min(scene.duration);
         let tally = |support: &crate::scene::Support| Tally {
             name: support.name.clone(),
-            friction: support.friction,
+            friction: support.friction(&scene.walls),
             pushed: [0.0; BATCHES],
             work: [0.0; BATCHES],
             impacts: 0.0,

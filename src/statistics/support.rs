@@ -2,7 +2,7 @@
 
 use super::batch::{BATCHES, Sums};
 use super::summary::Summary;
-use crate::scene::{FlatWall, Scene, Shape, heading};
+use crate::scene::{Face, Scene, Support, Wall, heading};
 use crate::step::{Contact, Path, Step};
 use serde::{Deserialize, Serialize};
 
@@ -44,22 +44,20 @@ pub struct SupportForce {
     pub rms_averaged_over_s: f64,
 }
 
-/// Where the impulses of a support stand in a step.
+/// A wall of a support.
 #[derive(Debug, Clone)]
 enum Source {
-    /// Its flats: the wall, the outward unit normal times the sign of the wall's force along it,
+    /// A flat one: its index, the outward unit normal times the sign of the wall's force along it,
     /// and the tangent.
-    Flats(Vec<(usize, [f64; 2], [f64; 2])>),
-    /// Index of the hole.
+    Flat(usize, [f64; 2], [f64; 2]),
+    /// A round one: its index.
     Round(usize),
 }
 
 /// The forces of one support, by batches.
 #[derive(Debug, Clone)]
 pub(super) struct SupportTally {
-    source: Source,
-    /// Σ|p| of a round hole, N s; that of flats is summed by wall.
-    pushed: [f64; BATCHES],
+    sources: Vec<Source>,
     /// Σ of the vector impulse, N s, and of its square over an interval's length, N² s.
     vector: [[f64; BATCHES]; 2],
     square: [f64; BATCHES],
@@ -73,59 +71,48 @@ impl SupportTally {
     pub fn all(scene: &Scene) -> Vec<Self> {
         // A wall's impulse is signed along its row, which points along the normal of an upper wall
         // and against that of a lower one.
-        let along = |flat: &FlatWall| {
-            let wall = scene.walls.get(flat.wall)?;
-            let [y, z] = heading(flat.direction);
-            Some((flat.wall, [y, z].map(|x| -wall.side.sign() * x), [-z, y]))
-        };
-        let mut holes = 0..;
-        let mut source = |shape: &Shape| match shape {
-            Shape::Flats(flats) => Source::Flats(flats.iter().filter_map(along).collect()),
-            Shape::Round { .. } => Source::Round(holes.next().unwrap_or(usize::MAX)),
+        let source = |(index, wall): (usize, &Wall)| match wall.face {
+            Face::Flat { side, direction, .. } => {
+                let [y, z] = heading(direction?);
+                Some(Source::Flat(index, [y, z].map(|x| -side.sign() * x), [-z, y]))
+            }
+            Face::Round { .. } => Some(Source::Round(index)),
         };
         let zero = [0.0; BATCHES];
-        let mut tally = |shape: &Shape| Self {
-            source: source(shape),
-            pushed: zero,
+        let tally = |support: &Support| Self {
+            sources: support.members(&scene.walls).filter_map(source).collect(),
             vector: [zero; 2],
             square: zero,
             stretch: [0.0; 2],
         };
-        scene.supports.iter().map(|support| tally(&support.shape)).collect()
+        scene.supports.iter().map(tally).collect()
     }
 
-    /// Adds what a round hole and friction did in `step` between two times in it, s, in `batch`:
-    /// the force of exact motion over it, or that share of the step's impulses. The impulses of
-    /// flats are those of walls.
-    pub fn add(&mut self, batch: usize, step: &Step<'_>, [from, to]: [f64; 2]) {
+    /// Adds what a round wall and friction did in `step` between two times in it, s: the force of
+    /// exact motion over it, or that share of the step's impulses. The normal impulses of flats are
+    /// those of walls.
+    pub fn add(&mut self, step: &Step<'_>, [from, to]: [f64; 2]) {
         let share = (to - from) / (step.end - step.start);
-        let mut push = |impulse: [f64; 2]| self.stretch.iter_mut().zip(impulse).for_each(|(sum, p)| *sum += share * p);
-        match &self.source {
-            Source::Flats(flats) => {
-                for (wall, _, tangent) in flats {
+        for source in &self.sources {
+            let push = match (source, step.path) {
+                (Source::Flat(wall, _, tangent), _) => {
                     let friction = step.friction.get(*wall).copied().unwrap_or(0.0);
-                    push(tangent.map(|t| t * friction));
+                    tangent.map(|t| share * (t * friction))
                 }
-            }
-            Source::Round(index) => {
-                if let Path::Series(series) = step.path {
-                    let impulse = series.hole_impulse(*index, from, to);
-                    self.stretch.iter_mut().zip(impulse).for_each(|(sum, p)| *sum += p);
-                    self.pushed[batch] += series.hole_push(*index, from, to);
-                } else if let Some(hole) = step.holes.get(*index) {
-                    push(hole.push());
-                    self.pushed[batch] += share * hole.impulse;
-                }
-            }
+                (Source::Round(wall), Path::Series(series)) => series.hole_impulse(*wall, from, to),
+                (Source::Round(wall), _) => step.hole_push(*wall).map(|p| share * p),
+            };
+            self.stretch.iter_mut().zip(push).for_each(|(sum, p)| *sum += p);
         }
     }
 
-    /// Adds what a round hole gave at the instant of the end of a step of exact motion.
-    pub fn jump(&mut self, batch: usize, step: &Step<'_>) {
-        let Source::Round(index) = self.source else { return };
-        if let Some(hole) = step.holes.get(index) {
-            self.stretch.iter_mut().zip(hole.normal).for_each(|(sum, n)| *sum -= hole.jump * n);
-            self.pushed[batch] += hole.jump;
+    /// Adds what round walls gave at the instant of the end of a step of exact motion.
+    pub fn jump(&mut self, step: &Step<'_>) {
+        for source in &self.sources {
+            let Source::Round(wall) = source else { continue };
+            if let Some((jump, normal)) = step.jump.get(*wall).zip(step.normal.get(*wall)) {
+                self.stretch.iter_mut().zip(normal).for_each(|(sum, n)| *sum -= jump * n);
+            }
         }
     }
 
@@ -133,8 +120,8 @@ impl SupportTally {
     /// `impulse(w)`.
     pub fn close(&mut self, batch: usize, bin: f64, impulse: impl Fn(usize) -> f64) {
         let mut vector = std::mem::take(&mut self.stretch);
-        if let Source::Flats(flats) = &self.source {
-            for (wall, normal, _) in flats {
+        for source in &self.sources {
+            if let Source::Flat(wall, normal, _) = source {
                 let p = impulse(*wall);
                 vector.iter_mut().zip(normal).for_each(|(sum, n)| *sum += p * n);
             }
@@ -146,11 +133,10 @@ impl SupportTally {
     /// Its statistics, where wall w pushed `pushed(w)` (Σ|p| of each batch, N s) and `contacts`
     /// began in the window.
     pub fn statistics(&self, sums: Sums, contacts: usize, pushed: impl Fn(usize) -> [f64; BATCHES]) -> SupportForce {
-        let mut all = self.pushed;
-        if let Source::Flats(flats) = &self.source {
-            for (wall, ..) in flats {
-                all.iter_mut().zip(pushed(*wall)).for_each(|(sum, p)| *sum += p);
-            }
+        let mut all = [0.0; BATCHES];
+        for source in &self.sources {
+            let (Source::Flat(wall, ..) | Source::Round(wall)) = source;
+            all.iter_mut().zip(pushed(*wall)).for_each(|(sum, p)| *sum += p);
         }
         let (mean, mean_half) = sums.mean(&all, &all, contacts);
         let [y, z] = [0, 1].map(|axis| sums.mean(&self.vector[axis], &all, contacts));
@@ -167,34 +153,18 @@ impl SupportTally {
     }
 }
 
-/// The statistics of the supports of `scene`, from the contacts `by_place` and the start `from` (s)
+/// The statistics of the supports of `scene`, from the contacts `by_wall` and the start `from` (s)
 /// of the window; without the force over time.
-pub(super) fn of_supports(scene: &Scene, by_place: &[Vec<&Contact>], from: f64) -> Vec<SupportStatistics> {
-    let support = |(name, parts): (&str, Vec<usize>)| {
-        let all = parts.iter().filter_map(|&part| by_place.get(part)).flatten();
+pub(super) fn of_supports(scene: &Scene, by_wall: &[Vec<&Contact>], from: f64) -> Vec<SupportStatistics> {
+    let support = |support: &Support| {
+        let all = by_wall.get(support.walls.clone()).unwrap_or_default().iter().flatten();
         let reaching = all.clone().filter(|c| c.end.is_none_or(|end| end >= from));
         SupportStatistics {
-            support: name.to_owned(),
+            support: support.name.clone(),
             contacts: all.filter(|c| c.start >= from).count(),
             episode_peak_force_n: Summary::of(reaching.filter_map(|c| c.peak_force)),
             force: None,
         }
     };
-    parts(scene).map(support).collect()
-}
-
-/// The name of each support of `scene`, and the numbers by which contacts refer to its parts: walls
-/// are counted first, then round holes.
-pub(super) fn parts(scene: &Scene) -> impl Iterator<Item = (&str, Vec<usize>)> {
-    let mut next = scene.walls.len();
-    scene.supports.iter().map(move |support| {
-        let parts = match &support.shape {
-            Shape::Flats(flats) => flats.iter().map(|flat| flat.wall).collect(),
-            Shape::Round { .. } => {
-                next += 1;
-                vec![next - 1]
-            }
-        };
-        (support.name.as_str(), parts)
-    })
+    scene.supports.iter().map(support).collect()
 }

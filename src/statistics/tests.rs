@@ -3,7 +3,7 @@
 use super::batch::Sums;
 use super::*;
 use crate::linear::Symmetric;
-use crate::scene::{FlatWall, PlaneRows, Row, Shape, Structure, Support, WallLaw};
+use crate::scene::{Face, PlaneRows, Row, Scene, Side, Structure, Wall};
 use crate::step::{Path, Step};
 
 fn contact(wall: usize, start: f64, end: f64, peak_force: Option<f64>) -> Contact {
@@ -15,19 +15,11 @@ fn contact(wall: usize, start: f64, end: f64, peak_force: Option<f64>) -> Contac
 fn between_flats(duration: f64) -> Scene {
     let unit = |x: f64| Symmetric::diagonal(&[x, x]);
     let structure = Structure { mass: unit(1.0), damping: unit(0.0), stiffness: unit(1.0) };
-    let mut scene = Scene::structure(structure)
-        .with_wall(Wall::upper("right", 1.0))
-        .with_wall(Wall::lower("left", -1.0))
-        .with_duration(duration);
-    let flats = [(0, 0.0), (1, 180.0)].map(|(wall, direction)| FlatWall { wall, direction });
-    scene.supports.push(Support {
-        name: "plate".into(),
-        at: PlaneRows { y: Row::dof(0), z: Row::dof(1) },
-        centre: [0.0; 2],
-        shape: Shape::Flats(flats.to_vec()),
-        friction: 0.0,
-    });
-    scene
+    let flat = |side: Side, position, degrees| Face::Flat { side, position, at: Row::dof(0), direction: Some(degrees) };
+    let right = Wall { face: flat(Side::Upper, 1.0, 0.0), ..Wall::upper("right", 1.0) };
+    let left = Wall { face: flat(Side::Lower, -1.0, 180.0), ..Wall::lower("left", -1.0) };
+    let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+    Scene::structure(structure).with_duration(duration).with_support("plate", at, [0.0; 2], vec![right, left])
 }
 
 /// A step on a grid in which the first wall gives `impulse`, of which `jump` at its end.
@@ -45,7 +37,8 @@ fn step<'a>(index: u64, [start, end]: [f64; 2], impulse: &'a [f64], jump: &'a [f
         jump,
         force: none,
         friction: none,
-        holes: &[],
+        normal: &[],
+        turned: &[],
         wedged: &[],
         resting: &[],
         extra: none,
@@ -96,25 +89,31 @@ fn a_support_has_the_contacts_that_begin_in_the_window_and_the_forces_of_those_t
 }
 
 #[test]
-fn a_round_support_has_its_own_contacts_and_the_impulse_of_its_mean_force() {
-    let mut scene = between_flats(3.0);
-    let ring = Shape::Round { gap: 1.0, law: WallLaw::Rigid { restitution: 1.0 } };
-    scene.supports.push(Support { name: "ring".into(), shape: ring, ..scene.supports[0].clone() });
-    // Contacts of round supports are numbered after the walls.
+fn a_round_wall_has_its_own_contacts_and_the_impulse_of_its_force() {
+    let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+    let ring = Wall::round("ring", at.clone(), 1.0);
+    let scene = between_flats(3.0).with_support("ring", at, [0.0; 2], vec![ring]);
     let contacts = [contact(0, 2.0, 2.0, None), contact(2, 0.25, 0.25, None), contact(2, 2.5, 2.5, None)];
-    let mut statistics = Statistics::new(&scene, &contacts, 1.0);
-    assert_eq!([0, 1].map(|hole| statistics.round(&scene, hole)), [(1, 0.0), (0, 0.0)]);
-    statistics.supports[1].force = Some(SupportForce {
-        mean_n: 8.0,
-        mean_half_width_95_n: None,
-        mean_vector_n: [8.0, 0.0],
-        mean_vector_half_width_95_n: None,
-        rms_n: 9.0,
-        rms_half_width_95_n: None,
-        rms_averaged_over_s: 0.1,
-    });
-    // 8 N over the two seconds of the window.
-    assert_eq!(statistics.round(&scene, 0), (1, 16.0));
+    let statistics = Statistics::new(&scene, &contacts, 1.0);
+    assert_eq!((statistics.walls[2].contacts, statistics.supports[1].contacts), (1, 1));
+    // Half a newton second in each step of which one lies in the window, from 1 s on.
+    let mut forces = Forces::new(&scene, 1.0, 0.1);
+    for start in [0.5, 2.0] {
+        let (impulse, planes) = ([0.0, 0.0, 0.5], [[0.0; 2]; 3]);
+        let normal = [[0.0; 2], [0.0; 2], [1.0, 0.0]];
+        let one = Step {
+            normal: &normal,
+            turned: &planes,
+            friction: &[0.0; 3],
+            ..step(0, [start, start + 0.1], &impulse, &[0.0; 3])
+        };
+        forces.see(&Step { force: &[0.0; 3], ..one });
+    }
+    let statistics = statistics.with_forces(&forces);
+    assert_eq!(statistics.impulse(2), 0.5);
+    // 0.5 N s over the two seconds of the window.
+    let force = statistics.supports[1].force.expect("a window");
+    assert!((force.mean_n - 0.25).abs() < 1e-15 && (force.mean_vector_n[0] + 0.25).abs() < 1e-15, "{force:?}");
 }
 
 #[test]

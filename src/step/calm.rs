@@ -46,7 +46,7 @@ impl Calm {
         let (&[before], &[after]) = (step.velocity_before, step.velocity_after) else { return false };
         let zero = |x: &[f64]| x.len() == self.zeros.len() && x.iter().all(|&x| x == 0.0);
         let calm = matches!(step.path, Path::Grid) && extra == 0.0 && zero(step.impulse) && zero(step.force);
-        if !calm || !step.closed.is_empty() || !step.holes.is_empty() || !step.friction.is_empty() {
+        if !calm || !step.closed.is_empty() || !step.friction.is_empty() {
             return false;
         }
         if self.begin(step.index, step.start) == 0 {
@@ -145,7 +145,8 @@ impl Calm {
             jump: &self.zeros,
             force: &self.zeros,
             friction: &[],
-            holes: &[],
+            normal: &[],
+            turned: &[],
             wedged: &[],
             resting: &[],
             extra: &[0.0],

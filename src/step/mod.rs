@@ -2,12 +2,10 @@
 
 mod calm;
 mod contract;
-mod hole;
 mod promise;
 
 pub(crate) use calm::Calm;
 pub use contract::{Balance, Conserves, Contract, Tolerance, Tolerances};
-pub use hole::HoleStep;
 pub use promise::{Bound, Circle, Elastic, Friction, Law, Normal, Promise, PromisedForce, Reached, Rigid, Turning};
 
 use crate::flow::{Arc, Series};
@@ -16,8 +14,7 @@ use serde::{Deserialize, Serialize};
 /// One episode of contact at one wall.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
-    /// Index of the wall in the scene; from the number of walls on, the round supports are counted
-    /// in the scene's order ([`Scene::contact_name`](crate::Scene::contact_name)).
+    /// Index of the wall in the scene ([`Scene::wall_name`](crate::Scene::wall_name)).
     pub wall: usize,
     /// Time at which it began, s.
     pub start: f64,
@@ -59,6 +56,18 @@ pub enum Path<'a> {
     },
 }
 
+impl Step<'_> {
+    /// The impulse −p n + f t of a round hole on the structure along y and z, with the part that
+    /// the turning of its normal adds, N s; `hole` counts as [`Step::impulse`] does.
+    #[must_use]
+    pub fn hole_push(&self, hole: usize) -> [f64; 2] {
+        let Some((&[y, z], turned)) = self.normal.get(hole).zip(self.turned.get(hole)) else { return [0.0; 2] };
+        let of = |values: &[f64]| values.get(hole).copied().unwrap_or(0.0);
+        let (p, f) = (of(self.impulse), of(self.friction));
+        [-p * y - f * z + turned[0], -p * z + f * y + turned[1]]
+    }
+}
+
 impl Path<'_> {
     /// Displacement (m) and velocity (m/s) at `t` within the step, into slices over degrees of
     /// freedom. Nothing is written for a step on a grid.
@@ -79,7 +88,7 @@ impl Path<'_> {
         match self {
             Self::Grid | Self::OneRestitution | Self::Handed { .. } => 0.0,
             Self::Exact(arc) => arc.contact_force(wall, t),
-            Self::Series(series) => series.contact_force(wall, t),
+            Self::Series(series) => series.counted_force(wall, t),
         }
     }
 
@@ -88,15 +97,15 @@ impl Path<'_> {
         match self {
             Self::Grid | Self::OneRestitution | Self::Handed { .. } => 0.0,
             Self::Exact(arc) => arc.contact_impulse(wall, from, to),
-            Self::Series(series) => series.contact_impulse(wall, from, to),
+            Self::Series(series) => series.counted_impulse(wall, from, to),
         }
     }
 }
 
 /// One step, lent by the stepper until the next one.
 ///
-/// Slices over degrees of freedom have length n, slices over walls the number of walls, in the
-/// scene's order.
+/// Slices over degrees of freedom have length n. Slices over walls have one entry a wall, flat or
+/// round, in the scene's order.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Step<'a> {
@@ -115,22 +124,27 @@ pub struct Step<'a> {
     pub velocity_before: &'a [f64],
     /// Velocity that leaves the momentum balance, m/s: (q⁺ − q)/h for a staggered scheme, else `v`.
     pub velocity_after: &'a [f64],
-    /// Impulse of each wall on the body over the step, N s, signed.
+    /// Impulse of each wall on the body over the step, N s: signed along the row of a wall; of a
+    /// round hole its magnitude p ≥ 0 along −n, in exact motion ∫ of the magnitude of its force.
     pub impulse: &'a [f64],
     /// The part of `impulse` that acted at the instant `end`, N s; all zero for schemes on a grid,
     /// which do not resolve instants.
     pub jump: &'a [f64],
     /// Force of each wall: at the instant `end` for the exact scheme, else the multiplier the
     /// scheme computed, which is impulse/h unless the scheme's impulse averages two of them; N,
-    /// signed.
+    /// with the sign of the impulse.
     pub force: &'a [f64],
-    /// Friction impulse at each wall over the step, N s, along (−n_z, n_y) with n the outward
-    /// normal of the flat; empty in scenes without friction and round holes.
+    /// Friction impulse at each wall over the step, N s, along t = (−n_z, n_y) with n the outward
+    /// normal there; empty in scenes without friction and round holes, as are the next two.
     pub friction: &'a [f64],
-    /// The impulses of each round hole, in the order of the scene's round supports.
-    pub holes: &'a [HoleStep],
-    /// Walls, and from the number of walls on round holes, that gave up their rebound in the step
-    /// since no impulses satisfy Coulomb's law together with it: their ε is 0 ([`Friction`]).
+    /// The outward unit normal n of each round hole at the contact of the step, in exact motion at
+    /// its end; (0, 0) where it was out of reach, and at flats, whose normal the scene states.
+    pub normal: &'a [[f64; 2]],
+    /// The impulse of each round hole on the structure in addition to −p n + f t, since the normal
+    /// turned in the step, N s along y and z; 0 for schemes on a grid, which use one normal a step.
+    pub turned: &'a [[f64; 2]],
+    /// Walls and round holes that gave up their rebound in the step since
+    /// no impulses satisfy Coulomb's law together with it: their ε is 0 ([`Friction`]).
     pub wedged: &'a [usize],
     /// Walls with friction whose rebounds end within the step: their ε is 0 ([`Friction`]).
     pub resting: &'a [usize],

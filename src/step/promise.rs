@@ -216,6 +216,21 @@ impl Promise {
         }
     }
 
+    /// Rigid walls as constraints, with conditions on the mean force of a step, and others by
+    /// `law` on that mean.
+    #[must_use]
+    pub const fn constraints(displacement: Option<Bound>, velocity: Option<Reached>, law: Law) -> Self {
+        let force = PromisedForce::Mean;
+        Self {
+            rigid: Rigid { force, displacement, velocity },
+            elastic: Elastic { force, law },
+            round: None,
+            circle: None,
+            hole: None,
+            friction: None,
+        }
+    }
+
     /// Springs in place of rigid walls: the mean force of every wall over the step follows `law`.
     #[must_use]
     pub const fn springs(law: Law) -> Self {

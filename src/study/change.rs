@@ -89,17 +89,16 @@ impl Change {
         for (index, wall) in scene.walls.iter().enumerate() {
             most.impulse = most.impulse.max(own.impulse(index).abs());
             most.number = most.number.max(numbers(index)[1].unwrap_or(0.0));
+            if wall.is_round() {
+                continue;
+            }
             most.power = most.power.max(part(own, index, |w| w.impact_power_w));
             if !wall.law.is_rigid() {
                 most.force = most.force.max(part(own, index, |w| w.episode_peak_force_n.max.unwrap_or(0.0)));
             }
         }
-        for hole in 0..scene.holes().count() {
-            most.impulse = most.impulse.max(own.round(scene, hole).1);
-            most.number = most.number.max(numbers(scene.walls.len() + hole)[1].unwrap_or(0.0));
-        }
         let mut walls = Vec::new();
-        for (index, wall) in scene.walls.iter().enumerate() {
+        for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round()) {
             let mass = masses.get(index).copied().unwrap_or(0.0);
             let speed = speeds.get(index).copied().unwrap_or(0.0);
             let impulses = statistics.map(|s| s.impulse(index));
@@ -123,8 +122,7 @@ impl Change {
                 peak_force,
             });
         }
-        let masses = masses.get(scene.walls.len()..).unwrap_or_default();
-        walls.extend(round_changes(scene, [run, against], statistics, &most, masses));
+        walls.extend(round_changes(scene, [run, against], statistics, &most, &masses));
         Self { displacement, walls }
     }
 
@@ -150,7 +148,7 @@ impl Change {
     }
 }
 
-/// The changes at the round supports of `scene`, which feel `masses` (kg).
+/// The changes at the round walls of `scene`, whose walls feel `masses` (kg).
 fn round_changes(
     scene: &Scene,
     runs: [&Trajectory; 2],
@@ -159,9 +157,9 @@ fn round_changes(
     masses: &[f64],
 ) -> Vec<WallChange> {
     let (from, window) = (statistics[1].from_s, statistics[1].to_s - statistics[1].from_s);
-    let change = |((hole, round), &mass): ((usize, Hole<'_>), &f64)| {
-        // Their contacts are counted after those of the walls.
-        let index = scene.walls.len() + hole;
+    let change = |round: Hole<'_>| {
+        let index = round.index;
+        let mass = masses.get(index).copied().unwrap_or(0.0);
         let energy = |speed: f64| 0.5 * mass * speed * speed;
         let met = |run: &Trajectory| {
             let here = run.contacts().iter().filter(|c| c.wall == index && c.start >= from);
@@ -174,20 +172,20 @@ fn round_changes(
             _ => None,
         };
         let time = |s: &Statistics| {
-            let worn = s.wear.iter().find(|worn| worn.support == round.support.name);
+            let worn = s.wear.iter().find(|worn| worn.support == round.name);
             worn.map_or(0.0, |worn| worn.contact_time_ratio)
         };
         WallChange {
-            wall: round.support.name.clone(),
+            wall: round.name.to_owned(),
             kind: PlaceKind::Support,
-            impulse: relative(statistics.map(|s| s.round(scene, hole).1), most.impulse.max(mass * speed)),
+            impulse: relative(statistics.map(|s| s.impulse(index)), most.impulse.max(mass * speed)),
             contacts,
             impact_energy: relative([power, power_against], most.power.max(energy(speed) / window)),
             contact_time: (time(statistics[0]) - time(statistics[1])).abs(),
             peak_force: 0.0,
         }
     };
-    scene.holes().enumerate().zip(masses).map(change).collect()
+    scene.holes().map(change).collect()
 }
 
 pub(super) fn relative([a, b]: [f64; 2], least: f64) -> f64 {
@@ -218,8 +216,7 @@ fn number(scene: &Scene, contacts: &[Contact], wall: usize, from: f64) -> Option
     // Where the step is too long for slow impacts, they appear as the lasting contact at their end.
     let lasts = here.clone().any(|c| c.end != Some(c.start));
     let settles = lasts || speeds.clone().filter(|v| *v < slow).count() > 1;
-    let hole = || scene.holes().nth(wall.checked_sub(scene.walls.len())?).map(|hole| hole.restitution);
-    let restitution = scene.walls.get(wall).map_or_else(hole, |wall| wall.law.restitution());
+    let restitution = scene.walls.get(wall).and_then(|wall| wall.law.restitution());
     let accumulates = restitution.is_some_and(bounces) && settles;
     (!accumulates).then(|| speeds.map(|v| if v >= slow { 1.0 } else { v / slow }).sum())
 }

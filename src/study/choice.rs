@@ -4,8 +4,8 @@ use crate::error::Result;
 use crate::linear::{Factor, Symmetric};
 use crate::qp::Backend;
 use crate::run::Run;
-use crate::scene::{MOST_DENSE, Scene, Shape, Side, Structure, System, Wall, WallLaw};
-use crate::scheme::{Integrator, Method, PenaltyLaw, Scheme, Stepper};
+use crate::scene::{MOST_DENSE, Scene, Side, Structure, System, Wall, WallLaw};
+use crate::scheme::{Coverage, Method, Scheme, SchemeKind, Stepper};
 
 /// A method and the reason for it.
 #[derive(Debug, Clone)]
@@ -27,9 +27,8 @@ pub struct Choice {
 #[must_use]
 pub fn choose(scene: &Scene) -> Choice {
     let method = Method::new(Scheme::MoreauJean { theta: 0.5 });
-    let round = scene.supports.iter().any(|support| matches!(support.shape, Shape::Round { .. }));
-    let rubs = scene.supports.iter().any(|support| support.friction > 0.0);
-    let reason = if round {
+    let rubs = scene.walls.iter().any(|wall| wall.friction > 0.0);
+    let reason = if scene.holes().next().is_some() {
         "it turns with the normal of a round support: what slides there keeps its speed, an impact never adds \
          energy, and with θ = ½ free motion keeps its own"
     } else if rubs {
@@ -70,7 +69,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         scene.walls.get(c.wall).is_none_or(|w| w.law.is_rigid()) && c.end.is_none_or(|end| end > c.start)
     };
     let holes = scene.holes().count();
-    let reason = if scene.walls.len() + holes == 0 {
+    let reason = if scene.walls.is_empty() {
         "no walls: the motion is linear, and its closed form needs no step".into()
     } else if contacts.iter().any(|c| lasting(&c)) {
         let (all, lasting) = (contacts.len(), contacts.iter().filter(lasting).count());
@@ -81,7 +80,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         format!("{all} contacts, {lasting} of them lasting: {what}, so no step is needed")
     } else {
         let beside = if holes > 0 { format!(" and {holes} round holes") } else { String::new() };
-        let (all, walls) = (contacts.len(), scene.walls.len());
+        let (all, walls) = (contacts.len(), scene.walls.len() - holes);
         format!("{all} separate contacts at {walls} walls{beside}: the closed form between them needs no step")
     };
     Choice { method: Method::new(Scheme::Event), reason }
@@ -95,40 +94,16 @@ pub fn at_supports(scene: &Scene, step: f64) -> Vec<String> {
     if !scene.turns_or_rubs() {
         return Vec::new();
     }
-    let law = PenaltyLaw::Linear { stiffness: 1.0, damping: 0.0 };
-    let penalty = Scheme::Penalty { law, integrator: Integrator::DiscreteGradient };
-    let laws = [
-        (
-            Scheme::MoreauJean { theta: 0.5 },
-            "moreau-jean",
-            "lets rebound by the restitution what arrives, and reflects what only the turning of the normal adds",
-        ),
-        (
-            Scheme::GeneralizedAlpha { rho: 1.0 },
-            "generalized-alpha",
-            "has the same law, after it has put the body within the circle, which it never passes",
-        ),
-        (
-            Scheme::ImplicitEuler,
-            "implicit-euler",
-            "puts the body within the circle, stops what arrives, whatever the restitution, and slows what slides",
-        ),
-        (
-            penalty,
-            "penalty (discrete-gradient)",
-            "replaces a rigid round support by a ring that keeps energy and angular momentum; it tends to \
-             restitution 1",
-        ),
-        (Scheme::Event, "event", "is exact"),
-        (Scheme::PaoliSchatzman, "paoli-schatzman", ""),
-        (Scheme::Newmark, "newmark", ""),
-    ];
-    let (taken, refused): (Vec<_>, Vec<_>) = laws.iter().partition(|(scheme, ..)| takes(scene, scheme, step));
-    let rigid = scene.holes().next().is_some() && scene.holes().all(|hole| hole.law.is_rigid());
-    let law = |(_, name, law): &&(Scheme, &str, &str)| format!("at round supports {name} {law}");
-    let mut lines: Vec<String> = if rigid { taken.iter().map(law).collect() } else { Vec::new() };
-    let names = |of: &[&(Scheme, &str, &str)]| of.iter().map(|(_, name, _)| *name).collect::<Vec<_>>().join(", ");
-    if !rigid {
+    let (taken, refused): (Vec<_>, Vec<_>) = Scheme::ALL.into_iter().partition(|one| takes(scene, one, step));
+    let names = |of: &[Scheme]| of.iter().map(|one| one.entry().name).collect::<Vec<_>>().join(", ");
+    let law = |one: &Scheme| match one.entry().round {
+        Coverage::Stepped(law) => Some(format!("at round supports {} {law}", one.entry().name)),
+        Coverage::Refused(_) => None,
+    };
+    let mut lines = Vec::new();
+    if scene.holes().next().is_some() && scene.holes().all(|hole| hole.law.is_rigid()) {
+        lines.extend(taken.iter().filter_map(law));
+    } else {
         lines.push(format!("schemes for these supports: {}", names(&taken)));
     }
     if !refused.is_empty() {
@@ -148,22 +123,24 @@ pub(crate) fn takes(scene: &Scene, scheme: &Scheme, step: f64) -> bool {
 pub fn qp_reason(method: &Method, scene: &Scene) -> String {
     let single = matches!(scene.system, System::Oscillator(_));
     let elastic = scene.holes().any(|hole| !hole.law.is_rigid());
-    let bounds = matches!(method.scheme, Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. });
-    let penalised = matches!(method.scheme, Scheme::Penalty { .. });
-    if scene.turns_or_rubs() && (elastic || bounds) && !penalised {
+    let kind = method.scheme.entry().kind;
+    let velocities = matches!(method.scheme, Scheme::MoreauJean { .. });
+    if scene.turns_or_rubs() && (elastic || !velocities) && kind == SchemeKind::Qp {
         return "a programme with disks: one round support in closed form, several by sweeps and Newton's method on \
                 their multipliers; Clarabel is the fallback"
             .to_owned();
     }
-    if scene.turns_or_rubs() && method.scheme != Scheme::Event && !penalised {
+    if scene.turns_or_rubs() && kind == SchemeKind::Qp {
         return "round supports and friction are no QP: the contacts are solved one by one in closed form, in sweeps, \
                 and then together"
             .to_owned();
     }
-    match (method.scheme, method.backend) {
-        (Scheme::Penalty { .. }, _) => "a penalty has no QP: Newton's method solves each step",
-        (Scheme::Event, _) if single => "for one degree of freedom the QP at an impact has the closed form v⁺ = −e v⁻",
-        (Scheme::Event, _) => "at an impact, a QP in the mass metric over the walls in contact",
+    match (kind, method.backend) {
+        (SchemeKind::Penalty, _) => "a penalty has no QP: Newton's method solves each step",
+        (SchemeKind::Exact, _) if single => {
+            "for one degree of freedom the QP at an impact has the closed form v⁺ = −e v⁻"
+        }
+        (SchemeKind::Exact, _) => "at an impact, a QP in the mass metric over the walls in contact",
         (_, Backend::Condensed) => "asked for: condensed onto the walls",
         (_, Backend::Clarabel) => "asked for: every step that meets a wall goes through Clarabel",
         (_, Backend::Clamp) => "asked for: one unknown, so the QP is a clamp",
@@ -258,13 +235,13 @@ pub fn body(scene: &Scene) -> Vec<String> {
     lines
 }
 
-/// Each wall in words, in the scene's order.
+/// Each flat wall in words, with its index, in the scene's order.
 #[must_use]
-pub fn walls(scene: &Scene) -> Vec<String> {
+pub fn walls(scene: &Scene) -> Vec<(usize, String)> {
     let several = matches!(scene.system, System::Structure(_));
     let [slowest, _] = scene.system.frequencies();
-    let line = |(wall, mass): (&Wall, f64)| {
-        let side = if wall.side == Side::Upper { "upper" } else { "lower" };
+    let line = |(index, (wall, mass)): (usize, (&Wall, f64))| {
+        let side = if wall.side() == Side::Upper { "upper" } else { "lower" };
         let law = match wall.law {
             WallLaw::Rigid { restitution } => format!("rigid, restitution {restitution}"),
             WallLaw::Elastic { stiffness, damping } if several => {
@@ -280,9 +257,10 @@ pub fn walls(scene: &Scene) -> Vec<String> {
             WallLaw::Quartic { epsilon, .. } => format!("penalty, ε = {epsilon:e} m³/N"),
         };
         let feels = if several { format!("; feels {mass:.4e} kg") } else { String::new() };
-        format!("{side} wall {:?} at {} m: {law}{feels}", wall.name, wall.position)
+        (index, format!("{side} wall {:?} at {} m: {law}{feels}", wall.name, wall.position()))
     };
-    scene.walls.iter().zip(scene.wall_masses()).map(line).collect()
+    let walls = scene.walls.iter().zip(scene.wall_masses()).enumerate();
+    walls.filter(|(_, (wall, _))| !wall.is_round()).map(line).collect()
 }
 
 /// The loads in words.

@@ -33,7 +33,7 @@ pub(crate) fn largest(columns: &[Vec<f64>]) -> f64 {
 pub(crate) fn wall_speeds(scene: &Scene, motion: &Trajectory) -> Vec<f64> {
     let fastest = largest(motion.velocities());
     let speed = |(index, wall): (usize, &crate::scene::Wall)| {
-        let probe = scene.probes.iter().position(|p| p.at == wall.at).and_then(|p| motion.velocities().get(p));
+        let probe = scene.probes.iter().position(|p| p.at == *wall.row()).and_then(|p| motion.velocities().get(p));
         match probe {
             Some(column) => column.iter().fold(0.0, |most: f64, v| most.max(v.abs())),
             None => {

@@ -20,7 +20,7 @@ use super::difference::largest;
 use super::growth::{Growth, Source};
 use crate::error::Result;
 use crate::scene::{Probe, Row, Scene};
-use crate::scheme::{Method, Scheme, Stepper};
+use crate::scheme::{Method, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
 
@@ -65,7 +65,7 @@ pub(super) fn growth(scene: &Scene, method: &Method, step: f64, delta: f64) -> R
     }
     let start = if start > 0.0 { start } else { delta };
     let factor = factor.into_iter().map(|f| if f.is_nan() { f } else { (f / start).max(1.0) }).collect();
-    let source = if method.scheme == Scheme::Event { Source::ExactRuns } else { Source::Runs(*method) };
+    let source = if method.scheme.is_exact() { Source::ExactRuns } else { Source::Runs(*method) };
     Ok(Growth { time: base.time().to_vec(), factor, source })
 }
 
@@ -91,7 +91,8 @@ fn follow(time: &[f64], w: &[f64], moved: &[f64], (length, speed): (f64, f64), f
 fn watching(scene: &Scene) -> Scene {
     let mut watched = scene.clone();
     let mut places: Vec<Row> = Vec::new();
-    for row in scene.walls.iter().map(|w| &w.at).chain(scene.probes.iter().map(|p| &p.at)) {
+    let flats = scene.walls.iter().filter(|wall| !wall.is_round());
+    for row in flats.map(|wall| wall.row()).chain(scene.probes.iter().map(|p| &p.at)) {
         if !places.contains(row) {
             places.push(row.clone());
         }
@@ -119,7 +120,7 @@ pub(super) fn directions_of(n: usize, direction: u64) -> Vec<f64> {
 /// The motion at the rows, without a judge.
 fn record(scene: &Scene, method: &Method, step: f64) -> Result<Trajectory> {
     let sample = Some(scene.duration / ROWS as f64);
-    let exact = method.scheme == Scheme::Event;
+    let exact = method.scheme.is_exact();
     let step = step.min(scene.duration / ROWS as f64);
     let grid = TimeGrid::stepping(scene.duration, &TimeOptions { sample, ..TimeOptions::with_step(step) })?;
     let step = if exact { scene.duration } else { grid.step };

@@ -6,8 +6,8 @@ use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::Result;
 use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
-use crate::scene::{Scene, System};
-use crate::scheme::{Method, Scheme, Stepper};
+use crate::scene::{Scene, System, Wall};
+use crate::scheme::{Method, Stepper};
 use crate::statistics::PlaceKind;
 use crate::time::TimeOptions;
 use serde::Serialize;
@@ -92,7 +92,7 @@ impl Verdict {
         progress: &mut dyn FnMut(f64),
     ) -> Result<Self> {
         let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
-        let (check, again) = if method.scheme == Scheme::Event {
+        let (check, again) = if method.scheme.is_exact() {
             (Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run, time)?)
         } else {
             let step_s = 0.5 * run.grid.step;
@@ -118,6 +118,9 @@ impl Verdict {
         let compared = first.is_some_and(|first| *first <= horizon_s * (1.0 + 1e-12));
         let mut walls = Vec::new();
         for (index, (before, after)) in run.statistics.walls.iter().zip(&again.statistics.walls).enumerate() {
+            if scene.walls.get(index).is_some_and(Wall::is_round) {
+                continue;
+            }
             walls.push(WallVerdict {
                 wall: before.wall.clone(),
                 kind: PlaceKind::Wall,
@@ -126,13 +129,13 @@ impl Verdict {
                 peak_force_n: [before.episode_peak_force_n.max, after.episode_peak_force_n.max],
             });
         }
-        for (index, hole) in scene.holes().enumerate() {
-            let [before, after] = [&run.statistics, &again.statistics].map(|s| s.round(scene, index));
+        for hole in scene.holes() {
+            let both = [&run.statistics, &again.statistics];
             walls.push(WallVerdict {
-                wall: hole.support.name.clone(),
+                wall: hole.name.to_owned(),
                 kind: PlaceKind::Support,
-                impulse_n_s: [before.1, after.1],
-                contacts: [before.0, after.0],
+                impulse_n_s: both.map(|s| s.impulse(hole.index)),
+                contacts: both.map(|s| s.walls.get(hole.index).map_or(0, |wall| wall.contacts)),
                 peak_force_n: [None, None],
             });
         }

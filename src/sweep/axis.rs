@@ -2,47 +2,10 @@
 //! range.
 
 use super::follow::Follow;
-use super::random::Normal;
 use super::target::{Target, with_unit};
+use super::values::{Values, finite};
 use crate::case::KeyValue;
 use crate::error::{Error, Result};
-
-/// The values of an axis.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Values {
-    /// A list.
-    List(Vec<KeyValue>),
-    /// Equal differences between neighbours.
-    Linear {
-        /// First.
-        from: f64,
-        /// Last.
-        to: f64,
-        /// How many, two or more.
-        points: u64,
-    },
-    /// Equal ratios between neighbours; the first and the last value are above 0.
-    Log {
-        /// First.
-        from: f64,
-        /// Last.
-        to: f64,
-        /// How many, two or more.
-        points: u64,
-    },
-    /// Drawn from a uniform distribution between two bounds, of the value or of its logarithm, by a
-    /// [`Random`](super::Random) design.
-    Range {
-        /// Lower bound.
-        from: f64,
-        /// Upper bound.
-        to: f64,
-        /// True if the logarithm is uniformly distributed.
-        log: bool,
-    },
-    /// Drawn from a normal distribution, by a [`Random`](super::Random) design.
-    Normal(Normal),
-}
 
 /// One dimension of a sweep.
 ///
@@ -63,18 +26,6 @@ pub struct Axis {
     pub(super) name: Option<String>,
     pub(super) values: Values,
     pub(super) follow: Follow,
-}
-
-/// The value of a grid as a person would type it: the number of at most 12 digits next to `x`,
-/// where the two differ only by the rounding of numbers of size `scale`, from which `x` was
-/// computed.
-fn typed(x: f64, scale: f64) -> f64 {
-    let rounding = 4.0 * f64::EPSILON * scale;
-    if x.abs() <= rounding {
-        return 0.0;
-    }
-    let near: f64 = format!("{x:.11e}").parse().unwrap_or(x);
-    if (near - x).abs() <= rounding { near } else { x }
 }
 
 impl Axis {
@@ -141,55 +92,14 @@ impl Axis {
         self.name.clone().unwrap_or(first)
     }
 
-    /// True if a random design draws its values.
-    pub(super) fn is_drawn(&self) -> bool {
-        matches!(self.values, Values::Range { .. } | Values::Normal(_))
-    }
-
-    /// Number of its values; 1 if they are drawn.
-    pub(super) fn count(&self) -> u64 {
-        match &self.values {
-            Values::List(list) => list.len() as u64,
-            Values::Linear { points, .. } | Values::Log { points, .. } => *points,
-            Values::Range { .. } | Values::Normal(_) => 1,
-        }
-    }
-
-    /// Value number `index`, before any factor; for a drawn axis, the quantile of `share`, from 0
-    /// to 1.
-    pub(super) fn value(&self, index: u64, share: f64) -> KeyValue {
-        // Both ends are exact.
-        let between = |from: f64, to: f64, points: u64| match index {
-            0 => from,
-            i if i + 1 >= points => to,
-            i => from + (to - from) * (i as f64 / (points - 1) as f64),
-        };
-        match &self.values {
-            Values::List(list) => list.get(index as usize).cloned().unwrap_or_else(|| KeyValue::from(f64::NAN)),
-            Values::Linear { from, to, points } => typed(between(*from, *to, *points), from.abs().max(to.abs())).into(),
-            Values::Log { from, to, points } if index == 0 || index + 1 >= *points => {
-                between(*from, *to, *points).into()
-            }
-            Values::Log { from, to, points } => {
-                let value = between(from.ln(), to.ln(), *points).exp();
-                typed(value, value * from.ln().abs().max(to.ln().abs()).max(1.0)).into()
-            }
-            Values::Range { from, to, log: false } => (from + (to - from) * share).into(),
-            Values::Range { from, to, log: true } => {
-                (from.ln() + (to.ln() - from.ln()) * share).exp().clamp(*from, *to).into()
-            }
-            Values::Normal(normal) => normal.at(share).into(),
-        }
-    }
-
     /// The numbers of its values in the order of a chain (rows that start one from another), with
     /// the direction of each.
     pub(super) fn order(&self) -> Vec<(u64, Option<&'static str>)> {
-        let mut up: Vec<u64> = (0..self.count()).collect();
+        let mut up: Vec<u64> = (0..self.values.count()).collect();
         if self.follow == Follow::No {
             return up.into_iter().map(|index| (index, None)).collect();
         }
-        let number = |index: u64| self.value(index, 0.0).number().unwrap_or(0.0);
+        let number = |index: u64| self.values.at(index, 0.0).number().unwrap_or(0.0);
         up.sort_by(|a, b| number(*a).total_cmp(&number(*b)));
         let rising = up.iter().map(|&index| (index, Some("up")));
         let falling = up.iter().rev().map(|&index| (index, Some("down")));
@@ -228,7 +138,7 @@ impl Axis {
         })
     }
 
-    /// Checks the axis by itself.
+    /// Checks the axis by itself, in a `random` design or in a grid.
     pub(super) fn validate(&self, random: bool) -> Result<()> {
         let key = |what: &str| format!("[[vary]] {}: {what}", self.label());
         if let Some(name) = &self.name {
@@ -237,87 +147,34 @@ impl Axis {
                 return Err(Error::invalid(key("name"), format_args!("{name:?}"), "letters, digits, - and _"));
             }
         }
-        let finite = |what: &str, x: f64| {
-            if x.is_finite() {
-                Ok(())
-            } else {
-                Err(Error::invalid(key(what), format_args!("{x:?}"), "a finite number"))
+        for (target, factor) in &self.targets {
+            if *factor != 1.0 && *target == Target::Scheme {
+                return Err(Error::invalid(key("factors"), target, "no factors: the values are words"));
             }
+            finite(&key, "factors", *factor)?;
+        }
+        self.values.validate(&key)?;
+        let drawn = self.values.is_drawn();
+        if random && !drawn {
+            let expected = "a range or a normal distribution, without points: [random] says how many";
+            return Err(Error::invalid(key("points"), "given", expected));
+        }
+        if drawn && !random {
+            let expected = "points or values beside it, or a table [random] that draws them";
+            return Err(Error::invalid(key("from and to"), "given alone", expected));
+        }
+        self.check_follow(random, &key)
+    }
+
+    /// Refuses to follow values without an order.
+    fn check_follow(&self, random: bool, key: &dyn Fn(&str) -> String) -> Result<()> {
+        let (found, expected) = match self.values.word() {
+            _ if self.follow == Follow::No => return Ok(()),
+            _ if random => ("given".to_owned(), "no follow in a random design: its rows have no order"),
+            Some(word) => (format!("given for {word}"), "numbers: words have no order"),
+            None => return Ok(()),
         };
-        if let Some((target, _)) =
-            self.targets.iter().find(|(target, factor)| *factor != 1.0 && *target == Target::Scheme)
-        {
-            return Err(Error::invalid(key("factors"), target, "no factors: the values are words"));
-        }
-        for (_, factor) in &self.targets {
-            finite("factors", *factor)?;
-        }
-        match &self.values {
-            Values::List(list) if list.is_empty() => {
-                return Err(Error::invalid(key("values"), "an empty list", "one value or more"));
-            }
-            Values::List(_) => {}
-            Values::Linear { from, to, points } | Values::Log { from, to, points } => {
-                finite("from", *from)?;
-                finite("to", *to)?;
-                if from == to {
-                    return Err(Error::invalid(
-                        key("to"),
-                        format_args!("{to:?}"),
-                        "a number other than from: the range is empty",
-                    ));
-                }
-                if *points < 2 {
-                    return Err(Error::invalid(key("points"), points, "2 or more; a single value is a list"));
-                }
-            }
-            Values::Range { from, to, .. } => {
-                finite("from", *from)?;
-                finite("to", *to)?;
-                if from >= to {
-                    return Err(Error::invalid(key("to"), format_args!("{to:?}"), format!("more than from, {from:?}")));
-                }
-            }
-            Values::Normal(normal) => normal.validate(&key("normal"))?,
-        }
-        if let Values::Log { from, to, .. } | Values::Range { from, to, log: true } = &self.values {
-            let least = from.min(*to);
-            if least <= 0.0 {
-                return Err(Error::invalid(
-                    key("from"),
-                    format_args!("{least:?}"),
-                    "a number above 0 on a logarithmic scale",
-                ));
-            }
-        }
-        match (random, self.is_drawn()) {
-            (true, false) => {
-                return Err(Error::invalid(
-                    key("points"),
-                    "given",
-                    "a range or a normal distribution, without points: [random] says how many",
-                ));
-            }
-            (false, true) => {
-                let expected = "points or values beside it, or a table [random] that draws them";
-                return Err(Error::invalid(key("from and to"), "given alone", expected));
-            }
-            _ => {}
-        }
-        if self.follow == Follow::No {
-            return Ok(());
-        }
-        if random {
-            return Err(Error::invalid(key("follow"), "given", "no follow in a random design: its rows have no order"));
-        }
-        let words = if let Values::List(list) = &self.values {
-            list.iter().find(|value| value.number().is_none())
-        } else {
-            None
-        };
-        words.map_or(Ok(()), |word| {
-            Err(Error::invalid(key("follow"), format_args!("given for {word}"), "numbers: words have no order"))
-        })
+        Err(Error::invalid(key("follow"), found, expected))
     }
 }
 
@@ -326,7 +183,7 @@ mod tests {
     use super::*;
 
     fn numbers(axis: &Axis) -> Vec<f64> {
-        (0..axis.count()).map(|index| axis.value(index, 0.0).number().unwrap()).collect()
+        (0..axis.values.count()).map(|index| axis.values.at(index, 0.0).number().unwrap()).collect()
     }
 
     #[test]

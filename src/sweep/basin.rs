@@ -3,7 +3,7 @@
 use super::attractors::{Attractors, CHAOTIC, QUIET, TOLD};
 use super::measure::Measure;
 use super::plan::{Plan, Point};
-use super::request::Stretch;
+use super::request::Window;
 use super::row::{Row, Status};
 use crate::error::{Error, Result};
 use crate::output::csv::digits;
@@ -81,7 +81,7 @@ impl Plan {
     /// The attractor, and the findings of the judge.
     fn attractor(&self, point: &Point, judged: bool) -> Result<(Option<Attractor>, String)> {
         let (case, _) = self.build(point, None)?;
-        let Stretch::Periods { settle, keep } = self.sweep.stretch else { return Ok((None, String::new())) };
+        let Window::Periods { settle, keep } = self.sweep.window else { return Ok((None, String::new())) };
         let period = super::forcing::period(&case.scene)?;
         let scene = &Checked::new(&case.scene)?;
         let initial = crate::scheme::Stepper::by(scene, Scheme::Event.into(), period)?.state();

@@ -3,7 +3,7 @@
 use super::forcing;
 use super::measure::Measure;
 use super::plan::{Plan, Point};
-use super::request::Stretch;
+use super::request::Window;
 use super::row::{Row, Status};
 use super::sample::{Sample, Samples};
 use super::strobe::repeats;
@@ -35,7 +35,7 @@ impl Plan {
         let refuse = |key: &'static str, found: String, expected: &str| {
             Err(Error::invalid(key, found, format!("{expected} beside kernel = \"batch\"")))
         };
-        let Stretch::Periods { .. } = self.sweep.stretch else {
+        let Window::Periods { .. } = self.sweep.window else {
             return refuse("[run] keep", "not in periods".to_owned(), "settle and keep in forcing periods");
         };
         if self.method.scheme != Scheme::Event || self.sweep.varies_scheme() {
@@ -63,7 +63,7 @@ impl Plan {
     pub(super) fn batched(&self, points: &[Point]) -> Vec<Row> {
         let lanes: Vec<Result<(Lane, Scene)>> = points.iter().map(|point| self.lane(point)).collect();
         let seated: Vec<Lane> = lanes.iter().flatten().map(|(lane, _)| lane.clone()).collect();
-        let Stretch::Periods { settle, keep } = self.sweep.stretch else { return Vec::new() };
+        let Window::Periods { settle, keep } = self.sweep.window else { return Vec::new() };
         let batch = batch::Plan { threads: 1, ..batch::Plan::new(settle, keep) }.run(&seated);
         let mut seat = 0;
         let mut rows = Vec::with_capacity(points.len());
@@ -128,7 +128,7 @@ impl Plan {
         for measure in &self.sweep.measures {
             let mut of_walls = |value: &dyn Fn(&AtWall) -> Option<f64>| {
                 let wall = |side| if side == Side::Upper { &outcome.upper } else { &outcome.lower };
-                values.extend(scene.walls.iter().map(|w| value(wall(w.side))));
+                values.extend(scene.walls.iter().map(|w| value(wall(w.side()))));
             };
             let of_probes = |x: f64| vec![Some(x); scene.probes.len()];
             match measure {

@@ -1,9 +1,11 @@
 //! Checks of a sweep before its rows run.
 
+use super::axis::Axis;
+use super::follow::Follow;
 use super::forcing;
 use super::measure::{Measure, Scope};
 use super::plan::Plan;
-use super::request::{Stretch, Sweep};
+use super::request::{Sweep, Window};
 use super::sample::Samples;
 use super::target::Target;
 use crate::case::Case;
@@ -11,6 +13,30 @@ use crate::error::{Error, Result};
 use crate::scheme::Scheme;
 
 impl Sweep {
+    /// Checks what varies, each axis by itself and all together, and that anything is measured.
+    pub(super) fn check_axes(&self) -> Result<()> {
+        if self.axes.is_empty() {
+            let expected = "one [[vary]] or more (--vary KEY=FROM:TO:POINTS)";
+            return Err(Error::invalid("what is varied", "nothing", expected));
+        }
+        if self.measures.is_empty() && self.samples.is_none() {
+            let known = Measure::all().map(Measure::name).collect::<Vec<_>>().join(", ");
+            return Err(Error::invalid("[measure] columns", "none", format!("one measure or more of {known}")));
+        }
+        for axis in &self.axes {
+            axis.validate(self.random.is_some())?;
+        }
+        if let Some(random) = &self.random {
+            random.validate(self.axes.len())?;
+        }
+        let followed: Vec<String> =
+            self.axes.iter().filter(|axis| axis.follow != Follow::No).map(Axis::label).collect();
+        if followed.len() > 1 {
+            return Err(Error::invalid("follow", followed.join(" and "), "one followed [[vary]] at most"));
+        }
+        self.unique()
+    }
+
     /// An error for a key that is varied twice, or set by two axes under different names.
     pub(super) fn unique(&self) -> Result<()> {
         let all: Vec<String> =
@@ -26,24 +52,24 @@ impl Sweep {
     pub(super) fn times(&self, base: &Case) -> Result<()> {
         let axes = || self.axes.iter().flat_map(|axis| &axis.targets);
         let varies = |key: &str| axes().any(|(target, _)| target.to_string() == key);
-        if self.stretch != Stretch::Case
+        if self.window != Window::Case
             && let Some(key) = ["time.end", "time.statistics_from"].into_iter().find(|key| varies(key))
         {
             return Err(Error::invalid("[[vary]] key", key, "no settle and keep beside it: they set the same"));
         }
-        match self.stretch {
-            Stretch::Case => {}
-            Stretch::Periods { keep: 0, .. } => {
+        match self.window {
+            Window::Case => {}
+            Window::Periods { keep: 0, .. } => {
                 return Err(Error::invalid("[run] keep", 0, "one forcing period or more"));
             }
-            Stretch::Periods { settle, keep } if settle.checked_add(keep).is_none_or(|all| all == u32::MAX) => {
+            Window::Periods { settle, keep } if settle.checked_add(keep).is_none_or(|all| all == u32::MAX) => {
                 let found = format_args!("{settle} + {keep} periods");
                 return Err(Error::invalid("[run] settle and keep", found, "less than 2^32 - 1 periods in all"));
             }
-            Stretch::Periods { .. } => {
+            Window::Periods { .. } => {
                 forcing::period(&base.scene)?;
             }
-            Stretch::Seconds { settle, keep } => {
+            Window::Seconds { settle, keep } => {
                 if !(settle.is_finite() && settle >= 0.0) {
                     return Err(Error::invalid(
                         "[run] settle",
@@ -56,7 +82,7 @@ impl Sweep {
                 }
             }
         }
-        let periods = matches!(self.stretch, Stretch::Periods { .. });
+        let periods = matches!(self.window, Window::Periods { .. });
         if let Some(measure) = self.measures.iter().find(|measure| measure.needs_period()).filter(|_| !periods) {
             let expected = "settle and keep in forcing periods ([run] keep = { periods = N }, --keep N) beside it";
             return Err(Error::invalid("[measure] columns", measure, expected));
@@ -100,16 +126,14 @@ impl Plan {
     pub(super) fn check_places(&self) -> Result<()> {
         let scene = &self.base.scene;
         let has = |measure: &Measure| !measure.columns(scene).is_empty();
-        let round = scene.holes().next().is_some();
-        let walls = if round { "round supports, which have no measures yet, and no wall" } else { "no wall" };
-        let lacks = |scope: Scope| if scope == Scope::Probe { "no probe" } else { walls };
+        let lacks = |scope: Scope| if scope == Scope::Probe { "no probe" } else { "no wall" };
         if let Some(measure) = self.sweep.measures.iter().find(|measure| !has(measure)) {
             let known = Measure::all().filter(has).map(Measure::name).collect::<Vec<_>>().join(", ");
             let expected = format!("one of {known}: the case has {}", lacks(measure.scope()));
             return Err(Error::invalid("[measure] columns", measure, expected));
         }
         if self.sweep.samples == Some(Samples::Impacts) && scene.walls.is_empty() {
-            let expected = format!("\"periods\": the case has {walls}");
+            let expected = "\"periods\": the case has no wall";
             return Err(Error::invalid("[measure] samples", "\"impacts\"", expected));
         }
         Ok(())
@@ -120,11 +144,11 @@ impl Plan {
     pub(super) fn try_values(&self) -> Result<()> {
         let middle = |count: u64| count / 2;
         for axis in &self.sweep.axes {
-            let tries = [(0, 0.001), (middle(axis.count()), 0.5), (axis.count() - 1, 0.999)];
+            let tries = [(0, 0.001), (middle(axis.values.count()), 0.5), (axis.values.count() - 1, 0.999)];
             let mut failure = None;
             for (number, share) in tries {
                 let mut file = self.sweep.case.clone();
-                let value = axis.value(number, share);
+                let value = axis.values.at(number, share);
                 let set = axis.settings(&value).try_for_each(|(target, value)| match target {
                     Target::Case(key) => file.set(key, &value),
                     Target::Scheme => self.base.method(&value.to_string()).map(drop),

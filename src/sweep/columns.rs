@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 use std::path::Path;
 
 /// An axis as recorded in `request.json`.
-pub(super) struct Along {
+pub(super) struct SweepAxis {
     pub column: String,
     pub key: String,
     pub scale: Scale,
@@ -20,7 +20,7 @@ pub(super) struct Along {
 pub(super) struct Source<'a> {
     pub folder: &'a Path,
     pub title: &'a str,
-    pub axes: Vec<Along>,
+    pub axes: Vec<SweepAxis>,
     pub random: bool,
     pub columns: Vec<String>,
     pub sample_columns: Vec<String>,
@@ -38,7 +38,7 @@ impl<'a> Source<'a> {
         let along = |axis: &Value| {
             let values = text(&axis["values"]);
             let log = values.starts_with("Log") || values.contains("log: true");
-            Along {
+            SweepAxis {
                 column: text(&axis["column"]),
                 key: text(&axis["keys"][0]["key"]),
                 scale: if log { Scale::Log } else { Scale::Linear },
@@ -68,7 +68,7 @@ impl Source<'_> {
     }
 }
 
-impl Along {
+impl SweepAxis {
     /// True if its values are numbers.
     pub fn is_numeric(&self, source: &Source<'_>) -> bool {
         let Ok(table) = Table::open(&source.folder.join(TABLE)) else { return false };

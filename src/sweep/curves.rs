@@ -1,6 +1,6 @@
 //! Curves of measures.
 
-use super::columns::{Along, Source, place_of, place_suffix, short};
+use super::columns::{Source, SweepAxis, place_of, place_suffix, short};
 use super::picture::{Drawn, MOST_PANELS, Picture};
 use super::table::{TABLE, Table, label, quantity};
 use crate::error::Result;
@@ -34,15 +34,9 @@ impl Picture {
         }
         let table = Table::open(&source.folder.join(TABLE))?;
         let own = table.column(&x.column)?;
-        let others: Vec<usize> = source
-            .axes
-            .iter()
-            .filter(|axis| axis.column != x.column)
-            .map(|axis| table.column(&axis.column))
-            .collect::<Result<_>>()?;
-        let name = |axis: &&Along| axis.column != x.column;
-        let names_of_others: Vec<String> =
-            source.axes.iter().filter(name).map(|axis| quantity(&axis.column).to_lowercase()).collect();
+        let other = |axis: &&SweepAxis| axis.column != x.column;
+        let named = |axis: &SweepAxis| Ok((table.column(&axis.column)?, quantity(&axis.column).to_lowercase()));
+        let others: Vec<(usize, String)> = source.axes.iter().filter(other).map(named).collect::<Result<_>>()?;
         let direction = table.column("direction").ok();
         let wanted: Vec<Vec<usize>> = groups
             .iter()
@@ -56,12 +50,7 @@ impl Picture {
             let direction = direction.map(|index| row.text(index).to_owned()).unwrap_or_default();
             let mut words: Vec<String> = (!direction.is_empty()).then(|| direction.clone()).into_iter().collect();
             if !source.random {
-                words.extend(
-                    others
-                        .iter()
-                        .zip(&names_of_others)
-                        .map(|(&index, name)| format!("{name} {}", short(row.text(index)))),
-                );
+                words.extend(others.iter().map(|(index, name)| format!("{name} {}", short(row.text(*index)))));
             }
             for ((curves, columns), (measure, names)) in curves.iter_mut().zip(&wanted).zip(&groups) {
                 for (&index, name) in columns.iter().zip(names) {
@@ -93,29 +82,38 @@ impl Picture {
         if source.random {
             return Ok(cloud(&title, x, &groups, &curves).map(|svg| Drawn { svg, left_out }));
         }
-        let mut figure = Figure::new(title, label(&x.column));
-        if x.scale == Scale::Log {
-            figure = figure.log();
-        }
-        for (curves, (measure, columns)) in curves.into_iter().zip(&groups) {
-            let unit = columns
-                .first()
-                .map_or_else(|| measure.clone(), |column| label(&column.replace(&place_suffix(column, measure), "")));
-            let mut panel = Panel::new(unit);
-            for (MeasureCurve { label, mut points, .. }, colour) in coloured(curves, source) {
-                points.sort_by(|a, b| a.0.total_cmp(&b.0));
-                let few = points.len() <= 60;
-                let curve = Curve::new(label, points);
-                let curve = match colour {
-                    Some((look, colour)) => curve.look(look).colour(colour),
-                    None => curve,
-                };
-                panel = panel.curve(if few { curve.marked() } else { curve });
-            }
-            figure = figure.panel(panel);
-        }
-        Ok(Some(Drawn { svg: figure.to_svg(), left_out }))
+        Ok(Some(Drawn { svg: figure(title, x, &groups, curves, source).to_svg(), left_out }))
     }
+}
+
+/// A panel of curves for each measure, over `x`.
+fn figure(
+    title: String,
+    x: &SweepAxis,
+    groups: &[(String, Vec<String>)],
+    curves: Vec<Vec<MeasureCurve>>,
+    source: &Source<'_>,
+) -> Figure {
+    let mut figure = Figure::new(title, label(&x.column));
+    if x.scale == Scale::Log {
+        figure = figure.log();
+    }
+    for (curves, (measure, columns)) in curves.into_iter().zip(groups) {
+        let column = columns.first().map(|column| label(&column.replace(&place_suffix(column, measure), "")));
+        let mut panel = Panel::new(column.unwrap_or_else(|| measure.clone()));
+        for (MeasureCurve { label, mut points, .. }, colour) in coloured(curves, source) {
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let few = points.len() <= 60;
+            let curve = Curve::new(label, points);
+            let curve = match colour {
+                Some((look, colour)) => curve.look(look).colour(colour),
+                None => curve,
+            };
+            panel = panel.curve(if few { curve.marked() } else { curve });
+        }
+        figure = figure.panel(panel);
+    }
+    figure
 }
 
 /// The curves of a panel, each with its look and the look of its colour: of rows up and down those
@@ -142,7 +140,7 @@ fn coloured(curves: Vec<MeasureCurve>, source: &Source<'_>) -> Vec<(MeasureCurve
 }
 
 /// A measure over one coordinate of the points of a random design.
-fn cloud(title: &str, x: &Along, groups: &[(String, Vec<String>)], curves: &[Vec<MeasureCurve>]) -> Option<String> {
+fn cloud(title: &str, x: &SweepAxis, groups: &[(String, Vec<String>)], curves: &[Vec<MeasureCurve>]) -> Option<String> {
     let (curves, (measure, columns)) = (curves.first()?, groups.first()?);
     let labels: Vec<&str> = curves.iter().map(|curve| curve.label.as_str()).collect();
     let points = || curves.iter().flat_map(|curve| &curve.points).filter(|p| p.0.is_finite() && p.1.is_finite());

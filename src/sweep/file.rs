@@ -1,75 +1,24 @@
 //! Sweep files: the values that vary and the measures, as TOML.
 
+use super::keys::SWEEP;
 use super::measure::Measure;
+use super::part::{MOST_WHOLE, Part};
 use super::picture::{Kind, Picture};
 use super::random::Random;
-use super::request::{Kernel, MOST_SAMPLES, Stretch, Sweep};
-use super::vary::Vary;
-use crate::case::{CaseFile, Embedded, KeyValue, read_text};
+use super::request::{Kernel, MOST_SAMPLES, Sweep, Window};
+use super::vary::axis;
+use crate::case::{CaseFile, Embedded, Section, Source, read_text, read_values};
 use crate::error::{Error, Result};
-use serde::Deserialize;
 use std::path::Path;
 
 /// Maximum size of a sweep file, bytes.
 const MOST_BYTES: u64 = 1 << 22;
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    case: String,
-    #[serde(default)]
-    set: toml::Table,
-    #[serde(default)]
-    vary: Vec<Vary>,
-    random: Option<RandomTable>,
-    #[serde(default)]
-    run: RunTable,
-    measure: Option<MeasureTable>,
-    figure: Option<FigureTable>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RandomTable {
-    kind: String,
-    points: u64,
-    seed: Option<u64>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RunTable {
-    scheme: Option<String>,
-    settle: Option<Length>,
-    keep: Option<Length>,
-    judged: Option<u64>,
-    kernel: Option<String>,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// A stretch of time of `[run]`.
+#[derive(Clone, Copy, Default)]
 struct Length {
     periods: Option<u32>,
     seconds: Option<f64>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MeasureTable {
-    #[serde(default)]
-    columns: Vec<String>,
-    samples: Option<String>,
-    most_samples: Option<usize>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FigureTable {
-    kind: Option<String>,
-    x: Option<String>,
-    y: Option<String>,
-    z: Option<String>,
-    wall: Option<String>,
 }
 
 impl Sweep {
@@ -106,32 +55,57 @@ impl Sweep {
     /// # Errors
     /// As [`Sweep::read`].
     pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Self> {
-        let file: File = toml::from_str(text).map_err(|error: toml::de::Error| {
-            Error::Case { report: format!("error: {name}: {error}"), cause: None }.caused_by(error)
-        })?;
-        let mut case = case_file(&file.case, folder)?;
-        for (key, value) in &file.set {
-            case.set(&key.parse()?, &KeyValue::from_toml(value.clone()))?;
-        }
-        let mut sweep = Self::new(case);
-        for vary in file.vary {
-            sweep = sweep.vary(vary.axis()?);
-        }
-        if let Some(RandomTable { kind, points, seed }) = file.random {
-            sweep = sweep.drawn(Random { design: kind.parse()?, points, seed });
-        }
-        sweep.stretch = stretch(file.run.settle, file.run.keep)?;
-        sweep.scheme = file.run.scheme;
-        sweep.kernel = file.run.kernel.map_or(Ok(Kernel::Scalar), |word| word.parse())?;
-        sweep.judged = file.run.judged;
-        if let Some(measure) = file.measure {
-            let measures = measure.columns.iter().map(|name| name.parse::<Measure>()).collect::<Result<Vec<_>>>()?;
-            sweep = sweep.measure(measures);
-            if let Some(word) = measure.samples.filter(|word| word != "no") {
-                sweep = sweep.sample(word.parse()?, measure.most_samples.unwrap_or(MOST_SAMPLES));
+        let source = Source { name, text };
+        let values = read_values(&source, &SWEEP)?;
+        let file = Section::root(&values);
+        let mut case = case_file(file.required_word("case").get_ref(), folder)?;
+        let part = |table| Part { source: &source, table };
+        if let Some(set) = file.get("set") {
+            let help = "expected a table: [set] with lines \"wall.*.restitution\" = 0.8";
+            let table = Section::of(set).ok_or_else(|| source.error(set.span(), "`set` is no table", help))?;
+            let set = part(table);
+            for (key, value) in set.table.entries() {
+                case.set(&key.get_ref().parse()?, &set.value(value)?)?;
             }
         }
-        sweep.picture = file.figure.map(picture).transpose()?.unwrap_or_default();
+        let mut sweep = Self::new(case);
+        for vary in file.sections("vary") {
+            sweep = sweep.vary(axis(&part(vary))?);
+        }
+        if let Some(random) = file.section("random") {
+            let random = part(random);
+            let (points, seed) = (random.whole("points", MOST_WHOLE)?, random.whole("seed", MOST_WHOLE)?);
+            let design = random.word("kind").unwrap_or_default().parse()?;
+            sweep = sweep.drawn(Random { design, points: points.unwrap_or(0), seed });
+        }
+        if let Some(run) = file.section("run") {
+            let run = part(run);
+            let length = |key: &str| -> Result<Option<Length>> {
+                let Some(length) = run.table.section(key).map(part) else { return Ok(None) };
+                let periods = length.whole("periods", f64::from(u32::MAX))?.map(|periods| periods as u32);
+                Ok(Some(Length { periods, seconds: length.number("seconds") }))
+            };
+            sweep.window = window(length("settle")?, length("keep")?)?;
+            sweep.scheme = run.word("scheme");
+            sweep.kernel = run.word("kernel").map_or(Ok(Kernel::Scalar), |word| word.parse())?;
+            sweep.judged = run.whole("judged", MOST_WHOLE)?;
+        }
+        if let Some(measure) = file.section("measure") {
+            let measure = part(measure);
+            let columns = measure.table.words("columns").unwrap_or_default();
+            let measures = columns.iter().map(|name| name.parse::<Measure>()).collect::<Result<Vec<_>>>()?;
+            sweep = sweep.measure(measures);
+            let most = measure.whole("most_samples", MOST_WHOLE)?.map_or(MOST_SAMPLES, |most| most as usize);
+            if let Some(word) = measure.word("samples").filter(|word| word != "no") {
+                sweep = sweep.sample(word.parse()?, most);
+            }
+        }
+        if let Some(figure) = file.section("figure") {
+            let figure = part(figure);
+            let kind = figure.word("kind").map(|word| word.parse::<Kind>()).transpose()?;
+            let [x, y, z, wall] = ["x", "y", "z", "wall"].map(|key| figure.word(key));
+            sweep.picture = Picture { kind, x, y, z, wall };
+        }
         if let Some(stem) = Path::new(name).file_stem() {
             sweep.title = stem.to_string_lossy().into_owned();
         }
@@ -152,25 +126,19 @@ fn case_file(name: &str, folder: &Path) -> Result<CaseFile> {
     }
 }
 
-fn stretch(settle: Option<Length>, keep: Option<Length>) -> Result<Stretch> {
+fn window(settle: Option<Length>, keep: Option<Length>) -> Result<Window> {
     let refuse = |found: &str| {
         let expected = "settle and keep, both as { periods = N } or both as { seconds = T }";
         Err(Error::invalid("[run] settle and keep", found, expected))
     };
-    let none = Length { periods: None, seconds: None };
-    let (first, Some(last)) = (settle.unwrap_or(none), keep) else {
-        return if settle.is_some() { refuse("settle without keep") } else { Ok(Stretch::Case) };
+    let (first, Some(last)) = (settle.unwrap_or_default(), keep) else {
+        return if settle.is_some() { refuse("settle without keep") } else { Ok(Window::Case) };
     };
     match (first.periods, first.seconds, last.periods, last.seconds) {
-        (settle, None, Some(keep), None) => Ok(Stretch::Periods { settle: settle.unwrap_or(0), keep }),
-        (None, settle, None, Some(keep)) => Ok(Stretch::Seconds { settle: settle.unwrap_or(0.0), keep }),
+        (settle, None, Some(keep), None) => Ok(Window::Periods { settle: settle.unwrap_or(0), keep }),
+        (None, settle, None, Some(keep)) => Ok(Window::Seconds { settle: settle.unwrap_or(0.0), keep }),
         _ => refuse("both units, or neither"),
     }
-}
-
-fn picture(table: FigureTable) -> Result<Picture> {
-    let kind = table.kind.map(|word| word.parse::<Kind>()).transpose()?;
-    Ok(Picture { kind, x: table.x, y: table.y, z: table.z, wall: table.wall })
 }
 
 #[cfg(test)]
@@ -232,7 +200,7 @@ wall = "upper"
                     .unwrap(),
             )
             .by("event")
-            .over(Stretch::Periods { settle: 4, keep: 6 })
+            .over(Window::Periods { settle: 4, keep: 6 })
             .measure([Measure::Contacts, Measure::DisplacementMax, Measure::Period])
             .sample(super::super::Samples::Impacts, 12);
         let built = built.plan().unwrap();
@@ -248,9 +216,11 @@ wall = "upper"
     fn what_is_wrong_is_named_with_what_would_do() {
         for (from, to, words) in [
             ("points = 11", "points = 1", "2 or more"),
+            ("points = 11", "points = 10.5", "a whole number"),
+            ("[set]\n", "set = 3\n[other]\n", "unknown key `other` in the sweep file"),
             ("to = 5.0", "to = 4.0", "the range is empty"),
-            ("from = 4.0", "from = \"four\"", "line 8, column"),
-            ("points = 11", "pionts = 11", "unknown field `pionts`"),
+            ("from = 4.0", "from = \"four\"", "--> sweep.toml:8:8"),
+            ("points = 11", "pionts = 11", "unknown key `pionts` in `vary`; did you mean `points`?"),
             ("frequency\"\nname", "frequancy\"\nname", "did you mean load.1.harmonic.frequency?"),
             ("load.1.harm", "load.3.harm", "no load is named \"3\"; there is 1"),
             ("follow = \"both\"", "follow = \"back\"", "no direction to follow is named \"back\""),

@@ -7,17 +7,17 @@ use super::finish::Tables;
 use super::journal::JOURNAL;
 use super::picture::Picture;
 use super::plan::Plan;
-use super::request::Stretch;
+use super::request::Window;
 use super::shard::Shard;
 use super::table::{SAMPLES, TABLE};
 use crate::batch::Width;
 use crate::case::{open_regular, sha256};
 use crate::error::{Error, Result};
-use crate::output::asked::{asked, with};
 use crate::output::atomic::write_whole;
 use crate::output::json;
 use crate::output::manifest::{self, FINGERPRINT};
 use crate::output::record::{Record, TABLES};
+use crate::output::request;
 use crate::output::results::Results;
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -47,21 +47,21 @@ impl Plan {
         let random = sweep
             .random
             .map(|random| json!({ "kind": random.design.name(), "points": random.points, "seed": random.seed }));
-        let stretch = match sweep.stretch {
-            Stretch::Case => json!("the case's"),
-            Stretch::Periods { settle, keep } => json!({ "settle_periods": settle, "keep_periods": keep }),
-            Stretch::Seconds { settle, keep } => json!({ "settle_s": settle, "keep_s": keep }),
+        let window = match sweep.window {
+            Window::Case => json!("the case's"),
+            Window::Periods { settle, keep } => json!({ "settle_periods": settle, "keep_periods": keep }),
+            Window::Seconds { settle, keep } => json!({ "settle_s": settle, "keep_s": keep }),
         };
         let methods = [self.method];
-        with(
-            asked("sweep", &self.base, &methods),
+        request::extended(
+            request::request("sweep", &self.base, &methods),
             json!({
                 "program": program(),
                 "case_text".to_owned() + FINGERPRINT: sweep.case.text().ok().map(|text| sha256(text.as_bytes())),
                 "scheme": sweep.scheme,
                 "vary": axes,
                 "random": random,
-                "run": stretch,
+                "run": window,
                 "kernel": format!("{:?}", sweep.kernel).to_lowercase(),
                 "columns": self.header(),
                 "sample_columns": sweep.samples.map(|_| self.sample_header()),
@@ -85,7 +85,7 @@ fn described(axis: &Axis, column: &str) -> Value {
     json!({
         "column": column,
         "keys": keys,
-        "count": axis.count(),
+        "count": axis.values.count(),
         "values": format!("{:?}", axis.values),
         "follow": format!("{:?}", axis.follow),
     })

@@ -1,7 +1,7 @@
 //! Maps of a measure over two axes: its values, or the attractors to which starts lead.
 
 use super::attractors::named;
-use super::columns::{Along, Source};
+use super::columns::{Source, SweepAxis};
 use super::measure::Measure;
 use super::picture::{Drawn, Picture};
 use super::table::{TABLE, Table, label};
@@ -61,7 +61,7 @@ impl Picture {
     }
 
     /// The two axes of a map.
-    fn map_sides<'a>(&self, source: &'a Source<'_>, kind: &str) -> Result<[&'a Along; 2]> {
+    fn map_sides<'a>(&self, source: &'a Source<'_>, kind: &str) -> Result<[&'a SweepAxis; 2]> {
         let [x, y] = self.sides(source)?;
         if x.column == y.column {
             return Err(Error::invalid("[figure] y", &y.column, "another varied value than x"));
@@ -75,7 +75,7 @@ impl Picture {
 
 impl Grid {
     /// The values of `column`, at most `most` along each side.
-    fn of(source: &Source<'_>, [x, y]: [&Along; 2], column: &str, most: usize) -> Result<Self> {
+    fn of(source: &Source<'_>, [x, y]: [&SweepAxis; 2], column: &str, most: usize) -> Result<Self> {
         let table = Table::open(&source.folder.join(TABLE))?;
         let (xi, yi, zi) = (table.column(&x.column)?, table.column(&y.column)?, table.column(column)?);
         let direction = table.column("direction").ok();
@@ -109,7 +109,7 @@ impl Grid {
         Ok(Self { xs, ys, cells })
     }
 
-    fn map(&self, title: &str, [x, y]: [&Along; 2]) -> HeatMap {
+    fn map(&self, title: &str, [x, y]: [&SweepAxis; 2]) -> HeatMap {
         let (x_label, y_label) = (label(&x.column), label(&y.column));
         HeatMap::new(title, (&x_label, x.scale, &self.xs), (&y_label, y.scale, &self.ys))
     }

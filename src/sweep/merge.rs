@@ -121,8 +121,34 @@ pub(crate) fn merge_in(
     let mut parts = expanded(folders)?.iter().map(|folder| Part::read(folder)).collect::<Result<Vec<_>>>()?;
     parts.sort_by_key(|part| part.shard.index());
     let first = parts.first().ok_or_else(|| Error::invalid("merge", "nothing", "the folders of shards"))?;
-    let of = first.shard.of();
+    check_parts(&parts, first, out)?;
+    let request = first.request.clone();
+    let number = |key: &str| request.get(key).and_then(Value::as_u64).filter(|x| *x > 0);
+    let (Some(rows), Some(length)) = (number("rows"), number("rows_of_a_chain")) else {
+        return Err(wrong(&first.folder, "its request.json does not say how many rows there are".to_owned()));
+    };
+    let sampled = request.get("sample_columns").is_some_and(Value::is_array);
+    let mut unverified = Vec::new();
     for part in &parts {
+        if folder::verified(&part.folder, &part.manifest)?.is_empty() {
+            unverified.push(part.folder.clone());
+        }
+    }
+    let mut results = Results::open(out, request.clone(), force, formats)?;
+    folder::tell(&mut results, &first.study, Shard::WHOLE);
+    let tables = tables(&parts, &mut results, rows, length, sampled)?;
+    results.finish()?;
+    let differing_arithmetic = parts.iter().any(|part| part.arithmetic != first.arithmetic);
+    let Study { title, picture, .. } = first.study.clone();
+    let shards = parts.len();
+    Ok((Merged { rows, shards, tables, request, title, picture, differing_arithmetic, unverified }, results))
+}
+
+/// Refuses parts, sorted by their shards, that are not those of `first`, not finished, given twice
+/// or not all there.
+fn check_parts(parts: &[Part], first: &Part, out: &Path) -> Result<()> {
+    let of = first.shard.of();
+    for part in parts {
         if let Some(what) = manifest::differences(Some(&Value::Object(first.request.clone())), &part.request) {
             return Err(wrong(
                 &part.folder,
@@ -157,26 +183,7 @@ pub(crate) fn merge_in(
         let more = if missing.len() > 20 { ", …" } else { "" };
         return Err(wrong(out, format!("{} of {of} shards are missing: {shown}{more}", missing.len())));
     }
-    let request = first.request.clone();
-    let number = |key: &str| request.get(key).and_then(Value::as_u64).filter(|x| *x > 0);
-    let (Some(rows), Some(length)) = (number("rows"), number("rows_of_a_chain")) else {
-        return Err(wrong(&first.folder, "its request.json does not say how many rows there are".to_owned()));
-    };
-    let sampled = request.get("sample_columns").is_some_and(Value::is_array);
-    let mut unverified = Vec::new();
-    for part in &parts {
-        if folder::verified(&part.folder, &part.manifest)?.is_empty() {
-            unverified.push(part.folder.clone());
-        }
-    }
-    let mut results = Results::open(out, request.clone(), force, formats)?;
-    folder::tell(&mut results, &first.study, Shard::WHOLE);
-    let tables = tables(&parts, &mut results, rows, length, sampled)?;
-    results.finish()?;
-    let differing_arithmetic = parts.iter().any(|part| part.arithmetic != first.arithmetic);
-    let Study { title, picture, .. } = first.study.clone();
-    let shards = parts.len();
-    Ok((Merged { rows, shards, tables, request, title, picture, differing_arithmetic, unverified }, results))
+    Ok(())
 }
 
 /// Lines of one file, each with the number of its row.

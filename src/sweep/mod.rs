@@ -9,17 +9,20 @@
 //! |---|---|
 //! | `request` | [`Sweep`]: the request |
 //! | `file` | the same as a sweep file |
-//! | `axis`, `target`, `follow`, `random` | the values that vary: lists, grids, ranges, tied keys, random designs |
+//! | `axis`, `values`, `target`, `follow`, `random` | the values that vary: lists, grids, ranges, tied keys, random designs |
 //! | `measure`, `sample` | the quantities computed for a row, by name |
 //! | `forcing` | the period of the loads |
 //! | `plan` | the rows, by number |
 //! | `row` | one row: built, run, measured |
 //! | `batched` | rows of one degree of freedom side by side, by [`batch`](crate::batch) |
 //! | `basin`, `attractors` | rows that find the attractor to which their start leads, and the numbers of attractors |
-//! | `watch`, `motion`, `strobe` | collect from the steps of a row what its measures need |
-//! | `run` | the threads that compute rows, and the one that writes them |
+//! | `row_observer`, `motion`, `strobe` | collect from the steps of a row what its measures need |
+//! | `run` | runs a sweep into a folder, where it can be continued |
+//! | `chains` | computes rows on several threads |
+//! | `found` | the rows that earlier processes have computed |
+//! | `estimate` | time and size of a sweep, from its first rows |
 //! | `journal`, `folder` | the files of an unfinished sweep, and the check whether it may be continued |
-//! | `finish`, `record` | the tables |
+//! | `finish`, `finished`, `record` | the tables |
 //! | `picture`, `curves`, `maps`, `instants` | the pictures |
 //! | `table`, `columns` | reading the tables |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
@@ -35,48 +38,60 @@ mod attractors;
 mod axis;
 mod basin;
 mod batched;
+mod chains;
 mod check;
 mod columns;
 mod curves;
+mod estimate;
 mod file;
 mod finish;
+mod finished;
 mod folder;
 mod follow;
 mod forcing;
+mod found;
 mod instants;
 mod journal;
+mod keys;
 mod maps;
 mod measure;
 mod merge;
 mod motion;
+mod notes;
+mod part;
 mod picture;
 mod plan;
 mod random;
 mod record;
 mod request;
 mod row;
+mod row_observer;
 mod run;
 mod sample;
 mod shard;
 mod strobe;
 mod table;
 mod target;
+mod values;
 mod vary;
-mod watch;
 
-pub use axis::{Axis, Values};
+pub use axis::Axis;
+pub use estimate::Estimate;
 pub use finish::Tables;
+pub use finished::Finished;
 pub(crate) use folder::write_summary;
 pub use follow::Follow;
 pub use measure::{Measure, Scope};
 pub(crate) use merge::merge_in;
 pub use merge::{Merged, merge};
+pub(crate) use picture::Pictures;
 pub use picture::{Kind, Picture};
 pub use plan::Plan;
 pub use random::{Design, MOST_DIMENSIONS, Normal, Random};
-pub use request::{Kernel, MOST_SAMPLES, Stretch, Sweep};
+pub use request::{Kernel, MOST_SAMPLES, Sweep, Window};
 pub use row::{Row, Status};
-pub use run::{Estimate, Finished, Manner, Progress};
+pub use run::{Manner, Progress};
 pub use sample::{Sample, Samples};
 pub use shard::Shard;
 pub use target::Target;
+pub use values::Values;

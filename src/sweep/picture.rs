@@ -1,6 +1,6 @@
 //! The picture of a sweep, from its tables: the kind of picture and its columns.
 
-use super::columns::{Along, Source, of};
+use super::columns::{Source, SweepAxis, of};
 use super::measure::Measure;
 use crate::error::{Error, Result};
 use crate::output::results::Results;
@@ -61,6 +61,14 @@ pub struct Picture {
     pub z: Option<String>,
     /// The wall whose instants or measures are drawn; all walls if `None`.
     pub wall: Option<String>,
+}
+
+/// The picture of a sweep as files, one a format; none if the tables contain nothing to draw.
+#[derive(Debug, Default)]
+pub(crate) struct Pictures {
+    pub drawn: Vec<PathBuf>,
+    /// Names of what the picture has no room for.
+    pub left_out: Vec<String>,
 }
 
 /// A picture that has been drawn.
@@ -138,20 +146,14 @@ impl Picture {
         Self { kind, x: word("x"), y: word("y"), z: word("z"), wall: word("wall") }
     }
 
-    /// Draws the picture of the tables of `results`, of the request `request`, and returns the
-    /// paths, none if the tables contain nothing to draw, and the names of what is left out.
+    /// Draws the picture of the tables of `results`, of the request `request`.
     ///
     /// # Errors
     /// [`Error::Unknown`] for a column that the tables do not have, [`Error::Io`] if they cannot be
     /// read or the picture cannot be written.
-    pub(crate) fn draw(
-        &self,
-        results: &mut Results,
-        request: &Map<String, Value>,
-        title: &str,
-    ) -> Result<(Vec<PathBuf>, Vec<String>)> {
-        let Some(drawn) = self.drawn(results.folder(), request, title)? else { return Ok(Default::default()) };
-        Ok((results.draw("sweep", &drawn.svg)?, drawn.left_out))
+    pub(crate) fn draw(&self, results: &mut Results, request: &Map<String, Value>, title: &str) -> Result<Pictures> {
+        let Some(drawn) = self.drawn(results.folder(), request, title)? else { return Ok(Pictures::default()) };
+        Ok(Pictures { drawn: results.draw("sweep", &drawn.svg)?, left_out: drawn.left_out })
     }
 
     /// The picture; `None` if there is nothing to draw.
@@ -182,7 +184,7 @@ impl Picture {
     }
 
     /// The axis named `asked`, or by default the one along which a picture is drawn.
-    pub(super) fn axis<'a>(asked: Option<&String>, source: &'a Source<'_>) -> Result<&'a Along> {
+    pub(super) fn axis<'a>(asked: Option<&String>, source: &'a Source<'_>) -> Result<&'a SweepAxis> {
         let axes = &source.axes;
         let found = match asked {
             Some(name) => axes.iter().find(|axis| axis.column == *name || axis.key == *name || of(&axis.column, name)),
@@ -197,9 +199,9 @@ impl Picture {
     }
 
     /// The two axes of a map: those requested, else in the order of the file.
-    pub(super) fn sides<'a>(&self, source: &'a Source<'_>) -> Result<[&'a Along; 2]> {
+    pub(super) fn sides<'a>(&self, source: &'a Source<'_>) -> Result<[&'a SweepAxis; 2]> {
         let named = |asked: &Option<String>| asked.as_ref().map(|name| Self::axis(Some(name), source)).transpose();
-        let other = |than: Option<&Along>| {
+        let other = |than: Option<&SweepAxis>| {
             let found = source.axes.iter().find(|axis| than.is_none_or(|than| than.column != axis.column));
             found.ok_or_else(|| Error::invalid("[figure] kind", "heat", "two varied values"))
         };

@@ -1,10 +1,9 @@
 //! The rows of a sweep: their values and their columns. A row is determined by its number.
 
 use super::axis::Axis;
-use super::follow::Follow;
 use super::forcing;
-use super::measure::Measure;
-use super::request::{Kernel, Stretch, Sweep};
+use super::picture::Pictures;
+use super::request::{Kernel, Sweep, Window};
 use super::target::Target;
 use crate::case::{Case, Key, KeyValue, Template};
 use crate::error::{Error, Result};
@@ -12,7 +11,8 @@ use crate::output::results::Results;
 use crate::scene::{Scene, State};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice::choose;
-use std::path::{Path, PathBuf};
+use std::collections::HashSet;
+use std::path::Path;
 
 /// Maximum number of rows: their places in the journal are kept in memory, 16 bytes each.
 const MOST_ROWS: u64 = 100_000_000;
@@ -56,67 +56,18 @@ impl Sweep {
     /// [`Error::Invalid`], [`Error::Unknown`] or [`Error::Case`], with the invalid value and what
     /// would be accepted.
     pub fn plan(self) -> Result<Plan> {
-        if self.axes.is_empty() {
-            let expected = "one [[vary]] or more (--vary KEY=FROM:TO:POINTS)";
-            return Err(Error::invalid("what is varied", "nothing", expected));
-        }
-        if self.measures.is_empty() && self.samples.is_none() {
-            let known = Measure::all().map(Measure::name).collect::<Vec<_>>().join(", ");
-            return Err(Error::invalid("[measure] columns", "none", format!("one measure or more of {known}")));
-        }
-        for axis in &self.axes {
-            axis.validate(self.random.is_some())?;
-        }
-        if let Some(random) = &self.random {
-            random.validate(self.axes.len())?;
-        }
-        let followed: Vec<String> =
-            self.axes.iter().filter(|axis| axis.follow != Follow::No).map(Axis::label).collect();
-        if followed.len() > 1 {
-            return Err(Error::invalid("follow", followed.join(" and "), "one followed [[vary]] at most"));
-        }
-        self.unique()?;
+        self.check_axes()?;
         let base = self.case.case()?;
-        let scheme = |name: &str| base.method(name);
         let method = match &self.scheme {
-            Some(name) => scheme(name)?,
+            Some(name) => base.method(name)?,
             None if self.kernel == Kernel::Batch => Method::new(Scheme::Event),
             None => choose(&base.scene).method,
         };
-        let order = match self.followed().and_then(|index| self.axes.get(index)) {
-            Some(axis) if axis.count() > MOST_CHAIN => {
-                return Err(Error::invalid(
-                    "points",
-                    axis.count(),
-                    format!("at most {MOST_CHAIN} along a followed axis"),
-                ));
-            }
-            Some(axis) => axis.order(),
-            None => vec![(0, None)],
-        };
-        let free = self.axes.iter().enumerate().filter(|(index, _)| Some(*index) != self.followed());
-        let grid = free.fold(1u64, |count, (_, axis)| count.saturating_mul(axis.count()));
-        let chains = self.random.map_or(grid, |random| random.points);
-        if chains.saturating_mul(order.len() as u64) > MOST_ROWS {
-            return Err(Error::invalid(
-                "rows",
-                chains.saturating_mul(order.len() as u64),
-                format!("at most {MOST_ROWS}"),
-            ));
-        }
+        let order = self.order()?;
+        let chains = self.chains(order.len() as u64)?;
         self.times(&base)?;
         let axis_columns = self.columns();
-        let mut header = vec!["row".to_owned()];
-        if self.followed().is_some() {
-            header.push("direction".to_owned());
-        }
-        header.extend(axis_columns.iter().flatten().cloned());
-        header.extend(["status", "error"].map(str::to_owned));
-        header.extend(self.measures.iter().flat_map(|measure| measure.columns(&base.scene)));
-        let mut seen = std::collections::HashSet::new();
-        if let Some(twice) = header.iter().find(|name| !seen.insert(name.as_str())) {
-            return Err(Error::invalid("[[vary]] name", twice, "a name that no other column has"));
-        }
+        let header = self.header(&base, &axis_columns)?;
         let mut sample_header = vec!["row".to_owned()];
         sample_header.extend(self.samples.iter().flat_map(|samples| samples.columns(&base.scene)));
         let case_key =
@@ -134,6 +85,46 @@ impl Sweep {
         plan.try_values()?;
         plan.sweep.picture.check(&plan.request())?;
         Ok(plan)
+    }
+
+    /// The rows of a chain: number of the value of the followed axis, and direction.
+    fn order(&self) -> Result<Vec<(u64, Option<&'static str>)>> {
+        match self.followed().and_then(|index| self.axes.get(index)) {
+            Some(axis) if axis.values.count() > MOST_CHAIN => {
+                let expected = format!("at most {MOST_CHAIN} along a followed axis");
+                Err(Error::invalid("points", axis.values.count(), expected))
+            }
+            Some(axis) => Ok(axis.order()),
+            None => Ok(vec![(0, None)]),
+        }
+    }
+
+    /// Number of chains of `length` rows each.
+    fn chains(&self, length: u64) -> Result<u64> {
+        let free = self.axes.iter().enumerate().filter(|(index, _)| Some(*index) != self.followed());
+        let grid = free.fold(1u64, |count, (_, axis)| count.saturating_mul(axis.values.count()));
+        let chains = self.random.map_or(grid, |random| random.points);
+        let rows = chains.saturating_mul(length);
+        if rows > MOST_ROWS {
+            return Err(Error::invalid("rows", rows, format!("at most {MOST_ROWS}")));
+        }
+        Ok(chains)
+    }
+
+    /// Names of the columns of `sweep.csv`.
+    fn header(&self, base: &Case, axis_columns: &[Vec<String>]) -> Result<Vec<String>> {
+        let mut header = vec!["row".to_owned()];
+        if self.followed().is_some() {
+            header.push("direction".to_owned());
+        }
+        header.extend(axis_columns.iter().flatten().cloned());
+        header.extend(["status", "error"].map(str::to_owned));
+        header.extend(self.measures.iter().flat_map(|measure| measure.columns(&base.scene)));
+        let mut seen = HashSet::new();
+        if let Some(twice) = header.iter().find(|name| !seen.insert(name.as_str())) {
+            return Err(Error::invalid("[[vary]] name", twice, "a name that no other column has"));
+        }
+        Ok(header)
     }
 
     /// Names of the axes' columns: the last word of each key if these differ, else the whole keys.
@@ -162,8 +153,8 @@ impl Plan {
     }
 
     /// Draws its picture from the tables of `results`, as `sweep.svg`, `sweep.pdf` or `sweep.png`,
-    /// and returns the paths, and the names of what it leaves out.
-    pub(crate) fn draw(&self, results: &mut Results) -> Result<(Vec<PathBuf>, Vec<String>)> {
+    /// and names what it leaves out.
+    pub(crate) fn draw(&self, results: &mut Results) -> Result<Pictures> {
         self.sweep.picture.draw(results, &self.request(), &self.sweep.title)
     }
 
@@ -213,12 +204,12 @@ impl Plan {
         let mut values = Vec::with_capacity(self.sweep.axes.len());
         for (index, axis) in self.sweep.axes.iter().enumerate().rev() {
             values.push(match self.sweep.random {
-                Some(random) => axis.value(0, random.share(chain, index)),
-                None if Some(index) == followed => axis.value(along, 0.0),
+                Some(random) => axis.values.at(0, random.share(chain, index)),
+                None if Some(index) == followed => axis.values.at(along, 0.0),
                 None => {
-                    let number = rest % axis.count();
-                    rest /= axis.count();
-                    axis.value(number, 0.0)
+                    let number = rest % axis.values.count();
+                    rest /= axis.values.count();
+                    axis.values.at(number, 0.0)
                 }
             });
         }
@@ -266,13 +257,13 @@ impl Plan {
             (None, None) => self.method,
         };
         same_names(&case.scene, &self.base.scene)?;
-        let [from, end] = match self.sweep.stretch {
-            Stretch::Case => return Ok((case, method)),
-            Stretch::Periods { settle, keep } => {
+        let [from, end] = match self.sweep.window {
+            Window::Case => return Ok((case, method)),
+            Window::Periods { settle, keep } => {
                 let period = forcing::period(&case.scene)?;
                 [f64::from(settle) * period, f64::from(settle + keep) * period]
             }
-            Stretch::Seconds { settle, keep } => [settle, settle + keep],
+            Window::Seconds { settle, keep } => [settle, settle + keep],
         };
         // The lines of a random force are multiples of 1/end.
         case.make_random(end)?;

@@ -13,7 +13,7 @@ use std::str::FromStr;
 
 /// The duration of a row, and the window of its measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stretch {
+pub enum Window {
     /// The case's `time.end` and `time.statistics_from`.
     Case,
     /// Numbers of forcing periods before the window, and in it.
@@ -72,14 +72,14 @@ const JUDGED_OF_BATCH: u64 = 16;
 ///
 /// ```
 /// use signorini::case::CaseFile;
-/// use signorini::sweep::{Axis, Follow, Measure, Stretch, Sweep};
+/// use signorini::sweep::{Axis, Follow, Measure, Window, Sweep};
 ///
 /// // The largest displacement over the frequency of the load, by rising frequencies, the state
 /// // carried on.
 /// let sweep = Sweep::new(CaseFile::embedded("rigid-walls-sine")?)
 ///     .set("wall.*.restitution", 0.8)?
 ///     .vary(Axis::linear("load.1.harmonic.frequency", 4.0, 5.0, 3)?.followed(Follow::Up))
-///     .over(Stretch::Periods { settle: 20, keep: 10 })
+///     .over(Window::Periods { settle: 20, keep: 10 })
 ///     .by("event")
 ///     .measure([Measure::DisplacementMax, Measure::Contacts]);
 /// let plan = sweep.plan()?;
@@ -94,7 +94,7 @@ pub struct Sweep {
     pub(super) case: CaseFile,
     pub(super) axes: Vec<Axis>,
     pub(super) random: Option<Random>,
-    pub(super) stretch: Stretch,
+    pub(super) window: Window,
     pub(super) scheme: Option<String>,
     pub(super) measures: Vec<Measure>,
     pub(super) samples: Option<Samples>,
@@ -116,7 +116,7 @@ impl Sweep {
             case,
             axes: Vec::new(),
             random: None,
-            stretch: Stretch::Case,
+            window: Window::Case,
             scheme: None,
             measures: Vec::new(),
             samples: None,
@@ -151,8 +151,8 @@ impl Sweep {
 
     /// The same sweep with rows of that duration.
     #[must_use]
-    pub fn over(mut self, stretch: Stretch) -> Self {
-        self.stretch = stretch;
+    pub fn over(mut self, window: Window) -> Self {
+        self.window = window;
         self
     }
 

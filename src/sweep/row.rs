@@ -2,8 +2,8 @@
 
 use super::measure::Measure;
 use super::plan::{Plan, Point};
+use super::row_observer::RowObserver;
 use super::sample::Sample;
-use super::watch::Watch;
 use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
 use crate::residual::{Finding, Judge};
@@ -228,7 +228,7 @@ impl Plan {
             if exact { TimeGrid::exact(scene.duration, &time) } else { TimeGrid::stepping(scene.duration, &time) }?;
         let mut stepper = Stepper::by(scene, method, grid.step)?;
         let start = stepper.state();
-        let mut watch = Watch::new(&self.sweep, stepper.scene(), &time, &start)?;
+        let mut observer = RowObserver::new(&self.sweep, stepper.scene(), &time, &start)?;
         let mut judge = judged.then(|| {
             let seen = stepper.checked();
             Judge::over(seen.shared(), seen.wall_masses(), stepper.contract(), grid.step, (&start.q, &start.v))
@@ -237,7 +237,7 @@ impl Plan {
         let mut count = 0;
         loop {
             let step = stepper.step()?;
-            watch.see(&step);
+            observer.see(&step);
             if let Some(judge) = &mut judge {
                 judge.see(&step);
             }
@@ -250,8 +250,8 @@ impl Plan {
                 break;
             }
         }
-        let (open, note) = (stepper.open_contacts(), watch.note());
-        let (measures, samples) = watch.finish(&self.sweep, stepper.checked(), &open);
+        let (open, note) = (stepper.open_contacts(), observer.note());
+        let (measures, samples) = observer.finish(&self.sweep, stepper.checked(), &open);
         Ok(Done {
             measures,
             samples,

@@ -60,6 +60,6 @@ impl Columns {
             && pairs(&self.holes, &self.hole_force)
             && pairs(&self.holes, &self.hole_impulse)
             && (self.contact_wear.is_empty() || self.contact_wear.len() == self.contacts.len())
-            && self.contacts.iter().all(|contact| contact.wall < self.walls.len() + self.holes.len())
+            && self.contacts.iter().all(|contact| contact.wall < self.walls.len())
     }
 }

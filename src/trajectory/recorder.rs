@@ -37,7 +37,7 @@ impl Recorder {
         let column = || Vec::with_capacity(capacity);
         let (n, m) = (scene.system.degrees_of_freedom(), scene.walls.len());
         let columns = |count: usize| (0..count).map(|_| column()).collect::<Vec<_>>();
-        let holes: Vec<String> = scene.holes().map(|hole| hole.support.name.clone()).collect();
+        let holes: Vec<String> = scene.holes().map(|hole| hole.name.to_owned()).collect();
         let rubbed = if scene.turns_or_rubs() { m } else { 0 };
         let mut recorder = Self {
             columns: Columns {
@@ -66,13 +66,14 @@ impl Recorder {
             pending: vec![0.0; m],
             partial: vec![0.0; m],
             rubbed: Rubbed {
+                walls: scene.holes().map(|hole| hole.index).collect(),
                 force: vec![[0.0; 2]; holes.len()],
                 holes: vec![[0.0; 2]; holes.len()],
                 friction: vec![0.0; rubbed],
             },
             state: [vec![0.0; n], vec![0.0; n]],
         };
-        let force: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.at.dot(q), w.at.dot(v))).collect();
+        let force: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.row().dot(q), w.row().dot(v))).collect();
         recorder.push(0.0, q, v, &force);
         recorder.columns.fill();
         recorder
@@ -93,15 +94,15 @@ impl Recorder {
         if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != m) {
             return;
         }
-        let known = &mut self.rubbed;
-        if step.holes.len() != known.holes.len() || step.friction.len() != known.friction.len() {
+        let planar = self.rubbed.friction.len();
+        if [step.friction.len(), step.normal.len(), step.turned.len()] != [planar; 3] {
             return;
         }
         if self.columns.time.len() as u64 > self.rows {
             return;
         }
-        if !matches!(step.path, Path::Series(_)) && (!step.friction.is_empty() || !step.holes.is_empty()) {
-            known.see(step);
+        if !matches!(step.path, Path::Series(_)) && planar > 0 {
+            self.rubbed.see(step);
         }
         self.columns.contacts.extend_from_slice(step.closed);
         match step.path {
@@ -207,8 +208,8 @@ impl Recorder {
                 column[0] = path.contact_force(wall, 0.0);
             }
             if let Path::Series(series) = path {
-                for (hole, [y, z]) in self.columns.hole_force.iter_mut().enumerate() {
-                    [y[0], z[0]] = series.hole_force(hole, 0.0);
+                for (&wall, [y, z]) in self.rubbed.walls.iter().zip(&mut self.columns.hole_force) {
+                    [y[0], z[0]] = series.hole_force(wall, 0.0);
                 }
             }
         }
@@ -265,8 +266,8 @@ impl Recorder {
         for (column, &p) in t.impulse.iter_mut().zip(step.impulse) {
             column[0] += p;
         }
-        for (column, hole) in t.hole_impulse.iter_mut().zip(step.holes) {
-            column.iter_mut().zip(hole.push()).for_each(|(column, push)| column[0] += push);
+        for (column, hole) in t.hole_impulse.iter_mut().zip(&self.rubbed.walls) {
+            column.iter_mut().zip(step.hole_push(*hole)).for_each(|(column, push)| column[0] += push);
         }
         for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
             column[0] = work;

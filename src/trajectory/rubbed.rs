@@ -6,6 +6,8 @@ use crate::step::Step;
 /// What round supports and friction did since the last row; all empty in scenes without.
 #[derive(Debug, Clone)]
 pub(super) struct Rubbed {
+    /// The indices of the round walls.
+    pub walls: Vec<usize>,
     /// Impulse of each round support along y and z, and friction of each wall, N s.
     pub holes: Vec<[f64; 2]>,
     pub friction: Vec<f64>,
@@ -18,7 +20,7 @@ impl Rubbed {
     /// forces to those at its end.
     #[inline(never)]
     pub fn follow(&mut self, series: &Series, [from, to]: [f64; 2]) {
-        for (hole, (sum, force)) in self.holes.iter_mut().zip(&mut self.force).enumerate() {
+        for (&hole, (sum, force)) in self.walls.iter().zip(self.holes.iter_mut().zip(&mut self.force)) {
             let push = series.hole_impulse(hole, from, to);
             *sum = [sum[0] + push[0], sum[1] + push[1]];
             *force = series.hole_force(hole, to);
@@ -28,8 +30,8 @@ impl Rubbed {
     /// Adds the impulses of the holes at the instant that ends a step of exact motion.
     #[inline(never)]
     pub fn jump(&mut self, step: &Step<'_>) {
-        for (sum, hole) in self.holes.iter_mut().zip(step.holes) {
-            let push = hole.normal.map(|n| -hole.jump * n);
+        for (sum, &wall) in self.holes.iter_mut().zip(&self.walls) {
+            let push = step.normal[wall].map(|n| -step.jump[wall] * n);
             *sum = [sum[0] + push[0], sum[1] + push[1]];
         }
     }
@@ -41,8 +43,8 @@ impl Rubbed {
         for (sum, f) in self.friction.iter_mut().zip(step.friction) {
             *sum += f;
         }
-        for ((sum, force), hole) in self.holes.iter_mut().zip(&mut self.force).zip(step.holes) {
-            let push = hole.push();
+        for ((sum, force), hole) in self.holes.iter_mut().zip(&mut self.force).zip(&self.walls) {
+            let push = step.hole_push(*hole);
             *sum = [sum[0] + push[0], sum[1] + push[1]];
             *force = push.map(|push| push / h);
         }

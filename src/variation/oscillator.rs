@@ -60,7 +60,7 @@ impl OscillatorVariation {
         };
         let dashpots = scene.walls.iter().enumerate().filter_map(|(wall, w)| {
             let damping = w.law.damping();
-            let at_rest = Dashpot { wall, sign: w.side.sign(), position: w.position, damping, touches: false };
+            let at_rest = Dashpot { wall, sign: w.side().sign(), position: w.position(), damping, touches: false };
             (damping > 0.0).then_some(at_rest)
         });
         Ok(Self {

@@ -56,7 +56,7 @@ const ONCE: f64 = 1e-6;
 impl StructureVariation {
     pub fn new(scene: &Scene) -> Result<Self> {
         if let Some(hole) = scene.holes().next() {
-            let found = format!("round, at the support {:?}", hole.support.name);
+            let found = format!("round, at the support {:?}", hole.name);
             let expected = "walls and flats: the derivative of a motion round a hole is not known";
             return Err(Error::invalid("support", found, expected));
         }
@@ -65,7 +65,7 @@ impl StructureVariation {
         let (n, rows) = (flow.body.n, flow.body.rows.count());
         let walls = scene.walls.iter().zip(&flow.body.row_of).map(|(wall, &row)| {
             let (stiffness, damping) = wall.law.spring().map_or((0.0, 0.0), |s| (s.stiffness, s.damping));
-            let (sign, position, restitution) = (wall.side.sign(), wall.position, wall.law.restitution());
+            let (sign, position, restitution) = (wall.side().sign(), wall.position(), wall.law.restitution());
             At { row, sign, position, restitution, stiffness, damping, during: false, after: false }
         });
         Ok(Self {

@@ -9,7 +9,7 @@ use super::blows::Blow;
 use super::stretch::{Slid, Sliding};
 use super::work::{sliding_distance, work_of_impulse};
 use crate::flow::Series;
-use crate::scene::{PlaneRows, Scene, Shape, heading};
+use crate::scene::{Face, PlaneRows, Scene, Support, Wall, heading};
 use crate::step::{Path, Step};
 
 /// Number of parts of a stretch of exact motion, which lasts at most two radians of its fastest
@@ -39,7 +39,7 @@ pub(crate) enum Manner {
 pub(crate) struct Rub {
     /// Index of the support in the scene.
     pub support: usize,
-    /// The contact: the index of the wall of a flat, or the number of walls plus that of the hole.
+    /// The index of the wall.
     pub contact: usize,
     pub manner: Manner,
     /// Its angle, degrees from +y towards +z, from 0 to below 360, and its outward normal n; their
@@ -78,29 +78,26 @@ struct Section {
 #[derive(Debug, Clone, Copy)]
 enum Contact {
     Flat { wall: usize, rigid: bool, angle: f64, normal: [f64; 2] },
-    Hole { hole: usize, rigid: bool },
+    Hole { wall: usize, rigid: bool },
 }
 
 impl Rubs {
     /// The contacts of `scene` as the scheme sees it.
     pub fn new(scene: &Scene) -> Self {
-        let mut holes = 0;
-        let section = |(support, blows): (&crate::scene::Support, Vec<Blow>)| {
-            let contacts = match &support.shape {
-                Shape::Flats(flats) => flats
-                    .iter()
-                    .map(|flat| Contact::Flat {
-                        wall: flat.wall,
-                        rigid: scene.walls.get(flat.wall).is_some_and(|wall| wall.law.is_rigid()),
-                        angle: flat.direction.rem_euclid(360.0) % 360.0,
-                        normal: heading(flat.direction),
-                    })
-                    .collect(),
-                Shape::Round { law, .. } => {
-                    holes += 1;
-                    vec![Contact::Hole { hole: holes - 1, rigid: law.is_rigid() }]
-                }
+        let section = |(support, blows): (&Support, Vec<Blow>)| {
+            let contact = |(index, wall): (usize, &Wall)| {
+                let rigid = wall.law.is_rigid();
+                Some(match wall.face {
+                    Face::Flat { direction, .. } => Contact::Flat {
+                        wall: index,
+                        rigid,
+                        angle: direction?.rem_euclid(360.0) % 360.0,
+                        normal: heading(direction?),
+                    },
+                    Face::Round { .. } => Contact::Hole { wall: index, rigid },
+                })
             };
+            let contacts = support.members(&scene.walls).filter_map(contact).collect();
             Section { at: support.at.clone(), contacts, blows }
         };
         let sections = scene.supports.iter().zip(Blow::all(scene)).map(section).collect();
@@ -114,8 +111,7 @@ impl Rubs {
 
     /// Number of contacts; a [`Rub::contact`] is below it.
     pub fn contacts(&self) -> usize {
-        let holes = self.sections.iter().flat_map(|section| &section.contacts);
-        self.walls + holes.filter(|contact| matches!(contact, Contact::Hole { .. })).count()
+        self.walls
     }
 
     /// Calls `each` with every contact that pushed in `step` between the times `from` and `to` (s);
@@ -123,7 +119,7 @@ impl Rubs {
     pub fn see(&self, step: &Step<'_>, [from, to]: [f64; 2], mut each: impl FnMut(&Rub)) {
         for (support, section) in self.sections.iter().enumerate() {
             for contact in &section.contacts {
-                let Some((index, push)) = contact.push(step, self.walls) else { continue };
+                let Some((index, push)) = contact.push(step) else { continue };
                 let blank = Rub {
                     support,
                     contact: index,
@@ -142,8 +138,8 @@ impl Rubs {
                     (Path::Series(series), Contact::Flat { wall, .. }) => {
                         along(series, (step, *wall), section, [from, to], &blank, &mut each);
                     }
-                    (Path::Series(series), Contact::Hole { hole, .. }) => {
-                        around(series, (step, *hole), section, [from, to], &blank, &mut each);
+                    (Path::Series(series), Contact::Hole { wall, .. }) => {
+                        around(series, (step, *wall), section, [from, to], &blank, &mut each);
                     }
                     _ => each(&on_grid(step, section, [from, to], &blank)),
                 }
@@ -168,18 +164,17 @@ impl Contact {
     }
 
     /// The index of the contact, with its force and impulse; `None` if there was none.
-    fn push(self, step: &Step<'_>, walls: usize) -> Option<(usize, Push)> {
+    fn push(self, step: &Step<'_>) -> Option<(usize, Push)> {
         match self {
             Self::Flat { wall, angle, normal, .. } => {
                 let impulse = step.impulse.get(wall).copied().filter(|p| *p != 0.0)?.abs();
                 let friction = step.friction.get(wall).copied().unwrap_or(0.0);
                 Some((wall, Push { angle, normal, impulse, friction }))
             }
-            Self::Hole { hole, .. } => {
-                let done = step.holes.get(hole).filter(|done| done.impulse != 0.0)?;
-                let [y, z] = done.normal;
-                let angle = degrees([y, z]);
-                Some((walls + hole, Push { angle, normal: [y, z], impulse: done.impulse, friction: done.friction }))
+            Self::Hole { wall: index, .. } => {
+                let impulse = step.impulse.get(index).copied().filter(|p| *p != 0.0)?;
+                let (normal, friction) = (*step.normal.get(index)?, *step.friction.get(index)?);
+                Some((index, Push { angle: degrees(normal), normal, impulse, friction }))
             }
         }
     }
@@ -284,7 +279,7 @@ fn around(
         });
     }
     if to >= step.end {
-        let jump = step.holes.get(hole).map_or(0.0, |done| done.jump);
+        let jump = step.jump.get(hole).copied().unwrap_or(0.0);
         let left =
             if step.end > step.start { speed(step.end) } else { section.along(blank.normal, step.velocity_before) };
         knock(step, section, (jump, left), blank, each);

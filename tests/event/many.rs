@@ -109,9 +109,8 @@ fn chain(n: usize, m: f64, k: f64, beta: f64) -> Structure {
     Structure { mass: Symmetric::diagonal(&vec![m; n]), damping: stiffness(beta), stiffness: stiffness(1.0) }
 }
 
-fn at(mut wall: Wall, row: Row) -> Wall {
-    wall.at = row;
-    wall
+fn at(wall: Wall, row: Row) -> Wall {
+    wall.at(row)
 }
 
 fn load_at(mut load: Load, row: Row) -> Load {
@@ -251,7 +250,7 @@ fn permuting_degrees_of_freedom_permutes_the_motion() {
         **s = Structure { mass: matrix(&s.mass), damping: matrix(&s.damping), stiffness: matrix(&s.stiffness) };
     }
     let row = |row: &Row| Row::new(row.entries().iter().map(|&(i, x)| (turn(i), x)).collect());
-    turned.walls.iter_mut().for_each(|w| w.at = row(&w.at));
+    turned.walls.iter_mut().for_each(|w| *w = w.clone().at(row(w.row())));
     turned.loads.iter_mut().for_each(|l| l.at = row(&l.at));
     turned.probes.iter_mut().for_each(|p| p.at = row(&p.at));
     let other = exact(&turned, 50.0);

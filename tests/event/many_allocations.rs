@@ -20,9 +20,8 @@ fn steps_from_event_to_event_allocate_nothing() {
         let upper = Wall::upper(&format!("u{dof}"), 1e-3).with_restitution(if dof % 2 == 0 { 0.0 } else { 0.6 });
         let lower = Wall::lower(&format!("l{dof}"), -1e-3);
         let lower = if dof % 3 == 0 { lower.with_elasticity(1e5, 20.0) } else { lower.with_restitution(0.3) };
-        for mut wall in [upper, lower] {
-            wall.at = Row::dof(dof);
-            scene = scene.with_wall(wall);
+        for wall in [upper, lower] {
+            scene = scene.with_wall(wall.at(Row::dof(dof)));
         }
     }
     let mut stepper = Stepper::new(&scene, &Scheme::Event, 2.0).unwrap();

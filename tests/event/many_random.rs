@@ -62,7 +62,8 @@ fn with_walls(mut scene: Scene, walls: &[AnyWall], gap: Option<f64>) -> Scene {
         let gap = gap.unwrap_or(wall.gap);
         let w = row.dot(&scene.initial.q);
         let (side, position) = if wall.upper { (Side::Upper, w + gap) } else { (Side::Lower, w - gap) };
-        scene.walls.push(Wall { name: format!("w{i}"), side, position, law: wall.law, at: row });
+        let flat = Wall::flat(&format!("w{i}"), side, position).at(row);
+        scene.walls.push(Wall { law: wall.law, ..flat });
     }
     scene
 }
@@ -76,7 +77,7 @@ fn follow(scene: &Scene, most: u64) -> Result<Residuals, Error> {
         let step = stepper.step()?;
         steps += 1;
         for (wall, (jump, force)) in scene.walls.iter().zip(step.jump.iter().zip(step.force)) {
-            let sign = wall.side.sign();
+            let sign = wall.side().sign();
             assert!(sign * jump >= 0.0 && sign * force >= 0.0, "{} pulls at {}", wall.name, step.end);
         }
         for contact in step.closed {
@@ -117,7 +118,7 @@ fn a_mass_that_leaves_a_soft_damped_wall_fast_has_left_it() {
     let q = [0.06438161750451912, 0.0011522438802219958, 0.09222280244960343];
     let v = [-0.5204562968730673, 0.6052631434141137, -0.3789225689336914];
     let mut left = scene(structure).with_initial(&q, &v).with_duration(1.0);
-    let wall = Wall { at: Row::dof(1), ..Wall::lower("soft", q[1]) };
+    let wall = Wall::lower("soft", q[1]).at(Row::dof(1));
     left = left.with_wall(wall.with_elasticity(10.0, 6.832774901541856));
     let mut load = Load::harmonic(3.471248466688291, 0.5, 0.0);
     load.at = Row::dof(2);
@@ -146,7 +147,7 @@ proptest! {
         let struck = with_walls(struck, &walls, Some(0.0));
         let mut stepper = Stepper::new(&struck, &Scheme::Event, 1.0).unwrap();
         let before = struck.system.mass_form(&v[..n], &v[..n]);
-        let approaches = |v: &[f64]| struck.walls.iter().map(|w| -w.side.sign() * w.at.dot(v)).fold(0.0, f64::max);
+        let approaches = |v: &[f64]| struck.walls.iter().map(|w| -w.side().sign() * w.row().dot(v)).fold(0.0, f64::max);
         let step = stepper.step().unwrap();
         let after = struck.system.mass_form(step.v, step.v);
         if approaches(&v[..n]) > 1e-10 {

@@ -197,7 +197,7 @@ fn sound(scene: &Scene, run: &Judged, reach: f64, energy: f64) -> bool {
     }
     // A gap may be far less than the displacements that it is the difference of, or far more than
     // all motion.
-    let reach = scene.walls.iter().map(|w| w.position.abs()).fold(reach.max(run.reach), f64::max);
+    let reach = scene.walls.iter().map(|w| w.position().abs()).fold(reach.max(run.reach), f64::max);
     let share = (reach / r.gap_scale).max(1.0);
     r.penetration_m <= 1e-11 * reach
         && r.complementarity * r.gap_scale <= 1e-11 * reach

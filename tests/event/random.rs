@@ -18,7 +18,7 @@ fn follow(scene: &Scene, stride: f64) -> Result<u64, Error> {
         steps += 1;
         let (from, to) = (event.start(), event.end());
         assert!(to >= from);
-        let span = scene.walls.iter().map(|w| w.position.abs()).fold(scene.gap_scale(), f64::max);
+        let span = scene.walls.iter().map(|w| w.position().abs()).fold(scene.gap_scale(), f64::max);
         for (index, wall) in scene.walls.iter().enumerate() {
             let rigid = wall.law.is_rigid();
             // Dense enough to notice a missed wall; only in the first steps of a run of a million.
@@ -30,7 +30,7 @@ fn follow(scene: &Scene, stride: f64) -> Result<u64, Error> {
                 let slack = 1e-13 * (span + q.abs()) + 8.0 * f64::EPSILON * t * v.abs();
                 assert!(!rigid || wall.gap(q) >= -slack, "gap {:e} at {t}, slack {slack:e}", wall.gap(q));
             }
-            let sign = wall.side.sign();
+            let sign = wall.side().sign();
             assert!(sign * event.jump()[index] >= 0.0);
             assert!(sign * event.force()[index] >= 0.0);
         }

@@ -1,8 +1,8 @@
 //! What the judge says of exact motion in a round hole: sizes in closed form, and whom it names.
 
-use crate::rubbing::{body, hole, isotropic, with};
+use crate::rubbing::{body, change_hole, hole, isotropic, with};
 use signorini::residual::{Judge, Residuals};
-use signorini::{Finding, Refuted, Scene, Scheme, Shape, Stepper, Wall, heading};
+use signorini::{Finding, Refuted, Scene, Scheme, Stepper, Wall, heading};
 
 /// Gap, m, mass, kg, and speed along the brim, m/s: pressed by m v²/γ = 4 N.
 const GAP: f64 = 5e-3;
@@ -33,10 +33,10 @@ fn judged(scene: &Scene, told: &Scene) -> (Vec<Finding>, Residuals) {
 
 fn widened(scene: &Scene, share: f64, centre: [f64; 2]) -> Scene {
     let mut told = scene.clone();
-    told.supports[1].centre = centre;
-    if let Shape::Round { gap, .. } = &mut told.supports[1].shape {
-        *gap *= share;
-    }
+    change_hole(&mut told, 1, |hole| {
+        let gap = hole.position() * share;
+        hole.with_position(gap).with_centre(centre)
+    });
     told
 }
 
@@ -49,7 +49,8 @@ fn a_body_that_slides_round_is_measured_to_rounding() {
         // Rounding of 4 N, of 5 mm and of 10 mJ, over 10 rad.
         assert!((seen.force_scale_n / (MASS * SPEED * SPEED / GAP) - 1.0).abs() < 1e-9, "{seen:?}");
         assert!(seen.tension_n < 1e-9 && seen.complementarity < 1e-9 && seen.force_balance < 1e-9, "{seen:?}");
-        assert!(seen.hole_depth_m[1] < 1e-14 && seen.depth_m == [0.0], "{seen:?}");
+        let [hole, far] = ["hole", "far"].map(|name| seen.depth_m[scene.wall_index(name).expect("a wall")]);
+        assert!(hole < 1e-14 && far == 0.0, "{seen:?}");
         assert!((seen.energy.initial_j - 0.01).abs() < 1e-15 && seen.energy.residual < 1e-10, "{seen:?}");
     }
 }
@@ -57,18 +58,18 @@ fn a_body_that_slides_round_is_measured_to_rounding() {
 #[test]
 fn a_hole_of_another_size_is_named_with_the_depth() {
     let scene = sliding(30.0, 0.2);
-    let depth = 1e-3 * GAP;
+    let (depth, hole) = (1e-3 * GAP, scene.wall_index("hole").expect("a wall"));
     let (findings, seen) = judged(&scene, &widened(&scene, 1.0 - 1e-3, [0.0; 2]));
     let found = findings.iter().find(|finding| finding.refuted == Refuted::Penetration).expect("a finding");
     assert_eq!(found.wall.as_deref(), Some("hole"), "{findings:?}");
-    assert!((seen.hole_depth_m[1] / depth - 1.0).abs() < 1e-9, "{seen:?}");
+    assert!((seen.depth_m[hole] / depth - 1.0).abs() < 1e-9, "{seen:?}");
     assert!((seen.penetration_m / depth - 1.0).abs() < 1e-9, "{seen:?}");
     // A larger one is not touched, and pushes all the same.
     let (findings, seen) = judged(&scene, &widened(&scene, 1.0 + 1e-3, [0.0; 2]));
     let found = findings.iter().find(|finding| finding.refuted == Refuted::Complementarity).expect("a finding");
     // The smaller of 1e-3 of the gap over the scale of gaps and 4 N over that of forces.
     assert!((seen.complementarity * seen.gap_scale / depth - 1.0).abs() < 1e-6, "{seen:?}");
-    assert_eq!((found.wall.as_deref(), seen.hole_depth_m[1]), (Some("hole"), 0.0), "{findings:?}");
+    assert_eq!((found.wall.as_deref(), seen.depth_m[hole]), (Some("hole"), 0.0), "{findings:?}");
 }
 
 #[test]
@@ -89,6 +90,7 @@ fn a_force_beside_the_normal_is_measured_by_its_share() {
 #[test]
 fn recorded_sums_that_are_not_those_of_the_steps_are_found() {
     let scene = sliding(40.0, 0.02);
+    let hole = scene.wall_index("hole").expect("a wall");
     for (scheme, h) in [
         (Scheme::MoreauJean { theta: 0.5 }, 1e-4),
         (Scheme::ImplicitEuler, 1e-4),
@@ -103,7 +105,7 @@ fn recorded_sums_that_are_not_those_of_the_steps_are_found() {
             while stepper.time() < scene.duration - 0.5 * h.min(1e-4) {
                 let step = stepper.step().expect("a step");
                 judge.see(&step);
-                let push = step.holes[1].push();
+                let push = step.hole_push(hole);
                 sum = [sum[0] + push[0], sum[1] + push[1]];
             }
             assert!(sum[0].hypot(sum[1]) > 0.05, "{scheme}: {sum:?}");

@@ -8,14 +8,14 @@ use crate::draws;
 use crate::pendulum::{IMPULSE, PERIOD, WORK, pendulum};
 use crate::random_structures::Draws;
 use crate::rubbing::{
-    MOREAU_JEAN, body, energy, hole, isotropic, load, random_scene, rotating, turned, with, with_flats,
+    MOREAU_JEAN, body, change_hole, energy, hole, isotropic, load, random_scene, rotating, turned, with, with_flats,
 };
+use crate::steps::{HoleStep, Pushes};
 use signorini::linear::Symmetric;
 use signorini::residual::Judge;
 use signorini::variation::Product;
 use signorini::{
-    Load, Options, PlaneRows, Refuted, Row, Run, Scene, Scheme, Shape, State, Step, Stepper, Structure, Wall, WallLaw,
-    run,
+    Load, Options, PlaneRows, Refuted, Row, Run, Scene, Scheme, State, Step, Stepper, Structure, Wall, run,
 };
 
 /// Follows `scene` to its end under a judge, who finds nothing.
@@ -172,7 +172,7 @@ fn a_whirling_body_is_pressed_with_the_force_of_the_closed_form() {
     let stepper = follow(&whirl(), 1.0, |step| {
         let span = step.end - step.start;
         if span > 0.0 {
-            worst = worst.max((step.holes[0].impulse / span / 7.434637702628067058478421 - 1.0).abs());
+            worst = worst.max((step.impulse[0] / span / 7.434637702628067058478421 - 1.0).abs());
         }
     });
     // The start has roundings, which swing about the steady motion.
@@ -249,7 +249,6 @@ fn on_a_diameter_a_hole_is_a_pair_of_planar_walls() {
             let mut sum = 0.0;
             let stepper = follow(&scene, 1.0, |step| {
                 sum += step.impulse.iter().map(|p| p.abs()).sum::<f64>();
-                sum += step.holes.iter().map(|hole| hole.impulse).sum::<f64>();
             });
             (stepper.state(), sum, stepper.counters().events)
         });
@@ -273,8 +272,7 @@ fn two_holes() -> Scene {
     let scene =
         Scene::structure(Structure { mass: chain(0.5, 0.8), damping: Symmetric::diagonal(&[0.4; 4]), stiffness });
     let place = |i: usize| PlaneRows { y: Row::dof(2 * i), z: Row::dof(2 * i + 1) };
-    let mut off = hole("off", place(1), 0.8e-3, 0.6, 0.0);
-    off.centre = [0.3e-3, -0.2e-3];
+    let off = hole("off", place(1), 0.8e-3, 0.6, 0.0).with_centre([0.3e-3, -0.2e-3]);
     let scene = with(with(scene, hole("first", place(0), 1e-3, 0.4, 0.0)), off);
     rotating(scene, 4.0, 7.0).with_initial(&[0.0; 4], &[0.1, 0.05, 0.0, 0.08]).with_duration(0.4)
 }
@@ -283,7 +281,7 @@ fn two_holes() -> Scene {
 fn several_holes_at_once_and_flats_keep_their_laws() {
     let mut together = 0;
     let stepper = follow(&two_holes(), 1.0, |step| {
-        together += u32::from(step.holes.iter().all(|hole| hole.impulse > 0.0));
+        together += u32::from(step.impulse.iter().all(|p| *p > 0.0));
     });
     assert!(together > 0 && stepper.counters().handed_steps == 0, "{:?}", stepper.counters());
     // Flats at the place of the first hole cut off pieces of its circle.
@@ -291,7 +289,9 @@ fn several_holes_at_once_and_flats_keep_their_laws() {
     let mixed = with_flats(two_holes(), "flats", PlaneRows { y: Row::dof(0), z: Row::dof(1) }, &flats, 0.3, 0.0);
     let mut both = 0;
     follow(&mixed, 1.0, |step| {
-        both += u32::from(step.impulse.iter().any(|p| *p != 0.0) && step.holes.iter().any(|hole| hole.impulse > 0.0));
+        let mut walls = mixed.walls.iter().zip(step.impulse);
+        let flat = walls.clone().any(|(wall, p)| !wall.is_round() && *p != 0.0);
+        both += u32::from(flat && walls.any(|(wall, p)| wall.is_round() && *p > 0.0));
     });
     assert!(both > 0);
 }
@@ -374,8 +374,8 @@ fn random_scenes_keep_every_law() {
             // over move what is behind a wall back onto it.
             assert!(!exact || now <= last + 1e-13 * scale, "{case}: {:e} at {}", now - last, step.end);
             last = now;
-            slid += u64::from(step.holes.iter().any(|hole| hole.impulse > hole.jump));
-            struck += u64::from(step.holes.iter().any(|hole| hole.jump > 0.0));
+            slid += u64::from(step.impulse.iter().zip(step.jump).any(|(impulse, jump)| impulse > jump));
+            struck += u64::from(step.jump.iter().any(|jump| *jump > 0.0));
         }
         let findings = judge.findings();
         assert!(findings.is_empty(), "{case}: {findings:#?}");
@@ -386,15 +386,17 @@ fn random_scenes_keep_every_law() {
 
 /// The findings on the motion of `scene` of a judge who is told the scene `told`, and of each step
 /// what `alter` makes of its holes.
-fn accused(scene: &Scene, told: &Scene, alter: impl Fn(&mut signorini::HoleStep)) -> Vec<Refuted> {
+fn accused(scene: &Scene, told: &Scene, alter: impl Fn(&mut HoleStep)) -> Vec<Refuted> {
     let mut stepper = Stepper::new(scene, &Scheme::Event, 1.0).unwrap();
     let state = stepper.state();
     let mut judge = Judge::new(told, stepper.contract(), 1.0, &state.q, &state.v);
     while stepper.time() < scene.duration {
         let mut step = stepper.step().unwrap();
-        let mut holes = step.holes.to_vec();
-        holes.iter_mut().filter(|hole| hole.impulse > 0.0).for_each(&alter);
-        step.holes = &holes;
+        let mut pushes = Pushes::of(&step);
+        for hole in (0..step.impulse.len()).filter(|&hole| step.impulse[hole] > 0.0) {
+            pushes.alter(hole, &alter);
+        }
+        pushes.show(&mut step);
         judge.see(&step);
     }
     judge.findings().into_iter().map(|finding| finding.refuted).collect()
@@ -404,15 +406,13 @@ fn accused(scene: &Scene, told: &Scene, alter: impl Fn(&mut signorini::HoleStep)
 fn the_judge_of_exact_motion_finds_faults() {
     let changed = |scene: &Scene, share: f64, e: f64, centre: [f64; 2]| {
         let mut told = scene.clone();
-        let support = &mut told.supports[0];
-        support.centre = centre;
-        if let Shape::Round { gap, law } = &mut support.shape {
-            *gap *= share;
-            *law = WallLaw::Rigid { restitution: e };
-        }
+        change_hole(&mut told, 0, |hole| {
+            let gap = hole.position() * share;
+            hole.with_position(gap).with_centre(centre).with_restitution(e)
+        });
         told
     };
-    let (settling, sliding, still) = (free(0.5), pendulum().with_duration(PERIOD), |_: &mut signorini::HoleStep| ());
+    let (settling, sliding, still) = (free(0.5), pendulum().with_duration(PERIOD), |_: &mut HoleStep| ());
     for (scene, e) in [(&settling, 0.5), (&sliding, 0.7)] {
         assert_eq!(accused(scene, &changed(scene, 1.0, e, [0.0; 2]), still), []);
         // Faults of 1e-4 and 1e-5, beyond the tolerance of 1e-6.

@@ -2,14 +2,13 @@
 //! size is found.
 
 use crate::rubbing::{MOREAU_JEAN, body, hole, isotropic, load, rotating, with, with_flats};
+use crate::steps::{HoleStep, Pushes};
 use signorini::residual::{Judge, Residuals};
-use signorini::{Finding, HoleStep, Load, Refuted, Row, Scene, Step, Stepper};
+use signorini::{Finding, Load, Refuted, Row, Scene, Step, Stepper};
 
 /// What the judge is shown of a step in place of the true values.
 struct Shown {
-    holes: Vec<HoleStep>,
-    friction: Vec<f64>,
-    impulse: Vec<f64>,
+    pushes: Pushes,
     after: Vec<f64>,
 }
 
@@ -20,15 +19,10 @@ fn judge(scene: &Scene, h: f64, mut alter: impl FnMut(&Step<'_>, &mut Shown)) ->
     let mut judge = Judge::new(scene, stepper.contract(), h, &state.q, &state.v);
     for _ in 0..2000 {
         let mut step = stepper.step().expect("a step");
-        let mut shown = Shown {
-            holes: step.holes.to_vec(),
-            friction: step.friction.to_vec(),
-            impulse: step.impulse.to_vec(),
-            after: step.velocity_after.to_vec(),
-        };
+        let mut shown = Shown { pushes: Pushes::of(&step), after: step.velocity_after.to_vec() };
         alter(&step, &mut shown);
-        (step.holes, step.friction) = (&shown.holes, &shown.friction);
-        (step.impulse, step.velocity_after) = (&shown.impulse, &shown.after);
+        shown.pushes.show(&mut step);
+        step.velocity_after = &shown.after;
         judge.see(&step);
     }
     (judge.findings(), judge.residuals())
@@ -39,8 +33,7 @@ fn scenes(friction: f64) -> Vec<(&'static str, Scene)> {
     let pressed = rotating(with(isotropic(1.0, 0.2, 100.0), hole("hole", body(), 5e-3, 0.4, friction)), 3.0, 5.0);
     let square = [0.0, 90.0, 180.0, 270.0].map(|direction| (direction + 20.0, 4e-3));
     let flats = rotating(with_flats(isotropic(1.0, 0.2, 100.0), "flats", body(), &square, 0.4, friction), 3.0, 5.0);
-    let mut off = hole("off", body(), 5e-3, 0.7, friction);
-    off.centre = [1e-3, 0.5e-3];
+    let off = hole("off", body(), 5e-3, 0.7, friction).with_centre([1e-3, 0.5e-3]);
     vec![
         ("a hole", pressed.clone()),
         ("flats and a hole", with(flats, hole("hole", body(), 4.5e-3, 0.2, friction))),
@@ -76,8 +69,8 @@ fn refuted(findings: &[Finding], refuted: Refuted) -> f64 {
 fn with_fault(friction: f64, fault: impl Fn(&mut HoleStep)) -> (Vec<Finding>, Residuals) {
     let mut done = false;
     judge(&scenes(friction)[0].1, 1e-4, |step, shown| {
-        if step.index >= 1000 && !done && shown.holes[0].impulse > 0.0 {
-            fault(&mut shown.holes[0]);
+        if step.index >= 1000 && !done && shown.pushes.impulse[0] > 0.0 {
+            shown.pushes.alter(0, &fault);
             done = true;
         }
     })
@@ -120,10 +113,10 @@ fn a_law_without_the_split_is_found() {
     let scene = rotating(with(isotropic(1.0, 0.2, 100.0), hole("hole", body(), 5e-3, 0.4, 0.0)), 3.0, 5.0);
     let (findings, _) = judge(&scene, 1e-4, |step, shown| {
         if step.index == 1500 {
-            let lost = 0.3 * shown.holes[0].impulse;
+            let lost = 0.3 * shown.pushes.impulse[0];
             assert!(lost > 0.0);
-            shown.holes[0].impulse -= lost;
-            for (after, n) in shown.after.iter_mut().zip(shown.holes[0].normal) {
+            shown.pushes.impulse[0] -= lost;
+            for (after, n) in shown.after.iter_mut().zip(shown.pushes.normal[0]) {
                 *after += lost * n;
             }
         }
@@ -138,7 +131,7 @@ fn a_push_out_of_reach_is_found() {
     let scene = scene.with_load(load(Load::harmonic(1e-3, 5.0, 0.0), Row::dof(0)));
     let (findings, _) = judge(&scene, 1e-4, |step, shown| {
         if step.index == 700 {
-            (shown.holes[0].normal, shown.holes[0].impulse) = ([1.0, 0.0], 1e-6);
+            (shown.pushes.normal[0], shown.pushes.impulse[0]) = ([1.0, 0.0], 1e-6);
         }
     });
     let found = findings.iter().find(|finding| finding.refuted == Refuted::WallLaw).expect("a finding");
@@ -151,9 +144,9 @@ fn faults_of_friction_at_flats_are_found() {
     for share in [-1.0, 0.5, 1.2] {
         let mut done = false;
         let (findings, _) = judge(&scene, 1e-4, |step, shown| {
-            let pushing = shown.friction.iter().position(|f| *f != 0.0);
+            let pushing = shown.pushes.friction.iter().position(|f| *f != 0.0);
             if let (true, false, Some(wall)) = (step.index >= 500, done, pushing) {
-                shown.friction[wall] *= share;
+                shown.pushes.friction[wall] *= share;
                 done = true;
             }
         });

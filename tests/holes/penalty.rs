@@ -2,13 +2,12 @@
 //! judge.
 
 use crate::random_structures::Draws;
-use crate::rubbing::{body, hole, isotropic, load, random_scene, rotating, turned, with};
-use crate::steps::follow;
+use crate::rubbing::{body, change_hole, hole, isotropic, load, random_scene, rotating, turned, with};
+use crate::steps::{HoleStep, Pushes, follow};
 use signorini::residual::Judge;
 use signorini::study::compare::compare;
 use signorini::{
-    Finding, HoleStep, Integrator, Load, Method, Options, PenaltyLaw, Refuted, Row, Scene, Scheme, Shape, Stepper,
-    Support, Wall, WallLaw, heading, run,
+    Finding, Integrator, Load, Method, Options, PenaltyLaw, Refuted, Row, Scene, Scheme, Stepper, Wall, heading, run,
 };
 
 fn penalty(law: PenaltyLaw) -> Scheme {
@@ -28,9 +27,8 @@ fn both(stiffness: f64) -> [PenaltyLaw; 2] {
 
 /// A free body of 1 kg in a hole that is off by a fifth of its gap.
 fn free() -> Scene {
-    let mut support = hole("hole", body(), GAP, 1.0, 0.0);
-    support.centre = [1e-3, 0.5e-3];
-    with(isotropic(1.0, 0.0, 0.0), support).with_initial(&[0.5e-3, 0.0], &[0.3, 0.17])
+    let off = hole("hole", body(), GAP, 1.0, 0.0).with_centre([1e-3, 0.5e-3]);
+    with(isotropic(1.0, 0.0, 0.0), off).with_initial(&[0.5e-3, 0.0], &[0.3, 0.17])
 }
 
 #[test]
@@ -43,7 +41,7 @@ fn energy_and_angular_momentum_are_kept_at_any_step() {
         for h in [5e-5, 3e-3] {
             let (mut apart, mut pushed, mut clear) = ([0.0_f64; 2], 0, 0);
             follow(&scene, &penalty(law), h, 40_000, |step| {
-                pushed += u32::from(step.holes[0].impulse > 0.0);
+                pushed += u32::from(step.impulse[0] > 0.0);
                 let inside = (step.q[0] - 1e-3).hypot(step.q[1] - 0.5e-3) < GAP;
                 apart[0] = apart[0].max((about(step.q, step.v) / moment - 1.0).abs());
                 if inside {
@@ -83,8 +81,8 @@ fn motion_on_a_diameter_is_that_between_two_penalised_walls() {
                 // Roundings, which each contact amplifies a little.
                 assert!((w - other.q[0]).abs() < 1e-12 && (v - other.v[0]).abs() < 1e-9, "{law}, {}", step.end);
                 let p = (other.impulse[0] + other.impulse[1]).abs();
-                assert!((step.holes[0].impulse - p).abs() < 1e-9, "{law}, {}", step.end);
-                pushes += u32::from(step.holes[0].impulse > 0.0);
+                assert!((step.impulse[0] - p).abs() < 1e-9, "{law}, {}", step.end);
+                pushes += u32::from(step.impulse[0] > 0.0);
             });
             assert!(pushes > 100, "{law}, {degrees}: {pushes}");
         }
@@ -117,25 +115,18 @@ fn stiffer_springs_approach_the_rigid_hole() {
     }
 }
 
-fn ring(mut support: Support, stiffness: f64) -> Support {
-    if let Shape::Round { law, .. } = &mut support.shape {
-        *law = WallLaw::Elastic { stiffness, damping: 0.0 };
-    }
-    support
-}
-
 /// A circular orbit beyond the gap of an elastic ring, which the penalty leaves as it is: m ω² r =
 /// k r + k_a (r − γ).
 #[test]
 fn a_circular_orbit_in_a_ring_is_followed_with_order_2() {
     let (radius, rate) = (0.03, 58.594_652_770_823_15);
-    let scene = with(isotropic(100.0, 0.0, 1e4), ring(hole("ring", body(), 0.02, 0.0, 0.0), 1e6))
+    let scene = with(isotropic(100.0, 0.0, 1e4), hole("ring", body(), 0.02, 0.0, 0.0).with_elasticity(1e6, 0.0))
         .with_initial(&[radius, 0.0], &[0.0, radius * rate]);
     assert!((100.0 * rate * rate * radius - (1e4 * radius + 1e6 * 0.01_f64)).abs() < 1e-7, "the orbit itself");
     let error = |h: f64| {
         let (mut force, mut out) = (0.0_f64, 0.0_f64);
         follow(&scene, &penalty(linear(1e3, 0.0)), h, (1.0 / h) as u64, |step| {
-            force = force.max((step.holes[0].impulse / h / 1e4 - 1.0).abs());
+            force = force.max((step.impulse[0] / h / 1e4 - 1.0).abs());
             out = out.max((step.q[0].hypot(step.q[1]) / radius - 1.0).abs());
         });
         [force, out]
@@ -159,7 +150,7 @@ fn a_turned_scene_has_the_turned_motion() {
         let image = beside.step().unwrap();
         let back = [c * image.q[0] + s * image.q[1], c * image.q[1] - s * image.q[0]];
         assert!((back[0] - step.q[0]).hypot(back[1] - step.q[1]) < 1e-12, "{}", step.end);
-        pushed += u32::from(step.holes[0].impulse > 0.0);
+        pushed += u32::from(step.impulse[0] > 0.0);
     });
     assert!(pushed > 20, "{pushed}");
 }
@@ -194,12 +185,12 @@ fn faults_of_a_penalised_hole_are_found() {
         let mut judge = Judge::new(&seen, stepper.contract(), 1e-3, &state.q, &state.v);
         for index in 0..1500 {
             let mut step = stepper.step().unwrap();
-            let mut holes = step.holes.to_vec();
+            let mut pushes = Pushes::of(&step);
             if index == 1400 {
-                assert!(holes[0].impulse > 0.0);
-                fault(&mut holes[0]);
+                assert!(pushes.impulse[0] > 0.0);
+                pushes.alter(0, fault);
             }
-            step.holes = &holes;
+            pushes.show(&mut step);
             judge.see(&step);
         }
         judge.findings()
@@ -226,7 +217,7 @@ fn other_integrators_and_friction_are_refused() {
         assert!(error.is_request() && error.to_string().contains("expected discrete-gradient"), "{error}");
     }
     let mut rubs = free();
-    rubs.supports[0].friction = 0.2;
+    rubs.walls[0].friction = 0.2;
     let error = Stepper::new(&rubs, &penalty(linear(1e6, 0.0)), 1e-4).unwrap_err();
     assert!(error.is_request() && error.to_string().contains("the one scheme for friction"), "{error}");
 }
@@ -253,7 +244,7 @@ fn a_run_shows_the_forces_of_the_hole() {
 fn a_comparison_names_the_restitution_of_the_hole() {
     let scene = free();
     let mut scene = Scene { duration: 0.1, ..scene };
-    scene.supports[0] = Support { centre: [1e-3, 0.5e-3], ..hole("hole", body(), GAP, 0.5, 0.0) };
+    change_hole(&mut scene, 0, |hole| hole.with_restitution(0.5));
     scene.probes.push(signorini::Probe { name: "y".into(), at: Row::dof(0) });
     let schemes = [Scheme::MoreauJean { theta: 0.5 }, penalty(linear(1e6, 0.0)), Scheme::ImplicitEuler];
     let time = Options::with_step(1e-4).time;

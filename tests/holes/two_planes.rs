@@ -218,7 +218,7 @@ fn one_plane_is_what_it_was() {
         [[wall]]\nname = \"w\"\nside = \"upper\"\nposition = 5e-3\n[time]\nend = 1.0\nstep = 1e-3\n";
     let one = case(text);
     assert!(matches!(one.scene.system, System::Oscillator(_)));
-    assert_eq!(one.scene.walls[0].at, Row::dof(0));
+    assert_eq!(*one.scene.walls[0].row(), Row::dof(0));
     assert_eq!(one.scene, case(&text.replace("planes = 1\n", "")).scene);
 }
 
@@ -234,10 +234,10 @@ fn opposite_flats_are_the_two_walls_of_one_row() {
     };
     let scene = flats("directions = [0, 180, 90]");
     let [right, left, top] = scene.walls.as_slice() else { panic!("{:?}", scene.walls) };
-    assert_eq!((right.side, right.position), (Side::Upper, 3e-3));
-    assert_eq!((left.side, left.position), (Side::Lower, -1e-3));
-    assert_eq!((top.side, top.position), (Side::Upper, 2e-3));
-    assert!(right.at == left.at && top.at == Row::dof(1));
+    assert_eq!((right.side(), right.position()), (Side::Upper, 3e-3));
+    assert_eq!((left.side(), left.position()), (Side::Lower, -1e-3));
+    assert_eq!((top.side(), top.position()), (Side::Upper, 2e-3));
+    assert!(right.row() == left.row() && *top.row() == Row::dof(1));
     assert_eq!([&right.name, &left.name, &top.name], ["s-flat-1", "s-flat-2", "s-flat-3"]);
     assert_eq!(scene.gap_scale(), 2e-3);
     assert_eq!(flats("sides = 4").walls.len(), 4);

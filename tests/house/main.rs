@@ -3,4 +3,5 @@
 mod circles;
 mod layers;
 mod public_api;
+mod schemes;
 mod width;

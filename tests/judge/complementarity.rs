@@ -178,8 +178,8 @@ fn shared(scene: &Scene, back: f64) -> Option<f64> {
     let e =
         |w: &Wall| if let WallLaw::Rigid { restitution } = w.law { restitution } else { panic!("rigid walls only") };
     let bounds = |side| {
-        let walls = scene.walls.iter().filter(move |w| w.side == side);
-        walls.map(move |w| (1.0 + e(w)) * w.position - e(w) * back)
+        let walls = scene.walls.iter().filter(move |w| w.side() == side);
+        walls.map(move |w| (1.0 + e(w)) * w.position() - e(w) * back)
     };
     let (lo, hi) =
         (bounds(Side::Lower).fold(f64::NEG_INFINITY, f64::max), bounds(Side::Upper).fold(f64::INFINITY, f64::min));
@@ -204,18 +204,18 @@ impl Oscillation {
         let v = v + blow(scene, t, t + h) / m;
         // The damper feels the blow from its own instant on, not from where the rule counts it; a
         // blow that a wall answers stays where the rule counts it.
-        let reached = |w: &Wall| w.side.sign() * (q + 0.5 * h * v - w.position) <= 1e-12 * scene.gap_scale();
-        let answers = |w: &Wall| reached(w) && w.side.sign() * blow(scene, t, t + h) < 0.0;
+        let reached = |w: &Wall| w.side().sign() * (q + 0.5 * h * v - w.position()) <= 1e-12 * scene.gap_scale();
+        let answers = |w: &Wall| reached(w) && w.side().sign() * blow(scene, t, t + h) < 0.0;
         let felt = if scene.walls.iter().any(answers) { 0.0 } else { shift(scene, t, t + h, t + h - theta * h) / m };
         let b = b - c * felt;
         let row = |w: &Wall| {
             let WallLaw::Rigid { restitution } = w.law else { panic!("rigid walls only") };
-            let sign = w.side.sign();
+            let sign = w.side().sign();
             if !reached(w) {
                 return ScalarRow { lo: f64::NEG_INFINITY, hi: f64::INFINITY, compliance: 0.0 };
             }
             let e = if sign * v <= 0.0 { restitution } else { 1.0 };
-            bound(w.side, -e * v)
+            bound(w.side(), -e * v)
         };
         Programme { a, b, rows: scene.walls.iter().map(row).collect() }
     }
@@ -232,7 +232,7 @@ impl Oscillation {
             // The wall answers the velocity that a blow leaves: it would have come from there.
             let back = back - h * blow(scene, (t - h / 2.0).max(0.0), t + h / 2.0) / m;
             let e = shared(scene, back).unwrap_or(restitution);
-            bound(w.side, (1.0 + e) * w.position - e * back)
+            bound(w.side(), (1.0 + e) * w.position() - e * back)
         };
         Programme { a, b, rows: scene.walls.iter().map(row).collect() }
     }
@@ -246,7 +246,7 @@ impl Oscillation {
         let early = shift(scene, t, t + h, t) / m;
         let b = m * (q / h + v) / h + c * q / h + load(scene, t + h) + blow(scene, t, t + h) / h + a * early
             - c * early / h;
-        Programme { a, b, rows: scene.walls.iter().map(|w| bound(w.side, w.position)).collect() }
+        Programme { a, b, rows: scene.walls.iter().map(|w| bound(w.side(), w.position())).collect() }
     }
 }
 
@@ -294,8 +294,8 @@ fn account(name: &str, scene: &Scene, scheme: &Scheme, h: f64) {
         largest_force = largest_force.max(needed.abs());
         largest_x = largest_x.max(x.abs());
         for (row, wall) in rows.iter().zip(&scene.walls) {
-            let slack = if wall.side == Side::Upper { row.hi - x } else { x - row.lo };
-            let pressure = wall.side.sign() * step.impulse[scene.wall_index(&wall.name).expect("its own")] / h;
+            let slack = if wall.side() == Side::Upper { row.hi - x } else { x - row.lo };
+            let pressure = wall.side().sign() * step.impulse[scene.wall_index(&wall.name).expect("its own")] / h;
             pairs.push((slack, pressure, needed - net));
         }
         // Both solvers on this very programme, where it meets a wall.

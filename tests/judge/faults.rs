@@ -4,7 +4,7 @@
 use crate::common::{CONSTRAINED, INTEGRATORS, MOREAU_JEAN, elastic, source, spring};
 use crate::random_structures::{Draws, random_scene};
 use signorini::residual::{Judge, Residuals};
-use signorini::{Finding, Load, LoadKind, Refuted, Scene, Scheme, Side, Step, Stepper, Table, Wall};
+use signorini::{Face, Finding, Load, LoadKind, Refuted, Scene, Scheme, Side, Step, Stepper, Table, Wall};
 
 const GENERALIZED_ALPHA: Scheme = Scheme::GeneralizedAlpha { rho: 0.8 };
 
@@ -16,6 +16,11 @@ struct Shown {
     after: Vec<f64>,
     impulse: Vec<f64>,
     force: Vec<f64>,
+}
+
+/// The wall, this much farther from the origin.
+fn scaled(wall: &Wall, by: f64) -> Wall {
+    wall.clone().with_position(wall.position() * by)
 }
 
 /// `steps` steps of `scene` as a judge of `judged` sees them, each passed through `alter` before,
@@ -111,8 +116,9 @@ fn a_run_and_its_mirror_image_are_judged_alike() {
     let mirrored = |scene: &Scene| {
         let mut other = scene.clone();
         for wall in &mut other.walls {
-            wall.side = if wall.side == Side::Upper { Side::Lower } else { Side::Upper };
-            wall.position = -wall.position;
+            let Face::Flat { side, position, .. } = &mut wall.face else { panic!("a round wall") };
+            *side = if *side == Side::Upper { Side::Lower } else { Side::Upper };
+            *position = -*position;
         }
         for load in &mut other.loads {
             match &mut load.kind {
@@ -143,7 +149,7 @@ fn a_run_and_its_mirror_image_are_judged_alike() {
                 let judged = |mut scene: Scene, extra: f64| {
                     let stepped = scene.clone();
                     if fault == 3 {
-                        scene.walls.iter_mut().for_each(|wall| wall.position *= 0.97);
+                        scene.walls.iter_mut().for_each(|wall| *wall = scaled(wall, 0.97));
                     }
                     let scene = (&stepped, &as_seen(&scene, scheme));
                     let times = (1e-3, 200, extra);
@@ -290,7 +296,7 @@ fn a_spring_that_does_not_push_at_all_is_measured_by_its_stiffness() {
     };
     let worth = |scale: f64| {
         let units = |mut scene: Scene| {
-            scene.walls[0].position *= scale;
+            scene.walls[0] = scaled(&scene.walls[0], scale);
             scene.with_initial(&[0.0], &[0.1 * scale])
         };
         let (far, near) = (units(swing(0.02)), units(swing(0.009)));
@@ -310,7 +316,7 @@ fn a_blow_strictly_inside_a_stretch_of_exact_motion_is_open_momentum() {
     // The run takes the blow of 0.3 N s at 0.5 s, where a stretch ends; the judge's scene has it at
     // 0.4 s, inside of that stretch.
     let line = Scene::oscillator(1.0, 0.0, 4.0).with_initial(&[0.1], &[0.2]);
-    let planes = line.clone().with_wall(Wall { at: signorini::Row::new(vec![(0, 0.5)]), ..Wall::upper("far", 50.0) });
+    let planes = line.clone().with_wall(Wall::upper("far", 50.0).at(signorini::Row::new(vec![(0, 0.5)])));
     for scene in [line, planes] {
         let with = |time: f64| scene.clone().with_load(Load::impulse(0.3, time));
         for (judged, inside) in [(0.5, false), (0.4, true)] {

@@ -125,7 +125,7 @@ fn a_spring_that_is_off_is_wrong_by_its_share_of_the_force() {
     let (k, v) = (400.0, 0.3);
     let pad = |stiffness: f64| {
         let wall = Wall::upper("pad", 0.01).with_elasticity(stiffness, 0.0);
-        let scene = bodies([1.0, 2.0], [0.0; 2]).with_wall(Wall { at: Row::dof(0), ..wall });
+        let scene = bodies([1.0, 2.0], [0.0; 2]).with_wall(wall.at(Row::dof(0)));
         scene.with_initial(&[0.0, 0.0], &[v, 0.0]).with_duration(0.5)
     };
     let (findings, residuals) = judge((&pad(k), &pad(k)), (0.05, 10), |_, _| {});
@@ -146,7 +146,7 @@ fn bodies_that_travel_far_together_are_not_accused_for_the_rounding_of_their_pla
     // wall counts as touched within 1e-15 m.
     let mut pair = pushed(pushed(bodies([1.0, 2.0], [0.0, 0.0]), 0, 9.0), 1, 3.0).with_duration(30.0);
     let between = Row::new(vec![(0, 1.0), (1, -1.0)]);
-    pair.walls.push(Wall { at: between, ..Wall::upper("between", 1e-3).with_restitution(0.3) });
+    pair.walls.push(Wall::upper("between", 1e-3).with_restitution(0.3).at(between));
     let others = [Scheme::PaoliSchatzman, Scheme::ImplicitEuler, Scheme::MoreauJean { theta: 0.5 }];
     for scheme in others.into_iter().chain([0.0, 0.4, 0.8, 1.0].map(|rho| Scheme::GeneralizedAlpha { rho })) {
         let run = run(&pair, &scheme, &Options::with_step(0.05)).expect("a run");

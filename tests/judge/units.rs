@@ -77,7 +77,7 @@ impl Units {
             }
             law => law,
         };
-        Wall { position: wall.position * self.length, law, ..wall.clone() }
+        Wall { law, ..wall.clone().with_position(wall.position() * self.length) }
     }
 
     fn scene(self, scene: &Scene) -> Scene {
@@ -317,7 +317,7 @@ fn accused(scene: &Scene, scheme: Scheme, (h, steps): (f64, u32), fault: Fault, 
     let mut other = scene.clone();
     if let Fault::Walls(share) = fault {
         for wall in &mut other.walls {
-            wall.position *= 1.0 + share;
+            *wall = wall.clone().with_position(wall.position() * (1.0 + share));
             if let WallLaw::Elastic { stiffness, .. } = &mut wall.law {
                 *stiffness *= 1.0 + share;
             }

@@ -4,7 +4,7 @@ use nalgebra::Complex;
 use signorini::case::CaseFile;
 use signorini::linear::Symmetric;
 use signorini::study::attractor::{Attractor, Lasts};
-use signorini::sweep::{Axis, Measure, Plan, Stretch, Sweep};
+use signorini::sweep::{Axis, Measure, Plan, Sweep, Window};
 use signorini::{Load, Row, Scene, Scheme, State, Stepper, Structure, Wall};
 use std::f64::consts::TAU;
 use std::fs;
@@ -89,8 +89,8 @@ fn two_masses_come_to_the_orbit_that_a_long_run_shows() {
         stiffness: Symmetric::from_entries(2, [(0, 0, 150.0), (1, 0, -50.0), (1, 1, 50.0)]),
     };
     let scene = Scene::structure(structure)
-        .with_wall(Wall { at: Row::dof(1), ..Wall::upper("upper", 5e-3).with_restitution(0.6) })
-        .with_wall(Wall { at: Row::dof(0), ..Wall::lower("soft", -4e-3).with_elasticity(3e3, 5.0) })
+        .with_wall(Wall::upper("upper", 5e-3).with_restitution(0.6).at(Row::dof(1)))
+        .with_wall(Wall::lower("soft", -4e-3).with_elasticity(3e3, 5.0).at(Row::dof(0)))
         .with_load(Load { at: Row::dof(1), ..Load::harmonic(3.0, 2.0, 0.0) });
     let (strobes, touches, multipliers) = periodic(Attractor::of(&scene, 0.5, 300, 100).unwrap());
     assert!(!touches.is_empty() && multipliers.len() == 4);
@@ -121,7 +121,7 @@ fn basin(points: u64) -> Plan {
         .unwrap()
         .vary(axis("initial.displacement", 5e-3))
         .vary(axis("initial.velocity", 0.4))
-        .over(Stretch::Periods { settle: 400, keep: 60 })
+        .over(Window::Periods { settle: 400, keep: 60 })
         .by("event")
         .measure([Measure::Attractor, Measure::Period])
         .plan()

@@ -23,7 +23,7 @@ fn beside(first: &Scene, [mass, damping, stiffness]: [f64; 3], frequency: f64) -
         Structure { mass: turned(mass, 0.7), damping: turned(damping, 1.1), stiffness: turned(stiffness, 300.0) };
     let at = Row::new(vec![(0, c), (1, s)]);
     let mut scene = Scene::structure(structure);
-    scene.walls = first.walls.iter().map(|wall| Wall { at: at.clone(), ..wall.clone() }).collect();
+    scene.walls = first.walls.iter().map(|wall| wall.clone().at(at.clone())).collect();
     scene.loads = first.loads.iter().map(|load| Load { at: at.clone(), ..load.clone() }).collect();
     scene.loads.push(Load { at: Row::new(vec![(0, -s), (1, c)]), ..Load::harmonic(0.5, frequency, 0.3) });
     scene

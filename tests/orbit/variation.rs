@@ -37,7 +37,7 @@ fn two_masses(restitution: f64) -> Scene {
         stiffness: Symmetric::from_entries(2, [(0, 0, 150.0), (1, 0, -50.0), (1, 1, 50.0)]),
     };
     Scene::structure(structure)
-        .with_wall(Wall { at: Row::dof(1), ..Wall::upper("upper", 5e-3).with_restitution(restitution) })
+        .with_wall(Wall::upper("upper", 5e-3).with_restitution(restitution).at(Row::dof(1)))
         .with_load(Load { at: Row::dof(1), ..Load::harmonic(3.0, 1.0, 0.0) })
         .with_initial(&[4e-3, 3e-3], &[0.0, 0.1])
 }
@@ -206,8 +206,8 @@ fn products_of_two_masses_are_differences_of_their_runs() {
                 let between = Row::new(vec![(0, 1.0), (1, -1.0)]);
                 let spring = Wall { law: elastic(2e3, 4.0 * f64::from(k % 3)), ..Wall::lower("spring", -4e-3) };
                 let mut scene = two_masses(restitution)
-                    .with_wall(Wall { at: between, ..Wall::upper("between", 6e-3).with_restitution(restitution) })
-                    .with_wall(Wall { at: Row::dof(0), ..spring });
+                    .with_wall(Wall::upper("between", 6e-3).with_restitution(restitution).at(between))
+                    .with_wall(spring.at(Row::dof(0)));
                 let end = start(&mut scene);
                 (scene, end)
             }),
@@ -255,8 +255,8 @@ fn one_mass_as_a_structure_has_the_product_of_the_oscillator() {
             let law = elastic(3e3 / weight.powi(2), 9.0 / weight.powi(2));
             let soft = Wall { law, ..Wall::lower("soft", -4e-3 * weight) };
             scene
-                .with_wall(Wall { at: at.clone(), ..Wall::upper("hard", 5e-3 * weight).with_restitution(e) })
-                .with_wall(Wall { at, ..soft })
+                .with_wall(Wall::upper("hard", 5e-3 * weight).with_restitution(e).at(at.clone()))
+                .with_wall(soft.at(at))
         };
         let frequency = draw.between(2.0, 8.0);
         let body = Scene::oscillator(1.0, 0.2, 100.0).with_load(Load::harmonic(3.0, frequency, 0.0));
@@ -314,7 +314,7 @@ fn walls_struck_together_have_no_derivative_unless_they_are_apart() {
         for dof in 0..2 {
             let name = ["first", "second"][dof];
             scene = scene
-                .with_wall(Wall { at: Row::dof(dof), ..Wall::upper(name, 5e-3).with_restitution(0.8) })
+                .with_wall(Wall::upper(name, 5e-3).with_restitution(0.8).at(Row::dof(dof)))
                 .with_load(Load { at: Row::dof(dof), ..Load::harmonic(3.0, 5.0, 0.0) });
         }
         scene

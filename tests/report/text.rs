@@ -414,12 +414,14 @@ fn a_long_run_is_drawn_from_its_extremes_and_says_so() {
     assert!(page.len() < 2_500_000, "{} bytes", page.len());
 }
 
-/// Makes the manifest in `folder` one of a version that recorded nothing of its tables, so that
-/// they are read as they are.
+/// Makes the manifest in `folder` one of a version that recorded nothing of its tables and
+/// documents, so that they are read as they are.
 fn forget_records(folder: &Path) {
     let path = folder.join("request.json");
     let mut manifest: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
-    manifest.as_object_mut().unwrap().remove("tables").unwrap();
+    for records in ["tables", "documents"] {
+        manifest.as_object_mut().unwrap().remove(records).unwrap();
+    }
     fs::write(path, manifest.to_string()).unwrap();
 }
 

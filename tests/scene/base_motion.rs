@@ -193,12 +193,12 @@ fn a_tube_pressed_between_flats_starts_at_rest_whatever_its_modes() {
     whole.system.add_stiffness(-1.0, &q, &mut open);
     signorini::Loads::new(&whole.loads).add_force(0.0, 1.0, &mut open);
     // What is open lies in the span of the rows of walls that are touched, and pushes inwards.
-    let touched: Vec<_> = whole.walls.iter().filter(|wall| wall.gap(wall.at.dot(&q)) < 1e-12).collect();
+    let touched: Vec<_> = whole.walls.iter().filter(|wall| wall.gap(wall.row().dot(&q)) < 1e-12).collect();
     assert!(!touched.is_empty() && touched.len() < 3);
     // K q = f + Σ gᵀr: the r of least squares, by the normal equations of two rows or one.
     let dense = |wall: &signorini::Wall| {
         let mut row = vec![0.0; q.len()];
-        wall.at.entries().iter().for_each(|&(i, weight)| row[i] += weight);
+        wall.row().entries().iter().for_each(|&(i, weight)| row[i] += weight);
         row
     };
     let rows: Vec<Vec<f64>> = touched.iter().map(|wall| dense(wall)).collect();
@@ -214,7 +214,7 @@ fn a_tube_pressed_between_flats_starts_at_rest_whatever_its_modes() {
         _ => panic!("{touched:?}"),
     };
     for ((wall, row), r) in touched.iter().zip(&rows).zip(&force) {
-        assert!(r * wall.side.sign() > 0.1, "{}: {r} N", wall.name);
+        assert!(r * wall.side().sign() > 0.1, "{}: {r} N", wall.name);
         open.iter_mut().zip(row).for_each(|(open, g)| *open += r * g);
     }
     // Nothing else is open: roundings of 1e7 N/m times 1e-3 m.

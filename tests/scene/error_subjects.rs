@@ -68,7 +68,7 @@ fn an_error_of_a_case_file_has_its_place_its_key_and_its_cause() {
     let error = Case::parse("[system", "two.toml", ".").unwrap_err();
     assert!(error.source().is_some());
     // An error of the library itself has no place in a file.
-    let wall = Wall { at: Row::dof(7), ..Wall::upper("far", 1.0) };
+    let wall = Wall::upper("far", 1.0).at(Row::dof(7));
     let error = Scene::oscillator(1.0, 0.0, 1.0).with_wall(wall).validate().unwrap_err();
     assert_eq!(subject(&error), Subject::wall("far").part("at"));
     assert_eq!(subject(&error).whole(), Some(Subject::wall("far")));
@@ -77,10 +77,8 @@ fn an_error_of_a_case_file_has_its_place_its_key_and_its_cause() {
 
 #[test]
 fn a_case_that_was_changed_is_refused_by_its_keys() {
-    let mut case = Case::embedded("rigid-walls-sine").unwrap();
-    case.time.step = 20.0;
-    assert!(case.validate().unwrap_err().to_string().starts_with("time.step is 20.0"));
-    let mut case = Case::embedded("rigid-walls-sine").unwrap();
-    case.scene.duration = f64::INFINITY;
-    assert!(case.validate().unwrap_err().to_string().starts_with("time.end is inf"));
+    let case = Case::embedded("rigid-walls-sine").unwrap();
+    let refused = |key: &str, x: f64| case.with(key, x).unwrap_err().to_string();
+    assert!(refused("time.step", 20.0).starts_with("error: time.step is 20.0"));
+    assert!(refused("time.end", f64::INFINITY).starts_with("error: time.end is inf"));
 }

@@ -113,7 +113,7 @@ fn a_lumped_cantilever_keeps_its_statics_and_its_frequency() {
 
 #[test]
 fn a_rigid_wall_on_a_massless_node_is_the_spring_behind_it() {
-    let wall = |law| Wall { at: Row::dof(1), law, ..Wall::upper("stop", 1e-3) };
+    let wall = |law| Wall { law, ..Wall::upper("stop", 1e-3).at(Row::dof(1)) };
     let scene = |middle: f64, law| {
         let mut scene = Scene::structure(chain(middle)).with_wall(wall(law)).with_duration(2.0);
         scene.probes = vec![Probe { name: "end".into(), at: Row::dof(2) }];
@@ -145,7 +145,7 @@ fn a_rigid_wall_on_a_massless_node_is_the_spring_behind_it() {
 
 #[test]
 fn what_statics_cannot_say_exactly_is_refused_by_name() {
-    let free = |at: Row| Scene::structure(chain(0.0)).with_wall(Wall { at, ..Wall::upper("stop", 1e-3) });
+    let free = |at: Row| Scene::structure(chain(0.0)).with_wall(Wall::upper("stop", 1e-3).at(at));
     let refused = |scene: Scene, words: &[&str]| {
         let said = scene.condensed().map(|_| "ACCEPTED").unwrap_err().to_string();
         assert!(words.iter().all(|word| said.contains(word)), "{words:?}: {said}");
@@ -154,14 +154,11 @@ fn what_statics_cannot_say_exactly_is_refused_by_name() {
         free(Row::dof(1)).with_load(Load { at: Row::dof(1), ..Load::constant(1.0) }),
         &["load 1: at", "the wall \"stop\" does not see", "mass"],
     );
-    let beside = Wall { at: Row::new(vec![(1, 1.0), (0, -1.0)]), ..Wall::upper("other", 1e-3) };
+    let beside = Wall::upper("other", 1e-3).at(Row::new(vec![(1, 1.0), (0, -1.0)]));
     refused(free(Row::dof(1)).with_wall(beside), &["wall \"other\": at", "\"stop\" displaces", "mass"]);
-    refused(
-        free(Row::dof(1)).with_wall(Wall { at: Row::dof(1), ..Wall::upper("twice", 2e-3) }),
-        &["wall \"twice\": at"],
-    );
+    refused(free(Row::dof(1)).with_wall(Wall::upper("twice", 2e-3).at(Row::dof(1))), &["wall \"twice\": at"]);
     let law = WallLaw::Elastic { stiffness: 1e3, damping: 1.0 };
-    let dashpot = Scene::structure(chain(0.0)).with_wall(Wall { at: Row::dof(1), law, ..Wall::upper("soft", 1e-3) });
+    let dashpot = Scene::structure(chain(0.0)).with_wall(Wall { law, ..Wall::upper("soft", 1e-3).at(Row::dof(1)) });
     refused(dashpot, &["wall \"soft\": damping", "dashpot"]);
     let mut probed = Scene::structure(chain(0.0)).with_load(Load { at: Row::dof(1), ..Load::constant(1.0) });
     probed.probes = vec![Probe { name: "node".into(), at: Row::dof(1) }];
@@ -178,7 +175,7 @@ fn what_statics_cannot_say_exactly_is_refused_by_name() {
     let nothing = Structure { mass: Symmetric::zeros(3), ..chain(0.0) };
     refused(Scene::structure(nothing), &["mass matrix", "mass at one degree of freedom"]);
     // Walls that face one another at one place are never touched together.
-    let faced = free(Row::dof(1)).with_wall(Wall { at: Row::dof(1), ..Wall::lower("below", -1e-3) });
+    let faced = free(Row::dof(1)).with_wall(Wall::lower("below", -1e-3).at(Row::dof(1)));
     assert!(faced.condensed().is_ok());
     // A start behind the wall, which a spring would take, is a mistake at a rigid one.
     let mut behind = free(Row::dof(1));
@@ -211,7 +208,7 @@ fn a_case_of_lumped_matrices_keeps_its_own_numbering() {
     };
     let case = read(text).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(case.places, vec![Place::Dof(2), Place::Dof(1)]);
-    assert_eq!(case.scene.walls[0].at, Row::dof(1));
+    assert_eq!(*case.scene.walls[0].row(), Row::dof(1));
     assert_eq!(case.scene.initial.v, vec![0.0, 0.1]);
     let k = [(0, 0, 125.0), (1, 0, -75.0), (1, 1, 75.0)];
     assert_matrix(&structure(&case.scene).stiffness, &k);
@@ -296,7 +293,7 @@ fn modal_data_make_the_scene_that_its_own_modes_make() {
     for (name, position) in [("first", first), ("second", second)] {
         let at = tube.at(position).unwrap();
         for wall in [Wall::upper(&format!("{name}-upper"), 2e-4), Wall::lower(&format!("{name}-lower"), -2e-4)] {
-            scene = scene.with_wall(Wall { at: at.clone(), ..wall.with_restitution(0.5) });
+            scene = scene.with_wall(wall.with_restitution(0.5).at(at.clone()));
         }
     }
     let scene = scene.with_load(Load { at: tube.at(0.5).unwrap(), ..Load::harmonic(10.0, 25.0, 0.0) });
@@ -332,8 +329,8 @@ fn modes_without_points_say_so_and_each_point_may_have_a_wall() {
     let case = Case::parse(text, "case.toml", "").unwrap_or_else(|error| panic!("{error}"));
     let names: Vec<&str> = case.scene.walls.iter().map(|wall| wall.name.as_str()).collect();
     assert_eq!(names, ["stop-tip", "stop-base"]);
-    assert_eq!(case.scene.walls[1].at, Row::new(vec![(0, 1.0), (1, 1.0)]));
+    assert_eq!(*case.scene.walls[1].row(), Row::new(vec![(0, 1.0), (1, 1.0)]));
     let relative = text.replace("\"each\"", "{ points = [[\"tip\", 1.0], [\"base\", -1.0]] }");
     let case = Case::parse(&relative, "case.toml", "").unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(case.scene.walls[0].at, Row::new(vec![(1, -2.0)]));
+    assert_eq!(*case.scene.walls[0].row(), Row::new(vec![(1, -2.0)]));
 }

@@ -379,8 +379,8 @@ fn compliance(structure: &Structure, row: &Row) -> f64 {
 fn tube(elements: usize) -> (Beam, Scene) {
     let tube = beam(elements, BeamEnd::Pinned, BeamEnd::Pinned);
     let structure = tube.structure().unwrap().with_damping(&Damping::Rayleigh { mass: 2.0, stiffness: 1e-5 }).unwrap();
-    let support = |name, x, position| Wall { at: tube.at(x).unwrap(), ..Wall::upper(name, position) };
-    let under = |name, x, position| Wall { at: tube.at(x).unwrap(), ..Wall::lower(name, position) };
+    let support = |name, x, position| Wall::upper(name, position).at(tube.at(x).unwrap());
+    let under = |name, x, position| Wall::lower(name, position).at(tube.at(x).unwrap());
     let mut scene = Scene::structure(structure)
         .with_wall(support("right", 0.37, 1e-3))
         .with_wall(under("left", 0.37, -1e-3))
@@ -428,8 +428,8 @@ fn all_modes_are_the_whole_structure() {
         let back = reduction.modes.expand(&a);
         assert!(back.iter().zip(&start.q).all(|(x, y)| (x - y).abs() < 1e-12 * 1e-3 * 1e3));
         for ((wall, modal_wall), truncation) in scene.walls.iter().zip(&reduction.scene.walls).zip(&reduction.walls) {
-            let whole = compliance(full, &wall.at);
-            assert!((compliance(modal, &modal_wall.at) - whole).abs() < 1e-9 * whole);
+            let whole = compliance(full, wall.row());
+            assert!((compliance(modal, modal_wall.row()) - whole).abs() < 1e-9 * whole);
             assert!((truncation.compliance - whole).abs() < 1e-9 * whole);
             assert!((truncation.mass - truncation.mass_kept).abs() < 1e-10 * truncation.mass);
         }
@@ -448,7 +448,7 @@ fn all_modes_are_the_whole_structure() {
 #[test]
 fn more_modes_keep_more_compliance_and_less_mass() {
     let (_, scene) = tube(20);
-    let whole: Vec<f64> = scene.walls.iter().map(|w| compliance(structure(&scene), &w.at)).collect();
+    let whole: Vec<f64> = scene.walls.iter().map(|w| compliance(structure(&scene), w.row())).collect();
     let mut last: Option<signorini::Reduction> = None;
     for k in [1, 2, 3, 5, 8, 13, 21, 40] {
         let reduction = scene.reduced(k, false).unwrap();
@@ -474,7 +474,7 @@ fn the_effective_mass_of_a_string_falls_as_modes_are_added() {
     // A string of mass 1 struck at its middle is the bar's equation: 2 Σ sin²(iπ/2) over its modes,
     // so 1/2 with one mode and 1/20 with nineteen, of which ten move the middle.
     let string = bar(2000, BarEnd::Fixed, BarEnd::Fixed, MassMatrix::Consistent);
-    let wall = Wall { at: string.at(0.5).unwrap(), ..Wall::upper("stop", 1.0) };
+    let wall = Wall::upper("stop", 1.0).at(string.at(0.5).unwrap());
     let scene = Scene::structure(string.structure().unwrap()).with_wall(wall);
     for (k, expected) in [(1, 0.5), (19, 0.05)] {
         let kept = scene.reduced(k, false).unwrap().walls[0].mass_kept;
@@ -489,14 +489,14 @@ fn static_correction_gives_back_the_whole_compliance() {
     for k in [1, 4, 12] {
         let reduction = scene.reduced(k, true).unwrap();
         for ((before, after), truncation) in scene.walls.iter().zip(&reduction.scene.walls).zip(&reduction.walls) {
-            let whole = compliance(structure(&scene), &before.at);
+            let whole = compliance(structure(&scene), before.row());
             let WallLaw::Elastic { stiffness, damping } = after.law else { panic!("{after:?}") };
             let (own, c) = if let WallLaw::Elastic { stiffness, damping } = before.law {
                 (1.0 / stiffness, damping)
             } else {
                 (0.0, 0.0)
             };
-            let sum = compliance(structure(&reduction.scene), &after.at) + 1.0 / stiffness;
+            let sum = compliance(structure(&reduction.scene), after.row()) + 1.0 / stiffness;
             // What the modes leave out is a difference from the whole: rounding is relative to it,
             // times the condition of K, 1e6.
             assert!((sum - (whole + own)).abs() < 1e-9 * whole, "{k}: {sum:e} {:e}", whole + own);
@@ -518,11 +518,11 @@ fn the_residual_compliance_of_a_free_structure_is_that_of_all_other_modes() {
     // elements' own modes.
     let free = bar(40, BarEnd::Free, BarEnd::Free, MassMatrix::Consistent);
     let structure = free.structure().unwrap();
-    let wall = Wall { at: free.at(0.0).unwrap(), ..Wall::lower("wall", -1.0) };
+    let wall = Wall::lower("wall", -1.0).at(free.at(0.0).unwrap());
     let scene = Scene::structure(structure.clone()).with_wall(wall);
     let all = Modes::lowest(&structure, 41).unwrap();
     for k in [1, 4, 30] {
-        let rest: f64 = (k..41).map(|i| (scene.walls[0].at.dot(&all.shapes[i]) / all.omega[i]).powi(2)).sum();
+        let rest: f64 = (k..41).map(|i| (scene.walls[0].row().dot(&all.shapes[i]) / all.omega[i]).powi(2)).sum();
         let residual = scene.reduced(k, true).unwrap().walls[0].residual();
         assert!((residual - rest).abs() < 1e-11 * rest, "{k}: {residual:e} {rest:e}");
     }
@@ -540,22 +540,22 @@ fn a_start_that_truncation_puts_behind_a_wall_is_refused_and_one_on_a_wall_stays
     // u = x(1 − x)/2 … a bar pressed in its middle: its first mode alone moves the free end.
     let q = fixed.field("initial.displacement", &|x| if x < 1.0 { 0.5 * (1.0 - x) } else { 0.0 }).unwrap();
     let touching = |position| {
-        let wall = Wall { at: fixed.at(0.0).unwrap(), ..Wall::upper("stop", position) };
+        let wall = Wall::upper("stop", position).at(fixed.at(0.0).unwrap());
         Scene::structure(fixed.structure().unwrap()).with_wall(wall).with_initial(&q, &vec![0.0; 40])
     };
     // Wavelength by wavelength the end reaches 0.5 from below: the first mode gives 4/π² of it.
     let reduction = touching(0.5).reduced(1, false).unwrap();
-    let reached = reduction.scene.walls[0].at.dot(&reduction.scene.initial.q);
+    let reached = reduction.scene.walls[0].row().dot(&reduction.scene.initial.q);
     assert!((reached - 4.0 / PI.powi(2)).abs() < 1e-3, "{reached}");
     assert!(reduction.start_energy_lost > 0.1 && reduction.start_energy_lost < 0.3);
     // A lower wall just below the start is then behind.
-    let wall = Wall { at: fixed.at(0.0).unwrap(), ..Wall::lower("floor", 0.499) };
+    let wall = Wall::lower("floor", 0.499).at(fixed.at(0.0).unwrap());
     let error = touching(0.5).with_wall(wall).reduced(1, false).unwrap_err().to_string();
     assert!(error.contains("modes is 1") && error.contains("\"floor\"") && error.contains("more"), "{error}");
     // With all modes the start touches as before, up to rounding, and is taken.
     let all = touching(0.5).reduced(40, false).unwrap();
     all.scene.validate().unwrap();
-    assert!(all.scene.walls[0].gap(all.scene.walls[0].at.dot(&all.scene.initial.q)) < 1e-12);
+    assert!(all.scene.walls[0].gap(all.scene.walls[0].row().dot(&all.scene.initial.q)) < 1e-12);
 }
 
 #[test]

@@ -157,10 +157,16 @@ fn the_values_of_many_lines_are_nearly_gaussian() {
 
 #[test]
 fn another_end_makes_the_random_force_anew() {
-    let mut changed = tube(1e-4);
-    changed.change_end(0.8).unwrap();
+    let changed = tube(1e-4).with("time.end", 0.8).unwrap();
     assert_eq!(changed.scene, case(&text(0.8, 1e-4)).scene);
     assert_ne!(changed.scene.loads, tube(1e-4).scene.loads);
+}
+
+#[test]
+fn a_realisation_is_the_case_of_its_document() {
+    let third = tube(1e-4).realisation(3).unwrap();
+    assert_ne!(third.scene.loads, tube(1e-4).scene.loads);
+    assert_eq!(third.document.case().unwrap(), third);
 }
 
 fn text(end: f64, step: f64) -> String {

@@ -28,7 +28,7 @@ fn tube() -> Scene {
     };
     let structure = tube.structure().unwrap().with_damping(&Damping::Rayleigh { mass: 0.1, stiffness: 1e-6 }).unwrap();
     Scene::structure(structure)
-        .with_wall(Wall { at: tube.at(1.0).unwrap(), ..Wall::upper("first", 2e-4) })
+        .with_wall(Wall::upper("first", 2e-4).at(tube.at(1.0).unwrap()))
         .with_load(Load { at: Row::new(vec![(3, 1.0), (1, -0.5)]), ..Load::constant(10.0) })
         .with_duration(0.05)
 }

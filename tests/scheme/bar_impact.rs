@@ -17,8 +17,7 @@ fn scene(elements: usize) -> Scene {
         mass: MassMatrix::Consistent,
     };
     let end = bar.at(0.0).unwrap();
-    let mut wall = Wall::lower("wall", 0.0).with_restitution(0.0);
-    wall.at = end.clone();
+    let wall = Wall::lower("wall", 0.0).with_restitution(0.0).at(end.clone());
     let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(wall).with_duration(3.0);
     scene.system = bar.structure().unwrap().into();
     scene.initial.q = bar.field("initial.displacement", &|x| 0.5 * (1.0 - x)).unwrap();

@@ -11,7 +11,7 @@ use signorini::{
 fn structure() -> Scene {
     let chain = Chain { masses: vec![1.0; 3], springs: vec![100.0; 2], grounds: [100.0, 0.0] };
     let mut scene = Scene::structure(chain.structure().expect("a chain"))
-        .with_wall(Wall { at: Row::dof(2), ..Wall::upper("stop", 0.01).with_restitution(0.5) });
+        .with_wall(Wall::upper("stop", 0.01).with_restitution(0.5).at(Row::dof(2)));
     scene.loads.push(Load { at: Row::dof(0), ..Load::harmonic(2.0, 1.5, 0.0) });
     scene.probes.push(Probe { name: "end".into(), at: Row::dof(2) });
     scene.with_duration(1.0)

@@ -23,8 +23,8 @@ fn structure() -> Scene {
     let chain = Chain { masses: vec![1.0; 3], springs: vec![200.0; 2], grounds: [200.0, 0.0] };
     let mut structure = chain.structure().expect("a chain");
     structure.damping = signorini::linear::Symmetric::sum(&[(2e-3, &structure.stiffness)]);
-    let mut scene = Scene::structure(structure)
-        .with_wall(Wall { at: Row::dof(2), ..Wall::upper("stop", 5e-3).with_restitution(0.5) });
+    let mut scene =
+        Scene::structure(structure).with_wall(Wall::upper("stop", 5e-3).with_restitution(0.5).at(Row::dof(2)));
     scene.loads = loads(&Row::dof(0));
     scene
 }

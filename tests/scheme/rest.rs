@@ -246,7 +246,7 @@ fn two_bodies_without_a_ground_stand_against_a_wall_with_the_spring_between_them
             let structure =
                 Structure { mass: Symmetric::diagonal(&[m, 2.0 * m]), damping: Symmetric::zeros(2), stiffness: k };
             let mut scene = Scene::structure(structure)
-                .with_wall(Wall { at: Row::dof(1), position: scale * wall.position, ..wall.clone() })
+                .with_wall(wall.clone().at(Row::dof(1)).with_position(scale * wall.position()))
                 .with_load(Load { at: Row::dof(0), ..Load::constant(scale * side * 7.0) });
             scene = scene.with_initial(&[0.0; 2], &[0.0; 2]);
             let q = equilibrium(&scene).expect("a rest");

@@ -17,7 +17,7 @@ fn chain() -> Scene {
 }
 
 fn walled_chain() -> Scene {
-    chain().with_wall(Wall { at: Row::dof(2), ..Wall::upper("stop", 5e-3).with_restitution(0.5) })
+    chain().with_wall(Wall::upper("stop", 5e-3).with_restitution(0.5).at(Row::dof(2)))
 }
 
 /// `count` steps: time, state and impulses after each.

@@ -201,7 +201,7 @@ fn a_run_is_its_steps_and_its_columns_sum_to_its_impulses() {
                         "{what}: {total} {episodes} {}",
                         sums[index]
                     );
-                    assert!(wall.side.sign() * total > 0.0 || scheme == Scheme::Newmark, "{what}: {total}");
+                    assert!(wall.side().sign() * total > 0.0 || scheme == Scheme::Newmark, "{what}: {total}");
                 }
             }
         }
@@ -300,8 +300,8 @@ fn a_wall_behind_a_lever_meets_an_oscillator_where_it_meets_the_structure() {
     let direct = Wall::upper("stop", 0.1).with_restitution(0.5);
     let spring = Wall::lower("spring", -0.1).with_elasticity(4e3, 4.0);
     let lever = |mut wall: Wall, k: f64| {
-        wall.at = Row::new(vec![(0, 2.0)]);
-        wall.position *= 2.0;
+        let position = 2.0 * wall.position();
+        wall = wall.at(Row::new(vec![(0, 2.0)])).with_position(position);
         if !wall.law.is_rigid() {
             wall = wall.with_elasticity(k, k * 1e-3);
         }

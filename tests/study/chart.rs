@@ -1,9 +1,8 @@
 //! Accuracy against speed: orders, front, floors and hard scenes from the chart's own data, and the
 //! command itself. Errors, files and counters only: no time is asserted.
 
-use signorini::study::work_precision::{
-    Effort, Kind, Measured, Quantity, Series, Steps, WorkPrecision, every_method, study,
-};
+use signorini::scheme::SchemeKind;
+use signorini::study::work_precision::{Effort, Measured, Quantity, Series, Steps, WorkPrecision, every_method, study};
 use signorini::{Integrator, Load, Method, PenaltyLaw, Scene, Scheme, Wall};
 use std::process::{Command, Output};
 
@@ -129,7 +128,7 @@ fn each_kind_of_method_has_its_cheapest_and_none_stands_for_another() {
     let soft = penalty(PenaltyLaw::Quartic { epsilon: 1e-9 }, Integrator::DiscreteGradient);
     let schemes = [Scheme::Event, MOREAU, Scheme::PaoliSchatzman, soft];
     let chart = chart(&source(1.0, 1.0), &schemes, (1e-3, 1e-5), 4);
-    let kinds = Kind::ALL.map(|kind| chart.cheapest(kind, Quantity::Displacement, 1e-2));
+    let kinds = SchemeKind::ALL.map(|kind| chart.cheapest(kind, Quantity::Displacement, 1e-2));
     assert_eq!(kinds[0].unwrap().0.method.scheme, Scheme::Event);
     let (series, step, measured) = kinds[1].unwrap();
     assert!([MOREAU, Scheme::PaoliSchatzman].contains(&series.method.scheme) && step.unwrap() < 1e-3);
@@ -138,9 +137,9 @@ fn each_kind_of_method_has_its_cheapest_and_none_stands_for_another() {
     assert!(kinds[2].is_none());
     // Impulses and contact times are errors of their own.
     for quantity in [Quantity::Impulse, Quantity::ContactTime] {
-        let (_, _, measured) = chart.cheapest(Kind::Qp, quantity, 1e-2).unwrap();
+        let (_, _, measured) = chart.cheapest(SchemeKind::Qp, quantity, 1e-2).unwrap();
         assert!(quantity.of(&measured.errors).unwrap() <= 1e-2);
-        assert!(chart.cheapest(Kind::Qp, quantity, 1e-9).is_none());
+        assert!(chart.cheapest(SchemeKind::Qp, quantity, 1e-9).is_none());
     }
 }
 

@@ -3,8 +3,8 @@
 use signorini::linear::Symmetric;
 use signorini::study::realisations::{Interval, Measure, Realisation, Realisations, realisations};
 use signorini::{
-    Density, Error, Flat, Flats, Interrupt, Load, Options, PlaneRows, RandomForce, Result, Row, Scene, Scheme, Shape,
-    State, Structure, Support, Wall, WallLaw, run,
+    Density, Error, Flat, Flats, Interrupt, Load, Options, PlaneRows, RandomForce, Result, Row, Scene, Scheme, State,
+    Structure, Wall, WallLaw, run,
 };
 
 const MOREAU: Scheme = Scheme::MoreauJean { theta: 0.5 };
@@ -80,9 +80,9 @@ fn a_hole_carries_what_presses_into_it() {
     // is a millionth short of the hole; the impact there dies out in the first half of the run.
     let [mass, damping, stiffness] = [1.0, 0.0, 100.0].map(|x| Symmetric::diagonal(&[x, x]));
     let mut scene = Scene::structure(Structure { mass, damping, stiffness }).with_duration(1.0);
-    let shape = Shape::Round { gap: 1e-3, law: WallLaw::Rigid { restitution: 0.0 } };
-    let (name, at, centre) = ("hole".to_owned(), PlaneRows::doubled(&Row::dof(0), 1), [0.0, 0.0]);
-    scene.supports.push(Support { name, at, centre, shape, friction: 0.0 });
+    let at = PlaneRows::doubled(&Row::dof(0), 1);
+    let wall = Wall::round("hole", at.clone(), 1e-3).with_restitution(0.0);
+    scene = scene.with_support("hole", at, [0.0, 0.0], vec![wall]);
     let way = [-0.6, -0.8];
     let load = Load { at: Row::new(vec![(0, way[0]), (1, way[1])]), ..Load::constant(10.0) };
     let initial = State { q: way.map(|x| 1e-3 * (1.0 - 1e-6) * x).to_vec(), v: vec![0.0, 0.0] };
@@ -117,12 +117,13 @@ fn a_support_carries_what_its_flats_do() {
         flats: [0.0, 90.0, 180.0, 270.0].map(|direction| Flat { direction, gap: 1e-3 }).to_vec(),
         centre: [0.0, 0.0],
         law: WallLaw::Rigid { restitution: 0.5 },
+        friction: 0.0,
     };
     let mut scene = Scene::structure(structure).with_duration(1.0);
     for wall in flats.walls().unwrap() {
         scene = scene.with_wall(wall);
     }
-    scene.supports.push(flats.support(0, 0.0));
+    scene.supports.push(flats.support(0));
     let load = Load { at: at.along(240.0), ..Load::constant(10.0) };
     let initial = State { q: vec![-1e-3, -1e-3], v: vec![0.0, 0.0] };
     let scene = Scene { initial, ..scene.with_load(load) };

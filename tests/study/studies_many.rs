@@ -41,11 +41,8 @@ fn beside(first: &Scene, second: &Scene) -> Scene {
     };
     let mut scene = first.clone();
     scene.system = structure.into();
-    scene.walls.extend(second.walls.iter().map(|w| Wall {
-        name: format!("{}2", w.name),
-        at: Row::dof(1),
-        ..w.clone()
-    }));
+    let renamed = |w: &Wall| Wall { name: format!("{}2", w.name), ..w.clone() };
+    scene.walls.extend(second.walls.iter().map(|w| renamed(w).at(Row::dof(1))));
     scene.loads.extend(second.loads.iter().map(|l| Load { at: Row::dof(1), kind: l.kind.clone() }));
     scene.probes = [0, 1].map(|i| Probe { name: format!("mass-{i}"), at: Row::dof(i) }).to_vec();
     let joined = |a: &[f64], b: &[f64]| [a, b].concat();
@@ -153,7 +150,7 @@ fn statistics_take_the_mass_that_each_wall_feels() {
     };
     let mut scene = Scene::oscillator(1.0, 0.0, 1.0).with_wall(Wall::upper("ground", 1.0)).with_duration(10.0);
     let between = Row::new(vec![(0, 1.0), (1, -1.0)]);
-    scene.walls.push(Wall { at: between, ..Wall::upper("between", 0.5) });
+    scene.walls.push(Wall::upper("between", 0.5).at(between));
     scene.system = structure.into();
     scene.initial = State { q: vec![0.0; 2], v: vec![0.0; 2] };
     let contact = |wall| Contact {

@@ -46,11 +46,10 @@ fn cost(case: &Case) -> Option<Truncation> {
 
 #[test]
 fn a_truncation_is_held_against_twice_its_modes() {
-    let mut case = tube("[system]\nmodes = 3\n", "restitution = 0.0\n", 0.5);
-    case.time.statistics_from = 0.2;
+    let case = tube("[system]\nmodes = 3\n", "restitution = 0.0\n", 0.5).with("time.statistics_from", 0.2).unwrap();
     let truncation = cost(&case).unwrap();
     assert_eq!((truncation.modes, truncation.degrees_of_freedom), ([3, 6], 32));
-    let runs = [made(&case), made(&case.clone().with_modes(6).unwrap())];
+    let runs = [made(&case), made(&case.with("system.modes", 6).unwrap())];
     let wall = &truncation.walls[0];
     // Of the window, as every table.
     assert_eq!(wall.impulse_n_s, runs.each_ref().map(|run| run.statistics.walls[0].force.unwrap().impulse_n_s));
@@ -116,8 +115,8 @@ fn as_many_modes_are_found_as_the_error_takes() {
     let quiet = chosen.levels.iter().rev().take(2).all(|level| level.change.is_some_and(|x| x <= 0.25 * 0.05));
     assert!(quiet, "{chosen:?}");
     // The reference is the result with all modes.
-    let cut = made(&case.clone().with_modes(chosen.modes).unwrap()).trajectory.impulse("wall").unwrap();
-    let all = made(&case.clone().with_modes(60).unwrap()).trajectory.impulse("wall").unwrap();
+    let cut = made(&case.with("system.modes", chosen.modes as i64).unwrap()).trajectory.impulse("wall").unwrap();
+    let all = made(&case.with("system.modes", 60).unwrap()).trajectory.impulse("wall").unwrap();
     assert!((cut / all - 1.0).abs() < 0.05, "{cut} {all}");
     // With all of them nothing is left out, however small the error.
     let all = choose_modes(whole, 4, &method(), &case.time, 1e-14, &mut |_| {}).unwrap();

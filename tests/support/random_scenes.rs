@@ -7,7 +7,7 @@ use crate::random_structures::{self, Draws};
 use crate::rubbing;
 use signorini::linear::Symmetric;
 use signorini::{
-    Density, Integrator, Load, LoadKind, PenaltyLaw, RandomForce, Scene, Scheme, Shape, Structure, System, Table, Wall,
+    Density, Face, Integrator, Load, LoadKind, PenaltyLaw, RandomForce, Scene, Scheme, Structure, System, Table, Wall,
     WallLaw,
 };
 use std::f64::consts::TAU;
@@ -75,7 +75,7 @@ fn oscillator(draws: &mut Draws) -> Scene {
         let away = if draws.chance(0.1) { 0.0 } else { gap * draws.between(0.5, 2.0) };
         let away = match scene.walls.last() {
             // At the place of the wall before, or at the same distance on the other side.
-            Some(last) if draws.chance(0.15) => last.position.abs(),
+            Some(last) if draws.chance(0.15) => last.position().abs(),
             _ => away,
         };
         let name = format!("w{index}");
@@ -97,13 +97,10 @@ fn oscillator(draws: &mut Draws) -> Scene {
 
 /// Makes some of the holes elastic.
 fn soften(draws: &mut Draws, scene: &mut Scene) {
-    for support in &mut scene.supports {
-        if let Shape::Round { law, .. } = &mut support.shape
-            && support.friction == 0.0
-            && draws.chance(0.2)
-        {
+    for wall in scene.walls.iter_mut().filter(|wall| wall.is_round()) {
+        if wall.friction == 0.0 && draws.chance(0.2) {
             let damping = [0.0, draws.between(0.0, 20.0)][draws.below(2)];
-            *law = WallLaw::Elastic { stiffness: 10_f64.powf(draws.between(2.0, 5.0)), damping };
+            wall.law = WallLaw::Elastic { stiffness: 10_f64.powf(draws.between(2.0, 5.0)), damping };
         }
     }
 }
@@ -168,16 +165,16 @@ fn start(draws: &mut Draws, scene: &mut Scene) {
     scene.initial.v = (0..n).map(|_| speed * draws.between(-1.0, 1.0)).collect();
     let rigid = |wall: &&Wall| wall.law.is_rigid();
     if n == 1 && draws.chance(0.3) && !scene.walls.is_empty() {
-        let lowest = scene.walls.iter().filter(rigid).filter(|w| w.side.sign() < 0.0).map(|w| w.position);
-        let highest = scene.walls.iter().filter(rigid).filter(|w| w.side.sign() > 0.0).map(|w| w.position);
+        let lowest = scene.walls.iter().filter(rigid).filter(|w| w.side().sign() < 0.0).map(|w| w.position());
+        let highest = scene.walls.iter().filter(rigid).filter(|w| w.side().sign() > 0.0).map(|w| w.position());
         let (upper, lower) = (lowest.fold(f64::INFINITY, f64::min), highest.fold(f64::NEG_INFINITY, f64::max));
         let wall = &scene.walls[draws.below(scene.walls.len())];
-        scene.initial.q = vec![wall.position.clamp(lower.min(upper), upper)];
+        scene.initial.q = vec![wall.position().clamp(lower.min(upper), upper)];
         if draws.chance(0.5) {
             scene.initial.v = vec![0.0];
         }
-    } else if n == 1 && draws.chance(0.5) && scene.walls.iter().all(|wall| wall.position != 0.0) {
-        let least = scene.walls.iter().map(|wall| wall.position.abs()).fold(f64::INFINITY, f64::min);
+    } else if n == 1 && draws.chance(0.5) && scene.walls.iter().all(|wall| wall.position() != 0.0) {
+        let least = scene.walls.iter().map(|wall| wall.position().abs()).fold(f64::INFINITY, f64::min);
         scene.initial.q = vec![least.min(1e-2) * draws.between(-1.0, 1.0)];
     }
 }
@@ -191,7 +188,7 @@ fn equilibrate(draws: &mut Draws, scene: &mut Scene) {
     }
     let wall = &scene.walls[draws.below(scene.walls.len())];
     let more = [0.0, 1.0, -1.0][draws.below(3)] * draws.unit();
-    let load = Load::constant(o.stiffness * wall.position * (1.0 + more));
+    let load = Load::constant(o.stiffness * wall.position() * (1.0 + more));
     scene.loads = vec![load];
     if draws.chance(0.5) {
         scene.loads.push(Load::impulse(o.mass * scene.gap_scale() / scene.duration, 0.0));
@@ -259,16 +256,17 @@ fn in_wild_units(draws: &mut Draws, drawn: &mut Drawn) {
         }
         _ => {}
     };
-    for wall in &mut scene.walls {
-        wall.position *= length * own(draws);
-        law(draws, &mut wall.law);
+    for round in [false, true] {
+        for wall in scene.walls.iter_mut().filter(|wall| wall.is_round() == round) {
+            *wall = wall.clone().with_position(wall.position() * (length * own(draws)));
+            law(draws, &mut wall.law);
+            if let Face::Round { centre, .. } = &mut wall.face {
+                *centre = centre.map(|x| x * length);
+            }
+        }
     }
     for support in &mut scene.supports {
         support.centre = support.centre.map(|x| x * length);
-        if let Shape::Round { gap, law: own_law } = &mut support.shape {
-            *gap *= length * own(draws);
-            law(draws, own_law);
-        }
     }
     for load in &mut scene.loads {
         let strength = force * own(draws);

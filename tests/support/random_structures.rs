@@ -55,9 +55,8 @@ pub fn chain(n: usize, k: f64, beta: f64) -> Scene {
 }
 
 /// The wall on another place.
-pub fn at(mut wall: Wall, row: Row) -> Wall {
-    wall.at = row;
-    wall
+pub fn at(wall: Wall, row: Row) -> Wall {
+    wall.at(row)
 }
 
 /// The load on another place.
@@ -140,7 +139,8 @@ fn random_wall(draws: &mut Draws, scene: &Scene, index: usize, n: usize) -> Wall
     if let Some(other) = copied {
         wall = Wall { name: wall.name, ..other };
         if draws.chance(0.5) {
-            wall.position -= wall.side.sign() * 1e-3 * draws.unit();
+            let position = wall.position() - wall.side().sign() * 1e-3 * draws.unit();
+            wall = wall.with_position(position);
         }
     }
     match draws.below(4) {

@@ -4,8 +4,7 @@
 use crate::random_structures::Draws;
 use signorini::linear::Symmetric;
 use signorini::{
-    Flat, FlatWall, Flats, Load, LoadKind, PlaneRows, Row, Scene, Scheme, Shape, Step, Stepper, Structure, Support,
-    WallLaw, heading,
+    Face, Flat, Flats, Load, LoadKind, PlaneRows, Row, Scene, Scheme, Step, Stepper, Structure, Wall, WallLaw, heading,
 };
 
 pub const MOREAU_JEAN: Scheme = Scheme::MoreauJean { theta: 0.5 };
@@ -24,29 +23,39 @@ pub fn isotropic(mass: f64, damping: f64, stiffness: f64) -> Scene {
     })
 }
 
-pub fn hole(name: &str, at: PlaneRows, gap: f64, restitution: f64, friction: f64) -> Support {
-    let shape = Shape::Round { gap, law: WallLaw::Rigid { restitution } };
-    Support { name: name.to_owned(), at, centre: [0.0, 0.0], shape, friction }
+/// A rigid round hole about the origin.
+pub fn hole(name: &str, at: PlaneRows, gap: f64, restitution: f64, friction: f64) -> Wall {
+    Wall::round(name, at, gap).with_restitution(restitution).with_friction(friction)
 }
 
-pub fn with(mut scene: Scene, support: Support) -> Scene {
-    scene.supports.push(support);
-    scene
+/// The scene with this hole, in a support of its name.
+pub fn with(scene: Scene, hole: Wall) -> Scene {
+    let Face::Round { at, centre, .. } = &hole.face else { panic!("{hole:?}") };
+    let (name, at, centre) = (hole.name.clone(), at.clone(), *centre);
+    scene.with_support(&name, at, centre, vec![hole])
+}
+
+/// Makes another hole of the one of support number `support`, at the same index among the walls.
+pub fn change_hole(scene: &mut Scene, support: usize, change: impl FnOnce(Wall) -> Wall) {
+    let support = &mut scene.supports[support];
+    let wall = &mut scene.walls[support.walls.start];
+    *wall = change(wall.clone());
+    let Face::Round { at, centre, .. } = &wall.face else { panic!("{wall:?}") };
+    (support.name, support.at, support.centre) = (wall.name.clone(), at.clone(), *centre);
 }
 
 /// The scene with flats in these directions (degrees) at these gaps (m).
-pub fn with_flats(mut scene: Scene, name: &str, at: PlaneRows, flats: &[(f64, f64)], e: f64, friction: f64) -> Scene {
+pub fn with_flats(scene: Scene, name: &str, at: PlaneRows, flats: &[(f64, f64)], e: f64, friction: f64) -> Scene {
     let flats = Flats {
         name: name.to_owned(),
         at,
         flats: flats.iter().map(|&(direction, gap)| Flat { direction, gap }).collect(),
         centre: [0.0, 0.0],
         law: WallLaw::Rigid { restitution: e },
+        friction,
     };
-    let first = scene.walls.len();
-    scene.walls.extend(flats.walls().expect("flats"));
-    scene.supports.push(flats.support(first, friction));
-    scene
+    let walls = flats.walls().expect("flats");
+    scene.with_support(name, flats.at, flats.centre, walls)
 }
 
 pub fn load(kind: Load, row: Row) -> Load {
@@ -113,19 +122,18 @@ impl Sums {
     /// Adds all contacts of a step of `scene`.
     pub fn see(&mut self, scene: &Scene, step: &Step<'_>) {
         let mut pushed = false;
-        let mut holes = step.holes.iter();
         for support in &scene.supports {
-            let contacts: Vec<([f64; 2], f64, f64)> = match &support.shape {
-                Shape::Flats(flats) => {
-                    let of = |flat: &FlatWall| {
-                        (heading(flat.direction), step.impulse[flat.wall].abs(), step.friction[flat.wall])
-                    };
-                    flats.iter().map(of).collect()
-                }
-                _ => holes.next().map(|hole| (hole.normal, hole.impulse, hole.friction)).into_iter().collect(),
-            };
+            let contacts = support.members(&scene.walls).map(|(index, wall)| {
+                let (normal, p) = match wall.face {
+                    Face::Flat { direction, .. } => {
+                        (heading(direction.expect("a flat of a support")), step.impulse[index].abs())
+                    }
+                    Face::Round { .. } => (step.normal[index], step.impulse[index]),
+                };
+                (normal, p, step.friction[index])
+            });
             let rates = [step.velocity_before, step.velocity_after].map(|v| support.seen(v));
-            for ([y, z], p, f) in contacts.into_iter().filter(|contact| contact.1 > 0.0) {
+            for ([y, z], p, f) in contacts.filter(|contact| contact.1 > 0.0) {
                 let [before, after] = rates.map(|[vy, vz]| vz * y - vy * z);
                 self.impulse += p;
                 self.work += 0.5 * p * (before.abs() + after.abs());
@@ -153,7 +161,8 @@ pub fn energy(scene: &Scene, q: &[f64], v: &[f64]) -> f64 {
     0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q))
 }
 
-/// The scene turned by `degrees`: flats, loads, centres and start.
+/// The scene turned by `degrees`: flats, holes, loads, centres and start. All its walls are those
+/// of supports.
 pub fn turned(scene: &Scene, degrees: f64) -> Scene {
     let [c, s] = heading(degrees);
     let turn = |[y, z]: [f64; 2]| [c * y - s * z, s * y + c * z];
@@ -163,24 +172,26 @@ pub fn turned(scene: &Scene, degrees: f64) -> Scene {
     };
     let mut other = scene.clone();
     (other.initial.q, other.initial.v) = (both(&scene.initial.q), both(&scene.initial.v));
-    other.walls.clear();
+    assert!((0..scene.walls.len()).all(|wall| scene.support_of(wall).is_some()));
     for support in &mut other.supports {
         support.centre = turn(support.centre);
-        let (at, centre) = (support.at.clone(), support.centre);
-        if let Shape::Flats(flats) = &mut support.shape {
-            for flat in flats {
-                let wall = &scene.walls[flat.wall];
-                flat.direction += degrees;
-                let turned = Flats {
-                    name: wall.name.clone(),
-                    at: at.clone(),
-                    flats: vec![Flat { direction: flat.direction, gap: wall.gap(0.0).abs() }],
-                    centre,
-                    law: wall.law,
-                };
-                flat.wall = other.walls.len();
-                other.walls.extend(turned.walls().expect("a flat"));
-            }
+        for wall in &mut other.walls[support.walls.clone()] {
+            let direction = match &mut wall.face {
+                Face::Flat { direction, .. } => direction.expect("a flat of a support") + degrees,
+                Face::Round { centre, .. } => {
+                    *centre = support.centre;
+                    continue;
+                }
+            };
+            let turned = Flats {
+                name: wall.name.clone(),
+                at: support.at.clone(),
+                flats: vec![Flat { direction, gap: wall.gap(0.0).abs() }],
+                centre: support.centre,
+                law: wall.law,
+                friction: wall.friction,
+            };
+            *wall = turned.walls().expect("a flat").remove(0);
         }
     }
     // Loads on y and z at once: their rows turn.

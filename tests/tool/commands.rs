@@ -448,7 +448,7 @@ fn wrong_requests_about_structures_exit_with_2() {
     let requests: &[(&[&str], &str)] = &[
         (&["run", "rigid-walls-sine", "--modes", "1"], "one degree of freedom"),
         (&["explain", "rigid-walls-sine", "--modes", "1"], "one degree of freedom"),
-        (&["run", "chain-20", "--modes", "0"], "from 1 to 20"),
+        (&["run", "chain-20", "--modes", "0"], "a whole number from 1"),
         (&["run", "chain-20", "--modes", "21"], "from 1 to 20"),
         (&["compare", "tube-loose-supports", "--modes", "121"], "from 1 to 120"),
         (&["run", "static.toml", "--restitution", "0.5"], "cannot rebound"),

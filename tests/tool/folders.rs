@@ -58,7 +58,9 @@ fn json(path: &Path) -> Value {
 fn forget_records(folder: &Path) {
     let path = folder.join("request.json");
     let mut manifest = json(&path);
-    manifest.as_object_mut().unwrap().remove("tables").unwrap();
+    for records in ["tables", "documents"] {
+        manifest.as_object_mut().unwrap().remove(records).unwrap();
+    }
     fs::write(path, manifest.to_string()).unwrap();
 }
 
@@ -195,6 +197,26 @@ fn a_report_names_the_table_that_is_not_as_it_was_written() {
             said(dir.path(), &asked(if folder == "run" { &RUN } else { &SWEEP }, &[folder, "--force"]), 0);
         }
     }
+}
+
+#[test]
+fn a_report_names_the_summary_that_was_changed() {
+    let dir = tempfile::tempdir().unwrap();
+    said(dir.path(), &asked(&RUN, &["run"]), 0);
+    let path = dir.path().join("run/summary.json");
+    let whole = fs::read_to_string(&path).unwrap();
+    let recorded = &json(&dir.path().join("run/request.json"))["documents"]["summary.json"];
+    assert_eq!(recorded["bytes"], whole.len());
+    let at = whole.find("\"impulse_n_s\"").expect("the impulse of a wall");
+    let digit = at + whole[at..].find(|c: char| c.is_ascii_digit() && c != '9').unwrap();
+    let changed = format!("{}9{}", &whole[..digit], &whole[digit + 1..]);
+    for (words, text) in [("was changed", changed.as_str()), ("is empty", ""), ("bytes were written", &whole[1..])] {
+        fs::write(&path, text).unwrap();
+        let told = said(dir.path(), &["report", "run"], 2);
+        assert!(told.contains("summary.json") && told.contains(words), "{words}: {told}");
+    }
+    fs::write(&path, whole).unwrap();
+    said(dir.path(), &["report", "run"], 0);
 }
 
 #[test]

@@ -80,7 +80,7 @@ fn a_step_that_passes_over_a_mode_is_said() {
     assert_eq!(notes(&scene, &MOREAU, 0.02), "");
     // Cut to modes, the third carries 2 % of the tip's compliance, the eighth nothing to speak of:
     // 1/(2i − 1)² of the first.
-    scene.walls.push(Wall { at: Row::dof(7), ..Wall::upper("stop", 1e-5) });
+    scene.walls.push(Wall::upper("stop", 1e-5).at(Row::dof(7)));
     let cut = scene.reduced(8, false).unwrap().scene;
     let said = notes(&cut, &MOREAU, 0.02);
     assert!(said.contains("the fastest mode that a wall or load moves by 1 % or more"), "{said}");
@@ -112,8 +112,7 @@ fn no_contact_at_all_is_said_with_how_near_it_came() {
     }
     // A probe elsewhere sees nothing of the wall.
     let chain = Chain { masses: vec![1.0; 2], springs: vec![100.0], grounds: [100.0, 0.0] };
-    let mut blind =
-        Scene::structure(chain.structure().unwrap()).with_wall(Wall { at: Row::dof(1), ..Wall::upper("stop", 1.0) });
+    let mut blind = Scene::structure(chain.structure().unwrap()).with_wall(Wall::upper("stop", 1.0).at(Row::dof(1)));
     blind.probes = vec![Probe { name: "other".into(), at: Row::dof(0) }];
     assert!(notes(&blind, &MOREAU, 1e-3).contains("no contact at all"));
 }

@@ -75,6 +75,15 @@ fn the_last_line_names_the_page_to_open() {
         let bare = said(dir.path(), &[args, &["--out", &out, "--no-report"][..]].concat(), 0);
         assert_eq!(bare.lines().last(), Some(format!("results in {out}").as_str()), "{args:?}: {bare}");
     }
+    let sweep = ["sweep", "rigid-walls-sine", "--vary", "time.end=0.2,0.3", "--measure", "contacts"];
+    for shard in ["1/2", "2/2"] {
+        said(dir.path(), &[&sweep[..], &["--shard", shard, "--out", "parts"]].concat(), 0);
+    }
+    let err = said(dir.path(), &["merge", "parts", "--out", "whole"], 0);
+    assert_eq!(err.lines().last(), Some("results in whole; open whole/report.html"), "{err}");
+    let bare = said(dir.path(), &["merge", "parts", "--out", "whole", "--no-report"], 0);
+    assert_eq!(bare.lines().last(), Some("results in whole"), "{bare}");
+    assert!(!dir.path().join("whole/report.html").exists());
     let err = said(dir.path(), &["report", "out-0"], 0);
     assert_eq!(err.lines().last(), Some("wrote the page; open out-0/report.html"), "{err}");
 }
@@ -91,8 +100,8 @@ fn a_refusal_of_another_request_names_the_values_that_differ() {
     let err = run("rigid-walls-sine", &["--set", "wall.upper.position=6e-3", "--restitution", "0.5"], 2);
     for line in [
         "  wall.upper.position: 0.005 there, 0.006 asked\n",
-        "  wall.upper.restitution: left out there, 0.5 asked\n",
-        "  wall.lower.restitution: left out there, 0.5 asked\n",
+        "  wall.upper.restitution: 1 there, 0.5 asked\n",
+        "  wall.lower.restitution: 1 there, 0.5 asked\n",
     ] {
         assert!(err.contains(line), "{line}: {err}");
     }
@@ -200,6 +209,32 @@ fn words_are_those_of_the_field() {
     for text in [run, help, explained] {
         for word in ["ledger", "astray", "source scene"] {
             assert!(!text.contains(word), "{word}: {text}");
+        }
+    }
+}
+
+/// With `--json` every command that writes a folder names it and its files.
+#[test]
+fn the_document_of_every_command_names_the_folder_and_its_files() {
+    let dir = tempfile::tempdir().unwrap();
+    let (case, value) = ("rigid-walls-sine", "wall.*.restitution=0.8");
+    let branches = ["--key", "load.1.harmonic.frequency", "--range", "4.9:5.1", "--points", "5", "--switch", "no"];
+    for args in [
+        &["run", case, "--end", "0.1", "--no-verdict"][..],
+        &["compare", case, "--end", "0.1", "--no-verdict"],
+        &["chart", case, "--end", "0.1", "--levels", "2", "--repeats", "1"],
+        &["sweep", case, "--vary", "time.end=0.2,0.3", "--measure", "contacts"],
+        &["orbit", case, "--set", value, "--set", "load.1.harmonic.frequency=5"],
+        &[&["continue", case, "--set", value, "--set", "load.1.harmonic.frequency=5"][..], &branches].concat(),
+    ] {
+        let own = ["--json", "--no-report", "--out", args[0]];
+        let (out, _) = on(None, dir.path(), &[args, &own[..]].concat(), 0);
+        let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+        assert_eq!(document["results"], args[0], "{args:?}");
+        let files = document["files_written"].as_array().unwrap();
+        assert!(files.len() > 1, "{args:?}");
+        for file in files {
+            assert!(dir.path().join(args[0]).join(file.as_str().unwrap()).is_file(), "{args:?}: {file}");
         }
     }
 }

@@ -92,7 +92,7 @@ def run_many(
     Raises
     ------
     ValueError
-        For a wrong request, and for scenes whose supports are all round, which have no columns yet.
+        For a wrong request.
 
     Examples
     --------
@@ -104,7 +104,7 @@ def run_many(
     """
     scenes = list(scenes)
     options = _options(scheme, step, statistics_from, judge, threads)
-    names = [wall.name for wall in scenes[0].walls] if scenes else []
+    names = scenes[0]._wall_names if scenes else ()
     with Progress(len(scenes), progress) as shown:
         rows = _run_many(scenes, *options, shown.tell)
     return _table(names, rows, judge)
@@ -157,7 +157,7 @@ def sweep(
     Raises
     ------
     ValueError
-        For a wrong request, and for scenes whose supports are all round, which have no columns yet.
+        For a wrong request.
     Exception
         Whatever ``make`` raises besides ValueError.
 
@@ -238,7 +238,7 @@ def _first_walls(make: Callable[..., Scene], points: Sequence[Mapping[str, Any]]
             continue
         if not isinstance(scene, Scene):
             raise TypeError(f"make returned {scene!r}; expected a Scene")
-        return [wall.name for wall in scene.walls]
+        return list(scene._wall_names)
     return []
 
 
@@ -259,7 +259,7 @@ def _task(
         except ValueError as error:
             errors[row] = str(error)
             continue
-        names = [wall.name for wall in scene.walls]
+        names = list(scene._wall_names)
         if names == list(walls):
             scenes.append(scene)
             rows.append(row)

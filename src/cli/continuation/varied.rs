@@ -11,19 +11,16 @@ pub(super) struct Varied {
 }
 
 impl Varied {
-    /// The key of that name and its range, each with the option that gives it.
-    pub(super) fn new(
-        file: &CaseFile,
-        (by, key): (&'static str, &str),
-        (option, text): (&'static str, &str),
-    ) -> Result<Self> {
+    /// The key `key` and its range, which the two `options` give.
+    pub(super) fn new(file: &CaseFile, options: [&'static str; 2], key: &str, range: &str) -> Result<Self> {
         let key: Key = key.parse()?;
-        let (value, range) = (start_value(file, by, &key)?, range(option, text)?);
-        if !(range[0]..=range[1]).contains(&value) {
+        let [by, option] = options;
+        let (value, limits) = (start_value(file, by, &key)?, limits(option, range)?);
+        if !(limits[0]..=limits[1]).contains(&value) {
             let expected = format!("a range with the case's value of the key, {value:?}, in it");
-            return Err(Error::invalid(option, text, expected));
+            return Err(Error::invalid(option, range, expected));
         }
-        Ok(Self { key, value, range })
+        Ok(Self { key, value, range: limits })
     }
 
     /// Its column: its last word and its unit, as in a sweep.
@@ -55,7 +52,8 @@ fn start_value(file: &CaseFile, by: &'static str, key: &Key) -> Result<f64> {
     }
 }
 
-fn range(option: &'static str, text: &str) -> Result<[f64; 2]> {
+/// The two ends of a range.
+fn limits(option: &'static str, text: &str) -> Result<[f64; 2]> {
     let wrong = || Error::invalid(option, format_args!("{text:?}"), "A:B, two numbers, the first below the second");
     let (low, high) = text.split_once(':').ok_or_else(wrong)?;
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(wrong);

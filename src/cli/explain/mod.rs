@@ -4,13 +4,15 @@
 mod model;
 mod penalty;
 
-use super::pace::{Estimate, estimate, words};
-use super::request::Changes;
+use super::case_args::CaseArgs;
+use super::estimate::{RunTime, run_time, time_in_words};
+use super::pipeline::Shown;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
-use crate::notes;
+use crate::output::document::under_head;
 use crate::output::summary;
+use crate::run::notes;
 use crate::scene::{System, WallSpring};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice::{self, Choice};
@@ -24,15 +26,11 @@ use std::time::Duration;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  signorini explain cases/rigid-walls-sine.toml")]
 pub struct Args {
-    /// Case file, or the name of a built-in case; a file of that name is taken before a built-in
-    /// case
-    #[arg(value_hint = clap::ValueHint::FilePath)]
-    case: String,
     #[command(flatten)]
-    changes: Changes,
+    case: CaseArgs,
     /// Modes to keep, in place of the case's
     #[arg(long, value_name = "K")]
-    modes: Option<usize>,
+    modes: Option<i64>,
 }
 
 /// Time for which a run is stepped to estimate its duration.
@@ -44,27 +42,26 @@ struct Section {
     lines: Vec<String>,
 }
 
-pub fn execute(args: &Args, ui: &Ui) -> Result<()> {
-    let case = args.changes.case(&args.case, ui)?;
+pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+    let case = args.case.read(ui)?;
     let case = match args.modes {
-        Some(modes) => case.with_modes(modes)?,
+        Some(modes) => case.with("system.modes", modes)?,
         None => case,
     };
     let choice = choice::choose(&case.scene);
-    let exact = Method::new(Scheme::Event);
-    let [own, event] = [choice.method, exact].map(|method| estimate(&case.scene, &method, case.time.step, MOMENT));
-    if ui.json() {
-        return ui.document(&document(&case, &choice, own.as_ref(), event.as_ref())?);
+    let times = [choice.method, Method::new(Scheme::Event)]
+        .map(|method| run_time(&case.scene, &method, case.time.step, MOMENT));
+    let mut shown = Shown::new(document(&case, &choice, &times)?);
+    shown.prose(format!("{}: {}", case.name, case.title.as_deref().unwrap_or("no title")));
+    for Section { heading, lines } in sections(&case, &choice, &times)? {
+        shown.prose(heading.to_owned());
+        lines.iter().for_each(|line| shown.prose(format!("  {line}")));
     }
-    let mut text = vec![format!("{}: {}", case.name, case.title.as_deref().unwrap_or("no title"))];
-    for Section { heading, lines } in sections(&case, &choice, own.as_ref(), event.as_ref())? {
-        text.push(heading.to_owned());
-        text.extend(lines.iter().map(|line| format!("  {line}")));
-    }
-    ui.prose(&text.join("\n"))
+    Ok(shown)
 }
 
-fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<&Estimate>) -> Result<Vec<Section>> {
+/// The explanation; `times` are those of a run by the chosen scheme, and by the exact one.
+fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Result<Vec<Section>> {
     let mut sections = Vec::new();
     let mut tell = |heading, lines: Vec<String>| {
         if !lines.is_empty() {
@@ -93,11 +90,12 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
     let mut steps = step(case);
     steps.extend(setup(case, choice).iter().map(|note| format!("note: {note}")));
     tell("step", steps);
-    let time = |name: String, estimate: &Estimate| format!("{name}: {}; {}", duration(estimate), estimate.cause);
-    let times = [(choice.method.to_string(), own), ("event".to_owned(), event)];
-    tell("time of a run", times.into_iter().filter_map(|(name, one)| Some(time(name, one?))).collect());
+    let line = |(name, time): (String, &RunTime)| format!("{name}: {}; {}", in_words(time), time.cause);
+    let names = [choice.method.to_string(), "event".to_owned()];
+    let known = names.into_iter().zip(times).filter_map(|(name, time)| Some((name, time.as_ref()?)));
+    tell("time of a run", known.map(line).collect());
     let mut penalties: Vec<String> = Penalty::all(case)?.iter().map(Penalty::line).collect();
-    let rigid: Vec<f64> = case.scene.contact_laws().filter_map(|law| law.restitution()).collect();
+    let rigid: Vec<f64> = case.scene.walls.iter().map(|wall| wall.law).filter_map(|law| law.restitution()).collect();
     if !penalties.is_empty() && rigid.iter().any(|&e| e < 1.0) {
         penalties.push("note: a lossless penalty tends to e = 1, not to the walls' restitution".to_owned());
     }
@@ -106,11 +104,12 @@ fn sections(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
 }
 
 /// The explanation as one JSON document.
-fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<&Estimate>) -> Result<Value> {
+fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Result<Value> {
     let h = case.time.step;
     let [slowest, fastest] = case.scene.system.frequencies().map(|omega| omega / TAU);
-    let estimate = |of: Option<&Estimate>| of.map(|e| json!({ "seconds": e.seconds, "set_by": e.cause }));
-    let seen = |index: usize, words: &String| {
+    let [own, event] =
+        times.each_ref().map(|time| time.as_ref().map(|time| json!({ "seconds": time.seconds, "set_by": time.cause })));
+    let seen = |(index, words): (usize, String)| {
         let wall = case.scene.walls.get(index);
         let stiffness = wall.and_then(|wall| wall.law.spring()).map(|spring| spring.stiffness);
         let mass = masses(case).get(index).copied();
@@ -121,17 +120,13 @@ fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
             "in_words": words,
         })
     };
-    let walls: Vec<Value> = choice::walls(&case.scene).iter().enumerate().map(|(i, words)| seen(i, words)).collect();
+    let walls: Vec<Value> = choice::walls(&case.scene).into_iter().map(seen).collect();
     let mut model = what(case);
     model.extend(choice::body(&case.scene));
     model.extend(supports(case));
     model.push(choice::loads(&case.scene));
     model.extend(excitations(case));
-    Ok(json!({
-        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
-        "case": case.name,
-        "title": case.title,
-        "source": case.source,
+    let document = json!({
         "scene": summary::scene(case),
         "model": model,
         "slowest_frequency_hz": slowest,
@@ -145,10 +140,11 @@ fn document(case: &Case, choice: &Choice, own: Option<&Estimate>, event: Option<
         "step_s": h,
         "steps": (case.scene.duration / h).round() as u64,
         "step_times_omega": h * fastest * TAU,
-        "estimated_time": { "scheme": estimate(own), "event": estimate(event) },
+        "estimated_time": { "scheme": own, "event": event },
         "penalties": Penalty::all(case)?.iter().map(Penalty::document).collect::<Vec<_>>(),
         "notes": case.notes().into_iter().chain(setup(case, choice)).collect::<Vec<_>>(),
-    }))
+    });
+    Ok(under_head(case, document))
 }
 
 /// Notes on the step and the scene that need no run.
@@ -159,9 +155,9 @@ fn setup(case: &Case, choice: &Choice) -> Vec<String> {
 }
 
 /// The duration of a run in words, estimated from a short piece of it.
-fn duration(estimate: &Estimate) -> String {
-    if estimate.seconds.is_finite() {
-        format!("about {} of stepping", words(estimate.seconds))
+fn in_words(time: &RunTime) -> String {
+    if time.seconds.is_finite() {
+        format!("about {} of stepping", time_in_words(time.seconds))
     } else {
         "too long to estimate".to_owned()
     }
@@ -189,7 +185,8 @@ fn step(case: &Case) -> Vec<String> {
     let h = case.time.step;
     let resolved = if omega > 0.0 { format!(", h ω = {:.2e}", h * omega) } else { String::new() };
     let mut lines = vec![format!("{h:e} s, {:.0} steps{resolved}", case.scene.duration / h)];
-    for (wall, mass) in case.scene.walls.iter().zip(masses(case)).take(MOST_WALLS) {
+    let flats = case.scene.walls.iter().zip(masses(case)).filter(|(wall, _)| !wall.is_round());
+    for (wall, mass) in flats.take(MOST_WALLS) {
         if let Some(WallSpring { stiffness, .. }) = wall.law.spring() {
             lines.push(format!("{:?}: h² k_a/m = {:.2e}", wall.name, h * h * stiffness / mass));
         }

@@ -1,7 +1,7 @@
 //! The model of a case in words: structure, supports, walls and loads.
 
 use crate::case::{Case, Model, Origin, Support};
-use crate::scene::{self, Density, Flats, LoadKind, Shape, WallSpring};
+use crate::scene::{self, Density, Flats, LoadKind, WallSpring};
 use crate::study::choice;
 use crate::study::truncation::Start;
 
@@ -62,11 +62,11 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
                 force.seed
             ))
         }
-        Origin::Base { file, .. } => Some(format!(
+        Origin::Base(file) => Some(format!(
             "load {}: the base moves as {file} says; displacements are relative to it, and walls move with it",
             index + 1
         )),
-        Origin::Stated | Origin::Table { .. } | Origin::Second(_) => None,
+        Origin::Stated | Origin::Second(_) => None,
     };
     let mut lines: Vec<String> = case.written.origins.iter().enumerate().filter_map(line).collect();
     if case.written.start == Start::Equilibrium {
@@ -82,20 +82,16 @@ pub(super) fn supports(case: &Case) -> Vec<String> {
             [0.0, 0.0] => String::new(),
             [y, z] => format!(", its centre at ({y}, {z}) m"),
         };
-        let rubs = match there.friction {
+        let rubs = match there.friction(&case.scene.walls) {
             0.0 => "without friction, so that its work rate is an upper figure".to_owned(),
             friction => format!("friction {friction}"),
         };
         let (name, place) = (&support.name, &support.place);
         let Some((Flats { flats, .. }, _)) = &support.flats else {
-            let (gap, law) = match &there.shape {
-                Shape::Round { gap, law } => {
-                    let elastic = |s: WallSpring| format!("elastic, {:?} N/m and {:?} N s/m", s.stiffness, s.damping);
-                    let rigid = || format!("rigid, restitution {}", law.restitution().unwrap_or(0.0));
-                    (*gap, law.spring().map_or_else(rigid, elastic))
-                }
-                Shape::Flats(_) => (0.0, String::new()),
-            };
+            let Some(hole) = there.hole(&case.scene.walls) else { return String::new() };
+            let elastic = |s: WallSpring| format!("elastic, {:?} N/m and {:?} N s/m", s.stiffness, s.damping);
+            let rigid = || format!("rigid, restitution {}", hole.restitution);
+            let (gap, law) = (hole.gap, hole.law.spring().map_or_else(rigid, elastic));
             return format!(
                 "support {name:?}, on {place}: a round hole, a gap of {gap} m all round{off}; {law}, {rubs}"
             );
@@ -128,8 +124,7 @@ pub(super) fn supports(case: &Case) -> Vec<String> {
 /// Each wall, its location, and the share of the structure's compliance there that a truncation
 /// keeps.
 pub(super) fn walls(case: &Case) -> Vec<String> {
-    let mut lines = choice::walls(&case.scene);
-    for (index, line) in lines.iter_mut().enumerate() {
+    let line = |(index, mut line): (usize, String)| {
         if let Some(place) = case.places.get(index).filter(|_| case.has_places()) {
             line.push_str(&format!(", on {place}"));
         }
@@ -140,7 +135,9 @@ pub(super) fn walls(case: &Case) -> Vec<String> {
                 100.0 * left.share()
             ));
         }
-    }
+        line
+    };
+    let mut lines: Vec<String> = choice::walls(&case.scene).into_iter().map(line).collect();
     let all = lines.len();
     if all > MOST_WALLS {
         lines.truncate(MOST_WALLS);

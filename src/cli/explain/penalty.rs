@@ -51,5 +51,5 @@ impl Penalty {
 /// Stiffness at its face of the stiffest wall or hole of the penalised scene, N/m.
 fn stiffest(scene: &Scene, law: PenaltyLaw) -> Result<f64> {
     let scene = scene.penalised(law)?;
-    Ok(scene.contact_laws().filter_map(|law| law.stiffness()).fold(0.0, f64::max))
+    Ok(scene.walls.iter().map(|wall| wall.law).filter_map(|law| law.stiffness()).fold(0.0, f64::max))
 }

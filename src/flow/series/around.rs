@@ -1,49 +1,70 @@
 //! The force of a round hole over a stretch, as magnitude and along y and z.
 
+use super::circle::Circle;
 use super::{Series, value};
 
 impl Series {
-    /// Displacement w (m) at hole number `hole`, from its centre, and its rate (m/s) at `t`.
-    pub(crate) fn at_hole(&self, hole: usize, t: f64) -> ([f64; 2], [f64; 2]) {
-        let Some(circle) = self.circles.get(hole) else { return ([0.0; 2], [0.0; 2]) };
+    /// The circle of a round wall.
+    fn circle(&self, wall: usize) -> Option<&Circle> {
+        self.circles.get(self.round_walls.iter().position(|&round| round == wall)?)
+    }
+
+    /// Displacement w (m) at the round wall of index `wall`, from its centre, and its rate (m/s) at
+    /// `t`.
+    pub(crate) fn at_hole(&self, wall: usize, t: f64) -> ([f64; 2], [f64; 2]) {
+        let Some(circle) = self.circle(wall) else { return ([0.0; 2], [0.0; 2]) };
         let x = (t - self.start) / self.unit;
         let rate = |w: &[f64]| (1..w.len()).rev().fold(0.0, |sum, k| sum * x + k as f64 * w[k]) / self.unit;
         let w = [&circle.w[0][..self.terms], &circle.w[1][..self.terms]];
         (w.map(|w| value(w, x)), w.map(rate))
     }
 
-    /// True if hole number `hole` holds the structure on its circle, with or without a force.
-    pub(crate) fn hole_acts(&self, hole: usize) -> bool {
-        self.of_wall(self.walls + hole).is_some()
+    /// Force of a wall at `t`, N, as results count it: signed, of a round wall its magnitude.
+    pub(crate) fn counted_force(&self, wall: usize, t: f64) -> f64 {
+        let force = self.contact_force(wall, t);
+        if self.round_walls.contains(&wall) { force.abs() } else { force }
     }
 
-    /// Magnitude of the force of hole number `hole` at `t`, N: 0 if it does not act.
-    pub(crate) fn hole_pressure(&self, hole: usize, t: f64) -> f64 {
-        self.contact_force(self.walls + hole, t).abs()
+    /// Impulse of a wall over [from, to] within the stretch, N s, as results count it.
+    pub(crate) fn counted_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
+        let impulse = self.contact_impulse(wall, from, to);
+        if self.round_walls.contains(&wall) { impulse.abs() } else { impulse }
+    }
+
+    /// True if the round wall of index `wall` holds the structure on its circle, with or without a
+    /// force.
+    pub(crate) fn hole_acts(&self, wall: usize) -> bool {
+        self.of_wall(wall).is_some()
+    }
+
+    /// Magnitude of the force of the round wall of index `wall` at `t`, N: 0 if it does not act.
+    pub(crate) fn hole_pressure(&self, wall: usize, t: f64) -> f64 {
+        self.contact_force(wall, t).abs()
     }
 
     /// ∫ of that magnitude over [from, to] within the stretch, N s.
-    pub(crate) fn hole_push(&self, hole: usize, from: f64, to: f64) -> f64 {
-        self.contact_impulse(self.walls + hole, from, to).abs()
+    pub(crate) fn hole_push(&self, wall: usize, from: f64, to: f64) -> f64 {
+        self.contact_impulse(wall, from, to).abs()
     }
 
-    /// Force of hole number `hole` on the structure along y and z at `t`, N: 0 if it does not act.
+    /// Force of the round wall of index `wall` on the structure along y and z at `t`, N: 0 if it
+    /// does not act.
     #[must_use]
-    pub fn hole_force(&self, hole: usize, t: f64) -> [f64; 2] {
-        let pressure = self.hole_pressure(hole, t);
+    pub fn hole_force(&self, wall: usize, t: f64) -> [f64; 2] {
+        let pressure = self.hole_pressure(wall, t);
         if pressure == 0.0 {
             return [0.0; 2];
         }
-        let ([y, z], _) = self.at_hole(hole, t);
+        let ([y, z], _) = self.at_hole(wall, t);
         let distance = y.hypot(z);
         [-pressure * y / distance, -pressure * z / distance]
     }
 
-    /// Impulse of hole number `hole` on the structure along y and z over [from, to] within the
-    /// stretch, N s, in closed form.
+    /// Impulse of the round wall of index `wall` on the structure along y and z over [from, to]
+    /// within the stretch, N s, in closed form.
     #[must_use]
-    pub fn hole_impulse(&self, hole: usize, from: f64, to: f64) -> [f64; 2] {
-        let (Some(acting), Some(circle)) = (self.of_wall(self.walls + hole), self.circles.get(hole)) else {
+    pub fn hole_impulse(&self, wall: usize, from: f64, to: f64) -> [f64; 2] {
+        let (Some(acting), Some(circle)) = (self.of_wall(wall), self.circle(wall)) else {
             return [0.0; 2];
         };
         let force = self.force(acting.slot);

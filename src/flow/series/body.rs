@@ -25,7 +25,7 @@ pub(crate) struct SeriesBody {
     pub(super) loads: Vec<(Row, Forcing)>,
     /// The distinct rows of the walls, then one for each round hole, along its normal.
     pub rows: Rows,
-    /// The index of the row of each wall, in the scene's order, then of each hole.
+    /// The index of the row of each wall, in the scene's order.
     pub row_of: Vec<usize>,
     /// Number of the rows of walls: the rows of holes, which turn, follow them.
     pub fixed: usize,
@@ -75,15 +75,19 @@ impl SeriesBody {
         let Structure { mass, damping, stiffness } = &*structure;
         let n = mass.size();
         let mut factor = structure.mass_factor().ok()?;
-        let places = distinct(scene.walls.iter().map(|wall| &wall.at));
-        let (fixed, mut row_of) = (places.rows.len(), places.of);
+        let flats = || scene.walls.iter().filter(|wall| !wall.is_round());
+        let places = distinct(flats().map(|wall| wall.row()));
+        let fixed = places.rows.len();
         let mut rows = Rows::new(n, places.rows.iter().map(|row| row.entries()));
         let rounds: Vec<Round> = scene.holes().map(|hole| Round::new(&hole, n, &mut factor)).collect();
         let count = fixed + rounds.len();
         if !rounds.is_empty() {
             rows = with_rounds(n, &rows, &rounds);
-            row_of.extend(fixed..count);
         }
+        let (mut of_flats, mut of_rounds) = (places.of.iter().copied(), fixed..count);
+        let row_of =
+            scene.walls.iter().filter_map(|wall| if wall.is_round() { of_rounds.next() } else { of_flats.next() });
+        let row_of: Vec<usize> = row_of.collect();
         let loads = Loads::new(&scene.loads).parts().to_vec();
         let waves = loads.iter().flat_map(|(_, forcing)| &forcing.harmonics);
         let load = waves.map(|wave| wave.omega).fold(0.0, f64::max);

@@ -51,8 +51,9 @@ pub struct Series {
     /// Displacements at the rows of the walls, m: a polynomial in x each. The value at the row of a
     /// hole is such that its distance to the wall of this row is the gap (γ² − |w|²)/2γ.
     seen: Vec<f64>,
-    /// Number of walls, of their rows, and of the terms at the rows of holes.
-    walls: usize,
+    /// The indices of the round walls; number of the rows of flat ones, and of the terms at the
+    /// rows of round ones.
+    round_walls: Vec<usize>,
     fixed: usize,
     squares: usize,
     /// One for each round hole.

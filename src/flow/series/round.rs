@@ -8,6 +8,8 @@ use crate::scene::Hole;
 /// n·c where |w| = γ.
 #[derive(Debug)]
 pub(crate) struct Round {
+    /// Its index among the scene's walls.
+    pub wall: usize,
     /// γ, m.
     pub gap: f64,
     /// n.
@@ -28,7 +30,7 @@ impl Round {
     pub(super) fn new(hole: &Hole<'_>, n: usize, mass: &mut Factor) -> Self {
         let mut weights = vec![[0.0; 2]; n];
         let mut columns = [vec![0.0; n], vec![0.0; n]];
-        for (plane, row) in [&hole.support.at.y, &hole.support.at.z].into_iter().enumerate() {
+        for (plane, row) in [&hole.at.y, &hole.at.z].into_iter().enumerate() {
             for &(i, weight) in row.entries().iter().filter(|entry| entry.0 < n) {
                 weights[i][plane] += weight;
                 columns[plane][i] += weight;
@@ -43,9 +45,10 @@ impl Round {
         let columns = (first..end).map(|i| [columns[0][i], columns[1][i]]).collect();
         let seen = |entry: &(usize, [f64; 2])| entry.1 != [0.0; 2];
         Self {
+            wall: hole.index,
             gap: hole.gap,
             normal: [1.0, 0.0],
-            centre: hole.support.centre,
+            centre: hole.centre,
             entries: weights.into_iter().enumerate().filter(seen).collect(),
             first,
             columns,

@@ -13,8 +13,8 @@ pub(crate) struct Start<'a> {
     pub v: &'a [f64],
     /// A constant force in addition to the loads, N, n entries.
     pub extra: &'a [f64],
-    /// Maximum length of the stretch, s.
-    pub span: f64,
+    /// The latest end of the stretch, s.
+    pub until: f64,
 }
 
 /// An elastic wall that touches.
@@ -77,7 +77,7 @@ impl Series {
             terms: 1,
             motion: vec![0.0; n * TERMS],
             seen: vec![0.0; rows * TERMS],
-            walls: walls - body.rounds.len(),
+            round_walls: body.rounds.iter().map(|round| round.wall).collect(),
             fixed: body.fixed,
             squares: 1,
             circles: body.rounds.iter().map(|round| Circle::new(round.gap, TERMS)).collect(),
@@ -94,7 +94,7 @@ impl Series {
         self.rate
     }
 
-    /// Starts a new stretch, as long as two radians of the fastest motion and `from.span` allow.
+    /// Starts a new stretch, as long as two radians of the fastest motion and `from.until` allow.
     /// `carriers` are the walls behind the held rows: wall, number of the held row, share.
     pub(crate) fn begin(
         &mut self,
@@ -112,9 +112,11 @@ impl Series {
         }
         let radians = if self.circles.is_empty() { RADIANS } else { ROUND_RADIANS };
         let longest = if self.rate > 0.0 { radians / self.rate } else { f64::INFINITY };
-        self.unit = from.span.min(longest);
+        let span = from.until - from.time;
+        self.unit = span.min(longest);
         self.start = from.time;
-        self.end = if from.span <= longest { from.time + from.span } else { from.time + self.unit };
+        // Start and span together would miss the given end by rounding, and with it a blow.
+        self.end = if span <= longest { from.until } else { from.time + self.unit };
         self.terms = if slides { TERMS } else { terms_for(self.rate * self.unit) };
         self.acting.clear();
         self.acting.extend(touching.iter().enumerate().map(|(slot, t)| Acting {

@@ -1,6 +1,5 @@
 //! `summary.json`: the case, the cost and the checks of a run.
 
-mod case_file;
 mod scene;
 
 use super::detail::Detail;
@@ -87,22 +86,17 @@ pub fn scene(case: &Case) -> Value {
     scene::scene(case)
 }
 
-/// The case in the keys of a case file; null where a case file cannot express it.
-#[must_use]
-pub fn case_file(case: &Case) -> Value {
-    case_file::case_file(case)
-}
-
 /// The summary of `run` on `case`, and of the `checks` made of it, as JSON: what the file holds,
 /// and what `run --json` prints, both with what is recorded of the tables beside it. A number that
 /// is not finite is null.
 ///
 /// # Errors
-/// Never in practice: only walls of the trajectory itself are looked up.
+/// Never in practice: only walls of the trajectory itself are looked up, and the case was read from
+/// its document.
 pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -> Result<Value> {
-    let exact = run.scheme == crate::scheme::Scheme::Event;
+    let exact = run.scheme.is_exact();
     let mut impulse_whole_run_n_s = BTreeMap::new();
-    for wall in run.trajectory.walls() {
+    for wall in run.trajectory.walls().iter().filter(|wall| !run.trajectory.holes().contains(wall)) {
         impulse_whole_run_n_s.insert(wall.as_str(), run.trajectory.impulse(wall)?);
     }
     let summary = Summary {
@@ -112,7 +106,7 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         findings: &run.findings,
         title: case.title.as_deref(),
         source: case.source.as_deref(),
-        case_file: case_file::case_file(case),
+        case_file: case.document.json()?,
         files: &case.written.files,
         scene: scene::scene(case),
         scheme: run.scheme.to_string(),

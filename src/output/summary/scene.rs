@@ -1,7 +1,7 @@
 //! The structure that is run, and its walls with the mass that each feels.
 
 use crate::case::{Case, Model, Place};
-use crate::scene::{BarEnd, BeamEnd, Damping, Shape, Side, Support, System, Wall, WallLaw};
+use crate::scene::{BarEnd, BeamEnd, Damping, Face, Side, Support, System, Wall, WallLaw};
 use crate::study::choice;
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
@@ -15,7 +15,8 @@ pub(super) fn scene(case: &Case) -> Value {
     }
     let masses = case.scene.wall_masses();
     let several = case.has_places();
-    let walls = whole.walls.iter().enumerate().map(|(index, w)| {
+    let flats = whole.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round());
+    let walls = flats.map(|(index, w)| {
         let mut value = wall(w);
         if let (Some(place), Some(mass), true, Some(map)) =
             (case.places.get(index), masses.get(index), several, value.as_object_mut())
@@ -36,6 +37,11 @@ pub(super) fn scene(case: &Case) -> Value {
     if !whole.supports.is_empty() {
         out.insert("supports".to_owned(), supports(case).collect());
     }
+    let probes = whole.probes.iter().enumerate().map(|(index, probe)| {
+        let place = case.written.probes.get(index).filter(|_| several);
+        json!({ "name": probe.name, "at": place.map(at) })
+    });
+    out.insert("probes".to_owned(), probes.collect());
     out.insert("duration_s".to_owned(), json!(case.scene.duration));
     Value::Object(out)
 }
@@ -157,10 +163,15 @@ fn supports(case: &Case) -> impl Iterator<Item = Value> {
 }
 
 fn support(support: &Support, place: Option<&Place>, walls: &[Wall]) -> Value {
-    let Support { name, centre, friction, .. } = support;
-    let mut out = match &support.shape {
-        Shape::Flats(flats) => {
-            let directions: Vec<f64> = flats.iter().map(|flat| flat.direction).collect();
+    let (Support { name, centre, .. }, friction) = (support, support.friction(walls));
+    let hole = support.hole(walls);
+    let mut out = match &hole {
+        None => {
+            let direction = |(_, wall): (usize, &Wall)| match wall.face {
+                Face::Flat { direction, .. } => direction,
+                Face::Round { .. } => None,
+            };
+            let directions: Vec<f64> = support.members(walls).filter_map(direction).collect();
             json!({
                 "name": name,
                 "shape": "flats",
@@ -170,16 +181,16 @@ fn support(support: &Support, place: Option<&Place>, walls: &[Wall]) -> Value {
                 "friction": friction,
             })
         }
-        Shape::Round { gap, law } => json!({
+        Some(hole) => json!({
             "name": name,
             "shape": "round",
-            "gap_m": gap,
-            "restitution": law.restitution(),
+            "gap_m": hole.gap,
+            "restitution": hole.law.restitution(),
             "centre_m": centre,
             "friction": friction,
         }),
     };
-    let spring = support.hole().and_then(|hole| hole.law.spring());
+    let spring = hole.and_then(|hole| hole.law.spring());
     if let (Some(spring), Some(map)) = (spring, out.as_object_mut()) {
         map.insert("stiffness_n_per_m".to_owned(), json!(spring.stiffness));
         map.insert("damping_n_s_per_m".to_owned(), json!(spring.damping));
@@ -191,7 +202,7 @@ fn support(support: &Support, place: Option<&Place>, walls: &[Wall]) -> Value {
 }
 
 fn wall(wall: &Wall) -> Value {
-    let side = if wall.side == Side::Upper { "upper" } else { "lower" };
+    let side = if wall.side() == Side::Upper { "upper" } else { "lower" };
     let law = match wall.law {
         WallLaw::Rigid { restitution } => json!({ "restitution": restitution }),
         WallLaw::Elastic { stiffness, damping } => {
@@ -199,5 +210,5 @@ fn wall(wall: &Wall) -> Value {
         }
         WallLaw::Quartic { epsilon, span } => json!({ "epsilon_m3_per_n": epsilon, "span_m": span }),
     };
-    json!({ "name": wall.name, "side": side, "position_m": wall.position, "law": law })
+    json!({ "name": wall.name, "side": side, "position_m": wall.position(), "law": law })
 }

@@ -94,6 +94,25 @@ fn rows_are_told_from_dependent_ones_in_all_units() {
 }
 
 #[test]
+fn a_row_that_two_nearly_parallel_ones_span_depends_on_them_however_it_is_rounded() {
+    for turn in 0..40 {
+        // y₂ = (y₁ − y₀)/angle: with 0 and 1 in play, the rounding error of row 2's pivot is 1e-16
+        // of 1e9.
+        let (turn, angle) = (0.15 * f64::from(turn), 3e-5);
+        let along = |phi: f64| [(turn + phi).cos(), (turn + phi).sin()];
+        let across = [0, 1].map(|i| (along(angle)[i] - along(0.0)[i]) / angle);
+        let dense = Dense::rigid([along(0.0), along(angle), across]);
+        let mut play = ActiveSet::new(3);
+        (0..3).for_each(|row| play.push(&dense.at_rest(), row, Side::Lower));
+        assert_eq!(play.rows().count(), 2, "{turn}");
+        // y₀ ≥ 0 ≥ y₁ leave y₂ ≤ 0, and not ≥ 1.
+        let start = [(0, Side::Lower), (1, Side::Upper), (2, Side::Lower)];
+        let (found, r) = solved(&dense.at_rest(), &start, (&[0.0, -INF, 1.0], &[INF, 0.0, INF]), 100);
+        assert!(matches!(found, Err(Failure::Infeasible { .. })), "{turn}: {found:?}, {r:?}");
+    }
+}
+
+#[test]
 fn a_violation_within_rounding_of_the_largest_motion_is_none() {
     // Row 0, of weight 10, is brought back by 1e6, which is 1e5 for row 1 at a right angle to it.
     // That stands 1e-11 below its bound: more than 1e-12 of the lengths, but less than four ulps of

@@ -145,7 +145,7 @@ impl Ledger {
             if wall.law.is_rigid() {
                 continue;
             }
-            let now = stored(wall, wall.at.dot(step.q), step.force[index] != 0.0);
+            let now = stored(wall, wall.row().dot(step.q), step.force[index] != 0.0);
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);
             if wall.law.damping() > 0.0 {

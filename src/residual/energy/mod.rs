@@ -2,7 +2,6 @@
 
 mod account;
 mod arc;
-mod rings;
 mod series;
 
 pub use account::Energy;
@@ -15,7 +14,6 @@ use super::moves::Moves;
 use super::pushes::pushes;
 use crate::scene::{Forcing, Scene, Wall};
 use crate::step::{Balance, Calm, Contract, Step};
-use rings::Rings;
 
 #[derive(Debug, Clone)]
 pub(super) struct Ledger {
@@ -29,7 +27,6 @@ pub(super) struct Ledger {
     started: bool,
     /// The energy that each wall stored after the last step, J.
     held: Vec<f64>,
-    rings: Rings,
     /// Σ of the steps' residuals, and the rounding error of that sum (Kahan), so that 1e7 steps can
     /// be checked to rounding.
     residual: f64,
@@ -58,12 +55,11 @@ struct Flows {
 impl Ledger {
     pub fn new(scene: &Scene, contract: Contract, q: &[f64], v: &[f64]) -> Self {
         let touching = |wall: &Wall| {
-            let (w, rate) = (wall.at.dot(q), wall.at.dot(v));
+            let (w, rate) = (wall.coordinate(q), wall.rate(q, v));
             stored(wall, w, wall.law_force(w, rate) != 0.0)
         };
         let held: Vec<f64> = scene.walls.iter().map(touching).collect();
-        let rings = Rings::new(scene, q);
-        let walls = held.iter().sum::<f64>() + rings.stored();
+        let walls = held.iter().sum::<f64>();
         let energy = 0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + walls;
         Self {
             contract,
@@ -73,7 +69,6 @@ impl Ledger {
             flowed: 0.0,
             started: false,
             held,
-            rings,
             residual: 0.0,
             lost: 0.0,
             steepest: Forcing::on(0, &scene.loads).steepest(),
@@ -108,13 +103,11 @@ impl Ledger {
         } else {
             0.0
         };
-        if !step.friction.is_empty() || !step.holes.is_empty() {
+        if !step.friction.is_empty() {
             see_supports(scene, step, &mut flows);
         }
-        let (rings, lost) = self.rings.see(scene, h, (q0, q1), step);
-        flows.dashpot += lost;
         let energy = self.after(matrices, h, (q0, q1), (moves.after, moves.v), n);
-        self.book(energy + walls + rings, flows);
+        self.book(energy + walls, flows);
     }
 
     /// Adds n steps of one degree of freedom in which no wall touches it, after the first step.
@@ -187,7 +180,7 @@ impl Ledger {
     #[cold]
     fn start(&mut self, scene: &Scene, matrices: &Matrices, (h, b): (f64, f64), q: &[f64], before: &[f64]) {
         for (wall, held) in scene.walls.iter().zip(&mut self.held) {
-            let (w, rate) = (wall.at.dot(q), wall.at.dot(before));
+            let (w, rate) = (wall.row().dot(q), wall.row().dot(before));
             *held = half(wall, w, -h * rate, wall.law_force(w, rate) != 0.0);
         }
         let n = q.len();
@@ -211,15 +204,15 @@ impl Ledger {
         for (index, (wall, &p)) in scene.walls.iter().zip(step.impulse).enumerate() {
             if wall.law.is_rigid() {
                 if p != 0.0 {
-                    flows.impact -= p * 0.5 * (wall.at.dot(before) + wall.at.dot(after));
+                    flows.impact -= p * 0.5 * (wall.row().dot(before) + wall.row().dot(after));
                 }
                 continue;
             }
-            let rate = 0.5 * (wall.at.dot(before) + wall.at.dot(after));
-            let (w0, w1) = (wall.at.dot(q0), wall.at.dot(q1));
+            let rate = 0.5 * (wall.row().dot(before) + wall.row().dot(after));
+            let (w0, w1) = (wall.coordinate(q0), wall.coordinate(q1));
             let touches = p != 0.0;
             let now =
-                if staggered { half(wall, w0, h * wall.at.dot(after), touches) } else { stored(wall, w1, touches) };
+                if staggered { half(wall, w0, h * wall.row().dot(after), touches) } else { stored(wall, w1, touches) };
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);
             let damping = wall.law.damping();
@@ -257,14 +250,13 @@ impl Ledger {
         let staggered = self.staggered();
         let mut energy = self.after(matrices, -h, (step.q, step.q), (after, step.v), step.q.len());
         for (wall, held) in scene.walls.iter().zip(&mut self.held) {
-            let (w, touching) = (wall.at.dot(step.q), *held != 0.0);
+            let (w, touching) = (wall.coordinate(step.q), *held != 0.0);
             *held = match staggered {
-                Some(_) => half(wall, w, -h * wall.at.dot(after), touching),
+                Some(_) => half(wall, w, -h * wall.row().dot(after), touching),
                 None => stored(wall, w, touching),
             };
             energy += *held;
         }
-        energy += self.rings.displace(scene, step.q);
         let work = energy - self.energy;
         self.book(energy, Flows { work, passed: work.abs(), ..Flows::default() });
     }
@@ -316,10 +308,10 @@ impl Ledger {
 /// Adds the flows at round holes, and those of friction.
 #[inline(never)]
 fn see_supports(scene: &Scene, step: &Step<'_>, flows: &mut Flows) {
-    for (_, support, [push, rub]) in pushes(scene, step) {
-        let (before, after) = (support.seen(step.velocity_before), support.seen(step.velocity_after));
+    for (index, at, [push, rub]) in pushes(scene, step) {
+        let (before, after) = (at.dot(step.velocity_before), at.dot(step.velocity_after));
         let work = |force: [f64; 2]| 0.5 * (force[0] * (before[0] + after[0]) + force[1] * (before[1] + after[1]));
-        let rigid = support.hole().is_none_or(|hole| hole.law.is_rigid());
+        let rigid = scene.walls[index].law.is_rigid();
         flows.impact -= if rigid { work(push) } else { 0.0 };
         flows.friction -= work(rub);
     }

@@ -23,7 +23,7 @@ impl Ledger {
     /// Energy of structure and walls at a state; `force` is that of each wall.
     pub fn energy_at(scene: &Scene, q: &[f64], v: &[f64], force: impl Fn(usize) -> f64) -> f64 {
         let walls = scene.walls.iter().enumerate();
-        let held: f64 = walls.map(|(index, wall)| stored(wall, wall.at.dot(q), force(index) != 0.0)).sum();
+        let held: f64 = walls.map(|(index, wall)| stored(wall, wall.row().dot(q), force(index) != 0.0)).sum();
         0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + held
     }
 
@@ -54,17 +54,18 @@ impl Ledger {
         }
         let mut walls = 0.0;
         for (index, wall) in scene.walls.iter().enumerate() {
-            flows.impact -= 0.5 * step.jump[index] * (wall.at.dot(mid) + wall.at.dot(step.v));
-            let now = stored(wall, wall.at.dot(step.q), step.force[index] != 0.0);
+            flows.impact -= 0.5 * step.jump[index] * (wall.row().dot(mid) + wall.row().dot(step.v));
+            let now = stored(wall, wall.row().dot(step.q), step.force[index] != 0.0);
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);
             if wall.law.damping() > 0.0 {
                 flows.dashpot -= now - held;
             }
         }
-        for (hole, did) in scene.holes().zip(step.holes).filter(|(_, did)| did.jump != 0.0) {
-            let ([before, after], [y, z]) = ([mid, step.v].map(|v| hole.support.seen(v)), did.normal);
-            flows.impact += 0.5 * did.jump * (y * (before[0] + after[0]) + z * (before[1] + after[1]));
+        for hole in scene.holes().filter(|hole| step.jump[hole.index] != 0.0) {
+            let (jump, [y, z]) = (step.jump[hole.index], step.normal[hole.index]);
+            let [before, after] = [mid, step.v].map(|v| hole.seen(v));
+            flows.impact += 0.5 * jump * (y * (before[0] + after[0]) + z * (before[1] + after[1]));
         }
         let system = &scene.system;
         self.book(0.5 * (system.mass_form(step.v, step.v) + system.stiffness_form(step.q, step.q)) + walls, flows);

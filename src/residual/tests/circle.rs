@@ -14,7 +14,7 @@ const SPAN: f64 = 0.125;
 
 fn scene(gap: f64, centre: [f64; 2]) -> Scene {
     let mut scene = with_hole(body([4.0; 2], 0.0), "hole", gap, RIGID);
-    scene.supports[0].centre = centre;
+    scene.walls[0] = scene.walls[0].clone().with_centre(centre);
     scene
 }
 
@@ -30,7 +30,7 @@ fn sliding() -> (Series, Made) {
     let mut series = Series::new(&body);
     let mut hold = Hold::with_room(1);
     hold.set(&body, once(Held { row: 0, sign: -1.0, position: GAP + 0.6 - 0.8 * 3.0 }), empty());
-    let from = SeriesStart { time: TIME, q: &PLACE, v: &SPEED, extra: &[0.0; 2], span: SPAN };
+    let from = SeriesStart { time: TIME, q: &PLACE, v: &SPEED, extra: &[0.0; 2], until: TIME + SPAN };
     series.begin(&mut body, &from, &[], &hold, once((0, 0, 1.0)), &mut [0.0; 4]);
     let mut made = Made { start: TIME, end: TIME + SPAN, before: SPEED.to_vec(), ..Made::rest(&scene, SPAN) };
     series.state(made.end, &mut made.q, &mut made.after);
@@ -39,8 +39,8 @@ fn sliding() -> (Series, Made) {
     let given = series.hole_impulse(0, TIME, made.end);
     let impulse = PUSH * SPAN;
     let turned = [0, 1].map(|axis: usize| given[axis] + impulse * normal[axis]);
-    made.holes[0] = HoleStep { normal, impulse, turned, ..HoleStep::default() };
-    (series, made)
+    made.turned[0] = turned;
+    (series, made.pushing(0, normal, impulse))
 }
 
 fn judged(scene: &Scene, series: &Series, made: &Made) -> Judge {
@@ -49,26 +49,28 @@ fn judged(scene: &Scene, series: &Series, made: &Made) -> Judge {
     judge
 }
 
-/// The rounding error of a place: rows of 9.2 m, the centre 4 m away, the gap, and the time since
-/// the start at 2.79 m/s. Over the stretch all of that changes by a few parts in a thousand.
-fn of_place(judge: &Judge, gap_scale: f64) -> f64 {
-    judge.rounding.met(9.2 + 4.0 + GAP + 2.79 * (TIME + 0.5 * SPAN), gap_scale)
-}
+/// The terms of a place: rows of 9.2 m, the centre 4 m away, the gap, and the time since the start
+/// at 2.79 m/s. Over the stretch all of that changes by a few parts in a thousand.
+const SIZE: f64 = 9.2 + 4.0 + GAP + 2.79 * (TIME + 0.5 * SPAN);
 
 #[test]
 fn a_hole_of_another_size_or_place_counts_less_the_rounding_of_all_terms() {
     let (series, made) = sliding();
     let right = judged(&scene(GAP, CENTRE), &series, &made);
     assert_eq!(right.findings(), []);
-    assert!((right.force_scale - PUSH).abs() < 1e-12 && right.tension == 0.0, "{}", right.force_scale);
+    assert!(
+        (right.walls.force_scale - PUSH).abs() < 1e-12 && right.walls.tension == 0.0,
+        "{}",
+        right.walls.force_scale
+    );
     // By what exceeds rounding, which is 2e-11 m.
     let other = 1e-10;
     let small = judged(&scene(GAP - other, CENTRE), &series, &made);
-    let noise = of_place(&small, GAP);
-    let found = small.doubts.gaps.outside.value;
+    let noise = small.noise.place(SIZE);
+    let found = small.walls.gaps.outside.excess.value;
     assert!((found - (other - noise)).abs() < 3e-3 * noise, "{found:e}, {noise:e}");
     let wide = judged(&scene(GAP + other, CENTRE), &series, &made);
-    let both = |gap: f64, force: f64| wide.doubts.gaps.both(gap, force).value;
+    let both = |gap: f64, force: f64| wide.walls.gaps.worst_excess(gap, force).value;
     assert!((both(1.0, 1e-30) - (other - noise)).abs() < 3e-3 * noise, "{:e}", both(1.0, 1e-30));
     assert!((both(1e-30, 1.0) - PUSH).abs() < 1e-9, "{:e}", both(1e-30, 1.0));
     // A force beside the normal: where the centre lies elsewhere along the brim, in the middle of
@@ -76,9 +78,9 @@ fn a_hole_of_another_size_or_place_counts_less_the_rounding_of_all_terms() {
     let [c, s] = [0.6 - 0.8 / 64.0, 0.8 + 0.6 / 64.0];
     let shifted = [CENTRE[0] - s * 1e-9, CENTRE[1] + c * 1e-9];
     let askew = judged(&scene(GAP, shifted), &series, &made);
-    let doubt = askew.supports.as_ref().expect("a hole").doubt.value;
-    let place = of_place(&askew, 0.0) * PUSH / GAP;
-    let force = askew.rounding.wall_force(0, SPAN, 1.0 + made.end / SPAN);
+    let doubt = askew.supports.as_ref().expect("a hole").askew.excess.value;
+    let place = askew.noise.of(SIZE) * PUSH / GAP;
+    let force = askew.noise.wall_force(0);
     let expected = PUSH * 1e-9 / GAP - place - force;
     // The force's own noise, which grows during the stretch, is some times larger.
     assert!((doubt - expected).abs() < 0.2 * place, "{doubt:e}, {expected:e}, {place:e}, {force:e}");
@@ -91,13 +93,14 @@ fn a_body_that_flies_out_of_a_hole_is_accused_without_a_push() {
     let free = scene(99.0, CENTRE);
     let mut body = SeriesBody::new(&free).expect("a mass");
     let mut series = Series::new(&body);
-    let from = SeriesStart { time: TIME, q: &PLACE, v: &SPEED, extra: &[0.0; 2], span: SPAN };
+    let from = SeriesStart { time: TIME, q: &PLACE, v: &SPEED, extra: &[0.0; 2], until: TIME + SPAN };
     series.begin(&mut body, &from, &[], &Hold::with_room(1), empty(), &mut [0.0; 4]);
     series.state(made.end, &mut made.q, &mut made.after);
-    made.holes[0] = HoleStep::default();
+    made.turned[0] = [0.0; 2];
+    let made = made.pushing(0, [0.0; 2], 0.0);
     let judge = judged(&scene(GAP, CENTRE), &series, &made);
     let out = (2.0 * SPAN * 0.98_f64).powi(2) / (2.0 * GAP);
-    let found = judge.doubts.gaps.outside.value;
+    let found = judge.walls.gaps.outside.excess.value;
     assert!((found / out - 1.0).abs() < 0.01, "{found:e}, {out:e}");
 }
 
@@ -106,7 +109,7 @@ fn a_body_at_rest_in_the_centre_of_a_hole_is_not_accused() {
     let scene = scene(GAP, [0.0; 2]);
     let mut body = SeriesBody::new(&scene).expect("a mass");
     let mut series = Series::new(&body);
-    let from = SeriesStart { time: 0.0, q: &[0.0; 2], v: &[0.0; 2], extra: &[0.0; 2], span: SPAN };
+    let from = SeriesStart { time: 0.0, q: &[0.0; 2], v: &[0.0; 2], extra: &[0.0; 2], until: SPAN };
     series.begin(&mut body, &from, &[], &Hold::with_room(1), empty(), &mut [0.0; 4]);
     let mut judge = start(&scene, (&[], &[]));
     judge.see(&Made::rest(&scene, SPAN).along(Path::Series(&series)));
@@ -119,16 +122,16 @@ fn an_impulse_that_the_force_does_not_give_counts_less_its_rounding() {
     let impulse = PUSH * SPAN;
     let told = |by: f64| {
         let mut other = made.clone();
-        other.holes[0].turned[0] += by;
+        other.turned[0][0] += by;
         judged(&scene(GAP, CENTRE), &series, &other)
     };
     // 32 units of the impulse, of which the sums need some.
     let unit = f64::EPSILON * impulse;
-    let askew = told(96.0 * unit).supports.as_ref().expect("a hole").askew * SPAN;
+    let askew = told(96.0 * unit).supports.as_ref().expect("a hole").askew.value * SPAN;
     assert!((askew - 64.0 * unit).abs() < 8.0 * unit, "{} units", askew / unit);
     let judge = told(1e-9);
-    let doubt = judge.supports.as_ref().expect("a hole").doubt.value;
-    let force = judge.rounding.wall_force(0, SPAN, 1.0 + made.end / SPAN);
+    let doubt = judge.supports.as_ref().expect("a hole").askew.excess.value;
+    let force = judge.noise.wall_force(0);
     let expected = (1e-9 - 32.0 * unit) / SPAN - force;
     assert!((doubt - expected).abs() < 0.01 * force, "{doubt:e}, {expected:e}, {force:e}");
 }
@@ -139,22 +142,17 @@ fn strike(scene: &Scene, end: f64, q: [f64; 2], (before, after): ([f64; 2], [f64
     let mut judge = start(scene, (&[], &[]));
     judge.scratch.spring.copy_from_slice(&before);
     judge.extent.speed = 100.0;
-    judge.span = SPAN;
-    let did = HoleStep { normal: [0.6, 0.8], impulse: 1.0, jump: 1.0, ..HoleStep::default() };
-    let made = Made {
-        start: end - SPAN,
-        end,
-        q: q.to_vec(),
-        after: after.to_vec(),
-        holes: vec![did; scene.holes().count()],
-        ..Made::rest(scene, SPAN)
-    };
+    judge.noise.span = SPAN;
+    let made = Made { start: end - SPAN, end, q: q.to_vec(), after: after.to_vec(), ..Made::rest(scene, SPAN) };
+    let holes = 0..scene.holes().count();
+    let mut made = holes.clone().fold(made, |made, hole| made.pushing(hole, [0.6, 0.8], 1.0));
+    made.jump[holes].fill(1.0);
     judge.strike_holes(&made.step());
     judge
 }
 
 fn struck(judge: &Judge) -> (f64, f64) {
-    judge.supports.as_ref().map_or((0.0, 0.0), |supports| (supports.struck, supports.struck_doubt.value))
+    judge.supports.as_ref().map_or((0.0, 0.0), |supports| (supports.struck.value, supports.struck.excess.value))
 }
 
 #[test]
@@ -180,7 +178,7 @@ fn an_impact_keeps_newtons_law_beside_an_idle_wall_and_a_slow_one_may_be_the_las
         let (found, doubt) = struck(&judge);
         // Rounding of metres per second; 1e-12 of 5 m in a millisecond is allowed.
         assert!((found - missed).abs() < 4e-15 && (doubt - missed).abs() < 2e-8, "{before} {after}: {found} {doubt}");
-        assert_eq!((judge.tension, judge.pairs.worst(1.0, 1.0)), (0.0, 0.0));
+        assert_eq!((judge.walls.tension, judge.walls.gaps.worst(1.0, 1.0)), (0.0, 0.0));
     }
 }
 
@@ -192,12 +190,12 @@ fn an_impact_off_the_circle_or_the_law_counts_less_the_rounding_of_all_terms() {
     let (r, before, after) = (5.0 + more, [0.6 * 4.0, 0.8 * 4.0], [0.6 * -2.0, 0.8 * -2.0]);
     let judge = strike(&scene, end, [0.6 * r + 1.0, 0.8 * r - 3.0], (before, after));
     // Places of 4 + 1 m, centre 4 m, gap 5 m, and the time at 5.6 + 2.8 m/s.
-    let noise = judge.rounding.met(4.0 + 1.0 + 4.0 + 5.0 + 8.4 * end, 5.0);
-    assert_less(judge.doubts.gaps.outside.value, more, noise);
+    let noise = judge.noise.place(4.0 + 1.0 + 4.0 + 5.0 + 8.4 * end);
+    assert_less(judge.walls.gaps.outside.excess.value, more, noise);
     // The speed after is 1e-7 m/s too large.
     let after = after.map(|v| v * (1.0 + 1e-7));
     let judge = strike(&scene, end, [4.0, 1.0], (before, after));
-    let speeds = judge.rounding.met(8.4, 5.0 / 4.096) + noise / 5.0 * 8.4;
+    let speeds = judge.noise.velocity(8.4, 4.096) + noise / 5.0 * 8.4;
     let (found, doubt) = struck(&judge);
     assert!((found - 2e-7).abs() < 1e-14, "{found:e}");
     assert_less(doubt, 2e-7, speeds);
@@ -213,14 +211,9 @@ fn the_hole_that_is_struck_against_its_law_is_named() {
     let scene = with_hole(scene(5.0, [0.0; 2]), "other", 5.0, RIGID).with_wall(Wall::upper("idle", 9.0));
     let mut judge = start(&scene, (&[], &[]));
     judge.scratch.spring.copy_from_slice(&[3.0, 0.0]);
-    let jump = |normal, jump| HoleStep { normal, impulse: jump, jump, ..HoleStep::default() };
-    let made = Made {
-        q: vec![5.0, 0.0],
-        after: vec![-1.5, 0.0],
-        holes: vec![jump([0.0, 0.0], 0.0), jump([0.8, 0.6], 1.0)],
-        ..Made::rest(&scene, SPAN)
-    };
-    judge.strike_holes(&made.step());
-    let found = judge.supports.as_ref().expect("holes").struck_doubt;
-    assert_eq!(found.wall.and_then(|place| scene.contact_name(place)), Some("other"));
+    let made =
+        Made { q: vec![5.0, 0.0], after: vec![-1.5, 0.0], jump: vec![0.0, 1.0, 0.0], ..Made::rest(&scene, SPAN) };
+    judge.strike_holes(&made.pushing(1, [0.8, 0.6], 1.0).step());
+    let found = judge.supports.as_ref().expect("holes").struck.excess;
+    assert_eq!(found.wall.and_then(|place| scene.wall_name(place)), Some("other"));
 }

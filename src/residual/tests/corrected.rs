@@ -30,14 +30,14 @@ fn a_wrong_velocity_counts_by_its_momentum_in_the_metric_of_the_mass() {
         let mut judge = judge(&scene, rule(), H, &[0.0, 0.0]);
         let mut made = flight(&scene);
         judge.see(&made.step());
-        assert_eq!((judge.balance, judge.normal_balance, judge.kinematics), (0.0, 0.0, 0.0));
+        assert_eq!((judge.balance.largest, judge.balance.force.value, judge.balance.path.value), (0.0, 0.0, 0.0));
         // The next step, which ends with 1/8 m/s more.
         made.before.copy_from_slice(&[1.0, 2.0]);
         made.q.iter_mut().for_each(|q| *q *= 2.0);
         made.after[dof] += 0.125;
         judge.see(&Step { index: 1, start: H, end: 2.0 * H, ..made.step() });
-        assert_eq!((judge.balance, judge.kinematics), (mass * 0.125 / H, 0.0));
-        assert_eq!(judge.normal_balance, mass.sqrt() * 0.125 / H);
+        assert_eq!((judge.balance.largest, judge.balance.path.value), (mass * 0.125 / H, 0.0));
+        assert_eq!(judge.balance.force.value, mass.sqrt() * 0.125 / H);
     }
 }
 
@@ -50,7 +50,7 @@ fn a_wrong_displacement_counts_in_flight_though_there_are_holes() {
             let mut made = flight(&scene);
             made.q[dof] += 0.125;
             judge.see(&made.step());
-            assert_eq!((judge.balance, judge.kinematics), (0.0, mass.sqrt() * 0.125));
+            assert_eq!((judge.balance.largest, judge.balance.path.value), (0.0, mass.sqrt() * 0.125));
             assert!(judge.findings().iter().any(|finding| finding.refuted == Refuted::Kinematics));
         }
     }
@@ -58,7 +58,7 @@ fn a_wrong_displacement_counts_in_flight_though_there_are_holes() {
     let scene = with_hole(body([4.0, 16.0], 0.0), "hole", 1.0, RIGID);
     let mut judge = judge(&scene, rule(), H, &[0.0, 0.0]);
     judge.see(&Made { q: vec![0.6, 0.8], ..flight(&scene) }.step());
-    assert_eq!(judge.kinematics, 0.0);
+    assert_eq!(judge.balance.path.value, 0.0);
 }
 
 #[test]
@@ -74,17 +74,17 @@ fn loads_and_extra_forces_accelerate_and_are_exchanged() {
         ..Made::rest(&scene, H)
     };
     judge.see(&made.step());
-    assert_eq!((judge.balance, judge.kinematics), (0.0, 0.0));
+    assert_eq!((judge.balance.largest, judge.balance.path.value), (0.0, 0.0));
     let exchanged: Vec<f64> = judge.sums.forces.iter().map(|force| force.exchanged).collect();
     assert_eq!(exchanged, [10.0 * H, 4.0 * H]);
     // 10 N/2 √kg is the largest force: 8 N are given on top of 2 N.
-    assert_eq!(judge.balance_scale, 4.0);
+    assert_eq!(judge.balance.scale, 4.0);
     let energy = judge.energy.report();
     let work = 10.0 * made.q[0] - 4.0 * made.q[1];
     assert_eq!((energy.load_work_j, energy.residual_j), (work, 0.0));
     // Its rounding: speeds of 2 √kg · 0.625 m/s in a quarter of a second, and 5 N/√kg.
-    let allowed = judge.rounding.of(2.0 * 0.625 / H + 5.0);
-    assert!((judge.rounding.force(H, 1.0) / allowed - 1.0).abs() < 1e-12);
+    let allowed = judge.noise.of(2.0 * 0.625 / H + 5.0);
+    assert!((judge.noise.force_over(H) / allowed - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -104,12 +104,12 @@ fn a_damper_that_does_not_feel_a_blow_is_accused_unless_a_closed_wall_may_have_a
         let after = (16.0 - share * felt) / (m + 0.5 * H * c);
         let made = Made { q: vec![at, 0.0], after: vec![after, 0.0], ..Made::rest(&scene, H) };
         judge.see(&made.step());
-        judge.balance * H
+        judge.balance.largest * H
     };
     // Rounding of 16 N s.
     let is = |found: f64, expected: f64| (found - expected).abs() < 1e-13;
     let (stop, behind) = (Wall::upper("stop", 0.5), Wall::lower("behind", -0.5));
-    let beside = Wall { at: Row::dof(1), ..Wall::upper("beside", 0.0) };
+    let beside = Wall::upper("beside", 0.0).at(Row::dof(1));
     for walls in [&[][..], &[stop.clone(), behind.clone()]] {
         assert!(is(open(walls, 0.25, 1.0), 0.0) && is(open(walls, 0.25, 0.0), felt), "{walls:?}");
     }
@@ -134,5 +134,5 @@ fn the_impulse_of_a_rigid_wall_is_a_force_of_the_balance() {
         ..Made::rest(&scene, H)
     };
     judge.see(&made.step());
-    assert_eq!((judge.balance, judge.balance_scale), (0.0, 6.0));
+    assert_eq!((judge.balance.largest, judge.balance.scale), (0.0, 6.0));
 }

@@ -1,6 +1,7 @@
 //! Round holes under a bound on the displacement at the end of a step.
 
 use super::*;
+use crate::scene::Face;
 use crate::step::{Bound, Law, Normal, Turning};
 
 /// The bound alone, and with an impact law on holes that are touched within this share of the gap.
@@ -13,14 +14,14 @@ fn bounds(touching: Option<f64>) -> (Balance, Promise) {
 #[test]
 fn the_size_of_a_way_is_that_of_all_its_terms() {
     let mut scene = with_hole(body([4.0; 2], 0.0), "hole", 8.0, RIGID);
-    let support = &mut scene.supports[0];
-    support.centre = [1.0, -5.0];
-    support.at = PlaneRows { y: Row::new(vec![(0, -2.0), (1, 0.5)]), z: Row::dof(1) };
+    let at = PlaneRows { y: Row::new(vec![(0, -2.0), (1, 0.5)]), z: Row::dof(1) };
+    scene.walls[0].face = Face::Round { at, centre: [1.0, -5.0], gap: 8.0 };
     let judge = judge(&scene, bounds(None), 0.5, &[1.0, -4.0]);
     let made = Made { q: vec![-3.0, 2.0], before: vec![10.0, -2.0], after: vec![0.5, 4.0], ..Made::rest(&scene, 0.5) };
     // Of places 2 + 2 + 4 and 6 + 1 + 2 m, centre 6 m, gap 8 m, and half a second at 20 + 1 + 2 and
     // 1 + 2 + 4 m/s.
-    let size = judge.way(&made.step(), &scene.supports[0], 8.0);
+    let hole = scene.holes().next().expect("a hole");
+    let size = judge.way(&made.step(), &hole);
     assert_eq!(size, 8.0 + 9.0 + 6.0 + 8.0 + 0.5 * (23.0 + 7.0));
 }
 
@@ -29,15 +30,14 @@ fn a_body_outside_the_circle_is_accused_with_and_without_a_push() {
     let scene = with_hole(body([4.0; 2], 0.0), "hole", 0.5, RIGID);
     for impulse in [0.0, 0.25] {
         let mut judge = judge(&scene, bounds(None), 0.25, &[0.0, 0.0]);
-        let did = HoleStep { normal: [0.6, 0.8], impulse, ..HoleStep::default() };
         let (depth, speed) = (1e-9, 1e3);
         let r = 0.5 + depth;
-        let made =
-            Made { q: vec![0.6 * r, 0.8 * r], before: vec![speed, 0.0], holes: vec![did], ..Made::rest(&scene, 0.25) };
+        let made = Made { q: vec![0.6 * r, 0.8 * r], before: vec![speed, 0.0], ..Made::rest(&scene, 0.25) };
+        let made = made.pushing(0, [0.6, 0.8], impulse);
         judge.supports_on_grid(&made.step(), false);
-        assert!((judge.pairs.worst(1.0, 1.0) - depth).abs() < 1e-15, "{impulse}");
+        assert!((judge.walls.gaps.worst(1.0, 1.0) - depth).abs() < 1e-15, "{impulse}");
         // Place 0.7 m, gap 0.5 m and a quarter of a second at 1000 m/s.
-        assert_less(judge.doubts.gaps.outside.value, depth, judge.rounding.met(0.7 + 0.5 + 250.0, 0.5));
+        assert_less(judge.walls.gaps.outside.excess.value, depth, judge.noise.place(0.7 + 0.5 + 250.0));
     }
 }
 
@@ -46,15 +46,14 @@ fn a_push_beside_the_place_at_the_end_counts_less_the_rounding_of_place_and_forc
     let scene = with_hole(body([4.0; 2], 0.0), "hole", 4.0, RIGID);
     let (h, turn, speed) = (0.25, 1e-6, 1e7);
     let mut judge = judge(&scene, bounds(None), h, &[0.0, 0.0]);
-    judge.rounding.load(1e6);
+    judge.noise.load(1e6);
     let normal = [0.6 - 0.8 * turn, 0.8 + 0.6 * turn];
-    let did = HoleStep { normal, impulse: 0.75, ..HoleStep::default() };
-    let made = Made { q: vec![2.4, 3.2], before: vec![speed, 0.0], holes: vec![did], ..Made::rest(&scene, h) };
+    let made = Made { q: vec![2.4, 3.2], before: vec![speed, 0.0], ..Made::rest(&scene, h) }.pushing(0, normal, 0.75);
     judge.supports_on_grid(&made.step(), false);
     // 3 N at 4 m from the centre.
-    let way = judge.rounding.of(5.6 + 4.0 + h * speed);
-    let noise = 3.0 * way / 4.0 + judge.rounding.wall_force(0, h, 1.0);
-    assert_less(judge.supports.as_ref().expect("a hole").doubt.value, 3.0 * turn, noise);
+    let way = judge.noise.of(5.6 + 4.0 + h * speed);
+    let noise = 3.0 * way / 4.0 + judge.noise.wall_force(0);
+    assert_less(judge.supports.as_ref().expect("a hole").askew.excess.value, 3.0 * turn, noise);
 }
 
 #[test]
@@ -62,11 +61,8 @@ fn a_hole_is_closed_where_it_is_touched_or_pushes() {
     let touching = 1.0 / 1024.0;
     let scene = with_hole(body([4.0; 2], 0.0), "hole", 0.5, RIGID);
     let closes = |share: f64, impulse: f64| {
-        let made = Made {
-            q: vec![0.0, 0.5 * (share * touching - 1.0)],
-            holes: vec![HoleStep { impulse, ..HoleStep::default() }],
-            ..Made::rest(&scene, 0.25)
-        };
+        let made = Made { q: vec![0.0, 0.5 * (share * touching - 1.0)], ..Made::rest(&scene, 0.25) };
+        let made = made.pushing(0, [0.0; 2], impulse);
         judge(&scene, bounds(Some(touching)), 0.25, &[0.0, 0.0]).closes_hole(&made.step())
     };
     assert!(closes(1.0, 0.0) && closes(-1.0, 0.0) && closes(500.0, 0.125));

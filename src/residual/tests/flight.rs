@@ -44,8 +44,13 @@ fn a_load_that_is_another_counts_by_its_mean_force_and_works() {
     let mut judge = start(&pushed(3.5), 0.0, 2.0);
     judge.see(&made.along(Path::Exact(&arc)));
     let near = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-12;
-    assert!(near(judge.balance, 0.5) && near(judge.normal_balance, 0.25), "{} {}", judge.balance, judge.normal_balance);
-    assert_eq!(judge.balance_scale, 1.75);
+    assert!(
+        near(judge.balance.largest, 0.5) && near(judge.balance.force.value, 0.25),
+        "{} {}",
+        judge.balance.largest,
+        judge.balance.force.value
+    );
+    assert_eq!(judge.balance.scale, 1.75);
     let way = 2.0 * 0.5 + 0.5 * 0.75 * 0.25;
     let energy = judge.energy.report();
     assert!(near(energy.load_work_j, 3.5 * way) && near(-energy.residual_j, 0.5 * way), "{energy:?}");
@@ -66,8 +71,8 @@ fn a_body_behind_a_rigid_wall_is_accused_though_it_comes_back_within_the_step() 
     judge.see(&made.along(Path::Exact(&arc)));
     // The nearest instant of a panel of eight or more is within 0.25 s of the highest point: at
     // most 6 cm below it.
-    let depth = judge.doubts.gaps.outside.value;
-    assert!((0.18..0.25 + 1e-12).contains(&depth) && (judge.depth[0] - depth).abs() < 1e-9, "{depth}");
+    let depth = judge.walls.gaps.outside.excess.value;
+    assert!((0.18..0.25 + 1e-12).contains(&depth) && (judge.walls.depth[0] - depth).abs() < 1e-9, "{depth}");
 }
 
 #[test]
@@ -88,7 +93,7 @@ fn the_largest_energy_within_a_stretch_includes_that_of_springs() {
         let largest = judge.energy.report().largest_j / (2.0 * f * f / k);
         assert!((0.95..1.0 + 1e-9).contains(&largest), "{largest}");
         // And so is the largest place for rounding errors.
-        let reach = judge.rounding.path() / judge.rounding.of(2.0 * f / k);
+        let reach = judge.noise.path() / judge.noise.of(2.0 * f / k);
         assert!((0.95..1.0 + 1e-9).contains(&reach), "{reach}");
         assert_eq!(judge.findings(), []);
     }
@@ -103,7 +108,11 @@ fn a_damped_oscillator_with_loads_keeps_its_balance_and_its_ledger() {
         judge.see(&made.along(Path::Exact(&arc)));
         let energy = judge.energy.report();
         // Rounding of some 30 N and 6 J.
-        assert!(judge.balance < 1e-12 && energy.residual_j.abs() < 1e-13, "{} {energy:?}", judge.balance);
+        assert!(
+            judge.balance.largest < 1e-12 && energy.residual_j.abs() < 1e-13,
+            "{} {energy:?}",
+            judge.balance.largest
+        );
     }
 }
 
@@ -131,12 +140,17 @@ fn extra_forces_are_loads_and_rounding_is_that_of_the_largest_place_speed_and_fo
         };
         let mut judge = start(&scene, 0.0, -4.0 * s);
         judge.see(&made.along(Path::Exact(&arc)));
-        assert!(judge.balance < 1e-12 && judge.balance_scale == 4.0, "{} {}", judge.balance, judge.balance_scale);
+        assert!(
+            judge.balance.largest < 1e-12 && judge.balance.scale == 4.0,
+            "{} {}",
+            judge.balance.largest,
+            judge.balance.scale
+        );
         // The instants beside the middle are 0.37 s from it or less: 14 cm.
-        let reach = judge.rounding.path() / judge.rounding.of(4.0 * 2.0);
+        let reach = judge.noise.path() / judge.noise.of(4.0 * 2.0);
         assert!((0.96..=1.0).contains(&reach), "{reach}");
         // The speeds at the ends, and 8 N.
-        let force = judge.rounding.force(0.5, 1.0) / judge.rounding.of(4.0 * 2.0 / 0.5 + 4.0);
+        let force = judge.noise.force_over(0.5) / judge.noise.of(4.0 * 2.0 / 0.5 + 4.0);
         assert!((force - 1.0).abs() < 1e-12, "{force}");
     }
 }
@@ -150,7 +164,7 @@ fn a_spring_that_pushes_far_before_its_wall_is_accused() {
     let mut judge = start(&scene(3.0), 1.5, 0.0);
     judge.see(&made.along(Path::Exact(&arc)));
     // 4 N at the start, and no more than 1 % less at the first instant.
-    assert!((3.96..=4.0).contains(&judge.law_error), "{}", judge.law_error);
+    assert!((3.96..=4.0).contains(&judge.walls.law.value), "{}", judge.walls.law.value);
 }
 
 #[test]
@@ -185,7 +199,11 @@ fn a_dashpot_at_constant_speed_takes_its_force_times_the_way() {
         let (energy, lost) = (judge.energy.report(), c * v * v * 2.0);
         assert!((energy.wall_damping_j - lost).abs() < 1e-12, "{energy:?}");
         assert!((energy.load_work_j - lost).abs() < 1e-12 && energy.residual_j.abs() < 1e-12, "{energy:?}");
-        assert!((judge.force_scale - c * v).abs() < 1e-12 && judge.law_error < 1e-12, "{}", judge.law_error);
+        assert!(
+            (judge.walls.force_scale - c * v).abs() < 1e-12 && judge.walls.law.value < 1e-12,
+            "{}",
+            judge.walls.law.value
+        );
     }
 }
 
@@ -204,7 +222,7 @@ fn a_force_off_its_law_counts_less_what_the_rounding_of_the_place_explains() {
         let mut judge = start(&scene(position - by), position + 0.5, 1.0);
         judge.see(&made.along(Path::Exact(&arc)));
         // Places are rounded to 2e-13 m, and the body moves on by a millimetre.
-        let error = judge.law_error;
+        let error = judge.walls.law.value;
         assert!((error - (nearer - rounding)).abs() < 0.01 * rounding, "{error} {nearer} {rounding}");
     }
 }
@@ -220,9 +238,9 @@ fn at_an_instant_blows_and_impacts_act_between_the_velocities_of_the_step() {
     judge.see(&made.along(Path::Exact(&arc)));
     let energy = judge.energy.report();
     assert_eq!((energy.initial_j, energy.final_j, energy.impact_loss_j), (18.0, 4.5, 13.5));
-    assert_eq!((energy.residual_j, judge.tension, judge.balance), (0.0, 0.0, 0.0));
+    assert_eq!((energy.residual_j, judge.walls.tension, judge.balance.largest), (0.0, 0.0, 0.0));
     // A wall that pulls.
     let made = Made { jump: vec![18.0], ..made };
     judge.see(&made.along(Path::Exact(&arc)));
-    assert_eq!(judge.tension, 18.0);
+    assert_eq!(judge.walls.tension, 18.0);
 }

@@ -2,23 +2,19 @@
 
 use super::*;
 use crate::residual::friction::Rub;
-use crate::residual::supports::Rubs;
-use crate::scene::{FlatWall, Wall};
+use crate::residual::front::ComplementarityFront;
+use crate::scene::{Face, Side, Wall};
 use crate::step::{Friction, Law, PromisedForce, Reached, Rigid};
-
-fn none() -> Rubs {
-    Rubs { pairs: Pairs::default(), doubts: Doubts::default() }
-}
 
 /// The body of 4 kg in a hole of 0.5 m, or beside a flat, with friction ½.
 fn scene(flat: bool) -> Scene {
-    let mut scene = with_hole(body([4.0; 2], 0.0), "support", 0.5, RIGID);
-    scene.supports[0].friction = 0.5;
+    let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+    let mut wall = Wall { law: RIGID, ..Wall::round("support", at.clone(), 0.5) }.with_friction(0.5);
     if flat {
-        scene.supports[0].shape = Shape::Flats(vec![FlatWall { wall: 0, direction: 0.0 }]);
-        scene = scene.with_wall(Wall::upper("flat", 0.5));
+        let face = Face::Flat { side: Side::Upper, position: 0.5, at: Row::dof(0), direction: Some(0.0) };
+        wall = Wall { face, ..Wall::upper("flat", 0.5).with_friction(0.5) };
     }
-    scene
+    body([4.0; 2], 0.0).with_support("support", at, [0.0; 2], vec![wall])
 }
 
 fn start(scene: &Scene) -> Judge {
@@ -46,15 +42,15 @@ fn missing_and_surplus_friction_is_measured_whatever_else_is_zero() {
         (3.0, 1.75, 0.0, 0.25),
         (3.0, -1.75, 0.0, 0.25),
     ] {
-        let mut judge = start(&scene);
-        let mut rubs = none();
+        let judge = start(&scene);
+        let mut rubs = ComplementarityFront::default();
         let made = Made { after: vec![0.0, speed], ..Made::rest(&scene, 0.25) };
         let rub = Rub { place: 0, friction: 0.5, impulse: [0.25 * push, 0.25 * rub], tangent: [0.0, 1.0] };
-        judge.rub(&made.step(), &scene.supports[0], &rub, &mut rubs);
-        let found = rubs.pairs.worst(1.0, 1.0);
+        judge.rub(&made.step(), &scene.supports[0].at, &rub, &mut rubs);
+        let found = rubs.worst(1.0, 1.0);
         assert_eq!(found, residual, "{push} N, {} N, {speed} m/s", rub.impulse[1] / 0.25);
         // What exceeds rounding, some 1e-11 here, is the same.
-        let beyond = rubs.doubts.both(1.0, 1.0).value.max(rubs.doubts.pull.value);
+        let beyond = rubs.worst_excess(1.0, 1.0).value.max(rubs.pull.excess.value);
         assert!((beyond - residual).abs() < 1e-10, "{push}, {rub:?}, {speed}: {beyond}");
     }
 }
@@ -65,13 +61,13 @@ fn a_sliding_speed_counts_less_the_rounding_of_all_speeds() {
     let mut judge = start(&scene);
     judge.blows.struck.copy_from_slice(&[100.0, 0.0]);
     let made = Made { before: vec![50.0, -20.0], after: vec![-30.0, 1e-9], ..Made::rest(&scene, 0.25) };
-    let mut rubs = none();
+    let mut rubs = ComplementarityFront::default();
     let rub = Rub { place: 0, friction: 0.5, impulse: [1.0, 0.0], tangent: [0.0, 1.0] };
-    judge.rub(&made.step(), &scene.supports[0], &rub, &mut rubs);
+    judge.rub(&made.step(), &scene.supports[0].at, &rub, &mut rubs);
     // Of 70, 30 and 100 m/s, and the solver's tolerance of the gap over a step. At this scale of
     // forces the speed is the smaller one.
-    let found = rubs.doubts.both(1.0, 1e-30).value;
-    assert_less(found, 1e-9, judge.rounding.met(200.0, 0.5 / 0.25));
+    let found = rubs.worst_excess(1.0, 1e-30).value;
+    assert_less(found, 1e-9, judge.noise.velocity(200.0, 0.25));
 }
 
 #[test]
@@ -79,16 +75,16 @@ fn the_friction_of_flats_is_a_force_of_the_run() {
     let scene = scene(true);
     let mut judge = start(&scene);
     let made = Made { impulse: vec![-1.0], friction: vec![-3.0], ..Made::rest(&scene, 0.25) };
-    let mut rubs = none();
+    let mut rubs = ComplementarityFront::default();
     judge.rub_flats(&made.step(), &mut rubs);
     // 12 N beside a push of 4 N, which is noted elsewhere: 10 N beyond the cone.
-    assert_eq!((judge.force_scale, rubs.pairs.worst(1.0, 1.0)), (12.0, 10.0));
+    assert_eq!((judge.walls.force_scale, rubs.worst(1.0, 1.0)), (12.0, 10.0));
 }
 
 #[test]
 fn a_wall_of_a_wedged_body_or_of_one_that_comes_to_rest_owes_no_rebound() {
     let mut scene = scene(true);
-    scene.walls[0] = Wall::upper("flat", 0.5).with_restitution(0.5);
+    scene.walls[0].law = WallLaw::Rigid { restitution: 0.5 };
     let rigid = Rigid { force: PromisedForce::Mean, displacement: None, velocity: Some(Reached::Ahead(0.5)) };
     let promise = Promise { rigid, ..Promise::springs(Law::Ends(0.5)) };
     // It arrives at 2 m/s and stops: 1 m/s of rebound is owed, if it is not given up.
@@ -100,7 +96,7 @@ fn a_wall_of_a_wedged_body_or_of_one_that_comes_to_rest_owes_no_rebound() {
         let (q, before) = (vec![0.5, 0.0], vec![2.0, 0.0]);
         let made = Made { q, before, impulse: vec![-8.0], wedged, resting, ..Made::rest(&scene, 0.25) };
         judge.walls_on_grid(&made.step(), false);
-        judge.rebounds.worst(1.0, 1.0)
+        judge.walls.rebounds.worst(1.0, 1.0)
     };
     let law = Some(Friction::EndVelocity);
     assert_eq!(owed(law, &[], &[], -100.0), 1.0);

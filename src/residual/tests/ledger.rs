@@ -24,7 +24,7 @@ fn start(scene: &Scene, balance: Balance, q: &[f64], v: &[f64]) -> Judge {
 #[test]
 fn a_start_within_springs_is_a_start_with_their_energy() {
     // ½ · 64 · 0.25² = 2 J in each. Without a force a damped wall stores nothing: the body leaves
-    // it so fast that it lags behind. A hole stores by its depth alone.
+    // it so fast that it lags behind. Opposite the wall that motion presses on the hole.
     for (damping, v, in_wall) in [(0.0, 0.0, 2.0), (0.0, -9.0, 2.0), (4.0, 0.0, 2.0), (4.0, -9.0, 0.0)] {
         let walls = body([4.0; 2], 0.0).with_wall(pad(0.5, damping));
         let scene = with_hole(walls.clone(), "ring", 0.5, spring(damping));
@@ -32,14 +32,14 @@ fn a_start_within_springs_is_a_start_with_their_energy() {
         for (scene, at, stored) in [
             (&walls, 0.75, in_wall),
             (&walls, 0.25, 0.0),
-            (&scene, 0.75, in_wall + 2.0),
+            (&scene, 0.75, 2.0 * in_wall),
             (&scene, -0.75, 2.0),
             (&scene, 0.25, 0.0),
         ] {
             let judge = start(scene, Balance::Theta(0.5), &[at, 0.0], &[v, 0.0]);
             let energy = judge.energy.report();
             assert_eq!(energy.initial_j, own + stored, "damping {damping}, {v} m/s, {at} m");
-            assert_eq!(judge.energy.walls_store(), at > 0.5 && in_wall > 0.0);
+            assert_eq!(judge.energy.walls_store(), stored > 0.0);
         }
     }
 }
@@ -52,8 +52,8 @@ fn a_spring_without_a_dashpot_stores_with_or_without_a_push_and_takes_nothing() 
         for push in [0.0, 1.0] {
             let mut judge = start(scene, Balance::Theta(0.5), &[0.25, 0.0], &[]);
             let mut made = Made { q: vec![0.75, 0.0], ..Made::rest(scene, H) };
-            made.impulse.iter_mut().for_each(|p| *p = -push);
-            made.holes.iter_mut().for_each(|did| (did.impulse, did.normal) = (push, [1.0, 0.0]));
+            made.impulse[0] = if scene.walls.is_empty() { push } else { -push };
+            made.normal.fill([1.0, 0.0]);
             judge.see(&made.step());
             assert_eq!(judge.energy.report().final_j, 2.0, "push {push}");
             // Out again: all of it comes back.
@@ -124,7 +124,7 @@ fn a_damped_wall_in_touch_at_the_end_of_exact_motion_holds_its_energy() {
     arc.begin(&from, std::iter::empty(), None);
     let mut body = SeriesBody::new(&many).expect("a mass");
     let mut series = Series::new(&body);
-    let from = SeriesStart { time, q: &[0.25], v: &[1.0], extra: &[0.0], span };
+    let from = SeriesStart { time, q: &[0.25], v: &[1.0], extra: &[0.0], until: time + span };
     series.begin(&mut body, &from, &[], &Hold::with_room(1), std::iter::empty(), &mut [0.0; 4]);
     for (scene, path) in [(&one, Path::Exact(&arc)), (&many, Path::Series(&series))] {
         for (force, stored) in [(0.0, 0.0), (-1.0, 2.0)] {

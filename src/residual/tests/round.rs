@@ -13,31 +13,30 @@ fn law(touching: f64, arc: f64) -> (Balance, Promise) {
 fn a_speed_beyond_the_bound_and_a_push_beside_the_normal_count_less_the_rounding_of_all_terms() {
     let (h, gap, n) = (64.0, 8.0, [0.6, 0.8]);
     let mut scene = with_hole(body([4.0; 2], 0.0), "hole", gap, RIGID);
-    scene.supports[0].centre = [2.0, -1.5];
+    scene.walls[0] = scene.walls[0].clone().with_centre([2.0, -1.5]);
     // 40 m from the centre, and with the blow of the step at 1 m/s on the way back.
     let mut judge = judge(&scene, law(1e-6, 0.0), h, &[26.0, 30.5]);
     judge.blows.struck.copy_from_slice(&[0.3, 0.4]);
-    judge.rounding.load(50.0);
+    judge.noise.load(50.0);
     // A step that leaves the hole at more than 1 m/s, pushed by 2 N beside the normal.
     let (fast, turn) = (1e-9, 1e-9);
-    let did = HoleStep { normal: [0.6 - 0.8 * turn, 0.8 + 0.6 * turn], impulse: 2.0 * h, ..HoleStep::default() };
     let made = Made {
         q: vec![9.2, 8.1],
         before: vec![-0.9, -1.2],
         after: n.map(|n| n * (1.0 + fast)).to_vec(),
-        holes: vec![did],
         ..Made::rest(&scene, h)
     };
+    let made = made.pushing(0, [0.6 - 0.8 * turn, 0.8 + 0.6 * turn], 2.0 * h);
     judge.supports_on_grid(&made.step(), false);
     // Places 56.5 and 17.3 m, centre 3.5 m, gap 8 m, and the way at 2.1 + 1.4 + 0.7 m/s.
     let speeds = 4.2;
-    let place = judge.rounding.of(56.5 + 17.3 + 3.5 + gap + h * speeds);
-    let noise = judge.rounding.met(speeds, gap / h) + place / gap * speeds;
-    assert_less(judge.doubts.rebounds.outside.value, fast, noise);
-    let askew = judge.supports.as_ref().expect("a hole").doubt.value;
-    assert_less(askew, 2.0 * turn, 2.0 * place / gap + judge.rounding.wall_force(0, h, 1.0));
+    let place = judge.noise.of(56.5 + 17.3 + 3.5 + gap + h * speeds);
+    let noise = judge.noise.velocity(speeds, h) + place / gap * speeds;
+    assert_less(judge.walls.rebounds.outside.excess.value, fast, noise);
+    let askew = judge.supports.as_ref().expect("a hole").askew.excess.value;
+    assert_less(askew, 2.0 * turn, 2.0 * place / gap + judge.noise.wall_force(0));
     // It pushes, and does not pull.
-    assert_eq!(judge.tension, 0.0);
+    assert_eq!(judge.walls.tension, 0.0);
 }
 
 #[test]
@@ -48,10 +47,9 @@ fn a_hole_may_push_from_where_it_is_touched_on_and_at_the_edge_of_that() {
     for (share, allowed) in [(0.5, true), (1.5, true), (2.5, false), (9.0, false)] {
         let at = vec![gap * (1.0 - share * touching), 0.0];
         let mut judge = judge(&scene, law(touching, touching), 1.0, &at);
-        let did = HoleStep { normal: [1.0, 0.0], impulse: 3.0, ..HoleStep::default() };
-        let made = Made { q: at, holes: vec![did], ..Made::rest(&scene, 1.0) };
+        let made = Made { q: at, ..Made::rest(&scene, 1.0) }.pushing(0, [1.0, 0.0], 3.0);
         judge.supports_on_grid(&made.step(), false);
-        assert_eq!(judge.law_error, if allowed { 0.0 } else { 3.0 }, "{share}");
+        assert_eq!(judge.walls.law.value, if allowed { 0.0 } else { 3.0 }, "{share}");
     }
 }
 
@@ -71,11 +69,10 @@ fn rounding_may_decide_whether_a_body_touched_at_the_start_and_nothing_else() {
             q: vec![start[0], 0.5],
             before: vec![0.0, 0.5],
             after: n.map(|n| -answer * a * n).to_vec(),
-            holes: vec![HoleStep { normal: n, impulse: 1.0, ..HoleStep::default() }],
             ..Made::rest(&scene, 1.0)
         };
-        judge.supports_on_grid(&made.step(), false);
-        judge.rebounds.worst(1.0, 1.0) / a
+        judge.supports_on_grid(&made.pushing(0, n, 1.0).step(), false);
+        judge.walls.rebounds.worst(1.0, 1.0) / a
     };
     // Within the rounding of a place, some 1e-13 m, both answers are right.
     for beside in [-1e-15, 0.0, 1e-15] {
@@ -94,9 +91,9 @@ fn the_hole_that_pushes_askew_is_named() {
     let scene = body([4.0; 2], 0.0).with_wall(crate::scene::Wall::upper("wall", 1.0));
     let scene = with_hole(with_hole(scene, "first", 0.5, RIGID), "second", 0.5, RIGID);
     let mut judge = judge(&scene, law(1e-6, 0.0), 1.0, &[0.5, 0.0]);
-    let push = |normal| HoleStep { normal, impulse: 1.0, ..HoleStep::default() };
-    let made = Made { q: vec![0.5, 0.0], holes: vec![push([1.0, 0.0]), push([0.8, 0.6])], ..Made::rest(&scene, 1.0) };
+    let made = Made { q: vec![0.5, 0.0], ..Made::rest(&scene, 1.0) };
+    let made = made.pushing(1, [1.0, 0.0], 1.0).pushing(2, [0.8, 0.6], 1.0);
     judge.supports_on_grid(&made.step(), false);
-    let found = judge.supports.as_ref().expect("holes").doubt;
-    assert_eq!(found.wall.and_then(|place| scene.contact_name(place)), Some("second"));
+    let found = judge.supports.as_ref().expect("holes").askew.excess;
+    assert_eq!(found.wall.and_then(|place| scene.wall_name(place)), Some("second"));
 }

@@ -7,10 +7,9 @@ use crate::residual::pushes::terms;
 
 #[test]
 fn the_terms_of_a_place_are_those_of_both_rows_by_magnitude() {
-    let mut scene = with_hole(body([4.0; 2], 0.0), "hole", 1.0, RIGID);
-    scene.supports[0].at = PlaneRows { y: Row::new(vec![(0, 2.0), (1, -0.5)]), z: Row::new(vec![(1, -3.0)]) };
-    assert_eq!(terms(&scene.supports[0], &[-1.5, 4.0]), 3.0 + 2.0 + 12.0);
-    assert_eq!(terms(&scene.supports[0], &[0.0, 0.0]), 0.0);
+    let at = PlaneRows { y: Row::new(vec![(0, 2.0), (1, -0.5)]), z: Row::new(vec![(1, -3.0)]) };
+    assert_eq!(terms(&at, &[-1.5, 4.0]), 3.0 + 2.0 + 12.0);
+    assert_eq!(terms(&at, &[0.0, 0.0]), 0.0);
 }
 
 #[test]

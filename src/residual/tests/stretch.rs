@@ -21,7 +21,7 @@ fn stretch(scene: &Scene, (time, q, v): (f64, &[f64], &[f64]), span: f64, wall: 
     let mut series = Series::new(&body);
     let mut hold = Hold::with_room(1);
     let extra = vec![0.0; q.len()];
-    let from = SeriesStart { time, q, v, extra: &extra, span };
+    let from = SeriesStart { time, q, v, extra: &extra, until: time + span };
     let mut work = vec![0.0; 4];
     match wall {
         Some((stiffness, position)) if stiffness > 0.0 => {
@@ -72,8 +72,8 @@ fn a_structure_behind_a_rigid_wall_counts_less_the_rounding_of_all_terms() {
     // 10 m below makes the gap scale small.
     let scene = |position: f64| {
         let at = Row::new(vec![(0, 2.0), (1, -1.0)]);
-        let upper = Wall { at: at.clone(), ..Wall::upper("wall", position) };
-        body([4.0, 16.0], 0.0).with_wall(upper).with_wall(Wall { at, ..Wall::lower("below", 3990.0) })
+        let upper = Wall::upper("wall", position).at(at.clone());
+        body([4.0, 16.0], 0.0).with_wall(upper).with_wall(Wall::lower("below", 3990.0).at(at))
     };
     let (time, span) = (4096.0, f64::exp2(-10.0));
     let state = (&[1000.0, -2000.0][..], &[1.0, 0.0][..]);
@@ -82,8 +82,8 @@ fn a_structure_behind_a_rigid_wall_counts_less_the_rounding_of_all_terms() {
     judge.see(&made.along(Path::Series(&series)));
     // 2 m/s, at the last instant of the rule.
     let depth = 2.0 * span * 0.5 * (1.0 + LAST);
-    let noise = judge.rounding.met(2000.0 + 2000.0 + 4000.0 + 2.0 * time, 5.0);
-    let found = judge.doubts.gaps.outside.value;
+    let noise = judge.noise.place(2000.0 + 2000.0 + 4000.0 + 2.0 * time);
+    let found = judge.walls.gaps.outside.excess.value;
     // The place is rounded to 5e-13 m and the time to 5e-13 s, and the noise is 3e-10 m.
     assert!((found - (depth - noise)).abs() < 0.02 * noise, "{found:e}, {depth:e} − {noise:e}");
 }
@@ -97,9 +97,9 @@ fn a_rigid_wall_that_pushes_at_a_distance_is_accused() {
     let (series, made) = stretch(&scene(1.0), (0.0, state.0, state.1), 0.5, Some((0.0, 1.0)));
     let mut judge = start(&scene(1.125), state);
     judge.see(&made.along(Path::Series(&series)));
-    let both = |gap: f64, force: f64| judge.doubts.gaps.both(gap, force).value;
+    let both = |gap: f64, force: f64| judge.walls.gaps.worst_excess(gap, force).value;
     assert!((both(1.0, 1.0) - 0.125).abs() < 1e-9 && (both(1e-9, 1.0) - 3.0).abs() < 1e-9);
-    assert_eq!(judge.tension, 0.0);
+    assert_eq!(judge.walls.tension, 0.0);
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn a_force_of_a_spring_off_its_law_counts_less_what_the_rounding_of_the_place_ex
         let mut judge = start(&scene(position - by), state);
         judge.see(&made.along(Path::Series(&series)));
         // Places are rounded to 2e-13 m, and so is the force: some hundredths of the allowance.
-        let error = judge.law_error;
+        let error = judge.walls.law.value;
         assert!((error - (nearer - rounding)).abs() < 0.05 * rounding, "{error} {nearer} {rounding}");
     }
 }
@@ -136,11 +136,11 @@ fn a_stop_before_the_stretch_is_the_force_that_gives_it_within_a_radian() {
     let mut judge = start(&scene(1.0), state);
     judge.see(&made.along(Path::Series(&series)));
     let near = |found: f64, expected: f64| (found - expected).abs() < 1e-12;
-    assert!(near(judge.balance, 0.125) && near(judge.normal_balance, 0.0625), "{}", judge.balance);
+    assert!(near(judge.balance.largest, 0.125) && near(judge.balance.force.value, 0.0625), "{}", judge.balance.largest);
     // Over the whole step it is 0.5 N; and 0.5 N more if the load is 1.5 N.
     for (force, open) in [(1.0, 0.5), (1.5, 1.0)] {
         let mut judge = start(&scene(force), state);
         judge.see(&made.along(Path::Series(&series)));
-        assert!(near(judge.doubts.balance.value, open / 2.0), "{:?}", judge.doubts.balance);
+        assert!(near(judge.balance.force.excess.value, open / 2.0), "{:?}", judge.balance.force.excess);
     }
 }

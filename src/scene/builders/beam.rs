@@ -56,7 +56,7 @@ pub enum BeamEnd {
 ///     left: BeamEnd::Pinned,
 ///     right: BeamEnd::Pinned,
 /// };
-/// let support = Wall { at: tube.at(1.0)?, ..Wall::upper("support", 2e-4).with_restitution(0.0) };
+/// let support = Wall::upper("support", 2e-4).with_restitution(0.0).at(tube.at(1.0)?);
 /// let scene = Scene::structure(tube.structure()?).with_wall(support);
 /// let reduction = scene.reduced(20, false)?.with_damping(&Damping::Modal(vec![0.01]))?;
 /// assert!(reduction.walls[0].share() > 0.9999);

@@ -78,12 +78,12 @@ impl Scene {
                 "mass at one degree of freedom or more",
             ));
         }
-        let walls: Vec<Seen> = self.walls.iter().map(|wall| statics.seen(&wall.at)).collect();
+        let walls: Vec<Seen> = self.walls.iter().map(|wall| statics.seen(wall.row())).collect();
         let loads: Vec<Seen> = self.loads.iter().map(|load| statics.seen(&load.at)).collect();
         let probes: Vec<Seen> = self.probes.iter().map(|probe| statics.seen(&probe.at)).collect();
         let mut scene = Self {
             system: statics.reduced(&kept)?.into(),
-            walls: self.walls.iter().zip(&walls).map(|(w, seen)| Wall { at: seen.row.clone(), ..w.clone() }).collect(),
+            walls: self.walls.iter().map(|wall| wall.carried(|row| statics.seen(row).row)).collect(),
             supports: self.supports.iter().map(|support| support.carried(|row| statics.seen(row).row)).collect(),
             loads: self.loads.clone(),
             probes: self.probes.clone(),
@@ -137,14 +137,14 @@ impl Scene {
                 return Err(Error::invalid(key, what, expected));
             }
         }
-        let places = distinct(self.walls.iter().map(|wall| &wall.at));
+        let places = distinct(self.walls.iter().map(|wall| wall.row()));
         for (i, (wall, seen)) in self.walls.iter().zip(walls).enumerate().filter(|(_, (_, seen))| seen.own() > 0.0) {
             for (j, (other, beside)) in self.walls.iter().zip(walls).enumerate().take(i) {
                 // Of two walls that face one another at one place, only one is in contact at a
                 // time.
-                let facing = match (wall.side, other.side) {
-                    (Side::Upper, Side::Lower) => wall.position >= other.position,
-                    (Side::Lower, Side::Upper) => other.position >= wall.position,
+                let facing = match (wall.side(), other.side()) {
+                    (Side::Upper, Side::Lower) => wall.position() >= other.position(),
+                    (Side::Lower, Side::Upper) => other.position() >= wall.position(),
                     _ => false,
                 };
                 if seen.meets(beside) && !(facing && places.of.get(i) == places.of.get(j)) {
@@ -156,7 +156,7 @@ impl Scene {
         }
         for (probe, seen) in self.probes.iter().zip(probes).filter(|(_, seen)| seen.own() > 0.0) {
             let pushed =
-                self.walls.iter().zip(walls).find(|(wall, wall_seen)| wall.at != probe.at && seen.meets(wall_seen));
+                self.walls.iter().zip(walls).find(|(wall, wall_seen)| *wall.row() != probe.at && seen.meets(wall_seen));
             if let Some((wall, _)) = pushed {
                 let value = format!("a place without mass that the wall {:?} displaces without inertia", wall.name);
                 let expected = format!("the place of that wall itself; or {GIVE}");

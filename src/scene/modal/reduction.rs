@@ -127,7 +127,7 @@ impl Scene {
                 damping,
                 stiffness: Symmetric::diagonal(&stiffness),
             }),
-            walls: self.walls.iter().map(|wall| Wall { at: row(&wall.at), ..wall.clone() }).collect(),
+            walls: self.walls.iter().map(|wall| wall.carried(row)).collect(),
             supports: self.supports.iter().map(|support| support.carried(row)).collect(),
             loads: self.loads.clone(),
             probes: self.probes.clone(),
@@ -178,7 +178,7 @@ impl Scene {
         reduced: &Self,
     ) -> Result<(Vec<WallTruncation>, f64)> {
         let mut residual = next.map(|next| Residual::new(structure, kept, next)).transpose()?;
-        let places: Vec<&Row> = self.walls.iter().map(|wall| &wall.at).collect();
+        let places: Vec<&Row> = self.walls.iter().map(|wall| wall.row()).collect();
         let mut walls: Vec<WallTruncation> = Vec::with_capacity(places.len());
         // Products of different places, each taken while its response is at hand.
         let mut products = Vec::new();
@@ -214,8 +214,8 @@ impl Scene {
     fn keep_start(&self, reduced: &mut Self, modes: usize) -> Result<()> {
         let rounding = 1e-12 * self.gap_scale();
         for (before, wall) in self.walls.iter().zip(&mut reduced.walls) {
-            let w = wall.at.dot(&reduced.initial.q);
-            let (gap, depth) = (before.gap(before.at.dot(&self.initial.q)), -wall.gap(w));
+            let w = wall.row().dot(&reduced.initial.q);
+            let (gap, depth) = (before.gap(before.row().dot(&self.initial.q)), -wall.gap(w));
             if gap < 0.0 || depth <= 0.0 {
                 continue;
             }
@@ -223,7 +223,7 @@ impl Scene {
                 let value = format!("{modes}, which put the start {depth:e} m behind the wall {:?}", wall.name);
                 return Err(Error::invalid("modes", value, "more: cut to these, the initial displacement is another"));
             }
-            wall.position = w;
+            *wall = wall.clone().with_position(w);
         }
         Ok(())
     }

@@ -112,7 +112,7 @@ impl Alpha {
         let (body, frame) = (&held.body, &held.frame);
         self.rule.ask(body, unfelt);
         let Self { place, rule, .. } = self;
-        for (wall, &face) in body.walls.iter().enumerate() {
+        for (wall, face) in held.flats.iter().map(|&wall| (wall, body.walls[wall])) {
             let ahead = body.seen(wall, &rule.q);
             let bound = match face.law.spring() {
                 // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
@@ -125,18 +125,18 @@ impl Alpha {
             place.bind_wall(wall, face, bound);
         }
         for hole in 0..held.rounds.len() {
-            place.bind_hole(hole, held.disk(hole, self.start[hole], held.offset(hole, &rule.q)));
+            place.bind_hole(held.index(hole), held.disk(hole, self.start[hole], held.offset(hole, &rule.q)));
         }
         place.solve(&rule.b, (frame.start, step))?;
-        let walls = body.walls.iter().enumerate().any(|(wall, face)| face.law.is_rigid() && place.of_wall(wall) != 0.0);
-        Ok(walls || (0..held.rounds.len()).any(|hole| place.of_hole(hole) != [0.0; 2]))
+        let walls = held.flats.iter().any(|&wall| body.walls[wall].law.is_rigid() && place.of_wall(wall) != 0.0);
+        Ok(walls || held.rounds.iter().any(|round| place.of_hole(round.wall) != [0.0; 2]))
     }
 
     /// Writes the forces of the elastic walls, and the impulses ½h(r + r⁺) of those that push at
     /// either end of the step.
     fn press(&mut self, held: &mut Held) {
         let (body, frame) = (&held.body, &mut held.frame);
-        for (wall, _) in body.walls.iter().enumerate().filter(|(_, face)| !face.law.is_rigid()) {
+        for &wall in held.flats.iter().filter(|&&wall| !body.walls[wall].law.is_rigid()) {
             let force = self.place.of_wall(wall);
             let impulse = 0.5 * body.h * (self.held[wall] + force);
             self.held[wall] = force;
@@ -157,7 +157,8 @@ impl Alpha {
 
     /// True if a rigid hole is closed at q⁺.
     fn closes_hole(&self, held: &Held, hole: usize) -> bool {
-        held.rounds[hole].law.is_rigid() && (self.place.of_hole(hole) != [0.0; 2] || held.touches(hole, &held.frame.q))
+        held.rounds[hole].law.is_rigid()
+            && (self.place.of_hole(held.index(hole)) != [0.0; 2] || held.touches(hole, &held.frame.q))
     }
 
     /// True if the blows drive the body into a rigid wall or hole that is closed at q⁺: it keeps
@@ -169,7 +170,7 @@ impl Alpha {
             let ([y, z], [vy, vz]) = (held.offset(hole, &held.frame.q), held.seen(hole, &blows.given));
             y * vy + z * vz > 0.0
         };
-        (0..held.body.walls.len()).any(|wall| held.body.drives(wall) && self.closes_wall(held, wall))
+        held.flats.iter().any(|&wall| held.body.drives(wall) && self.closes_wall(held, wall))
             || (0..held.rounds.len()).any(|hole| into(hole) && self.closes_hole(held, hole))
     }
 
@@ -178,7 +179,7 @@ impl Alpha {
     fn correct_velocity(&mut self, step: u64, held: &mut Held) -> Result<bool> {
         let h = held.body.h;
         self.closed = false;
-        for wall in 0..held.body.walls.len() {
+        for wall in held.flats.iter().copied() {
             if !self.closes_wall(held, wall) {
                 self.rate.open_wall(wall);
                 continue;
@@ -191,7 +192,7 @@ impl Alpha {
         }
         for hole in 0..held.rounds.len() {
             if !self.closes_hole(held, hole) {
-                self.rate.bind_hole(hole, DiskBound::OPEN);
+                self.rate.bind_hole(held.index(hole), DiskBound::OPEN);
                 continue;
             }
             self.closed = true;
@@ -202,8 +203,9 @@ impl Alpha {
             let normal = met.normal;
             let [vy, vz] = held.seen(hole, &held.frame.v);
             let hi = met.bound - (normal[0] * vy + normal[1] * vz);
-            self.rate.bind_hole(hole, DiskBound::Strip { normal, lo: f64::NEG_INFINITY, hi });
-            held.holes[hole].normal = normal;
+            self.rate.bind_hole(held.index(hole), DiskBound::Strip { normal, lo: f64::NEG_INFINITY, hi });
+            let index = held.index(hole);
+            held.frame.normal[index] = normal;
         }
         if !self.closed {
             return Ok(false);
@@ -211,17 +213,19 @@ impl Alpha {
         let mu = self.rule.mu();
         self.rate.solve(&self.zero, (held.frame.start, step))?;
         held.frame.v.iter_mut().zip(self.rate.x()).for_each(|(v, d)| *v += d);
-        for wall in 0..held.body.walls.len() {
+        for &wall in &held.flats {
             let r = self.rate.of_wall(wall);
             if r != 0.0 {
-                held.frame.impulse[wall] = r / mu;
-                held.frame.force[wall] = r / mu / h;
-                held.frame.pushing.push(wall);
+                held.frame.push(wall, r / mu, h);
             }
         }
-        for (hole, did) in held.holes.iter_mut().enumerate() {
-            let [y, z] = self.rate.of_hole(hole);
-            did.impulse = -(y * did.normal[0] + z * did.normal[1]) / mu;
+        for hole in 0..held.rounds.len() {
+            let (index, [y, z]) = (held.index(hole), self.rate.of_hole(held.index(hole)));
+            let [ny, nz] = held.frame.normal[index];
+            let impulse = -(y * ny + z * nz) / mu;
+            if impulse != 0.0 {
+                held.frame.push(index, impulse, h);
+            }
         }
         Ok(true)
     }

@@ -1,19 +1,20 @@
-//! The walls and holes of a scene as blocks of a programme with disks: the walls first, a row each,
-//! then the holes, two rows each.
+//! The walls of a scene as blocks of a programme with disks: flat ones with a row each, round ones
+//! with two.
 
-use super::super::face::Face;
+use super::super::flat_row::FlatRow;
 use super::super::programme::failure;
 use crate::error::{Error, Result};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{DiskBound, DiskCounters, DiskProblem, DiskSolver, Failure};
-use crate::scene::{Row, Scene, WallLaw};
+use crate::scene::{Face, Row, Scene, WallLaw};
 
 /// A programme over all walls and holes, and its bounds in a step.
 #[derive(Debug)]
 pub(super) struct Bounds {
     solver: DiskSolver,
     bounds: Vec<DiskBound>,
-    walls: usize,
+    /// The first row of each wall.
+    first: Vec<usize>,
     names: Vec<String>,
 }
 
@@ -22,25 +23,26 @@ impl Bounds {
     /// elastic walls and holes as a function of stiffness and damping.
     pub fn new(scene: &Scene, a: Symmetric, scale: f64, compliance: impl Fn(f64, f64) -> f64) -> Result<Self> {
         let soft = |law: &WallLaw| law.spring().map_or(0.0, |s| compliance(s.stiffness, s.damping));
-        let walls = scene.walls.len();
-        let mut rows: Vec<&Row> = scene.walls.iter().map(|wall| &wall.at).collect();
-        let mut yields: Vec<f64> = scene.walls.iter().map(|wall| soft(&wall.law)).collect();
-        let mut blocks = vec![1; walls];
-        for hole in scene.holes() {
-            rows.extend([&hole.support.at.y, &hole.support.at.z]);
-            yields.push(soft(&hole.law));
-            blocks.push(2);
+        let yields: Vec<f64> = scene.walls.iter().map(|wall| soft(&wall.law)).collect();
+        let (mut rows, mut blocks, mut first): (Vec<&Row>, _, _) = (Vec::new(), Vec::new(), Vec::new());
+        for wall in &scene.walls {
+            first.push(rows.len());
+            match &wall.face {
+                Face::Flat { at, .. } => rows.push(at),
+                Face::Round { at, .. } => rows.extend([&at.y, &at.z]),
+            }
+            blocks.push(rows.len() - first.last().copied().unwrap_or(0));
         }
         let count = blocks.len();
         let g = Rows::new(a.size(), rows.iter().map(|row| row.entries()));
         let problem = DiskProblem { a, g, blocks, compliance: yields };
         let solver = DiskSolver::new(problem, scale).map_err(|fault| failure(&fault, None, 0.0, 0))?;
-        let names = (0..count).map(|index| scene.contact_name(index).unwrap_or_default().to_owned()).collect();
-        Ok(Self { solver, bounds: vec![DiskBound::OPEN; count], walls, names })
+        let names = (0..count).map(|index| scene.wall_name(index).unwrap_or_default().to_owned()).collect();
+        Ok(Self { solver, bounds: vec![DiskBound::OPEN; count], first, names })
     }
 
     /// Bounds the row of a wall by `value`, from its side.
-    pub fn bind_wall(&mut self, wall: usize, face: Face, value: f64) {
+    pub fn bind_wall(&mut self, wall: usize, face: FlatRow, value: f64) {
         let (lo, hi) = if face.upper { (f64::NEG_INFINITY, value) } else { (value, f64::INFINITY) };
         self.bounds[wall] = DiskBound::Strip { normal: [1.0, 0.0], lo, hi };
     }
@@ -52,7 +54,7 @@ impl Bounds {
 
     /// Bounds a hole.
     pub fn bind_hole(&mut self, hole: usize, bound: DiskBound) {
-        self.bounds[self.walls + hole] = bound;
+        self.bounds[hole] = bound;
     }
 
     /// Solves for b in a step; the minimiser is [`Bounds::x`] until the next call.
@@ -75,12 +77,12 @@ impl Bounds {
 
     /// The multiplier of a wall in the last programme, signed.
     pub fn of_wall(&self, wall: usize) -> f64 {
-        self.solver.solution().multiplier[wall]
+        self.solver.solution().multiplier[self.first[wall]]
     }
 
     /// The multipliers of a hole in the last programme.
     pub fn of_hole(&self, hole: usize) -> [f64; 2] {
-        let first = self.walls + 2 * hole;
+        let first = self.first[hole];
         [self.solver.solution().multiplier[first], self.solver.solution().multiplier[first + 1]]
     }
 

@@ -8,7 +8,6 @@ use crate::error::Result;
 use crate::linear::Rows;
 use crate::qp::DiskBound;
 use crate::scene::{Hole, Scene, WallLaw};
-use crate::step::HoleStep;
 
 /// The entries of the two rows of a hole.
 pub(super) fn pair(rows: &Rows, hole: usize, x: &[f64]) -> [f64; 2] {
@@ -18,6 +17,8 @@ pub(super) fn pair(rows: &Rows, hole: usize, x: &[f64]) -> [f64; 2] {
 /// A hole.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Round {
+    /// Its index among the walls.
+    pub wall: usize,
     pub centre: [f64; 2],
     pub gap: f64,
     pub law: WallLaw,
@@ -31,9 +32,8 @@ pub(super) struct Held {
     /// The rows of the holes, two each.
     pub rows: Rows,
     pub rounds: Vec<Round>,
-    pub holes: Vec<HoleStep>,
-    /// Friction of each wall, N s: none.
-    pub friction: Vec<f64>,
+    /// The indices of the flat walls.
+    pub flats: Vec<usize>,
 }
 
 impl Held {
@@ -41,12 +41,12 @@ impl Held {
     pub fn new(scene: &Scene, h: f64) -> Result<Self> {
         let mut body = Body::<Matrices>::new(scene, h)?;
         body.restart(0.0);
-        let places = scene.holes().flat_map(|hole| [&hole.support.at.y, &hole.support.at.z]);
+        let places = scene.holes().flat_map(|hole| [&hole.at.y, &hole.at.z]);
         let rows = Rows::new(body.n, places.map(|row| row.entries()));
-        let round = |hole: Hole<'_>| Round { centre: hole.support.centre, gap: hole.gap, law: hole.law };
+        let round = |hole: Hole<'_>| Round { wall: hole.index, centre: hole.centre, gap: hole.gap, law: hole.law };
+        let flats = (0..scene.walls.len()).filter(|&wall| !scene.walls[wall].is_round()).collect();
         let rounds: Vec<Round> = scene.holes().map(round).collect();
-        let (holes, friction) = (vec![HoleStep::default(); rounds.len()], vec![0.0; scene.walls.len()]);
-        Ok(Self { body, frame: Frame::new(scene)?, rows, rounds, holes, friction })
+        Ok(Self { body, frame: Frame::new(scene)?, rows, rounds, flats })
     }
 
     /// The displacement (or velocity) of the place of a hole.
@@ -69,6 +69,26 @@ impl Held {
             None => gap,
         };
         DiskBound::Disk { centre: ahead.map(|w| -w), radius }
+    }
+
+    /// The index of a hole among the walls.
+    pub fn index(&self, hole: usize) -> usize {
+        self.rounds[hole].wall
+    }
+
+    /// The number of a wall among the holes; `None` of a flat one.
+    pub fn hole(&self, wall: usize) -> Option<usize> {
+        self.rounds.iter().position(|round| round.wall == wall)
+    }
+
+    /// Writes the impulse of a hole, `scale` times the vector (y, z) on the structure, N s, and its
+    /// normal, unless it is 0.
+    pub fn push_hole(&mut self, hole: usize, scale: f64, [y, z]: [f64; 2]) {
+        let (index, size) = (self.index(hole), y.hypot(z));
+        if size > 0.0 {
+            self.frame.push(index, scale * size, self.body.h);
+            self.frame.normal[index] = [-y / size, -z / size];
+        }
     }
 
     /// True if a rigid hole is touched at `q`.

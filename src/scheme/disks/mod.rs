@@ -22,12 +22,11 @@ mod velocity;
 
 use super::Counters;
 use super::motion::Motion;
-use super::pushes::Pushes;
-use crate::contact::Rates;
+use crate::contact::{Episodes, Rates};
 use crate::error::Result;
 use crate::qp::{Backend, DiskCounters};
 use crate::scene::{Checked, Scene};
-use crate::step::{Balance, Contact, Contract, HoleStep, Law, Step};
+use crate::step::{Balance, Contact, Contract, Law, Step};
 use alpha::Alpha;
 use held::{Held, pair};
 use position::Position;
@@ -68,7 +67,7 @@ impl Rule {
 pub(super) struct Disks {
     held: Held,
     rule: Rule,
-    pushes: Pushes,
+    episodes: Episodes,
     turned: f64,
     /// True if the extra force of the last step may not be 0.
     forced: bool,
@@ -91,31 +90,28 @@ impl Disks {
                 _ => Rule::Position(Box::new(Position::new(scene, &held)?)),
             },
             held,
-            pushes: Pushes::new(scene, contract),
+            episodes: Episodes::new(scene, scene.wall_masses(), contract),
             turned: 0.0,
             forced: false,
         })
     }
 
     /// Passes the step to the contact episodes, and notes by how much normals turned.
-    fn tell(&mut self) {
-        let Self { held, pushes, turned, .. } = self;
-        let Held { body, frame, rows, rounds, holes, .. } = held;
-        let walls = body.walls.len();
-        pushes.clear();
-        for &wall in &frame.pushing {
-            pushes.push(wall, frame.impulse[wall]);
+    fn record_episodes(&mut self) {
+        let Self { held, episodes, turned, .. } = self;
+        let Held { body, frame, rows, rounds, .. } = &*held;
+        if frame.pushing.is_empty() && episodes.idle() {
+            return;
         }
-        for (hole, did) in holes.iter().enumerate().filter(|(_, did)| did.impulse > 0.0) {
-            pushes.push(walls + hole, did.impulse);
-            let ([y, z], [vy, vz]) = (did.normal, pair(rows, hole, &frame.after));
+        for (index, hole) in frame.pushing.iter().filter_map(|&index| Some((index, held.hole(index)?))) {
+            let ([y, z], [vy, vz]) = (frame.normal[index], pair(rows, hole, &frame.after));
             *turned = turned.max(body.h * (y * vz - z * vy).abs() / rounds[hole].gap);
         }
-        pushes.tell(frame.start, body.h, |index, _| {
-            let seen = |v: &Vec<f64>| match index.checked_sub(walls) {
+        episodes.see(frame.start, body.h, &frame.impulse, &frame.pushing, |index| {
+            let seen = |v: &Vec<f64>| match held.hole(index) {
                 None => body.seen(index, v),
                 Some(hole) => {
-                    let ([y, z], [vy, vz]) = (holes[hole].normal, pair(rows, hole, v));
+                    let ([y, z], [vy, vz]) = (frame.normal[index], pair(rows, hole, v));
                     y * vy + z * vz
                 }
             };
@@ -130,11 +126,11 @@ impl Motion for Disks {
             self.held.frame.force(extra);
             self.forced = extra.is_some();
         }
-        self.held.holes.fill(HoleStep::default());
+        self.held.frame.normal.fill([0.0; 2]);
         self.held.frame.begin(step, self.held.body.h);
         self.rule.advance(step, &mut self.held)?;
         self.held.frame.check(step)?;
-        self.tell();
+        self.record_episodes();
         Ok(())
     }
 
@@ -144,8 +140,7 @@ impl Motion for Disks {
     }
 
     fn step(&self, index: u64) -> Step<'_> {
-        let Held { frame, holes, friction, .. } = &self.held;
-        Step { friction, holes, ..frame.step(index, self.pushes.closed()) }
+        self.held.frame.step(index, self.episodes.closed())
     }
 
     fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
@@ -154,8 +149,8 @@ impl Motion for Disks {
         if let Rule::Alpha(rule) = &mut self.rule {
             rule.restart(&self.held);
         }
-        self.held.holes.fill(HoleStep::default());
-        self.pushes.forget();
+        self.held.frame.normal.fill([0.0; 2]);
+        self.episodes.forget();
         self.forced = false;
         Ok(())
     }
@@ -169,7 +164,7 @@ impl Motion for Disks {
     }
 
     fn open_contacts(&self) -> Vec<Contact> {
-        self.pushes.still_open()
+        self.episodes.still_open()
     }
 
     fn count(&self, counters: &mut Counters) {

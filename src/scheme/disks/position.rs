@@ -50,17 +50,12 @@ impl Position {
             held.body.shift(&mut frame.q);
         }
         frame.after.clone_from(&frame.v);
-        for wall in 0..held.body.walls.len() {
+        for &wall in &held.flats {
             frame.force[wall] = self.bounds.of_wall(wall);
         }
         frame.push_by_force(h);
         for hole in 0..held.rounds.len() {
-            let [y, z] = self.bounds.of_hole(hole);
-            let force = y.hypot(z);
-            if force > 0.0 {
-                held.holes[hole].normal = [-y / force, -z / force];
-                held.holes[hole].impulse = h * force;
-            }
+            held.push_hole(hole, h, self.bounds.of_hole(held.index(hole)));
         }
         Ok(())
     }
@@ -70,7 +65,7 @@ impl Position {
     fn bind(&mut self, held: &Held, blown: bool) {
         let (body, q) = (&held.body, &held.frame.q);
         let shift = body.blows.as_ref().filter(|_| blown).map(|blows| &blows.shift);
-        for (wall, &face) in body.walls.iter().enumerate() {
+        for (wall, face) in held.flats.iter().map(|&wall| (wall, body.walls[wall])) {
             let w = body.seen(wall, q);
             let bound = match face.law.spring() {
                 // As in implicit-euler between walls: |r| = k_a s⁺ + c_a(s⁺ − s₊)/h.
@@ -86,7 +81,7 @@ impl Position {
                 _ => [0.0; 2],
             };
             let disk = held.disk(hole, now, [now[0] + given[0], now[1] + given[1]]);
-            self.bounds.bind_hole(hole, disk);
+            self.bounds.bind_hole(held.index(hole), disk);
         }
     }
 

@@ -63,8 +63,8 @@ impl Springs {
     pub fn new(scene: &Scene, held: &Held) -> Result<Self> {
         let a = held.body.theta_matrix(THETA);
         let mut factor = Matrices::factor(&a)?;
-        let mut all: Vec<&Row> = scene.walls.iter().map(|wall| &wall.at).collect();
-        all.extend(scene.holes().flat_map(|hole| [&hole.support.at.y, &hole.support.at.z]));
+        let mut all: Vec<&Row> = held.flats.iter().map(|&wall| scene.walls[wall].row()).collect();
+        all.extend(scene.holes().flat_map(|hole| [&hole.at.y, &hole.at.z]));
         let (n, m) = (held.body.n, all.len());
         let rows = Rows::new(n, all.iter().map(|row| row.entries()));
         let mut response = DMatrix::zeros(m, m);
@@ -130,30 +130,31 @@ impl Springs {
     /// velocities.
     fn reaches(&self, held: &Held, y: &DVector<f64>) -> bool {
         let h = held.body.h;
-        let wall = |wall: usize| {
+        let flat = |(row, &wall): (usize, &usize)| {
             let (face, w) = (held.body.walls[wall], held.body.seen(wall, &held.frame.q));
-            face.depth(w) > 0.0 || face.depth(w + h * y[wall]) > 0.0
+            face.depth(w) > 0.0 || face.depth(w + h * y[row]) > 0.0
         };
         let hole = |hole: usize| {
             let (start, end) = ends(held, hole, y);
             start[0].hypot(start[1]).max(end[0].hypot(end[1])) > held.rounds[hole].gap
         };
-        (0..held.body.walls.len()).any(wall) || (0..held.rounds.len()).any(hole)
+        held.flats.iter().enumerate().any(flat) || (0..held.rounds.len()).any(hole)
     }
 
     /// The forces at these mean velocities.
     fn answer(&self, held: &Held, y: &DVector<f64>) -> Answer {
         let (m, h) = (self.rows.count(), held.body.h);
         let mut answer = Answer { force: DVector::zeros(m), slope: DMatrix::zeros(m, m) };
-        for (wall, face) in held.body.walls.iter().enumerate() {
+        for (row, &wall) in held.flats.iter().enumerate() {
+            let face = held.body.walls[wall];
             let s0 = face.depth(held.body.seen(wall, &held.frame.q));
-            let s1 = s0 - face.sign * h * y[wall];
+            let s1 = s0 - face.sign * h * y[row];
             let (pressure, tangent) = mean_pressure(&face.law, Mean::DiscreteGradient, THETA, h, s0, s1);
-            answer.force[wall] = face.sign * pressure;
-            answer.slope[(wall, wall)] = h * tangent;
+            answer.force[row] = face.sign * pressure;
+            answer.slope[(row, row)] = h * tangent;
         }
         for (hole, round) in held.rounds.iter().enumerate() {
-            let first = held.body.walls.len() + 2 * hole;
+            let first = held.flats.len() + 2 * hole;
             let (w0, w1) = ends(held, hole, y);
             let (r0, r1) = (w0[0].hypot(w0[1]), w1[0].hypot(w1[1]));
             let (pressure, tangent) =
@@ -206,14 +207,12 @@ impl Springs {
         }
         let y = self.rates(held);
         let force = self.answer(held, &y).force;
-        let walls = held.body.walls.len();
-        held.frame.force.copy_from_slice(&force.as_slice()[..walls]);
+        for (&wall, force) in held.flats.iter().zip(&force) {
+            held.frame.force[wall] = *force;
+        }
         held.frame.push_by_force(h);
-        for (did, force) in held.holes.iter_mut().zip(force.as_slice()[walls..].chunks_exact(2)) {
-            let size = force[0].hypot(force[1]);
-            if size > 0.0 {
-                (did.impulse, did.normal) = (h * size, [-force[0] / size, -force[1] / size]);
-            }
+        for (hole, force) in force.as_slice()[held.flats.len()..].chunks_exact(2).enumerate() {
+            held.push_hole(hole, h, [force[0], force[1]]);
         }
         Ok(())
     }
@@ -270,7 +269,7 @@ impl Springs {
 
 /// w of a hole at the start of a step, and at its end with these mean velocities.
 fn ends(held: &Held, hole: usize, y: &DVector<f64>) -> ([f64; 2], [f64; 2]) {
-    let first = held.body.walls.len() + 2 * hole;
+    let first = held.flats.len() + 2 * hole;
     let start = held.offset(hole, &held.frame.q);
     (start, [start[0] + held.body.h * y[first], start[1] + held.body.h * y[first + 1]])
 }

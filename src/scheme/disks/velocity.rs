@@ -51,7 +51,7 @@ impl Velocity {
     /// Sets the bounds on δ = v⁺ − v.
     fn bind(&mut self, held: &mut Held) {
         let (h, ht) = (held.body.h, held.body.h * self.theta);
-        for (wall, &face) in held.body.walls.iter().enumerate() {
+        for (wall, face) in held.flats.iter().map(|&wall| (wall, held.body.walls[wall])) {
             let seen = |x: &Vec<f64>| held.body.seen(wall, x);
             let (w, before, struck) = (seen(&held.frame.q), seen(&held.frame.v), seen(held.frame.struck()));
             match (face.law.spring(), face.law.restitution()) {
@@ -85,7 +85,6 @@ impl Velocity {
                     match meet((round.gap, e), now, struck, h) {
                         None => DiskBound::OPEN,
                         Some(met) => {
-                            held.holes[hole].normal = met.normal;
                             let [y, z] = met.normal;
                             let hi = met.bound - (y * rate[0] + z * rate[1]);
                             DiskBound::Strip { normal: met.normal, lo: f64::NEG_INFINITY, hi }
@@ -93,7 +92,7 @@ impl Velocity {
                     }
                 }
             };
-            self.bounds.bind_hole(hole, bound);
+            self.bounds.bind_hole(held.index(hole), bound);
         }
     }
 
@@ -101,19 +100,14 @@ impl Velocity {
     fn solve(&mut self, step: u64, held: &mut Held) -> Result<()> {
         let (h, frame) = (held.body.h, &mut held.frame);
         self.bounds.solve(&self.b, (frame.start, step))?;
-        for wall in 0..held.body.walls.len() {
+        for &wall in &held.flats {
             let p = self.bounds.of_wall(wall);
             if p != 0.0 {
-                (frame.impulse[wall], frame.force[wall]) = (p, p / h);
-                frame.pushing.push(wall);
+                frame.push(wall, p, h);
             }
         }
-        for (hole, did) in held.holes.iter_mut().enumerate() {
-            let [y, z] = self.bounds.of_hole(hole);
-            did.impulse = y.hypot(z);
-            if did.impulse > 0.0 {
-                did.normal = [-y / did.impulse, -z / did.impulse];
-            }
+        for hole in 0..held.rounds.len() {
+            held.push_hole(hole, 1.0, self.bounds.of_hole(held.index(hole)));
         }
         Ok(())
     }
@@ -137,12 +131,13 @@ impl Velocity {
 
     fn answers(&self, held: &Held) -> bool {
         let Some(blows) = &held.body.blows else { return false };
-        let driven = |hole: usize| {
-            let ([vy, vz], did) = (held.seen(hole, &blows.given), held.holes[hole]);
-            let pushed = held.rounds[hole].law.is_rigid() && did.impulse > 0.0;
-            pushed && did.normal[0] * vy + did.normal[1] * vz > 0.0
-        };
-        held.body.answers(&held.frame.pushing) || (0..held.rounds.len()).any(driven)
+        held.frame.pushing.iter().any(|&index| match held.hole(index) {
+            None => held.body.drives(index),
+            Some(hole) => {
+                let ([vy, vz], [y, z]) = (held.seen(hole, &blows.given), held.frame.normal[index]);
+                held.rounds[hole].law.is_rigid() && y * vy + z * vz > 0.0
+            }
+        })
     }
 
     pub fn counters(&self) -> DiskCounters {

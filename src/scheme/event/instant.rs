@@ -4,18 +4,7 @@
 use super::Event;
 use super::room::Room;
 use crate::scene::Side;
-use crate::scheme::exact::{Phase, noise};
-
-/// A flight after an impact is the tail of an accumulation of impacts if its height is below this
-/// share of the scene's length …
-const TAIL_HEIGHT: f64 = 1e-12;
-
-/// … and if the pressing acceleration changes by less than this share before the impacts have
-/// accumulated: then t∞ = t + flight/(1 − e) has that relative error.
-const TAIL_CHANGE: f64 = 1e-6;
-
-/// A flight shorter than this many units in the last place of the time is not resolved.
-const TIME_UNITS: f64 = 8.0;
+use crate::scheme::exact::{Phase, TAIL_CHANGE, TAIL_HEIGHT, TIME_UNITS, noise};
 
 impl Event {
     /// Handles everything that happens at the present instant; `hit` is the wall of the event that

@@ -17,7 +17,6 @@ use super::line::Line;
 use crate::error::{Error, Result};
 use crate::flow::Arc;
 use crate::scene::{Forcing, Oscillator, Scene, System};
-use crate::step::{Balance, Conserves, Contract, Promise, Tolerances};
 use room::Room;
 
 /// One degree of freedom between walls, advanced from event to event:
@@ -91,14 +90,6 @@ pub struct Event {
 }
 
 impl Event {
-    /// The contract of the scheme.
-    pub const CONTRACT: Contract = Contract {
-        balance: Balance::Exact,
-        promise: Promise::throughout(),
-        instant: 1.0,
-        tolerances: Tolerances::of(Conserves::Everything),
-    };
-
     /// The scene at its start, after the impulses at t = 0. Steps end at events and at multiples of
     /// `stride` (s).
     ///
@@ -152,7 +143,7 @@ impl Event {
             resolution: noise(farthest),
             sizes: [0.0; 4],
             steps: 0,
-            shown: Shown::new(&[v], (walls, 0), 2 * walls + 2),
+            shown: Shown::new(&[v], (walls, false), 2 * walls + 2),
             velocity_left: v,
         };
         event.reclassify();

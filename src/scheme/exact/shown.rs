@@ -1,7 +1,7 @@
 //! What a step of the exact schemes shows besides the state at its end.
 
 use super::super::space::{Space, zero};
-use crate::step::{Contact, HoleStep, Path, Step};
+use crate::step::{Contact, Path, Step};
 
 /// The last step. Vectors over walls have one entry per wall, then one per round hole, where an
 /// impulse or force has the sign of an upper wall's.
@@ -17,31 +17,30 @@ pub(in crate::scheme) struct Shown<S: Space> {
     pub impulse: Vec<f64>,
     pub jump: Vec<f64>,
     pub force: Vec<f64>,
-    /// Number of walls.
-    walls: usize,
-    /// What the holes did, and friction of each wall, N s, which is 0; both empty in scenes without
-    /// holes.
-    pub holes: Vec<HoleStep>,
+    /// The normal of each hole, what its turning adds to the impulse, N s, and the friction of each
+    /// wall, N s, which is 0; all empty in scenes without holes.
+    pub normal: Vec<[f64; 2]>,
+    pub turned: Vec<[f64; 2]>,
     pub friction: Vec<f64>,
     /// Contact episodes that the step closed.
     pub closed: Vec<Contact>,
 }
 
 impl<S: Space> Shown<S> {
-    /// Before the first step, at the velocity `v` (m/s), in a scene with so many walls and round
-    /// holes. A step that closes more than `contacts` episodes allocates.
-    pub fn new(v: &S::Vector, (walls, holes): (usize, usize), contacts: usize) -> Self {
-        let all = walls + holes;
+    /// Before the first step, at the velocity `v` (m/s), in a scene with so many walls, of which
+    /// some are `round` or none is. A step that closes more than `contacts` episodes allocates.
+    pub fn new(v: &S::Vector, (walls, round): (usize, bool), contacts: usize) -> Self {
+        let planar = if round { walls } else { 0 };
         Self {
             start: 0.0,
             before: v.clone(),
             extra: zero::<S>(v.as_ref().len()),
-            impulse: vec![0.0; all],
-            jump: vec![0.0; all],
-            force: vec![0.0; all],
-            walls,
-            holes: vec![HoleStep::default(); holes],
-            friction: vec![0.0; if holes > 0 { walls } else { 0 }],
+            impulse: vec![0.0; walls],
+            jump: vec![0.0; walls],
+            force: vec![0.0; walls],
+            normal: vec![[0.0; 2]; planar],
+            turned: vec![[0.0; 2]; planar],
+            friction: vec![0.0; planar],
             closed: Vec::with_capacity(contacts),
         }
     }
@@ -51,7 +50,8 @@ impl<S: Space> Shown<S> {
         self.closed.clear();
         self.impulse.fill(0.0);
         self.jump.fill(0.0);
-        self.holes.fill(HoleStep::default());
+        self.normal.fill([0.0; 2]);
+        self.turned.fill([0.0; 2]);
         self.start = time;
         self.before.clone_from(v);
     }
@@ -78,11 +78,12 @@ impl<S: Space> Shown<S> {
             v,
             velocity_before: self.before.as_ref(),
             velocity_after: v,
-            impulse: &self.impulse[..self.walls],
-            jump: &self.jump[..self.walls],
-            force: &self.force[..self.walls],
+            impulse: &self.impulse,
+            jump: &self.jump,
+            force: &self.force,
             friction: &self.friction,
-            holes: &self.holes,
+            normal: &self.normal,
+            turned: &self.turned,
             wedged: &[],
             resting: &[],
             extra: self.extra.as_ref(),

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, Subject};
 use crate::flow::Touch;
-use crate::scene::{Hole, Scene, Side, Wall};
+use crate::scene::{Scene, Side, Wall};
 use crate::step::Contact;
 
 /// Where the body is relative to one wall.
@@ -61,32 +61,16 @@ impl ExactWall {
         };
         Some(Self {
             name: wall.name.clone(),
-            round: false,
-            side: wall.side,
-            sign: wall.side.sign(),
-            position: wall.position,
+            round: wall.is_round(),
+            side: wall.side(),
+            sign: wall.side().sign(),
+            position: wall.position(),
             stiffness,
             damping,
             phase,
             changed: f64::NEG_INFINITY,
             open: None,
         })
-    }
-
-    /// A rigid round hole, whose place along its normal is that of the moment.
-    pub fn of_hole(hole: &Hole<'_>) -> Self {
-        Self {
-            name: hole.support.name.clone(),
-            round: true,
-            side: Side::Upper,
-            sign: Side::Upper.sign(),
-            position: hole.gap,
-            stiffness: 0.0,
-            damping: 0.0,
-            phase: Phase::Rigid(hole.restitution),
-            changed: f64::NEG_INFINITY,
-            open: None,
-        }
     }
 
     /// The open episode as results show it.

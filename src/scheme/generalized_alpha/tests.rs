@@ -54,11 +54,11 @@ struct Written {
 const TOUCH: f64 = 1e-12;
 
 fn sign(wall: &Wall) -> f64 {
-    wall.side.sign()
+    wall.side().sign()
 }
 
 fn depth(wall: &Wall, q: f64) -> f64 {
-    sign(wall) * (wall.position - q)
+    sign(wall) * (wall.position() - q)
 }
 
 /// Stiffness and damping of an elastic wall.
@@ -104,7 +104,7 @@ impl Written {
         let (mut delta, mut stop) = (free, None);
         for (w, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.law.is_rigid()) {
             if depth(wall, ahead + delta) > 0.0 {
-                (delta, stop) = (wall.position - ahead, Some(w));
+                (delta, stop) = (wall.position() - ahead, Some(w));
             }
         }
         let push = |wall: &Wall| spring(wall).map_or(0.0, |law| sign(wall) * yields(wall, law, delta).max(0.0));
@@ -248,8 +248,8 @@ fn every_step_is_that_of_the_formulas() {
         compare::<Line>(&plan, 12);
         let mut mirrored = plan.clone();
         for wall in &mut mirrored.walls {
-            let side = if wall.side == Side::Upper { Wall::lower } else { Wall::upper };
-            *wall = Wall { law: wall.law, ..side(&wall.name, -wall.position) };
+            let side = if wall.side() == Side::Upper { Wall::lower } else { Wall::upper };
+            *wall = Wall { law: wall.law, ..side(&wall.name, -wall.position()) };
         }
         mirrored.body[3] *= -1.0;
         mirrored.extra *= -1.0;
@@ -306,7 +306,7 @@ fn a_wall_far_from_the_origin_gives_back_the_blow_that_drives_a_damped_body_into
     let [alpha_m, alpha_f, beta, gamma] = weights(0.8);
     let balance = Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma };
     for place in (0..50).map(|i| 1e6 + 0.1 * f64::from(i)) {
-        let lever = |wall: Wall| Wall { at: Row::new(vec![(0, 0.3)]), ..wall };
+        let lever = |wall: Wall| wall.at(Row::new(vec![(0, 0.3)]));
         let scene = Scene::oscillator(2.0, 3.0, 0.0)
             .with_wall(lever(Wall::lower("floor", place).with_restitution(0.0)))
             .with_wall(lever(Wall::upper("ceiling", place + 0.5)))

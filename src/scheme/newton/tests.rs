@@ -42,7 +42,7 @@ fn problem(stream: u64, (m, n): (usize, usize), scale: f64) -> (Walls, Vec<Vec<f
         Scene::structure(Structure { mass: matrix, damping: Symmetric::zeros(n), stiffness: Symmetric::zeros(n) });
     for (w, row) in rows.iter().enumerate() {
         let at = Row::new(row.iter().copied().enumerate().collect());
-        scene = scene.with_wall(Wall { at, ..Wall::upper(&format!("w{w}"), 1.0) });
+        scene = scene.with_wall(Wall::upper(&format!("w{w}"), 1.0).at(at));
     }
     let body = Body::<Matrices>::new(&scene, 1e-3).unwrap();
     let mut factor = Matrices::factor(&body.theta_matrix(0.5)).unwrap();
@@ -102,9 +102,13 @@ fn linear_laws_are_met_by_one_iteration_and_a_change_is_answered_to_first_order(
         assert_near(&walls.force, &expected);
         // One iteration solves it, the next finds so; its rounding may take another.
         assert!((2..=3).contains(&walls.iterations), "{} iterations", walls.iterations);
-        let change: Vec<f64> = (0..m).map(|i| draw(stream, 600 + i)).collect();
-        let expected = solved(condensed(&s, &slope), (0..m).map(|i| slope[i] * change[i]).collect());
-        assert_near(walls.respond(&change), &expected);
+        // The forces of a y that is made 1e-6 beside the one found: r + D S r = c − D (y₀ +
+        // change).
+        let change: Vec<f64> = (0..m).map(|i| 1e-6 * draw(stream, 600 + i)).collect();
+        let moved = |i: usize| constant(i) - slope[i] * (free[i] + change[i]);
+        let expected = solved(condensed(&s, &slope), (0..m).map(moved).collect());
+        walls.refine(&walls.y.iter().zip(&change).map(|(y, change)| y + change).collect::<Vec<_>>());
+        assert_near(&walls.guess, &expected);
     }
 }
 
@@ -132,6 +136,36 @@ fn springs_that_only_push_carry_what_the_one_consistent_choice_of_contacts_carri
         // Each iteration changes which walls touch; there are 2⁵ choices at most.
         assert!(walls.iterations < 20, "{} iterations", walls.iterations);
     }
+}
+
+#[test]
+fn a_correction_makes_no_wall_pull_and_the_others_carry_what_it_carried() {
+    let mut released = 0;
+    for stream in 0..300 {
+        let m = 2 + stream as usize % 4;
+        let (mut walls, s) = problem(stream, (m, 4), 1.0);
+        let stiff: Vec<f64> = (0..m).map(|i| (6.0 * draw(stream, 700 + i)).exp2()).collect();
+        // All walls push, and all but the first keep on.
+        let pushing: Vec<f64> = (0..m).map(|i| if i == 0 { 1e-9 } else { 2.0 + draw(stream, 500 + i) }).collect();
+        let y: Vec<f64> = pushing.iter().zip(&stiff).map(|(force, stiff)| -force / stiff).collect();
+        for (free, (y, row)) in walls.free.iter_mut().zip(y.iter().zip(&s)) {
+            *free = y - row.iter().zip(&pushing).map(|(s, force)| s * force).sum::<f64>();
+        }
+        let free = walls.free.clone();
+        let law = |i: usize, y: f64| Answer {
+            force: stiff[i] * (-y).max(0.0),
+            slope: if y < 0.0 { stiff[i] } else { 0.0 },
+            noise: 0.0,
+        };
+        walls.solve(law).unwrap();
+        let away = |i: usize| if i == 0 { 1e-6 } else { 0.0 };
+        let made: Vec<f64> = (0..m).map(|i| walls.y[i] + away(i)).collect();
+        walls.refine(&made);
+        let slope: Vec<f64> = (0..m).map(|i| if i == 0 { 0.0 } else { stiff[i] }).collect();
+        assert_near(&walls.guess, &solved(condensed(&s, &slope), (0..m).map(|i| -slope[i] * free[i]).collect()));
+        released += u32::from(walls.guess[0] == 0.0);
+    }
+    assert_eq!(released, 300);
 }
 
 #[test]

@@ -77,7 +77,7 @@ fn the_tangent_is_the_derivative_of_the_mean_pressure() {
 
 /// One degree of freedom behind a wall on this side with this law.
 fn behind(side: Side, law: WallLaw) -> Scene {
-    let wall = Wall { side, law, ..Wall::upper("wall", 0.1) };
+    let wall = Wall { law, ..Wall::flat("wall", side, 0.1) };
     Scene::oscillator(1.0, 0.0, 0.0).with_wall(wall)
 }
 
@@ -132,14 +132,14 @@ fn violation<S: Space>(scene: &Scene, (theta, mean): (f64, Mean), h: f64) -> f64
     structure.stiffness.add_product(-h, &place, &mut momentum);
     let mut worst = 0.0_f64;
     for (wall, given) in scene.walls.iter().enumerate() {
-        let sign = if given.side == Side::Upper { -1.0 } else { 1.0 };
-        let depth = |q: &[f64]| sign * (given.position - given.at.dot(q));
+        let sign = if given.side() == Side::Upper { -1.0 } else { 1.0 };
+        let depth = |q: &[f64]| sign * (given.position() - given.row().dot(q));
         let depths = [depth(q), depth(frame.q.as_ref())];
         let force = sign * mean_force(&given.law, (theta, mean), h, depths);
         worst = worst.max((force - frame.force[wall]).abs() / (1.0 + force.abs()));
         assert!((frame.impulse[wall] - h * frame.force[wall]).abs() <= 1e-15 * (1.0 + h * force.abs()));
         assert_eq!(frame.pushing.contains(&wall), frame.force[wall] != 0.0);
-        given.at.entries().iter().for_each(|&(i, weight)| momentum[i] += h * weight * force);
+        given.row().entries().iter().for_each(|&(i, weight)| momentum[i] += h * weight * force);
     }
     let moved = (0..n).map(|i| (frame.q[i] - q[i] - h * rate[i]).abs());
     momentum.iter().map(|p| p.abs()).chain(moved).fold(worst, f64::max)
@@ -150,7 +150,7 @@ fn every_step_of_one_body_satisfies_its_balance() {
     for index in 0..2000 {
         let (law, kind) = (LAWS[index % 3], MEANS[index / 3 % 3]);
         let h = 0.05 * (2.0 * draw(7, index)).exp2();
-        let wall = |side: Side, position: f64| Wall { side, law, ..Wall::upper("wall", position) };
+        let wall = |side: Side, position: f64| Wall { law, ..Wall::flat("wall", side, position) };
         // The walls of some scenes stand behind one another: both push on what is between them.
         let place = if index % 4 == 3 { -0.2 } else { 0.4 };
         // Through the upper wall, through the lower one, within them, out of them and beside them.
@@ -162,7 +162,7 @@ fn every_step_of_one_body_satisfies_its_balance() {
         // Terms of some 100 N s; a discrete gradient's are divided by the way of a step.
         let found = violation::<Line>(&scene, kind, h);
         assert!(found < 1e-10, "{index}: {law:?} {kind:?}: {found:e}");
-        scene.walls.iter_mut().for_each(|wall| wall.at = Row::new(vec![(0, 1.0)]));
+        scene.walls.iter_mut().for_each(|wall| *wall = wall.clone().at(Row::new(vec![(0, 1.0)])));
         let found = violation::<Matrices>(&scene, kind, h);
         assert!(found < 1e-10, "{index}, as a matrix: {law:?} {kind:?}: {found:e}");
     }
@@ -186,7 +186,7 @@ fn every_step_of_a_structure_satisfies_its_balance() {
             let row = (0..n).map(|i| (i, draw(20 + wall, index * n + i))).collect();
             let law = LAWS[(index + wall as usize) % 3];
             let position = if side == Side::Upper { 0.2 } else { -0.2 };
-            scene = scene.with_wall(Wall { side, law, at: Row::new(row), ..Wall::upper("wall", position) });
+            scene = scene.with_wall(Wall { law, ..Wall::flat("wall", side, position).at(Row::new(row)) });
         }
         let state =
             |stream: u64, size: f64| -> Vec<f64> { (0..n).map(|i| size * draw(stream, 3 * index + i)).collect() };

@@ -34,7 +34,7 @@ fn half_a_step_of_the_force_at_the_end_is_in_the_velocity_there() {
                     let (q, middle) = (step.q[0], step.velocity_after[0]);
                     let mut force = f - c * middle - k * q;
                     for wall in scene.walls.iter().skip(1) {
-                        let (upper, WallLaw::Elastic { stiffness, damping }) = (wall.side == Side::Upper, wall.law)
+                        let (upper, WallLaw::Elastic { stiffness, damping }) = (wall.side() == Side::Upper, wall.law)
                         else {
                             panic!("a spring")
                         };

@@ -3,7 +3,7 @@
 use super::super::{Integrator, PenaltyLaw};
 use super::*;
 use crate::linear::Symmetric;
-use crate::scene::{Load, PlaneRows, Row, Shape, Structure, Support, Table, WallLaw};
+use crate::scene::{Load, PlaneRows, Row, Structure, Table, WallLaw};
 use crate::statistics::{Forces, Rubbing, Statistics};
 use crate::trajectory::Recorder;
 
@@ -101,13 +101,9 @@ fn a_glide_in_a_hole_ends_with_each_push_and_only_there() {
     let mut scene = Scene::structure(Structure { mass: unit(1.0), damping: unit(0.1), stiffness: unit(4.0) })
         .with_load(Load::harmonic(3.0, 0.7, 0.0))
         .with_initial(&[0.0, 0.0], &[1.0, 0.5]);
-    scene.supports.push(Support {
-        name: "ring".into(),
-        at: PlaneRows { y: Row::dof(0), z: Row::dof(1) },
-        centre: [0.0; 2],
-        shape: Shape::Round { gap: 0.1, law: WallLaw::Rigid { restitution: 0.8 } },
-        friction: 0.0,
-    });
+    let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+    let wall = Wall { law: WallLaw::Rigid { restitution: 0.8 }, ..Wall::round("ring", at.clone(), 0.1) };
+    scene = scene.with_support("ring", at, [0.0; 2], vec![wall]);
     let stepper = || Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 0.01).unwrap();
     let (mut one, mut many) = (stepper(), stepper());
     let (mut made, mut met, mut long) = (0, 0, 0);
@@ -116,7 +112,7 @@ fn a_glide_in_a_hole_ends_with_each_push_and_only_there() {
         let count = end.index + 1 - made;
         for k in 1..=count {
             let step = one.step().unwrap();
-            let pushed = step.holes[0].impulse != 0.0;
+            let pushed = step.impulse[0] != 0.0;
             met += u32::from(pushed);
             assert_eq!(k == count, pushed || !step.closed.is_empty() || k == 40, "step {}", step.index);
             assert!(k < count || (step.q, step.v) == (end.q, end.v));
@@ -202,13 +198,9 @@ fn an_impact_at_the_very_start_wears() {
     let mut scene = Scene::structure(Structure { mass: unit(2.0), damping: unit(0.0), stiffness: unit(0.0) })
         .with_initial(&[1e-3, 0.0], &[0.4, 0.3])
         .with_duration(1e-3);
-    scene.supports.push(Support {
-        name: "hole".into(),
-        at: PlaneRows { y: Row::dof(0), z: Row::dof(1) },
-        centre: [0.0; 2],
-        shape: Shape::Round { gap: 1e-3, law: WallLaw::Rigid { restitution: 0.5 } },
-        friction: 0.0,
-    });
+    let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+    let wall = Wall { law: WallLaw::Rigid { restitution: 0.5 }, ..Wall::round("hole", at.clone(), 1e-3) };
+    scene = scene.with_support("hole", at, [0.0; 2], vec![wall]);
     let mut stepper = Stepper::new(&scene, &Scheme::Event, 1e-3).unwrap();
     let mut rubbing = Rubbing::new(&scene, 0.0, 4);
     while stepper.time() < scene.duration {

@@ -121,10 +121,9 @@ impl StructureEvent {
         let step = s.grid.step(s.step - 1);
         self.q.copy_from_slice(step.q);
         self.v.copy_from_slice(step.v);
-        let walls = step.impulse.len();
-        self.shown.impulse[..walls].copy_from_slice(step.impulse);
-        self.shown.force[..walls].copy_from_slice(step.force);
-        self.shown.holes.copy_from_slice(step.holes);
+        self.shown.impulse.copy_from_slice(step.impulse);
+        self.shown.force.copy_from_slice(step.force);
+        self.shown.normal.copy_from_slice(step.normal);
         let later = |c: &crate::step::Contact| {
             let mut c = *c;
             c.start += s.from;

@@ -24,7 +24,7 @@ use super::closed_row::{ClosedRow, side_of};
 use super::rows::size;
 use crate::error::{Error, Result};
 use crate::qp::{Failure, Rhs};
-use crate::scheme::exact::noise;
+use crate::scheme::exact::{TAIL_CHANGE, TAIL_HEIGHT, TIME_UNITS, noise};
 
 /// Maximum number of programmes at one instant before one with e = 0 over all closed walls ends the
 /// impact.
@@ -33,17 +33,6 @@ const PASSES: usize = 20;
 /// Maximum number of programmes with e = 0 at one instant; if walls are still approached then, it
 /// is an error.
 const TURNS: usize = 2000;
-
-/// A flight after an impact is the tail of an accumulation of impacts if its height is below this
-/// share of the scene's length and of the row's motion …
-const TAIL_HEIGHT: f64 = 1e-12;
-
-/// … and if the pressing acceleration changes by less than this share before the impacts have
-/// accumulated.
-const TAIL_CHANGE: f64 = 1e-6;
-
-/// A flight shorter than this many units in the last place of the time is not resolved.
-const TIME_UNITS: f64 = 8.0;
 
 /// Relative tolerance for the sign of a speed in a programme, over the largest speed of the rows
 /// that touch.

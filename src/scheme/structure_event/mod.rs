@@ -189,11 +189,14 @@ impl StructureEvent {
         }
         self.clock.pass(self.time);
         self.shown.add_jumps();
-        if !self.body.rounds.is_empty() {
+        let round = !self.body.rounds.is_empty();
+        if round {
             self.turn();
-            self.tell_holes();
         }
         self.set_forces();
+        if round {
+            self.write_holes();
+        }
         self.clock.check(self.time, &self.barriers)
     }
 

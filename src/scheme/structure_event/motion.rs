@@ -36,8 +36,7 @@ impl StructureEvent {
             hold.place(body, &mut self.q, &mut self.scratch);
             hold.stop(body, &mut self.v, &mut self.scratch);
         }
-        let from =
-            SeriesStart { time: self.time, q: &self.q, v: &self.v, extra: &self.shown.extra, span: limit - self.time };
+        let from = SeriesStart { time: self.time, q: &self.q, v: &self.v, extra: &self.shown.extra, until: limit };
         series.begin(body, &from, touching, hold, carriers.iter().copied(), &mut self.scratch);
         self.sizes.known = false;
     }

@@ -18,7 +18,6 @@ use super::closed_row::Fate;
 use super::rows::{DERIVATIVES, SIGNS};
 use crate::flow::{Held, Round};
 use crate::scheme::exact::noise;
-use crate::step::HoleStep;
 
 /// Number of times that the structure is put onto round holes: their rows turn as it moves there,
 /// and each further pass squares what the first has left.
@@ -41,17 +40,12 @@ pub(super) fn bend(round: &Round, derivatives: &[Vec<f64>; DERIVATIVES], level: 
 }
 
 impl StructureEvent {
-    /// Number of walls; the holes follow.
-    fn walls(&self) -> usize {
-        self.body.row_of.len() - self.body.rounds.len()
-    }
-
     /// Turns the rows of the holes to the present place.
     pub(super) fn turn(&mut self) {
         if self.body.rounds.is_empty() {
             return;
         }
-        let (walls, fixed, mut any) = (self.walls(), self.body.fixed, false);
+        let (fixed, mut any) = (self.body.fixed, false);
         let Self { body, places, barriers, q, .. } = self;
         for hole in 0..body.rounds.len() {
             let round = &body.rounds[hole];
@@ -62,9 +56,9 @@ impl StructureEvent {
                 body.turn(hole, normal);
                 any = true;
             }
-            let bound = body.rounds[hole].bound();
+            let (bound, wall) = (body.rounds[hole].bound(), body.rounds[hole].wall);
             places[fixed + hole].bound[1] = bound;
-            barriers[walls + hole].position = bound;
+            barriers[wall].position = bound;
         }
         if any {
             self.turned = true;
@@ -76,12 +70,9 @@ impl StructureEvent {
         }
     }
 
-    /// In a scene with holes, puts the structure back onto the walls and holes that it is behind,
-    /// also where it is leaving them: a stretch of moreau-jean may end a step's way behind.
+    /// Puts the structure back onto the walls and holes that it is behind, also where it is leaving
+    /// them: a stretch of moreau-jean may end a step's way behind.
     pub(super) fn put_back(&mut self) {
-        if self.body.rounds.is_empty() {
-            return;
-        }
         self.turn();
         for _ in 0..PLACINGS {
             let Self { surface, body, places, q, scratch, .. } = self;
@@ -192,19 +183,21 @@ impl StructureEvent {
         }
     }
 
-    /// Writes what the holes did in the step.
-    pub(super) fn tell_holes(&mut self) {
-        let walls = self.walls();
+    /// Writes what the holes did in the step, with the magnitudes of their impulses and forces.
+    pub(super) fn write_holes(&mut self) {
         let Self { body, series, shown, .. } = self;
-        for (hole, (round, did)) in body.rounds.iter().zip(&mut shown.holes).enumerate() {
-            let of = |values: &[f64]| values.get(walls + hole).map_or(0.0, |p| p.abs());
-            let (impulse, jump, normal) = (of(&shown.impulse), of(&shown.jump), round.normal);
+        for round in &body.rounds {
+            let (index, normal) = (round.wall, round.normal);
+            for values in [&mut shown.impulse, &mut shown.jump, &mut shown.force] {
+                values[index] = values[index].abs();
+            }
+            let (impulse, jump) = (shown.impulse[index], shown.jump[index]);
             if impulse == 0.0 {
                 continue;
             }
-            let along = series.hole_impulse(hole, series.start(), series.end());
-            let turned = [0, 1].map(|axis: usize| along[axis] + (impulse - jump) * normal[axis]);
-            *did = HoleStep { normal, impulse, friction: 0.0, jump, turned };
+            let along = series.hole_impulse(index, series.start(), series.end());
+            shown.turned[index] = [0, 1].map(|axis: usize| along[axis] + (impulse - jump) * normal[axis]);
+            shown.normal[index] = normal;
         }
     }
 

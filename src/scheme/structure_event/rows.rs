@@ -1,14 +1,14 @@
 //! The rows of the walls: bounds, which are held, and the rounding errors there.
 
 use crate::flow::{SeriesBody, TERMS};
-use crate::scene::{Hole, Scene, Side};
+use crate::scene::{Scene, Side};
 use crate::scheme::exact::noise;
 
 /// The sign of a wall's force, for lower and upper walls.
 pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
 
-/// A row with rigid walls behind it, or the row of a round hole along its normal, which is that of
-/// an upper wall. Index 0 is the lower side, 1 the upper.
+/// A row with rigid walls behind it; that of a round wall along its normal is that of an upper one.
+/// Index 0 is the lower side, 1 the upper.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WallRow {
     /// Position of the nearest rigid wall of each side, m; infinite without one.
@@ -47,10 +47,10 @@ impl WallRow {
             force_zeros: None,
         };
         for wall in walls.iter().filter_map(|&i| scene.walls.get(i)) {
-            let (Some(e), side) = (wall.law.restitution(), usize::from(wall.side == Side::Upper)) else { continue };
-            let nearer = SIGNS[side] * (wall.position - place.bound[side]);
+            let (Some(e), side) = (wall.law.restitution(), usize::from(wall.side() == Side::Upper)) else { continue };
+            let nearer = SIGNS[side] * (wall.position() - place.bound[side]);
             if nearer > 0.0 {
-                place.bound[side] = wall.position;
+                place.bound[side] = wall.position();
                 (place.restitution[side], place.carriers[side], place.strikers[side]) = (e, 1, 1);
             } else if nearer == 0.0 {
                 place.carriers[side] += 1;
@@ -62,21 +62,6 @@ impl WallRow {
             }
         }
         place
-    }
-
-    /// The row of a round hole along its normal: an upper wall.
-    pub fn of_hole(hole: &Hole<'_>) -> Self {
-        Self {
-            bound: [f64::NEG_INFINITY, hole.gap],
-            restitution: [0.0, hole.restitution],
-            carriers: [0, 1],
-            strikers: [0, 1],
-            held: 0.0,
-            travel: 0.0,
-            struck: f64::NEG_INFINITY,
-            gap_zeros: [None; 2],
-            force_zeros: None,
-        }
     }
 
     /// Gap of a side at displacement `w`, m; infinite without a wall.

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::flow::{Hold, Series, SeriesBody};
 use crate::qp::{self, Backend};
 use crate::scene::{Loads, Scene};
-use crate::scheme::exact::{Clock, ExactWall, Shown, barriers, known_loads};
+use crate::scheme::exact::{Clock, Shown, barriers, known_loads};
 use std::sync::Arc;
 
 /// The programme's signs are tested relative to its own motion, so any positive length will do.
@@ -22,17 +22,14 @@ impl StructureEvent {
     /// of time as load. Holes must be rigid.
     pub(in crate::scheme) fn new(scene: &Arc<Scene>, stride: f64) -> Result<Self> {
         known_loads(scene)?;
-        let mut barriers = barriers(scene)?;
-        let (walls, holes) = (barriers.len(), scene.holes().count());
-        barriers.extend(scene.holes().map(|hole| ExactWall::of_hole(&hole)));
+        let barriers = barriers(scene)?;
+        let (walls, round) = (barriers.len(), scene.holes().next().is_some());
         let singular = || Error::invalid(("system", "mass matrix"), "singular", "a positive definite matrix");
         let mut body = SeriesBody::new(scene).ok_or_else(singular)?;
         let (n, rows) = (body.n, body.rows.count());
         let mut walls_of = vec![Vec::new(); rows];
         body.row_of.iter().enumerate().for_each(|(wall, &row)| walls_of[row].push(wall));
-        let mut places: Vec<WallRow> =
-            walls_of.iter().take(body.fixed).map(|walls| WallRow::new(scene, walls)).collect();
-        places.extend(scene.holes().map(|hole| WallRow::of_hole(&hole)));
+        let places: Vec<WallRow> = walls_of.iter().map(|walls| WallRow::new(scene, walls)).collect();
         let loads = Loads::new(&scene.loads);
         let (mut v, mut blow) = (scene.initial.v.clone(), vec![0.0; n]);
         if loads.initial_blow(&mut blow) {
@@ -52,17 +49,17 @@ impl StructureEvent {
             flight: Series::new(&body),
             hold: Hold::with_room(rows),
             surface: Hold::with_room(rows),
-            carriers: Vec::with_capacity(walls + holes),
+            carriers: Vec::with_capacity(walls),
             touching: Vec::with_capacity(walls),
             seats: Vec::with_capacity(rows),
             fastest_row: 0.0,
             fastest_weighed: 0.0,
             sizes: Sizes::new(n),
             clock: Clock::new(scene.duration, stride),
-            length: if walls + holes > 0 { scene.gap_scale() } else { 0.0 },
+            length: if walls > 0 { scene.gap_scale() } else { 0.0 },
             time: 0.0,
             q: scene.initial.q.clone(),
-            shown: Shown::new(&v, (walls, holes), 3 * (walls + holes) + 2),
+            shown: Shown::new(&v, (walls, round), 3 * walls + 2),
             v,
             doubt: 1.0,
             decided: f64::NEG_INFINITY,
@@ -86,7 +83,7 @@ impl StructureEvent {
             hi: vec![f64::INFINITY; rows],
             body,
         };
-        if rows > 1 && holes == 0 && event.body.is_small() {
+        if rows > 1 && !round && event.body.is_small() {
             event.make_solver()?;
         }
         event.turn();

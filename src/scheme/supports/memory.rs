@@ -9,8 +9,8 @@ const OPPOSITE: f64 = -1.0 + 1e-9;
 /// What the last step left, and what is counted from step to step.
 #[derive(Debug)]
 pub(super) struct Memory {
-    /// Number of walls.
-    walls: usize,
+    /// True for each wall that is round.
+    round: Vec<bool>,
     /// Impulses p and f of each wall and hole, N s, from which the next step starts.
     pub warm: Vec<[f64; 2]>,
     /// Normal of the last contact that pushed at each row's place, if any.
@@ -22,9 +22,9 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// For `walls` walls among `contacts` contacts on `rows` rows.
-    pub fn new(walls: usize, contacts: usize, rows: usize) -> Self {
-        Self { walls, warm: vec![[0.0; 2]; contacts], last: vec![None; rows], frozen: 0, turned: 0.0 }
+    /// For walls of which some are `round`, on `rows` rows.
+    pub fn new(round: Vec<bool>, rows: usize) -> Self {
+        Self { warm: vec![[0.0; 2]; round.len()], round, last: vec![None; rows], frozen: 0, turned: 0.0 }
     }
 
     /// Forgets the last step.
@@ -33,17 +33,15 @@ impl Memory {
         self.warm.fill([0.0; 2]);
     }
 
-    /// Keeps what the next step needs of the contacts in play, and counts; `turns` are the angles
-    /// by which the normals of holes turned, rad.
-    pub fn keep(&mut self, touches: &[Touch], turns: &[f64]) {
+    /// Keeps what the next step needs of the contacts in play, and counts; `turn` gives the angle
+    /// by which the normal of each turns in the step, rad.
+    pub fn keep(&mut self, touches: &[Touch], turn: impl Fn(usize) -> f64) {
         let mut frozen = false;
         for touch in touches.iter().filter(|touch| touch.impulse[0] > 0.0) {
             if let Some(last) = self.last[touch.rows[0]] {
-                frozen |= dot(last, touch.normal) < if touch.index < self.walls { OPPOSITE } else { 0.0 };
+                frozen |= dot(last, touch.normal) < if self.round[touch.index] { 0.0 } else { OPPOSITE };
             }
-            if let Some(hole) = touch.index.checked_sub(self.walls) {
-                self.turned = self.turned.max(turns[hole]);
-            }
+            self.turned = self.turned.max(turn(touch.index));
         }
         self.frozen += u64::from(frozen);
         self.forget();
@@ -79,7 +77,7 @@ mod tests {
     }
 
     fn memory() -> Memory {
-        Memory::new(2, 4, 8)
+        Memory::new(vec![false, false, true, true], 8)
     }
 
     #[test]
@@ -90,13 +88,13 @@ mod tests {
             [(0, 180.0, 1), (0, 179.0, 0), (1, -180.0, 1), (2, 180.0, 1), (2, 91.0, 1), (2, 89.0, 0), (3, -120.0, 1)]
         {
             let mut memory = memory();
-            memory.keep(&[touch(index, 0.0, [1.0, 0.0])], &[0.0; 2]);
+            memory.keep(&[touch(index, 0.0, [1.0, 0.0])], |_| 0.0);
             assert_eq!(memory.frozen, 0);
-            memory.keep(&[touch(index, degrees, [1.0, 0.0])], &[0.0; 2]);
+            memory.keep(&[touch(index, degrees, [1.0, 0.0])], |_| 0.0);
             assert_eq!(memory.frozen, frozen, "{index}, {degrees}");
             // Only the last step counts, not the one before, nor a place of another contact.
-            memory.keep(&[touch((index + 1) % 4, degrees + 180.0, [1.0, 0.0])], &[0.0; 2]);
-            memory.keep(&[touch(index, 0.0, [1.0, 0.0])], &[0.0; 2]);
+            memory.keep(&[touch((index + 1) % 4, degrees + 180.0, [1.0, 0.0])], |_| 0.0);
+            memory.keep(&[touch(index, 0.0, [1.0, 0.0])], |_| 0.0);
             assert_eq!(memory.frozen, frozen, "{index}, {degrees}");
         }
     }
@@ -108,26 +106,26 @@ mod tests {
         let opposite = touch(0, 180.0, [1.0, 0.0]);
         for (first, second) in [(open, opposite), (elastic, opposite), (opposite, open)] {
             let mut memory = memory();
-            memory.keep(&[first], &[0.0; 2]);
-            memory.keep(&[second], &[0.0; 2]);
+            memory.keep(&[first], |_| 0.0);
+            memory.keep(&[second], |_| 0.0);
             assert_eq!(memory.frozen, 0, "{first:?}, {second:?}");
         }
         let mut memory = memory();
-        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [1.0, 0.0])], &[0.0; 2]);
+        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [1.0, 0.0])], |_| 0.0);
         memory.forget();
-        memory.keep(&[opposite, touch(2, 180.0, [1.0, 0.0])], &[0.0; 2]);
+        memory.keep(&[opposite, touch(2, 180.0, [1.0, 0.0])], |_| 0.0);
         assert_eq!(memory.frozen, 0);
         // Two of them in a step freeze it once.
-        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [1.0, 0.0])], &[0.0; 2]);
+        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [1.0, 0.0])], |_| 0.0);
         assert_eq!(memory.frozen, 1);
     }
 
     #[test]
     fn the_impulses_of_a_step_are_kept_for_the_next_one_only() {
         let mut memory = memory();
-        memory.keep(&[touch(1, 0.0, [2.0, -0.5]), touch(3, 0.0, [3.0, 0.7]), touch(2, 0.0, [0.0; 2])], &[0.0; 2]);
+        memory.keep(&[touch(1, 0.0, [2.0, -0.5]), touch(3, 0.0, [3.0, 0.7]), touch(2, 0.0, [0.0; 2])], |_| 0.0);
         assert_eq!(memory.warm, [[0.0; 2], [2.0, -0.5], [0.0; 2], [3.0, 0.7]]);
-        memory.keep(&[touch(0, 0.0, [1.0, 0.0])], &[0.0; 2]);
+        memory.keep(&[touch(0, 0.0, [1.0, 0.0])], |_| 0.0);
         assert_eq!(memory.warm, [[1.0, 0.0], [0.0; 2], [0.0; 2], [0.0; 2]]);
         memory.forget();
         assert_eq!(memory.warm, [[0.0; 2]; 4]);
@@ -136,10 +134,10 @@ mod tests {
     #[test]
     fn the_largest_turn_is_that_of_a_hole_that_pushes() {
         let mut memory = memory();
-        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [0.0; 2])], &[0.5, 0.6]);
+        memory.keep(&[touch(2, 0.0, [0.0; 2])], |_| 0.6);
         assert!(memory.turned == 0.0);
         for (turns, largest) in [([0.1, 0.9], 0.1), ([0.3, 0.9], 0.3), ([0.2, 0.9], 0.3)] {
-            memory.keep(&[touch(2, 0.0, [1.0, 0.0])], &turns);
+            memory.keep(&[touch(2, 0.0, [1.0, 0.0])], |index| turns[index - 2]);
             assert!(memory.turned == largest, "{turns:?}: {}", memory.turned);
         }
     }

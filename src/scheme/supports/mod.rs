@@ -40,18 +40,17 @@ use super::body::Body;
 use super::frame::Frame;
 use super::matrices::Matrices;
 use super::motion::Motion;
-use super::pushes::Pushes;
 use super::space::Space;
-use crate::contact::Rates;
+use crate::contact::{Episodes, Rates};
 use crate::error::Result;
 use crate::linear::Factor;
 use crate::qp::Backend;
-use crate::scene::{Checked, Scene};
-use crate::step::{Contact, Contract, HoleStep, Step};
+use crate::scene::{Checked, Scene, Wall};
+use crate::step::{Contact, Contract, Step};
 use memory::Memory;
-use normal::dot;
+use normal::{Met, dot};
 use places::Places;
-use points::{ContactPoint, contact_points};
+use points::contact_points;
 use reach::Reach;
 use sweeps::Sweeps;
 
@@ -69,13 +68,12 @@ pub(super) struct Supports {
     delta: Vec<f64>,
     /// v + δ without contacts.
     free: Vec<f64>,
-    /// Friction of each wall, N s, and what the holes did.
-    friction: Vec<f64>,
-    holes: Vec<HoleStep>,
-    /// The angle by which the normal of each hole in play turns in the step, rad.
-    turns: Vec<f64>,
+    /// What is known of the holes in play before the step is solved, one entry a contact.
+    met: Vec<Option<Met>>,
+    /// What the blows of the step give towards each hole in play, m/s, one entry a contact.
+    given: Vec<f64>,
     memory: Memory,
-    pushes: Pushes,
+    episodes: Episodes,
     /// True if the extra force of the last step may not be 0.
     forced: bool,
 }
@@ -89,8 +87,9 @@ impl Supports {
         let mut factor = Matrices::factor(&a)?;
         let (points, rows) = contact_points(scene);
         let places = Places::new(body.n, &rows, &mut factor);
-        let (walls, holes, contacts) = (scene.walls.len(), scene.holes().count(), points.len());
+        let contacts = points.len();
         let zero = || vec![0.0; body.n];
+        let round = scene.walls.iter().map(Wall::is_round).collect();
         Ok(Self {
             theta,
             frame: Frame::new(scene)?,
@@ -99,11 +98,10 @@ impl Supports {
             b: zero(),
             delta: zero(),
             free: zero(),
-            friction: vec![0.0; walls],
-            holes: vec![HoleStep::default(); holes],
-            turns: vec![0.0; holes],
-            memory: Memory::new(walls, contacts, places.count()),
-            pushes: Pushes::new(scene, contract),
+            met: vec![None; contacts],
+            given: vec![0.0; contacts],
+            memory: Memory::new(round, places.count()),
+            episodes: Episodes::new(scene, scene.wall_masses(), contract),
             forced: false,
             places,
             reach: Reach::new(scene, theta, points),
@@ -113,25 +111,22 @@ impl Supports {
 
     /// Lists the walls and holes in play, with their bounds.
     fn gather(&mut self) {
-        let Self { body, frame, places, reach, sweeps, holes, turns, memory, pushes, .. } = self;
-        let walls = body.walls.len();
+        let Self { body, frame, places, reach, sweeps, met, given, memory, .. } = self;
         reach.look(frame, body.h);
         sweeps.touches.clear();
-        for wall in 0..walls {
-            sweeps.touches.extend(reach.wall(wall, (body, frame), places, memory.warm[wall]));
-        }
-        for hole in 0..reach.holes() {
-            let index = walls + hole;
-            let found = reach.hole((hole, index), (frame, body.h), places, memory.warm[index]);
+        for index in 0..body.walls.len() {
+            if !reach.is_round(index) {
+                sweeps.touches.extend(reach.wall(index, (body, frame), places, memory.warm[index]));
+                continue;
+            }
+            let found = reach.hole(index, (frame, body.h), places, memory.warm[index]);
+            met[index] = found.map(|(_, met)| met);
             let Some((touch, met)) = found else { continue };
-            holes[hole].normal = met.normal;
-            turns[hole] = met.turn;
-            let rates = &mut pushes.rates[index];
-            (rates.struck, rates.before) = (met.arriving, met.arriving);
+            frame.normal[index] = met.normal;
+            given[index] = 0.0;
             if frame.blown {
-                // Less what the blows give towards the hole.
                 let [struck, before] = [frame.struck(), &frame.before].map(|v| places.pair(touch.rows, v));
-                rates.before -= dot(met.normal, [struck[0] - before[0], struck[1] - before[1]]);
+                given[index] = dot(met.normal, [struck[0] - before[0], struck[1] - before[1]]);
             }
             sweeps.touches.push(touch);
         }
@@ -159,36 +154,22 @@ impl Supports {
 
     /// Writes the impulses of the contacts that push.
     fn book(&mut self) {
-        let (walls, h) = (self.body.walls.len(), self.body.h);
+        let h = self.body.h;
         for touch in &self.sweeps.touches {
             let [p, f] = touch.impulse;
             if p == 0.0 {
                 continue;
             }
-            if let Some(hole) = touch.index.checked_sub(walls) {
-                self.holes[hole].impulse = p;
-                self.holes[hole].friction = f;
-                self.pushes.push(touch.index, p);
-            } else {
-                let signed = self.body.walls[touch.index].sign * p;
-                self.frame.impulse[touch.index] = signed;
-                self.frame.force[touch.index] = signed / h;
-                self.frame.pushing.push(touch.index);
-                self.friction[touch.index] = f;
-                self.pushes.push(touch.index, signed);
-            }
+            let sign = if self.reach.is_round(touch.index) { 1.0 } else { self.body.walls[touch.index].sign };
+            self.frame.push(touch.index, sign * p, h);
+            self.frame.friction[touch.index] = f;
         }
     }
 
     /// Takes back all impulses of the step.
     fn let_go(&mut self) {
         self.frame.let_go();
-        self.pushes.clear();
         self.sweeps.wedged.clear();
-        self.friction.fill(0.0);
-        for hole in &mut self.holes {
-            (hole.impulse, hole.friction) = (0.0, 0.0);
-        }
     }
 
     /// As in moreau-jean: solves again with the displacement that the blows cause in addition to
@@ -200,12 +181,15 @@ impl Supports {
         if !body.find_blows(&[(frame.start, frame.end, frame.end - body.h * *theta)]) {
             return false;
         }
-        let walls = body.walls.len();
-        let driven = |(hole, point): (&HoleStep, &ContactPoint)| match body.blows.as_deref() {
-            Some(blows) => hole.impulse > 0.0 && dot(hole.normal, self.places.pair(point.rows, &blows.given)) > 0.0,
-            None => false,
+        let driven = |&index: &usize| match (body.blows.as_deref(), self.reach.is_round(index)) {
+            (Some(_), false) => body.drives(index),
+            (Some(blows), true) => {
+                let given = self.places.pair(self.reach.points[index].rows, &blows.given);
+                dot(frame.normal[index], given) > 0.0
+            }
+            (None, _) => false,
         };
-        if body.answers(&frame.pushing) || self.holes.iter().zip(&self.reach.points[walls..]).any(driven) {
+        if frame.pushing.iter().any(driven) {
             return false;
         }
         if self.body.damped {
@@ -217,19 +201,21 @@ impl Supports {
     }
 
     /// Passes the step to the contact episodes.
-    fn tell(&mut self) {
-        let Self { frame, places, reach, body, holes, pushes, .. } = self;
-        let rates = |index: usize, known: Rates| match index.checked_sub(body.walls.len()) {
+    fn record_episodes(&mut self) {
+        let Self { frame, places, reach, body, met, given, episodes, .. } = self;
+        if frame.pushing.is_empty() && episodes.idle() {
+            return;
+        }
+        episodes.see(frame.start, body.h, &frame.impulse, &frame.pushing, |index| match met[index] {
             None => {
                 let seen = |v: &Vec<f64>| body.seen(index, v);
                 Rates { before: seen(&frame.before), struck: seen(frame.struck()), after: seen(&frame.after) }
             }
-            Some(hole) => {
-                let after = dot(holes[hole].normal, places.pair(reach.points[index].rows, &frame.after));
-                Rates { after, ..known }
+            Some(Met { normal, arriving, .. }) => {
+                let after = dot(normal, places.pair(reach.points[index].rows, &frame.after));
+                Rates { before: arriving - given[index], struck: arriving, after }
             }
-        };
-        pushes.tell(frame.start, body.h, rates);
+        });
     }
 }
 
@@ -241,7 +227,7 @@ impl Motion for Supports {
         }
         let h = self.body.h;
         self.let_go();
-        self.holes.fill(HoleStep::default());
+        self.frame.normal.fill([0.0; 2]);
         self.frame.begin(step, h);
         let Self { body, frame, b, .. } = self;
         body.theta_momentum(self.theta, frame, b);
@@ -259,8 +245,9 @@ impl Motion for Supports {
             self.body.shift(&mut self.frame.q);
         }
         self.frame.check(step)?;
-        self.memory.keep(&self.sweeps.touches, &self.turns);
-        self.tell();
+        let met = &self.met;
+        self.memory.keep(&self.sweeps.touches, |index| met[index].map_or(0.0, |met| met.turn));
+        self.record_episodes();
         Ok(())
     }
 
@@ -270,11 +257,9 @@ impl Motion for Supports {
 
     fn step(&self, index: u64) -> Step<'_> {
         Step {
-            friction: &self.friction,
-            holes: &self.holes,
             wedged: &self.sweeps.wedged,
             resting: &self.reach.resting,
-            ..self.frame.step(index, self.pushes.closed())
+            ..self.frame.step(index, self.episodes.closed())
         }
     }
 
@@ -282,8 +267,8 @@ impl Motion for Supports {
         self.let_go();
         self.frame.restart(time, q, v);
         self.body.restart(time);
-        self.holes.fill(HoleStep::default());
-        self.pushes.forget();
+        self.frame.normal.fill([0.0; 2]);
+        self.episodes.forget();
         self.memory.forget();
         self.forced = false;
         Ok(())
@@ -298,7 +283,7 @@ impl Motion for Supports {
     }
 
     fn open_contacts(&self) -> Vec<Contact> {
-        self.pushes.still_open()
+        self.episodes.still_open()
     }
 
     fn count(&self, counters: &mut Counters) {

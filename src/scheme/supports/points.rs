@@ -1,45 +1,50 @@
-//! The contact points: where walls and holes push.
+//! The contact points: where walls push.
 
-use crate::scene::{Row, Scene, Shape, heading};
+use crate::scene::{Face, PlaneRows, Row, Scene, heading};
 
-/// Where a wall or hole pushes, and how.
+/// Where a wall pushes, and how.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactPoint {
-    /// The rows of its place; twice the same for a wall that belongs to no support.
+    /// The rows of its place; twice the same for a flat wall that belongs to no support.
     pub rows: [usize; 2],
-    /// Outward normal of a wall.
+    /// Outward normal of a flat wall.
     pub normal: [f64; 2],
     pub friction: f64,
 }
 
-/// The contact points of all walls, then of all holes, and the rows of their places: two of each
-/// support, one of each wall that belongs to none.
+/// The contact points of all walls, and the rows of their places: two of each support and of each
+/// round wall outside of supports, one of each flat wall that belongs to none.
 pub(super) fn contact_points(scene: &Scene) -> (Vec<ContactPoint>, Vec<&Row>) {
     let mut rows: Vec<&Row> = Vec::new();
-    let mut walls: Vec<Option<ContactPoint>> = vec![None; scene.walls.len()];
-    let mut holes = Vec::new();
+    let mut points: Vec<Option<ContactPoint>> = vec![None; scene.walls.len()];
     for support in &scene.supports {
-        let first = rows.len();
-        rows.extend([&support.at.y, &support.at.z]);
-        let point = |normal| ContactPoint { rows: [first, first + 1], normal, friction: support.friction };
-        match &support.shape {
-            Shape::Round { .. } => holes.push(point([0.0; 2])),
-            Shape::Flats(flats) => {
-                for flat in flats {
-                    if let Some(wall) = walls.get_mut(flat.wall) {
-                        *wall = Some(point(heading(flat.direction)));
-                    }
-                }
-            }
+        let rows = place(&mut rows, &support.at);
+        for (index, wall) in support.members(&scene.walls) {
+            let normal = match wall.face {
+                Face::Flat { direction, .. } => heading(direction.unwrap_or_default()),
+                Face::Round { .. } => [0.0; 2],
+            };
+            points[index] = Some(ContactPoint { rows, normal, friction: wall.friction });
         }
     }
-    let mut points: Vec<ContactPoint> = Vec::with_capacity(walls.len() + holes.len());
-    for (wall, point) in scene.walls.iter().zip(walls) {
-        points.push(point.unwrap_or_else(|| {
-            rows.push(&wall.at);
-            ContactPoint { rows: [rows.len() - 1; 2], normal: [-wall.side.sign(), 0.0], friction: 0.0 }
-        }));
+    let mut all = Vec::with_capacity(points.len());
+    for (wall, point) in scene.walls.iter().zip(points) {
+        all.push(match (point, &wall.face) {
+            (Some(point), _) => point,
+            (None, Face::Flat { at, side, .. }) => {
+                rows.push(at);
+                ContactPoint { rows: [rows.len() - 1; 2], normal: [-side.sign(), 0.0], friction: 0.0 }
+            }
+            (None, Face::Round { at, .. }) => {
+                ContactPoint { rows: place(&mut rows, at), normal: [0.0; 2], friction: wall.friction }
+            }
+        });
     }
-    points.extend(holes);
-    (points, rows)
+    (all, rows)
+}
+
+/// Adds the two rows of a place; returns their indices.
+fn place<'a>(rows: &mut Vec<&'a Row>, at: &'a PlaneRows) -> [usize; 2] {
+    rows.extend([&at.y, &at.z]);
+    [rows.len() - 2, rows.len() - 1]
 }

@@ -29,9 +29,10 @@ struct Round {
 #[derive(Debug)]
 pub(super) struct Reach {
     theta: f64,
-    /// Of the walls, then of the holes.
+    /// Of all walls.
     pub points: Vec<ContactPoint>,
-    rounds: Vec<Round>,
+    /// Of round walls.
+    rounds: Vec<Option<Round>>,
     /// q + ½h v.
     ahead: Vec<f64>,
     /// The mass that each wall feels, kg.
@@ -43,7 +44,7 @@ pub(super) struct Reach {
 impl Reach {
     pub fn new(scene: &Checked, theta: f64, points: Vec<ContactPoint>) -> Self {
         let round = |hole: Hole<'_>| Round {
-            centre: hole.support.centre,
+            centre: hole.centre,
             gap: hole.gap,
             restitution: hole.restitution,
             clear: (hole.gap * (1.0 - 2.0 * TURNING.touching)).powi(2),
@@ -51,16 +52,16 @@ impl Reach {
         Self {
             theta,
             points,
-            rounds: scene.holes().map(round).collect(),
+            rounds: scene.walls.iter().enumerate().map(|(index, wall)| wall.hole(index).map(round)).collect(),
             ahead: vec![0.0; scene.initial.q.len()],
             masses: scene.wall_masses().to_vec(),
             resting: Vec::with_capacity(scene.walls.len()),
         }
     }
 
-    /// Number of holes.
-    pub fn holes(&self) -> usize {
-        self.rounds.len()
+    /// True for a round wall.
+    pub fn is_round(&self, wall: usize) -> bool {
+        self.rounds[wall].is_some()
     }
 
     /// Sets how far the step of `h` seconds reaches.
@@ -114,16 +115,15 @@ impl Reach {
         self.points[wall].friction > 0.0 && push > 0.0 && rebounds <= (1.0 - restitution) * push
     }
 
-    /// A hole, if it is in play, with its contact at number `index`; `warm` is its impulse in the
-    /// last step.
+    /// A round wall, if it is in play; `warm` is its impulse in the last step.
     pub fn hole(
         &self,
-        (hole, index): (usize, usize),
+        index: usize,
         (frame, h): (&Frame<Matrices>, f64),
         places: &Places,
         warm: [f64; 2],
     ) -> Option<(Touch, Met)> {
-        let (round, point) = (self.rounds[hole], self.points[index]);
+        let (round, point) = (self.rounds[index]?, self.points[index]);
         let from = |q: &Vec<f64>| {
             let [y, z] = places.pair(point.rows, q);
             [y - round.centre[0], z - round.centre[1]]

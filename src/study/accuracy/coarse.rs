@@ -84,7 +84,7 @@ fn shortest_time(scene: &Scene) -> f64 {
     for (wall, mass) in scene.walls.iter().zip(masses) {
         // Speed at the wall from an impulse at the start, taken up by the mass that the wall feels:
         // an estimate, exact for one degree of freedom.
-        let speed = (wall.at.dot(&scene.initial.v) + wall.at.dot(&blow) / mass).abs();
+        let speed = (wall.row().dot(&scene.initial.v) + wall.row().dot(&blow) / mass).abs();
         if speed > 0.0 {
             times.push(scene.gap_scale() / speed);
         }

@@ -57,7 +57,7 @@ pub fn foresee(scene: &Scene, target: &Target) -> Result<Option<f64>> {
             Growth::of(scene)?
         }
         System::Structure(_) => {
-            let method = target.method.filter(|m| m.scheme != Scheme::Event);
+            let method = target.method.filter(|m| !m.scheme.is_exact());
             let method = method.unwrap_or_else(|| crate::study::choice::choose(scene).method);
             let coarse = CoarseGrid::of(scene, &target.time)?;
             Growth::of_rounding(scene, &method, coarse.options(0, &target.time).step)?

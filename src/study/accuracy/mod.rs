@@ -99,7 +99,7 @@ fn finish(
     progress: &mut dyn FnMut(f64),
 ) -> Result<Outcome> {
     let Choice { method, reason } = chosen;
-    let stepping = method.scheme != Scheme::Event;
+    let stepping = !method.scheme.is_exact();
     let until_s = judged.scene.duration;
     let (reached, quantity) = refined.worst;
     let step_of = |level: u32| stepping.then(|| judged.coarse.options(level, &target.time).step);

@@ -151,9 +151,9 @@ impl Search<'_> {
             return false;
         }
         let Some([low, high]) = arc.reach_for_ever() else { return false };
-        self.scene.walls.iter().all(|wall| match wall.side {
-            Side::Upper => high < wall.position,
-            Side::Lower => low > wall.position,
+        self.scene.walls.iter().all(|wall| match wall.side() {
+            Side::Upper => high < wall.position(),
+            Side::Lower => low > wall.position(),
         })
     }
 

@@ -115,7 +115,7 @@ impl Measure {
     }
 }
 
-/// Every measure of every place in `statistics`: walls, then supports, in the scene's order.
+/// Every measure of every place in `statistics`: flat walls, then supports, in the scene's order.
 pub(super) fn figures(statistics: &Statistics) -> Vec<Figure> {
     let mut figures = Vec::new();
     let mut add = |name: &str, kind: PlaceKind, of: &dyn Fn(Measure) -> Option<Told>| {
@@ -125,7 +125,7 @@ pub(super) fn figures(statistics: &Statistics) -> Vec<Figure> {
             figures.extend(of(measure).map(figure));
         }
     };
-    for wall in &statistics.walls {
+    for wall in statistics.walls.iter().filter(|wall| !wall.round) {
         add(&wall.wall, PlaceKind::Wall, &|measure| measure.of_wall(wall));
     }
     for support in &statistics.supports {

@@ -2,18 +2,13 @@
 
 use super::realisation::Realisation;
 use crate::error::Result;
-use crate::interrupt::Carried;
+use crate::parallel::{Take, on_threads};
 use crate::run::{Options, run_with_progress};
 use crate::scene::Scene;
 use crate::scheme::Method;
 use std::num::NonZero;
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
-
-/// Time between two reports of progress.
-const TELL: Duration = Duration::from_millis(100);
 
 /// Runs the realisations `numbers` by `method` on all cores; `scene` makes the scene of each.
 /// `progress` is called with the share of the work that is done. The results do not depend on the
@@ -34,43 +29,26 @@ pub fn realisations(
     }
     let count = last - first + 1;
     let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
-    let threads = count.min(cores as u64) as usize;
-    let (next, failed) = (AtomicU64::new(0), AtomicBool::new(false));
-    // Share of its current run that each thread has done, as the bits of a float.
-    let shares: Vec<AtomicU64> = (0..threads).map(|_| AtomicU64::new(0)).collect();
-    let interrupt = &Carried::here();
-    let (sender, receiver) = channel();
+    let failed = AtomicBool::new(false);
+    // Share of each run that is done, as the bits of a float.
+    let shares: Vec<AtomicU64> = (0..count).map(|_| AtomicU64::new(0)).collect();
+    let work = |index: u64, send: &mut Take<'_, (u64, Result<Realisation>)>| {
+        if let Some(share) = shares.get(index as usize).filter(|_| !failed.load(Ordering::Relaxed)) {
+            let outcome = one(first + index, scene, method, options, share);
+            share.store(1.0_f64.to_bits(), Ordering::Relaxed);
+            failed.fetch_or(outcome.is_err(), Ordering::Relaxed);
+            send((index, outcome));
+        }
+        Ok(())
+    };
     let mut outcomes = Vec::new();
-    std::thread::scope(|scope| {
-        for share in &shares {
-            let (sender, next, failed) = (sender.clone(), &next, &failed);
-            let work = move || loop {
-                let index = next.fetch_add(1, Ordering::Relaxed);
-                if index >= count || failed.load(Ordering::Relaxed) {
-                    return;
-                }
-                let number = first + index;
-                let outcome = one(number, scene, method, options, share);
-                failed.fetch_or(outcome.is_err(), Ordering::Relaxed);
-                share.store(0, Ordering::Relaxed);
-                if sender.send((number, outcome)).is_err() {
-                    return;
-                }
-            };
-            scope.spawn(move || interrupt.over(work));
-        }
-        drop(sender);
-        loop {
-            match receiver.recv_timeout(TELL) {
-                Ok(outcome) => outcomes.push(outcome),
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => break,
-            }
-            let under_way: f64 = shares.iter().map(|share| f64::from_bits(share.load(Ordering::Relaxed))).sum();
-            progress((outcomes.len() as f64 + under_way) / count as f64);
-        }
-    });
-    outcomes.sort_by_key(|(number, _)| *number);
+    on_threads(count, cores, &work, &mut |outcome| {
+        outcomes.extend(outcome);
+        let done: f64 = shares.iter().map(|share| f64::from_bits(share.load(Ordering::Relaxed))).sum();
+        progress(done / count as f64);
+        Ok(())
+    })?;
+    outcomes.sort_by_key(|(index, _)| *index);
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
 }
 

@@ -86,7 +86,7 @@ impl Ledger {
                 if p != 0.0 || spring.damping == 0.0 {
                     self.made += p * rate + stored - spring.stored;
                     // Impulse of the dashpot, part of p.
-                    let depth_rate = -wall.side.sign() * rate;
+                    let depth_rate = -wall.side().sign() * rate;
                     let plate_rate =
                         if staggered { depth_rate } else { (depth_end.max(0.0) - depth.max(0.0)) / self.h };
                     self.made += spring.damping * plate_rate * depth_rate * self.h;

@@ -75,10 +75,10 @@ pub fn watch(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -
         let pushed = step.impulse.iter().any(|&p| p != 0.0);
         let mut inside = false;
         for (index, wall) in scene.walls.iter().enumerate() {
-            let now = -wall.gap(wall.at.dot(step.q));
+            let now = -wall.gap(wall.row().dot(step.q));
             inside |= now > 0.0;
             record.depth[index] = record.depth[index].max(now);
-            let (before, after) = (wall.at.dot(step.velocity_before), wall.at.dot(step.velocity_after));
+            let (before, after) = (wall.row().dot(step.velocity_before), wall.row().dot(step.velocity_after));
             record.wall_speed[index] = record.wall_speed[index].max(after.abs());
             if !(pushed && beside[index].iter().any(|&other| step.impulse[other] != 0.0)) {
                 record.acceleration[index] = record.acceleration[index].max((after - before).abs() / h);
@@ -160,7 +160,7 @@ impl Books {
 /// For each wall, the walls whose impulses act on it directly: itself, and all that share a degree
 /// of freedom with it.
 fn neighbours(scene: &Scene) -> Vec<Vec<usize>> {
-    let dofs = |wall: &crate::scene::Wall| wall.at.entries().iter().map(|entry| entry.0).collect::<Vec<_>>();
+    let dofs = |wall: &crate::scene::Wall| wall.row().entries().iter().map(|entry| entry.0).collect::<Vec<_>>();
     let all: Vec<Vec<usize>> = scene.walls.iter().map(dofs).collect();
     let shares = |a: &Vec<usize>, b: &Vec<usize>| a.iter().any(|i| b.contains(i));
     let of = |(index, mine): (usize, &Vec<usize>)| {

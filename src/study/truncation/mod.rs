@@ -104,20 +104,16 @@ struct Felt {
 }
 
 impl Felt {
-    /// Number `index` of the walls of `scene` and then its round supports.
+    /// Number `index` of the walls of `scene`.
     fn of(run: &Run, scene: &Scene, index: usize) -> Self {
         let statistics = &run.statistics;
-        match (statistics.walls.get(index), index.checked_sub(statistics.walls.len())) {
-            (None, Some(hole)) => {
-                let here = run.trajectory.contacts().iter().filter(|c| c.wall == index && c.start >= statistics.from_s);
-                let impulse = statistics.round(scene, hole).1;
-                Self { impulse, peak: None, largest: here.map(|c| c.impulse.abs()).reduce(f64::max) }
-            }
-            (wall, _) => Self {
-                impulse: statistics.impulse(index),
-                peak: wall.and_then(|wall| wall.episode_peak_force_n.max),
-                largest: wall.and_then(|wall| wall.episode_impulse_n_s.max),
-            },
+        let peak = |wall: &crate::statistics::WallStatistics| wall.episode_peak_force_n.max;
+        let round = scene.walls.get(index).is_some_and(crate::scene::Wall::is_round);
+        let wall = statistics.walls.get(index);
+        Self {
+            impulse: statistics.impulse(index),
+            peak: wall.filter(|_| !round).and_then(peak),
+            largest: wall.and_then(|wall| wall.episode_impulse_n_s.max),
         }
     }
 }

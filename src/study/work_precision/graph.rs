@@ -57,7 +57,7 @@ impl Graph {
         let place = scene.probes.get(probe).map(|p| &p.at);
         let shares = |wall: &Wall| {
             let dofs = |row: &Row| row.entries().iter().map(|entry| entry.0).collect::<Vec<_>>();
-            place.is_some_and(|place| dofs(place).iter().any(|i| dofs(&wall.at).contains(i)))
+            place.is_some_and(|place| dofs(place).iter().any(|i| dofs(wall.row()).contains(i)))
         };
         let near_probe: Vec<bool> = scene.walls.iter().map(|w| w.law.is_rigid() && shares(w)).collect();
         let mut vertices = Vec::with_capacity(trajectory.time().len() / stride + 1 + 2 * contacts.len());
@@ -65,17 +65,17 @@ impl Graph {
         for contact in contacts.iter().filter(|c| c.start <= until) {
             let seen = near_probe.get(contact.wall).copied().unwrap_or(false);
             let Some(wall) = scene.walls.get(contact.wall).filter(|_| seen) else { continue };
-            let sign = wall.side.sign();
+            let sign = wall.side().sign();
             let before = (contact.start / spacing).floor();
             let near = |row: &f64| (row * spacing - contact.start).abs() <= step * (1.0 + 1e-9);
             blurred.extend([before, before + 1.0].into_iter().filter(near).map(|row| row as usize));
-            if place != Some(&wall.at) {
+            if place != Some(wall.row()) {
                 continue;
             }
-            vertices.push(point(contact.start, wall.position, -sign * contact.approach_speed));
+            vertices.push(point(contact.start, wall.position(), -sign * contact.approach_speed));
             let short = contact.end.filter(|end| end - contact.start <= spacing);
             if let (Some(end), Some(departure)) = (short, contact.departure_speed) {
-                vertices.push(point(end, wall.position, sign * departure));
+                vertices.push(point(end, wall.position(), sign * departure));
             }
         }
         let displacement = trajectory.displacements().get(probe).into_iter().flatten();

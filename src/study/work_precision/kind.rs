@@ -1,7 +1,6 @@
-//! The kinds of errors, and the kinds of methods.
+//! The kinds of errors.
 
 use super::errors::Errors;
-use crate::scheme::Scheme;
 
 /// One of the errors by which charts and tables compare methods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,42 +36,6 @@ impl Quantity {
             Self::Impulse => errors.worst_impulse(),
             Self::ContactTime if errors.missing + errors.spurious > 0 => Some(f64::NAN),
             Self::ContactTime => errors.contact_time,
-        }
-    }
-}
-
-/// How a method treats walls.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// Finds the instants of contact; nothing is discretised.
-    Exact,
-    /// Solves a quadratic programme in every step that meets a wall.
-    Qp,
-    /// Replaces the walls by springs.
-    Penalty,
-}
-
-impl Kind {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Exact, Self::Qp, Self::Penalty];
-
-    /// The kind of a scheme.
-    #[must_use]
-    pub fn of(scheme: &Scheme) -> Self {
-        match scheme {
-            Scheme::Event => Self::Exact,
-            Scheme::Penalty { .. } => Self::Penalty,
-            _ => Self::Qp,
-        }
-    }
-
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Qp => "QP",
-            Self::Penalty => "penalty",
         }
     }
 }

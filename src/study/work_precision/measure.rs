@@ -73,7 +73,7 @@ fn errors_of(
     effort: &Effort,
 ) -> Series {
     let ran = |measured| Outcome::Ran(Box::new(measured));
-    if method.scheme == Scheme::Event {
+    if method.scheme.is_exact() {
         let outcome = match exact(scene) {
             Ok(counters) => {
                 let errors = reference.uncertainty.clone();

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `graph.rs` | the distance between motions with jumps |
 //! | `errors.rs` | the four errors of a run |
-//! | `kind.rs` | which of these errors is asked for, and of which kind of method |
+//! | `kind.rs` | which of these errors is asked for |
 //! | `reference.rs` | the reference of these errors, and until when it can be used |
 //! | `ladder.rs` | the steps that are tried |
 //! | `timing.rs` | timing |
@@ -25,14 +25,14 @@ mod timing;
 pub use errors::Errors;
 pub use front::{order, pareto, reached};
 pub use graph::{Graph, Scales};
-pub use kind::{Kind, Quantity};
+pub use kind::Quantity;
 pub use ladder::Steps;
 pub use measure::study;
 pub use overlay::{Peer, read};
 pub use reference::{Horizon, Reference};
 
 use crate::error::{Error, Result};
-use crate::scheme::{Counters, Integrator, Method, PenaltyLaw, Scheme};
+use crate::scheme::{Counters, Integrator, Method, PenaltyLaw, Scheme, SchemeKind};
 
 /// The steps to try, and the limits on cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -168,11 +168,11 @@ impl WorkPrecision {
     #[must_use]
     pub fn cheapest(
         &self,
-        kind: Kind,
+        kind: SchemeKind,
         quantity: Quantity,
         tolerance: f64,
     ) -> Option<(&Series, Option<f64>, &Measured)> {
-        let of_kind = self.series.iter().filter(|s| Kind::of(&s.method.scheme) == kind);
+        let of_kind = self.series.iter().filter(|s| s.method.scheme.entry().kind == kind);
         let reached = of_kind.filter_map(|s| s.cheapest(quantity, tolerance).map(|(step, m)| (s, step, m)));
         reached.min_by(|a, b| a.2.seconds.total_cmp(&b.2.seconds))
     }

@@ -4,7 +4,7 @@
 use super::ladder::Ladder;
 use crate::error::Result;
 use crate::scene::Scene;
-use crate::scheme::{Method, Scheme, Stepper};
+use crate::scheme::{Method, Stepper};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -48,7 +48,7 @@ pub(super) fn best(
 
 /// Seconds of the steps of one run.
 fn once(scene: &Scene, job: &Job, ladder: &Ladder) -> Result<f64> {
-    let exact = job.method.scheme == Scheme::Event;
+    let exact = job.method.scheme.is_exact();
     let step = if exact { scene.duration } else { ladder.time(job.count).step };
     let mut stepper = Stepper::new(scene, &job.method, step)?;
     let started = Instant::now();

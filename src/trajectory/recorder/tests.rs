@@ -1,7 +1,7 @@
 //! Steps given one by one, many at once and between rows make the same rows.
 
 use super::*;
-use crate::scene::{FlatWall, PlaneRows, Shape, Support, Wall};
+use crate::scene::{Face, PlaneRows, Support, Wall};
 use crate::step::{Balance, Conserves, Contract, Promise, Tolerances};
 
 fn scene(duration: f64) -> Scene {
@@ -32,7 +32,8 @@ impl Shown {
             jump: &[0.0],
             force: &[0.0],
             friction: &[],
-            holes: &[],
+            normal: &[],
+            turned: &[],
             wedged: &[],
             resting: &[],
             extra: &[0.0],
@@ -60,13 +61,11 @@ fn the_last_row_is_at_the_end_itself() {
 #[test]
 fn steps_seen_together_make_the_rows_of_steps_seen_one_by_one() {
     let mut beside_a_support = scene(1.0);
-    beside_a_support.supports.push(Support {
-        name: "plate".into(),
-        at: PlaneRows { y: Row::dof(0), z: Row::new(Vec::new()) },
-        centre: [0.0; 2],
-        shape: Shape::Flats(vec![FlatWall { wall: 0, direction: 0.0 }]),
-        friction: 0.0,
-    });
+    if let Face::Flat { direction, .. } = &mut beside_a_support.walls[0].face {
+        *direction = Some(0.0);
+    }
+    let at = PlaneRows { y: Row::dof(0), z: Row::new(Vec::new()) };
+    beside_a_support.supports.push(Support { name: "plate".into(), at, centre: [0.0; 2], walls: 0..1 });
     for scene in [scene(1.0), beside_a_support] {
         // Impulses before a row, which belong to it; two steps make a row.
         for pushed in [0, 1, 2] {

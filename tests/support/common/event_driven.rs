@@ -81,7 +81,7 @@ impl EventDriven {
                 WallLaw::Elastic { stiffness, damping } => (None, stiffness, damping),
                 _ => panic!("rigid and elastic walls only"),
             };
-            Wall { sign: if w.side == Side::Lower { 1.0 } else { -1.0 }, g: w.position, e, k, c }
+            Wall { sign: if w.side() == Side::Lower { 1.0 } else { -1.0 }, g: w.position(), e, k, c }
         });
         let still = Flow { t0: 0.0, sigma: 0.0, omega: 1.0, a: 0.0, b: 0.0, mean: 0.0 };
         let mut out = Self {

@@ -93,8 +93,8 @@ impl<'a> Shots<'a> {
         let n = x.len() / 2;
         let mut open = scene.clone();
         let Some(wall) = open.walls.get_mut(contact.wall) else { return Err(gone()) };
-        let shift = -wall.side.sign() * AWAY * self.scales.length;
-        wall.position += shift;
+        let shift = -wall.side().sign() * AWAY * self.scales.length;
+        *wall = wall.clone().with_position(wall.position() + shift);
         let look = if whole { Look::All } else { Look::Events };
         let at = |phase: f64| phase * period;
         let [from, to] = contact.window.map(at);
@@ -126,13 +126,13 @@ impl<'a> Shots<'a> {
         let since = run(&open, *period, [time, to], &until.end, Look::All)?;
         let soon = run(&open, *period, [time, time + SOON * (to - time)], &until.end, Look::Events)?;
         let wall = &scene.walls[contact.wall];
-        let sign = wall.side.sign();
-        let rate = |x: &DVector<f64>| sign * wall.at.dot(&x.as_slice()[n..]);
+        let sign = wall.side().sign();
+        let rate = |x: &DVector<f64>| sign * wall.row().dot(&x.as_slice()[n..]);
         free.acceleration = (rate(&soon.end) - rate(&until.end)) / (SOON * (to - time));
         let before = self.scales.similar(&(&until.derivative * &first.derivative));
         let after = self.scales.similar(&(&last.derivative * &since.derivative)) * self.sign();
         let mut row = vec![0.0; n];
-        wall.at.entries().iter().for_each(|&(dof, weight)| row[dof] += sign * weight);
+        wall.row().entries().iter().for_each(|&(dof, weight)| row[dof] += sign * weight);
         free.gap = DVector::from_fn(2 * n, |j, _| (0..n).map(|i| row[i] * before[(i, j)]).sum());
         free.turn.derivative = &after * &before;
         free.after = after.columns(n, n).into_owned();
@@ -184,10 +184,10 @@ impl<'a> Shots<'a> {
         let Some(restitution) = wall.law.restitution() else { return Ok(DVector::zeros(free.after.nrows())) };
         let mut body = SeriesBody::new(scene).ok_or_else(gone)?;
         let mut aside = vec![0.0; body.n];
-        wall.at.entries().iter().for_each(|&(dof, weight)| aside[dof] += weight);
+        wall.row().entries().iter().for_each(|&(dof, weight)| aside[dof] += weight);
         body.solve(&mut aside);
-        let mass = wall.at.dot(&aside);
-        let change = (1.0 + restitution) * wall.side.sign() / mass / self.scales.speed;
+        let mass = wall.row().dot(&aside);
+        let change = (1.0 + restitution) * wall.side().sign() / mass / self.scales.speed;
         Ok(&free.after * DVector::from_vec(aside) * change)
     }
 

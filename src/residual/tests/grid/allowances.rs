@@ -17,8 +17,7 @@ fn small_less(found: f64, noise: f64) {
 
 #[test]
 fn a_gap_is_known_to_the_rounding_of_all_that_it_is_made_of() {
-    let mut wall = Wall::upper("stop", 2.0 - SMALL);
-    wall.at = Row::new(vec![(0, 1.0), (1, -0.5)]);
+    let wall = Wall::upper("stop", 2.0 - SMALL).at(Row::new(vec![(0, 1.0), (1, -0.5)]));
     let scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]).with_wall(wall);
     let mut judge = Judge::new(&scene, rigid(Some(Bound::End), None), 0.25, &[1.0, -2.0], &[0.0; 2]);
     let claim = Claim {
@@ -31,16 +30,15 @@ fn a_gap_is_known_to_the_rounding_of_all_that_it_is_made_of() {
     judge.walls_on_grid(&claim.step(), false);
     // The terms of the displacement at both ends, the wall's place, and the way of a step.
     let size = (1.5 + 0.5) + (1.0 + 1.0) + (2.0 - SMALL) + 0.25 * (2.0 + 1.0);
-    let noise = judge.rounding.of(size) + MET * scene.gap_scale();
-    small_less(judge.doubts.gaps.outside.value, noise);
+    let noise = judge.noise.of(size) + MET * scene.gap_scale();
+    small_less(judge.walls.gaps.outside.excess.value, noise);
     // A sum over two degrees of freedom has √2 the rounding of one, 64 ulps.
-    assert!((judge.rounding.of(1.0) / (64.0 * f64::EPSILON) - 2f64.sqrt()).abs() < 1e-15);
+    assert!((judge.noise.of(1.0) / (64.0 * f64::EPSILON) - 2f64.sqrt()).abs() < 1e-15);
 }
 
 #[test]
 fn a_speed_of_rebound_is_known_to_the_rounding_of_all_that_it_is_made_of() {
-    let mut wall = Wall::upper("stop", 1.0);
-    wall.at = Row::new(vec![(0, 1.0), (1, -0.5)]);
+    let wall = Wall::upper("stop", 1.0).at(Row::new(vec![(0, 1.0), (1, -0.5)]));
     let scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]).with_wall(wall);
     let mut judge = Judge::new(&scene, rigid(None, Some(Reached::Ahead(0.5))), H, &[0.0; 2], &[0.0; 2]);
     let claim = Claim {
@@ -51,9 +49,10 @@ fn a_speed_of_rebound_is_known_to_the_rounding_of_all_that_it_is_made_of() {
         ..Claim::of(0.0, 0.0, 0.0, 1)
     };
     judge.blows.struck = vec![16.0, 8.0];
-    judge.doubt_rebound(0, -SMALL, &claim.step(), 0.0);
+    let noise = judge.noise.velocity(judge.speeds(&claim.step(), &scene.walls[0]), H);
+    judge.walls.see_rebound(&judge.noise, 0, (-SMALL, noise), 0.0);
     let size = (2.0 + 2.0) + (1.0 + 3.0) + (16.0 + 4.0);
-    small_less(judge.doubts.rebounds.outside.value, judge.rounding.of(size) + MET * scene.gap_scale() / H);
+    small_less(judge.walls.rebounds.outside.excess.value, judge.noise.of(size) + MET * scene.gap_scale() / H);
 }
 
 #[test]
@@ -65,8 +64,8 @@ fn the_law_of_a_spring_is_known_to_its_slope_times_the_rounding_of_the_place() {
         let mut judge = judge(&scene(law), contract, w0, 0.0);
         judge.walls_on_grid(&Claim::of(w1, 2.0, -4.0, 1).pushed(-H * (pressure + SMALL), 0.0).step(), false);
         let size = w0 + w1 + 1.0 + H * (2.0 + 4.0);
-        let place = judge.rounding.of(size) + MET;
-        small_less(judge.doubts.law.value, slope * place + judge.rounding.wall_force(0, H, 1.0));
+        let place = judge.noise.of(size) + MET;
+        small_less(judge.walls.law.excess.value, slope * place + judge.noise.wall_force(0));
     };
     // |r|(s) = s(s + 1)(2s + 1)/2 is ¾ N at ½ m and 15/64 N at ¼ m; at ½ m it rises by
     // (6 · ½ · 1½ + 1)/2 N/m, whichever end of the step is the deeper one.
@@ -83,15 +82,15 @@ fn the_law_of_a_spring_is_known_to_its_slope_times_the_rounding_of_the_place() {
 fn what_rounding_explains_is_taken_off_each_residual() {
     let mut judge = judge(&under(Wall::upper("stop", 1.0)), rigid(Some(Bound::End), None), 0.0, 0.0);
     // Nothing has moved yet: a force is exact.
-    judge.doubt_law(0, 1.0, 0.25);
-    assert_eq!((judge.doubts.law.value, judge.doubts.law.wall), (0.75, Some(0)));
-    judge.doubt_gap(0, -1.0, 0.0, 0.0);
-    assert_eq!(judge.doubts.gaps.outside.value, 1.0 - MET);
+    judge.walls.see_law(&judge.noise, 0, 1.0, 0.25);
+    assert_eq!((judge.walls.law.excess.value, judge.walls.law.excess.wall), (0.75, Some(0)));
+    judge.walls.see_gap(&judge.noise, 0, (-1.0, 0.0), 0.0);
+    assert_eq!(judge.walls.gaps.outside.excess.value, 1.0 - MET);
     // A residual of nothing is not doubted, and a small one by what is left of it.
-    judge.rounding.state(&[3.0], &[5.0], 0.0, &judge.weights);
+    judge.noise.state(&[3.0], &[5.0], 0.0, &judge.weights);
     let place = 64.0 * f64::EPSILON * 3.0;
-    judge.doubt_path(0.0);
-    assert_eq!(judge.doubts.path.value, 0.0);
-    judge.doubt_path(1.5 * place);
-    assert_eq!(judge.doubts.path.value, 0.5 * place);
+    judge.balance.see(&judge.noise, 0.0, 0.0);
+    assert_eq!(judge.balance.path.excess.value, 0.0);
+    judge.balance.see(&judge.noise, 0.0, 1.5 * place);
+    assert_eq!(judge.balance.path.excess.value, 0.5 * place);
 }

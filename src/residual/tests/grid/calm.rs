@@ -1,7 +1,8 @@
 //! Steps without contact, seen together and one by one.
 
 use super::*;
-use crate::step::{Calm, HoleStep};
+use crate::residual::worst::Worst;
+use crate::step::Calm;
 
 /// The end (s), displacement, velocity and velocities in the balance of each step.
 type Told = [f64; 5];
@@ -56,10 +57,22 @@ fn both(scene: &Scene, contract: Contract, q: f64, told: &[Told]) -> [Judge; 2] 
 /// All that a judge knows of a run, except the residuals less their rounding, of which steps seen
 /// together share the largest.
 fn state(judge: &Judge) -> String {
-    let sizes = [judge.balance, judge.normal_balance, judge.balance_scale, judge.kinematics, judge.now];
-    let rounding = [judge.rounding.path(), judge.rounding.force(1.0, 1.0)];
-    let (ends, run) = ((&judge.q, &judge.load, &judge.depth), (&judge.sums, &judge.extent, judge.energy.report()));
+    let sizes = [
+        judge.balance.largest,
+        judge.balance.force.value,
+        judge.balance.scale,
+        judge.balance.path.value,
+        judge.noise.end,
+    ];
+    let rounding = [judge.noise.path(), judge.noise.force_over(1.0)];
+    let (ends, run) =
+        ((&judge.q, &judge.load, &judge.walls.depth), (&judge.sums, &judge.extent, judge.energy.report()));
     format!("{ends:?} {run:?} {sizes:?} {rounding:?}")
+}
+
+/// The residuals of balance and path less their rounding.
+fn excess(judge: Judge) -> (Worst, Worst) {
+    (judge.balance.force.excess, judge.balance.path.excess)
 }
 
 const RULES: [Balance; 3] = [Balance::Theta(0.5), Balance::Theta(1.0), Balance::Staggered(0.25)];
@@ -75,8 +88,8 @@ fn steps_in_the_air_are_seen_together_as_one_by_one() {
         let place = |k: u64| if k == 0 { 0.0 } else { told[k as usize - 1][1] };
         let sums = &together.sums;
         assert_eq!((sums.steps, sums.place[0], sums.load[0]), (31, trapezoid(&place), trapezoid(&load)));
-        assert_eq!((sums.last[0], together.now, together.q[0]), (told[30][4], 31.0 * H, told[30][1]));
-        assert_eq!(together.doubts.balance.value, 0.0);
+        assert_eq!((sums.last[0], together.noise.end, together.q[0]), (told[30][4], 31.0 * H, told[30][1]));
+        assert_eq!(together.balance.force.excess.value, 0.0);
         assert_eq!(together.findings(), []);
     }
 }
@@ -90,17 +103,17 @@ fn a_false_step_among_others_is_doubted_by_what_was_added() {
             let told = free(balance, 31, |k, v, _| *v += if k == wrong { 0.25 } else { 0.0 });
             let [together, alone] = both(&scene(), contract(balance), 0.0, &told);
             assert_eq!(state(&together), state(&alone), "{balance:?}, {wrong}");
-            for Residue { balance, path, .. } in [together.doubts, alone.doubts] {
-                near(balance.value, 4.0 * 0.25 / H / 2.0);
-                assert_eq!((balance.time, path.value), (time, 0.0));
+            for (force, path) in [together, alone].map(excess) {
+                near(force.value, 4.0 * 0.25 / H / 2.0);
+                assert_eq!((force.time, path.value), (time, 0.0));
             }
             // A quarter of a metre without a velocity, times √m.
             let told = free(balance, 31, |k, _, q| *q += if k == wrong { 0.25 } else { 0.0 });
             let [together, alone] = both(&scene(), contract(balance), 0.0, &told);
             assert_eq!(state(&together), state(&alone), "{balance:?}, {wrong}");
-            for Residue { balance, path, .. } in [together.doubts, alone.doubts] {
+            for (force, path) in [together, alone].map(excess) {
                 near(path.value, 0.25 * 2.0);
-                assert_eq!((path.time, balance.value), (time, 0.0));
+                assert_eq!((path.time, force.value), (time, 0.0));
             }
         }
     }
@@ -121,7 +134,7 @@ fn a_wall_that_was_passed_over_is_found_among_steps_in_the_air() {
     assert_eq!((told[0][1], told[1][1]), (0.75, 0.875));
     let [together, alone] = both(&scene, contract, -0.125, &told);
     assert_eq!(state(&together), state(&alone));
-    for doubt in [together, alone].map(|judge| judge.doubts.rebounds.outside) {
+    for doubt in [together, alone].map(|judge| judge.walls.rebounds.outside.excess) {
         near(doubt.value, 0.75 * 4.0 - 2.0);
         assert_eq!((doubt.time, doubt.wall), (2.0 * H, Some(0)));
     }
@@ -135,9 +148,7 @@ fn steps_are_seen_together_only_where_a_step_is_all_there_is_to_see() {
         assert!(gains(&scene(), balance));
         assert!(!gains(&scene().with_load(Load::impulse(1.0, 0.5)), balance));
         assert!(!gains(&two([[1.0; 2]; 3]), balance));
-        let mut held = scene();
-        held.supports.push(super::momentum::hole());
-        assert!(!gains(&held, balance));
+        assert!(!gains(&super::momentum::in_hole(scene()), balance));
     }
     assert!(!gains(&scene(), alpha) && !gains(&scene(), Balance::Exact));
 }
@@ -153,7 +164,7 @@ fn a_step_of_another_scene_is_ignored() {
     };
     assert_eq!(seen(&claim.step()), 1);
     assert_eq!(seen(&Step { friction: &[0.0], ..claim.step() }), 0);
-    assert_eq!(seen(&Step { holes: &[HoleStep::default()], ..claim.step() }), 0);
+    assert_eq!(seen(&Step { normal: &[[0.0; 2]], ..claim.step() }), 0);
     assert_eq!(seen(&Claim { impulse: vec![0.0; 2], ..claim.clone() }.step()), 0);
     assert_eq!(seen(&Claim { q: vec![0.0; 2], ..claim }.step()), 0);
 }

@@ -2,29 +2,23 @@
 
 use super::*;
 use crate::residual::sums::Forces;
-use crate::scene::{PlaneRows, Row, Shape, Support, WallLaw};
+use crate::scene::{PlaneRows, Row};
 
-/// A rigid round hole around the first two degrees of freedom.
-pub(super) fn hole() -> Support {
-    Support {
-        name: "hole".into(),
-        at: PlaneRows { y: Row::dof(0), z: Row::dof(1) },
-        centre: [0.0; 2],
-        shape: Shape::Round { gap: 1.0, law: WallLaw::Rigid { restitution: 0.5 } },
-        friction: 0.0,
-    }
+/// The scene with a rigid round hole around the first two degrees of freedom.
+pub(super) fn in_hole(scene: Scene) -> Scene {
+    let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+    let wall = Wall::round("hole", at.clone(), 1.0).with_restitution(0.5);
+    scene.with_support("hole", at, [0.0; 2], vec![wall])
 }
 
 #[test]
 fn what_the_forces_and_impulses_of_a_run_leave_is_measured_by_what_was_exchanged() {
-    let mut stop = Wall::upper("stop", 64.0);
-    stop.at = Row::new(vec![(0, 2.0)]);
-    let mut pad = Wall::lower("pad", 0.0).with_elasticity(16.0, 0.0);
-    pad.at = Row::new(vec![(0, -0.5)]);
+    let stop = Wall::upper("stop", 64.0).at(Row::new(vec![(0, 2.0)]));
+    let pad = Wall::lower("pad", 0.0).with_elasticity(16.0, 0.0).at(Row::new(vec![(0, -0.5)]));
     let scene = Scene::oscillator(4.0, 2.0, 8.0).with_load(Load::constant(7.0)).with_wall(stop).with_wall(pad);
     let mut judge = Judge::new(&scene, contract(Balance::Theta(0.5)), 0.5, &[1.0], &[2.0]);
     // Four steps from 1 m at 2 m/s to 2 m at −1 m/s, after which the load is 4 N.
-    (judge.q, judge.load, judge.now, judge.force_scale) = (vec![2.0], vec![4.0], 2.0, 8.0);
+    (judge.q, judge.load, judge.noise.end, judge.walls.force_scale) = (vec![2.0], vec![4.0], 2.0, 8.0);
     let sums = &mut judge.sums;
     (sums.steps, sums.last, sums.place, sums.load) = (4, vec![-1.0], vec![3.0], vec![-495.0]);
     sums.forces = vec![Forces { load: 2.0, own: -3.0, changes: 1.0, largest: 6.0, exchanged: 9.0 }];
@@ -94,8 +88,7 @@ fn recorded_impulses_that_are_not_those_seen_are_found_in_any_unit() {
         assert_eq!(worst.wall, Some(0));
     }
     // The same of a hole, along both axes.
-    let mut scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]);
-    scene.supports.push(hole());
+    let scene = in_hole(two([[1.0; 2], [0.0; 2], [0.0; 2]]));
     let open = |told: [f64; 2]| {
         let mut judge = Judge::new(&scene, rigid(None, None), H, &[0.0; 2], &[0.0; 2]);
         (judge.sums.steps, judge.sums.whole) = (3, false);
@@ -111,10 +104,8 @@ fn recorded_impulses_that_are_not_those_seen_are_found_in_any_unit() {
 
 #[test]
 fn a_hole_exchanges_its_impulse_through_its_levers() {
-    let mut lever = hole();
-    (lever.at.y, lever.at.z) = (Row::new(vec![(0, 2.0)]), Row::new(vec![(1, -0.5)]));
-    let mut scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]);
-    scene.supports.push(lever);
+    let at = PlaneRows { y: Row::new(vec![(0, 2.0)]), z: Row::new(vec![(1, -0.5)]) };
+    let scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]).with_wall(Wall::round("lever", at, 1.0));
     let mut judge = Judge::new(&scene, rigid(None, None), H, &[0.0; 2], &[1.0, 1.0]);
     // Two bodies of 1 kg keep their velocities although 3 and 4 N s act through the levers.
     judge.sums.steps = 4;

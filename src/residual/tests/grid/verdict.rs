@@ -93,10 +93,10 @@ fn exact_motion_is_known_to_the_rounding_of_its_instants() {
         judge
     };
     let judge = prepared(2.0, 2.5);
-    assert_eq!((judge.now, judge.span, judge.clock), (2.5, 0.5, 1.0 + 5.0));
+    assert_eq!((judge.noise.end, judge.noise.span, judge.noise.clock), (2.5, 0.5, 1.0 + 5.0));
     // An instant lasts an ulp of its time.
     let judge = prepared(4.0, 4.0);
-    assert_eq!((judge.span, judge.clock), (4.0 * f64::EPSILON, 1.0 + 1.0 / f64::EPSILON));
+    assert_eq!((judge.noise.span, judge.noise.clock), (4.0 * f64::EPSILON, 1.0 + 1.0 / f64::EPSILON));
     // The load and the extra force together, 8 N, over √m.
-    assert_eq!(judge.rounding.force(1.0, 1.0), judge.rounding.of(8.0 / 2.0));
+    assert_eq!(judge.noise.force_over(1.0), judge.noise.of(8.0 / 2.0));
 }

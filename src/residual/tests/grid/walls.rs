@@ -4,7 +4,7 @@ use super::*;
 
 /// The judge after its walls were shown a step, and whether one is closed.
 fn shown(mut judge: Judge, claim: &Claim) -> (Judge, bool) {
-    judge.span = H;
+    judge.noise.span = H;
     let closed = judge.walls_on_grid(&claim.step(), false);
     (judge, closed)
 }
@@ -26,18 +26,18 @@ fn a_wall_far_away_may_not_push() {
         (PromisedForce::End, Claim::of(0.0, 0.0, 0.0, 1).pushed(0.0, -2.0)),
     ] {
         let (judge, _) = shown(judge(&stop(0.5), promise(force), 0.0, 0.0), &claim);
-        near(judge.doubts.gaps.both(1.0, 1.0).value, 1.0);
-        near(judge.doubts.gaps.both(1.0, 8.0).value, 0.25);
+        near(judge.walls.gaps.worst_excess(1.0, 1.0).value, 1.0);
+        near(judge.walls.gaps.worst_excess(1.0, 8.0).value, 0.25);
     }
     // A spring that held 4 N at the start of the step and nothing at its end gives the mean of
     // both, not nothing.
     let mut contract = contract(Balance::Theta(0.5));
     contract.promise.elastic.force = PromisedForce::Trapezoid;
     let mut judge = judge(&under(Wall::upper("pad", 1.0).with_elasticity(8.0, 0.0)), contract, 0.0, 0.0);
-    judge.held = vec![-4.0];
+    judge.walls.last_force = vec![-4.0];
     let (judge, _) = shown(judge, &Claim::of(0.0, 0.0, 0.0, 1));
-    assert_eq!((judge.law_error, judge.held[0]), (2.0, 0.0));
-    near(judge.doubts.law.value, 2.0);
+    assert_eq!((judge.walls.law.value, judge.walls.last_force[0]), (2.0, 0.0));
+    near(judge.walls.law.excess.value, 2.0);
 }
 
 #[test]
@@ -45,18 +45,18 @@ fn a_wall_that_the_step_reaches_halfway_must_answer() {
     let contract = rigid(None, Some(Reached::Ahead(0.5)));
     // At 4 m/s from ¾ m half a step reaches 1 m, though the step ends before. −¾ · 4 m/s was due.
     let (found, _) = shown(judge(&stop(0.75), contract, 0.75, 4.0), &Claim::of(0.875, 4.0, -2.0, 1));
-    near(found.doubts.rebounds.outside.value, 0.75 * 4.0 - 2.0);
+    near(found.walls.rebounds.outside.excess.value, 0.75 * 4.0 - 2.0);
     // From further away it does not.
     let (found, _) = shown(judge(&stop(0.75), contract, 0.625, 4.0), &Claim::of(0.875, 4.0, -2.0, 1));
-    assert_eq!(found.doubts.rebounds.outside.value, 0.0);
+    assert_eq!(found.walls.rebounds.outside.excess.value, 0.0);
     // It may not push then: 2 N.
     let claim = Claim::of(0.875, 4.0, -2.0, 1).pushed(-2.0 * H, 0.0);
     let (found, _) = shown(judge(&stop(0.75), contract, 0.625, 4.0), &claim);
-    near(found.doubts.law.value, 2.0);
+    near(found.walls.law.excess.value, 2.0);
     // A push that throws the body back too fast, by 1 m/s.
     let claim = Claim::of(0.875, 4.0, -4.0, 1).pushed(-8.0, 0.0);
     let (found, _) = shown(judge(&stop(0.75), contract, 0.75, 4.0), &claim);
-    near(found.doubts.rebounds.both(1.0, 1.0).value, 1.0);
+    near(found.walls.rebounds.worst_excess(1.0, 1.0).value, 1.0);
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn a_blow_counts_to_the_velocity_that_arrives() {
     let scene = stop(0.5).with_load(Load::impulse(4.0, 0.5 * H));
     let mut found = judge(&scene, rigid(None, Some(Reached::Ahead(0.5))), 0.75, 1.0);
     found.see(&Claim::of(0.875, 1.0, 0.0, 1).step());
-    near(found.doubts.rebounds.outside.value, 0.5 * 5.0);
+    near(found.walls.rebounds.outside.excess.value, 0.5 * 5.0);
     // Under the staggered rule a blow of half a step before counts to this step's velocity: back by
     // −8 m/s · h from ¾ m, the body would have been at 1¾ m, which reflects the bound to ⅝ m.
     let mut contract = contract(Balance::Staggered(0.25));
@@ -74,21 +74,21 @@ fn a_blow_counts_to_the_velocity_that_arrives() {
     let scene = stop(0.5).with_load(Load::impulse(-8.0, 1.75 * H));
     let mut found = judge(&scene, contract, 0.75, 0.0);
     found.see(&Claim::of(0.875, 0.0, 0.0, 1).at(2).step());
-    near(found.doubts.gaps.outside.value, 0.875 - 0.625);
+    near(found.walls.gaps.outside.excess.value, 0.875 - 0.625);
     // A blow in the second half of the step adds its −1 m to the displacement of the rule, which
     // is then ½ m behind the wall.
     let scene = stop(0.0).with_load(Load::impulse(-32.0, 2.75 * H));
     let mut found = judge(&scene, contract, 0.0, 0.0);
     found.see(&Claim::of(0.5, 0.0, 12.0, 1).at(2).step());
-    near(found.doubts.gaps.outside.value, 0.5);
-    assert_eq!(found.doubts.path.value, 0.0);
+    near(found.walls.gaps.outside.excess.value, 0.5);
+    assert_eq!(found.balance.path.excess.value, 0.0);
 }
 
 #[test]
 fn a_body_behind_a_wall_that_does_not_push_is_seen() {
     let (found, _) = shown(judge(&stop(0.5), rigid(Some(Bound::End), None), 0.0, 12.0), &Claim::of(1.5, 12.0, 12.0, 1));
-    near(found.doubts.gaps.outside.value, 0.5);
-    assert_eq!(found.depth, [0.5]);
+    near(found.walls.gaps.outside.excess.value, 0.5);
+    assert_eq!(found.walls.depth, [0.5]);
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn a_spring_that_pushes_by_its_law_is_not_doubted() {
     let scene = under(Wall::upper("pad", 1.0).with_elasticity(8.0, 0.0));
     let claim = Claim::of(1.5, 2.0, 2.0, 1).pushed(-4.0 * H, -4.0);
     let (found, closed) = shown(judge(&scene, contract(Balance::Theta(0.5)), 1.25, 2.0), &claim);
-    assert_eq!((found.law_error, found.doubts.law.value, closed), (0.0, 0.0, false));
+    assert_eq!((found.walls.law.value, found.walls.law.excess.value, closed), (0.0, 0.0, false));
 }
 
 #[test]
@@ -110,17 +110,17 @@ fn a_closed_wall_keeps_the_impact_law_unless_rounding_alone_closes_it() {
     // −½ · 2 m/s was due.
     for (w1, doubt) in [(1.0 - 5e-13, 0.0), (1.0, 3.0), (1.125, 3.0)] {
         let (found, closed) = at(w1, 2.0, 0.0);
-        near(found.doubts.rebounds.outside.value, doubt);
+        near(found.walls.rebounds.outside.excess.value, doubt);
         assert!(closed, "{w1}");
     }
     // Near the wall, but not closed.
     let (found, closed) = at(0.875, 2.0, 0.0);
-    assert!(!closed && found.doubts.rebounds.outside.value == 0.0);
+    assert!(!closed && found.walls.rebounds.outside.excess.value == 0.0);
     // One that pushes counts as closed wherever it is: 4 N that throw the body back at 2 instead of
     // 1 m/s.
     let (found, closed) = at(0.5, -2.0, -4.0 * H);
     assert!(closed);
-    near(found.doubts.rebounds.both(1.0, 1.0).value, 1.0);
+    near(found.walls.rebounds.worst_excess(1.0, 1.0).value, 1.0);
 }
 
 #[test]
@@ -131,6 +131,6 @@ fn where_rounding_decides_whether_a_wall_is_reached_either_is_accepted() {
     // At rest at the touching distance, at a tenth of it, and beyond it: pushed on to −1 m/s.
     for (q, doubt) in [(touch, 0.0), (0.1 * touch, 1.0), (1.5 * touch, 0.0)] {
         let (found, _) = shown(judge(&scene, contract, q, 0.0), &Claim::of(q, 0.0, -1.0, 1));
-        near(found.doubts.rebounds.outside.value, doubt);
+        near(found.walls.rebounds.outside.excess.value, doubt);
     }
 }

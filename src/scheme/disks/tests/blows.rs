@@ -31,7 +31,7 @@ fn a_blow_on_one_body_moves_it_as_if_no_other_were_pressed_into_its_hole() {
             // In the large hole the first body meets nothing.
             let mut alone = Stepper::new(&scene(1.5), &scheme, h).expect("a scene");
             follow(&scene(gap), &scheme, h, 8, |number, step| {
-                let pressed = step.holes[0].impulse > 0.0;
+                let pressed = step.impulse[0] > 0.0;
                 assert!(pressed, "{scheme}, {angle}: step {number}");
                 let other = alone.step().expect("a step");
                 for k in 2..4 {
@@ -59,7 +59,7 @@ fn a_hole_in_reach_that_does_not_push_changes_nothing() {
             };
             let mut beyond = Stepper::new(&scene(1.5), &scheme, h).expect("a scene");
             let stepper = follow(&scene(gap), &scheme, h, 3, |number, step| {
-                assert!(step.holes[0].impulse == 0.0, "{angle}: step {number}");
+                assert!(step.impulse[0] == 0.0, "{angle}: step {number}");
                 let other = beyond.step().expect("a step");
                 for k in 0..2 {
                     let off = [step.q[k] - other.q[k], step.v[k] - other.v[k]].map(f64::abs);
@@ -92,7 +92,7 @@ fn about_the_axis_of_the_hole_blows_and_contacts_turn_with_the_scene() {
                 follow(&scene, &scheme, h, 10, |_, step| {
                     let parts = |x: &[f64]| [n, t].map(|e| e[0] * x[0] + e[1] * x[1]);
                     let ([w, u], [dw, du]) = (parts(step.q), parts(step.v));
-                    seen.push([w / gap, u / gap, dw, du, step.holes[0].impulse]);
+                    seen.push([w / gap, u / gap, dw, du, step.impulse[0]]);
                 });
                 if known.is_empty() {
                     known = seen;

@@ -49,6 +49,16 @@ fn a_stretch_is_handed_over_after_5000_events_or_50_where_one_was_just_before() 
 }
 
 #[test]
+fn a_body_that_a_stretch_left_behind_a_wall_starts_from_the_wall_although_it_moves_away() {
+    let mut event =
+        started(&masses(&[1.0], &[], &[]).with_wall(rigid(Wall::lower("floor", 0.0), 0.5, &[(0, 1.0)])), 1.0);
+    event.restart(0.5, &[-1e-6], &[1.0]).unwrap();
+    event.crowd.handed = 0.5;
+    event.advance(None).unwrap();
+    assert_eq!((event.time, event.q[0]), (1.0, 0.5));
+}
+
+#[test]
 fn a_restart_begins_to_count_anew() {
     let mut event = started(&ball(0.5), 1.0);
     event.clock.count().events = 6000;

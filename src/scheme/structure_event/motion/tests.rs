@@ -6,7 +6,7 @@ use crate::scene::{Load, Row, Wall};
 
 #[test]
 fn a_wall_that_touches_adds_its_spring_and_its_dashpot() {
-    let wall = Wall { at: Row::new(vec![(0, 2.0), (1, -1.0)]), ..Wall::upper("pad", 0.3) };
+    let wall = Wall::upper("pad", 0.3).at(Row::new(vec![(0, 2.0), (1, -1.0)]));
     let scene = masses(&[1.0, 1.0], &[(0, 0, 3.0)], &[(1, 1, 70.0)])
         .with_wall(wall.with_elasticity(500.0, 11.0))
         .with_load(on(Load::constant(2.0), 1));
@@ -44,7 +44,7 @@ fn a_body_that_slides_in_a_hole_presses_with_its_centrifugal_force() {
         event.advance(None).unwrap();
         // Once the body is held, from its first step on.
         let force = event.shown.force[0];
-        assert!((force + mass * speed * speed / gap).abs() < 1e-13, "{}: {force}", event.time);
+        assert!((force - mass * speed * speed / gap).abs() < 1e-13, "{}: {force}", event.time);
     }
     // Of the forces at the start of a series: m v²/γ along the normal, which turns at v/γ.
     event.begin_series(event.limit());

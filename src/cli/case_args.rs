@@ -1,0 +1,135 @@
+//! The case of a command, and the changes of its values.
+
+use super::command_line::quoted;
+use super::ui::Ui;
+use super::values;
+use crate::case::{Case, CaseFile, Embedded, KeyValue};
+use crate::error::{Error, Result};
+use std::path::{Path, PathBuf};
+
+/// The case of a command.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct CaseArgs {
+    /// Case file, summary.json of a run, or the name of a built-in case; a file is taken before a
+    /// built-in case
+    #[arg(value_hint = clap::ValueHint::FilePath)]
+    case: String,
+    #[command(flatten)]
+    changes: Changes,
+}
+
+/// Finds the case `name`: the file of that name; else, for a name without an extension, the file
+/// NAME.toml in the current folder; else the built-in case of that name. Says which it took
+/// wherever there is a built-in case of that name.
+///
+/// # Errors
+/// As [`CaseFile::read`].
+pub fn case_file(name: &str, ui: &Ui) -> Result<CaseFile> {
+    let file = Path::new(name);
+    let beside = PathBuf::from(format!("{name}.toml"));
+    // `..` and `.toml` do not get an extension.
+    let bare = !name.is_empty() && file.extension().is_none() && file.file_name().is_some();
+    let built_in = Embedded::named(name);
+    let taken = match &built_in {
+        _ if file.is_file() => file,
+        _ if bare && beside.is_file() => &beside,
+        Ok(embedded) => {
+            ui.message(&format!("{name}: the built-in case"));
+            return CaseFile::embedded(embedded.name);
+        }
+        Err(_) => file,
+    };
+    if built_in.is_ok() || taken != file {
+        let other = if built_in.is_ok() { ", not the built-in case of that name" } else { "" };
+        ui.message(&format!("{name}: the file {}{other}", taken.display()));
+    }
+    CaseFile::read(taken)
+}
+
+/// Values of the case that the command line changes by their keys.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Changes {
+    /// Set a value of the case by its key, such as wall.upper.position=6e-3,
+    /// load.1.harmonic.frequency=4, wall.*.restitution=0.8; may be given several times
+    #[arg(long, value_name = "KEY=VALUE", value_parser = values::settings(), hide_possible_values = true)]
+    set: Vec<String>,
+}
+
+impl Changes {
+    /// The keys and values as they were given.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for an argument that is not KEY=VALUE.
+    pub fn pairs(&self) -> Result<Vec<(String, KeyValue)>> {
+        let pair = |text: &String| {
+            let expected = "KEY=VALUE, such as wall.upper.position=6e-3";
+            let wrong = || Error::invalid("--set", format_args!("{text:?}"), expected);
+            let (key, value) = text.split_once('=').ok_or_else(wrong)?;
+            Ok((key.to_owned(), value.parse()?))
+        };
+        self.set.iter().map(pair).collect()
+    }
+}
+
+impl CaseArgs {
+    /// The file of the case, found by [`case_file`], with the values set.
+    ///
+    /// # Errors
+    /// As [`case_file`] and [`CaseFile::set`]; [`Error::Invalid`] for an argument that is not
+    /// KEY=VALUE.
+    pub fn file(&self, ui: &Ui) -> Result<CaseFile> {
+        let mut file = case_file(&self.case, ui)?;
+        if !self.changes.set.is_empty() {
+            // Errors of the file itself are shown with its own lines, before any change.
+            file.case()?;
+        }
+        for (key, value) in self.changes.pairs()? {
+            file.set(&key.parse()?, &value)?;
+        }
+        Ok(file)
+    }
+
+    /// The command line that asks `command` of this case, without its other options.
+    #[must_use]
+    pub fn command_line(&self, command: &str) -> String {
+        let sets = self.changes.set.iter().map(|pair| format!(" --set {}", quoted(pair)));
+        format!("signorini {command} {}{}", quoted(&self.case), sets.collect::<String>())
+    }
+
+    /// The case of that file. Says the size of random forces that take time and memory.
+    ///
+    /// # Errors
+    /// As [`CaseArgs::file`] and [`CaseFile::case`].
+    pub fn read(&self, ui: &Ui) -> Result<Case> {
+        built(&self.file(ui)?, ui)
+    }
+
+    /// The same case with another restitution at every rigid wall and support.
+    ///
+    /// # Errors
+    /// As [`CaseArgs::read`], and [`Error::Invalid`] for a case without a rigid wall.
+    pub fn read_with_restitution(&self, restitution: Option<f64>, ui: &Ui) -> Result<Case> {
+        let mut file = self.file(ui)?;
+        set_restitution(&mut file, restitution)?;
+        built(&file, ui)
+    }
+}
+
+/// The case of a file. Says the size of random forces that take time and memory.
+pub(super) fn built(file: &CaseFile, ui: &Ui) -> Result<Case> {
+    let case = file.case()?;
+    case.large_random_forces().for_each(|said| ui.message(&said));
+    Ok(case)
+}
+
+/// Gives every rigid wall and support that restitution.
+pub(super) fn set_restitution(file: &mut CaseFile, restitution: Option<f64>) -> Result<()> {
+    let Some(restitution) = restitution else { return Ok(()) };
+    // Errors of the file itself are shown with its own lines, before any change.
+    file.case()?;
+    let keys = file.restitutions()?;
+    if keys.is_empty() {
+        return Err(Error::invalid("--restitution", restitution, "a case with a rigid wall; this one has none"));
+    }
+    keys.iter().try_for_each(|key| file.set(key, &restitution.into()))
+}

@@ -1,0 +1,309 @@
+//! How long work will take, and what determines this: estimated from the share that is done or from
+//! a short trial, and said once while the work lasts.
+
+#[cfg(test)]
+mod tests;
+
+use crate::scene::{LoadKind, Scene, System};
+use crate::scheme::{Method, Scheme, Stepper};
+use crate::study::choice::choose;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, TryRecvError, channel};
+use std::time::{Duration, Instant};
+
+/// Seconds: a shorter remainder is not reported.
+const WORTH_SAYING: f64 = 2.0;
+
+/// A finished share below this is too small to extrapolate from.
+const LEAST_SHARE: f64 = 1e-12;
+
+/// Most periods of the fastest motion that a trial of one degree of freedom steps before it looks
+/// at the clock again: the exact scheme searches each of them for a contact.
+const PERIODS_PER_LOOK: f64 = 1e3;
+
+/// How long a run is tried where no part of the work has finished yet.
+const TRIAL: Duration = Duration::from_millis(300);
+
+/// Structures with more degrees of freedom take too long to set up and are not tried beside the run
+/// itself; after [`UNKNOWN`] seconds the tool says that the duration is not known.
+const MOST_TRIED: usize = 2000;
+const UNKNOWN: f64 = 10.0;
+
+/// What the duration of the work depends on.
+#[derive(Debug, Clone)]
+pub struct DurationEstimate {
+    /// Description of all steps, such as `200000 steps of 5e-5 s`.
+    cause: String,
+    /// Runs from whose cost the duration is estimated while no share of the work is done.
+    runs: Vec<CountedRun>,
+}
+
+/// A run of the work, or one of several kinds of runs in it.
+#[derive(Debug, Clone)]
+struct CountedRun {
+    scene: Scene,
+    method: Method,
+    step: f64,
+    /// Number of such runs, or of runs that cost the same in all.
+    count: f64,
+    /// Words before and after the time that these runs take together.
+    words: [&'static str; 2],
+}
+
+/// Wall-clock time of a run, estimated from a short piece of it.
+#[derive(Debug, Clone)]
+pub struct RunTime {
+    /// Of the whole run, s.
+    pub seconds: f64,
+    /// What decides that time.
+    pub cause: String,
+}
+
+impl DurationEstimate {
+    /// That of `method` on `scene` with steps of `step` seconds.
+    #[must_use]
+    pub fn of_run(scene: &Scene, method: &Method, step: f64) -> Self {
+        let run = CountedRun { scene: scene.clone(), method: *method, step, count: 1.0, words: ["about", "more"] };
+        Self { cause: steps_in_words(scene, method, step), runs: vec![run] }
+    }
+
+    /// The same for work that consists of `count` such runs.
+    #[must_use]
+    pub fn times(mut self, count: f64) -> Self {
+        self.runs.iter_mut().for_each(|run| run.count *= count);
+        self
+    }
+
+    /// That of a comparison of `methods` with each other and with the exact scheme.
+    #[must_use]
+    pub fn of_comparison(scene: &Scene, methods: &[Method], step: f64) -> Self {
+        let mut exact = Self::of_each_exact_run(scene, step);
+        if let Some(method) = methods.iter().find(|method| method.scheme != Scheme::Event) {
+            exact.cause = format!("{}; the others take {}", exact.cause, steps_in_words(scene, method, step));
+        }
+        exact
+    }
+
+    /// That of a search for an error, by `method` if one is asked for, with at most `most_steps`
+    /// steps: the exact motion several times, and steps halved until the error is kept.
+    #[must_use]
+    pub fn of_search(scene: &Scene, method: Option<Method>, step: f64, most_steps: u64) -> Self {
+        let exact = Self::of_each_exact_run(scene, step);
+        let method = method.filter(|m| m.scheme != Scheme::Event).unwrap_or_else(|| choose(scene).method);
+        let finest = Self::of_run(scene, &method, scene.duration / most_steps as f64);
+        let cause =
+            format!("{}; steps are halved until there are {:.1e} of them at most", exact.cause, most_steps as f64);
+        let mut runs = exact.runs;
+        // Recording and judging cost about as much as stepping; all coarser runs together cost as
+        // much as the finest.
+        runs.extend(finest.runs.into_iter().map(|run| CountedRun {
+            count: 4.0,
+            words: ["at most about", "more"],
+            ..run
+        }));
+        // The exact motion of a structure is given up after about a second if it has too many
+        // events.
+        runs.retain(|run| run.method.scheme != Scheme::Event || matches!(scene.system, System::Oscillator(_)));
+        Self { cause, runs }
+    }
+
+    /// That of a chart of `methods`, each at several steps, where no run may take longer than
+    /// `longest` (s).
+    #[must_use]
+    pub fn of_chart(scene: &Scene, methods: &[Method], levels: u32, longest: f64) -> Self {
+        let exact = Self::of_each_exact_run(scene, scene.duration);
+        let count = counted(methods.len(), "method");
+        let cause = format!("{count} at up to {levels} steps each, --longest {longest} s a run; {}", exact.cause);
+        Self { cause, ..exact }
+    }
+
+    /// That of the study of energy and lasting contacts: `count` runs of about equal cost, and the
+    /// exact motion.
+    #[must_use]
+    pub fn of_contacts(scene: &Scene, step: f64, count: f64) -> Self {
+        let moreau = Method::new(Scheme::MoreauJean { theta: 0.5 });
+        let Self { cause, mut runs } = Self::of_comparison(scene, &[moreau], step);
+        runs.extend(Self::of_run(scene, &moreau, step).times(count).runs);
+        Self { cause, runs }
+    }
+
+    /// That of maps with `rows` rows and `work` steps in all.
+    #[must_use]
+    pub fn of_maps(scene: &Scene, work: u64, rows: usize) -> Self {
+        let (unknowns, rows) = (unknowns_in_words(scene), counted(rows, "row"));
+        let cause = format!("{:.1e} steps{unknowns} in {rows}, set by the slowest frequency and time.end", work as f64);
+        Self { cause, runs: Vec::new() }
+    }
+
+    /// For work with runs of the exact motion whose number is not known, each of which may take
+    /// long.
+    fn of_each_exact_run(scene: &Scene, step: f64) -> Self {
+        let mut exact = Self::of_run(scene, &Method::new(Scheme::Event), step);
+        exact.runs.iter_mut().for_each(|run| run.words = ["about", "for each run of the exact motion"]);
+        exact
+    }
+
+    /// The message after `elapsed`, with `share` of the work done; `None` if the work ends soon.
+    fn message(&self, elapsed: Duration, share: f64) -> Option<String> {
+        let elapsed = elapsed.as_secs_f64();
+        if share >= 1.0 {
+            return None;
+        }
+        if share > LEAST_SHARE {
+            let left = elapsed * (1.0 - share) / share;
+            return (left >= WORTH_SAYING).then(|| format!("about {} more: {}", time_in_words(left), self.cause));
+        }
+        // No part of the work has finished: either a single step takes this long, or the work
+        // before the first step does.
+        let (tried, untried): (Vec<&CountedRun>, Vec<&CountedRun>) =
+            self.runs.iter().partition(|run| run.scene.system.degrees_of_freedom() <= MOST_TRIED);
+        let unknown = || format!("how long it takes is not known after {elapsed:.0} s: {}", self.cause);
+        let message = |run: &CountedRun| {
+            let seconds = run.seconds().filter(|seconds| seconds.is_finite() && *seconds >= WORTH_SAYING)?;
+            let [before, after] = run.words;
+            Some(format!("{before} {} {after}: {}", time_in_words(seconds), self.cause))
+        };
+        tried.into_iter().find_map(message).or_else(|| (!untried.is_empty() && elapsed >= UNKNOWN).then(unknown))
+    }
+
+    /// Calls `say` once with the message on work that begins now: after `patience`, or as soon
+    /// afterwards as an estimate exists, unless the returned value is dropped before, which ends
+    /// the work. A thread of its own does this, since a single step may take longer than all the
+    /// rest.
+    pub fn announce(self, patience: Duration, say: impl Fn(&str) + Send + 'static) -> WorkUnderWay {
+        let (over, ended) = channel::<()>();
+        let done = Arc::new(AtomicU64::new(0));
+        let share = Arc::clone(&done);
+        let wait = move || {
+            let started = Instant::now();
+            let mut pause = patience;
+            while ended.recv_timeout(pause) == Err(RecvTimeoutError::Timeout) {
+                let message = self.message(started.elapsed(), f64::from_bits(share.load(Ordering::Relaxed)));
+                // The work may have ended while the message was computed.
+                let over = ended.try_recv() == Err(TryRecvError::Disconnected);
+                if let (Some(message), false) = (message, over) {
+                    return say(&message);
+                }
+                pause = started.elapsed();
+            }
+        };
+        // If no thread can be started, there is no message, and the work continues.
+        let _ = std::thread::Builder::new().name("estimate".to_owned()).spawn(wait);
+        WorkUnderWay { done, _over: over }
+    }
+}
+
+/// Work whose duration is announced while it lasts.
+#[derive(Debug)]
+pub struct WorkUnderWay {
+    done: Arc<AtomicU64>,
+    /// Dropped when the work is over, which closes the channel.
+    _over: Sender<()>,
+}
+
+impl WorkUnderWay {
+    /// Sets the share of the work that is done.
+    pub fn set_share(&self, share: f64) {
+        self.done.store(share.to_bits(), Ordering::Relaxed);
+    }
+}
+
+impl CountedRun {
+    /// Time of all these runs, from a trial of one.
+    fn seconds(&self) -> Option<f64> {
+        run_time(&self.scene, &self.method, self.step, TRIAL).map(|time| self.count * time.seconds)
+    }
+}
+
+/// Steps `scene` by `method` for at most `patience`, and estimates from that how long the whole run
+/// takes; `None` if it cannot start. Recording and judging are not included: they cost about as
+/// much again. The exact scheme of one degree of freedom is stopped every thousand periods,
+/// whatever `step` is, since between two contacts it may have to search any number of periods.
+#[must_use]
+pub fn run_time(scene: &Scene, method: &Method, step: f64, patience: Duration) -> Option<RunTime> {
+    let started = Instant::now();
+    let exact = method.scheme == Scheme::Event;
+    let stride = match scene.system {
+        System::Oscillator(_) if exact => step.min(PERIODS_PER_LOOK * TAU / fastest(scene).0),
+        _ => step,
+    };
+    let mut stepper = Stepper::new(scene, method, stride).ok()?;
+    let setup = started.elapsed().as_secs_f64();
+    let stepping = Instant::now();
+    let mut time = 0.0;
+    while time < scene.duration && stepping.elapsed() < patience {
+        // The clock is read rarely, since a step may take nanoseconds.
+        for _ in 0..if exact { 1 } else { 64 } {
+            time = stepper.step().ok()?.end;
+        }
+    }
+    let share = (time / scene.duration).min(1.0);
+    let seconds = if share > 0.0 { setup + stepping.elapsed().as_secs_f64() / share } else { f64::INFINITY };
+    Some(RunTime { seconds, cause: steps_in_words(scene, method, step) })
+}
+
+/// How many steps `method` takes on `scene`, and what sets their number.
+fn steps_in_words(scene: &Scene, method: &Method, step: f64) -> String {
+    if method.scheme != Scheme::Event {
+        let count = (scene.duration / step).ceil();
+        let unknowns = unknowns_in_words(scene);
+        return format!("{count:.1e} steps of {step:e} s{unknowns}, set by time.end and time.step");
+    }
+    let (rate, what) = fastest(scene);
+    if let System::Structure(_) = scene.system {
+        let count = (0.5 * rate * scene.duration).ceil();
+        format!("the exact scheme follows {what} in at least {count:.1e} stretches, and stops at every contact")
+    } else {
+        let count = rate * scene.duration / TAU;
+        format!("the exact scheme goes from contact to contact; {what} has {count:.1e} periods in the run")
+    }
+}
+
+fn unknowns_in_words(scene: &Scene) -> String {
+    let n = scene.system.degrees_of_freedom();
+    if n > 1 { format!(" with {n} unknowns") } else { String::new() }
+}
+
+/// `1 row`, `12 rows`.
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// The fastest angular frequency that the exact scheme follows, rad/s, and its origin.
+fn fastest(scene: &Scene) -> (f64, String) {
+    let [_, mode] = scene.system.frequencies();
+    let harmonic = |kind: &LoadKind| match kind {
+        LoadKind::Harmonic { frequency, .. } => Some(*frequency),
+        _ => None,
+    };
+    let loads = scene.loads.iter().enumerate().filter_map(|(i, load)| Some((i, harmonic(&load.kind)?)));
+    match loads.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((index, frequency)) if TAU * frequency > mode => {
+            (TAU * frequency, format!("load {} of {frequency:.3e} Hz", index + 1))
+        }
+        _ => (mode, format!("the fastest mode, {:.3e} Hz,", mode / TAU)),
+    }
+}
+
+/// A time in words: `3.2 s`, `4 min`, `7.5 h`, `12 days`, `3e4 years`.
+#[must_use]
+pub fn time_in_words(seconds: f64) -> String {
+    const MINUTE: f64 = 60.0;
+    const HOUR: f64 = 60.0 * MINUTE;
+    const DAY: f64 = 24.0 * HOUR;
+    const YEAR: f64 = 365.25 * DAY;
+    match seconds {
+        s if !s.is_finite() => "an unknown time".to_owned(),
+        s if s < 1e-3 => "less than a millisecond".to_owned(),
+        s if s < 1.0 => format!("{:.0} ms", 1e3 * s),
+        s if s < 10.0 => format!("{s:.1} s"),
+        s if s < 2.0 * MINUTE => format!("{s:.0} s"),
+        s if s < 2.0 * HOUR => format!("{:.0} min", s / MINUTE),
+        s if s < 2.0 * DAY => format!("{:.1} h", s / HOUR),
+        s if s < 2.0 * YEAR => format!("{:.0} days", s / DAY),
+        s if s < 1e4 * YEAR => format!("{:.0} years", s / YEAR),
+        s => format!("{:.0e} years", s / YEAR),
+    }
+}

@@ -1,0 +1,52 @@
+//! `orbit --list`: orbits of one impact, in closed form.
+
+use crate::case::Case;
+use crate::cli::pipeline::Shown;
+use crate::error::Result;
+use crate::orbit::{ClosedForm, Problem, closed_forms};
+use crate::output::periodic::listed;
+use crate::output::table::Table;
+
+/// Longest orbits of --list, forcing periods.
+const LISTED: u32 = 8;
+
+/// The closed forms.
+pub(super) fn list(case: &Case) -> Result<Shown> {
+    let scene = &case.scene;
+    let forms = closed_forms(scene, LISTED)?;
+    // With several degrees of freedom the motion between the impacts is not checked.
+    let problem = Problem::new(scene.clone()).ok();
+    let holds = |form: &ClosedForm| {
+        let problem = problem.as_ref()?;
+        Some(problem.admissible(&form.orbit(problem)).ok()?.holds())
+    };
+    let found: Vec<_> = forms.into_iter().map(|form| (form.clone(), holds(&form))).collect();
+    let mut shown = Shown::new(listed(&found, scene));
+    if found.is_empty() {
+        shown.prose(format!("no orbit of one impact per period of the orbit in up to {LISTED} forcing periods"));
+        return Ok(shown);
+    }
+    let rows = found.iter().map(|(form, admissible)| {
+        let wall = scene.walls.get(form.wall).map_or("", |wall| wall.name.as_str());
+        let largest = form.multipliers.first().map_or(0.0, |m| m[0].hypot(m[1]));
+        vec![
+            wall.to_owned(),
+            form.periods.to_string(),
+            if form.symmetric { "yes" } else { "no" }.to_owned(),
+            format!("{:.9}", form.phase),
+            format!("{:.9e}", form.speed),
+            format!("{largest:.6e}"),
+            if form.is_stable() { "stable" } else { "unstable" }.to_owned(),
+            match admissible {
+                Some(true) => "yes",
+                Some(false) => "no, passes a wall",
+                None => "not looked at",
+            }
+            .to_owned(),
+        ]
+    });
+    let header =
+        ["wall", "periods", "symmetric", "phase (cycles)", "speed (m/s)", "largest |μ|", "stability", "admissible"];
+    shown.table(Table::new(&header, rows.collect()), "--json");
+    Ok(shown)
+}

@@ -1,0 +1,138 @@
+//! `signorini orbit`: a periodic orbit of a case, and its Floquet multipliers.
+
+mod args;
+mod list;
+mod structure;
+mod written;
+
+pub use args::Args;
+
+use super::pipeline::Shown;
+use super::ui::Ui;
+use crate::error::{Error, Result};
+use crate::orbit::{Floquet, Kind, Orbit, Problem};
+use crate::output::periodic::Known;
+use crate::output::table::Table;
+use crate::scene::System;
+use list::list;
+use structure::structure;
+use written::{periods_in_words, write_document};
+
+/// Instants of the motion over one orbit.
+const POINTS: u32 = 2000;
+
+pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+    let case = args.case.read(ui)?;
+    if args.list {
+        return list(&case);
+    }
+    if let System::Structure(_) = case.scene.system {
+        return structure(args, &case, ui);
+    }
+    let problem = Problem::new(case.scene.clone())?;
+    let start = args.start_orbit(&problem)?;
+    let mut results = args.open(&case)?;
+    let orbit = match start {
+        Some(start) if start.signature.chatters() => start,
+        Some(start) => problem.correct(&start)?,
+        None => ui.with_bar("settling", |bar| problem.settled_with(args.settle, &|share| bar.set_share(share)))?,
+    };
+    let judged = problem.judge(&orbit, POINTS)?;
+    let (floquet, admissible) = (problem.floquet(&orbit)?, problem.admissible(&orbit)?);
+    let known = Known { problem: &problem, orbit: &orbit, floquet, admissible, judged: &judged };
+    let document = write_document(&mut results, known.document(&case.name))?;
+    if !judged.motion.is_empty() {
+        known.motion(&results.place("orbit.csv")?)?;
+        known.contacts(&results.place("contacts.csv")?)?;
+        let title = format!("{}: {}", case.title.as_deref().unwrap_or(&case.name), headline(&problem, &orbit));
+        results.draw("phase", &known.portrait(&title))?;
+        results.draw("motion", &known.picture(&title))?;
+    }
+    let mut shown = Shown::of(results, !args.place.no_report, document);
+    show(&mut shown, &known);
+    shown.fall_short(fault(&known));
+    Ok(shown)
+}
+
+/// Why what was found is no orbit.
+fn fault(known: &Known<'_>) -> Option<Error> {
+    let judged = known.judged;
+    match known.admissible.reason(known.problem.scene()) {
+        Some(reason) => Some(Error::no_orbit(format!("no body can follow what was found: {reason}"))),
+        None if !judged.holds() => Some(Error::no_orbit(format!(
+            "the free run from it does not come back: it misses its start by {:.1e} of the gap, and rounding \
+             explains {:.1e}{}",
+            judged.closure,
+            judged.tolerance,
+            if judged.same_events { "" } else { ", and goes through other events" }
+        ))),
+        None => None,
+    }
+}
+
+/// The orbit in a few words.
+fn headline(problem: &Problem, orbit: &Orbit) -> String {
+    let symmetric = if orbit.signature.symmetric { ", symmetric" } else { "" };
+    let periods = periods_in_words(orbit.signature.periods);
+    match orbit.signature.written(problem.scene()).as_str() {
+        "" => format!("touches no wall, {periods}"),
+        written if orbit.signature.symmetric => format!("{written} and mirror, {periods}{symmetric}"),
+        written => format!("{written}, {periods}"),
+    }
+}
+
+/// Shows an orbit of one degree of freedom.
+fn show(shown: &mut Shown, known: &Known<'_>) {
+    let Known { problem, orbit, floquet, admissible, judged } = known;
+    let scene = problem.scene();
+    let name = |wall: usize| scene.walls.get(wall).map_or("", |wall| wall.name.as_str());
+    shown.prose(format!("orbit: {}, period {:.9} s", headline(problem, orbit), orbit.period()));
+    if !orbit.phases.is_empty() {
+        let rows = orbit.signature.events.iter().enumerate().map(|(index, event)| {
+            let number = |values: &[f64]| values.get(index).map_or_else(String::new, |x| format!("{x:.12}"));
+            let speed = if event.kind == Kind::Release { "-".to_owned() } else { number(&orbit.speeds) };
+            vec![event.kind.to_string(), name(event.wall).to_owned(), number(&orbit.phases), speed]
+        });
+        let header = ["event", "wall", "phase (cycles)", "speed (m/s)"];
+        shown.table(Table::new(&header, rows.collect()), "orbit.json");
+    }
+    multipliers(floquet).into_iter().for_each(|line| shown.prose(line));
+    let near = admissible.nearest.map_or_else(String::new, |nearest| {
+        format!(", nearest to a wall that it does not strike: {:.4e} m ({})", nearest.gap, name(nearest.wall))
+    });
+    shown.prose(format!("displacement at most {:.6e} m{near}", admissible.largest));
+    if judged.motion.is_empty() {
+        return;
+    }
+    let rows = judged.walls.iter().enumerate().map(|(wall, share)| {
+        let peak = if share.peak_force > 0.0 { format!("{:.6e}", share.peak_force) } else { "-".to_owned() };
+        vec![
+            name(wall).to_owned(),
+            share.contacts.to_string(),
+            format!("{:.9e}", share.impulse),
+            format!("{:.9e}", share.approach_speed),
+            peak,
+        ]
+    });
+    let header = ["wall", "contacts", "impulse (N s)", "largest speed (m/s)", "largest lasting force (N)"];
+    shown.table(Table::new(&header, rows.collect()), "orbit.json");
+    shown.prose(format!(
+        "free run over one period: comes back within {:.1e} of the gap, {} events",
+        judged.closure,
+        if judged.same_events { "the same" } else { "other" }
+    ));
+}
+
+/// The multipliers in words.
+fn multipliers(floquet: &Floquet) -> Vec<String> {
+    let shown = |values: &[[f64; 2]]| {
+        let one = |[re, im]: &[f64; 2]| if *im == 0.0 { format!("{re:.12}") } else { format!("{re:.12} {im:+.12}i") };
+        values.iter().map(one).collect::<Vec<_>>().join(", ")
+    };
+    let largest = floquet.multipliers.iter().map(|[re, im]| re.hypot(*im)).fold(0.0, f64::max);
+    let verdict = if floquet.is_stable() { "stable" } else { "unstable" };
+    let mut lines =
+        vec![format!("Floquet multipliers: {} ({verdict}, largest |μ| {largest:.9})", shown(&floquet.multipliers))];
+    lines.extend(floquet.half.as_deref().map(|half| format!("of the half map: {}", shown(half))));
+    lines
+}

@@ -1,0 +1,194 @@
+//! What all commands share: the folder of their results is opened before the work, and afterwards
+//! is finished, gets its report, and the answer is printed, for a person or as JSON. A command
+//! itself checks what is asked, does the work, writes its files and says what is shown.
+
+use super::command_line::command_line;
+use super::drawing::Formats;
+use super::ui::Ui;
+use crate::case::Case;
+use crate::error::{Error, Result};
+use crate::output::atomic::write_whole;
+use crate::output::results::Results;
+use crate::output::table::Table;
+use crate::report;
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+/// Where results are written, and the formats of their pictures.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Destination {
+    /// Folder for the results [default: out/CASE/COMMAND]
+    #[arg(long, value_name = "DIR", value_hint = clap::ValueHint::DirPath)]
+    pub out: Option<PathBuf>,
+    /// Replace the results of another request
+    #[arg(long)]
+    pub force: bool,
+    /// Write no report.html, nor the shape.csv or orbits.csv from which it draws motions
+    #[arg(long)]
+    pub no_report: bool,
+    /// File formats of pictures
+    #[command(flatten)]
+    pub formats: Formats,
+}
+
+impl Destination {
+    /// The folder for the results of `command` on the case or sweep of that name.
+    pub fn folder(&self, name: &str, command: &str) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| Path::new("out").join(name).join(command))
+    }
+
+    /// Opens the folder for the results of `command` on `case`, which must be writable and must not
+    /// hold results of another request than `request`. Call it before the work, which may be long.
+    ///
+    /// # Errors
+    /// As [`Results::open`]; [`Error::Invalid`] for a format that this build cannot write.
+    pub fn open(&self, case: &Case, command: &str, request: Map<String, Value>) -> Result<Results> {
+        let mut results =
+            Results::open(&self.folder(&case.name, command), request, self.force, self.formats.usable()?)?;
+        results.tell("command_line", json!(command_line()));
+        results.tell("title", json!(case.title));
+        Ok(results)
+    }
+}
+
+/// A part of what is shown.
+enum Part {
+    /// A table on stdout, and the file that has all its columns.
+    Table(Table, &'static str),
+    /// Sentences on stdout, whose lines break between words.
+    Prose(String),
+    /// Text on stdout as it is.
+    Verbatim(String),
+    /// A sentence on stderr about the tables; with `--json` the document says the same.
+    Remark(String),
+    /// A sentence on stderr that is printed with `--json`, too.
+    Message(String),
+}
+
+/// The answer of a command: what is printed, and the folder of its results if it has one.
+#[derive(Default)]
+pub struct Shown {
+    parts: Vec<Part>,
+    document: Value,
+    results: Option<Results>,
+    report: bool,
+    /// The end of the last line, after the name of the folder.
+    remark: String,
+    /// The last line of a command without a folder.
+    last_line: Option<String>,
+    shortfall: Option<Error>,
+}
+
+impl Shown {
+    /// The answer of a command without results on disk; `document` is printed with `--json`.
+    pub fn new(document: Value) -> Self {
+        Self { document, ..Self::default() }
+    }
+
+    /// The answer of a command whose files are in `results`, with a report beside them where it is
+    /// wanted.
+    pub fn of(results: Results, report: bool, document: Value) -> Self {
+        Self { document, results: Some(results), report, ..Self::default() }
+    }
+
+    /// Adds a table, whose columns are all in `file`.
+    pub fn table(&mut self, table: Table, file: &'static str) {
+        self.parts.push(Part::Table(table, file));
+    }
+
+    /// Adds sentences on stdout.
+    pub fn prose(&mut self, text: String) {
+        self.parts.push(Part::Prose(text));
+    }
+
+    /// Adds text on stdout whose lines stay as they are.
+    pub fn verbatim(&mut self, text: String) {
+        self.parts.push(Part::Verbatim(text));
+    }
+
+    /// Adds sentences on stderr that are left out with `--json`.
+    pub fn remarks(&mut self, texts: impl IntoIterator<Item = String>) {
+        self.parts.extend(texts.into_iter().map(Part::Remark));
+    }
+
+    /// Adds sentences on stderr.
+    pub fn messages(&mut self, texts: impl IntoIterator<Item = String>) {
+        self.parts.extend(texts.into_iter().map(Part::Message));
+    }
+
+    /// Ends the last line with `remark`, before the page to open.
+    pub fn close_with(&mut self, remark: impl Into<String>) {
+        self.remark = remark.into();
+    }
+
+    /// Sets the last line of a command that has no folder.
+    pub fn last_line(&mut self, line: String) {
+        self.last_line = Some(line);
+    }
+
+    /// What the results fall short of: the command fails after they are written and shown.
+    pub fn fall_short(&mut self, error: Option<Error>) {
+        self.shortfall = error;
+    }
+
+    /// Finishes the folder, writes the report and prints everything.
+    ///
+    /// # Errors
+    /// [`Error::Io`] for a file that cannot be written and for stdout; [`Error::Refuted`] if a run
+    /// was refuted; else the shortfall.
+    pub fn conclude(mut self, ui: &Ui) -> Result<()> {
+        let last_line = self.finish(ui)?;
+        let printed = self.print(ui);
+        if let Some(line) = last_line {
+            ui.message(&line);
+        }
+        printed?;
+        ui.verdict()?;
+        self.shortfall.map_or(Ok(()), Err)
+    }
+
+    /// Finishes the folder; returns the last line of the command.
+    fn finish(&mut self, ui: &Ui) -> Result<Option<String>> {
+        let Some(results) = &mut self.results else { return Ok(self.last_line.take()) };
+        // The report is made from the files in their places.
+        let replaced = results.finish()?;
+        let mut open = String::new();
+        if self.report {
+            let (folder, manifest) = (results.folder().to_owned(), results.manifest());
+            match report::too_large(&folder, &manifest)? {
+                Some(reason) => ui.message(&reason),
+                None => {
+                    let page = report::page(&folder, &manifest)?;
+                    write_whole(&results.place(report::FILE)?, page.as_bytes())?;
+                    results.finish()?;
+                    open = format!("; open {}", folder.join(report::FILE).display());
+                }
+            }
+        }
+        if let Some(replaced) = replaced {
+            ui.message(&replaced);
+        }
+        if let Some(map) = self.document.as_object_mut() {
+            map.insert("results".to_owned(), json!(results.folder()));
+            map.insert("files_written".to_owned(), json!(results.files()));
+        }
+        Ok(Some(format!("results in {}{}{open}", results.folder().display(), self.remark)))
+    }
+
+    fn print(&mut self, ui: &Ui) -> Result<()> {
+        if ui.json() {
+            ui.document(&self.document)?;
+        }
+        for part in self.parts.drain(..) {
+            match part {
+                Part::Message(text) => ui.message(&text),
+                _ if ui.json() => {}
+                Part::Remark(text) => ui.message(&text),
+                Part::Table(table, file) => ui.table(&table, file)?,
+                Part::Prose(text) => ui.prose(&text)?,
+                Part::Verbatim(text) => ui.answer(&text)?,
+            }
+        }
+        Ok(())
+    }
+}

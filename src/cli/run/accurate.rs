@@ -1,0 +1,87 @@
+//! `run --accuracy`: scheme, step and modes that keep an error.
+
+use super::args::Args;
+use super::checked::CheckedRun;
+use crate::case::Case;
+use crate::cli::estimate::DurationEstimate;
+use crate::cli::ui::Ui;
+use crate::error::{Error, Result};
+use crate::scheme::Method;
+use crate::study::accuracy::{Outcome, Target, foresee, reach};
+use crate::study::choice;
+use crate::study::truncation::{ChosenModes, choose_modes};
+use serde_json::json;
+
+/// Unknowns times steps of the last run of a refinement, relative to one degree of freedom.
+const MOST_WORK: u64 = 8;
+
+/// Fewest steps that a run of a refinement may always take.
+const FEWEST_STEPS: u64 = 1 << 16;
+
+/// A run that keeps the error asked for; what it falls short of is part of the outcome.
+pub(super) fn search(args: &Args, case: Case, tolerance: f64, ui: &Ui) -> Result<CheckedRun> {
+    if let Some(step) = args.request.step {
+        return Err(Error::invalid("--step", step, "no step beside --accuracy, which finds one"));
+    }
+    let method = args.scheme.as_ref().map(|name| args.request.method(name, &case)).transpose()?;
+    let methods: Vec<Method> = method.into_iter().collect();
+    if !methods.is_empty() {
+        args.request.check_use(&methods)?;
+    }
+    let results = args.open(&case, &methods, json!({ "step_s": null, "accuracy": tolerance }))?;
+    let target = Target { method, ..Target::new(tolerance, case.time) };
+    target.validate()?;
+    let most_steps = most_steps(&case, &target);
+    let estimate = DurationEstimate::of_search(&case.scene, method, case.time.step, most_steps);
+    let (case, modes, outcome) = ui.with_estimate("", estimate, |_| -> Result<_> {
+        let (case, modes) = enough_modes(case, &target, ui)?;
+        let target = Target { most_steps: self::most_steps(&case, &target), ..target };
+        let end = case.scene.duration;
+        let outcome =
+            ui.with_bar("refining", |bar| reach(&case.scene, &target, &mut |time| bar.set_share(time / end)))?;
+        Ok((case, modes, outcome))
+    })?;
+    let Outcome { method, reason, run, accuracy, shortfall } = outcome;
+    ui.refute(&method.to_string(), &run.findings);
+    let shortfall = shortfall.or(modes.as_ref().and_then(ChosenModes::shortfall));
+    let (modes, accuracy) = (modes.map(Ok), Some(Ok(accuracy)));
+    let (refinement, truncation) = (None, None);
+    Ok(CheckedRun { case, results, method, reason, run, refinement, truncation, modes, accuracy, shortfall })
+}
+
+/// The cost of a step is proportional to the unknowns: a structure may cost some times as much as
+/// one degree of freedom, but no more.
+fn most_steps(case: &Case, target: &Target) -> u64 {
+    let unknowns = case.scene.system.degrees_of_freedom() as u64;
+    (MOST_WORK * target.most_steps / unknowns).clamp(FEWEST_STEPS, target.most_steps)
+}
+
+/// The case with as many modes as `target` takes, and how their number was found; unchanged where
+/// it is not reduced to modes, and where the error cannot be kept to the end. Says the time up to
+/// which it can be kept, before the search, which may take minutes.
+fn enough_modes(case: Case, target: &Target, ui: &Ui) -> Result<(Case, Option<ChosenModes>)> {
+    let foreseen = foresee(&case.scene, target).ok().flatten();
+    if let Some(until) = foreseen {
+        ui.message(&format!(
+            "beyond about t = {until:.4e} s no step keeps an error of {:e}: rounding alone grows to it; so scheme \
+             and step are found for the time up to then at most",
+            target.tolerance
+        ));
+    }
+    let Some(truncated) = &case.truncated else { return Ok((case, None)) };
+    let start = truncated.reduction.modes.count();
+    if foreseen.is_some() {
+        // The error cannot be kept with any number of modes, and runs that separated by chance
+        // cannot be compared.
+        ui.message(&format!("so the {start} modes of the case are kept, and no more are tried"));
+        return Ok((case, None));
+    }
+    let method = target.method.unwrap_or_else(|| choice::choose(&case.scene).method);
+    let end = case.scene.duration;
+    let chosen = ui.with_bar("modes", |bar| {
+        let mut progress = |time| bar.set_share(time / end);
+        choose_modes(&truncated.whole, start, &method, &case.time, target.tolerance, &mut progress)
+    })?;
+    let planes = case.planes.modes();
+    Ok((case.with("system.modes", (chosen.modes / planes) as i64)?, Some(chosen)))
+}

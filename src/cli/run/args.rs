@@ -1,0 +1,61 @@
+//! The arguments of `signorini run`.
+
+use super::seeds::Seeds;
+use crate::case::Case;
+use crate::cli::drawing::PlotSpan;
+use crate::cli::request::Request;
+use crate::cli::values;
+use crate::error::Result;
+use crate::output::request::{extended, request};
+use crate::output::results::Results;
+use crate::scheme::Method;
+use serde_json::{Value, json};
+
+const EXAMPLES: &str = "\
+Examples:
+  signorini run cases/rigid-walls-sine.toml
+  signorini run rigid-walls-sine --restitution 0.8 --step 1e-5
+  signorini run rigid-walls-sine --scheme penalty --epsilon 1e-9 --integrator trapezoidal
+  signorini run elastic-wall --scheme event --out results
+  signorini run elastic-wall --accuracy 1e-6
+  signorini run rigid-walls-sine --restitution 0.8 --scheme moreau-jean --accuracy 1e-3
+  signorini run tube-loose-supports --modes 40
+  signorini run rigid-walls-sine --from 4 --to 6   pictures of these two seconds
+  signorini run tube-lattice-bars --seeds 6        means over six realisations of the random loads
+
+Schemes: implicit-euler, paoli-schatzman, moreau-jean, generalized-alpha, newmark (for
+demonstration), penalty, event (exact).";
+
+/// Run one case by one scheme: trajectory, contacts, summary and figures
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Args {
+    #[command(flatten)]
+    pub(super) request: Request,
+    /// Scheme [default: chosen from the scene; see `signorini explain`]
+    #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
+    pub(super) scheme: Option<String>,
+    /// Find scheme and step for this error, as a share of the gap and of each wall's impulse and
+    /// contact statistics; exit code 1 if it is not kept to the end; for a case reduced to modes,
+    /// find the number of modes too
+    #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
+    pub(super) accuracy: Option<f64>,
+    /// Do not repeat the run with half the step, nor, for a case reduced to modes, with more modes
+    #[arg(long)]
+    pub(super) no_verdict: bool,
+    #[command(flatten)]
+    pub(super) seeds: Seeds,
+    #[command(flatten)]
+    pub(super) span: PlotSpan,
+}
+
+impl Args {
+    /// Opens the folder of the results of `case` by `methods`, with these further settings.
+    pub(super) fn open(&self, case: &Case, methods: &[Method], settings: Value) -> Result<Results> {
+        let mut asked = extended(request("run", case, methods), settings);
+        if let Some(count) = self.seeds.count {
+            asked.insert("seeds".to_owned(), json!(count));
+        }
+        self.request.place.open(case, "run", asked)
+    }
+}

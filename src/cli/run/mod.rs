@@ -1,0 +1,105 @@
+//! `signorini run`: one case, one method.
+
+mod accurate;
+mod args;
+mod checked;
+mod seeds;
+
+pub use args::Args;
+
+use super::pipeline::Shown;
+use super::ui::Ui;
+use crate::case::Case;
+use crate::error::Result;
+use crate::output::episodes::Episodes;
+use crate::output::run::{self as output, Picture};
+use crate::output::summary::{Checks, Reasons};
+use crate::output::supports;
+use crate::run::Run;
+use crate::scheme::Method;
+use crate::study::choice;
+use checked::CheckedRun;
+use serde_json::json;
+use std::fmt::Display;
+
+pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+    let case = args.request.read(ui)?;
+    // A stretch outside the run is refused before anything runs.
+    let span = args.span.within(&case, case.scene.duration)?;
+    let count = args.seeds.check(&case)?;
+    let CheckedRun { case, mut results, method, reason, run, refinement, truncation, modes, accuracy, shortfall } =
+        match args.accuracy {
+            Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
+            None => checked::checked(args, case, ui)?,
+        };
+    let study = count.map(|count| seeds::study(&case, &run, &method, count, !args.no_verdict, ui)).transpose()?;
+    if let Some(study) = &study {
+        seeds::write(study, &mut results)?;
+    }
+    let first = format!("{method}: {reason}");
+    let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
+    let checks = Checks {
+        refinement: succeeded(refinement.as_ref()),
+        truncation: succeeded(truncation.as_ref()),
+        modes: succeeded(modes.as_ref()),
+        accuracy: succeeded(accuracy.as_ref()),
+        realisations: study.as_ref(),
+        ..Checks::default()
+    };
+    // Last, since the summary records the tables beside it.
+    let mut document =
+        output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
+    if let Some(error) = &shortfall {
+        document["error"] = json!(error.to_string());
+    }
+    let mut shown = Shown::of(results, !args.request.place.no_report, document);
+    shown.messages([first]);
+    show(&mut shown, &case, &run, &method)?;
+    if let Some(study) = &study {
+        seeds::show(&mut shown, study, &case);
+    }
+    shown.messages(checked_line("refinement", refinement.as_ref()));
+    shown.messages(checked_line("truncation", truncation.as_ref()));
+    shown.messages(checked_line("modes", modes.as_ref()));
+    shown.messages(checked_line("accuracy", accuracy.as_ref()));
+    if shortfall.is_some() {
+        shown.close_with(", kept in spite of the error below");
+    }
+    shown.fall_short(shortfall);
+    Ok(shown)
+}
+
+fn succeeded<T>(check: Option<&Result<T>>) -> Option<&T> {
+    check.and_then(|check| check.as_ref().ok())
+}
+
+/// What a check found, as a sentence.
+fn checked_line<T: Display>(what: &str, check: Option<&Result<T>>) -> Option<String> {
+    Some(match check? {
+        Ok(found) => format!("{what}: {found}"),
+        Err(error) => format!("{what}: the check of this run failed: {error}"),
+    })
+}
+
+/// Shows a run: its tables with the remarks on them, its figures in a line, and its notes.
+fn show(shown: &mut Shown, case: &Case, run: &Run, method: &Method) -> Result<()> {
+    if let Some(table) = output::table(run)? {
+        shown.table(table, "summary.json");
+        shown.remarks(output::remarks(run));
+    }
+    if let Some(table) = supports::table(case, run) {
+        shown.table(table, "supports.csv");
+        shown.remarks(supports::remarks(case, run));
+    }
+    if let Some(options) = case.statistics {
+        let episodes = Episodes::of(case, run, options.rest);
+        if let Some(table) = episodes.table(&case.scene) {
+            shown.table(table, "episodes.csv");
+            shown.remarks([episodes.remark()]);
+        }
+    }
+    let notes = run.notes.iter().cloned().chain(case.notes()).chain(supports::warnings(case, run));
+    shown.messages([output::line(case, run, method)]);
+    shown.messages(notes.map(|note| format!("note: {note}")));
+    Ok(())
+}

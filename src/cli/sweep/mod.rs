@@ -1,0 +1,169 @@
+//! `signorini sweep`: one case, many values.
+
+mod args;
+
+pub use args::Args;
+
+use super::command_line::command_line;
+use super::estimate::time_in_words;
+use super::pipeline::Shown;
+use super::ui::Ui;
+use crate::error::Result;
+use crate::output::results::Results;
+use crate::sweep::{Finished, Manner, Pictures, Plan, Progress, Shard, Status, Tables, write_summary};
+use serde_json::{Value, json};
+use std::cell::Cell;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Time for which rows are computed for the estimate of `--plan`.
+const TRIAL: Duration = Duration::from_secs(3);
+
+/// Interval of the lines that report progress.
+const REPORT_INTERVAL: Duration = Duration::from_secs(30);
+
+pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+    // A format that cannot be written is refused before anything is computed.
+    args.place.formats.usable()?;
+    let sweep = args.sweep(ui)?;
+    let title = sweep.title().to_owned();
+    let plan = sweep.plan()?;
+    plan.notes().iter().for_each(|note| ui.message(note));
+    if args.plan {
+        return Ok(planned(&plan));
+    }
+    let (finished, mut results) = run(args, &plan, &title, ui)?;
+    let whole = args.shard.is_none_or(|shard| shard == Shard::WHOLE);
+    let pictures = if whole { plan.draw(&mut results)? } else { Pictures::default() };
+    let document = write_summary(&mut results, document(&plan, &finished, &pictures.drawn))?;
+    let mut shown = Shown::of(results, whole && !args.place.no_report, document);
+    let found = match finished.found {
+        0 => String::new(),
+        found if found == finished.rows => ", all of them there already".to_owned(),
+        found => format!(", {found} of them there already"),
+    };
+    shown.messages([format!("{} rows in {}{found}", finished.rows, time_in_words(finished.seconds))]);
+    shown.messages(status_messages(&finished.folder, &finished.tables, finished.rows)?);
+    shown.messages(picture_messages(&pictures));
+    if !whole {
+        shown.close_with("; `signorini merge` joins the shards");
+    }
+    shown.fall_short(finished.failure(args.strict));
+    Ok(shown)
+}
+
+/// Runs the sweep with a progress bar; a line from time to time reports progress too.
+fn run(args: &Args, plan: &Plan, title: &str, ui: &Ui) -> Result<(Finished, Results)> {
+    let folder = args.place.folder(title, "sweep");
+    let (threads, shard) = (args.threads.map(usize::from), args.shard.unwrap_or(Shard::WHOLE));
+    let manner = Manner { threads, shard, force: args.place.force };
+    let formats = args.place.formats.usable()?;
+    ui.with_bar("sweep", |bar| {
+        let said = Cell::new(Instant::now());
+        let progress = |Progress { done, rows, rate }| {
+            bar.set_share(done as f64 / rows.max(1) as f64);
+            if said.get().elapsed() > REPORT_INTERVAL {
+                said.set(Instant::now());
+                let left = if rate > 0.0 { (rows - done) as f64 / rate } else { f64::INFINITY };
+                bar.message(&format!("{done} of {rows} rows, {rate:.3} rows/s, {} left", time_in_words(left)));
+            }
+        };
+        let damaged = |what: &str| bar.message(&format!("the rows are computed again: {what}"));
+        plan.run_in(&folder, manner, formats, &progress, &damaged)
+    })
+}
+
+/// The size of the sweep, and estimates of its time and bytes.
+fn planned(plan: &Plan) -> Shown {
+    let estimate = plan.estimate(TRIAL);
+    let chains = plan.count() / plan.chain_rows();
+    let mut shown = Shown::new(json!({
+        "rows": plan.count(),
+        "chains": chains,
+        "columns": plan.header(),
+        "method": plan.method().to_string(),
+        "rows_tried": estimate.tried,
+        "rows_failed": estimate.failed,
+        "seconds": estimate.seconds,
+        "threads": estimate.threads,
+        "bytes": estimate.bytes,
+    }));
+    shown.prose(format!("{} rows by {}, {} columns", plan.count(), plan.method(), plan.header().len()));
+    if plan.chain_rows() > 1 {
+        shown.prose(format!("{chains} chains of {} rows, each on one thread", plan.chain_rows()));
+    }
+    let failed = if estimate.failed > 0 { format!(", {} of which failed", estimate.failed) } else { String::new() };
+    shown.prose(format!(
+        "about {} on {} threads, from {} rows tried{failed}",
+        time_in_words(estimate.seconds),
+        estimate.threads,
+        estimate.tried
+    ));
+    shown.prose(format!("about {:.1e} bytes of tables, and as much again while it runs", estimate.bytes));
+    shown
+}
+
+/// The sweep as a document: `summary.json`.
+fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
+    json!({
+        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+        "case": plan.case().name,
+        "title": plan.case().title,
+        "rows": finished.rows,
+        "rows_of_earlier_runs": finished.found,
+        "command_line": command_line(),
+        "status": status_document(&finished.tables),
+        "first_error": finished.tables.first_error,
+        "threads": finished.threads,
+        "wall_clock_s": finished.seconds,
+        "request": plan.request(),
+        "pictures": drawn,
+        "results": finished.folder,
+    })
+}
+
+/// The numbers of rows by status, as JSON.
+pub(super) fn status_document(tables: &Tables) -> Value {
+    tables.counts.iter().map(|(status, count)| (status.clone(), json!(count))).collect()
+}
+
+/// Most names of curves that are printed.
+const MOST_NAMED: usize = 12;
+
+/// The paths of pictures, and the names of what they leave out.
+pub(super) fn picture_messages(pictures: &Pictures) -> Vec<String> {
+    let mut messages: Vec<String> = pictures.drawn.iter().map(|path| format!("wrote {}", path.display())).collect();
+    let left_out = &pictures.left_out;
+    if !left_out.is_empty() {
+        let named = left_out.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join("; ");
+        let more = match left_out.len().saturating_sub(MOST_NAMED) {
+            0 => String::new(),
+            more => format!("; and {more} more"),
+        };
+        messages.push(format!(
+            "the picture has no room for {named}{more}; sweep.csv has them all, and [figure] y, z and wall choose \
+             others"
+        ));
+    }
+    messages
+}
+
+/// How many of `rows` rows of the tables in `folder` have which status, apart from `ok`, and how
+/// many starts lead to no attractor that was found.
+pub(super) fn status_messages(folder: &Path, tables: &Tables, rows: u64) -> Result<Vec<String>> {
+    let mut messages = Vec::new();
+    for (status, count) in tables.counts.iter().filter(|(status, _)| status != Status::Ok.name()) {
+        let hint = if status == Status::Unjudged.name() { ": nothing checked their steps; see --judged" } else { "" };
+        messages.push(format!("{status}: {count} of {rows} rows{hint}"));
+    }
+    if let Some(error) = &tables.first_error {
+        messages.push(format!("the first that failed: {error}"));
+    }
+    if let Some(undecided @ 1..) = tables.undecided(folder)? {
+        messages.push(format!(
+            "undecided: {undecided} of {rows} starts, whose attractor was not found: an empty cell; try a longer \
+             --settle"
+        ));
+    }
+    Ok(messages)
+}

@@ -1,0 +1,90 @@
+//! The request, as recorded beside its results: it shows whether a folder holds the results of this
+//! request or of another one.
+
+use super::manifest::FINGERPRINT;
+use super::values::{VALUES, by_keys};
+use crate::case::{Case, sha256};
+use crate::scheme::{Method, Scheme};
+use serde_json::{Map, Value, json};
+use std::fmt::Debug;
+
+/// The request of `command` for `methods` on `case`: times and settings as values, the rest of the
+/// case (walls, loads and so on) as fingerprints. Titles and comments of a case file are left out.
+#[must_use]
+pub fn request(command: &str, case: &Case, methods: &[Method]) -> Map<String, Value> {
+    let whole = case.whole();
+    let integrator = |method: &Method| matches!(method.scheme, Scheme::Penalty { .. });
+    let mut request = object(json!({
+        "command": command,
+        "case": case.name,
+        "end_s": case.scene.duration,
+        "step_s": case.time.step,
+        "sample_s": case.time.sample,
+        "statistics_from_s": case.time.statistics_from,
+        "force_averaging_s": case.time.force_averaging,
+        "sectors": case.time.sectors,
+        "modes": case.truncated.as_ref().map(|truncated| truncated.reduction.modes.count()),
+        "methods": methods.iter().map(ToString::to_string).collect::<Vec<_>>(),
+    }));
+    if let Some(statistics) = case.statistics {
+        request.insert("rest_s".to_owned(), json!(statistics.rest));
+        request.insert("spectra".to_owned(), json!(statistics.spectra));
+    }
+    if methods.is_empty() || methods.iter().any(integrator) {
+        request.insert(format!("penalty{FINGERPRINT}"), fingerprint(&case.penalty));
+    }
+    let truncated =
+        case.truncated.as_ref().map(|truncated| (&truncated.whole.damping, truncated.whole.static_correction));
+    let scarred: Vec<_> = case.written.supports.iter().map(|support| support.scarred).collect();
+    for (part, digest) in [
+        ("system", fingerprint(&(&whole.system, truncated))),
+        ("walls", fingerprint(&whole.walls)),
+        ("supports", fingerprint(&whole.supports)),
+        ("wear", fingerprint(&(case.wear, scarred))),
+        ("loads", fingerprint(&whole.loads)),
+        ("initial", fingerprint(&whole.initial)),
+        ("probes", fingerprint(&whole.probes)),
+    ] {
+        request.insert(format!("{part}{FINGERPRINT}"), digest);
+    }
+    request.insert(VALUES.to_owned(), Value::Object(by_keys(&case.document.json().unwrap_or_default())));
+    request
+}
+
+/// A request with further keys.
+#[must_use]
+pub fn extended(mut request: Map<String, Value>, more: Value) -> Map<String, Value> {
+    request.extend(object(more));
+    request
+}
+
+fn object(value: Value) -> Map<String, Value> {
+    match value {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    }
+}
+
+/// A digest of the value's Debug form, which shows all digits of a float.
+fn fingerprint(value: &dyn Debug) -> Value {
+    json!(sha256(format!("{value:?}").as_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn requests_differ_where_their_numbers_do_and_not_in_their_titles() {
+        let case = Case::embedded("rigid-walls-sine").unwrap();
+        let method = [Method::new(Scheme::Event)];
+        let own = request("run", &case, &method);
+        let renamed = Case { title: Some("another title".to_owned()), ..case.clone() };
+        assert_eq!(own, request("run", &renamed, &method));
+        let moved = case.with("wall.upper.position", 5e-3 * (1.0 + f64::EPSILON)).unwrap();
+        let other = request("run", &moved, &method);
+        let differing: Vec<_> = own.keys().filter(|key| own[*key] != other[*key]).collect();
+        assert_eq!(differing, ["walls_fingerprint", "values"]);
+        assert_ne!(own, request("compare", &case, &method));
+    }
+}

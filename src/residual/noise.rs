@@ -1,0 +1,192 @@
+//! The rounding errors of a step's balances, places and forces.
+
+use super::most::most;
+use super::moves::Moves;
+use super::weights::Weights;
+
+/// Rounding error of a sum in a step, in units in the last place, times √n for sums over n degrees
+/// of freedom (tests of extreme scenes allow every scheme of one degree of freedom 32).
+const UNITS: f64 = 64.0;
+
+/// A solver with several unknowns counts a bound as met that is missed by 1e-12 of the gap scale
+/// (or of the gap scale over a time step); twice that, since the judge computes it again.
+const MET: f64 = 2e-12;
+
+/// The largest terms of the balances so far, in the metric of the mass, and the rounding errors
+/// that follow from them in the current step.
+#[derive(Debug)]
+pub(super) struct NoiseModel {
+    /// UNITS · ε · √n.
+    unit: f64,
+    /// m.
+    gap_scale: f64,
+    /// The current step: its end and its length, s, and `clock`, which for exact motion, whose ends
+    /// are known to an ulp, is 1 plus the end time over the length, else 1.
+    pub end: f64,
+    pub span: f64,
+    pub clock: f64,
+    /// Largest √(Kᵢᵢ/Mᵢᵢ) and √(Cᵢᵢ/Mᵢᵢ).
+    rates: [f64; 2],
+    /// √m, with m the mass that each wall feels.
+    wall: Vec<f64>,
+    /// Largest |vᵢ|√Mᵢᵢ, |qᵢ|√Mᵢᵢ, |qᵢ|√Kᵢᵢ, |vᵢ|√Cᵢᵢ.
+    speed: f64,
+    reach: f64,
+    strain: f64,
+    rub: f64,
+    /// Largest force of loads and of walls that are not rigid, N/√kg, and of all walls.
+    load: f64,
+    push: f64,
+    /// Rounding error of the energy ledger so far, J.
+    pub energy: f64,
+}
+
+impl NoiseModel {
+    /// Of a scene whose walls feel `masses` (kg), with the scale of its gaps (m).
+    pub fn new(weights: &Weights, masses: &[f64], gap_scale: f64) -> Self {
+        let rate = |[mass, spring, dashpot]: [f64; 3], one: bool| {
+            let root = if one { spring } else { dashpot };
+            if root > 0.0 { root / mass } else { 0.0 }
+        };
+        let largest = |one: bool| weights.roots.iter().map(|&roots| rate(roots, one)).fold(0.0, f64::max);
+        Self {
+            unit: UNITS * f64::EPSILON * (weights.roots.len().max(1) as f64).sqrt(),
+            gap_scale,
+            end: 0.0,
+            span: 1.0,
+            clock: 1.0,
+            rates: [largest(true), largest(false)],
+            wall: masses.iter().map(|mass| mass.sqrt()).collect(),
+            speed: 0.0,
+            reach: 0.0,
+            strain: 0.0,
+            rub: 0.0,
+            load: 0.0,
+            push: 0.0,
+            energy: 0.0,
+        }
+    }
+
+    /// Begins a step of `h` seconds on a grid, which ends at `end` (s).
+    #[inline(always)]
+    pub fn begin(&mut self, h: f64, end: f64) {
+        (self.end, self.span, self.clock) = (end, h, 1.0);
+    }
+
+    /// Begins a stretch of exact motion from `start` to `end` (s).
+    pub fn begin_exact(&mut self, start: f64, end: f64) {
+        self.end = end;
+        self.span = (end - start).max(f64::EPSILON * end).max(f64::MIN_POSITIVE);
+        self.clock = 1.0 + end / self.span;
+    }
+
+    /// Notes the sizes of a state: displacement (m) and velocity (m/s), and a time (s) over which
+    /// that velocity moves it.
+    pub fn state(&mut self, q: &[f64], v: &[f64], span: f64, weights: &Weights) {
+        for ((q, v), [mass, spring, dashpot]) in q.iter().zip(v).zip(&weights.roots) {
+            let (q, v) = (q.abs() + span * v.abs(), v.abs());
+            self.speed = self.speed.max(v * mass);
+            self.reach = self.reach.max(q * mass);
+            self.strain = self.strain.max(q * spring);
+            self.rub = self.rub.max(v * dashpot);
+        }
+    }
+
+    /// As [`Self::state`] for what a step on a grid of `h` seconds (and 1/h) did, and notes the
+    /// sizes of its mean load `mean` (N), its load at the end, the extra force and its blows.
+    #[inline(always)]
+    pub fn step(&mut self, moves: &Moves<'_>, mean: &[f64], weights: &Weights, (h, per_h): (f64, f64), n: usize) {
+        let (q, before, after, roots) = (&moves.shown[..n], &moves.before[..n], &moves.after[..n], &weights.roots[..n]);
+        let [mut speed, mut reach, mut strain, mut rub] = [self.speed, self.reach, self.strain, self.rub];
+        for i in 0..n {
+            let [mass, spring, dashpot] = roots[i];
+            let v = most(before[i].abs(), after[i].abs());
+            let q = q[i].abs() + h * v;
+            speed = most(speed, v * mass);
+            reach = most(reach, q * mass);
+            strain = most(strain, q * spring);
+            rub = most(rub, v * dashpot);
+        }
+        (self.speed, self.reach, self.strain, self.rub) = (speed, reach, strain, rub);
+        let (end, extra, blow) = (&moves.load_end[..n], &moves.extra[..n], &moves.blow[..n]);
+        let (mean, per_root, mut load) = (&mean[..n], &weights.per_root_mass[..n], self.load);
+        for i in 0..n {
+            let force = most(most(mean[i].abs(), blow[i].abs() * per_h), extra[i].abs() + end[i].abs());
+            load = most(load, force * per_root[i]);
+        }
+        self.load = load;
+    }
+
+    /// Notes the size of a load, N/√kg.
+    pub fn load(&mut self, force: f64) {
+        self.load = self.load.max(force.abs());
+    }
+
+    /// Notes the size of a wall's force, N.
+    pub fn push(&mut self, wall: usize, force: f64, rigid: bool) {
+        if force == 0.0 {
+            return;
+        }
+        let force = force.abs() / self.wall.get(wall).copied().unwrap_or(1.0);
+        self.push = self.push.max(force);
+        if !rigid {
+            self.load = self.load.max(force);
+        }
+    }
+
+    /// Rounding error of the momentum balance of the step, N/√kg.
+    pub fn force(&self) -> f64 {
+        self.over(self.span, self.clock)
+    }
+
+    /// Rounding error of the momentum balance of a step of `h` seconds on a grid, N/√kg.
+    pub fn force_over(&self, h: f64) -> f64 {
+        self.over(h, 1.0)
+    }
+
+    fn over(&self, span: f64, clock: f64) -> f64 {
+        let [spring, dashpot] = self.rates;
+        let terms = spring * self.strain + dashpot * self.rub + self.load + self.push;
+        self.unit * (self.speed / span + clock * terms)
+    }
+
+    /// Rounding error of a wall's force in the step, N.
+    pub fn wall_force(&self, wall: usize) -> f64 {
+        self.force() * self.wall.get(wall).copied().unwrap_or(1.0)
+    }
+
+    /// Rounding error of a sum of terms of this `size`, in its unit.
+    pub fn of(&self, size: f64) -> f64 {
+        self.unit * size
+    }
+
+    /// Rounding error of a place whose terms are of this `size`, m, with the tolerance of the
+    /// solvers, which is relative to the gap scale.
+    pub fn place(&self, size: f64) -> f64 {
+        self.unit * size + MET * self.gap_scale
+    }
+
+    /// As [`Self::place`], of a velocity (m/s) that moves the body for `span` seconds.
+    pub fn velocity(&self, size: f64, span: f64) -> f64 {
+        self.unit * size + MET * (self.gap_scale / span)
+    }
+
+    /// Rounding error of a displacement, m√kg.
+    pub fn path(&self) -> f64 {
+        self.unit * self.reach
+    }
+
+    /// Adds the rounding error of as many `steps` of this length and of `bodies` degrees of
+    /// freedom to that of the energy ledger. A velocity has the rounding error of the momentum that
+    /// the load gives in a step, even of a body that a wall holds at rest.
+    #[inline(always)]
+    pub fn book(&mut self, bodies: f64, steps: f64) {
+        let given = self.load * self.span;
+        let states = self.speed.powi(2) + self.strain.powi(2) + given.powi(2);
+        let flows = bodies * states + self.load * self.reach;
+        self.energy += steps * (self.unit * flows);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,185 @@
+//! What a reader must know about a run: sentences, drawn from its residuals and counters.
+
+mod approach;
+#[cfg(feature = "cli")]
+mod resting;
+mod setup;
+
+#[cfg(feature = "cli")]
+pub(crate) use resting::resting;
+pub(crate) use setup::setup;
+
+use super::finished::Run;
+use super::options::{Judging, Recording};
+use crate::residual::Energy;
+use crate::scene::{Checked, Scene};
+use crate::scheme::{Counters, Realised, Scheme};
+use crate::step::Contact;
+
+/// A residual of the energy ledger above this share of the energy exchanged gets a note, and so do
+/// impacts that return this much more energy than arrived at them. (Paoli & Schatzman's scheme
+/// returns 0.1 % more in the source scene at h = 1 ms, Newmark's several times more.)
+const WORTH_SAYING: f64 = 1e-2;
+
+/// Energy created at walls is rounding below this share of the energy exchanged, however little
+/// arrived there.
+const ROUNDING: f64 = 1e-9;
+
+/// Energy created at walls also gets a note above this share of the largest energy. The share of
+/// what arrived is no measure there: once a body crosses the gap within a step, newmark throws it
+/// back and forth without further gain, and little of all that arrives is new. Creating more than
+/// the start and the loads ever supplied gets a note in any case.
+const SHARE_OF_LARGEST: f64 = 0.1;
+
+/// The normal of a round hole may turn by this angle in a step, rad: the midpoint rule on the
+/// circle then has an error of some per cent.
+const LARGE_TURN: f64 = 0.2;
+
+/// Maximum number of handed-over stretches with a note each.
+const MOST_HANDED: usize = 5;
+
+/// How steps and rows were fitted to the end of the run, and whether there was a contact: what the
+/// results are, and not how far they hold.
+pub(crate) fn remarks<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) -> Vec<String> {
+    let mut notes = Vec::new();
+    if run.grid.shortened {
+        notes.push(format!(
+            "the step was shortened to {:e} s so that steps end on the rows and at the end",
+            run.grid.step
+        ));
+    }
+    if run.grid.rows_shortened {
+        let spacing = run.grid.end / run.grid.rows as f64;
+        notes.push(format!("the rows are {spacing:e} s apart, closer than asked for, so that the last is at the end"));
+    }
+    notes.extend(run.recorded().and_then(|trajectory| approach::untouched(scene, trajectory)));
+    notes
+}
+
+/// What limits the use of the results.
+pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) -> Vec<String> {
+    let mut notes = Vec::new();
+    let asked: Vec<f64> = scene.walls.iter().map(|wall| wall.law).filter_map(|law| law.restitution()).collect();
+    let name = run.scheme.entry().name;
+    match run.scheme.entry().restitution {
+        Realised::ByChance if !asked.is_empty() => notes.push(format!(
+            "{name} is for demonstration: its restitution is between 1/3 and 3, depending on the phase of each impact"
+        )),
+        Realised::Zero if asked.iter().any(|&e| e > 0.0) => {
+            notes.push(format!("{name} realises e = 0, not the walls' own restitution"));
+        }
+        Realised::BySprings if run.scheme.is_lossless() && asked.iter().any(|&e| e < 1.0) => {
+            notes.push("a penalty spring without damping realises e = 1, not the walls' own restitution".into());
+        }
+        _ => {}
+    }
+    if let Some(residuals) = run.judged() {
+        notes.extend(of_energy(&residuals.energy, run.recorded().map(|t| arrived(scene, t.contacts()))));
+    }
+    if let (Scheme::MoreauJean { .. }, Some(trajectory)) = (run.scheme, run.recorded()) {
+        notes.extend(trajectory.contacts().iter().filter_map(|contact| standing(scene, contact, &run.state.q)));
+    }
+    for handed in run.handed.iter().take(MOST_HANDED) {
+        notes.push(format!(
+            "from {:.6} s to {:.6} s impacts follow one another faster than the exact scheme resolves: \
+             moreau-jean stepped through it, with steps of {:.1e} s",
+            handed.from, handed.to, handed.step
+        ));
+    }
+    if let Some(more) = run.handed.len().checked_sub(MOST_HANDED).filter(|&more| more > 0) {
+        notes.push(format!(
+            "moreau-jean stepped through {more} more such stretches, {} steps in all",
+            run.counters.handed_steps
+        ));
+    }
+    if run.counters.frozen_steps > 0 {
+        notes.push(format!(
+            "in {} steps opposite walls pushed in turn: the body crosses the gap in less than a step and stands \
+             still in the result; use a smaller step",
+            run.counters.frozen_steps
+        ));
+    }
+    notes.extend(of_supports(&run.counters));
+    notes.extend(setup(scene, &run.scheme, run.grid.step));
+    notes
+}
+
+/// Notes on the counters of round holes and friction.
+fn of_supports(counters: &Counters) -> Vec<String> {
+    let mut notes = Vec::new();
+    let turn = counters.largest_turn_rad;
+    if turn > LARGE_TURN {
+        notes.push(format!(
+            "in a step that touched a round hole its normal turned by {turn:.2} rad: the step is too large for the \
+             speed along the hole, and forces there are wrong by about {:.0} %; use a smaller step",
+            100.0 * turn * turn / 3.0
+        ));
+    }
+    if counters.wedged_steps > 0 {
+        notes.push(format!(
+            "in {} steps a body was wedged between contacts with friction, so that no impulses give it the rebounds \
+             that their restitution demands: these contacts took a restitution of 0 in those steps",
+            counters.wedged_steps
+        ));
+    }
+    if counters.qp_unsettled > 0 {
+        notes.push(format!(
+            "in {} steps rounding left the contacts without a common state of sticking and slipping: trust this run \
+             only if the judge finds nothing",
+            counters.qp_unsettled
+        ));
+    }
+    notes
+}
+
+/// A note on a lasting contact that is open at the end of the run, if the structure then stands
+/// behind its wall; `q` is its displacement.
+fn standing(scene: &Scene, contact: &Contact, q: &[f64]) -> Option<String> {
+    let wall = scene.walls.get(contact.wall).filter(|wall| wall.law.is_rigid())?;
+    let depth = -wall.gap(wall.row().dot(q));
+    let lasts = contact.end.is_none() && contact.peak_force.is_some();
+    (lasts && depth > WORTH_SAYING * scene.gap_scale()).then(|| {
+        format!(
+            "at the end the body rests {depth:.2e} m behind wall {:?}, where its last impact left it: \
+             moreau-jean does not push it back to the face, and the force has an error of the stiffness times \
+             that depth; use a smaller step, or generalized-alpha, which rests on the face",
+            wall.name
+        )
+    })
+}
+
+/// A note on energy that the scheme created or lost; `arrived` is the energy (J) that arrived at
+/// its rigid walls, where it is known.
+fn of_energy(energy: &Energy, arrived: Option<f64>) -> Option<String> {
+    let created = -energy.impact_loss_j;
+    let given = energy.initial_j + energy.load_work_j.abs();
+    let beyond = arrived.is_some_and(|arrived| created > WORTH_SAYING * arrived);
+    let much = beyond || created > SHARE_OF_LARGEST * energy.largest_j || created > given;
+    if much && created > ROUNDING * energy.exchanged_j {
+        let arrived = arrived.map_or_else(String::new, |a| format!(", beyond the {a:.3e} J that arrived there"));
+        return Some(format!(
+            "the scheme created {created:.3e} J at the rigid walls{arrived} (largest energy of the run {:.3e} \
+             J): do not trust this run",
+            energy.largest_j
+        ));
+    }
+    (energy.residual > WORTH_SAYING).then(|| {
+        let verb = if energy.residual_j > 0.0 { "created" } else { "lost" };
+        format!(
+            "the scheme {verb} {:.3e} J that no load, damping or wall accounts for, {:.1} % of the energy \
+             exchanged (largest energy of the run {:.3e} J): the step is too large for it, do not trust this run",
+            energy.residual_j.abs(),
+            100.0 * energy.residual,
+            energy.largest_j
+        )
+    })
+}
+
+/// Kinetic energy that arrived at rigid walls, J, by the speeds before each contact.
+fn arrived(scene: &Checked, contacts: &[Contact]) -> f64 {
+    let masses = scene.wall_masses();
+    let mass = |wall: usize| masses.get(wall).copied().unwrap_or(0.0);
+    let rigid = |wall: usize| scene.walls.get(wall).is_some_and(|wall| wall.law.is_rigid());
+    let contacts = contacts.iter().filter(|c| rigid(c.wall));
+    contacts.map(|c| 0.5 * mass(c.wall) * c.approach_speed * c.approach_speed).sum()
+}

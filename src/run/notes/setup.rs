@@ -1,0 +1,216 @@
+//! What a reader must know about a scene and a step, independent of the run.
+
+use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table};
+use crate::scheme::Scheme;
+use std::f64::consts::{PI, TAU};
+
+/// Minimum number of steps per period: with ten the trapezoidal rule makes the period 3 % longer.
+const STEPS_A_PERIOD: f64 = 10.0;
+/// An elastic wall is resolved below this h² k/m: ten steps per contact.
+const RESOLVED: f64 = 0.1;
+/// The steps resolve a table if its largest departure between them is below this share of its
+/// range.
+const MISSED: f64 = 1e-2;
+/// A mode matters if it contributes this share of the static compliance at a wall or load.
+const MATTERS: f64 = 1e-2;
+/// Range of natural frequencies usual in engineering, Hz.
+const USUAL: [f64; 2] = [1e-2, 1e5];
+
+/// Notes on `scene` run by `scheme` in steps of `step` seconds.
+pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
+    let mut notes: Vec<String> = scene.loads.iter().enumerate().filter_map(|(i, load)| span(scene, i, load)).collect();
+    notes.extend(unusual(scene));
+    notes.extend(unstable(scene));
+    if !scheme.is_exact() {
+        notes.extend(scene.loads.iter().enumerate().filter_map(|(i, load)| load_resolved(scene, i, load, step)));
+        notes.extend(modes_resolved(scene, step));
+        notes.extend(walls_resolved(scene, step));
+    }
+    notes
+}
+
+/// A note on a table that does not cover the whole run.
+fn span(scene: &Scene, index: usize, load: &Load) -> Option<String> {
+    let LoadKind::Table(table) = &load.kind else { return None };
+    let (number, end) = (index + 1, scene.duration);
+    let (first, last) = (*table.time().first()?, *table.time().last()?);
+    let starts = table.force().first().is_some_and(|force| *force != 0.0);
+    if last < end * (1.0 - 1e-9) {
+        return Some(format!(
+            "the table of load {number} ends at {last} s, before the run does at {end} s: from then on its \
+             force is 0"
+        ));
+    }
+    (first > 0.0 && starts).then(|| format!("the table of load {number} begins at {first} s: before, its force is 0"))
+}
+
+/// A note on natural frequencies that suggest a wrong unit.
+fn unusual(scene: &Scene) -> Option<String> {
+    let slowest = slowest(scene)? / TAU;
+    (!(USUAL[0]..=USUAL[1]).contains(&slowest)).then(|| {
+        format!(
+            "the slowest natural frequency is {slowest:.3e} Hz, far from what structures between walls have: \
+             are lengths in m, masses in kg, stiffnesses in N/m and moduli in Pa?"
+        )
+    })
+}
+
+/// Most unstable modes that are named.
+const MOST_UNSTABLE: usize = 5;
+
+/// A note on modes with negative damping, as a flow gives them.
+fn unstable(scene: &Scene) -> Option<String> {
+    let System::Structure(structure) = &scene.system else { return None };
+    let modes = diagonal(structure)?;
+    let (m, c) = (structure.mass.diagonal_entries(), structure.damping.diagonal_entries());
+    let ratio = |((omega, _), (m, c)): (&(f64, f64), (&f64, &f64))| (*omega, 0.5 * c / (m * omega));
+    let mut negative: Vec<(f64, f64)> =
+        modes.iter().zip(m.iter().zip(&c)).map(ratio).filter(|(_, z)| *z < 0.0).collect();
+    // In two planes a mode comes twice.
+    negative.dedup();
+    let named: Vec<String> =
+        negative.iter().take(MOST_UNSTABLE).map(|(omega, z)| format!("{:.4} Hz ({z:.3e})", omega / TAU)).collect();
+    let more = if negative.len() > MOST_UNSTABLE { ", .." } else { "" };
+    let modes = if negative.len() == 1 { "the mode of" } else { "the modes of" };
+    (!negative.is_empty()).then(|| {
+        format!(
+            "{modes} {}{more} have a negative damping ratio and are unstable: without contact their motion grows, \
+             and walls alone limit it",
+            named.join(", ")
+        )
+    })
+}
+
+/// The smallest circular frequency above 0, rad/s.
+fn slowest(scene: &Scene) -> Option<f64> {
+    let all = match &scene.system {
+        System::Structure(structure) => diagonal(structure),
+        System::Oscillator(_) => None,
+    };
+    let slowest = match all {
+        Some(modes) => modes.into_iter().map(|(omega, _)| omega).filter(|omega| *omega > 0.0).reduce(f64::min)?,
+        None => scene.system.frequencies()[0],
+    };
+    (slowest > 0.0).then_some(slowest)
+}
+
+/// ω and k of each coordinate of a structure whose M and K are diagonal, as in modal coordinates.
+fn diagonal(structure: &Structure) -> Option<Vec<(f64, f64)>> {
+    if structure.mass.half_bandwidth() > 0 || structure.stiffness.half_bandwidth() > 0 {
+        return None;
+    }
+    let (m, k) = (structure.mass.diagonal_entries(), structure.stiffness.diagonal_entries());
+    Some(m.into_iter().zip(k).map(|(m, k)| ((k / m).sqrt(), k)).collect())
+}
+
+/// A note on a load that changes faster than the step resolves.
+fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<String> {
+    let number = index + 1;
+    match &load.kind {
+        LoadKind::Harmonic { amplitude, frequency, .. } => {
+            let steps = 1.0 / (frequency * step);
+            (*amplitude != 0.0 && steps < STEPS_A_PERIOD).then(|| {
+                format!(
+                    "a period of load {number} ({frequency} Hz) takes {steps:.1} steps of {step:.2e} s: fewer \
+                     than {STEPS_A_PERIOD} do not resolve it"
+                )
+            })
+        }
+        LoadKind::Table(table) => {
+            let (missed, rows) = missed(table, step, scene.duration)?;
+            Some(format!(
+                "a step of {step:.2e} s skips rows of the table of load {number}, {rows:.0} rows a step: \
+                 between steps its force departs by up to {missed:.3e} N from the line through its values at \
+                 the steps"
+            ))
+        }
+        _ => None,
+    }
+}
+
+/// The largest departure (N) of a table from the line through its values at the steps, and the
+/// number of its rows per step; `None` where the departure is small.
+fn missed(table: &Table, step: f64, end: f64) -> Option<(f64, f64)> {
+    let (time, force) = (table.time(), table.force());
+    let rows = step * (time.len() - 1) as f64 / (time.last()? - time.first()?);
+    let extreme = |start: f64, pick: fn(f64, f64) -> f64| force.iter().copied().fold(start, pick);
+    let range = extreme(f64::NEG_INFINITY, f64::max) - extreme(f64::INFINITY, f64::min);
+    let mut most = 0.0_f64;
+    // The first and last row are jumps from and to 0, which no step resolves.
+    let inner = time.iter().zip(force).take(time.len() - 1).skip(1);
+    for (&t, &f) in inner.filter(|(t, _)| (0.0..=end).contains(*t)) {
+        let before = (t / step).floor();
+        let [a, b] =
+            [before, before + 1.0].map(|n| (n * step).clamp(*time.first().unwrap_or(&t), *time.last().unwrap_or(&t)));
+        let at =
+            |x: f64| if x >= *time.last().unwrap_or(&x) { *force.last().unwrap_or(&0.0) } else { table.piece(x).0 };
+        if b > a {
+            let seen = at(a) + (at(b) - at(a)) * (t - a) / (b - a);
+            most = most.max((f - seen).abs());
+        }
+    }
+    (rows > 1.0 && most > MISSED * range).then_some((most, rows))
+}
+
+/// A note on a mode that the step does not resolve: in modal coordinates the fastest that matters,
+/// for coupled matrices the slowest.
+fn modes_resolved(scene: &Scene, step: f64) -> Option<String> {
+    let (omega, what) = match &scene.system {
+        System::Oscillator(_) => (scene.system.frequencies()[0], "the natural frequency"),
+        System::Structure(structure) => match diagonal(structure) {
+            Some(modes) => {
+                (fastest_that_matters(scene, &modes)?, "the fastest mode that a wall or load moves by 1 % or more")
+            }
+            None => (slowest(scene)?, "the slowest mode"),
+        },
+    };
+    let steps = TAU / (omega * step);
+    (steps < STEPS_A_PERIOD).then(|| {
+        format!(
+            "a period of {what}, {:.4e} Hz, takes {steps:.1} steps of {step:.2e} s: fewer than {STEPS_A_PERIOD} \
+             do not resolve it",
+            omega / TAU
+        )
+    })
+}
+
+/// ω of the fastest of `modes` that contributes a relevant share of the static compliance at a wall
+/// or load, rad/s; that of the slowest where there is neither.
+fn fastest_that_matters(scene: &Scene, modes: &[(f64, f64)]) -> Option<f64> {
+    let rows = scene.walls.iter().map(|wall| wall.row()).chain(scene.loads.iter().map(|load| &load.at));
+    let fastest = |row: &Row| {
+        let part = |&(i, weight): &(usize, f64)| {
+            let (omega, k) = *modes.get(i)?;
+            (k > 0.0).then_some((omega, weight * weight / k))
+        };
+        let parts: Vec<(f64, f64)> = row.entries().iter().filter_map(part).collect();
+        let all: f64 = parts.iter().map(|part| part.1).sum();
+        parts.into_iter().filter(|part| part.1 >= MATTERS * all && part.1 > 0.0).map(|part| part.0).reduce(f64::max)
+    };
+    let slowest = || modes.iter().map(|mode| mode.0).filter(|omega| *omega > 0.0).reduce(f64::min);
+    rows.filter_map(fastest).reduce(f64::max).or_else(slowest)
+}
+
+/// A note on elastic walls that the step does not resolve. The springs that a penalty scheme puts
+/// in place of rigid walls are left to the judge: some integrators need not resolve them.
+fn walls_resolved(scene: &Scene, step: f64) -> Option<String> {
+    if scene.walls.iter().all(|wall| wall.law.is_rigid()) {
+        return None;
+    }
+    let masses = scene.wall_masses();
+    let all = scene.walls.iter().zip(&masses).map(|(wall, mass)| (wall, wall.law.stiffness().unwrap_or(0.0) / mass));
+    let coarse: Vec<_> = all.filter(|(_, ratio)| step * step * ratio >= RESOLVED).collect();
+    let (wall, ratio) = coarse.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let others = match coarse.len() {
+        1 => String::new(),
+        n => format!(", and {} more", n - 1),
+    };
+    Some(format!(
+        "the step of {step:.2e} s does not resolve the wall {:?}{others}: h² k/m = {:.2e}, and a contact of \
+         {:.2e} s takes {:.1} steps; the contact forces there depend on the step instead of the wall's stiffness",
+        wall.name,
+        step * step * ratio,
+        PI / ratio.sqrt(),
+        PI / (ratio.sqrt() * step)
+    ))
+}

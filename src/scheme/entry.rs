@@ -1,0 +1,93 @@
+//! What is known of each scheme beside its rule. Refusals, the table of schemes in README.md,
+//! `explain`, notes and comparisons are made from these entries.
+
+/// How a scheme treats walls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SchemeKind {
+    /// Finds the instants of contact; nothing is discretised.
+    Exact,
+    /// Solves a quadratic programme in every step that meets a wall.
+    Qp,
+    /// Replaces the walls by springs.
+    Penalty,
+}
+
+impl SchemeKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Exact, Self::Qp, Self::Penalty];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Qp => "QP",
+            Self::Penalty => "penalty",
+        }
+    }
+}
+
+/// The restitution that a scheme realises at rigid walls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Realised {
+    /// That of each wall.
+    PerWall,
+    /// 0, whatever the walls say.
+    Zero,
+    /// That of the springs in their place.
+    BySprings,
+    /// Any, by the phase of each impact within its step.
+    ByChance,
+}
+
+/// A part of scenes that not every scheme steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coverage {
+    /// The scheme steps scenes with it; at round supports by this law, in words that follow the
+    /// scheme's name.
+    Stepped(&'static str),
+    /// It refuses them; what is expected in its place, with the reason.
+    Refused(&'static str),
+}
+
+/// What one scheme is, and which scenes it steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SchemeEntry {
+    /// Its name, in case files and on the command line.
+    pub name: &'static str,
+    /// The keys of its settings.
+    pub settings: &'static [&'static str],
+    /// The default of its setting, in words; empty without.
+    pub default: &'static str,
+    /// How it treats walls.
+    pub kind: SchemeKind,
+    /// The restitution that it realises.
+    pub restitution: Realised,
+    /// The same in words.
+    pub realises: &'static str,
+    /// What it is for.
+    pub purpose: &'static str,
+    /// Where it fails.
+    pub fails: &'static str,
+    /// Rigid round supports.
+    pub round: Coverage,
+    /// Elastic round supports.
+    pub elastic_round: Coverage,
+    /// Friction.
+    pub friction: Coverage,
+}
+
+/// What a scheme without friction expects instead.
+pub(super) const ONE_FOR_FRICTION: &str = "moreau-jean, the one scheme for friction";
+
+/// What a scheme that bounds displacements expects where there is friction.
+pub(super) const NO_SPEED_TO_STICK_AT: &str = "moreau-jean, or no friction: a bound on the displacement leaves a \
+                                               contact no velocity at which it could stick";
+
+/// What a scheme that gains or loses energy on a circle expects instead.
+pub(super) const NO_ENERGY_ON_A_CIRCLE: &str = "moreau-jean: this scheme does not keep the energy of a body in a \
+                                                round hole";
+
+/// What a scheme that cannot step through the law of an elastic round support expects instead.
+pub(super) const ONES_FOR_RINGS: &str =
+    "moreau-jean, implicit-euler or penalty, the schemes for elastic round supports";

@@ -1,0 +1,213 @@
+//! Collects from the steps of a row what its measures and samples need.
+
+use super::forcing;
+use super::measure::Measure;
+use super::motion::Motion;
+use super::request::{Sweep, Window};
+use super::sample::Sample;
+use super::sample::Samples;
+use super::strobe::Strobe;
+use crate::error::Result;
+use crate::scene::{Checked, Scene, State};
+use crate::statistics::{Forces, Statistics, WallStatistics};
+use crate::step::{Contact, Step};
+use crate::study::attractor::{self, MOST_FREEDOM};
+use crate::time::TimeOptions;
+use crate::variation::{Exponent, Exponents, NoDerivative};
+
+/// Collects what the measures of a row need from its steps.
+pub(super) struct RowObserver {
+    from: f64,
+    /// Contact episodes that reach into the window.
+    contacts: Vec<Contact>,
+    forces: Option<Forces>,
+    motion: Option<Motion>,
+    strobe: Option<Strobe>,
+    /// The growth of a small change of the start; an error from the step on at which there is no
+    /// derivative.
+    growth: Option<std::result::Result<Exponents, NoDerivative>>,
+}
+
+impl RowObserver {
+    /// An observer of a row that begins at `start`; `scene` is that of the stepper, in which a
+    /// penalty's walls are springs.
+    pub fn new(sweep: &Sweep, scene: &Scene, time: &TimeOptions, start: &State) -> Result<Self> {
+        let any = |test: fn(Measure) -> bool| sweep.measures.iter().any(|measure| test(*measure));
+        let from = time.statistics_from;
+        let strobe = match sweep.window {
+            Window::Periods { settle, keep }
+                if sweep.samples == Some(Samples::Periods)
+                    || sweep.measures.contains(&Measure::Period)
+                    || (any(Measure::sees_growth) && start.q.len() <= MOST_FREEDOM) =>
+            {
+                Some(Strobe::new(forcing::period(scene)?, settle, keep, start))
+            }
+            _ => None,
+        };
+        let growth =
+            if any(Measure::sees_growth) { Some(Ok(Exponents::new(scene, 1, [from, scene.duration])?)) } else { None };
+        let speeds = sweep.measures.contains(&Measure::VelocityMax);
+        Ok(Self {
+            from,
+            contacts: Vec::new(),
+            forces: any(Measure::sees_force).then(|| Forces::new(scene, from, time.force_averaging)),
+            motion: any(Measure::sees_motion).then(|| Motion::new(scene, from, start, speeds)),
+            strobe,
+            growth,
+        })
+    }
+
+    #[inline]
+    pub fn see(&mut self, step: &Step<'_>) {
+        if !step.closed.is_empty() {
+            let here = |contact: &&Contact| contact.end.is_none_or(|end| end >= self.from);
+            self.contacts.extend(step.closed.iter().filter(here));
+        }
+        if let Some(forces) = &mut self.forces {
+            forces.see(step);
+        }
+        if let Some(motion) = &mut self.motion {
+            motion.see(step);
+        }
+        if let Some(strobe) = &mut self.strobe {
+            strobe.see(step);
+        }
+        if let Some(Ok(exponents)) = &mut self.growth
+            && let Err(none) = exponents.see(step)
+        {
+            self.growth = Some(Err(none));
+        }
+    }
+
+    /// Why a measure has no value, where the other measures do not show it.
+    pub fn note(&self) -> Option<String> {
+        self.growth.as_ref().and_then(|growth| growth.as_ref().err()).map(ToString::to_string)
+    }
+
+    /// The measures and samples of the row, with the episodes `open` at its end.
+    pub fn finish(mut self, sweep: &Sweep, scene: &Checked, open: &[Contact]) -> (Vec<Option<f64>>, Vec<Sample>) {
+        self.contacts.extend_from_slice(open);
+        self.contacts.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.wall.cmp(&b.wall)));
+        let statistics = Statistics::of(scene, scene.wall_masses(), &self.contacts, self.from);
+        let statistics = match &self.forces {
+            Some(forces) => statistics.with_forces(forces),
+            None => statistics,
+        };
+        let mut values = Vec::new();
+        let exponent = self.exponent(scene);
+        for &measure in &sweep.measures {
+            self.tell(measure, sweep, scene, (&statistics, exponent), &mut values);
+        }
+        let samples = sweep.samples.map_or_else(Vec::new, |samples| self.samples(samples, sweep.most_samples, scene));
+        (values, samples)
+    }
+
+    fn began_here(&self) -> impl Iterator<Item = &Contact> {
+        self.contacts.iter().filter(|contact| contact.start >= self.from)
+    }
+
+    fn tell(
+        &self,
+        measure: Measure,
+        sweep: &Sweep,
+        scene: &Scene,
+        (statistics, exponent): (&Statistics, Option<Exponent>),
+        values: &mut Vec<Option<f64>>,
+    ) {
+        let length = scene.duration - self.from;
+        let mut of_walls = |value: &dyn Fn(usize, &WallStatistics) -> Option<f64>| {
+            values.extend(statistics.walls.iter().enumerate().map(|(index, wall)| value(index, wall)));
+        };
+        let impulses = |index: usize| self.began_here().filter(move |c| c.wall == index).map(|c| c.impulse);
+        let speeds = |index: usize| self.began_here().filter(move |c| c.wall == index).map(|c| c.approach_speed);
+        match measure {
+            Measure::Contacts => of_walls(&|_, wall| Some(wall.contacts as f64)),
+            Measure::Impacts => of_walls(&|index, _| {
+                Some(self.began_here().filter(|c| c.wall == index && c.end == Some(c.start)).count() as f64)
+            }),
+            Measure::ContactRate => of_walls(&|_, wall| Some(wall.contact_rate_per_s)),
+            Measure::ContactTimeRatio => of_walls(&|_, wall| Some(wall.contact_time_ratio)),
+            Measure::Impulse => of_walls(&|_, wall| wall.force.map(|force| force.impulse_n_s)),
+            Measure::ImpulseMean => of_walls(&|_, wall| wall.episode_impulse_n_s.mean),
+            Measure::ImpulseMax => of_walls(&|_, wall| wall.episode_impulse_n_s.max),
+            Measure::ImpulseRms => of_walls(&|index, wall| {
+                let square: f64 = impulses(index).map(|p| p * p).sum();
+                (wall.contacts > 0).then(|| (square / wall.contacts as f64).sqrt())
+            }),
+            Measure::ForceMean => of_walls(&|_, wall| wall.force.map(|force| force.mean_n)),
+            Measure::ForceRms => of_walls(&|_, wall| wall.force.map(|force| force.rms_n)),
+            Measure::PeakForceMean => of_walls(&|_, wall| wall.episode_peak_force_n.mean),
+            Measure::PeakForceMax => of_walls(&|_, wall| wall.episode_peak_force_n.max),
+            Measure::ImpactPower => of_walls(&|_, wall| Some(wall.impact_power_w)),
+            Measure::ArrivedLessDepartedPower => of_walls(&|_, wall| Some(wall.arrived_less_departed_power_w)),
+            Measure::ApproachSpeedMean => {
+                of_walls(&|index, wall| (wall.contacts > 0).then(|| speeds(index).sum::<f64>() / wall.contacts as f64))
+            }
+            Measure::ApproachSpeedMax => of_walls(&|index, _| speeds(index).reduce(f64::max)),
+            Measure::ApproachSpeedLeast => of_walls(&|index, _| speeds(index).reduce(f64::min)),
+            Measure::DisplacementMax => self.of_probes(values, |seen| seen.highest.abs().max(seen.lowest.abs())),
+            Measure::DisplacementHighest => self.of_probes(values, |seen| seen.highest),
+            Measure::DisplacementLowest => self.of_probes(values, |seen| seen.lowest),
+            Measure::DisplacementRms => self.of_probes(values, |seen| (seen.square / length).sqrt()),
+            Measure::VelocityMax => self.of_probes(values, |seen| seen.speed),
+            Measure::ImpactsPerPeriod => values.push(match sweep.window {
+                Window::Periods { keep, .. } => {
+                    Some(self.began_here().filter(|c| c.end == Some(c.start)).count() as f64 / f64::from(keep))
+                }
+                _ => None,
+            }),
+            Measure::Lyapunov => values.push(exponent.map(|exponent| exponent.per_s)),
+            Measure::LyapunovError => values.push(exponent.and_then(|exponent| exponent.error_per_s)),
+            // The row itself fills this in: it is run in another way.
+            Measure::Attractor => values.push(None),
+            Measure::Period => {
+                let repeats = self.strobe.as_ref().and_then(|strobe| strobe.repeats(scene.gap_scale()));
+                values.push(repeats.map(|periods| periods as f64));
+            }
+        }
+    }
+
+    /// The largest Lyapunov exponent. For a motion that repeats itself it is that of the orbit,
+    /// which is exact; the mean over the window would oscillate about it.
+    fn exponent(&self, scene: &Checked) -> Option<Exponent> {
+        let exponents = self.growth.as_ref()?.as_ref().ok()?;
+        let orbit = self.strobe.as_ref().and_then(|strobe| {
+            let count = strobe.repeats(scene.gap_scale())?;
+            let (_, state) = strobe.taken.last()?;
+            attractor::exponent(scene, strobe.period(), count, state)
+        });
+        let exact = |per_s: f64| Exponent { per_s, error_per_s: per_s.is_finite().then_some(0.0) };
+        Some(orbit.map_or_else(|| exponents.largest(), exact))
+    }
+
+    fn of_probes(&self, values: &mut Vec<Option<f64>>, value: impl Fn(&super::motion::Seen) -> f64) {
+        values.extend(self.motion.iter().flat_map(|motion| &motion.seen).map(|seen| Some(value(seen))));
+    }
+
+    /// The last `most` of the instants.
+    fn samples(&self, samples: Samples, most: usize, scene: &Scene) -> Vec<Sample> {
+        let mut all: Vec<Sample> = match samples {
+            Samples::Impacts => {
+                let period = forcing::period(scene).ok();
+                let of = |contact: &Contact| Sample::Impact {
+                    wall: scene.walls.get(contact.wall).map_or_else(String::new, |wall| wall.name.clone()),
+                    start: contact.start,
+                    phase: period.map(|period| (contact.start / period).fract()),
+                    approach: contact.approach_speed,
+                    departure: contact.departure_speed,
+                    impulse: contact.impulse,
+                };
+                self.began_here().map(of).collect()
+            }
+            Samples::Periods => {
+                let of = |(time, state): &(f64, State)| Sample::Strobe {
+                    time: *time,
+                    seen: scene.probes.iter().map(|probe| [probe.at.dot(&state.q), probe.at.dot(&state.v)]).collect(),
+                };
+                self.strobe.iter().flat_map(|strobe| &strobe.taken).map(of).collect()
+            }
+        };
+        all.drain(..all.len().saturating_sub(most));
+        all
+    }
+}
