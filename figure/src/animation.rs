@@ -29,6 +29,7 @@ pub struct Animation {
 pub struct View {
     label: String,
     equal: bool,
+    path: Vec<(f64, f64)>,
     still: Vec<(usize, Vec<(f64, f64)>)>,
     moving: Vec<Vec<(f64, f64)>>,
 }
@@ -63,7 +64,7 @@ impl Animation {
                 let left = MARGIN + index as f64 * (width + MARGIN);
                 let label = shorten(&view.label, LABEL, width);
                 canvas.text(Text::new(left, top + 12.0, &label, LABEL, Anchor::Start));
-                view.draw(&mut canvas, (left, top + LABEL_ROOM), (width, *height), self.seconds);
+                view.draw(&mut canvas, left, top + LABEL_ROOM, width, *height, self.seconds);
             }
             top += height + LABEL_ROOM + MARGIN;
         }
@@ -85,39 +86,44 @@ impl View {
         self
     }
 
+    /// The same view with the whole path of what moves, as a thin grey line behind it.
+    #[must_use]
+    pub fn path(mut self, points: Vec<(f64, f64)>) -> Self {
+        self.path = points;
+        self
+    }
+
     /// The same view with a line that moves: its points in each frame. A line of one point is a
-    /// dot, which leaves its path behind.
+    /// dot.
     #[must_use]
     pub fn moving(mut self, frames: Vec<Vec<(f64, f64)>>) -> Self {
         self.moving = frames;
         self
     }
 
-    fn draw(&self, canvas: &mut Canvas, (left, top): (f64, f64), (width, height): (f64, f64), seconds: f64) {
-        let mut extents = [Extent::EMPTY; 2];
-        for &(x, y) in self.still.iter().map(|(_, points)| points).chain(&self.moving).flatten() {
-            extents[0].include(x);
-            extents[1].include(y);
+    /// Draws the view in the rectangle of this size whose upper left corner is at `left`, `top`.
+    fn draw(&self, canvas: &mut Canvas, left: f64, top: f64, width: f64, height: f64, seconds: f64) {
+        let (mut across, mut up) = (Extent::EMPTY, Extent::EMPTY);
+        let still = self.still.iter().map(|(_, points)| points);
+        for &(x, y) in still.chain(&self.moving).chain([&self.path]).flatten() {
+            across.include(x);
+            up.include(y);
         }
-        let [across, up] = extents;
         if across.is_empty() || up.is_empty() {
             return;
         }
         let scale = |extent: Extent, room: f64| FILLED * room / extent.span().max(f64::MIN_POSITIVE);
-        let mut scale = [scale(across, width), scale(up, height)];
+        let (mut along, mut upwards) = (scale(across, width), scale(up, height));
         if self.equal {
-            scale = [scale[0].min(scale[1]); 2];
+            along = along.min(upwards);
+            upwards = along;
         }
-        let middle = (across.low + 0.5 * across.span(), up.low + 0.5 * up.span());
-        let at = |&(x, y): &(f64, f64)| {
-            (left + 0.5 * width + scale[0] * (x - middle.0), top + 0.5 * height - scale[1] * (y - middle.1))
-        };
+        let (x0, y0) = (across.low + 0.5 * across.span(), up.low + 0.5 * up.span());
+        let at =
+            |&(x, y): &(f64, f64)| (left + 0.5 * width + along * (x - x0), top + 0.5 * height - upwards * (y - y0));
         let on_page = |points: &Vec<(f64, f64)>| points.iter().map(at).collect::<Vec<_>>();
         canvas.frame(left, top, width, height, Stroke::solid("#e6e6e6", 0.6));
-        let dots: Vec<(f64, f64)> = self.moving.iter().filter(|f| f.len() == 1).flatten().map(at).collect();
-        if !dots.is_empty() {
-            canvas.path(&[dots], Stroke::solid("#c4c4c4", 0.8));
-        }
+        canvas.path(&[on_page(&self.path)], Stroke::solid("#c4c4c4", 0.8));
         for (look, points) in &self.still {
             canvas.path(&[on_page(points)], Stroke::solid(colour(*look), 2.0));
         }

@@ -104,13 +104,21 @@ impl Scene {
             };
             let flat = walls.into_iter().map(stand).collect::<PyResult<_>>()?;
             let (before, supports) = (mem::replace(&mut scene.walls, flat), mem::take(&mut scene.supports));
-            // Supports of flat walls go with these; round ones, which only a case file makes, stay.
+            // A support of flat walls stays where all of them do, in their order; round supports,
+            // which only a case file makes, stay as they are.
             for mut support in supports {
-                if let Some(round) =
-                    before.get(support.walls.clone()).filter(|walls| walls.iter().any(sg::Wall::is_round))
-                {
-                    support.walls = scene.walls.len()..scene.walls.len() + round.len();
-                    scene.walls.extend_from_slice(round);
+                let members = before.get(support.walls.clone()).unwrap_or_default();
+                let first = if members.iter().any(sg::Wall::is_round) {
+                    scene.walls.extend_from_slice(members);
+                    Some(scene.walls.len() - members.len())
+                } else {
+                    let names = || members.iter().map(|wall| &wall.name);
+                    let is_support =
+                        |first: &usize| scene.walls[*first..].iter().map(|w| &w.name).take(members.len()).eq(names());
+                    (0..scene.walls.len()).find(is_support)
+                };
+                if let Some(first) = first {
+                    support.walls = first..first + members.len();
                     scene.supports.push(support);
                 }
             }

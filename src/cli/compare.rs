@@ -10,6 +10,7 @@ use super::{values, verdicts};
 use crate::case::Case;
 use crate::error::Result;
 use crate::output::compare as output;
+use crate::output::compare_table::{conclusion, overview, remark, whole};
 use crate::output::document::under_head;
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
@@ -45,6 +46,9 @@ pub struct Args {
     /// Do not repeat the methods with half the step
     #[arg(long)]
     no_verdict: bool,
+    /// Show all quantities of each method, and all notes
+    #[arg(long)]
+    verbose: bool,
     #[command(flatten)]
     span: PlotSpan,
 }
@@ -68,12 +72,25 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let rows = output::write(&mut results, &case, &comparison, &verdicts, [span, common])?;
     let notes: Vec<String> = run_notes(&comparison).into_iter().chain(case.notes()).collect();
     let findings = comparison.findings.iter();
+    let conclusion = conclusion(&case, &comparison, &verdicts);
+    results.tell("conclusion", json!(conclusion));
     results.tell("remarks", json!(findings.clone().chain(&notes).collect::<Vec<_>>()));
-    let mut shown = Shown::of(results, report, document(&case, &comparison, rows, &notes));
-    shown.table(output::table(&case, &comparison), "compare.csv");
-    shown.remarks(output::remark(&case));
+    let mut shown = Shown::of(results, report, document(&case, &comparison, rows, &conclusion, &notes));
+    if args.verbose {
+        shown.table(whole(&case, &comparison), "compare.csv");
+        shown.remarks(remark(&case));
+    } else {
+        shown.table(overview(&case, &comparison), "compare.csv");
+    }
+    shown.prose(conclusion);
     let failure = comparison.rows.iter().filter_map(|row| Some((row.method, row.outcome.as_ref().err()?)));
     shown.messages(failure.map(|(method, error)| format!("- {method} failed: {error}")));
+    if !args.verbose {
+        let count = findings.count() + notes.len();
+        let more = (count > 0).then(|| format!("--verbose shows all quantities and the notes, {count} of them"));
+        shown.remarks(more);
+        return Ok(shown);
+    }
     shown.messages(findings.map(|finding| format!("- {finding}")));
     if case.penalty.laws.is_empty()
         && args.schemes.is_none()
@@ -157,13 +174,14 @@ fn refute(comparison: &Comparison, verdicts: &[Option<Verdict>], ui: &Ui) {
 }
 
 /// The comparison as one JSON document: what all methods share, then one row per method.
-fn document(case: &Case, comparison: &Comparison, rows: Vec<Value>, notes: &[String]) -> Value {
+fn document(case: &Case, comparison: &Comparison, rows: Vec<Value>, conclusion: &str, notes: &[String]) -> Value {
     let document = json!({
         "scene": summary::scene(case),
         "horizon_s": comparison.horizon,
         "growth": comparison.growth,
         "reference_failure": comparison.reference.as_ref().err().map(ToString::to_string),
         "rows": rows,
+        "conclusion": conclusion,
         "findings": comparison.findings,
         "notes": notes,
     });

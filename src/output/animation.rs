@@ -38,14 +38,20 @@ pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &
     let Model::Beam(beam) = &case.model else { return None };
     let [slowest, _] = case.scene.system.frequencies();
     let end = *time.last()?;
-    let begin = end - (PERIODS * TAU / slowest).min(end);
-    let first = time.iter().position(|&t| t >= begin)?;
+    let first = time.iter().position(|&t| t >= end - PERIODS * TAU / slowest)?;
     let every = (time.len() - first).div_ceil(MOST_FRAMES);
     let rows: Vec<usize> = (first..time.len()).step_by(every).collect();
-    let slowed = SECONDS / (end - time.get(first)?);
-    let caption = format!(
-        "{PERIODS} periods of the slowest mode, slowed down {slowed:.0} times; deflections magnified, gaps to scale",
-    );
+    let begin = *time.get(first)?;
+    if end <= begin {
+        return None;
+    }
+    let slowed = SECONDS / (end - begin);
+    let shown = if slowed < 1.0 { format!("in {SECONDS} s") } else { format!("slowed down {slowed:.1} times") };
+    let mut caption = format!("{begin:.3} s to {end:.3} s, {shown}; deflections and gaps magnified alike");
+    let hidden = case.scene.supports.len().saturating_sub(MOST_SUPPORTS);
+    if stations.planes == 2 && hidden > 0 {
+        caption += &format!("; without views of the last {hidden} supports");
+    }
     let count = stations.places.len();
     let planes: Vec<&[Vec<f64>]> = moved.chunks(count).take(stations.planes).collect();
     let side = |(plane, columns): (usize, &&[Vec<f64>])| {
@@ -66,9 +72,9 @@ pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &
         let paths = paths.filter_map(|(support, written)| {
             let at = station(stations, &written.place)?;
             let (y, z) = (y.get(at)?, z.get(at)?);
-            Some(
-                outlines(&case.scene, support).moving(rows.iter().map(|&k| vec![(value(y, k), value(z, k))]).collect()),
-            )
+            let point = |row: usize| (value(y, row), value(z, row));
+            let view = outlines(&case.scene, support).path((first..time.len()).map(point).collect());
+            Some(view.moving(rows.iter().map(|&row| vec![point(row)]).collect()))
         });
         let views: Vec<View> = paths.collect();
         if !views.is_empty() {

@@ -143,7 +143,7 @@ fn percent(x: f64) -> String {
 }
 
 /// A time to two digits, in the unit that suits it.
-fn time(seconds: f64) -> String {
+pub(super) fn time(seconds: f64) -> String {
     let rounded: f64 = format!("{seconds:.1e}").parse().unwrap_or(seconds);
     let units = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns")];
     let (unit, name) = units.into_iter().find(|(unit, _)| rounded >= *unit).unwrap_or((1e-9, "ns"));

@@ -1,5 +1,5 @@
 //! Files of a comparison: those of every run, figures of all runs together, `compare.csv`,
-//! `compare-walls.csv`, `distance.csv`; also its table and JSON.
+//! `compare-walls.csv`, `distance.csv`; also its JSON.
 
 use super::Span;
 use super::csv::{self, digits};
@@ -8,7 +8,6 @@ use super::results::Results;
 use super::run::{self, Picture};
 use super::site::Site;
 use super::summary::{Checks, Reasons};
-use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
 use crate::run::Run;
@@ -18,10 +17,6 @@ use crate::study::compare::{Comparison, Row};
 use crate::study::difference::rows;
 use crate::study::verdict::Verdict;
 use serde_json::{Value, json};
-
-/// Most walls that get rows of their own in the table for the terminal; above that it shows sums
-/// over all walls.
-const MOST_WALLS: usize = 4;
 
 /// A method's name as a folder: `penalty-epsilon-1e-9-integrator-trapezoidal`.
 #[must_use]
@@ -211,90 +206,18 @@ fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<
     csv::table(&results.place("compare-walls.csv")?, &header.map(str::to_owned), rows)
 }
 
-fn largest(columns: &[Vec<f64>]) -> f64 {
+pub(super) fn largest(columns: &[Vec<f64>]) -> f64 {
     columns.iter().flatten().fold(0.0, |a, x| a.max(x.abs()))
 }
 
 /// Deepest position behind a wall or a hole that the scene calls rigid, m.
-fn penetration(case: &Case, run: &Run) -> f64 {
+pub(super) fn penetration(case: &Case, run: &Run) -> f64 {
     let rigid =
         case.scene.walls.iter().map(|wall| wall.law).zip(&run.residuals.depth_m).filter(|(law, _)| law.is_rigid());
     rigid.fold(0.0, |most, (_, depth)| most.max(*depth))
 }
 
 /// Largest force of all contacts in the window whose force is finite, N.
-fn peak(case: &Case, run: &Run) -> Option<f64> {
+pub(super) fn peak(case: &Case, run: &Run) -> Option<f64> {
     Site::all(case).filter_map(|site| site.peak(run)).reduce(f64::max)
-}
-
-/// The comparison as a table for the terminal: one column per method, since there are more
-/// quantities than methods.
-#[must_use]
-pub fn table(case: &Case, comparison: &Comparison) -> Table {
-    let methods: Vec<String> = comparison.rows.iter().map(|row| row.method.to_string()).collect();
-    let header: Vec<&str> = std::iter::once("").chain(methods.iter().map(String::as_str)).collect();
-    let mut rows = Vec::new();
-    let mut quantity = |name: &str, of: &dyn Fn(&Row, &Run) -> String| {
-        let cell = |row: &Row| row.outcome.as_ref().map_or_else(|_| "failed".to_owned(), |run| of(row, run));
-        rows.push(std::iter::once(name.to_owned()).chain(comparison.rows.iter().map(cell)).collect());
-    };
-    let short = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") };
-    let dash = || "-".to_owned();
-    let exact = |row: &Row| row.method.scheme.is_exact();
-    if comparison.rows.iter().any(|row| row.outcome.as_ref().is_ok_and(|run| !run.findings.is_empty())) {
-        quantity("judge", &|_, run| if run.findings.is_empty() { "kept".into() } else { "REFUTED".to_owned() });
-    }
-    quantity("step (s)", &|row, run| if exact(row) { "exact".into() } else { format!("{:.3e}", run.grid.step) });
-    quantity("restitution", &|row, _| row.restitution.map_or_else(dash, |e| format!("{:.3}", e.median)));
-    let spread = |row: &Row| row.restitution.filter(|e| e.largest - e.least >= 5e-4);
-    if comparison.rows.iter().any(|row| spread(row).is_some()) {
-        quantity("  from", &|row, _| spread(row).map_or_else(dash, |e| format!("{:.2}", e.least)));
-        quantity("  to", &|row, _| spread(row).map_or_else(dash, |e| format!("{:.2}", e.largest)));
-    }
-    quantity("error / gap", &|row, _| {
-        row.error.map_or_else(|| if exact(row) { "reference".into() } else { dash() }, short)
-    });
-    quantity("agrees until (s)", &|row, _| {
-        row.agrees_until.map_or_else(dash, |t| {
-            if t >= comparison.horizon.max(case.scene.duration) { "end".into() } else { format!("{t:.3}") }
-        })
-    });
-    quantity("max |u| (mm)", &|_, run| format!("{:.4}", 1e3 * largest(run.trajectory.displacements())));
-    quantity("penetration (mm)", &|_, run| short(1e3 * penetration(case, run)));
-    quantity("peak force (N)", &|_, run| {
-        let touched = Site::all(case).any(|site| site.contacts(run).is_some_and(|count| count > 0));
-        peak(case, run).map_or_else(|| if touched { "impacts".into() } else { dash() }, |f| format!("{f:.2}"))
-    });
-    let all: Vec<Site<'_>> = Site::all(case).collect();
-    if all.len() > MOST_WALLS {
-        quantity("Σ|impulse| (N s)", &|_, run| {
-            format!("{:.3}", all.iter().filter_map(|site| site.impulse(run)).map(f64::abs).sum::<f64>())
-        });
-        let count = |run: &Run| all.iter().filter_map(|site| site.contacts(run)).sum::<usize>();
-        quantity("contacts", &|_, run| count(run).to_string());
-    } else {
-        for site in &all {
-            let (name, told): (String, fn(f64) -> String) = match site {
-                Site::Wall(_, name) => (format!("impulse {name} (N s)"), |p| format!("{p:+.3}")),
-                Site::Round(_, name) => (format!("Σ|impulse| {name} (N s)"), |p| format!("{p:.3}")),
-            };
-            quantity(&name, &|_, run| site.impulse(run).map_or_else(dash, told));
-        }
-        for site in &all {
-            quantity(&format!("contacts {}", site.name()), &|_, run| {
-                site.contacts(run).map_or_else(dash, |count| count.to_string())
-            });
-        }
-    }
-    quantity("energy residual", &|_, run| short(run.residuals.energy.residual));
-    quantity("compl. residual", &|_, run| short(run.residuals.complementarity));
-    quantity("ns / step", &|row, _| row.step_ns.map_or_else(dash, |ns| format!("{ns:.0}")));
-    Table::new(&header, rows).in_blocks()
-}
-
-/// The remark below the table, if one is needed.
-#[must_use]
-pub fn remark(case: &Case) -> Option<String> {
-    let count = Site::all(case).count();
-    (count > MOST_WALLS).then(|| format!("impulses and contacts of all {count} walls; compare-walls.csv has each"))
 }

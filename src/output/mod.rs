@@ -37,6 +37,7 @@ pub mod branches;
 pub(crate) mod cheapest;
 pub(crate) mod colours;
 pub mod compare;
+pub(crate) mod compare_table;
 pub mod csv;
 mod detail;
 pub mod document;

@@ -14,6 +14,7 @@ pub struct Table {
     header: Vec<String>,
     rows: Vec<Vec<String>>,
     whole: bool,
+    widest: Option<usize>,
 }
 
 /// A table laid out for a width.
@@ -29,7 +30,7 @@ impl Table {
     /// A table under `header`. Where it is too wide, its last columns are left out.
     #[must_use]
     pub fn new(header: &[&str], rows: Vec<Vec<String>>) -> Self {
-        Self { header: header.iter().map(|&text| text.to_owned()).collect(), rows, whole: false }
+        Self { header: header.iter().map(|&text| text.to_owned()).collect(), rows, whole: false, widest: None }
     }
 
     /// The same table with nothing left out: columns that do not fit stand in a second block below
@@ -40,12 +41,19 @@ impl Table {
         self
     }
 
+    /// The same table, never wider than `width` characters where its text can be broken.
+    #[must_use]
+    pub fn within(mut self, width: usize) -> Self {
+        self.widest = Some(width);
+        self
+    }
+
     /// The table in at most `width` characters (as wide as needed where `width` is `None`). Where
     /// that is too narrow, text is broken between words; numbers never are. Two columns are always
     /// shown, even where they are wider.
     #[must_use]
     pub fn fit(&self, width: Option<usize>) -> Fitted {
-        let room = width.unwrap_or(usize::MAX);
+        let room = [width, self.widest].into_iter().flatten().min().unwrap_or(usize::MAX);
         let whole: Vec<usize> = (0..self.header.len()).map(|column| self.widest(column, false)).collect();
         let fits = whole.iter().map(|w| w + BETWEEN).sum::<usize>() <= room.saturating_add(BETWEEN);
         let narrow = |(column, &whole): (usize, &usize)| self.widest(column, true).max(whole.min(TEXT));

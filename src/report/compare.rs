@@ -54,6 +54,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     page["runs"] = json!(runs);
     page["compare"] = json!({
         "table": table.for_page(None),
+        "conclusion": folder.manifest["conclusion"],
         "agreement": AGREEMENT,
         "distance": if folder.has(DISTANCE) { distance(folder)? } else { Value::Null },
     });

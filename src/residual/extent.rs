@@ -1,7 +1,7 @@
 //! How far and how fast a run has moved.
 
-use super::most::most;
 use super::weights::Weights;
+use super::worst::most;
 
 /// The largest displacements and velocities so far.
 #[derive(Debug, Clone, Copy, Default)]

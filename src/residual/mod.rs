@@ -17,7 +17,6 @@ mod front;
 mod grid;
 mod matrices;
 mod memory;
-mod most;
 mod moves;
 mod noise;
 mod pushes;
@@ -35,6 +34,7 @@ mod struck;
 mod sums;
 mod supports;
 mod verdict;
+mod wall_step;
 mod walls;
 mod weights;
 mod whole;
@@ -53,7 +53,6 @@ use blows::Blows;
 use extent::Extent;
 use matrices::Matrices;
 use memory::Memory;
-use most::most;
 use noise::NoiseModel;
 use room::Room;
 use scales::Scales;
@@ -64,6 +63,7 @@ use sums::Sums;
 use supports::Supports;
 use walls::WallCheck;
 use weights::Weights;
+use worst::most;
 
 /// Rounding error of the position of a body along exact motion, in units in the last place of its
 /// terms and of the time.

@@ -1,8 +1,8 @@
 //! The rounding errors of a step's balances, places and forces.
 
-use super::most::most;
 use super::moves::Moves;
 use super::weights::Weights;
+use super::worst::most;
 
 /// Rounding error of a sum in a step, in units in the last place, times √n for sums over n degrees
 /// of freedom (tests of extreme scenes allow every scheme of one degree of freedom 32).

@@ -1,9 +1,9 @@
 //! Work space of the judge for one step, and the terms of its momentum balance.
 
 use super::matrices::{Matrices, Part};
-use super::most::most;
 use super::moves::Moves;
 use super::weights::Weights;
+use super::worst::most;
 use crate::step::Balance;
 
 /// Vectors that a step needs, one entry per degree of freedom; for several steps of one degree of

@@ -1,9 +1,9 @@
 //! Sums over steps, for the check of a whole run's momentum.
 
 use super::matrices::{Matrices, Part};
-use super::most::most;
 use super::moves::Moves;
 use super::scratch::Scratch;
+use super::worst::most;
 use crate::scene::Scene;
 
 /// Load and own force of the structure on one degree of freedom: their values in the last step, N,

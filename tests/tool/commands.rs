@@ -120,10 +120,45 @@ fn the_exact_scheme_records_the_50_digit_states() {
     }
 }
 
+/// The short table of `compare` fits a narrow terminal, and one sentence says what it shows.
+#[test]
+fn compare_ends_with_a_short_table_and_one_sentence() {
+    let dir = tempfile::tempdir().unwrap();
+    let said = done(dir.path(), &["compare", "rigid-walls-sine", "--no-report"]);
+    let (table, conclusion) = said.trim_end().rsplit_once('\n').unwrap();
+    assert!(table.lines().all(|line| line.chars().count() <= 60), "{table}");
+    assert_eq!(table.lines().filter(|line| line.contains("moreau-jean") || line.starts_with("penalty:")).count(), 5);
+    // That the errors are those of compare.csv, and who passes the walls, at ±5 mm.
+    let (header, rows) = csv(&dir.path().join("out/rigid-walls-sine/compare/compare.csv"));
+    let number = |row: &[String], name: &str| {
+        row[header.iter().position(|head| head == name).unwrap()].parse::<f64>().unwrap_or(f64::NAN)
+    };
+    let error = number(&rows[0], "error_over_gap");
+    let first = format!("moreau-jean keeps to the exact motion within {} of the gap until ", two_digits(error));
+    assert!(conclusion.starts_with(&first), "{first}: {conclusion}");
+    assert!(conclusion.contains("where chaos takes over"), "{conclusion}");
+    assert!(conclusion.contains("; half the step changes moreau-jean by "), "{conclusion}");
+    for row in rows.iter().filter(|row| row[0].starts_with("penalty")) {
+        let unseen = conclusion.contains(&format!("{} passes the walls by ", row[0]));
+        assert_eq!(unseen, number(row, "penetration_m") > 5e-3, "{}: {conclusion}", row[0]);
+    }
+}
+
+fn two_digits(x: f64) -> f64 {
+    format!("{x:.1e}").parse().unwrap()
+}
+
 #[test]
 fn compare_gives_the_force_in_round_supports() {
     let dir = tempfile::tempdir().unwrap();
-    let table = done(dir.path(), &["compare", "whirl-in-a-hole", "--schemes", "moreau-jean", "--end", "1"]);
+    let asked = ["compare", "whirl-in-a-hole", "--schemes", "moreau-jean", "--end", "1"];
+    let short = done(dir.path(), &asked);
+    // The force of the rotating mass, and one contact.
+    assert!(
+        short.lines().any(|line| line.starts_with("moreau-jean  ") && line.contains(" 1 ") && line.contains("7.06")),
+        "{short}"
+    );
+    let table = done(dir.path(), &[&asked[..], &["--verbose"]].concat());
     assert!(table.contains("contacts hole") && table.contains("|impulse| hole (N s)"), "{table}");
     let (header, lines) = csv(&dir.path().join("out/whirl-in-a-hole/compare/compare-walls.csv"));
     assert_eq!(header, ["method", "wall", "impulse_N_s", "contacts", "peak_force_N"]);

@@ -143,7 +143,10 @@ fn every_command_and_the_summary_show_the_notes() {
         let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(dir).output().unwrap();
         String::from_utf8([output.stdout, output.stderr].concat()).unwrap()
     };
-    for args in [&["run", "case.toml", "--out", "o"][..], &["compare", "case.toml"], &["explain", "case.toml"]] {
+    let compared = tool(&["compare", "case.toml"]);
+    assert!(compared.contains("--verbose shows all quantities and the notes"), "{compared}");
+    let verbose = ["compare", "case.toml", "--verbose"];
+    for args in [&["run", "case.toml", "--out", "o"][..], &verbose, &["explain", "case.toml"]] {
         let said = tool(args);
         assert!(said.contains("the table of load 1 ends at 0.1 s"), "{args:?}: {said}");
         assert!(args[0] == "explain" || said.contains("no contact at all"), "{args:?}: {said}");

@@ -187,3 +187,67 @@ fn four_hundred_walls_and_tiny_powers_of_ten_leave_every_text_legible() {
     assert!(labels.iter().all(|l| l.right < 645.0 && l.left > -5.0), "{labels:?}");
     assert!(labels.iter().any(|l| l.body.contains("stop-0 … stop-")));
 }
+
+/// The frames of the moving points and lines of a picture: numbers of an attribute, frame by frame.
+fn frames(svg: &str, attribute: &str) -> Vec<Vec<Vec<f64>>> {
+    let document = roxmltree::Document::parse(svg).unwrap();
+    let moving = document.descendants().filter(|n| n.attribute("attributeName") == Some(attribute));
+    let numbers = |frame: &str| frame.split([' ', ',']).map(|number| number.parse().unwrap()).collect();
+    moving.map(|n| n.attribute("values").unwrap().split(';').map(numbers).collect()).collect()
+}
+
+/// The axis of a tube moves within its round supports, frame by frame, and the tube from the side
+/// is at its place in each plane.
+#[test]
+fn a_tube_moves_within_its_supports() {
+    let dir = tempfile::tempdir().unwrap();
+    let end = ["--end", "0.5", "--set", "time.statistics_from=0"];
+    drawn(dir.path(), &[&["run", "tube-round-supports"], &end[..]].concat());
+    let svg = read(dir.path(), "animation.svg");
+    let (across, down) = (frames(&svg, "cx"), frames(&svg, "cy"));
+    assert_eq!((across.len(), down.len()), (2, 2));
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let outlines = document.descendants().filter(|n| n.attribute("stroke-width") == Some("2"));
+    let circles: Vec<Vec<(f64, f64)>> = outlines
+        .filter_map(|n| n.attribute("d"))
+        .map(|d| d.split(['M', 'L', ' ']).filter_map(|pair| pair.split_once(',')).collect::<Vec<_>>())
+        .filter(|points| points.len() > 3)
+        .map(|points| points.into_iter().map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap())).collect())
+        .collect();
+    assert_eq!(circles.len(), 2);
+    for (circle, (across, down)) in circles.iter().zip(across.iter().zip(&down)) {
+        let [left, right] = [f64::min, f64::max].map(|pick| circle.iter().map(|p| p.0).reduce(pick).unwrap());
+        let [top, bottom] = [f64::min, f64::max].map(|pick| circle.iter().map(|p| p.1).reduce(pick).unwrap());
+        let radius = 0.5 * (right - left);
+        assert!((bottom - top - 2.0 * radius).abs() < 0.3, "not a circle: {left} {right} {top} {bottom}");
+        let distances: Vec<f64> = (across.iter().flatten().zip(down.iter().flatten()))
+            .map(|(x, y)| (x - 0.5 * (left + right)).hypot(y - 0.5 * (top + bottom)))
+            .collect();
+        assert!(distances.len() > 100 && distances.len() <= 240, "{}", distances.len());
+        // moreau-jean passes the circle by up to 2.5e-6 of 2e-4 m here; numbers have one decimal.
+        let farthest = distances.iter().copied().fold(0.0, f64::max);
+        assert!(farthest < 1.02 * radius + 0.2 && farthest > 0.9 * radius, "{farthest} of {radius}");
+    }
+    let tubes = frames(&svg, "points");
+    assert_eq!(tubes.len(), 2, "one line a plane");
+    for tube in tubes {
+        assert_eq!(tube.len(), across[0].len());
+        // A tube pinned at its ends stays there, and moves between them.
+        let ends = |frame: &Vec<f64>| (frame[1], frame[frame.len() - 1]);
+        assert!(tube.iter().all(|frame| ends(frame) == ends(&tube[0])));
+        let middle = tube[0].len() / 2 | 1;
+        assert!(tube.iter().any(|frame| (frame[middle] - tube[0][middle]).abs() > 1.0));
+    }
+}
+
+/// In one plane the walls stand above and below the tube; an oscillator has no such picture.
+#[test]
+fn a_moving_picture_is_made_of_tubes_alone() {
+    let dir = tempfile::tempdir().unwrap();
+    drawn(&dir.path().join("tube"), &["run", "tube-loose-supports", "--end", "0.2"]);
+    let svg = read(&dir.path().join("tube"), "animation.svg");
+    assert_eq!((frames(&svg, "points").len(), frames(&svg, "cx").len()), (1, 0));
+    assert_eq!(svg.matches("stroke-width=\"2\"").count(), 4, "two walls at each of two supports");
+    drawn(&dir.path().join("oscillator"), &["run", "rigid-walls-sine", "--end", "0.2"]);
+    assert!(!dir.path().join("oscillator").join("animation.svg").exists());
+}

@@ -1,7 +1,7 @@
 //! The energy ledger of the exact motion of one degree of freedom: powers integrated along an arc,
 //! and the jump at its end.
 
-use super::super::most::most;
+use super::super::worst::most;
 use super::{Flows, Ledger, stored};
 use crate::flow::Arc;
 use crate::scene::{Scene, System};

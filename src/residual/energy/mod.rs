@@ -9,9 +9,9 @@ pub(super) use arc::{Along, Instants};
 pub(super) use series::Moved;
 
 use super::matrices::{Matrices, Part};
-use super::most::most;
 use super::moves::Moves;
 use super::pushes::pushes;
+use super::worst::most;
 use crate::scene::{Forcing, Scene, Wall};
 use crate::step::{Balance, Calm, Contract, Step};
 

@@ -24,7 +24,7 @@ const SCALES: [(f64, f64); 5] = [(1.0, 1.0), (1e-3, 1.0), (1.0, 1e-3), (7.0, 3.0
 #[test]
 fn few_pairs_are_kept_as_they_are_whatever_the_scales() {
     let mut pairs = falling(PAIRS);
-    // ComplementarityFront that another exceeds in both, equal ones, and what is behind a wall or pulls, or
+    // Pairs that another exceeds in both, equal ones, and what is behind a wall or pulls, or
     // touches without force.
     pairs.extend([(0.5, 0.5), pairs[3], (-2.0, 0.0), (0.0, -3.0), (0.0, 9e9), (9e9, 0.0), (-1.0, 5.0)]);
     for (gap, force) in SCALES {

@@ -36,10 +36,16 @@ function compareSection() {
     "methods",
     "Methods",
     `Every method on the same scene, against the exact motion${DATA.horizon ? " up to the horizon of prediction" : ""}.`,
+    conclusionOf(DATA.compare.conclusion),
     sortable(columns, rows, { height: 60 + ROW * rows.length }),
     el("div", { class: "bar controls" }, button("The table above", saved, "Save compare.csv")),
     distancePlot(),
   );
+}
+
+/** What a study says in one sentence, if it does. */
+function conclusionOf(text) {
+  return text ? el("p", { class: "conclusion" }, `${text[0].toUpperCase()}${text.slice(1)}.`) : null;
 }
 
 /** The distance of each method from the reference: the largest of each stretch, since |Δu| itself passes through 0. */
@@ -309,9 +315,7 @@ function chartSection() {
     "work",
     "Accuracy against speed",
     null,
-    conclusion
-      ? el("p", { class: "conclusion" }, `${conclusion[0].toUpperCase()}${conclusion.slice(1)}.`)
-      : null,
+    conclusionOf(conclusion),
     el("div", { class: "bar controls" }, kindButtons),
     told,
     plot.box,

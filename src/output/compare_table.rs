@@ -1,0 +1,182 @@
+//! A comparison for the terminal: a short table with its conclusion in one sentence, and the table
+//! of all quantities.
+
+use super::cheapest::time;
+use super::compare::{largest, peak, penetration};
+use super::site::Site;
+use super::table::Table;
+use crate::case::Case;
+use crate::run::Run;
+use crate::study::compare::{Comparison, FINER, Row};
+use crate::study::verdict::Verdict;
+
+/// Most walls that get rows of their own in the table of all quantities; above that it shows sums
+/// over all walls.
+const MOST_WALLS: usize = 4;
+
+/// Widest short table, in characters.
+const WIDEST: usize = 60;
+
+/// A method that passes a rigid wall by this share of the gap does not see it.
+const UNSEEN: f64 = 1.0;
+
+/// The short table: one row per method.
+#[must_use]
+pub fn overview(case: &Case, comparison: &Comparison) -> Table {
+    let refuted = comparison.rows.iter().any(is_refuted);
+    let mut header = vec!["method", "error / gap", "contacts", "largest force (N)", "time"];
+    if refuted {
+        header.push("judge");
+    }
+    let line = |row: &Row| {
+        let Ok(run) = &row.outcome else {
+            return vec![row.method.to_string(), "failed".into()];
+        };
+        let taken = row.step_ns.map(|ns| time(1e-9 * ns * run.counters.steps as f64));
+        let contacts: usize = Site::all(case).filter_map(|site| site.contacts(run)).sum();
+        let error = if row.method.scheme.is_exact() { "exact".into() } else { error(row) };
+        let mut line = vec![row.method.to_string(), error, contacts.to_string()];
+        line.extend([force(case, run), taken.unwrap_or_else(|| "-".into())]);
+        if refuted {
+            line.push(if is_refuted(row) { "REFUTED" } else { "kept" }.into());
+        }
+        line
+    };
+    Table::new(&header, comparison.rows.iter().map(line).collect()).within(WIDEST)
+}
+
+/// What the comparison shows, in one sentence: how far each method is from the reference, which
+/// methods do not see the walls, and what half the step changes.
+#[must_use]
+pub fn conclusion(case: &Case, comparison: &Comparison, verdicts: &[Option<Verdict>]) -> String {
+    let reference = match (&comparison.reference, &comparison.refined) {
+        (Ok(_), _) => "the exact motion".to_owned(),
+        (_, Some((method, _))) => format!("a run by {method} with steps {FINER} times finer"),
+        (Err(error), None) => return format!("there is no reference to compare with: {error}"),
+    };
+    let length = case.scene.gap_scale();
+    let distance = |x: f64| match case.scene.gap() {
+        Some(_) => format!("{} of the gap", share(x)),
+        None => format!("{} m", share(x * length)),
+    };
+    let until = if comparison.horizon < case.scene.duration {
+        format!("until {} s, where chaos takes over", share(comparison.horizon))
+    } else {
+        "to the end".to_owned()
+    };
+    let mut parts: Vec<String> = Vec::new();
+    let mut schemes = Vec::new();
+    for row in comparison.rows.iter().filter(|row| !row.method.scheme.is_exact()) {
+        let (Ok(run), Some(error)) = (&row.outcome, row.error) else { continue };
+        // The same scheme with another solver of its quadratic programmes makes the same motion.
+        if schemes.contains(&row.method.scheme) {
+            continue;
+        }
+        schemes.push(row.method.scheme);
+        let (name, depth) = (row.method.to_string(), penetration(case, run) / length);
+        parts.push(match (is_refuted(row), depth > UNSEEN) {
+            (true, _) => format!("{name} is refuted"),
+            (_, true) => format!("{name} passes the walls by {}: it does not see them", distance(depth)),
+            _ if parts.is_empty() => format!("{name} keeps to {reference} within {} {until}", distance(error)),
+            _ => format!("{name} within {}", distance(error)),
+        });
+    }
+    if parts.is_empty() {
+        return "there is nothing to compare: no probe, or no method but the exact one has a result".to_owned();
+    }
+    let first =
+        comparison.rows.iter().zip(verdicts).find_map(|(row, verdict)| Some((row, verdict.as_ref()?.displacement?)));
+    parts.extend(first.map(|(row, change)| format!("half the step changes {} by {}", row.method, distance(change))));
+    parts.join("; ")
+}
+
+fn is_refuted(row: &Row) -> bool {
+    row.outcome.as_ref().is_ok_and(|run| !run.findings.is_empty())
+}
+
+/// A share of a length with two digits, as a person writes it.
+fn share(x: f64) -> String {
+    let rounded: f64 = format!("{x:.1e}").parse().unwrap_or(x);
+    if x == 0.0 || (1e-3..1e4).contains(&rounded) { rounded.to_string() } else { format!("{x:.1e}") }
+}
+
+fn short(x: f64) -> String {
+    if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") }
+}
+
+/// The error of the displacement over the gap.
+fn error(row: &Row) -> String {
+    let none = || if row.method.scheme.is_exact() { "reference" } else { "-" };
+    row.error.map_or_else(|| none().to_owned(), short)
+}
+
+/// The largest force, N; rigid impacts have an impulse, and no finite force.
+fn force(case: &Case, run: &Run) -> String {
+    let touched = Site::all(case).any(|site| site.contacts(run).is_some_and(|count| count > 0));
+    peak(case, run).map_or_else(|| if touched { "impacts" } else { "-" }.to_owned(), |f| format!("{f:.2}"))
+}
+
+/// All quantities, one column per method, since there are more quantities than methods.
+#[must_use]
+pub fn whole(case: &Case, comparison: &Comparison) -> Table {
+    let methods: Vec<String> = comparison.rows.iter().map(|row| row.method.to_string()).collect();
+    let header: Vec<&str> = std::iter::once("").chain(methods.iter().map(String::as_str)).collect();
+    let mut rows = Vec::new();
+    let mut quantity = |name: &str, of: &dyn Fn(&Row, &Run) -> String| {
+        let cell = |row: &Row| row.outcome.as_ref().map_or_else(|_| "failed".to_owned(), |run| of(row, run));
+        rows.push(std::iter::once(name.to_owned()).chain(comparison.rows.iter().map(cell)).collect());
+    };
+    let dash = || "-".to_owned();
+    let exact = |row: &Row| row.method.scheme.is_exact();
+    if comparison.rows.iter().any(is_refuted) {
+        quantity("judge", &|_, run| if run.findings.is_empty() { "kept".into() } else { "REFUTED".to_owned() });
+    }
+    quantity("step (s)", &|row, run| if exact(row) { "exact".into() } else { format!("{:.3e}", run.grid.step) });
+    quantity("restitution", &|row, _| row.restitution.map_or_else(dash, |e| format!("{:.3}", e.median)));
+    let spread = |row: &Row| row.restitution.filter(|e| e.largest - e.least >= 5e-4);
+    if comparison.rows.iter().any(|row| spread(row).is_some()) {
+        quantity("  from", &|row, _| spread(row).map_or_else(dash, |e| format!("{:.2}", e.least)));
+        quantity("  to", &|row, _| spread(row).map_or_else(dash, |e| format!("{:.2}", e.largest)));
+    }
+    quantity("error / gap", &|row, _| error(row));
+    quantity("agrees until (s)", &|row, _| {
+        row.agrees_until.map_or_else(dash, |t| {
+            if t >= comparison.horizon.max(case.scene.duration) { "end".into() } else { format!("{t:.3}") }
+        })
+    });
+    quantity("max |u| (mm)", &|_, run| format!("{:.4}", 1e3 * largest(run.trajectory.displacements())));
+    quantity("penetration (mm)", &|_, run| short(1e3 * penetration(case, run)));
+    quantity("peak force (N)", &|_, run| force(case, run));
+    let all: Vec<Site<'_>> = Site::all(case).collect();
+    if all.len() > MOST_WALLS {
+        quantity("Σ|impulse| (N s)", &|_, run| {
+            format!("{:.3}", all.iter().filter_map(|site| site.impulse(run)).map(f64::abs).sum::<f64>())
+        });
+        let count = |run: &Run| all.iter().filter_map(|site| site.contacts(run)).sum::<usize>();
+        quantity("contacts", &|_, run| count(run).to_string());
+    } else {
+        for site in &all {
+            let (name, told): (String, fn(f64) -> String) = match site {
+                Site::Wall(_, name) => (format!("impulse {name} (N s)"), |p| format!("{p:+.3}")),
+                Site::Round(_, name) => (format!("Σ|impulse| {name} (N s)"), |p| format!("{p:.3}")),
+            };
+            quantity(&name, &|_, run| site.impulse(run).map_or_else(dash, told));
+        }
+        for site in &all {
+            quantity(&format!("contacts {}", site.name()), &|_, run| {
+                site.contacts(run).map_or_else(dash, |count| count.to_string())
+            });
+        }
+    }
+    quantity("energy residual", &|_, run| short(run.residuals.energy.residual));
+    quantity("compl. residual", &|_, run| short(run.residuals.complementarity));
+    quantity("ns / step", &|row, _| row.step_ns.map_or_else(dash, |ns| format!("{ns:.0}")));
+    Table::new(&header, rows).in_blocks()
+}
+
+/// The remark below the table, if one is needed.
+#[must_use]
+pub fn remark(case: &Case) -> Option<String> {
+    let count = Site::all(case).count();
+    (count > MOST_WALLS).then(|| format!("impulses and contacts of all {count} walls; compare-walls.csv has each"))
+}

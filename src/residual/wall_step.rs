@@ -1,0 +1,169 @@
+//! Checks of a step on a grid at each wall.
+
+use super::Judge;
+use super::complementarity::{expected_pressure, rebound, slack};
+use crate::scene::Wall;
+use crate::step::{Bound, PromisedForce, Reached, Step};
+
+/// The quantities of a step at one wall.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    index: usize,
+    /// The force that the promise refers to, as a pressure, N: negative where the wall pulls.
+    pressure: f64,
+    /// Displacements at both ends, m.
+    w: (f64, f64),
+    /// Velocities, m/s: before the step's blows, after them, and after the step.
+    before: f64,
+    struck: f64,
+    after: f64,
+}
+
+impl Judge {
+    /// Checks every wall against its part of the promise; `beyond` says that blows add to the
+    /// displacement of the step's rule. Returns whether a rigid wall is closed after the step,
+    /// where the promise depends on that.
+    pub(super) fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) -> bool {
+        let mut closed = false;
+        let blows = self.loads.has_blows();
+        for place in 0..self.sights.len() {
+            let sight = &self.sights[place];
+            let still = |&wall: &usize| {
+                step.impulse[wall] == 0.0 && step.force[wall] == 0.0 && self.walls.last_force[wall] == 0.0
+            };
+            if !beyond && sight.walls.iter().all(still) {
+                let mut rate = sight.of(step.velocity_before).abs();
+                if blows {
+                    rate += sight.of(&self.blows.struck).abs();
+                }
+                if sight.is_clear((sight.of(&self.q), sight.of(step.q)), self.h * rate) {
+                    continue;
+                }
+            }
+            for wall in 0..sight.walls.len() {
+                closed |= self.hold(step, beyond, self.sights[place].walls[wall]);
+            }
+        }
+        closed
+    }
+
+    /// Checks one wall, and returns whether it is closed after the step.
+    #[inline(never)]
+    fn hold(&mut self, step: &Step<'_>, beyond: bool, index: usize) -> bool {
+        let promise = self.contract.promise;
+        let wall = &self.scene.walls[index];
+        let (sign, is_rigid) = (wall.side().sign(), wall.law.is_rigid());
+        let p = step.impulse[index];
+        // Most impulses are 0: avoid the division.
+        let mean = if p == 0.0 { 0.0 } else { p / self.h };
+        let force = match if is_rigid { promise.rigid.force } else { promise.elastic.force } {
+            PromisedForce::Mean => mean,
+            PromisedForce::End | PromisedForce::Trapezoid => step.force[index],
+        };
+        let pressure = sign * force;
+        let largest = pressure.abs().max(mean.abs());
+        self.walls.see_force(&mut self.noise, index, (pressure.min(sign * mean), largest), is_rigid);
+        // A bound on the displacement at the end includes what the blows add to it; everything else
+        // is without that.
+        let bound_there = is_rigid && promise.rigid.displacement == Some(Bound::End);
+        let end = if bound_there || !beyond { step.q } else { &self.blows.arrived };
+        let before = wall.row().dot(step.velocity_before);
+        let seen = Seen {
+            index,
+            pressure,
+            w: (wall.row().dot(&self.q), wall.row().dot(end)),
+            before,
+            struck: if is_rigid { before + wall.row().dot(&self.blows.struck) } else { before },
+            after: wall.row().dot(step.velocity_after),
+        };
+        self.walls.see_depth(index, -wall.gap(wall.row().dot(step.q)));
+        if is_rigid {
+            self.hold_rigid(step, seen)
+        } else {
+            self.hold_elastic(step, seen, mean);
+            false
+        }
+    }
+
+    /// Size of the terms that add up to the body's position, for its rounding error, and of its way
+    /// within a step, m.
+    fn size(&self, step: &Step<'_>, wall: &Wall, seen: &Seen) -> f64 {
+        let terms = wall.row().entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * self.q[i]).abs());
+        terms.sum::<f64>() + wall.position().abs() + self.h * (seen.before.abs() + seen.after.abs())
+    }
+
+    /// Size of the terms that add up to the body's velocities in a step, for their rounding error,
+    /// m/s.
+    pub(super) fn speeds(&self, step: &Step<'_>, wall: &Wall) -> f64 {
+        let speeds = |v: &[f64]| wall.row().entries().iter().map(|&(i, g)| (g * v[i]).abs()).sum::<f64>();
+        speeds(step.velocity_before) + speeds(step.velocity_after) + speeds(&self.blows.struck)
+    }
+
+    fn hold_elastic(&mut self, step: &Step<'_>, seen: Seen, mean: f64) {
+        let promise = self.contract.promise.elastic;
+        let wall = &self.scene.walls[seen.index];
+        let mut error =
+            (seen.pressure - expected_pressure(wall, promise.law, self.h, seen.w, (seen.before, seen.after))).abs();
+        if promise.force == PromisedForce::Trapezoid
+            && let Some(last) = self.walls.last_force.get_mut(seen.index)
+        {
+            let force = step.force[seen.index];
+            error = error.max((mean - 0.5 * (*last + force)).abs());
+            *last = force;
+        }
+        let size = self.size(step, wall, &seen);
+        let depth = (-wall.gap(seen.w.0)).max(-wall.gap(seen.w.1)).max(f64::MIN_POSITIVE);
+        let slope = wall.law.tangent(depth) + 2.0 * wall.law.damping() / self.h;
+        self.walls.see_law(&self.noise, seen.index, error, slope * self.noise.place(size));
+    }
+
+    /// Checks a rigid wall. Returns whether it is closed after the step, where the promise depends
+    /// on that.
+    fn hold_rigid(&mut self, step: &Step<'_>, seen: Seen) -> bool {
+        let Seen { index, pressure, w, struck, after, .. } = seen;
+        let promise = self.contract.promise.rigid;
+        let wall = &self.scene.walls[index];
+        if let Some(bound) = promise.displacement {
+            let slack = slack(&self.scene, index, (bound, step.path), self.h, w, struck);
+            if slack < 0.0 || pressure != 0.0 {
+                self.walls.see_gap(&self.noise, index, (slack, self.size(step, wall, &seen)), pressure);
+            }
+        }
+        let (reached, way) = match promise.velocity {
+            Some(Reached::Ahead(at)) => {
+                let gap = wall.gap(w.0 + at * self.h * struck);
+                (gap <= self.walls.touch, gap)
+            }
+            Some(Reached::Closed) => {
+                let gap = wall.gap(w.1);
+                (gap <= self.walls.touch || pressure != 0.0, gap)
+            }
+            None => (false, f64::INFINITY),
+        };
+        let e = wall.law.restitution().filter(|&e| !self.gives_up(step, index, e, struck)).unwrap_or(0.0);
+        let slack = if reached { rebound(wall, e, struck, after) } else { 0.0 };
+        if pressure != 0.0 || slack < 0.0 {
+            let closes = promise.velocity == Some(Reached::Closed);
+            let is_edge = if closes {
+                // The promise does not cover a wall that is closed only by the rounding error of
+                // its gap.
+                pressure == 0.0 && way > 0.0
+            } else {
+                // Near the limit, rounding decides whether the body reaches the wall within the
+                // step: either is accepted.
+                (way - self.walls.touch).abs() <= self.noise.of(self.size(step, wall, &seen))
+            };
+            let accepted = if is_edge { f64::INFINITY } else { 0.0 };
+            if reached {
+                let noise = self.noise.velocity(self.speeds(step, wall), self.noise.span);
+                self.walls.see_rebound(&self.noise, index, (slack, noise + accepted), pressure);
+            } else if !closes && promise.displacement.is_none() {
+                self.walls.see_law(&self.noise, index, pressure.abs(), accepted);
+            }
+        }
+        // A wall at which the walls' correction of the displacement left the body is closed, also
+        // where the displacement is so large that its rounding error exceeds the touching distance.
+        promise.velocity == Some(Reached::Closed)
+            && (reached || way - self.walls.touch <= self.noise.of(self.size(step, wall, &seen)))
+    }
+}
