@@ -59,6 +59,8 @@ pub mod sweep;
 mod time;
 mod trajectory;
 pub mod variation;
+#[cfg(feature = "cli")]
+mod verification;
 pub mod wear;
 
 pub use error::{Cause, Error, Part, Result, Subject};

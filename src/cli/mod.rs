@@ -26,6 +26,7 @@ mod terminal;
 mod ui;
 mod values;
 mod verdicts;
+mod verify;
 
 use crate::error::Result;
 use clap::{Parser, Subcommand};
@@ -47,6 +48,7 @@ Examples:
   signorini explain elastic-wall                     what would be chosen, and why
   signorini new bouncing-ball                        a case file to start from
   signorini report out/rigid-walls-sine/run          one HTML page of results that exist
+  signorini verify                                   published values and closed forms, on this machine
 
 Results go to out/CASE/COMMAND or --out DIR; those of another request are replaced with --force only.
 Beside them report.html shows them all: one file that opens without network; --no-report leaves it out.
@@ -84,6 +86,7 @@ enum Command {
     Report(report::Args),
     Stability(stability::Args),
     Sweep(sweep::Args),
+    Verify(verify::Args),
     Completions(completions::Args),
 }
 
@@ -132,6 +135,7 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
         Command::Report(args) => report::answer(args)?,
         Command::Stability(args) => stability::answer(args, ui)?,
         Command::Sweep(args) => sweep::answer(args, ui)?,
+        Command::Verify(args) => verify::answer(args, ui)?,
         Command::Completions(args) => completions::answer(args, self::command()),
     };
     shown.conclude(ui)

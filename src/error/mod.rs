@@ -139,6 +139,11 @@ pub enum Error {
         /// The runs, each with its findings.
         runs: Vec<String>,
     },
+    /// Values of the verification manual that are not within their tolerances.
+    Unverified {
+        /// The values, each with its case.
+        values: Vec<String>,
+    },
     /// A periodic orbit was looked for and not found, or a branch of orbits could not be followed.
     NoOrbit {
         /// Why.
@@ -281,6 +286,7 @@ impl fmt::Display for Words<'_> {
             ),
             Error::Stopped => f.write_str("stopped before its end on request"),
             Error::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),
+            Error::Unverified { values } => write!(f, "not within their tolerances: {}", values.join("; ")),
             Error::NoOrbit { reason } => write!(f, "no periodic orbit: {reason}"),
             Error::Truncated { tolerance, reached, quantity, modes } => write!(
                 f,

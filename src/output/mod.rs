@@ -72,6 +72,7 @@ pub mod supports;
 pub mod sweep_overlay;
 pub mod table;
 mod values;
+pub(crate) mod verification;
 mod window;
 pub mod work_precision;
 

@@ -80,7 +80,7 @@ pub(super) fn file(title: &str, data: &Value) -> Result<String> {
 }
 
 /// The name of a text in a Content-Security-Policy: its hash.
-fn hash(text: &str) -> String {
+pub(super) fn hash(text: &str) -> String {
     format!("sha256-{}", base64(&Sha256::digest(text.as_bytes())))
 }
 
@@ -97,7 +97,7 @@ fn in_script(json: &str) -> String {
 }
 
 /// Text between tags.
-fn in_text(text: &str) -> String {
+pub(super) fn in_text(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 

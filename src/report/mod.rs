@@ -30,6 +30,7 @@ mod run;
 mod scene;
 mod stability;
 mod sweep;
+pub(crate) mod verification;
 
 pub use html::FILE;
 

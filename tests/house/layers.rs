@@ -29,6 +29,7 @@ const ROOMS: &[&str] = &[
     "orbit",
     "study",
     "case",
+    "verification",
     "output",
     "sweep",
     "report",

@@ -14,3 +14,4 @@ mod statistics;
 mod sweep;
 mod terminal;
 mod verdicts;
+mod verify;

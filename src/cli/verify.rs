@@ -1,0 +1,43 @@
+//! `signorini verify`: the verification manual, run on this machine.
+
+use super::pipeline::Shown;
+use super::ui::Ui;
+use crate::error::Result;
+use crate::output::atomic::write_whole;
+use crate::output::results::Results;
+use crate::output::verification::{TABLE, conclusion, shortfall, table, write};
+use crate::report::verification::{FILE, page};
+use crate::verification::verify;
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Compare some 50 values with what others published or with closed forms, on this machine
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  signorini verify\n\nWrites verification.html, a page to file with a report, \
+    and verification.csv. Exit code 1 if a value is not within its tolerance.")]
+pub struct Args {
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = "out/verify", value_hint = clap::ValueHint::DirPath)]
+    out: PathBuf,
+    /// Replace other results in that folder
+    #[arg(long)]
+    force: bool,
+}
+
+pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+    let request = json!({ "command": "verify" }).as_object().cloned().unwrap_or_default();
+    let mut results = Results::open(&args.out, request, args.force, Vec::new())?;
+    let (lines, failures) = ui.with_bar("verifying", |bar| verify(&|share| bar.set_share(share)));
+    write(&results.place(TABLE)?, &lines)?;
+    write_whole(&results.place(FILE)?, page(&lines).as_bytes())?;
+    let conclusion = conclusion(&lines);
+    let page_to_open = format!("; open {}", args.out.join(FILE).display());
+    let mut shown =
+        Shown::of(results, false, json!({ "command": "verify", "conclusion": conclusion, "values": lines }));
+    shown.table(table(&lines), TABLE);
+    shown.messages(failures.iter().map(|(case, error)| format!("- {case} could not be run: {error}")));
+    shown.prose(conclusion);
+    shown.close_with(page_to_open);
+    shown.fall_short(shortfall(&lines));
+    Ok(shown)
+}

@@ -1,0 +1,69 @@
+//! `verification.html`: the verification manual as a page to file with a report. It has no script.
+
+use super::html::{hash, in_text};
+use crate::output::verification::conclusion;
+use crate::verification::Verified;
+use std::fmt::Write;
+
+/// The file's name.
+pub(crate) const FILE: &str = "verification.html";
+
+const STYLE: &str = "body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;max-width:1240px;padding:0 1em;\
+    color:#16181b;background:#fff}h1{font-size:26px;margin:0}p{color:#5c6168;max-width:92ch}\
+    p.answer{font-size:17px;font-weight:600;color:#16181b}table{border-collapse:collapse;font-size:13px;width:100%}\
+    th,td{border-bottom:1px solid #e2e2de;padding:4px 8px;text-align:left;vertical-align:top}\
+    th{border-bottom:2px solid #16181b}td.number{text-align:right;white-space:nowrap}\
+    td.holds{color:#00614a;font-weight:600}td.fails{color:#a3123a;font-weight:700}\
+    div{overflow-x:auto}@media(max-width:700px){.wide{display:none}td.number{white-space:normal}}\
+    @media(prefers-color-scheme:dark){body{color:#eceef0;background:#15171a}p{color:#a9afb6}p.answer{color:#eceef0}\
+    th,td{border-color:#2e3338}td.holds{color:#4cc9a4}td.fails{color:#ff8aa5}}\
+    @media print{body{max-width:none;color:#000;background:#fff}tr{break-inside:avoid}}";
+
+/// A number with ten digits; `verification.csv` has all of them.
+fn number(x: f64) -> String {
+    let rounded: f64 = format!("{x:.9e}").parse().unwrap_or(x);
+    if rounded == 0.0 || (1e-4..1e6).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
+}
+
+/// The page of these lines.
+#[must_use]
+pub(crate) fn page(lines: &[Verified]) -> String {
+    let mut rows = String::new();
+    for line in lines {
+        let (class, verdict) = if line.holds() { ("holds", "holds") } else { ("fails", "FAILS") };
+        let scene = if line.changes.is_empty() { String::new() } else { format!(", {}", in_text(&line.changes)) };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            rows,
+            "<tr><td>{}{scene}<br>{}</td><td>{}</td><td class=\"number\">{} {}</td><td class=\"number wide\">{}</td>\
+             <td class=\"number\">{}</td><td class=\"number\">{:.0e}</td><td class=\"{class}\">{verdict}</td>\
+             <td class=\"wide\">{}</td><td class=\"wide\">{}</td></tr>",
+            in_text(&line.case),
+            in_text(&line.method),
+            in_text(&line.quantity),
+            number(line.expected),
+            in_text(&line.unit),
+            line.found.map_or_else(|| "none".to_owned(), number),
+            line.deviation().map_or_else(|| "–".to_owned(), |deviation| format!("{deviation:.1e}")),
+            line.tolerance,
+            in_text(&line.reason),
+            in_text(&line.source),
+        );
+    }
+    format!(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src '{}'\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n\
+         <title>Verification of signorini {version}</title>\n<style>{STYLE}</style></head>\n<body>\n\
+         <h1>Verification of signorini {version}</h1>\n<p class=\"answer\">{}.</p>\n\
+         <p>Values that others published or that have a closed form, and what this program found on this machine. \
+         None of the expected values was computed by it.</p>\n\
+         <div><table><thead><tr><th>case and scheme</th><th>quantity</th><th>expected</th><th class=\"wide\">found</th>\
+         <th>deviation</th><th>tolerance</th><th></th><th class=\"wide\">why this tolerance</th>\
+         <th class=\"wide\">source</th></tr></thead>\
+         <tbody>\n{rows}</tbody></table></div>\n</body></html>\n",
+        hash(STYLE),
+        conclusion(lines),
+        version = env!("CARGO_PKG_VERSION"),
+    )
+}

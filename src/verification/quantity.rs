@@ -1,0 +1,42 @@
+//! Values of a run that an entry of the manual compares.
+
+use crate::run::Run;
+use crate::step::Contact;
+
+/// Rows are at multiples of the sample interval, to rounding.
+const ROW: f64 = 1e-9;
+
+/// The row at the instant `t`, s.
+fn row(run: &Run, t: f64) -> Option<usize> {
+    run.trajectory.time().iter().position(|time| (time - t).abs() <= ROW)
+}
+
+/// Displacement of the first probe at the instant `t` (s), m.
+pub(super) fn displacement(run: &Run, t: f64) -> Option<f64> {
+    run.trajectory.displacements().first()?.get(row(run, t)?).copied()
+}
+
+/// Velocity of the first probe at the instant `t` (s), m/s.
+pub(super) fn velocity(run: &Run, t: f64) -> Option<f64> {
+    run.trajectory.velocities().first()?.get(row(run, t)?).copied()
+}
+
+/// Displacement of the first probe in the last row, m.
+pub(super) fn last_displacement(run: &Run) -> Option<f64> {
+    run.trajectory.displacements().first()?.last().copied()
+}
+
+/// Contact number `index`, from 0, in order of time.
+pub(super) fn contact(run: &Run, index: usize) -> Option<&Contact> {
+    run.trajectory.contacts().get(index)
+}
+
+/// Size of the force of the first wall in the last row, N.
+pub(super) fn last_force(run: &Run) -> Option<f64> {
+    run.trajectory.contact_forces().first()?.last().map(|force| force.abs())
+}
+
+/// Mean work rate of the first support, W.
+pub(super) fn work_rate(run: &Run) -> Option<f64> {
+    run.statistics.wear.first().map(|wear| wear.work_rate_w)
+}
