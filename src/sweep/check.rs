@@ -126,10 +126,19 @@ impl Plan {
     pub(super) fn check_places(&self) -> Result<()> {
         let scene = &self.base.scene;
         let has = |measure: &Measure| !measure.columns(scene).is_empty();
-        let lacks = |scope: Scope| if scope == Scope::Probe { "no probe" } else { "no wall" };
+        let lacks = |scope: Scope| match scope {
+            Scope::Probe => "no probe",
+            Scope::Support => "no support in two planes",
+            Scope::Wall | Scope::Row => "no wall",
+        };
         if let Some(measure) = self.sweep.measures.iter().find(|measure| !has(measure)) {
             let known = Measure::all().filter(has).map(Measure::name).collect::<Vec<_>>().join(", ");
             let expected = format!("one of {known}: the case has {}", lacks(measure.scope()));
+            return Err(Error::invalid("[measure] columns", measure, expected));
+        }
+        let has_law = || (0..scene.supports.len()).any(|index| self.base.archard(index).is_some());
+        if let Some(measure) = self.sweep.measures.iter().find(|measure| measure.needs_law() && !has_law()) {
+            let expected = "work_rate, or coefficient and service in [wear] beside it";
             return Err(Error::invalid("[measure] columns", measure, expected));
         }
         if self.sweep.samples == Some(Samples::Impacts) && scene.walls.is_empty() {

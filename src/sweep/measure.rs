@@ -10,13 +10,15 @@ use std::str::FromStr;
 pub enum Scope {
     /// Each wall.
     Wall,
+    /// Each support in two planes: a round hole, or flats around one place.
+    Support,
     /// Each probe.
     Probe,
     /// The whole row.
     Row,
 }
 
-/// One measure of a row: one column per wall, per probe, or per row.
+/// One measure of a row: one column per wall, per support, per probe, or per row.
 ///
 /// All measures refer to one window, from `statistics_from`, or the end of `settle`, to the end.
 /// Where [`Statistics`](crate::Statistics) has the same quantity, they are equal.
@@ -57,6 +59,27 @@ pub enum Measure {
     ApproachSpeedMax,
     /// Smallest of them, m/s; 0 at a grazing contact.
     ApproachSpeedLeast,
+    /// Work of wear ∫ F_n |v_t| dt per time, W; see [`WearStatistics`](crate::WearStatistics).
+    WorkRate,
+    /// Share of that work that impacts did.
+    ImpactShare,
+    /// Distance slid in contact per time, m/s.
+    SlidingRate,
+    /// What friction takes out of the motion per time, W.
+    FrictionPower,
+    /// Mean of the normal force of the support over time, N.
+    SupportForceMean,
+    /// Root mean square of the support's force over time, N; see
+    /// [`SupportForce`](crate::SupportForce).
+    SupportForceRms,
+    /// Largest force of an episode, N, of those whose force is finite.
+    SupportForceLargest,
+    /// Volume worn off the tube within the service of the case, m³, by Archard's law.
+    WornVolume,
+    /// Depth on the tube if all of it comes off one scar, m.
+    DepthOneScar,
+    /// Depth on the tube if it comes off evenly all round, m.
+    DepthAllRound,
     /// Largest |u|, m.
     DisplacementMax,
     /// Highest u, m.
@@ -83,7 +106,7 @@ pub enum Measure {
 }
 
 /// Name, scope, and unit as column names write it.
-const MEASURES: [(Measure, &str, Scope, Option<&str>); 27] = [
+const MEASURES: [(Measure, &str, Scope, Option<&str>); 37] = [
     (Measure::Contacts, "contacts", Scope::Wall, None),
     (Measure::Impacts, "impacts", Scope::Wall, None),
     (Measure::ContactRate, "contact_rate", Scope::Wall, Some("per_s")),
@@ -101,6 +124,16 @@ const MEASURES: [(Measure, &str, Scope, Option<&str>); 27] = [
     (Measure::ApproachSpeedMean, "approach_speed_mean", Scope::Wall, Some("m_per_s")),
     (Measure::ApproachSpeedMax, "approach_speed_max", Scope::Wall, Some("m_per_s")),
     (Measure::ApproachSpeedLeast, "approach_speed_least", Scope::Wall, Some("m_per_s")),
+    (Measure::WorkRate, "work_rate", Scope::Support, Some("W")),
+    (Measure::ImpactShare, "impact_share", Scope::Support, None),
+    (Measure::SlidingRate, "sliding_rate", Scope::Support, Some("m_per_s")),
+    (Measure::FrictionPower, "friction_power", Scope::Support, Some("W")),
+    (Measure::SupportForceMean, "support_force_mean", Scope::Support, Some("N")),
+    (Measure::SupportForceRms, "support_force_rms", Scope::Support, Some("N")),
+    (Measure::SupportForceLargest, "support_force_largest", Scope::Support, Some("N")),
+    (Measure::WornVolume, "worn_volume", Scope::Support, Some("m3")),
+    (Measure::DepthOneScar, "depth_one_scar", Scope::Support, Some("m")),
+    (Measure::DepthAllRound, "depth_all_round", Scope::Support, Some("m")),
     (Measure::DisplacementMax, "displacement_max", Scope::Probe, Some("m")),
     (Measure::DisplacementHighest, "displacement_highest", Scope::Probe, Some("m")),
     (Measure::DisplacementLowest, "displacement_lowest", Scope::Probe, Some("m")),
@@ -146,9 +179,11 @@ impl Measure {
     #[must_use]
     pub fn columns(self, scene: &Scene) -> Vec<String> {
         let walls: Vec<&str> = scene.walls.iter().map(|wall| wall.name.as_str()).collect();
+        let supports: Vec<&str> = scene.supports.iter().map(|support| support.name.as_str()).collect();
         let probes: Vec<&str> = scene.probes.iter().map(|probe| probe.name.as_str()).collect();
         let names = match self.scope() {
             Scope::Wall => crate::output::csv::words(&walls),
+            Scope::Support => crate::output::csv::words(&supports),
             Scope::Probe => crate::output::csv::words(&probes),
             Scope::Row => vec![String::new()],
         };
@@ -183,7 +218,20 @@ impl Measure {
 
     /// True for a measure of the force over time.
     pub(super) fn sees_force(self) -> bool {
-        matches!(self, Self::Impulse | Self::ForceMean | Self::ForceRms)
+        matches!(
+            self,
+            Self::Impulse | Self::ForceMean | Self::ForceRms | Self::SupportForceMean | Self::SupportForceRms
+        )
+    }
+
+    /// True for a measure of what slides at a support.
+    pub(super) fn sees_sliding(self) -> bool {
+        matches!(self, Self::WorkRate | Self::ImpactShare | Self::SlidingRate | Self::FrictionPower) || self.needs_law()
+    }
+
+    /// True for a measure that takes the law of wear of the case.
+    pub(super) fn needs_law(self) -> bool {
+        matches!(self, Self::WornVolume | Self::DepthOneScar | Self::DepthAllRound)
     }
 }
 

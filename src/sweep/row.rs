@@ -251,7 +251,7 @@ impl Plan {
             }
         }
         let (open, note) = (stepper.open_contacts(), observer.note());
-        let (measures, samples) = observer.finish(&self.sweep, stepper.checked(), &open);
+        let (measures, samples) = observer.finish(&self.sweep, &case, stepper.checked(), &open);
         Ok(Done {
             measures,
             samples,

@@ -7,9 +7,10 @@ use super::request::{Sweep, Window};
 use super::sample::Sample;
 use super::sample::Samples;
 use super::strobe::Strobe;
+use crate::case::Case;
 use crate::error::Result;
 use crate::scene::{Checked, Scene, State};
-use crate::statistics::{Forces, Statistics, WallStatistics};
+use crate::statistics::{Forces, Rubbing, Statistics, WallStatistics};
 use crate::step::{Contact, Step};
 use crate::study::attractor::{self, MOST_FREEDOM};
 use crate::time::TimeOptions;
@@ -21,6 +22,7 @@ pub(super) struct RowObserver {
     /// Contact episodes that reach into the window.
     contacts: Vec<Contact>,
     forces: Option<Forces>,
+    rubbing: Option<Rubbing>,
     motion: Option<Motion>,
     strobe: Option<Strobe>,
     /// The growth of a small change of the start; an error from the step on at which there is no
@@ -51,6 +53,7 @@ impl RowObserver {
             from,
             contacts: Vec::new(),
             forces: any(Measure::sees_force).then(|| Forces::new(scene, from, time.force_averaging)),
+            rubbing: any(Measure::sees_sliding).then(|| Rubbing::new(scene, from, time.sectors)),
             motion: any(Measure::sees_motion).then(|| Motion::new(scene, from, start, speeds)),
             strobe,
             growth,
@@ -65,6 +68,9 @@ impl RowObserver {
         }
         if let Some(forces) = &mut self.forces {
             forces.see(step);
+        }
+        if let Some(rubbing) = &mut self.rubbing {
+            rubbing.see(step);
         }
         if let Some(motion) = &mut self.motion {
             motion.see(step);
@@ -84,8 +90,14 @@ impl RowObserver {
         self.growth.as_ref().and_then(|growth| growth.as_ref().err()).map(ToString::to_string)
     }
 
-    /// The measures and samples of the row, with the episodes `open` at its end.
-    pub fn finish(mut self, sweep: &Sweep, scene: &Checked, open: &[Contact]) -> (Vec<Option<f64>>, Vec<Sample>) {
+    /// The measures and samples of the row of `case`, with the episodes `open` at its end.
+    pub fn finish(
+        mut self,
+        sweep: &Sweep,
+        case: &Case,
+        scene: &Checked,
+        open: &[Contact],
+    ) -> (Vec<Option<f64>>, Vec<Sample>) {
         self.contacts.extend_from_slice(open);
         self.contacts.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.wall.cmp(&b.wall)));
         let statistics = Statistics::of(scene, scene.wall_masses(), &self.contacts, self.from);
@@ -93,10 +105,14 @@ impl RowObserver {
             Some(forces) => statistics.with_forces(forces),
             None => statistics,
         };
+        let statistics = match &self.rubbing {
+            Some(rubbing) => statistics.with_wear(rubbing),
+            None => statistics,
+        };
         let mut values = Vec::new();
         let exponent = self.exponent(scene);
         for &measure in &sweep.measures {
-            self.tell(measure, sweep, scene, (&statistics, exponent), &mut values);
+            self.tell(measure, sweep, case, scene, (&statistics, exponent), &mut values);
         }
         let samples = sweep.samples.map_or_else(Vec::new, |samples| self.samples(samples, sweep.most_samples, scene));
         (values, samples)
@@ -110,6 +126,7 @@ impl RowObserver {
         &self,
         measure: Measure,
         sweep: &Sweep,
+        case: &Case,
         scene: &Scene,
         (statistics, exponent): (&Statistics, Option<Exponent>),
         values: &mut Vec<Option<f64>>,
@@ -145,6 +162,19 @@ impl RowObserver {
             }
             Measure::ApproachSpeedMax => of_walls(&|index, _| speeds(index).reduce(f64::max)),
             Measure::ApproachSpeedLeast => of_walls(&|index, _| speeds(index).reduce(f64::min)),
+            Measure::WorkRate
+            | Measure::ImpactShare
+            | Measure::SlidingRate
+            | Measure::FrictionPower
+            | Measure::SupportForceMean
+            | Measure::SupportForceRms
+            | Measure::SupportForceLargest
+            | Measure::WornVolume
+            | Measure::DepthOneScar
+            | Measure::DepthAllRound => {
+                let supports = 0..statistics.supports.len();
+                values.extend(supports.map(|index| at_support(measure, statistics, index, case)));
+            }
             Measure::DisplacementMax => self.of_probes(values, |seen| seen.highest.abs().max(seen.lowest.abs())),
             Measure::DisplacementHighest => self.of_probes(values, |seen| seen.highest),
             Measure::DisplacementLowest => self.of_probes(values, |seen| seen.lowest),
@@ -209,5 +239,28 @@ impl RowObserver {
         };
         all.drain(..all.len().saturating_sub(most));
         all
+    }
+}
+
+/// The value of a measure at support number `index`.
+fn at_support(measure: Measure, statistics: &Statistics, index: usize, case: &Case) -> Option<f64> {
+    let support = statistics.supports.get(index)?;
+    let wear = || statistics.wear.get(index);
+    let worn = || Some(case.archard(index)?.worn(wear()?.work_rate_w));
+    match measure {
+        Measure::WorkRate => Some(wear()?.work_rate_w),
+        Measure::ImpactShare => wear()?.impact_share,
+        Measure::SlidingRate => {
+            let length = statistics.to_s - statistics.from_s;
+            (length > 0.0).then_some(wear()?.sliding_m / length)
+        }
+        Measure::FrictionPower => Some(wear()?.friction_power_w),
+        Measure::SupportForceMean => Some(support.force.as_ref()?.mean_n),
+        Measure::SupportForceRms => Some(support.force.as_ref()?.rms_n),
+        Measure::SupportForceLargest => support.episode_peak_force_n.max,
+        Measure::WornVolume => worn()?.volume_m3,
+        Measure::DepthOneScar => worn()?.depth_one_scar_m,
+        Measure::DepthAllRound => worn()?.depth_all_round_m,
+        _ => None,
     }
 }

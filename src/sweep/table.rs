@@ -99,7 +99,7 @@ pub(super) fn with_number(record: &csv::StringRecord, column: usize, number: u64
 }
 
 /// Units at the end of column names, and in labels; longer ones first.
-const UNITS: [(&str, &str); 20] = [
+const UNITS: [(&str, &str); 21] = [
     ("_kg_per_m3", "kg/m³"),
     ("_N_m_per_rad", "N m/rad"),
     ("_N_s_per_m", "N s/m"),
@@ -115,6 +115,7 @@ const UNITS: [(&str, &str); 20] = [
     ("_kg", "kg"),
     ("_Hz", "Hz"),
     ("_Pa", "Pa"),
+    ("_m3", "m³"),
     ("_m2", "m²"),
     ("_m", "m"),
     ("_s", "s"),

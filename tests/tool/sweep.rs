@@ -17,7 +17,7 @@ fn frequency(from: f64, to: f64, points: u64) -> Axis {
 }
 
 fn every_wall_measure() -> Vec<Measure> {
-    Measure::all().filter(|measure| measure.scope() != Scope::Row).collect()
+    Measure::all().filter(|measure| matches!(measure.scope(), Scope::Wall | Scope::Probe)).collect()
 }
 
 /// The value of a column of a row.
@@ -25,6 +25,80 @@ fn cell(plan: &Plan, row: &signorini::sweep::Row, column: &str) -> Option<f64> {
     let first = plan.header().len() - row.measures.len();
     let index = plan.header().iter().position(|name| name == column).unwrap_or_else(|| panic!("no column {column}"));
     row.measures[index - first]
+}
+
+/// Supports of flats with random forces, and round ones with friction: work rates, forces and worn
+/// volumes over the gap are those of the runs with that gap.
+#[test]
+fn the_measures_of_supports_are_those_of_the_runs() {
+    for name in ["tube-lattice-bars", "tube-round-supports"] {
+        let ends = [("time.end", 0.4), ("time.statistics_from", 0.1)];
+        let file = CaseFile::embedded(name).unwrap();
+        let of_supports = Measure::all().filter(|measure| measure.scope() == Scope::Support);
+        // The lattice bars have no coefficient of wear.
+        let has_law = file.case().unwrap().archard(0).is_some();
+        let asked: Vec<Measure> = of_supports
+            .filter(|measure| has_law || !measure.name().starts_with("worn") && !measure.name().starts_with("depth"))
+            .collect();
+        assert_eq!(asked.len(), if has_law { 10 } else { 7 }, "{name}");
+        let gaps = [1.5e-4, 3e-4];
+        let mut sweep = Sweep::new(file.clone());
+        for (key, value) in ends {
+            sweep = sweep.set(key, value).unwrap();
+        }
+        let axis = Axis::list("support.*.gap", &gaps.map(Into::into)).unwrap();
+        let plan = sweep.vary(axis).by("moreau-jean").measure(asked).plan().unwrap();
+        for (row, gap) in plan.rows(1).unwrap().iter().zip(gaps) {
+            assert_eq!((row.status, row.error.as_str()), (Status::Ok, ""), "{name}");
+            let mut file = file.clone();
+            for (key, value) in ends.into_iter().chain([("support.*.gap", gap)]) {
+                file.set(&key.parse().unwrap(), &value.into()).unwrap();
+            }
+            let case = file.case().unwrap();
+            let run = run(&case.scene, &case.method("moreau-jean").unwrap(), &Options::new(case.time)).unwrap();
+            assert_eq!(run.statistics.wear.len(), 2);
+            let names: Vec<String> = case.scene.supports.iter().map(|support| support.name.clone()).collect();
+            let words = signorini::output::csv::words(&names);
+            for (index, word) in words.iter().enumerate() {
+                let (wear, support) = (&run.statistics.wear[index], &run.statistics.supports[index]);
+                let force = support.force.as_ref().unwrap();
+                assert!(wear.work_rate_w > 0.0 && force.mean_n > 0.0, "{name}");
+                let mut expected = vec![
+                    (format!("work_rate_{word}_W"), Some(wear.work_rate_w)),
+                    (format!("impact_share_{word}"), wear.impact_share),
+                    (format!("sliding_rate_{word}_m_per_s"), Some(wear.sliding_m / (0.4 - 0.1))),
+                    (format!("friction_power_{word}_W"), Some(wear.friction_power_w)),
+                    (format!("support_force_mean_{word}_N"), Some(force.mean_n)),
+                    (format!("support_force_rms_{word}_N"), Some(force.rms_n)),
+                    (format!("support_force_largest_{word}_N"), support.episode_peak_force_n.max),
+                ];
+                if let Some(law) = case.archard(index) {
+                    let worn = law.worn(wear.work_rate_w);
+                    assert!(worn.volume_m3.unwrap() > 0.0);
+                    expected.push((format!("worn_volume_{word}_m3"), worn.volume_m3));
+                    expected.push((format!("depth_one_scar_{word}_m"), worn.depth_one_scar_m));
+                    expected.push((format!("depth_all_round_{word}_m"), worn.depth_all_round_m));
+                }
+                for (column, value) in expected {
+                    assert_eq!(cell(&plan, row, &column), value, "{name}, {column}");
+                }
+            }
+        }
+    }
+}
+
+/// A measure of supports is refused by name where there are none, and one of wear without a law.
+#[test]
+fn measures_of_supports_are_refused_by_name_where_they_have_no_value() {
+    let refused = |case: &str, key: &str, measure: Measure| {
+        let axis = Axis::linear(key, 0.1, 0.2, 2).unwrap();
+        let sweep = Sweep::new(CaseFile::embedded(case).unwrap()).vary(axis).by("moreau-jean");
+        sweep.measure([measure]).plan().unwrap_err().to_string()
+    };
+    let said = refused("rigid-walls-sine", "wall.*.restitution", Measure::WorkRate);
+    assert!(said.contains("work_rate") && said.contains("the case has no support in two planes"), "{said}");
+    let said = refused("tube-lattice-bars", "support.*.restitution", Measure::WornVolume);
+    assert!(said.contains("worn_volume") && said.contains("coefficient and service in [wear]"), "{said}");
 }
 
 #[test]

@@ -59,7 +59,7 @@ def _legend(ax: Any) -> None:
 # Units as column names and the case format write them, the longest first.
 _UNITS = (
     *("N_m_per_rad", "N_s_per_m", "N2_per_Hz", "m3_per_N", "kg_per_m3", "m_per_s", "N_per_m", "kg_per_m", "per_s"),
-    *("cycles", "N_s", "deg", "rad", "Hz", "Pa", "kg", "m2", "m", "s", "N", "W", "J"),
+    *("cycles", "N_s", "deg", "rad", "Hz", "Pa", "kg", "m3", "m2", "m", "s", "N", "W", "J"),
 )
 
 

@@ -104,6 +104,8 @@ function columnLabel(name) {
     kg: "kg",
     Hz: "Hz",
     Pa: "Pa",
+    m3: "m³",
+    m2: "m²",
     m: "m",
     s: "s",
     N: "N",
