@@ -10,6 +10,7 @@
 
 pub use super::growth::{Growth, Source};
 
+use super::exact::affordable;
 use super::perturbation;
 use crate::error::Result;
 use crate::scene::{Scene, System};
@@ -32,6 +33,18 @@ impl Growth {
             System::Oscillator(_) => Self::by_saltation(scene),
             _ => perturbation::growth(scene, &Method::new(Scheme::Event), scene.duration, perturbation::SMALL),
         }
+    }
+
+    /// As [`Growth::of`], where the exact motion is affordable.
+    ///
+    /// # Errors
+    /// Errors of [`affordable`], and of the exact scheme.
+    pub fn affordable(scene: &Scene) -> Result<Self> {
+        if let System::Oscillator(_) = scene.system {
+            affordable(scene)?;
+        }
+        // Of a structure the beginnings are checked.
+        Self::of(scene)
     }
 
     /// A lower bound of the growth along the run of `scene` by `method` with steps of `step` (s),

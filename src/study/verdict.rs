@@ -1,7 +1,7 @@
 //! The refinement verdict: the same run with half the step, and the change that makes.
 
 use super::change::Change;
-use super::exact::{Replay, affordable, replay, stride};
+use super::exact::{Replay, replay, stride};
 use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::Result;
 use crate::residual::Finding;
@@ -104,7 +104,7 @@ impl Verdict {
         // A penalty run moves between springs, where perturbations grow otherwise than between
         // rigid walls.
         let model = Stepper::new(scene, method, run.grid.step)?.scene().clone();
-        let growth = affordable(&model).and_then(|()| Growth::of(&model));
+        let growth = Growth::affordable(&model);
         let growth = match (&model.system, growth) {
             // With several degrees of freedom, where the exact scheme cannot follow the scene, runs
             // of the method itself show the growth.

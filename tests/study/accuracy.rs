@@ -350,7 +350,7 @@ fn runs_and_comparisons_end_with_a_verdict_unless_told_not_to() {
         (&["run", "elastic-wall", "--end", "1", "--scheme", "event"], "refinement: the exact scheme has no step"),
         (&["run", "linear-sine", "--end", "1"], "refinement: with half the step"),
         (
-            &["compare", "rigid-walls-sine", "--end", "0.5"],
+            &["compare", "rigid-walls-sine", "--end", "0.5", "--verbose"],
             "refinement: with half the step: moreau-jean: the displacement changes by",
         ),
     ] {

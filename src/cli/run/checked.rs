@@ -45,7 +45,7 @@ pub(super) fn checked(args: &Args, case: Case, ui: &Ui) -> Result<CheckedRun> {
     let mut results = args.open(&case, &[method], json!({ "verdict": !args.no_verdict }))?;
     let reduced = case.truncated.as_ref().filter(|_| !args.no_verdict);
     let cost = if args.no_verdict { 0.0 } else { verdict::COST };
-    let runs = 1.0 + cost + if reduced.is_some() { 1.0 } else { 0.0 };
+    let runs = 1.0 + cost;
     let shape = if args.request.place.no_report { Shape::default() } else { Shape::of(&case) };
     let estimate = DurationEstimate::of_run(&case.scene, &method, case.time.step).times(runs);
     let (run, refinement, truncation) = ui.with_estimate(&method.to_string(), estimate, |bar| -> Result<_> {
@@ -63,12 +63,13 @@ pub(super) fn checked(args: &Args, case: Case, ui: &Ui) -> Result<CheckedRun> {
                 write_whole(&results.place(animation::FILE)?, svg.as_bytes())?;
             }
         }
-        let refinement = (!args.no_verdict)
-            .then(|| Verdict::of(&case.scene, &method, &run, &case.time, &mut from(1.0, verdict::COST)));
-        let more_modes = reduced.and_then(|reduced| {
-            let mut progress = from(1.0 + verdict::COST, 1.0);
-            Truncation::of(&reduced.whole, &reduced.reduction, &run, &method, &case.time, &mut progress).transpose()
-        });
+        // Side by side; the longer one moves the bar.
+        let with_half_the_step = || Verdict::of(&case.scene, &method, &run, &case.time, &mut from(1.0, cost));
+        let with_more_modes = || {
+            let truncated = reduced?;
+            Truncation::of(&truncated.whole, &truncated.reduction, &run, &method, &case.time, &mut |_| {}).transpose()
+        };
+        let (refinement, more_modes) = rayon::join(|| (!args.no_verdict).then(with_half_the_step), with_more_modes);
         Ok((run, refinement, more_modes))
     })?;
     ui.refute(&method.to_string(), &run.findings);

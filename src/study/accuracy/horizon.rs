@@ -8,7 +8,6 @@ use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme};
 use crate::statistics::{Statistics, WallStatistics};
 use crate::study::change::Change;
-use crate::study::exact::affordable;
 use crate::study::horizon::{Growth, LARGEST_GROWTH};
 use crate::time::TimeOptions;
 
@@ -44,7 +43,7 @@ pub fn foresee(scene: &Scene, target: &Target) -> Result<Option<f64>> {
     if let System::Structure(_) = scene.system {
         for share in SHORT {
             let short = scene.clone().with_duration(share * scene.duration);
-            let Ok(growth) = affordable(&short).and_then(|()| Growth::of(&short)) else { break };
+            let Ok(growth) = Growth::affordable(&short) else { break };
             let until = growth.horizon(most);
             if until < short.duration * (1.0 - 1e-9) {
                 return Ok(Some(until));
@@ -52,10 +51,7 @@ pub fn foresee(scene: &Scene, target: &Target) -> Result<Option<f64>> {
         }
     }
     let growth = match scene.system {
-        System::Oscillator(_) => {
-            affordable(scene)?;
-            Growth::of(scene)?
-        }
+        System::Oscillator(_) => Growth::affordable(scene)?,
         System::Structure(_) => {
             let method = target.method.filter(|m| !m.scheme.is_exact());
             let method = method.unwrap_or_else(|| crate::study::choice::choose(scene).method);

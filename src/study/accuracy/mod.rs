@@ -14,7 +14,7 @@ pub use target::{Against, MOST_STEPS, Target};
 
 use super::change::Change;
 use super::choice::{self, Choice};
-use super::exact::{affordable, replay};
+use super::exact::replay;
 use super::horizon::Growth;
 use crate::error::{Error, Result};
 use crate::run::{Options, run_with_progress};
@@ -43,7 +43,7 @@ pub fn reach(scene: &Scene, target: &Target, progress: &mut dyn FnMut(f64)) -> R
     // linear springs too.
     let model = Stepper::new(scene, &method, scene.duration)?.scene().clone();
     let coarse = CoarseGrid::of(&model, &target.time)?;
-    let growth = affordable(&model).and_then(|()| Growth::of(&model));
+    let growth = Growth::affordable(&model);
     if let (Scheme::Event, Err(error)) = (method.scheme, &growth) {
         return Err(error.clone());
     }

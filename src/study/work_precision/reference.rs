@@ -44,7 +44,7 @@ impl Horizon {
     /// The horizon of `scene`: from the exact motion, or from perturbed runs of `stand_in` in
     /// `steps` steps where the exact scheme cannot follow it.
     pub(super) fn of(scene: &Scene, stand_in: Method, steps: u64) -> Result<Self> {
-        let exact = |scene: &Scene| affordable(scene).and_then(|()| Growth::of(scene));
+        let exact = |scene: &Scene| Growth::affordable(scene);
         let exact = match stand_in.scheme {
             Scheme::Penalty { law, .. } => scene.penalised(law).and_then(|scene| exact(&scene)),
             _ => exact(scene),
