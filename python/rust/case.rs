@@ -6,7 +6,8 @@ use crate::place::Model;
 use crate::plan::Plan;
 use crate::run::Run;
 use crate::scene::Scene;
-use crate::work::compute;
+use crate::work::{compute, compute_apart};
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 use signorini as sg;
@@ -61,6 +62,12 @@ pub fn value(key: &str, value: &Bound<'_, PyAny>) -> PyResult<KeyValue> {
 /// OSError
 ///     For a file that cannot be read.
 ///
+/// Warns
+/// -----
+/// UserWarning
+///     Of a random force of more than 2^20 rows, with its size: such a table takes seconds and
+///     hundreds of megabytes.
+///
 /// Examples
 /// --------
 /// >>> import signorini as sg
@@ -78,7 +85,15 @@ pub fn load(py: Python<'_>, case: PathBuf, set: Option<Bound<'_, PyDict>>) -> Py
         let key = key.extract::<String>()?;
         file.set(&key.parse().map_err(raise)?, &value(&key, &new)?).map_err(raise)?;
     }
-    let case = compute(py, || file.case())?;
+    let (file, case) = compute_apart(py, move || {
+        let case = file.case()?;
+        Ok((file, case))
+    })?;
+    for size in case.large_random_forces() {
+        // Written here, without NUL.
+        let text = std::ffi::CString::new(size).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+    }
     let model = match &case.model {
         // A place is a row of both planes.
         _ if case.planes.is_two() => Model::Numbered,

@@ -305,3 +305,20 @@ def test_control_characters_of_names_are_shown_escaped(tmp_path: Path) -> None:
     for said in texts:
         assert not re.search(r"[\x00-\x09\x0b-\x1f\x7f-\x9f]", said), repr(said)
         assert "31m\n" not in said, repr(said)
+
+
+def test_a_case_too_large_is_refused_and_a_large_one_says_its_size(tmp_path: Path) -> None:
+    def case(band: float) -> Path:
+        file = tmp_path / "case.toml"
+        random = f"random = {{ rms = 1.0, from = 1.0, to = {band}, seed = 1 }}"
+        file.write_text(
+            "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0\n"
+            f"[[load]]\n{random}\n[time]\nend = 1.0\nstep = 1e-5\n"
+        )
+        return file
+
+    with pytest.raises(ValueError, match=r"expected at most 1\.048576e6 Hz at this end: .* at most 2\^24 rows"):
+        sg.load(case(1e7))
+    # 16 rows in each of the 1e5 periods, and so many that their number is a power of 2.
+    with pytest.warns(UserWarning, match=r"load 1: random: a table of 20971\d\d rows, 34 MB"):
+        sg.load(case(1e5))

@@ -52,6 +52,8 @@ CALLS = [
     "scene.replace(loads=[sg.Load.function(lambda t: 0.0)]).run('moreau-jean', step=1e-4, sample=1e3)",
     # A reduction to modes, in seconds of work without a step.
     "sg.chain(np.ones(200_000), np.full(199_999, 1e4), grounds=(1e4, 0.0), modes=200)",
+    # Random forces of 2^24 rows.
+    "sg.load('tube-round-supports', set={'load.1.random.to': 1e5, 'load.2.random.to': 1e5, 'time.end': 10.0})",
     "sg.beam(length=3.0, youngs_modulus=2e11, density=7850.0, outer_diameter=0.02, elements=100_000, duration=1e3,"
     " walls=[sg.Wall.upper('stop', 1e-3, at=1.0)]).run('moreau-jean', step=1e-4, sample=1.0)",
 ]

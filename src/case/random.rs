@@ -14,7 +14,6 @@ use toml::Spanned;
 const MOST_SEED: f64 = 9_007_199_254_740_992.0;
 
 /// A random force of more rows than this is worth a word: 17 MB, and a second of computing.
-#[cfg(feature = "cli")]
 const MANY_ROWS: usize = 1 << 20;
 
 /// A random force of the file, its table, and the file of its density.
@@ -117,9 +116,9 @@ impl Case {
         self.written.origins.iter().any(|origin| matches!(origin, Origin::Random { .. }))
     }
 
-    /// The size of each random force that has many rows, in words.
-    #[cfg(feature = "cli")]
-    pub(crate) fn large_random_forces(&self) -> impl Iterator<Item = String> {
+    /// The size of each random force that has more than 2^20 rows, in words: a user who waits for
+    /// the case should know what takes the time and the memory.
+    pub fn large_random_forces(&self) -> impl Iterator<Item = String> {
         let made = self.written.origins.iter().zip(&self.whole().loads).enumerate();
         made.filter_map(|(index, (origin, load))| match (origin, &load.kind) {
             (Origin::Random { force, .. } | Origin::Second(force), LoadKind::Table(table)) => {

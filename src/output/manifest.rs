@@ -125,7 +125,7 @@ pub(crate) fn differences(other: Option<&Value>, request: &Map<String, Value>) -
     }
     let (values, unnamed) = differing(&parts, other, request);
     lines.extend(values);
-    lines.extend(unnamed.iter().map(|part| format!("another {}", part.replace('_', " "))));
+    lines.extend(unnamed.iter().map(|part| format!("{}: other data there", part.replace('_', " "))));
     (!lines.is_empty()).then(|| lines.iter().map(|line| format!("\n  {line}")).collect())
 }
 

@@ -67,7 +67,6 @@ fn notes(summary: &Value, run: &Value) -> Value {
 /// The key figures.
 fn facts(summary: &Value) -> Value {
     let walls = summary["statistics"]["walls"].as_array().map_or(&[][..], Vec::as_slice);
-    let walls: Vec<&Value> = walls.iter().filter(|wall| wall["round"] != true).collect();
     let number = |value: &Value| value.as_f64();
     let fact = |label: &str, value: String, unit: &str| json!({ "label": label, "value": value, "unit": unit });
     let mut facts = Vec::new();
@@ -90,9 +89,6 @@ fn facts(summary: &Value) -> Value {
         let unit = if upper { "mW, upper figure" } else { "mW" };
         facts.push(fact("work rate", short(1e3 * work), unit));
         facts.push(fact("mean force", short(force), "N, of all supports"));
-        // The force of flats is among those of the walls.
-        let peaks = forces.iter().filter_map(|support| number(&support["episode_peak_force_n"]["max"]));
-        facts.extend(peaks.reduce(f64::max).filter(|_| walls.is_empty()).map(|f| fact("largest force", short(f), "N")));
     }
     facts.push(fact("method", summary["scheme"].as_str().unwrap_or_default().to_owned(), ""));
     let length =

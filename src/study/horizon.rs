@@ -38,7 +38,7 @@ impl Growth {
     /// As [`Growth::of`], where the exact motion is affordable.
     ///
     /// # Errors
-    /// Errors of [`affordable`], and of the exact scheme.
+    /// [`crate::Error::TooManyEvents`] where it is not, and errors of the exact scheme.
     pub fn affordable(scene: &Scene) -> Result<Self> {
         if let System::Oscillator(_) = scene.system {
             affordable(scene)?;

@@ -4,7 +4,7 @@ use super::change::Change;
 use super::exact::{Replay, replay, stride};
 use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::Result;
-use crate::residual::Finding;
+use crate::residual::{Finding, Refuted};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Scene, System, Wall};
 use crate::scheme::{Method, Stepper};
@@ -68,7 +68,7 @@ pub struct Verdict {
     /// True if that length is a gap of the scene.
     pub is_gap: bool,
     /// Time up to which displacements were compared, s: the end, or where a perturbation of the
-    /// start has grown [`LARGEST_GROWTH`]-fold.
+    /// start has grown [`LARGEST_GROWTH`]-fold, or the last row of a run that diverged.
     pub horizon_s: f64,
     /// One entry per wall, then per round support, in the scene's order. Unlike displacements,
     /// these are compared over the whole run.
@@ -111,7 +111,12 @@ impl Verdict {
             (System::Structure(_), Err(_)) => Growth::by_runs(scene, method, run.grid.step),
             (_, growth) => growth,
         };
-        let horizon_s = growth.map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH));
+        // A run that diverged has no rows after that.
+        let ended = [(&run.trajectory, &run.findings), (&again.trajectory, &again.findings)].map(|(rows, findings)| {
+            let diverged = findings.iter().any(|found| found.refuted == Refuted::Diverged);
+            if diverged { rows.time().last().copied().unwrap_or(0.0) } else { scene.duration }
+        });
+        let horizon_s = growth.map_or(scene.duration, |g| g.horizon(LARGEST_GROWTH)).min(ended[0]).min(ended[1]);
         let pair = ((&run.trajectory, &run.statistics), (&again.trajectory, &again.statistics));
         let change = Change::between(scene, pair.0, pair.1, horizon_s);
         let first = run.trajectory.time().get(1);
@@ -179,7 +184,7 @@ impl Verdict {
         match self.displacement {
             None => format!(
                 "was not compared: beyond t = {horizon} s, before the first row, a change of the start has grown \
-                 {LARGEST_GROWTH:.0e}-fold"
+                 {LARGEST_GROWTH:.0e}-fold, or a run has diverged"
             ),
             Some(share) if self.is_gap => format!("changes by {share:.1e} of the gap up to t = {horizon} s"),
             Some(share) => format!("changes by {:.1e} m up to t = {horizon} s", share * self.length_m),

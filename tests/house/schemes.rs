@@ -10,7 +10,7 @@ fn check(page: &str, head: &str, row: impl Fn(&SchemeEntry) -> String) {
     let text = read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(page)).expect(page);
     let mut rows = text.lines().skip_while(|line| *line != head).skip(2);
     for scheme in Scheme::ALL {
-        assert_eq!(rows.next(), Some(&*row(&scheme.entry())), "{page}");
+        assert_eq!(rows.next(), Some(&*row(scheme.entry())), "{page}");
     }
     assert_eq!(rows.next(), Some(""), "{page}: a scheme without an entry");
 }

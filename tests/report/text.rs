@@ -94,6 +94,24 @@ fn the_page_of_a_run_holds_its_rows_and_contacts() {
     assert!(manifest.contains("\"report.html\""));
 }
 
+/// Contacts in round supports are contacts: a page that counts those of flat walls alone says 0.
+#[test]
+fn contacts_in_round_supports_are_counted() {
+    let dir = tempfile::tempdir().unwrap();
+    said(dir.path(), &["run", "tube-round-supports", "--end", "0.05", "--no-verdict", "--out", "o"], 0);
+    let folder = dir.path().join("o");
+    let data = data(&fs::read_to_string(folder.join("report.html")).unwrap());
+    let contacts = column(&folder.join("contacts.csv"), 1).len();
+    let facts = data["facts"].as_array().unwrap();
+    let fact = |label: &str| facts.iter().find(|fact| fact["label"] == label).unwrap()["value"].as_str().unwrap();
+    assert!(contacts > 5 && fact("contacts") == contacts.to_string(), "{facts:?}");
+    let walls = data["summary"]["statistics"]["walls"].as_array().unwrap();
+    let power: f64 = walls.iter().map(|wall| wall["impact_power_w"].as_f64().unwrap()).sum();
+    // Figures of a page have three digits.
+    let shown: f64 = fact("impact power").parse().unwrap();
+    assert!(power > 0.0 && (shown - 1e3 * power).abs() < 5e-3 * 1e3 * power, "{shown} mW for {power} W");
+}
+
 /// The page names the SHA-256 of its script and its style, and nothing in it may be fetched.
 #[test]
 fn a_page_allows_its_own_script_and_no_connection() {

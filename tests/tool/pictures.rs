@@ -235,7 +235,7 @@ fn a_tube_moves_within_its_supports() {
         // A tube pinned at its ends stays there, and moves between them.
         let ends = |frame: &Vec<f64>| (frame[1], frame[frame.len() - 1]);
         assert!(tube.iter().all(|frame| ends(frame) == ends(&tube[0])));
-        let middle = tube[0].len() / 2 | 1;
+        let middle = (tube[0].len() / 2) | 1;
         assert!(tube.iter().any(|frame| (frame[middle] - tube[0][middle]).abs() > 1.0));
     }
 }

@@ -47,6 +47,20 @@ fn a_displacement_that_was_not_compared_is_not_called_unchanged() {
     assert!(page.contains("the displacement was not compared"));
 }
 
+/// Beyond its stability limit the run ends at 0.11 s, and that with half the step at 0.1 s.
+#[test]
+fn a_run_that_diverged_is_compared_up_to_its_last_row() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 100.0\n[[wall]]\nname = \"u\"\n\
+        side = \"both\"\ngap = 5e-3\n[[load]]\nharmonic = { amplitude = 3.0, frequency = 5.0 }\n\
+        [time]\nend = 10.0\nstep = 1e-2\n[penalty]\nstiffness = [1e7]\n";
+    fs::write(dir.path().join("steep.toml"), case).unwrap();
+    let own = ["run", "steep.toml", "--scheme", "penalty", "--integrator", "central-difference", "--no-report"];
+    let (_, err) = said(dir.path(), &own, 1);
+    let words = line(&err, "refinement: ");
+    assert!(words.contains(" up to t = 0.1000 s;"), "{words}");
+}
+
 /// A spring of the wall that keeps energy: the power arrived less that departed is its rounding,
 /// −3e-19 W. Where a load pushes the body off, it is negative, and said.
 #[test]

@@ -98,7 +98,7 @@ fn show(shown: &mut Shown, known: &Known<'_>) {
     }
     multipliers(floquet).into_iter().for_each(|line| shown.prose(line));
     let near = admissible.nearest.map_or_else(String::new, |nearest| {
-        format!(", nearest to a wall that it does not strike: {:.4e} m ({})", nearest.gap, name(nearest.wall))
+        format!(", nearest to a wall without striking it: {:.4e} m ({})", nearest.gap, name(nearest.wall))
     });
     shown.prose(format!("displacement at most {:.6e} m{near}", admissible.largest));
     if judged.motion.is_empty() {

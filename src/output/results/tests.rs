@@ -22,7 +22,7 @@ fn results_of_another_request_stay_unless_forced() {
     let refused = fill(path, 1.0, false, "other.csv").unwrap_err();
     assert!(refused.is_request());
     let text = refused.to_string();
-    for words in ["made 20", "end_s: 10 there, 1 asked", "another walls", "--force", "--out"] {
+    for words in ["made 20", "end_s: 10 there, 1 asked", "walls: other data there", "--force", "--out"] {
         assert!(text.contains(words), "{words}: {text}");
     }
     assert!(path.join("method/summary.json").exists());

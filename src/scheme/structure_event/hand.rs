@@ -11,7 +11,7 @@ use super::StructureEvent;
 use super::stretch::Stretch;
 use crate::error::Result;
 use crate::qp::Backend;
-use crate::scene::{Checked, Load, LoadKind, Scene, State, Table};
+use crate::scene::{Checked, Load, LoadKind, Scene, Table};
 use crate::scheme::grid::Grid;
 use crate::scheme::matrices::Matrices;
 use crate::scheme::moreau_jean::MoreauJean;
@@ -56,12 +56,13 @@ impl StructureEvent {
         let to = self.limit().min(self.time + window);
         let (scene, h) = (self.scene_from_here(to - self.time), (to - self.time) / PARTS as f64);
         let contract = Scheme::MoreauJean { theta: THETA }.contract();
-        let grid: Box<dyn Motion> = if self.body.rounds.is_empty() {
+        let mut grid: Box<dyn Motion> = if self.body.rounds.is_empty() {
             let rule = Box::new(MoreauJean::<Matrices>::new(&scene, THETA, h, Backend::Auto)?);
             Box::new(Grid::new(&scene, &scene.wall_masses(), rule, contract, h)?)
         } else {
-            Box::new(Supports::new(&Checked::made(scene), THETA, contract, h)?)
+            Box::new(Supports::new(&Checked::made(scene.clone()), THETA, contract, h)?)
         };
+        grid.restart(&scene, 0.0, &self.q, &self.v)?;
         self.stretch = Some(Box::new(Stretch { grid, from: self.time, to, h, step: 0, contract }));
         let joins = |last: &&mut Handed| self.time <= last.to + window;
         match self.crowd.stretches.last_mut().filter(joins) {
@@ -71,7 +72,9 @@ impl StructureEvent {
         Ok(())
     }
 
-    /// The scene from the present on, with its loads up to their next blow or table row.
+    /// The scene with its loads from the present on, up to their next blow or table row. It keeps
+    /// its own start, by which distances are measured: from the present state, at which walls
+    /// touch, a scene without a gap of its own would have none.
     fn scene_from_here(&self, duration: f64) -> Scene {
         let now = self.time;
         let shifted = |load: &Load| {
@@ -99,7 +102,7 @@ impl StructureEvent {
             supports: self.scene.supports.clone(),
             loads: self.scene.loads.iter().filter_map(shifted).collect(),
             probes: Vec::new(),
-            initial: State { q: self.q.clone(), v: self.v.clone() },
+            initial: self.scene.initial.clone(),
             duration,
         }
     }

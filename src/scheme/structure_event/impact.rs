@@ -264,6 +264,7 @@ impl StructureEvent {
             let most = if self.seats.len() > 1 { f64::INFINITY } else { most };
             self.seats[seat].candidate = wanted && (rate * rate <= 4.0 * most * low || rate <= most * short);
             any |= self.seats[seat].candidate;
+            self.places[s.row].drifts &= !wanted || self.seats[seat].candidate;
         }
         if !any {
             return Ok(false);
@@ -304,8 +305,10 @@ impl StructureEvent {
         }
         let (height, flight) = (0.5 * rate * rate / press, 2.0 * rate / press);
         let position = self.places[s.row].bound[side_of(s.sign)];
-        // A height that the search takes for 0 on this stretch is no flight.
-        if height <= self.rounding(s.row, position).below() || flight <= short {
+        // A height within the rounding error of the gap in this time is no flight, nor is one
+        // within that of the whole stretch where such an error may have begun it.
+        let until = if self.places[s.row].drifts { 1.0 } else { (flight / unit).min(1.0) };
+        if height <= self.rounding_until(s.row, position, until).below() || flight <= short {
             return true;
         }
         if height >= self.low(s.row) || s.restitution >= 1.0 {

@@ -13,8 +13,10 @@
 //! | `closed_row.rs` | a closed row at an instant, and what becomes of it |
 //! | `round.rs` | round holes: rows that turn |
 //! | `hand.rs`, `stretch.rs` | the stretches that are handed to moreau-jean |
+//! | `back.rs` | the structure put back in front of its walls after them |
 //! | `view.rs` | what the scheme shows after each step |
 
+mod back;
 mod closed_row;
 mod hand;
 mod impact;
@@ -160,7 +162,7 @@ impl StructureEvent {
         }
         if self.crowd.handed == self.time {
             // Not before: the last step told where it ended.
-            self.put_back();
+            self.put_back()?;
         }
         for _ in 0..CHANGES_AT_ONCE {
             let before = self.time;

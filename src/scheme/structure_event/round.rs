@@ -15,8 +15,8 @@
 
 use super::StructureEvent;
 use super::closed_row::Fate;
-use super::rows::{DERIVATIVES, SIGNS};
-use crate::flow::{Held, Round};
+use super::rows::DERIVATIVES;
+use crate::flow::Round;
 use crate::scheme::exact::noise;
 
 /// Number of times that the structure is put onto round holes: their rows turn as it moves there,
@@ -67,23 +67,6 @@ impl StructureEvent {
                 hold.renew(body, |row, position| if row < fixed { position } else { places[row].bound[1] });
                 self.share_holds();
             }
-        }
-    }
-
-    /// Puts the structure back onto the walls and holes that it is behind, also where it is leaving
-    /// them: a stretch of moreau-jean may end a step's way behind.
-    pub(super) fn put_back(&mut self) {
-        self.turn();
-        for _ in 0..PLACINGS {
-            let Self { surface, body, places, q, scratch, .. } = self;
-            let behind = places.iter().enumerate().flat_map(|(row, place)| {
-                let w = body.rows.dot(row, q);
-                let sides = SIGNS.into_iter().enumerate().filter(move |(side, _)| place.gap(*side, w) < 0.0);
-                sides.map(move |(side, sign)| Held { row, sign, position: place.bound[side] })
-            });
-            surface.set(body, std::iter::empty(), behind);
-            surface.place(body, q, scratch);
-            self.turn();
         }
     }
 
@@ -164,9 +147,10 @@ impl StructureEvent {
         ]
     }
 
-    /// Σ of the sizes of the terms of the gap of a hole after the first, m.
-    pub(super) fn round_travel(&self, round: &Round) -> f64 {
-        let way: f64 = (1..self.series.terms()).map(|k| round.size(self.series.term(k))).sum();
+    /// Σ of the sizes of the terms of the gap of a hole after the first, m, up to `x`.
+    pub(super) fn round_travel(&self, round: &Round, x: f64) -> f64 {
+        let terms = (1..self.series.terms()).rev();
+        let way = terms.fold(0.0, |sum, k| x * (sum + round.size(self.series.term(k))));
         way * (1.0 + 0.5 * way / round.gap)
     }
 

@@ -26,6 +26,9 @@ pub(super) struct WallRow {
     pub travel: f64,
     /// The time of its last impact, s.
     pub struck: f64,
+    /// True once its gap has fallen from 0 within rounding, until a flight far too high for the
+    /// tail of an accumulation: its impacts may be the rounding error of whole stretches.
+    pub drifts: bool,
     /// What has been decided at this instant about the leading coefficients of each side's gap.
     pub gap_zeros: [Option<Zeros>; 2],
     /// The same for the force that holds the row.
@@ -43,6 +46,7 @@ impl WallRow {
             held: 0.0,
             travel: 0.0,
             struck: f64::NEG_INFINITY,
+            drifts: false,
             gap_zeros: [None; 2],
             force_zeros: None,
         };
@@ -157,6 +161,8 @@ pub(super) enum Seen {
     Now,
     /// The first root, in the stretch's x.
     Root(f64),
+    /// The polynomial is 0, within rounding, and is below 0 by more than rounding from here on.
+    Below(f64),
     Nothing,
 }
 
@@ -215,7 +221,8 @@ impl Watched {
             *below = *c;
         }
         below[0] += rounding.below();
-        if below[0] > 0.0 { root(&below[..self.terms], end) } else { Seen::Nothing }
+        let found = if below[0] > 0.0 { root(&below[..self.terms], end) } else { Seen::Nothing };
+        if let Seen::Root(x) = found { Seen::Below(x) } else { found }
     }
 }
 

@@ -65,6 +65,7 @@ impl StructureEvent {
         }
         let rounding = || self.rounding(row, place.bound[side]).doubted(self.doubt);
         let found = watched.first(place.gap_zeros[side], rounding, near, false, *end);
+        self.places[row].drifts |= matches!(found, Seen::Now | Seen::Below(_));
         note(found, Cause::Gap(row, side), end, hit);
     }
 
@@ -112,7 +113,7 @@ impl StructureEvent {
         }
         self.measure();
         let noises = self.noises(row, position);
-        let travel = self.travel(row);
+        let travel = self.travel(row, 1.0);
         let of_sum = of_sum(noises, travel, (stiffness, damping, unit));
         let noises = Rounding::new(noises, travel);
         let looks: [Option<(Watched, f64, Rounding)>; 2] = match phase {
@@ -152,15 +153,27 @@ impl StructureEvent {
 
     /// Rounding errors of the gap of a row at a wall, m. The sizes must be measured.
     pub(super) fn rounding(&self, row: usize, position: f64) -> Rounding {
-        Rounding::new(self.noises(row, position), self.travel(row))
+        self.rounding_until(row, position, 1.0)
     }
 
-    /// Σ of the sizes of the terms of a row's displacement after the first, m.
-    fn travel(&self, row: usize) -> f64 {
-        if let Some(round) = self.body.round(row) {
-            return self.round_travel(round);
+    /// The same over the beginning of the stretch, up to `x`.
+    pub(super) fn rounding_until(&self, row: usize, position: f64, x: f64) -> Rounding {
+        let mut noises = self.noises(row, position);
+        let mut power = 1.0;
+        for noise in &mut noises {
+            *noise *= power;
+            power *= x;
         }
-        (1..self.series.seen(row).len()).map(|k| size(&self.body, row, self.series.term(k))).sum()
+        Rounding::new(noises, self.travel(row, x))
+    }
+
+    /// Σ of the sizes of the terms of a row's displacement after the first, m, up to `x`.
+    fn travel(&self, row: usize, x: f64) -> f64 {
+        if let Some(round) = self.body.round(row) {
+            return self.round_travel(round, x);
+        }
+        let terms = (1..self.series.seen(row).len()).rev();
+        terms.fold(0.0, |sum, k| x * (sum + size(&self.body, row, self.series.term(k))))
     }
 
     /// Rounding errors of the first coefficients of the force on held row number `k`, N.
@@ -206,7 +219,7 @@ fn of_sum(noises: [f64; 4], travel: f64, (stiffness, damping, unit): (f64, f64, 
 fn note(found: Seen, cause: Cause, end: &mut f64, hit: &mut Option<Hit>) {
     let x = match found {
         Seen::Now => 0.0,
-        Seen::Root(x) => x,
+        Seen::Root(x) | Seen::Below(x) => x,
         Seen::Nothing => return,
     };
     if hit.is_none() || x < *end {

@@ -171,10 +171,10 @@ function histogramOf(columns, rows, wallOf) {
   };
 }
 
-/** Statistics of each wall over the window, with their 95 % intervals. */
+/** Statistics of each wall and round support over the window, with their 95 % intervals. */
 function statisticsSection() {
   const { statistics } = DATA.summary;
-  const walls = statistics.walls.filter((wall) => !wall.round);
+  const { walls } = statistics;
   const number = (x) => (x === null || x === undefined ? NaN : x);
   const column = (name, value, half, factor = 1) => ({
     name,

@@ -59,6 +59,21 @@ fn a_body_that_a_stretch_left_behind_a_wall_starts_from_the_wall_although_it_mov
 }
 
 #[test]
+fn a_stretch_measures_distances_by_the_gap_of_the_run() {
+    // The body starts 1 m above the floor, which it touches within 1e-12 of that. A scene that
+    // starts here has a gap of 1e-13 m.
+    let mut scene = ball(0.5);
+    scene.initial.q = vec![1.0];
+    let mut event = started(&scene, 1.0);
+    event.restart(0.5, &[1e-13], &[0.0]).unwrap();
+    event.clock.count().events += 6000;
+    event.advance(None).unwrap();
+    let (_, h) = event.handed.unwrap();
+    // Under 10 N, to rounding.
+    assert!((event.shown.impulse[0] - 10.0 * h).abs() < 1e-15 * h && event.v == [0.0], "{:?}", event.shown.impulse);
+}
+
+#[test]
 fn a_restart_begins_to_count_anew() {
     let mut event = started(&ball(0.5), 1.0);
     event.clock.count().events = 6000;

@@ -175,6 +175,10 @@ fn a_rebound_that_rounding_hides_is_the_last() {
     let short = || Body { stride: 2e-5, travel: 0.0, ..pressed(8.0, 0.5) };
     assert!(Body { floor: 1.0, ..short() }.stays_after(1.26e-7));
     assert!(!short().stays_after(1.26e-7));
+    // What hides it is the rounding error up to its end, not that of the 1 km of a step of 16 s:
+    // 4e-6 m/s is a height of 1e-12 m.
+    let long = || Body { stride: 16.0, ..pressed(8.0, 0.5) };
+    assert!(long().stays_after(3.9e-6) && !long().stays_after(4.1e-6));
     // At 1e9 s eight units in the last place are 1.8 µs, and a flight takes 1.5 µs or 2.25 µs.
     let late = Body { time: 1e9, stride: 1.0 / 1024.0, travel: 0.0, ..pressed(8.0, 0.5) };
     assert!(late.stays_after(6e-6) && !late.stays_after(9e-6));

@@ -57,7 +57,7 @@ fn the_rounding_errors_of_gap_and_force_are_those_of_all_their_terms() {
     let found = event.force_noises(0);
     (0..4).for_each(|k| assert!(near(found[k], wanted[k]), "{k}: {:e} for {:e}", found[k], wanted[k]));
     let travel: f64 = event.series.seen(1)[1..].iter().map(|c| c.abs()).sum();
-    assert!(travel > 1e-3 && near(event.travel(1), travel), "{travel}");
+    assert!(travel > 1e-3 && near(event.travel(1, 1.0), travel), "{travel}");
 }
 
 #[test]

@@ -1,0 +1,70 @@
+//! The structure put back in front of the walls that a stretch of moreau-jean left it behind, up to
+//! the way of a step.
+//!
+//! The displacement nearest to the present one, q*, at which no gap is below 0:
+//!
+//! minimise ½ (q − q*)ᵀ M (q − q*)   subject to   gap(q) ≥ 0 at every wall.
+//!
+//! To put the structure onto each wall that it is behind would be too little, since that may move
+//! it behind others, and too much where there are more such walls than degrees of freedom.
+
+use super::StructureEvent;
+use super::round::PLACINGS;
+use super::rows::SIGNS;
+use crate::error::Result;
+use crate::flow::Held;
+
+impl StructureEvent {
+    /// Puts the structure in front of the walls and holes that it is behind, also where it is
+    /// leaving them. The rows of holes turn as it moves, so this is repeated.
+    pub(super) fn put_back(&mut self) -> Result<()> {
+        self.turn();
+        for _ in 0..PLACINGS {
+            let behind: Vec<Held> = self.rows_where(|gap, _| gap < 0.0);
+            if behind.is_empty() {
+                return Ok(());
+            }
+            for (row, place) in self.places.iter().enumerate() {
+                [self.lo[row], self.hi[row]] = place.bound;
+            }
+            self.rhs.fill(0.0);
+            self.body.add_inertia(&self.q, &mut self.rhs);
+            // Where walls leave no room, as at the start of a scene that stands behind them, the
+            // structure goes onto those that it is behind.
+            let onto = if self.solve()? { self.nearest() } else { behind };
+            let Self { surface, body, q, scratch, .. } = self;
+            surface.set(body, std::iter::empty(), onto.into_iter());
+            surface.place(body, q, scratch);
+            self.turn();
+        }
+        Ok(())
+    }
+
+    /// Moves the structure to the solution of the programme, and returns the walls that push it
+    /// there: it stands on them up to the tolerance of the solver.
+    fn nearest(&mut self) -> Vec<Held> {
+        let Some(solver) = &self.solver else { return Vec::new() };
+        let solution = solver.solution();
+        self.q.copy_from_slice(&solution.x);
+        let pushes = solution.multiplier.clone();
+        self.rows_where(|_, row| pushes.get(row.row).is_some_and(|push| push * row.sign > 0.0))
+    }
+
+    /// The sides of rows with a wall for which `is` holds of the gap (m) and the row.
+    fn rows_where(&self, is: impl Fn(f64, &Held) -> bool) -> Vec<Held> {
+        let mut found = Vec::new();
+        for (row, place) in self.places.iter().enumerate() {
+            let w = self.body.rows.dot(row, &self.q);
+            for (side, sign) in SIGNS.into_iter().enumerate() {
+                let held = Held { row, sign, position: place.bound[side] };
+                if place.bound[side].is_finite() && is(place.gap(side, w), &held) {
+                    found.push(held);
+                }
+            }
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests;
