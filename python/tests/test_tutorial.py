@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGES = {"docs/python.md": 8, "README.md": 1, "python/README.md": 1}
+PAGES = {"docs/python.md": 8, "docs/own-tube.md": 1, "README.md": 1, "python/README.md": 1}
 
 
 @pytest.mark.parametrize("page", PAGES)
@@ -15,7 +15,10 @@ def test_blocks_run_from_top_to_bottom(
     page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(encoding="utf-8"), re.M | re.S)
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for name, content in re.findall(r"^```\w+ (\S+)\n(.*?)^```", text, re.M | re.S):
+        (tmp_path / name).write_text(content, encoding="utf-8")
+    blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
     assert len(blocks) == PAGES[page]
     names: dict[str, object] = {}
     for number, block in enumerate(blocks, 1):

@@ -2,6 +2,7 @@
 #![cfg(feature = "cli")]
 
 mod commands;
+mod documents;
 mod folders;
 mod formats;
 mod hazards;

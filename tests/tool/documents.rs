@@ -1,0 +1,93 @@
+//! The pages for one's own data: every file of them is written and every command run, in their
+//! order, as a reader would.
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// The fenced blocks of a page: language, name of the file that it is, if any, and text.
+fn blocks(page: &str) -> Vec<(String, Option<String>, String)> {
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(page)).unwrap();
+    let mut blocks = Vec::new();
+    let mut open: Option<(String, Option<String>, String)> = None;
+    for line in text.lines() {
+        match (&mut open, line.strip_prefix("```")) {
+            (Some(_), Some("")) => blocks.extend(open.take()),
+            (Some((_, _, text)), _) => *text += &format!("{line}\n"),
+            (None, Some(info)) => {
+                let (language, name) =
+                    info.split_once(' ').map_or((info, None), |(l, name)| (l, Some(name.to_owned())));
+                open = Some((language.to_owned(), name, String::new()));
+            }
+            (None, None) => {}
+        }
+    }
+    assert!(open.is_none(), "{page}: a block without end");
+    blocks
+}
+
+/// The words of a command line: split at spaces, but within quotes.
+fn words(line: &str) -> Vec<String> {
+    line.split('\'')
+        .enumerate()
+        .flat_map(|(index, part)| match index % 2 {
+            0 => part.split_whitespace().map(str::to_owned).collect(),
+            _ => vec![part.to_owned()],
+        })
+        .collect()
+}
+
+/// Writes the files and runs the commands; returns how many of each, and what was printed.
+fn follow(page: &str, folder: &Path) -> (usize, usize, String) {
+    let (mut files, mut commands, mut said) = (0, 0, String::new());
+    for (language, name, text) in blocks(page) {
+        if let Some(name) = name {
+            fs::write(folder.join(name), text).unwrap();
+            files += 1;
+        } else if language == "sh" {
+            for line in text.replace("\\\n", " ").lines() {
+                let words = words(line);
+                assert_eq!(words.first().map(String::as_str), Some("signorini"), "{page}: {line}");
+                let tool = env!("CARGO_BIN_EXE_signorini");
+                let output = Command::new(tool).args(&words[1..]).current_dir(folder).output().unwrap();
+                let told = String::from_utf8_lossy(&output.stderr);
+                assert_eq!(output.status.code(), Some(0), "{page}: {line}: {told}");
+                said += &String::from_utf8_lossy(&output.stdout);
+                commands += 1;
+            }
+        }
+    }
+    (files, commands, said)
+}
+
+#[test]
+fn my_own_tube_in_ten_minutes() {
+    let dir = tempfile::tempdir().unwrap();
+    let (files, commands, said) = follow("own-tube.md", dir.path());
+    assert_eq!((files, commands), (1, 5));
+    for word in ["plate", "bars", "work", "worn", "natural frequencies"] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+    for file in ["run/report.html", "run/animation.svg", "sweep/sweep.csv"] {
+        assert!(dir.path().join("out/my-tube").join(file).is_file(), "{file}");
+    }
+}
+
+/// The modes of the page are those of its matrices, so both motions have the same contacts before
+/// they can have grown apart.
+#[test]
+fn my_own_matrices_in_ten_minutes() {
+    let dir = tempfile::tempdir().unwrap();
+    let (files, commands, said) = follow("own-matrices.md", dir.path());
+    assert_eq!((files, commands), (5, 5));
+    // 2 √1000 sin(π/14) / 2π and 2 √1000 sin(5π/14) / 2π.
+    assert!(said.contains("natural frequencies from 2.239861 to about 9.069011 Hz"), "{said}");
+    let first = |case: &str| {
+        let contacts = fs::read_to_string(dir.path().join("out").join(case).join("run/contacts.csv")).unwrap();
+        let mut table = csv::Reader::from_reader(contacts.as_bytes());
+        let start = table.headers().unwrap().iter().position(|name| name == "start_s").unwrap();
+        table.records().next().unwrap().unwrap()[start].parse::<f64>().unwrap()
+    };
+    // Four digits of the shapes are left out: a share of 1e-3 of the time to the first contact.
+    let (full, modal) = (first("my-structure"), first("my-modes"));
+    assert!((full - modal).abs() < 1e-3 * full, "{full} {modal}");
+}
