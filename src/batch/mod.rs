@@ -40,6 +40,14 @@
 //! assert!(batch.outcomes()[0].as_ref().is_ok_and(|outcome| outcome.upper.impulse <= 0.0));
 //! # Ok::<(), signorini::Error>(())
 //! ```
+//!
+//! # Files
+//!
+//! Many oscillators at once, exactly: `lane.rs` (one oscillator), `plan.rs` (durations and
+//! threads), `outcome.rs`; `series.rs` holds the constants of a lane, `state.rs` advances it,
+//! `stretch.rs` finds impacts, `rest.rs` treats contact that lasts, `seat.rs` assigns oscillators
+//! to lanes, `engine.rs` is the loop, `vector.rs` the arithmetic over pulp, `width.rs` the
+//! instruction sets; `handed.rs` runs by the exact scheme the oscillators that lanes do not cover.
 
 mod engine;
 mod handed;

@@ -1,5 +1,11 @@
 //! The command-line tool: parse, call, print. One file per command; `pipeline` has what all of
 //! them share.
+//!
+//! # Files
+//!
+//! Parses, calls, prints: one file per command, `pipeline.rs` for what all commands share (the
+//! folder of results, the report, what is printed), `ui.rs` for stdout and stderr, `estimate.rs`
+//! says how long work will take, `values.rs` lists the values that shells complete (feature `cli`).
 
 mod bar;
 mod case_args;

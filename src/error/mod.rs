@@ -1,4 +1,10 @@
 //! The one error type of the crate.
+//!
+//! # Files
+//!
+//! The one error type, what it refers to (`subject.rs`) and its cause (`cause.rs`); `is_request`
+//! separates a wrong request (exit code 2) from a failed run (exit code 1); `escape.rs` writes
+//! control characters of names as `\u{1b}`.
 
 mod cause;
 mod escape;

@@ -1,5 +1,11 @@
 //! The exact motion between two events: in closed form for one degree of freedom, by its Taylor
 //! series for a structure.
+//!
+//! # Files
+//!
+//! The exact motion between events: `response.rs`, `force.rs`, `divided.rs` in closed form for one
+//! degree of freedom, `series/` by Taylor series for structures (along a circle in round holes);
+//! `propagator.rs` carries a small change of a structure's state along.
 
 mod contact;
 mod divided;

@@ -7,6 +7,12 @@
 //! | [`Rows`] | a few sparse rows, such as those of walls |
 //! | [`Operator`] | a symmetric matrix made ready for products, by diagonals where it is a band |
 //! | [`Factor`] | L D Lᵀ of a positive definite matrix: a band's own, or a sparse one with a fill-reducing order |
+//!
+//! # Files
+//!
+//! Symmetric matrices, rows, products and factors: `band.rs` and `band_factor.rs` for narrow,
+//! diagonal and full matrices, `sparse.rs` for all others; `fourier.rs` is the fast Fourier
+//! transform; uses nothing else of the crate.
 
 mod band;
 mod band_factor;

@@ -13,6 +13,27 @@
 //! [`Problem::judge`] makes an exact run over it. [`branch`] follows orbits over a key. For
 //! structures, [`shoot`] finds the orbit on which a run settles, and [`branch`] follows it by one
 //! of its states.
+//!
+//! # Files
+//!
+//! Periodic orbits, of one degree of freedom unless said otherwise: `signature.rs` and
+//! `periodic.rs` are an orbit, `problem.rs` the scene it is looked for in and `boundary.rs` its
+//! walls, `equations.rs` its equations with explicit times, `newton.rs` solves them, `settled.rs`
+//! starts from a run seen by `watch.rs`, `closed.rs` lists orbits of one impact in closed form for
+//! any number of degrees of freedom, `floquet.rs` has the multipliers, `admissible.rs` and
+//! `extremes.rs` check that walls are not passed, `flights.rs` gives the motion from event to
+//! event, `judge.rs` lets the exact scheme run once around, `symmetry.rs` and `forcing.rs` find the
+//! mirror and the period of a scene; `branch/` follows orbits over a key: `branch/arclength.rs` is
+//! what all curves share (steps, corrections, points located between two), `branch/line.rs` what
+//! any curve of orbits can do, `branch/net.rs` joins branches, `branch/graph.rs` begins; of one
+//! degree of freedom `branch/curve.rs` is a branch as a curve, `branch/follow.rs` steps along it,
+//! `branch/events.rs` has the test functions, `branch/switch.rs` finds the branch that begins
+//! there, `branch/locus.rs` follows special points over two keys; `branch/shots/` are branches of
+//! structures: `branch/shots/here.rs` is what is known at a point, `branch/shots/follow.rs` the
+//! steps, `branch/shots/moved.rs` moves the strobe, `branch/shots/change.rs` and
+//! `branch/shots/graze.rs` find where the walls that are met change, `branch/shots/switch.rs` the
+//! branches that begin there; `shooting.rs` finds orbits of structures, by `strobe.rs` and the runs
+//! of `turn.rs`; it imports no case.
 
 mod admissible;
 mod boundary;

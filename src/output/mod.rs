@@ -30,6 +30,20 @@
 //! | [`shape`] | `shape.csv`: the displacement of the whole structure, for a drawing |
 //! | `animation` | `animation.svg`: a tube in motion between its walls |
 //! | [`mod@format`] | figures as files: SVG, PDF, PNG |
+//!
+//! # Files
+//!
+//! The files of a request, each written whole or not at all: `results.rs` is the folder, which one
+//! writer at a time (`lock.rs`) fills, `manifest.rs` says what it may replace and what belongs to
+//! it, `record.rs` whether a table is still as it was written, `atomic.rs` writes a file onto the
+//! disk before it gets its name, `request.rs` records the request, `run.rs` and `compare.rs` write
+//! all files and tables of a run and of a comparison, `periodic.rs` and `branches.rs` those of
+//! periodic orbits, `orbits.rs` the motion of those along branches and `sweep_overlay.rs` a sweep's
+//! points under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
+//! `table.rs`, `document.rs`, `detail.rs` (what `[statistics]` asks for: `episodes.rs`,
+//! `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart), figures
+//! (`colours.rs` has the colour of every wall and support, `part.rs` the walls that are drawn
+//! together), `format.rs` (figures as SVG, PDF or PNG; feature `cli`).
 
 pub(crate) mod animation;
 pub mod atomic;

@@ -15,6 +15,24 @@
 //!
 //! A report is made from the files of the folder only, so that `signorini report FOLDER` writes the
 //! same bytes as the command that filled the folder.
+//!
+//! # Files
+//!
+//! The report: one HTML page from the files of a folder of results, which `folder.rs` reads and
+//! checks; `motion.rs`, `scene.rs`, `cards.rs` and one file for each kind of page make its data,
+//! `column.rs` packs numbers, `html.rs` fills the frame and states what the page may load; `page/`
+//! is HTML, CSS and JavaScript (feature `cli`).
+//!
+//! # The page
+//!
+//! The scripts in `src/report/page/js/` run in one scope, in the order that `html.rs` lists:
+//! `base.js` (elements, numbers), `look.js` (colours), `axes.js`, `plot.js`, `curves.js`,
+//! `pointer.js` (plots), `motion.js` (runs, the instant, the view), `controls.js`, `table.js`, then
+//! one file for each drawing and section, and `page.js` last, which puts the page together. Plots
+//! are drawn on canvas by the page itself rather than by a library: the walls, the stems, the phase
+//! plane, the maps and the drawing in motion would each be a plug-in of a library of time series,
+//! and the page is as fast. A new kind of page is a file beside `run.rs`, a branch in `mod.rs` and
+//! a section in `page.js`; a new drawing is a stage beside `body.js`, chosen in `stage.js`.
 
 mod branches;
 mod cards;

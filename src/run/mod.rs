@@ -1,4 +1,10 @@
 //! The loop: a stepper, the judge and the recorder, from the start of a scene to its end.
+//!
+//! # Files
+//!
+//! One run: the loop stepper → judge and recorder (`observers.rs`), which `options.rs` can switch
+//! off; `divergence.rs` states when a run has diverged, which ends it; `notes.rs` and `notes/` add
+//! the notes that a reader must know.
 
 mod divergence;
 mod finished;

@@ -13,9 +13,19 @@
 //! | `newton.rs` | walls with force laws: semismooth Newton on their forces |
 //! | `staggered.rs` | shared by schemes whose velocity is half a step behind |
 //! | `supports/`, `disks/` | scenes with round holes and friction |
+//! | `equilibrium.rs` | the static start |
 //! | `jumps.rs` | jumps of loads within a step |
 //! | `frame.rs` | the state, and the results of a step |
 //! | `motion.rs`, `kernel.rs`, `stepper.rs` | the trait of all motions, the choice of one, and the public type |
+//!
+//! # One degree of freedom and many
+//!
+//! A scheme on a grid is written once, over a `Space`: `Line` holds numbers, and its programme is a
+//! clamp; `Matrices` holds vectors, operators and factors, and its programme is condensed onto all
+//! walls by `qp`. `System::Oscillator` is stepped over the line, `System::Structure` over matrices,
+//! and so is an oscillator with a wall behind a lever. Modal reduction does not concern the
+//! schemes: it makes another scene, whose matrices are diagonal and whose rows are dense
+//! (`scene/modal/reduction.rs`). Recorder, judge, studies and output use steps and rows only.
 
 mod blows;
 mod body;

@@ -5,6 +5,13 @@
 //! interval. It is the sampling error of a motion that does not repeat itself, not the error of the
 //! time step. Fewer than ten events cannot fill ten batches: then there is no interval. Extremes
 //! have no interval in any case, since the largest of a longer window is larger.
+//!
+//! # Files
+//!
+//! Contact statistics for wear models, over one window; `force.rs` sums up each wall's force over
+//! time, step by step, `support.rs` that of each support, `rubbing.rs` the work of wear of every
+//! support; `batch.rs` and `student.rs` make intervals; `episodes.rs` joins contacts into episodes,
+//! `distribution.rs` counts them, `spectrum.rs` estimates spectra.
 
 mod batch;
 mod distribution;

@@ -1,4 +1,11 @@
 //! One time step as data: what a scheme passes to the recorder and the judge.
+//!
+//! # Files
+//!
+//! `Step` and `Contact`, and what a scheme promises of every step, as data: its `Contract`
+//! (`contract.rs`), with the conditions at the walls (`promise.rs`); all that the recorder and the
+//! judge know of schemes; `calm.rs` keeps steps of one degree of freedom between two contacts,
+//! which both look at together.
 
 mod calm;
 mod contract;

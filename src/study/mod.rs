@@ -1,4 +1,12 @@
 //! Studies: questions that take many runs to answer.
+//!
+//! # Files
+//!
+//! Studies over several runs: `choice.rs` (scheme and solver), `compare.rs`, `horizon.rs` and
+//! `perturbation.rs` (growth of a small change), `attractor/` (which motion a start leads to),
+//! `difference.rs` and `change.rs` (between two runs), `verdict.rs` (half the step),
+//! `realisations/` (means over random loads with their intervals), `truncation/`, `accuracy/`,
+//! `work_precision/`, `stability/` (runs in parallel: feature `cli`).
 
 pub mod accuracy;
 pub mod attractor;

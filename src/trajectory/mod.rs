@@ -1,4 +1,9 @@
 //! The recorded motion: columns over time, and the contacts.
+//!
+//! # Files
+//!
+//! `Trajectory` (`columns.rs` its data), its `recorder.rs`; `rubbed.rs` and `worn.rs`: round
+//! supports, friction and the work of wear over its rows.
 
 mod columns;
 mod recorder;

@@ -36,6 +36,13 @@
 //! assert!((area / expected - 1.0).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Files
+//!
+//! The derivative of a motion with respect to its start, from the steps of the exact scheme:
+//! `saltation.rs` states what each event makes of a small change, `oscillator.rs` and
+//! `structure.rs` (with `jump.rs`) read it from the steps, `product.rs` multiplies along a run,
+//! `exponents.rs` holds Lyapunov exponents; knows no scheme.
 
 mod exponents;
 mod jump;

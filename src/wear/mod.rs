@@ -4,6 +4,12 @@
 //! The work of wear is W = ∫ F_n |v_t| dt, with F_n the normal force of a support and v_t the speed
 //! at which the structure slides there. Archard's law makes a worn volume of it, V = k W, with k
 //! the wear coefficient (Archard 1953, doi:10.1063/1.1721448).
+//!
+//! # Files
+//!
+//! Wear at supports: `rubs.rs` finds what slides in a step, `stretch.rs` integrates over exact
+//! motion, `work.rs` is the work of wear of an impulse, `sectors.rs` the part of the circle in
+//! which a contact lies, `depth.rs` the depth of a scar of given volume.
 
 mod archard;
 mod blows;

@@ -128,6 +128,29 @@ fn every_path_that_the_architecture_names_exists() {
             checked += 1;
         }
     }
+    for path in text.split('`').skip(1).step_by(2).filter(|path| path.starts_with("src/")) {
+        assert!(root.join(path).exists(), "ARCHITECTURE.md names {path}, which does not exist");
+    }
     assert!(checked > 25, "only {checked} names found");
     assert_eq!(order, ROOMS, "the order of the rooms in ARCHITECTURE.md is that of the layers");
+}
+
+/// The head of each room's `mod.rs` lists its files.
+#[test]
+fn every_file_that_the_head_of_a_room_names_exists() {
+    let src = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src"));
+    let mut checked = 0;
+    for room in ROOMS.iter().map(|room| src.join(room)).filter(|room| room.join("mod.rs").is_file()) {
+        let text = fs::read_to_string(room.join("mod.rs")).unwrap();
+        let head: String = text.lines().take_while(|line| line.starts_with("//!")).collect();
+        for name in head.split('`').skip(1).step_by(2) {
+            let is_name = name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || "_/.".contains(c));
+            if is_name && (name.ends_with(".rs") || name.ends_with('/')) {
+                let known = [&room, &src.to_owned(), &src.parent().unwrap().to_owned()];
+                assert!(known.iter().any(|folder| folder.join(name).exists()), "{} names {name}", room.display());
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked > 150, "only {checked} names found");
 }
