@@ -353,6 +353,14 @@ impl Run {
         Self::by_python(slf, "statistics")
     }
 
+    /// Wear statistics of each support in two planes over the window, by its name, with the keys of
+    /// ``summary.json``: ``work_rate_w``, ``impact_share``, ``sliding_m``, ``friction_power_w``,
+    /// ``sectors`` and more; empty in one plane.
+    #[getter]
+    fn wear<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::by_python(slf, "wear")
+    }
+
     /// Residuals, statistics, counters, and the accuracy reached where one was asked for.
     #[getter]
     fn summary<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {

@@ -105,6 +105,9 @@ def test_round_supports_have_columns_of_their_own() -> None:
         assert np.allclose(p[1:], 1e-4 * f[1:], rtol=1e-9, atol=1e-15)
     # The body is pressed round the hole all the time: its work only grows.
     assert (np.diff(run.wear_work("hole")) > 0.0).all()
+    # The closed form of the case, W; the midpoint rule on the circle is 7e-7 off.
+    assert abs(run.wear["hole"]["work_rate_w"] - 1.109652491907) < 1e-6
+    assert abs(run.wear_work("hole")[-1] / run.time[-1] / run.wear["hole"]["work_rate_w"] - 1.0) < 1e-9
     with pytest.raises(ValueError, match="round support"):
         run.hole_force("elsewhere")
     back = pickle.loads(pickle.dumps(run))

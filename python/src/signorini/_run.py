@@ -69,6 +69,11 @@ def statistics(run: Run) -> dict[str, dict[str, Any]]:
     return {wall["wall"]: wall for wall in run._summary()["statistics"]["walls"]}
 
 
+def wear(run: Run) -> dict[str, dict[str, Any]]:
+    """The wear statistics of each support, as `Run.wear` says."""
+    return {support["support"]: support for support in run._summary()["statistics"]["wear"]}
+
+
 def to_pandas(run: Run) -> pd.DataFrame:
     """The rows as a frame."""
     import pandas as pd
