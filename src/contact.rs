@@ -96,6 +96,8 @@ pub(crate) struct Rates {
 #[derive(Debug, Clone)]
 pub(crate) struct Episodes {
     instant: f64,
+    /// Largest number of steps of an impact on a rigid wall.
+    impact_steps: u64,
     rigid: Vec<bool>,
     floor: Vec<Floor>,
     /// The mass that each wall feels, kg.
@@ -116,6 +118,7 @@ impl Episodes {
         let walls = scene.walls.len();
         Self {
             instant: contract.instant,
+            impact_steps: if contract.divides { 0 } else { IMPACT_STEPS },
             rigid: scene.walls.iter().map(|w| w.law.is_rigid()).collect(),
             floor: Floor::all(scene, masses, contract),
             mass: masses.to_vec(),
@@ -185,8 +188,14 @@ impl Episodes {
     /// Closes the episode, if any, of a wall that does not push.
     fn part(&mut self, wall: usize) {
         if let Some(episode) = self.open.get_mut(wall).and_then(Option::take) {
-            self.closed.push(contact(wall, self.sign(wall), self.rigid[wall], &episode, true));
+            let is_impact = self.is_impact(wall, &episode);
+            self.closed.push(contact(wall, self.sign(wall), is_impact, &episode, true));
         }
+    }
+
+    /// True if an episode at this wall is an impact, which has no finite force.
+    fn is_impact(&self, wall: usize, episode: &Open) -> bool {
+        self.rigid[wall] && episode.steps <= self.impact_steps
     }
 
     /// As [`Self::part`], for an impulse that is rounding: rare, so kept out of the fast path.
@@ -223,22 +232,90 @@ impl Episodes {
         episode.impulse += p.abs();
         episode.moment += p.abs() * instant;
         episode.departure = (sign * after).max(0.0);
-        let blow = episode.steps <= IMPACT_STEPS || self.mass[wall] * struck.abs() > BLOW * p.abs();
+        let blow = episode.steps <= self.impact_steps || self.mass[wall] * struck.abs() > BLOW * p.abs();
         if !self.rigid[wall] || !blow {
             episode.peak = Some(episode.peak.unwrap_or(0.0).max(p.abs() / h));
         }
         self.any = true;
     }
 
+    /// Adds a part of a step of `length` seconds, at whose end the impulses `jump` (N s) act; the
+    /// rest of `impulse` acts over it. The velocities ẇ (m/s) are those at its end: before it, after
+    /// its blows, after the jump.
+    pub(crate) fn see_part(
+        &mut self,
+        [start, end]: [f64; 2],
+        length: f64,
+        (impulse, jump): (&[f64], &[f64]),
+        pushing: &[usize],
+        rates: impl Fn(usize) -> Rates,
+    ) {
+        self.closed.clear();
+        let over = |wall: usize| impulse[wall] - jump[wall];
+        if length > 0.0 {
+            for wall in std::mem::take(&mut self.pushed) {
+                if over(wall) == 0.0 || self.floor[wall].holds(over(wall), length) {
+                    self.part(wall);
+                } else {
+                    self.pushed.push(wall);
+                }
+            }
+        }
+        for &wall in pushing {
+            if length > 0.0 && over(wall) != 0.0 && !self.floor[wall].holds(over(wall), length) {
+                let rates = rates(wall);
+                let episode = self.open(wall, start, rates.before);
+                episode.steps += 1;
+                (episode.last, episode.impulse) = (end, episode.impulse + over(wall).abs());
+                episode.peak = Some(episode.peak.unwrap_or(0.0).max(over(wall).abs() / length));
+                self.leave_at(wall, rates.after);
+            }
+            if jump[wall] != 0.0 {
+                self.part(wall);
+                let rates = rates(wall);
+                let episode = self.open(wall, end, rates.struck);
+                (episode.impulse, episode.moment) = (jump[wall].abs(), jump[wall].abs() * end);
+                self.leave_at(wall, rates.after);
+            }
+        }
+        self.any = !self.pushed.is_empty();
+    }
+
+    /// The open episode at a wall, begun now at `time` (s) with the velocity ẇ `rate` (m/s) unless
+    /// there is one.
+    fn open(&mut self, wall: usize, time: f64, rate: f64) -> &mut Open {
+        if !self.pushed.contains(&wall) {
+            self.pushed.push(wall);
+        }
+        let approach = (-self.side[wall].sign() * rate).max(0.0);
+        self.open[wall].get_or_insert(Open {
+            first: time,
+            last: time,
+            steps: 0,
+            impulse: 0.0,
+            moment: 0.0,
+            peak: None,
+            approach,
+            departure: 0.0,
+        })
+    }
+
+    /// Sets the velocity ẇ (m/s) with which the body leaves a wall.
+    fn leave_at(&mut self, wall: usize, rate: f64) {
+        let departure = (self.side[wall].sign() * rate).max(0.0);
+        if let Some(episode) = &mut self.open[wall] {
+            episode.departure = departure;
+        }
+    }
+
     /// Episodes still open at the end of the run.
     pub(crate) fn still_open(&self) -> Vec<Contact> {
         let rows = self.open.iter().enumerate().filter_map(|(wall, open)| open.as_ref().map(|e| (wall, e)));
-        rows.map(|(wall, e)| contact(wall, self.sign(wall), self.rigid[wall], e, false)).collect()
+        rows.map(|(wall, e)| contact(wall, self.sign(wall), self.is_impact(wall, e), e, false)).collect()
     }
 }
 
-fn contact(wall: usize, sign: f64, rigid: bool, episode: &Open, ended: bool) -> Contact {
-    let impact = rigid && episode.steps <= IMPACT_STEPS;
+fn contact(wall: usize, sign: f64, impact: bool, episode: &Open, ended: bool) -> Contact {
     let (start, end) = if impact {
         let mean = episode.moment / episode.impulse;
         (mean, mean)

@@ -10,6 +10,8 @@ pub(super) struct Blows {
     pub impulse: Vec<f64>,
     /// Change of velocity, m/s.
     pub struck: Vec<f64>,
+    /// Impulse and change of velocity while they are hidden.
+    hidden: [Vec<f64>; 2],
     /// The displacement that they add to that of the step's rule, m, zero in steps without a blow;
     /// and the displacement at the step's end without it.
     pub beyond: Vec<f64>,
@@ -22,7 +24,14 @@ impl Blows {
     /// Zeros for n degrees of freedom.
     pub fn new(n: usize) -> Self {
         let zero = || vec![0.0; n];
-        Self { impulse: zero(), struck: zero(), beyond: zero(), arrived: zero(), felt: zero() }
+        Self { impulse: zero(), struck: zero(), hidden: [zero(), zero()], beyond: zero(), arrived: zero(), felt: zero() }
+    }
+
+    /// Hides the blows of a step, or shows them again.
+    pub fn hide(&mut self) {
+        let [impulse, struck] = &mut self.hidden;
+        std::mem::swap(&mut self.impulse, impulse);
+        std::mem::swap(&mut self.struck, struck);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Judge;
 use super::moves::Moves;
-use crate::step::Step;
+use crate::step::{Path, Step};
 
 /// What a step did, from the judge's own record of its start; borrows some of its fields.
 macro_rules! moves {
@@ -28,7 +28,9 @@ impl Judge {
 
     #[inline(always)]
     fn see_grid_of(&mut self, step: &Step<'_>, n: usize) {
-        let beyond = self.loads.has_blows() && self.find_beyond(step);
+        // A part of a step has its blows at its end.
+        let within = self.loads.has_blows() && !matches!(step.path, Path::Part { .. });
+        let beyond = within && self.find_beyond(step);
         let (h, per_h) = (self.h, 1.0 / self.h);
         self.noise.begin(h, step.end);
         let moves = moves!(self, step, beyond);
@@ -48,7 +50,7 @@ impl Judge {
                 }
             }
         }
-        if self.loads.has_blows() {
+        if within {
             self.feel_blows(step, beyond);
         }
         let worst;

@@ -4,7 +4,7 @@
 //! # Files
 //!
 //! The judge, which checks every step against the contract: complementarity, momentum balance,
-//! energy ledger; steps on a grid (`grid.rs`, the passes over what they did, `moves.rs`, in
+//! energy ledger; steps on a grid (`grid.rs`, their parts `part.rs`, the passes over what they did, `moves.rs`, in
 //! `scratch.rs`, many steps of one degree of freedom in the same passes `calm.rs`, each wall
 //! `wall_step.rs`, blows `struck.rs`, round holes `round.rs`, `disk.rs` and `ring.rs`, friction
 //! `friction.rs`), exact motion (`arc.rs`, of structures `series.rs`, round holes `circle.rs`),
@@ -32,6 +32,7 @@ mod matrices;
 mod memory;
 mod moves;
 mod noise;
+mod part;
 mod pushes;
 mod quadrature;
 mod recorded;
@@ -105,6 +106,8 @@ pub struct Judge {
     load_end: Vec<f64>,
     blows: Blows,
     scratch: Scratch,
+    /// Impulses over a part of a step, one entry a wall, N s.
+    over: Vec<f64>,
     /// Work space for several steps at once; `None` where each is to be seen alone.
     room: Option<Box<Room>>,
     walls: WallCheck,
@@ -181,6 +184,7 @@ impl Judge {
             load_end: zero(),
             blows: Blows::new(n),
             scratch: Scratch::new(n),
+            over: vec![0.0; scene.walls.len()],
             room: Room::new(scene, contract, &weights, blows),
             balance: BalanceCheck::default(),
             extent: Extent::default(),
@@ -208,13 +212,13 @@ impl Judge {
         let fits = match step.path {
             Path::Series(series) => series.degrees_of_freedom() == n,
             Path::Exact(_) => n == 1,
-            Path::Grid | Path::OneRestitution | Path::Handed { .. } => true,
+            Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => true,
         };
         if !fits {
             return;
         }
         match (&mut self.grid_load, step.path, &mut self.load_end[..]) {
-            (Some(forcing), Path::Grid | Path::OneRestitution, [load]) => *load = forcing.at(step.end),
+            (Some(forcing), Path::Grid | Path::OneRestitution | Path::Part { .. }, [load]) => *load = forcing.at(step.end),
             (_, _, load) => {
                 load.fill(0.0);
                 self.loads.add_force(step.end, 1.0, load);
@@ -227,6 +231,7 @@ impl Judge {
         match step.path {
             Path::Grid if self.memory.is_some() => self.see_apart(step, |judge| judge.see_corrected(step)),
             Path::Grid | Path::OneRestitution => self.see_grid(step),
+            Path::Part { length } => self.see_part(step, length),
             Path::Exact(arc) => self.see_apart(step, |judge| judge.see_arc(step, arc)),
             Path::Series(series) => self.see_apart(step, |judge| judge.see_series(step, series)),
             Path::Handed { contract, step: h } => {

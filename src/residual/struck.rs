@@ -21,7 +21,7 @@ impl Judge {
     /// one strictly inside is open.
     pub(super) fn take_blows(&mut self, step: &Step<'_>) {
         let struck = match (step.path, self.contract.balance) {
-            (Path::Exact(_) | Path::Series(_), _) => {
+            (Path::Exact(_) | Path::Series(_) | Path::Part { .. }, _) => {
                 let last = step.end.next_down().max(step.start);
                 if self.loads.blow(step.start, last, &mut self.blows.impulse) {
                     self.miss_blow(step);

@@ -38,7 +38,7 @@ const RIGID: WallLaw = WallLaw::Rigid { restitution: 0.5 };
 /// A judge of such steps from rest at `q` (m) on.
 fn judge(scene: &Scene, (balance, promise): (Balance, Promise), h: f64, q: &[f64]) -> Judge {
     let tolerances = Tolerances::of(Conserves::Nothing);
-    Judge::new(scene, Contract { balance, promise, instant: 1.0, tolerances }, h, q, &[])
+    Judge::new(scene, Contract { balance, promise, instant: 1.0, tolerances, divides: false }, h, q, &[])
 }
 
 /// A step, to be changed at will.

@@ -69,7 +69,7 @@ impl Judge {
                 *size += p.abs();
             }
         }
-        sums.whole &= matches!(step.path, Path::Grid | Path::OneRestitution);
+        sums.whole &= matches!(step.path, Path::Grid | Path::OneRestitution | Path::Part { .. });
         if !sums.whole {
             return;
         }

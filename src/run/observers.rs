@@ -22,15 +22,17 @@ impl<J: Judging, R: Recording> Observers<J, R> {
         Self { judge, recorder, calm }
     }
 
-    /// Makes the next step, or several between two contacts but at most `most`; returns how many,
-    /// and the time reached, s.
+    /// Makes the next step, or several between two contacts but at most `most`; returns how many
+    /// were completed, and the time reached, s.
     #[inline(always)]
     pub fn follow(&mut self, stepper: &mut Stepper, most: u64) -> Result<(u64, f64)> {
         let Some(calm) = &mut self.calm else {
+            let index = stepper.index();
             let step = stepper.step()?;
             J::see(&mut self.judge, &step);
             R::see(&mut self.recorder, &step);
-            return Ok((1, step.end));
+            let end = step.end;
+            return Ok((stepper.index() - index, end));
         };
         let made = stepper.glide_into(calm, most)?;
         if made > 0 {
@@ -39,7 +41,9 @@ impl<J: Judging, R: Recording> Observers<J, R> {
             }
             return Ok((made, stepper.time()));
         }
+        let index = stepper.index();
         let step = stepper.step()?;
+        let end = step.end;
         if !calm.take(&step) {
             self.catch_up();
             J::see(&mut self.judge, &step);
@@ -47,7 +51,7 @@ impl<J: Judging, R: Recording> Observers<J, R> {
         } else if calm.is_full() {
             self.catch_up();
         }
-        Ok((1, step.end))
+        Ok((stepper.index() - index, end))
     }
 
     /// Passes on the steps that have not been passed on yet.

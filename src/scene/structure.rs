@@ -42,6 +42,13 @@ pub struct Structure {
     pub stiffness: Symmetric,
 }
 
+impl Structure {
+    /// M + sC + s²K, the matrix of an implicit step.
+    pub(crate) fn theta_matrix(&self, s: f64) -> Symmetric {
+        Symmetric::sum(&[(1.0, &self.mass), (s, &self.damping), (s * s, &self.stiffness)])
+    }
+}
+
 /// Refuses invalid matrices; `mass` factors M. Each matrix is factored once, which for a band costs
 /// n · width² and so is cheap compared with a run.
 pub(super) fn validate(

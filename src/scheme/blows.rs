@@ -86,11 +86,20 @@ impl<S: Space> Blows<S> {
         any
     }
 
-    /// Adds the change of velocity by the blows in (from, to] (s) to `v`.
-    pub fn kick(&mut self, from: f64, to: f64, v: &mut S::Vector) {
-        if self.loads.blow(from, to, self.blow.as_mut()) {
+    /// The instants of the blows after t = 0, s.
+    pub fn instants(&self) -> impl Iterator<Item = f64> + '_ {
+        let all = self.loads.parts().iter().flat_map(|(_, forcing)| &forcing.impulses);
+        all.map(|&(time, _)| time).filter(|&time| time > 0.0)
+    }
+
+    /// Adds the change of velocity by the blows in (from, to] (s) to `v`. Returns whether there was
+    /// one.
+    pub fn kick(&mut self, from: f64, to: f64, v: &mut S::Vector) -> bool {
+        let any = self.loads.blow(from, to, self.blow.as_mut());
+        if any {
             S::solve(&mut self.inertia, &mut self.blow);
             v.as_mut().iter_mut().zip(self.blow.as_ref()).for_each(|(v, change)| *v += change);
         }
+        any
     }
 }

@@ -74,6 +74,27 @@ impl<S: Space> Body<S> {
         S::force(&mut self.forces, time, &mut self.load);
     }
 
+    /// The loads at the instant before the current one, N.
+    pub fn load_before(&self) -> &S::Vector {
+        &self.load_before
+    }
+
+    /// Writes the loads at `time` (s) to `out`, N, under the conditions of [`Space::force`].
+    pub fn force_at(&mut self, time: f64, out: &mut S::Vector) {
+        S::force(&mut self.forces, time, out);
+    }
+
+    /// The instants of the blows after t = 0, s.
+    pub fn blow_instants(&self) -> impl Iterator<Item = f64> + '_ {
+        self.blows.iter().flat_map(|blows| blows.instants())
+    }
+
+    /// Adds the change of velocity by the blows in (from, to] (s) to `v`. Returns whether there was
+    /// one.
+    pub fn kick(&mut self, from: f64, to: f64, v: &mut S::Vector) -> bool {
+        self.blows.as_mut().is_some_and(|blows| blows.kick(from, to, v))
+    }
+
     /// Writes the sum of the loads at the current instant and the extra force of the step to `b`,
     /// N.
     #[inline(always)]
@@ -85,8 +106,12 @@ impl<S: Space> Body<S> {
 
     /// The θ-method's A = M + hθC + h²θ²K.
     pub fn theta_matrix(&self, theta: f64) -> Symmetric {
-        let (m, ht) = (&self.matrices, self.h * theta);
-        Symmetric::sum(&[(1.0, &m.mass), (ht, &m.damping), (ht * ht, &m.stiffness)])
+        self.theta_matrix_over(self.h * theta)
+    }
+
+    /// M + sC + s²K.
+    pub fn theta_matrix_over(&self, s: f64) -> Symmetric {
+        self.matrices.theta_matrix(s)
     }
 
     /// Writes h[f_θ + f_x − C v − K(q + hθv)] to `b`, N s, and copies the velocity before the step

@@ -25,6 +25,10 @@ pub struct Counters {
     pub wedged_steps: u64,
     /// Newton iterations of the penalty schemes.
     pub newton_iterations: u64,
+    /// Parts into which located divided its steps.
+    pub parts: u64,
+    /// Steps of located with too many impacts, whose rest implicit-euler made.
+    pub steps_given_up: u64,
     /// Contact events of the exact scheme.
     pub events: u64,
     /// Evaluations of the closed-form motion by the exact scheme's search for events.

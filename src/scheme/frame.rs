@@ -3,10 +3,24 @@
 use super::space::{Space, zero};
 use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
-use crate::step::{Contact, Path, Step};
+use crate::step::{Contact, Contract, Path, Step};
 
 /// Factor by which what a rule carries may exceed the state in [`Frame::flush`].
 const LOOSE: f64 = 1e10;
+
+/// What a step covers.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Stretch {
+    /// A step of the grid.
+    Grid,
+    /// A step of the grid in which all walls took the same restitution, because with their own ones
+    /// no displacement satisfies all bounds.
+    OneRestitution,
+    /// A part of a step, of this length, s.
+    Part(f64),
+    /// A part of this length (s) by another scheme, under its contract.
+    Other(f64, &'static Contract),
+}
 
 /// The state and the results of a step, which a scheme reads and writes, and which is lent out as a
 /// [`Step`]. Vectors over degrees of freedom have n entries, those over walls one entry per wall.
@@ -30,15 +44,18 @@ pub(super) struct Frame<S: Space> {
     /// Impulse (N s) and force (N) of each wall, signed.
     pub impulse: Vec<f64>,
     pub force: Vec<f64>,
-    jump: Vec<f64>,
+    /// The part of the impulse of each wall that acted at the end of the step, N s.
+    pub jump: Vec<f64>,
     /// Friction of each wall, N s, and the normal of each hole; both, and what the turning of the
     /// normal adds, which is nothing here, empty in scenes without friction and round holes.
     pub friction: Vec<f64>,
     pub normal: Vec<[f64; 2]>,
     turned: Vec<[f64; 2]>,
-    /// True if all walls took the same restitution in the step, because with their own ones no
-    /// displacement satisfies all bounds.
-    pub one_restitution: bool,
+    pub stretch: Stretch,
+    /// True if the step of the grid has further parts.
+    pub unfinished: bool,
+    /// Walls whose rebounds end within the step.
+    pub resting: Vec<usize>,
     /// Walls whose impulse is not zero; all others have an impulse and a force of zero.
     pub pushing: Vec<usize>,
 }
@@ -70,7 +87,9 @@ impl<S: Space> Frame<S> {
             friction: vec![0.0; planar],
             normal: vec![[0.0; 2]; planar],
             turned: vec![[0.0; 2]; planar],
-            one_restitution: false,
+            stretch: Stretch::Grid,
+            unfinished: false,
+            resting: Vec::new(),
             pushing: Vec::with_capacity(walls),
         })
     }
@@ -78,6 +97,7 @@ impl<S: Space> Frame<S> {
     /// Restarts at `time` (s) from `q` (m) and `v` (m/s), n entries each.
     pub fn restart(&mut self, time: f64, q: &[f64], v: &[f64]) {
         (self.start, self.end, self.blown) = (time, time, false);
+        (self.stretch, self.unfinished) = (Stretch::Grid, false);
         self.q.as_mut().copy_from_slice(q);
         for kept in [&mut self.v, &mut self.before, &mut self.after, &mut self.struck] {
             kept.as_mut().copy_from_slice(v);
@@ -115,13 +135,24 @@ impl<S: Space> Frame<S> {
         for wall in self.pushing.drain(..) {
             self.impulse[wall] = 0.0;
             self.force[wall] = 0.0;
+            self.jump[wall] = 0.0;
         }
+        self.resting.clear();
     }
 
     /// Adds the impulse of wall number `wall` in a step of `h` seconds, N s, which is not 0.
     pub fn push(&mut self, wall: usize, impulse: f64, h: f64) {
         (self.impulse[wall], self.force[wall]) = (impulse, impulse / h);
         self.pushing.push(wall);
+    }
+
+    /// Adds the impulse of wall number `wall` at the instant that ends the step, N s, which is not 0.
+    pub fn push_at_end(&mut self, wall: usize, impulse: f64) {
+        if self.impulse[wall] == 0.0 {
+            self.pushing.push(wall);
+        }
+        self.impulse[wall] += impulse;
+        self.jump[wall] = impulse;
     }
 
     /// Lists the walls whose force is not zero, and sets their impulses: the force times the step
@@ -184,10 +215,15 @@ impl<S: Space> Frame<S> {
             normal: &self.normal,
             turned: &self.turned,
             wedged: &[],
-            resting: &[],
+            resting: &self.resting,
             extra: self.extra.as_ref(),
             closed,
-            path: if self.one_restitution { Path::OneRestitution } else { Path::Grid },
+            path: match self.stretch {
+                Stretch::Grid => Path::Grid,
+                Stretch::OneRestitution => Path::OneRestitution,
+                Stretch::Part(length) => Path::Part { length },
+                Stretch::Other(step, contract) => Path::Handed { contract, step },
+            },
         }
     }
 }

@@ -2,7 +2,7 @@
 //! steps.
 
 use super::Counters;
-use super::frame::Frame;
+use super::frame::{Frame, Stretch};
 use super::motion::Motion;
 use super::rule::Rule;
 use super::space::Space;
@@ -20,6 +20,8 @@ pub(super) struct Grid<S: Space> {
     episodes: Episodes,
     rows: S::Rows,
     h: f64,
+    /// True if the rule divides steps.
+    divides: bool,
     /// True if the extra force of the last step may not be 0.
     forced: bool,
 }
@@ -31,7 +33,9 @@ impl<S: Space> Grid<S> {
         let frame = Frame::new(scene)?;
         rule.restart(scene, 0.0, &frame)?;
         let rows = S::rows(scene.initial.q.len(), scene.walls.iter().map(|wall| wall.row()));
-        Ok(Self { rule, frame, episodes: Episodes::new(scene, masses, contract), rows, h, forced: false })
+        let divides = contract.divides;
+        let episodes = Episodes::new(scene, masses, contract);
+        Ok(Self { rule, frame, episodes, rows, h, divides, forced: false })
     }
 
     /// As [`Motion::advance`].
@@ -72,12 +76,29 @@ impl<S: Space> Grid<S> {
     #[inline(never)]
     fn tell(&mut self) {
         let Self { frame, rows, episodes, h, .. } = self;
+        if self.divides {
+            let rates = |wall: usize| {
+                let [before, after] = [&frame.after, &frame.v].map(|v| S::dot(rows, wall, v));
+                Rates { before, struck: if frame.blown { S::dot(rows, wall, &frame.struck) } else { before }, after }
+            };
+            let length = match frame.stretch {
+                Stretch::Part(length) | Stretch::Other(length, _) => length,
+                Stretch::Grid | Stretch::OneRestitution => *h,
+            };
+            return episodes.see_part([frame.start, frame.end], length, (&frame.impulse, &frame.jump), &frame.pushing, rates);
+        }
         let rates = |wall: usize| Rates {
             before: S::dot(rows, wall, &frame.before),
             struck: S::dot(rows, wall, frame.struck()),
             after: S::dot(rows, wall, &frame.after),
         };
         episodes.see(frame.start, *h, &frame.impulse, &frame.pushing, rates);
+    }
+
+    /// As [`Motion::is_divided`].
+    #[inline]
+    pub fn is_divided(&self) -> bool {
+        self.frame.unfinished
     }
 
     /// As [`Motion::step`].
@@ -88,6 +109,10 @@ impl<S: Space> Grid<S> {
 }
 
 impl<S: Space> Motion for Grid<S> {
+    fn is_divided(&self) -> bool {
+        self.is_divided()
+    }
+
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
         self.advance(step, extra)
     }

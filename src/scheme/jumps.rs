@@ -68,13 +68,23 @@ impl Jumps {
     /// The extra force (N) of step number `index`: that of the caller, and that of its jumps.
     pub fn force(&mut self, index: u64, extra: Option<&[f64]>) -> &[f64] {
         let [start, end] = [index, index + 1].map(|k| k as f64 * self.step);
+        self.force_within((start, end), self.step, extra)
+    }
+
+    /// The instants of the jumps, s, in order.
+    pub fn instants(&self) -> impl Iterator<Item = f64> + '_ {
+        self.all.iter().map(|&(time, ..)| time)
+    }
+
+    /// The same of a step from `start` to `end` (s), `length` seconds long.
+    pub fn force_within(&mut self, (start, end): (f64, f64), length: f64, extra: Option<&[f64]>) -> &[f64] {
         match extra {
             Some(extra) => self.force.copy_from_slice(extra),
             None => self.force.fill(0.0),
         }
         let within = self.all.iter().filter(|jump| start < jump.0 && jump.0 <= end);
         for (time, at, jump) in within {
-            let share = (end - time) / self.step - self.weight;
+            let share = (end - time) / length - self.weight;
             for &(i, weight) in at.entries() {
                 if let Some(force) = self.force.get_mut(i) {
                     *force += share * weight * jump;

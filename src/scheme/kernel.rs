@@ -8,6 +8,7 @@ use super::fits;
 use super::generalized_alpha::GeneralizedAlpha;
 use super::grid::Grid;
 use super::line::Line;
+use super::located::Located;
 use super::matrices::Matrices;
 use super::moreau_jean::MoreauJean;
 use super::motion::Motion;
@@ -39,6 +40,7 @@ fn rule<S: Space>(scene: &Scene, Method { scheme, backend }: Method, h: f64) -> 
         Scheme::Newmark => Box::new(Position::<S>::new(scene, 0.5, h, backend)?),
         Scheme::PaoliSchatzman => Box::new(PaoliSchatzman::<S>::new(scene, h, backend)?),
         Scheme::MoreauJean { theta } => Box::new(MoreauJean::<S>::new(scene, theta, h, backend)?),
+        Scheme::Located => Box::new(Located::<S>::new(scene, h, backend)?),
         Scheme::GeneralizedAlpha { .. } => {
             Box::new(GeneralizedAlpha::<S>::new(scene, scheme.contract().balance, h, backend)?)
         }
@@ -89,6 +91,15 @@ impl Kernel {
         match self {
             Self::Line(grid) => grid.advance(step, extra),
             Self::Other(motion) => motion.advance(step, extra),
+        }
+    }
+
+    /// As [`Motion::is_divided`].
+    #[inline]
+    pub fn is_divided(&self) -> bool {
+        match self {
+            Self::Line(grid) => grid.is_divided(),
+            Self::Other(motion) => motion.is_divided(),
         }
     }
 

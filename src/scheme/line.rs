@@ -35,6 +35,13 @@ impl Space for Line {
         if a > 0.0 { Ok(a) } else { Err(indefinite(a)) }
     }
 
+    fn theta_factor(structure: &SharedStructure, s: f64) -> Result<f64> {
+        let [mass, damping, stiffness] =
+            [&structure.mass, &structure.damping, &structure.stiffness].map(|matrix| matrix.get(0, 0));
+        let a = mass + s * damping + s * s * stiffness;
+        if a > 0.0 { Ok(a) } else { Err(indefinite(a)) }
+    }
+
     fn mass(structure: &SharedStructure) -> Result<f64> {
         Self::factor(&structure.mass)
     }

@@ -31,6 +31,10 @@ impl Space for Matrices {
         Factor::new(a).map_err(indefinite)
     }
 
+    fn theta_factor(structure: &SharedStructure, s: f64) -> Result<Factor> {
+        Self::factor(&structure.theta_matrix(s))
+    }
+
     fn mass(structure: &SharedStructure) -> Result<Factor> {
         structure.mass_factor().map_err(indefinite)
     }

@@ -2,7 +2,7 @@
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `moreau_jean.rs`, `position.rs`, `paoli_schatzman.rs`, `generalized_alpha.rs`, `penalty.rs`, `central_difference.rs` | the schemes on a grid |
+//! | `moreau_jean.rs`, `located/`, `position.rs`, `paoli_schatzman.rs`, `generalized_alpha.rs`, `penalty.rs`, `central_difference.rs` | the schemes on a grid |
 //! | `event/`, `structure_event/`, `exact/` | the exact scheme, of one degree of freedom and of several, and what both share |
 //! | `entry.rs`, `fits.rs` | what is known of each scheme beside its rule, and which scenes it refuses |
 //! | `rule.rs`, `grid.rs` | the trait of a scheme on a grid, and the type that drives it |
@@ -48,6 +48,7 @@ mod handed;
 mod jumps;
 mod kernel;
 mod line;
+mod located;
 mod matrices;
 mod method;
 mod moreau_jean;
@@ -94,6 +95,8 @@ pub enum Scheme {
         /// θ in [½, 1]: ½ conserves energy, more damps.
         theta: f64,
     },
+    /// The θ-method with θ = ½, whose steps are divided at the impacts.
+    Located,
     /// Nonsmooth generalized-α: the walls on the displacement, then on the velocity.
     GeneralizedAlpha {
         /// ρ∞ in [0, 1], the factor by which a step multiplies the fastest free vibrations: 1
@@ -117,8 +120,9 @@ pub enum Scheme {
 impl Scheme {
     /// Every scheme with its default settings, in the order in which tables list them; of the
     /// penalty, which has none, with some springs.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::MoreauJean { theta: 0.5 },
+        Self::Located,
         Self::PaoliSchatzman,
         Self::GeneralizedAlpha { rho: generalized_alpha::RHO },
         Self::ImplicitEuler,
@@ -138,6 +142,7 @@ impl Scheme {
             Self::Newmark => &position::NEWMARK,
             Self::PaoliSchatzman => &paoli_schatzman::ENTRY,
             Self::MoreauJean { .. } => &moreau_jean::ENTRY,
+            Self::Located => &located::ENTRY,
             Self::GeneralizedAlpha { .. } => &generalized_alpha::ENTRY,
             Self::Penalty { .. } => &penalty::ENTRY,
             Self::Event => &exact::ENTRY,
@@ -170,6 +175,7 @@ impl Scheme {
             Self::Newmark => position::contract(0.5),
             Self::PaoliSchatzman => paoli_schatzman::contract(),
             Self::MoreauJean { theta } => moreau_jean::contract(theta),
+            Self::Located => located::contract(),
             Self::GeneralizedAlpha { rho } => generalized_alpha::contract(rho),
             Self::Penalty { integrator, .. } => penalty::contract(integrator),
             Self::Event => exact::CONTRACT,

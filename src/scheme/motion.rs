@@ -12,6 +12,12 @@ pub(super) trait Motion: Debug + Send {
     /// Makes step number `step` under the extra force (N, n entries; `None` is zero force).
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()>;
 
+    /// True if the last step was a part of one on the grid that has further parts, which
+    /// [`Motion::advance`] makes.
+    fn is_divided(&self) -> bool {
+        false
+    }
+
     /// Makes the steps from number `step` on that touch no wall, up to number `until`, and adds
     /// those of one degree of freedom to `calm`; returns the number of the first step that is not
     /// made. A motion without such a loop makes none.

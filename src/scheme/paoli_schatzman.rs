@@ -28,7 +28,7 @@ use super::body::Body;
 use super::entry::{
     Coverage, NO_ENERGY_ON_A_CIRCLE, ONE_FOR_FRICTION, ONES_FOR_RINGS, Realised, SchemeEntry, SchemeKind,
 };
-use super::frame::Frame;
+use super::frame::{Frame, Stretch};
 use super::programme::Programme;
 use super::rule::Rule;
 use super::space::{Space, zero};
@@ -58,7 +58,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
 pub(super) fn contract() -> Contract {
     let promise = Promise::constraints(Some(Bound::Reflected), None, Law::MeanDepth(0.25));
     let tolerances = Tolerances::of(Conserves::Nothing);
-    Contract { balance: Balance::Staggered(0.25), promise, instant: 0.0, tolerances }
+    Contract { balance: Balance::Staggered(0.25), promise, instant: 0.0, tolerances, divides: false }
 }
 
 #[derive(Debug)]
@@ -98,12 +98,12 @@ impl<S: Space> PaoliSchatzman<S> {
     #[inline]
     fn settle(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         self.bind(frame, None);
-        frame.one_restitution = false;
+        frame.stretch = Stretch::Grid;
         let at = (frame.start, step);
         let solved = self.programme.solve(&self.b, at, &mut frame.force, &mut frame.pushing);
         if let (Err(Error::Qp { .. }), Some(least)) = (&solved, self.least) {
             self.bind(frame, Some(least));
-            frame.one_restitution = true;
+            frame.stretch = Stretch::OneRestitution;
             return self.programme.solve(&self.b, at, &mut frame.force, &mut frame.pushing);
         }
         solved

@@ -64,7 +64,7 @@ pub(super) fn contract(integrator: Integrator) -> Contract {
     };
     let conserves =
         if integrator == Integrator::DiscreteGradient { Conserves::UndampedWalls } else { Conserves::Nothing };
-    Contract { balance, promise: Promise::springs(law), instant, tolerances: Tolerances::of(conserves) }
+    Contract { balance, promise: Promise::springs(law), instant, tolerances: Tolerances::of(conserves), divides: false }
 }
 
 /// Maximum number of Newton iterations. A few are enough; reaching this many means that numbers are

@@ -66,12 +66,12 @@ pub(super) const NEWMARK: SchemeEntry = SchemeEntry {
 };
 
 /// What every step with this θ satisfies: walls on the displacement at its end, by the force there.
-pub(super) fn contract(theta: f64) -> Contract {
+pub(super) const fn contract(theta: f64) -> Contract {
     let mut promise = Promise::constraints(Some(Bound::End), None, Law::Depth(1.0));
     (promise.rigid.force, promise.elastic.force) = (PromisedForce::End, PromisedForce::End);
     promise.hole = Some(Bound::End);
     let tolerances = Tolerances::of(Conserves::Nothing);
-    Contract { balance: Balance::Theta(theta), promise, instant: 1.0, tolerances }
+    Contract { balance: Balance::Theta(theta), promise, instant: 1.0, tolerances, divides: false }
 }
 
 #[derive(Debug)]

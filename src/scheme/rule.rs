@@ -17,7 +17,8 @@ pub(super) trait Rule<S: Space>: Debug + Send {
     fn restart(&mut self, scene: &Scene, time: f64, frame: &Frame<S>) -> Result<()>;
 
     /// Makes step number `step`: advances the frame's state, and writes the results of the step to
-    /// the frame. The caller has set the frame's extra force.
+    /// the frame. The caller has set the frame's extra force. A rule that divides steps makes the
+    /// next part of this step, and sets the frame's `unfinished` unless it is the last.
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()>;
 
     /// Makes the steps from number `step` on that touch no wall, up to number `until`, as

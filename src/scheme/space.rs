@@ -29,6 +29,11 @@ pub(super) trait Space: Debug + Sized + 'static {
     /// # Errors
     /// [`Error::Invalid`] unless `a` is positive definite.
     fn factor(a: &Symmetric) -> Result<Self::Factor>;
+    /// M + sC + s²K, factored.
+    ///
+    /// # Errors
+    /// As [`Space::factor`].
+    fn theta_factor(structure: &SharedStructure, s: f64) -> Result<Self::Factor>;
     /// M, factored.
     ///
     /// # Errors

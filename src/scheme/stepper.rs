@@ -85,7 +85,8 @@ impl Stepper {
         let kernel = Kernel::new(&scene, Method { scheme, backend }, step)?;
         let backend = kernel.motion().backend().unwrap_or(backend);
         let contract = scheme.contract();
-        let jumps = Jumps::new(&scene, contract.balance, step).map(Box::new);
+        // A scheme that divides its steps does so at the jumps.
+        let jumps = if contract.divides { None } else { Jumps::new(&scene, contract.balance, step).map(Box::new) };
         let (before, asking) = ((0, 0), Asking::here());
         let tiny = TINY * scene.gap_scale();
         let mut stepper =
@@ -146,7 +147,7 @@ impl Stepper {
         } else {
             self.kernel.advance(self.index, extra)?;
         }
-        self.index += 1;
+        self.index += u64::from(!self.kernel.is_divided());
         Ok(())
     }
 
@@ -165,6 +166,9 @@ impl Stepper {
                 self.kernel.advance(index, Some(jumps.force(index, extra)))?;
             }
             _ => self.kernel.advance(index, extra)?,
+        }
+        if self.kernel.is_divided() {
+            return Ok(());
         }
         if index & (BLOCK - 1) == BLOCK - 1 {
             self.kernel.flush(self.tiny);
@@ -196,24 +200,34 @@ impl Stepper {
     /// As [`Stepper::step`].
     pub fn glide(&mut self, most: u64) -> Result<Step<'_>> {
         let end = self.index.saturating_add(most.max(1));
+        let mut last = self.index;
         loop {
             self.asking.pass(self.index)?;
             // The interrupt is asked between two loops.
             let until = end.min(self.due);
-            self.index = self.kernel.glide(self.index, until, None)?;
+            let reached = self.kernel.glide(self.index, until, None)?;
+            if reached > self.index {
+                (self.index, last) = (reached, reached - 1);
+            }
             if self.index == end {
                 break;
             }
             if self.index < until || self.index == self.due {
+                last = self.index;
                 self.make(None)?;
-                let step = self.kernel.step(self.index - 1);
+                let step = self.kernel.step(last);
                 let pushed = |p: &f64| *p != 0.0;
                 if step.impulse.iter().any(pushed) || !step.closed.is_empty() || self.index == end {
                     break;
                 }
             }
         }
-        Ok(self.kernel.step(self.index - 1))
+        Ok(self.kernel.step(last))
+    }
+
+    /// The index of the next step.
+    pub(crate) fn index(&self) -> u64 {
+        self.index
     }
 
     /// Makes steps in which no wall pushes, at most as many as `calm` has room for and no more than

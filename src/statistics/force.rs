@@ -221,9 +221,9 @@ fn piece(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> (f64, f64) {
     let rate = match step.path {
         Path::Exact(arc) => arc.fastest_motion(),
         Path::Series(series) => series.rate(),
-        Path::Grid | Path::OneRestitution | Path::Handed { .. } => {
+        Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => {
             // A force constant over the step.
-            let force = step.impulse[wall] / (step.end - step.start);
+            let force = (step.impulse[wall] - step.jump[wall]) / (step.end - step.start);
             return (force * (to - from), force * force * (to - from));
         }
     };

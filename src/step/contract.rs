@@ -136,4 +136,7 @@ pub struct Contract {
     pub instant: f64,
     /// The tolerances of these promises.
     pub tolerances: Tolerances,
+    /// True if steps on a grid are divided at impacts, blows and jumps of loads
+    /// ([`Path::Part`](super::Path::Part)).
+    pub divides: bool,
 }

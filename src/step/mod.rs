@@ -50,11 +50,20 @@ pub enum Path<'a> {
     /// [`Bound::Reflected`] with each wall's own e: all of them take the smallest e of the scene's
     /// rigid walls.
     OneRestitution,
+    /// A part of a step on a grid, which ends where the step does or before: at an impact, a blow,
+    /// a jump of a load. Between its ends it keeps the balance of a step of this length, by the
+    /// impulses less [`Step::jump`] and without blows; at the instant `end` the velocity goes from
+    /// [`Step::velocity_after`] to [`Step::v`], M(v − v₊) = J + [`Step::jump`], with J the blows at
+    /// that instant.
+    Part {
+        /// Its length, s: end minus start of the step, without their rounding.
+        length: f64,
+    },
     /// The exact motion and wall forces of one degree of freedom.
     Exact(&'a Arc),
     /// The exact motion and wall forces of several degrees of freedom.
     Series(&'a Series),
-    /// A step of the exact scheme over a stretch that it hands to a scheme on a grid.
+    /// A step over a stretch that the scheme hands to another one, on a grid.
     Handed {
         /// The contract of this step, in place of the run's.
         contract: &'a Contract,
@@ -80,7 +89,7 @@ impl Path<'_> {
     /// freedom. Nothing is written for a step on a grid.
     pub(crate) fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
         match self {
-            Self::Grid | Self::OneRestitution | Self::Handed { .. } => {}
+            Self::Grid | Self::OneRestitution | Self::Part { .. } | Self::Handed { .. } => {}
             Self::Exact(arc) => {
                 if let (Some(q), Some(v)) = (q.first_mut(), v.first_mut()) {
                     (*q, *v) = arc.state(t);
@@ -93,7 +102,7 @@ impl Path<'_> {
     /// Force of wall `wall` at `t` within the step, N, signed; 0 on a grid.
     pub(crate) fn contact_force(&self, wall: usize, t: f64) -> f64 {
         match self {
-            Self::Grid | Self::OneRestitution | Self::Handed { .. } => 0.0,
+            Self::Grid | Self::OneRestitution | Self::Part { .. } | Self::Handed { .. } => 0.0,
             Self::Exact(arc) => arc.contact_force(wall, t),
             Self::Series(series) => series.counted_force(wall, t),
         }
@@ -102,7 +111,7 @@ impl Path<'_> {
     /// Impulse of wall `wall` over [from, to] within the step, N s, signed; 0 on a grid.
     pub(crate) fn contact_impulse(&self, wall: usize, from: f64, to: f64) -> f64 {
         match self {
-            Self::Grid | Self::OneRestitution | Self::Handed { .. } => 0.0,
+            Self::Grid | Self::OneRestitution | Self::Part { .. } | Self::Handed { .. } => 0.0,
             Self::Exact(arc) => arc.contact_impulse(wall, from, to),
             Self::Series(series) => series.counted_impulse(wall, from, to),
         }
@@ -116,7 +125,7 @@ impl Path<'_> {
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Step<'a> {
-    /// Index of the step, from 0.
+    /// Index of the step, from 0; the parts of one step share it.
     pub index: u64,
     /// Time at its start, s.
     pub start: f64,
@@ -134,8 +143,8 @@ pub struct Step<'a> {
     /// Impulse of each wall on the body over the step, N s: signed along the row of a wall; of a
     /// round hole its magnitude p ≥ 0 along −n, in exact motion ∫ of the magnitude of its force.
     pub impulse: &'a [f64],
-    /// The part of `impulse` that acted at the instant `end`, N s; all zero for schemes on a grid,
-    /// which do not resolve instants.
+    /// The part of `impulse` that acted at the instant `end`, N s; all zero for schemes that do not
+    /// resolve instants.
     pub jump: &'a [f64],
     /// Force of each wall: at the instant `end` for the exact scheme, else the multiplier the
     /// scheme computed, which is impulse/h unless the scheme's impulse averages two of them; N,
@@ -153,7 +162,9 @@ pub struct Step<'a> {
     /// Walls and round holes that gave up their rebound in the step since
     /// no impulses satisfy Coulomb's law together with it: their ε is 0 ([`Friction`]).
     pub wedged: &'a [usize],
-    /// Walls with friction whose rebounds end within the step: their ε is 0 ([`Friction`]).
+    /// Walls whose rebounds end within the step: their ε is 0 (where there is friction by
+    /// [`Friction`]; in a [`Path::Part`] where the acceleration a before the impact presses the body
+    /// on the wall and 2e|ẇ| ≤ (1 − e) h a).
     pub resting: &'a [usize],
     /// Extra force given by the caller, and what a load that jumps within the step lacks of its
     /// impulse, N, as they enter the momentum balance: constant over the step, or for a staggered

@@ -74,7 +74,7 @@ impl Motion {
                 Path::Exact(arc) if arc.is_rest() => self.see_grid(step),
                 Path::Exact(arc) => self.see_path(step, arc.fastest_motion()),
                 Path::Series(series) => self.see_path(step, series.rate()),
-                Path::Grid | Path::OneRestitution | Path::Handed { .. } => self.see_grid(step),
+                Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => self.see_grid(step),
             }
         }
         // A jump at the end of the step.

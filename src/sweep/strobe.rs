@@ -58,7 +58,7 @@ impl Strobe {
             let mut state = State { q: step.q.to_vec(), v: step.v.to_vec() };
             match step.path {
                 Path::Exact(_) | Path::Series(_) => step.path.state(due, &mut state.q, &mut state.v),
-                Path::Grid | Path::OneRestitution | Path::Handed { .. } => {
+                Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => {
                     // Linear interpolation between the instants of the grid.
                     let share = (due - step.start) / (step.end - step.start);
                     for (q, before) in state.q.iter_mut().zip(&self.before.q) {

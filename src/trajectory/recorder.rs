@@ -7,6 +7,9 @@ use super::worn::Worn;
 use crate::scene::{Row, Scene};
 use crate::step::{Calm, Contact, Path, Step};
 
+/// Rounding error of the time of a row and of the end of a step there, in units in the last place.
+const ROW_UNITS: f64 = 8.0;
+
 /// Builds a [`Trajectory`] from the steps of a run, at the requested rows.
 #[derive(Debug, Clone)]
 pub struct Recorder {
@@ -115,6 +118,17 @@ impl Recorder {
                 // by rounding only.
                 let due = self.due;
                 if step.end > due - 0.5 * (step.end - step.start) {
+                    self.push(due, step.q, step.v, step.force);
+                }
+            }
+            Path::Part { .. } => {
+                self.wear(step);
+                for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
+                    *sum += p;
+                }
+                // Rows are due where steps end, up to the rounding of both products.
+                let due = self.due;
+                if step.end >= due * (1.0 - ROW_UNITS * f64::EPSILON) {
                     self.push(due, step.q, step.v, step.force);
                 }
             }

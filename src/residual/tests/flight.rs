@@ -7,7 +7,7 @@ use crate::scene::{Load, Wall};
 fn start(scene: &Scene, q: f64, v: f64) -> Judge {
     let tolerances = Tolerances::of(Conserves::Everything);
     let (balance, promise) = (Balance::Exact, Promise::throughout());
-    Judge::new(scene, Contract { balance, promise, instant: 1.0, tolerances }, 1.0, &[q], &[v])
+    Judge::new(scene, Contract { balance, promise, instant: 1.0, tolerances, divides: false }, 1.0, &[q], &[v])
 }
 
 /// The exact motion of `scene` from a time and state on, over `span` seconds, with these walls in

@@ -85,7 +85,7 @@ impl Claim {
 /// A contract of `balance` alone, to which tests add what they check.
 fn contract(balance: Balance) -> Contract {
     let (promise, tolerances) = (Promise::springs(Law::Depth(1.0)), Tolerances::of(Conserves::Nothing));
-    Contract { balance, promise, instant: 0.5, tolerances }
+    Contract { balance, promise, instant: 0.5, tolerances, divides: false }
 }
 
 /// A contract of a θ-rule, θ = ½, with a bound or an impact law at rigid walls on the mean force.

@@ -18,7 +18,7 @@ fn pad(position: f64, damping: f64) -> Wall {
 
 fn start(scene: &Scene, balance: Balance, q: &[f64], v: &[f64]) -> Judge {
     let (promise, tolerances) = (Promise::springs(Law::Ends(0.5)), Tolerances::of(Conserves::Nothing));
-    Judge::new(scene, Contract { balance, promise, instant: 1.0, tolerances }, H, q, v)
+    Judge::new(scene, Contract { balance, promise, instant: 1.0, tolerances, divides: false }, H, q, v)
 }
 
 #[test]

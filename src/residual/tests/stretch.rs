@@ -11,7 +11,7 @@ const LAST: f64 = 0.960_289_856_497_536_2;
 pub(super) fn start(scene: &Scene, (q, v): (&[f64], &[f64])) -> Judge {
     let tolerances = Tolerances::of(Conserves::Everything);
     let (balance, promise) = (Balance::Exact, Promise::throughout());
-    Judge::new(scene, Contract { balance, promise, instant: 1.0, tolerances }, 1.0, q, v)
+    Judge::new(scene, Contract { balance, promise, instant: 1.0, tolerances, divides: false }, 1.0, q, v)
 }
 
 /// The exact motion of `scene` from a time and state on over `span` seconds, and the step that it

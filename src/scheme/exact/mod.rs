@@ -40,6 +40,7 @@ pub(super) const CONTRACT: Contract = Contract {
     promise: Promise::throughout(),
     instant: 1.0,
     tolerances: Tolerances::of(Conserves::Everything),
+    divides: false,
 };
 
 /// Maximum number of contact changes at one instant within one step: beyond it the step ends with

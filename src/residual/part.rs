@@ -1,0 +1,101 @@
+//! Checks of a part of a step: what acts over it as in a step of its length, and the jump of the
+//! velocity at its end.
+//!
+//! The jump keeps M(v − v₊) = J + Gᵀ p with J the blows at that instant and p the impulses of the
+//! walls, and the impact law 0 ≤ rebound ⟂ |p| ≥ 0 at the walls that are touched there.
+
+use super::Judge;
+use super::complementarity::rebound;
+use super::energy::Moved;
+use crate::step::Step;
+
+/// A length of a step that the scheme computed with other roundings.
+const SAME: f64 = 1.0 + 1e-9;
+
+impl Judge {
+    /// Checks a part of `length` seconds.
+    pub(super) fn see_part(&mut self, step: &Step<'_>, length: f64) {
+        let mut over = std::mem::take(&mut self.over);
+        over.iter_mut().zip(step.impulse.iter().zip(step.jump)).for_each(|(over, (p, jump))| *over = p - jump);
+        let (own, h) = (self.contract, self.h);
+        if length > 0.0 {
+            // Blows and the impact law belong to the end.
+            self.blows.hide();
+            self.contract.promise.rigid.velocity = None;
+            self.h = length;
+            self.see_grid(&Step { v: step.velocity_after, impulse: &over, ..*step });
+            (self.contract, self.h) = (own, h);
+            self.blows.hide();
+        }
+        self.over = over;
+        let changes = step.v.iter().zip(step.velocity_after).any(|(v, after)| v != after);
+        if changes || step.jump.iter().any(|&p| p != 0.0) {
+            self.see_jump(step, length);
+        }
+    }
+
+    /// Checks the jump of the velocity at the end of a part of `length` seconds.
+    fn see_jump(&mut self, step: &Step<'_>, length: f64) {
+        self.noise.begin(self.h, step.end);
+        self.noise.state(step.q, step.v, 0.0, &self.weights);
+        for index in 0..self.scene.walls.len() {
+            self.rebound_at_end(step, length, index);
+        }
+        self.jump_momentum(step);
+        let mid: Vec<f64> = step.velocity_after.iter().zip(&self.blows.struck).map(|(v, struck)| v + struck).collect();
+        let (blow, left) = (&self.blows.impulse, step.velocity_after);
+        self.energy.see_series(&self.scene, step, Moved::default(), blow, left, &mid);
+        let sums = &mut self.sums;
+        for ((seen, size), &p) in sums.seen.iter_mut().zip(&mut sums.sizes).zip(step.jump) {
+            (*seen, *size) = (*seen + p, *size + p.abs());
+        }
+        sums.last.copy_from_slice(step.v);
+        self.extent.see(step.q, step.v, &self.weights, step.v.len());
+    }
+
+    /// Checks the impact law of a wall at the end of a part.
+    fn rebound_at_end(&mut self, step: &Step<'_>, length: f64, index: usize) {
+        let wall = &self.scene.walls[index];
+        let row = wall.row();
+        let (sign, p) = (wall.side().sign(), step.jump[index]);
+        let Some(e) = wall.law.restitution() else { return };
+        let (gap, before, after) = (wall.gap(row.dot(step.q)), row.dot(step.velocity_after), row.dot(step.v));
+        if p == 0.0 && gap > self.walls.touch {
+            return;
+        }
+        let struck = before + row.dot(&self.blows.struck);
+        let pressure = sign * p / self.h;
+        self.walls.see_force(&mut self.noise, index, (pressure, pressure.abs()), true);
+        let wall = &self.scene.walls[index];
+        let noise = self.noise.velocity(self.speeds(step, wall), self.noise.span);
+        let terms = row.entries().iter().map(|&(i, g)| (g * step.q[i]).abs()).sum::<f64>() + wall.position().abs();
+        self.walls.see_gap(&self.noise, index, (gap, terms), pressure);
+        // The rebounds end within a step if the acceleration of the part presses the body so.
+        let rests = step.resting.contains(&index) && {
+            let pressed = -sign * (before - row.dot(step.velocity_before)) + noise;
+            2.0 * e * struck.abs() * length <= SAME * (1.0 - e) * self.h * pressed
+        };
+        let slack = rebound(wall, if rests { 0.0 } else { e }, struck, after);
+        // Rounding decides whether a wall in front of the body is touched.
+        let edge = if p == 0.0 && gap > 0.0 { f64::INFINITY } else { 0.0 };
+        self.walls.see_rebound(&self.noise, index, (slack, noise + edge), pressure);
+    }
+
+    /// Checks the momentum that the velocity gains at the end of a part.
+    fn jump_momentum(&mut self, step: &Step<'_>) {
+        let s = &mut self.scratch;
+        for ((gained, v), after) in s.gained.iter_mut().zip(step.v).zip(step.velocity_after) {
+            *gained = v - after;
+        }
+        s.residual.iter_mut().zip(&self.blows.impulse).for_each(|(open, blow)| *open = -blow);
+        self.scene.system.add_mass(1.0, &s.gained, &mut s.residual);
+        for (wall, &p) in self.scene.walls.iter().zip(step.jump).filter(|(_, p)| **p != 0.0) {
+            for &(i, weight) in wall.row().entries() {
+                s.residual[i] -= weight * p;
+            }
+        }
+        let (largest, worst) = s.open(1.0 / self.h, &self.weights, step.v.len(), self.balance.largest);
+        self.balance.largest = largest;
+        self.balance.force.see(worst, self.noise.force(), self.noise.end, None);
+    }
+}

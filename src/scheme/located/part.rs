@@ -1,0 +1,116 @@
+//! One part of a step: the θ-rule over a length of its own.
+
+use super::super::body::Body;
+use super::super::space::{Solve, Space, zero};
+use crate::linear::Rows;
+use crate::qp::{Backend, Failure, Problem};
+use crate::scene::{Row, Scene};
+
+/// A bound on the velocity of a wall's row in a part: g·δ ≤ `bound` at an upper wall, ≥ at a lower
+/// one, exceeded by compliance times impulse.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hold {
+    pub wall: usize,
+    pub upper: bool,
+    pub bound: f64,
+    pub compliance: f64,
+}
+
+/// The part of a step that is being computed, from the state at its start.
+#[derive(Debug)]
+pub(super) struct Part<S: Space> {
+    backend: Backend,
+    /// A typical change of a velocity, m/s.
+    scale: f64,
+    /// The row of each wall.
+    rows: Vec<Row>,
+    /// The loads at its start and its end, N.
+    pub load_start: S::Vector,
+    pub load_end: S::Vector,
+    mean: S::Vector,
+    b: S::Vector,
+    /// The change of the velocity, m/s.
+    pub delta: S::Vector,
+    /// The walls that push and their impulses, N s.
+    pub pushes: Vec<(usize, f64)>,
+    /// Programmes solved.
+    pub solves: u64,
+}
+
+impl<S: Space> Part<S> {
+    pub fn new(scene: &Scene, body: &Body<S>, backend: Backend) -> Self {
+        let vector = || zero::<S>(body.n);
+        Self {
+            backend,
+            scale: scene.gap_scale() / body.h,
+            rows: scene.walls.iter().map(|wall| wall.row().clone()).collect(),
+            load_start: vector(),
+            load_end: vector(),
+            mean: vector(),
+            b: vector(),
+            delta: vector(),
+            pushes: Vec::with_capacity(scene.walls.len()),
+            solves: 0,
+        }
+    }
+
+    /// Rounding error of the velocity of a wall's row, m/s.
+    pub fn rounding(&self, wall: usize, v: &S::Vector) -> f64 {
+        let terms = self.rows[wall].entries().iter();
+        let size: f64 = terms.filter_map(|&(i, g)| v.as_ref().get(i).map(|v| (g * v).abs())).sum();
+        8.0 * f64::EPSILON * size
+    }
+
+    /// Computes δ and the walls' impulses for a part of `length` seconds that ends at `end` (s),
+    /// from the displacement `q` and the velocity `v` under the extra force `extra`, with the walls
+    /// of `holds`:
+    ///
+    /// [M + sθC + s²θ²K] δ = s[f_θ + f_x − C v − K(q + sθ v)] + Gᵀ p.
+    pub fn compute(
+        &mut self,
+        body: &mut Body<S>,
+        (q, v, extra): (&S::Vector, &S::Vector, &S::Vector),
+        (length, end, theta): (f64, f64, f64),
+        holds: &[Hold],
+    ) -> Result<(), Failure> {
+        let st = length * theta;
+        self.pushes.clear();
+        body.force_at(end, &mut self.load_end);
+        let loads = self.load_start.as_ref().iter().zip(self.load_end.as_ref()).zip(extra.as_ref());
+        for (b, ((start, end), extra)) in self.b.as_mut().iter_mut().zip(loads) {
+            *b = (1.0 - theta) * start + theta * end + extra;
+        }
+        for ((mean, q), v) in self.mean.as_mut().iter_mut().zip(q.as_ref()).zip(v.as_ref()) {
+            *mean = q + st * v;
+        }
+        S::add_product(&body.damping, -1.0, v, &mut self.b);
+        S::add_product(&body.stiffness, -1.0, &self.mean, &mut self.b);
+        self.b.as_mut().iter_mut().for_each(|b| *b *= length);
+        if holds.is_empty() {
+            self.delta.clone_from(&self.b);
+            let factor = S::theta_factor(&body.matrices, st);
+            S::solve(&mut factor.map_err(|_| Failure::NotFinite { what: "step matrix", index: 0 })?, &mut self.delta);
+            return Ok(());
+        }
+        self.solve(body, st, holds)
+    }
+
+    /// Computes δ and the impulses from b as a programme.
+    fn solve(&mut self, body: &Body<S>, st: f64, holds: &[Hold]) -> Result<(), Failure> {
+        self.solves += 1;
+        let rows = holds.iter().filter_map(|hold| self.rows.get(hold.wall)).map(Row::entries);
+        let compliance = holds.iter().map(|hold| hold.compliance).collect();
+        let problem = Problem { a: body.theta_matrix_over(st), g: Rows::new(body.n, rows), compliance };
+        let mut solver = S::Solver::new(problem, self.backend, self.scale)?;
+        let bound = |upper: bool, open: f64| -> Vec<f64> {
+            holds.iter().map(|hold| if hold.upper == upper { hold.bound } else { open }).collect()
+        };
+        let (lo, hi) = (bound(false, f64::NEG_INFINITY), bound(true, f64::INFINITY));
+        let all: Vec<usize> = (0..holds.len()).collect();
+        solver.solve(&self.b, (&lo, &hi), &all)?;
+        self.delta.clone_from(solver.x());
+        let impulses = holds.iter().zip(solver.multiplier().unwrap_or_default());
+        self.pushes.extend(impulses.filter(|(_, p)| **p != 0.0).map(|(hold, p)| (hold.wall, *p)));
+        Ok(())
+    }
+}
