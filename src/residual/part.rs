@@ -46,6 +46,7 @@ impl Judge {
         let (blow, left) = (&self.blows.impulse, step.velocity_after);
         self.energy.see_series(&self.scene, step, Moved::default(), blow, left, &mid);
         let sums = &mut self.sums;
+        sums.begin(step);
         for ((seen, size), &p) in sums.seen.iter_mut().zip(&mut sums.sizes).zip(step.jump) {
             (*seen, *size) = (*seen + p, *size + p.abs());
         }
@@ -88,7 +89,12 @@ impl Judge {
             *gained = v - after;
         }
         s.residual.iter_mut().zip(&self.blows.impulse).for_each(|(open, blow)| *open = -blow);
-        self.scene.system.add_mass(1.0, &s.gained, &mut s.residual);
+        s.inertia.fill(0.0);
+        self.scene.system.add_mass(1.0, &s.gained, &mut s.inertia);
+        for (i, root) in self.weights.root_mass.iter().enumerate() {
+            s.residual[i] += s.inertia[i];
+            self.balance.see_scale(s.inertia[i].abs().max(self.blows.impulse[i].abs()) / (self.h * root));
+        }
         for (wall, &p) in self.scene.walls.iter().zip(step.jump).filter(|(_, p)| **p != 0.0) {
             for &(i, weight) in wall.row().entries() {
                 s.residual[i] -= weight * p;

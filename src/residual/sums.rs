@@ -5,6 +5,7 @@ use super::moves::Moves;
 use super::scratch::Scratch;
 use super::worst::most;
 use crate::scene::Scene;
+use crate::step::Step;
 
 /// Load and own force of the structure on one degree of freedom: their values in the last step, N,
 /// the sum of the changes of both from step to step, N, the largest sum of sizes, N, and the
@@ -54,6 +55,8 @@ pub(super) struct Sums {
     /// The recorder's value of that sum, once [`Judge::hear`](super::Judge::hear) has been called.
     pub recorded: Option<Vec<f64>>,
     pub steps: u64,
+    /// True once a step or an impact has begun the sums.
+    begun: bool,
     /// Start of the first step, s.
     pub from: f64,
     /// True as long as every step was one of the run's own grid, and no wall answered a blow under
@@ -78,8 +81,20 @@ impl Sums {
             sizes: vec![0.0; walls],
             recorded: None,
             steps: 0,
+            begun: false,
             from: 0.0,
             whole: true,
+        }
+    }
+
+    /// Begins the sums with the first step of a run.
+    #[inline(always)]
+    pub fn begin(&mut self, step: &Step<'_>) {
+        if !self.begun {
+            (self.begun, self.from) = (true, step.start);
+            // A staggered rule balances momentum from half a step before the start to half a step
+            // before the end, whatever velocities it shows there.
+            self.first.copy_from_slice(step.velocity_before);
         }
     }
 

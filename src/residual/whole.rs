@@ -56,12 +56,7 @@ impl Judge {
     #[inline(always)]
     pub(super) fn sum(&mut self, step: &Step<'_>, per_h: f64, n: usize) {
         let sums = &mut self.sums;
-        if sums.steps == 0 {
-            sums.from = step.start;
-            // A staggered rule balances momentum from half a step before the start to half a step
-            // before the end, whatever velocities it shows there.
-            sums.first.copy_from_slice(step.velocity_before);
-        }
+        sums.begin(step);
         sums.steps += 1;
         for ((seen, size), &p) in sums.seen.iter_mut().zip(&mut sums.sizes).zip(step.impulse) {
             if p != 0.0 {

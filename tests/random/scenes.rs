@@ -3,7 +3,7 @@
 //!
 //! `SIGNORINI_CASES` sets how many scenes, `SIGNORINI_SEED` the first, and `SIGNORINI_UNITS=wild`
 //! the units: case number k is the scene of seed `SIGNORINI_SEED` + k, so that a failure is run
-//! again by its seed and one case.
+//! again by its seed and one case; `SIGNORINI_SCHEMES` names the schemes that run, all by default.
 
 use crate::draws;
 use crate::random_scenes::{Drawn, Units, random_scene};
@@ -117,8 +117,12 @@ struct Judged {
 
 /// Judges the scenes of `seeds` on all threads, and shows each of them in the order of the seeds.
 fn judge(seeds: &[u64], units: Units, mut show: impl FnMut(Judged)) {
+    let only = std::env::var("SIGNORINI_SCHEMES");
     let judged = |seed: u64| {
-        let drawn = random_scene(seed, units);
+        let mut drawn = random_scene(seed, units);
+        if let Ok(names) = &only {
+            drawn.schemes.retain(|scheme| names.split(',').any(|name| name == scheme.entry().name));
+        }
         let outcomes = drawn.schemes.iter().map(|scheme| outcome(&drawn.scene, scheme, drawn.step)).collect();
         Judged { seed, drawn, outcomes }
     };

@@ -201,6 +201,7 @@ fn schemes(draws: &mut Draws, scene: &Scene) -> Vec<Scheme> {
         Scheme::ImplicitEuler,
         Scheme::PaoliSchatzman,
         Scheme::MoreauJean { theta: 0.5 },
+        Scheme::Located,
         Scheme::MoreauJean { theta: draws.between(0.5, 1.0) },
         Scheme::GeneralizedAlpha { rho: [0.0, 0.8, 1.0, draws.unit()][draws.below(4)] },
         Scheme::Newmark,

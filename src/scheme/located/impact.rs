@@ -7,7 +7,7 @@ use super::super::space::{Space, zero};
 use super::part::Part;
 use crate::error::Result;
 use crate::qp::Backend;
-use crate::scene::Scene;
+use crate::scene::{Scene, Wall};
 
 /// Where the body is at a rigid wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +28,8 @@ pub(super) struct Contacts<S: Space> {
     /// The programme of an impact, in the metric of the mass.
     law: Programme<S>,
     places: Vec<Place>,
+    /// The walls on the other side of each wall's row.
+    opposite: Vec<Vec<usize>>,
     /// The change of the rate of each wall's gap in the last part, m/s, and its length, s.
     changes: Vec<f64>,
     length: f64,
@@ -42,10 +44,15 @@ pub(super) struct Contacts<S: Space> {
 impl<S: Space> Contacts<S> {
     pub fn new(scene: &Scene, body: &Body<S>, backend: Backend) -> Result<Self> {
         let walls = scene.walls.len();
+        let opposite = |wall: &Wall| {
+            let faces = |other: &Wall| other.row() == wall.row() && other.side() != wall.side();
+            (0..walls).filter(|&other| scene.walls.get(other).is_some_and(faces)).collect()
+        };
         let (mass, scale) = (body.matrices.mass.clone(), scene.gap_scale() / body.h);
         Ok(Self {
             law: Programme::over(scene, super::is_rigid, mass, scale, |_, _| 0.0, backend)?,
             places: vec![Place::Away; walls],
+            opposite: scene.walls.iter().map(opposite).collect(),
             changes: vec![0.0; walls],
             length: 0.0,
             none: zero::<S>(body.n),
@@ -75,14 +82,29 @@ impl<S: Space> Contacts<S> {
         }
     }
 
+    /// Notes that the body touches no rigid wall.
+    pub fn leave_all(&mut self) {
+        self.places.fill(Place::Away);
+    }
+
     /// True if the body rests on this wall.
     pub fn rests(&self, wall: usize) -> bool {
         self.places[wall] == Place::Resting
     }
 
+    /// True if the body rests on a wall of the other side of this wall's row too.
+    pub fn rests_between(&self, wall: usize) -> bool {
+        self.opposite[wall].iter().any(|&other| self.rests(other))
+    }
+
     /// True if the body moves into a wall that it touches.
     pub fn is_struck(&self) -> bool {
         self.places.contains(&Place::Struck)
+    }
+
+    /// Forgets how the rates of the gaps changed: the last part had no length.
+    pub fn forget_changes(&mut self) {
+        self.length = 0.0;
     }
 
     /// Keeps how the rates of the gaps changed in a part of `length` seconds.

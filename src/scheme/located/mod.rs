@@ -29,7 +29,7 @@
 //! Loads of no duration and jumps of tables divide a step too. Elastic walls act as in moreau-jean;
 //! one with a dashpot divides the step where the body meets it, since its force jumps there.
 //!
-//! Order 2 through impacts. More than [`MOST_IMPACTS`] divisions in one step (dense chatter, or a
+//! Order 2 through impacts. More than [`MOST_PARTS`] parts of one step (dense chatter, or a
 //! step that does not resolve the motion between two walls) are given up: the rest of that step is
 //! one of implicit-euler, which keeps the body in front of all walls and takes the energy of the
 //! rebounds; such steps are counted and said.
@@ -59,8 +59,8 @@ use part::{Hold, Part};
 /// θ of the rule.
 const THETA: f64 = 0.5;
 
-/// Maximum number of divisions of a step by impacts.
-const MOST_IMPACTS: u32 = 32;
+/// Maximum number of parts of a step.
+const MOST_PARTS: u32 = 64;
 
 /// Maximum number of evaluations of a part's end in the search for its length.
 const MOST_EVALUATIONS: u32 = 60;
@@ -74,7 +74,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     restitution: Realised::PerWall,
     realises: "e, per wall",
     purpose: "order 2 through impacts: steps are divided where a wall is struck; a body that rests stands on the face",
-    fails: "a step with more than 32 impacts ends without rebound (reported); an impact costs several steps",
+    fails: "a step with more than 64 parts ends without rebound (reported); an impact costs several steps",
     round: Coverage::Refused("moreau-jean or event: this scheme has no rule for the turning normal of a round support"),
     elastic_round: Coverage::Refused(
         "moreau-jean, implicit-euler or penalty, the schemes for elastic round supports",
@@ -123,8 +123,8 @@ struct Division {
     /// The time reached and that of the step's end, s.
     reached: f64,
     end: f64,
-    /// Impacts in it so far.
-    impacts: u32,
+    /// Parts of it so far.
+    parts: u32,
 }
 
 /// The work that the division of steps has cost.
@@ -184,6 +184,7 @@ impl<S: Space> Located<S> {
                     let compliance = 1.0 / (st * st * spring.over(st));
                     (-length * spring.force(w + st * rate, face.g, face.plate(w), st) * compliance, compliance)
                 }
+                None if contacts.rests(wall) && contacts.rests_between(wall) => (-rate, 0.0),
                 None if contacts.rests(wall) => (rest_bound(face, w, rate, body.h), 0.0),
                 None => continue,
             };
@@ -239,6 +240,9 @@ impl<S: Space> Located<S> {
             *ahead = v + d;
         }
         let clear = self.programme.first_near(&self.arrived).is_none();
+        if !near && !clear {
+            self.contacts.leave_all();
+        }
         if (near || !clear) && self.first_crossing(frame, self.programme.x(), h).is_some() {
             return Ok(false);
         }
@@ -283,22 +287,26 @@ impl<S: Space> Located<S> {
         frame.extra.clone_from(&self.extra);
         let limit = self.next_break(from, end).unwrap_or(end);
         self.contacts.classify(&self.body, &self.part, frame);
-        if division.impacts >= MOST_IMPACTS {
-            self.give_up(step, frame, (from, limit))?;
+        division.parts += 1;
+        // What is given up ends before a blow or a jump of a load, with which the division goes on.
+        let given_up = if self.breaks.is_empty() { limit } else { limit.next_down() };
+        if division.parts > MOST_PARTS && given_up > from {
+            self.give_up(step, frame, (from, given_up))?;
+        } else if division.parts > MOST_PARTS {
+            self.compute(step, frame, (from, limit, limit - from))?;
+            self.commit(frame, limit - from, limit);
         } else if self.contacts.is_struck() {
-            (frame.end, frame.stretch) = (from, Stretch::Part(0.0));
-            frame.after.clone_from(&frame.v);
+            self.stay(frame, from);
         } else {
             self.advance_to_crossing(step, frame, (from, limit))?;
         }
         let at = frame.end;
-        let blown = at > from && self.body.kick(from, at, &mut frame.v);
-        if blown {
-            frame.blown = true;
-            frame.struck.clone_from(&frame.v);
-        }
         if !matches!(frame.stretch, Stretch::Other(..)) {
-            division.impacts += u32::from(self.contacts.strike(&self.body, &self.part, frame, step)?);
+            frame.blown = at > from && self.body.kick(from, at, &mut frame.v);
+            if frame.blown {
+                frame.struck.clone_from(&frame.v);
+            }
+            self.contacts.strike(&self.body, &self.part, frame, step)?;
         }
         self.clear = false;
         division.reached = at;
@@ -314,30 +322,39 @@ impl<S: Space> Located<S> {
         let (mut length, mut target) = (whole, None);
         for evaluation in 0..MOST_EVALUATIONS {
             self.compute(step, frame, (from, limit, length))?;
-            if let Some((at, wall)) = self.first_crossing(frame, &self.part.delta, length) {
-                high = length;
-                target = Some(wall);
-                length = if at > low && at < high && evaluation < MOST_EVALUATIONS / 2 { at } else { 0.5 * (low + high) };
-            } else if let Some(wall) = target {
-                let path = self.gap_path(frame, wall, length);
-                if path.end() <= self.body.touch || high - low <= f64::EPSILON * limit {
-                    break;
-                }
-                low = length;
-                let next = length - path.end() / (path.rate + path.change);
-                length = if next > low && next < high { next } else { 0.5 * (low + high) };
+            let next = if let Some((at, wall)) = self.first_crossing(frame, &self.part.delta, length) {
+                (high, target) = (length, Some(wall));
+                at
             } else {
-                break;
-            }
-            if !(length > low && length < high) {
-                // Neighbouring numbers: the path grazes the wall.
-                self.compute(step, frame, (from, limit, low))?;
-                length = low;
+                let path = target.map(|wall| self.gap_path(frame, wall, length));
+                let Some(path) = path.filter(|path| path.end() > self.body.touch) else {
+                    self.commit(frame, length, if length == whole { limit } else { from + length });
+                    return Ok(());
+                };
+                low = length;
+                length - path.end() / (path.rate + path.change)
+            };
+            let within = low < next && next < high && evaluation < MOST_EVALUATIONS / 2;
+            length = if within { next } else { 0.5 * (low + high) };
+            if !(low < length && length < high) {
                 break;
             }
         }
-        self.commit(frame, length, if length == whole { limit } else { from + length });
+        // Neighbouring numbers: the path grazes the wall, and the part ends in front of it.
+        if low > 0.0 {
+            self.compute(step, frame, (from, limit, low))?;
+            self.commit(frame, low, from + low);
+        } else {
+            self.stay(frame, from);
+        }
         Ok(())
+    }
+
+    /// Ends a part where it begins, at `time` (s).
+    fn stay(&mut self, frame: &mut Frame<S>, time: f64) {
+        (frame.end, frame.stretch) = (time, Stretch::Part(0.0));
+        frame.after.clone_from(&frame.v);
+        self.contacts.forget_changes();
     }
 
     /// The gap of a wall along the part of `length` seconds that was computed last.
@@ -387,12 +404,6 @@ impl<S: Space> Located<S> {
     fn give_up(&mut self, step: u64, frame: &mut Frame<S>, (from, limit): (f64, f64)) -> Result<()> {
         self.counted.given_up += 1;
         let length = limit - from;
-        if let Some(jumps) = &mut self.jumps {
-            let share = jumps.force_within((from, limit), length, None);
-            // Under θ = 1 the jump at the end would count whole, not by half.
-            let both = frame.extra.as_mut().iter_mut().zip(self.extra.as_ref().iter().zip(share));
-            both.for_each(|(force, (extra, jump))| *force = extra + 2.0 * jump);
-        }
         self.holds.clear();
         for wall in 0..self.body.walls.len() {
             let face = self.body.walls[wall];
@@ -463,7 +474,7 @@ impl<S: Space> Rule<S> for Located<S> {
         }
         self.part.load_start.clone_from(self.body.load_before());
         self.extra.clone_from(&frame.extra);
-        self.make_part(step, frame, Division { reached: start, end, impacts: 0 })
+        self.make_part(step, frame, Division { reached: start, end, parts: 0 })
     }
 
     fn glide(&mut self, step: u64, until: u64, frame: &mut Frame<S>, mut calm: Option<&mut Calm>) -> Result<u64> {
