@@ -11,6 +11,7 @@ fn contract(hole: Option<Bound>) -> Contract {
         promise: Promise { hole, ..Promise::throughout() },
         instant: 0.5,
         tolerances: Tolerances::of(Conserves::Nothing),
+        divides: false,
     }
 }
 

@@ -92,6 +92,13 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
             run.counters.handed_steps
         ));
     }
+    if run.counters.steps_given_up > 0 {
+        notes.push(format!(
+            "in {} steps impacts follow one another too fast for {name}: the rest of each was made by \
+             implicit-euler, without rebound; use a smaller step",
+            run.counters.steps_given_up
+        ));
+    }
     if run.counters.frozen_steps > 0 {
         notes.push(format!(
             "in {} steps opposite walls pushed in turn: the body crosses the gap in less than a step and stands \

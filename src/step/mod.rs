@@ -73,6 +73,16 @@ pub enum Path<'a> {
 }
 
 impl Step<'_> {
+    /// The length of the step, s: that of the grid, `h`, except in parts of its steps.
+    pub(crate) fn length(&self, h: f64) -> f64 {
+        match self.path {
+            Path::Part { length } => length,
+            Path::Handed { step, .. } => step,
+            Path::Exact(_) | Path::Series(_) => self.end - self.start,
+            Path::Grid | Path::OneRestitution => h,
+        }
+    }
+
     /// The impulse −p n + f t of a round hole on the structure along y and z, with the part that
     /// the turning of its normal adds, N s; `hole` counts as [`Step::impulse`] does.
     #[must_use]

@@ -53,7 +53,9 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         Ok(run) => run,
         Err(error) => {
             let restitution_0 = |w: &Wall| w.law.restitution() == Some(0.0);
-            let (scheme, why) = if scene.walls.iter().all(restitution_0) && !scene.turns_or_rubs() {
+            let (scheme, why) = if takes(scene, &Scheme::Located, scene.duration) {
+                (Scheme::Located, "located divides its steps at the impacts, and is of order 2 through them")
+            } else if scene.walls.iter().all(restitution_0) && !scene.turns_or_rubs() {
                 (Scheme::PaoliSchatzman, "with e = 0 at every wall paoli-schatzman is of order 2")
             } else {
                 (Scheme::MoreauJean { theta: 0.5 }, "the constrained QP honours every wall's restitution")

@@ -149,10 +149,8 @@ fn record(scene: &Scene, method: &Method, step: f64, spacing: f64) -> Result<Tra
     let mut stepper = Stepper::new(scene, method, step)?;
     let state = stepper.state();
     let mut recorder = Recorder::new(stepper.scene(), grid.rows, &state.q, &state.v);
-    let mut steps = 0;
-    while if exact { stepper.time() < scene.duration } else { steps < grid.steps } {
+    while if exact { stepper.time() < scene.duration } else { stepper.index() < grid.steps } {
         recorder.see(&stepper.step()?);
-        steps += 1;
     }
     Ok(recorder.finish(&stepper.open_contacts()))
 }

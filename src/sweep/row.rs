@@ -245,7 +245,8 @@ impl Plan {
             if let Some(diverged) = divergence.at(step.end, step.v) {
                 return Err(diverged.error(count));
             }
-            let ended = if exact { step.end >= scene.duration } else { count == grid.steps };
+            let end = step.end;
+            let ended = if exact { end >= scene.duration } else { stepper.index() == grid.steps };
             if ended {
                 break;
             }

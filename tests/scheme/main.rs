@@ -20,6 +20,7 @@ mod function_load;
 mod generalized_alpha;
 mod glide;
 mod impact_map;
+mod located;
 mod many;
 mod many_convergence;
 mod many_random;

@@ -23,7 +23,7 @@ Examples:
   signorini run rigid-walls-sine --from 4 --to 6   pictures of these two seconds
   signorini run tube-lattice-bars --seeds 6        means over six realisations of the random loads
 
-Schemes: implicit-euler, paoli-schatzman, moreau-jean, generalized-alpha, newmark (for
+Schemes: implicit-euler, paoli-schatzman, moreau-jean, located, generalized-alpha, newmark (for
 demonstration), penalty, event (exact).";
 
 /// Run one case by one scheme: trajectory, contacts, summary and figures

@@ -36,6 +36,7 @@ impl Family {
         let constrained = [
             Scheme::MoreauJean { theta: 0.5 },
             Scheme::MoreauJean { theta: 1.0 },
+            Scheme::Located,
             Scheme::PaoliSchatzman,
             Scheme::GeneralizedAlpha { rho: 0.8 },
             Scheme::ImplicitEuler,

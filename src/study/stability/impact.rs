@@ -9,6 +9,7 @@ use super::theory;
 use crate::error::Result;
 use crate::scene::{Scene, Wall};
 use crate::scheme::{Integrator, PenaltyLaw, Scheme, Stepper};
+use crate::step::Path;
 use rayon::prelude::*;
 
 /// κ = h²k_w/m of the maps: well resolved, one radian per step, beyond one radian, and a wall far
@@ -89,7 +90,7 @@ impl ImpactMap {
 #[must_use]
 pub fn maps(mass: f64, h: f64, e: f64) -> Vec<ImpactMap> {
     let mut schemes: Vec<(Scheme, String, Option<f64>)> = Vec::new();
-    let rigid = [Scheme::Event, Scheme::PaoliSchatzman].into_iter();
+    let rigid = [Scheme::Event, Scheme::Located, Scheme::PaoliSchatzman].into_iter();
     let jean = THETAS.into_iter().map(|theta| Scheme::MoreauJean { theta });
     let others = [Scheme::GeneralizedAlpha { rho: 0.8 }, Scheme::ImplicitEuler, Scheme::Newmark];
     for scheme in rigid.chain(jean).chain(others) {
@@ -126,7 +127,8 @@ pub fn impact(scheme: &Scheme, kappa: Option<f64>, mass: f64, h: f64, e: f64, ph
         let step = stepper.step()?;
         let at = |x: &[f64]| x.first().copied().unwrap_or(0.0);
         depth = depth.max(at(step.q) / h);
-        speed = at(step.velocity_after);
+        // A part of a step shows the velocity after an impact at its end.
+        speed = at(if matches!(step.path, Path::Part { .. }) { step.v } else { step.velocity_after });
         let pushed = step.impulse.iter().any(|&p| p != 0.0);
         contact_steps += u64::from(pushed);
         free = if pushed || contact_steps == 0 { 0 } else { free + 1 };

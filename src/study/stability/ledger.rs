@@ -76,7 +76,9 @@ impl Ledger {
         }
         if touched {
             let staggered = matches!(self.balance, Balance::Staggered(_));
-            let rate = if staggered { 0.5 * (before + after) } else { shift / self.h };
+            let length = step.length(self.h);
+            let over = |shift: f64| if length > 0.0 { shift / length } else { 0.0 };
+            let rate = if staggered { 0.5 * (before + after) } else { over(shift) };
             for spring in &mut self.springs {
                 let wall = &spring.wall;
                 let (depth, depth_end) = (-wall.gap(self.q), -wall.gap(q));
@@ -88,8 +90,8 @@ impl Ledger {
                     // Impulse of the dashpot, part of p.
                     let depth_rate = -wall.side().sign() * rate;
                     let plate_rate =
-                        if staggered { depth_rate } else { (depth_end.max(0.0) - depth.max(0.0)) / self.h };
-                    self.made += spring.damping * plate_rate * depth_rate * self.h;
+                        if staggered { depth_rate } else { over(depth_end.max(0.0) - depth.max(0.0)) };
+                    self.made += spring.damping * plate_rate * depth_rate * length;
                 }
                 spring.stored = stored;
             }

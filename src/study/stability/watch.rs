@@ -63,7 +63,7 @@ pub fn watch(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -
     let beside = neighbours(scene);
     let gauge = Gauge::new(&scene.system);
     let last = horizon * (1.0 - LAST);
-    for _ in 0..steps {
+    while stepper.index() < steps {
         let step = stepper.step()?;
         let speed = gauge.speed(step.velocity_after);
         record.speed = record.speed.max(speed);

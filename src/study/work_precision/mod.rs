@@ -199,6 +199,7 @@ impl WorkPrecision {
 pub fn every_method(laws: &[PenaltyLaw]) -> Vec<Method> {
     let schemes = [
         Scheme::Event,
+        Scheme::Located,
         Scheme::MoreauJean { theta: 0.5 },
         Scheme::GeneralizedAlpha { rho: 0.8 },
         Scheme::PaoliSchatzman,

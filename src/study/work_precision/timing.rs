@@ -57,7 +57,7 @@ fn once(scene: &Scene, job: &Job, ladder: &Ladder) -> Result<f64> {
             black_box(stepper.step()?.q);
         }
     } else {
-        for _ in 0..job.count {
+        while stepper.index() < job.count {
             black_box(stepper.step()?.q);
         }
     }

@@ -129,6 +129,7 @@ fn contract() -> Contract {
         promise: Promise::throughout(),
         instant: 0.5,
         tolerances: Tolerances::of(Conserves::Nothing),
+        divides: false,
     }
 }
 

@@ -1,0 +1,215 @@
+//! The scheme whose steps are divided at impacts: its order, what it keeps, and where it gives up.
+
+use crate::common::event_driven::EventDriven;
+use crate::common::{self, slope};
+use crate::random_structures::{chain, on};
+use signorini::{Load, Options, Row, Run, Scene, Scheme, Stepper, Table, TimeOptions, Wall, run};
+
+fn located(scene: &Scene, step: f64) -> Run {
+    let time = TimeOptions { sample: Some(1e-3_f64.max(step)), ..TimeOptions::with_step(step) };
+    let run = run(scene, &Scheme::Located, &Options::new(time)).expect("a run");
+    assert_eq!(run.findings, [], "step {step:e}");
+    run
+}
+
+/// The largest difference of the rows from displacements every millisecond, over 5 mm.
+fn error(scene: &Scene, step: f64, exact: &[f64]) -> f64 {
+    let run = located(scene, step);
+    let shown = &run.trajectory.displacements()[0][1..];
+    assert_eq!(shown.len(), exact.len());
+    common::error(shown, exact)
+}
+
+/// Steps of 1 ms over these numbers.
+const PARTS: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
+
+/// The order of the error over steps of a millisecond and below; where it is at rounding, ∞.
+fn order(what: &str, error: impl Fn(f64) -> f64) -> f64 {
+    let points: Vec<(f64, f64)> = PARTS.iter().map(|n| (1e-3 / n, error(1e-3 / n))).collect();
+    println!("{what}: order {:.2}, {points:?}", slope(&points));
+    slope(&points)
+}
+
+#[test]
+fn displacements_are_of_order_two_through_impacts() {
+    // The motion is predictable for a second: at e = 1 errors grow eightfold.
+    for e in [1.0, 0.8, 0.0] {
+        let scene = common::source(e, e).with_duration(1.0);
+        let exact = EventDriven::displacements(&scene, 1e-3, 1.0);
+        let order = order(&format!("e = {e}"), |step| error(&scene, step, &exact));
+        // A slope over a factor of 32 of the step; the phase of impacts within steps scatters it.
+        assert!((1.8..2.4).contains(&order), "e = {e}: {order}");
+    }
+}
+
+#[test]
+fn instants_and_impulses_of_impacts_are_of_order_two() {
+    let scene = common::source(0.8, 0.8).with_duration(1.0);
+    let mut exact = EventDriven::new(&scene);
+    exact.advance(1.0);
+    let reference = run(&scene, &Scheme::Event, &Options::with_step(1e-3)).expect("an exact run");
+    let instants = order("instants", |step| {
+        let run = located(&scene, step);
+        assert_eq!(run.trajectory.contacts().len(), exact.events.len());
+        let apart = run.trajectory.contacts().iter().zip(&exact.events).map(|(c, event)| (c.start - event.time).abs());
+        apart.fold(0.0, f64::max)
+    });
+    let impulses = order("impulses", |step| {
+        let run = located(&scene, step);
+        let pairs = run.trajectory.contacts().iter().zip(reference.trajectory.contacts());
+        pairs.map(|(a, b)| (a.impulse - b.impulse).abs()).fold(0.0, f64::max)
+    });
+    assert!((1.8..2.3).contains(&instants) && (1.8..2.3).contains(&impulses), "{instants} {impulses}");
+}
+
+#[test]
+fn a_ball_bounces_at_the_instants_of_its_closed_form_and_rests_on_the_face() {
+    // From 0.1 m at e = ½: impacts at t₁(1 + 2e + 2e² + …), t₁ = √(2 · 0.1/g), which end at 3t₁. A fall
+    // is a parabola, which the rule follows exactly.
+    let (e, g) = (0.5, 9.81);
+    let scene = Scene::oscillator(1.0, 0.0, 0.0)
+        .with_wall(Wall::lower("floor", 0.0).with_restitution(e))
+        .with_load(Load::constant(-g))
+        .with_initial(&[0.1], &[0.0])
+        .with_duration(1.0);
+    let first = (0.2_f64 / g).sqrt();
+    for step in [7e-3, 1e-3] {
+        let run = located(&scene, step);
+        let contacts = run.trajectory.contacts();
+        let mut time = first;
+        let mut flight = 2.0 * first * e;
+        for (count, contact) in contacts.iter().enumerate().take_while(|(_, c)| c.peak_force.is_none()) {
+            // The wall counts as touched within 1e-13 m, a share of 1e-12 of the height; a ball at
+            // 0.03 m/s takes 3e-12 s for that.
+            assert!((contact.start - time).abs() < 2e-11, "impact {count}: {} for {time}", contact.start);
+            (time, flight) = (time + flight, flight * e);
+            assert!(flight * 2.0 > step * e, "impact {count} should have been the last");
+        }
+        let rest = contacts.last().expect("contacts");
+        // It rests at once where the remaining bounces end within a step.
+        assert!(rest.end.is_none() && (rest.start - 3.0 * first).abs() <= step, "{rest:?}");
+        assert!((rest.peak_force.unwrap_or(0.0) - g).abs() < 1e-9, "{rest:?}");
+        // On the face, at no depth.
+        assert!(run.state.q[0].abs() < 1e-15, "{:?}", run.state);
+        // All that the ball lost and what its weight gave: p = g T.
+        assert!((run.trajectory.impulse("floor").expect("a wall") - g).abs() < 1e-12);
+    }
+}
+
+/// A chain of three masses between walls, driven at its end.
+fn struck_chain(e: f64) -> Scene {
+    let walls = |scene: Scene, i: usize| {
+        let (upper, lower) = (Wall::upper(&format!("u{i}"), 4e-3), Wall::lower(&format!("l{i}"), -4e-3));
+        scene.with_wall(upper.at(Row::dof(i)).with_restitution(e)).with_wall(lower.at(Row::dof(i)).with_restitution(e))
+    };
+    let scene = chain(3, 150.0, 4e-3).with_load(on(Load::harmonic(2.0, 2.0, 0.0), 0)).with_duration(1.0);
+    (0..3).fold(scene, walls)
+}
+
+#[test]
+fn structures_are_of_order_two_through_impacts_and_rests() {
+    for e in [0.7, 0.0] {
+        let scene = struck_chain(e);
+        let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-3)).expect("an exact run");
+        assert!(exact.trajectory.contacts().len() > 4);
+        let order = order(&format!("chain, e = {e}"), |step| {
+            let run = located(&scene, step);
+            let pairs = run.state.q.iter().zip(&exact.state.q);
+            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        });
+        assert!((1.6..2.6).contains(&order), "e = {e}: {order}");
+    }
+}
+
+#[test]
+fn elastic_walls_are_of_order_two_with_and_without_dashpots() {
+    for damping in [0.0, 20.0] {
+        let scene = common::elastic(damping, 0.8).with_duration(1.0);
+        let exact = EventDriven::displacements(&scene, 1e-3, 1.0);
+        let order = order(&format!("dashpot {damping}"), |step| error(&scene, step, &exact));
+        assert!((1.7..2.6).contains(&order), "damping {damping}: {order}");
+    }
+}
+
+#[test]
+fn blows_and_jumps_of_tables_divide_steps_at_their_instants() {
+    let table = Table::new(vec![0.0777, 0.4213], vec![2.0, 1.0]).expect("a table");
+    let scene = common::source(0.8, 0.8)
+        .with_load(Load::impulse(0.05, 0.123_456))
+        .with_load(Load::table(table))
+        .with_duration(0.5);
+    let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-3)).expect("an exact run");
+    let order = order("blow and table", |step| (located(&scene, step).state.q[0] - exact.state.q[0]).abs());
+    assert!((1.7..2.5).contains(&order), "{order}");
+    assert_eq!(located(&scene, 1e-3).trajectory.contacts().len(), exact.trajectory.contacts().len());
+}
+
+#[test]
+fn more_impacts_than_a_step_can_be_divided_for_are_given_up_and_said() {
+    // 2e4 m/s across a gap of 2 mm: 10 000 impacts in a step of a millisecond.
+    let scene = Scene::oscillator(1.0, 0.0, 0.0)
+        .with_wall(Wall::upper("upper", 1e-3))
+        .with_wall(Wall::lower("lower", -1e-3))
+        .with_initial(&[0.0], &[2e4])
+        .with_duration(0.01);
+    let run = run(&scene, &Scheme::Located, &Options::with_step(1e-3)).expect("a run");
+    assert_eq!(run.findings, []);
+    assert!(run.counters.steps_given_up > 0);
+    assert!(run.notes.iter().any(|note| note.contains("without rebound")), "{:?}", run.notes);
+    assert!(run.residuals.penetration_m <= 1e-15, "{}", run.residuals.penetration_m);
+}
+
+#[test]
+fn a_state_set_at_an_instant_of_the_grid_continues_with_the_same_steps() {
+    for scene in [common::source(0.8, 0.8), struck_chain(0.0)] {
+        let mut whole = Stepper::new(&scene, &Scheme::Located, 1e-3).expect("a stepper");
+        let mut continued = Stepper::new(&scene, &Scheme::Located, 1e-3).expect("a stepper");
+        let step_to = |stepper: &mut Stepper, end: f64| {
+            while stepper.time() < end - 1e-9 {
+                stepper.step().expect("a step");
+            }
+        };
+        step_to(&mut whole, 0.3);
+        continued.set_state(whole.time(), &whole.state()).expect("an instant of the grid");
+        step_to(&mut whole, 0.6);
+        step_to(&mut continued, 0.6);
+        assert_eq!(whole.state(), continued.state());
+    }
+}
+
+#[test]
+fn steps_between_contacts_in_one_loop_are_those_one_by_one() {
+    for scene in [common::source(0.8, 0.8), struck_chain(0.7)] {
+        let mut single = Stepper::new(&scene, &Scheme::Located, 1e-3).expect("a stepper");
+        let mut together = Stepper::new(&scene, &Scheme::Located, 1e-3).expect("a stepper");
+        let mut impacts = 0;
+        for _ in 0..20 {
+            let (index, end, q) = {
+                let step = together.glide(100).expect("steps");
+                (step.index, step.end, step.q.to_vec())
+            };
+            while single.time() < end {
+                single.step().expect("a step");
+            }
+            assert_eq!((single.time(), single.state().q), (end, q), "step {index}");
+            impacts += u32::from(end < (index + 1) as f64 * 1e-3);
+        }
+        assert!(impacts > 3);
+    }
+}
+
+#[test]
+fn an_extra_force_acts_over_every_part_of_a_step() {
+    // A constant load given from outside instead of by the scene.
+    let scene = common::source(0.8, 0.8);
+    let loaded = scene.clone().with_load(Load::constant(0.7));
+    let mut inside = Stepper::new(&loaded, &Scheme::Located, 1e-3).expect("a stepper");
+    let mut outside = Stepper::new(&scene, &Scheme::Located, 1e-3).expect("a stepper");
+    for _ in 0..400 {
+        inside.step().expect("a step");
+        outside.step_with(&[0.7]).expect("a step");
+        // The two sum the same forces in another order.
+        assert!((inside.state().q[0] - outside.state().q[0]).abs() < 1e-13);
+    }
+    assert!(inside.counters().parts > 4);
+}
