@@ -24,7 +24,14 @@ impl Blows {
     /// Zeros for n degrees of freedom.
     pub fn new(n: usize) -> Self {
         let zero = || vec![0.0; n];
-        Self { impulse: zero(), struck: zero(), hidden: [zero(), zero()], beyond: zero(), arrived: zero(), felt: zero() }
+        Self {
+            impulse: zero(),
+            struck: zero(),
+            hidden: [zero(), zero()],
+            beyond: zero(),
+            arrived: zero(),
+            felt: zero(),
+        }
     }
 
     /// Hides the blows of a step, or shows them again.

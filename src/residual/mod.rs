@@ -4,15 +4,15 @@
 //! # Files
 //!
 //! The judge, which checks every step against the contract: complementarity, momentum balance,
-//! energy ledger; steps on a grid (`grid.rs`, their parts `part.rs`, the passes over what they did, `moves.rs`, in
-//! `scratch.rs`, many steps of one degree of freedom in the same passes `calm.rs`, each wall
-//! `wall_step.rs`, blows `struck.rs`, round holes `round.rs`, `disk.rs` and `ring.rs`, friction
-//! `friction.rs`), exact motion (`arc.rs`, of structures `series.rs`, round holes `circle.rs`),
-//! steps that predict and correct (`corrected.rs`), all into `residuals.rs`, and the momentum of a
-//! whole run, of every run (`whole.rs`) and of a recorded one (`recorded.rs`); what a run shows of
-//! its walls (`walls.rs`, `front.rs`) and of its momentum (`balance.rs`) is kept with its rounding
-//! error (`noise.rs`, `worst.rs`), and what exceeds that and its tolerance becomes a finding
-//! (`verdict.rs`, `finding.rs`); imports no scheme and no QP.
+//! energy ledger; steps on a grid (`grid.rs`, their parts `part.rs`, the passes over what they did,
+//! `moves.rs`, in `scratch.rs`, many steps of one degree of freedom in the same passes `calm.rs`,
+//! each wall `wall_step.rs`, blows `struck.rs`, round holes `round.rs`, `disk.rs` and `ring.rs`,
+//! friction `friction.rs`), exact motion (`arc.rs`, of structures `series.rs`, round holes
+//! `circle.rs`), steps that predict and correct (`corrected.rs`), all into `residuals.rs`, and the
+//! momentum of a whole run, of every run (`whole.rs`) and of a recorded one (`recorded.rs`); what a
+//! run shows of its walls (`walls.rs`, `front.rs`) and of its momentum (`balance.rs`) is kept with
+//! its rounding error (`noise.rs`, `worst.rs`), and what exceeds that and its tolerance becomes a
+//! finding (`verdict.rs`, `finding.rs`); imports no scheme and no QP.
 
 mod arc;
 mod balance;
@@ -218,7 +218,9 @@ impl Judge {
             return;
         }
         match (&mut self.grid_load, step.path, &mut self.load_end[..]) {
-            (Some(forcing), Path::Grid | Path::OneRestitution | Path::Part { .. }, [load]) => *load = forcing.at(step.end),
+            (Some(forcing), Path::Grid | Path::OneRestitution | Path::Part { .. }, [load]) => {
+                *load = forcing.at(step.end)
+            }
             (_, _, load) => {
                 load.fill(0.0);
                 self.loads.add_force(step.end, 1.0, load);

@@ -15,7 +15,9 @@ impl Judge {
     pub(super) fn prepare(&mut self, step: &Step<'_>) {
         match step.path {
             Path::Exact(_) | Path::Series(_) => self.noise.begin_exact(step.start, step.end),
-            Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => self.noise.begin(self.h, step.end),
+            Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => {
+                self.noise.begin(self.h, step.end)
+            }
         }
         let way = if matches!(step.path, Path::Exact(_) | Path::Series(_)) { 0.0 } else { self.noise.span };
         self.noise.state(step.q, step.velocity_before, way, &self.weights);

@@ -146,7 +146,8 @@ impl<S: Space> Frame<S> {
         self.pushing.push(wall);
     }
 
-    /// Adds the impulse of wall number `wall` at the instant that ends the step, N s, which is not 0.
+    /// Adds the impulse of wall number `wall` at the instant that ends the step, N s, which is not
+    /// 0.
     pub fn push_at_end(&mut self, wall: usize, impulse: f64) {
         if self.impulse[wall] == 0.0 {
             self.pushing.push(wall);

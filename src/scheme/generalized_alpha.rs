@@ -80,7 +80,13 @@ pub(super) fn contract(rho: f64) -> Contract {
     promise.elastic.force = PromisedForce::Trapezoid;
     promise.hole = Some(Bound::End);
     promise.round = Some(Turning { normal: Normal::Middle(CROSSING), ..TURNING });
-    Contract { balance: weights(rho), promise, instant: 0.5, tolerances: Tolerances::of(Conserves::Nothing), divides: false }
+    Contract {
+        balance: weights(rho),
+        promise,
+        instant: 0.5,
+        tolerances: Tolerances::of(Conserves::Nothing),
+        divides: false,
+    }
 }
 
 #[derive(Debug)]

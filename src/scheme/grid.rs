@@ -85,7 +85,13 @@ impl<S: Space> Grid<S> {
                 Stretch::Part(length) | Stretch::Other(length, _) => length,
                 Stretch::Grid | Stretch::OneRestitution => *h,
             };
-            return episodes.see_part([frame.start, frame.end], length, (&frame.impulse, &frame.jump), &frame.pushing, rates);
+            return episodes.see_part(
+                [frame.start, frame.end],
+                length,
+                (&frame.impulse, &frame.jump),
+                &frame.pushing,
+                rates,
+            );
         }
         let rates = |wall: usize| Rates {
             before: S::dot(rows, wall, &frame.before),

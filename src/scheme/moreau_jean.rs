@@ -63,7 +63,13 @@ pub(super) fn contract(theta: f64) -> Contract {
     let mut promise = Promise::constraints(None, Some(Reached::Ahead(0.5)), Law::Depth(theta));
     (promise.round, promise.friction) = (Some(TURNING), Some(Friction::EndVelocity));
     let conserves = if theta == 0.5 { Conserves::RigidWalls } else { Conserves::Nothing };
-    Contract { balance: Balance::Theta(theta), promise, instant: 0.5, tolerances: Tolerances::of(conserves), divides: false }
+    Contract {
+        balance: Balance::Theta(theta),
+        promise,
+        instant: 0.5,
+        tolerances: Tolerances::of(conserves),
+        divides: false,
+    }
 }
 
 #[derive(Debug)]

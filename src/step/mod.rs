@@ -173,8 +173,8 @@ pub struct Step<'a> {
     /// no impulses satisfy Coulomb's law together with it: their ε is 0 ([`Friction`]).
     pub wedged: &'a [usize],
     /// Walls whose rebounds end within the step: their ε is 0 (where there is friction by
-    /// [`Friction`]; in a [`Path::Part`] where the acceleration a before the impact presses the body
-    /// on the wall and 2e|ẇ| ≤ (1 − e) h a).
+    /// [`Friction`]; in a [`Path::Part`] where the acceleration a before the impact presses the
+    /// body on the wall and 2e|ẇ| ≤ (1 − e) h a).
     pub resting: &'a [usize],
     /// Extra force given by the caller, and what a load that jumps within the step lacks of its
     /// impulse, N, as they enter the momentum balance: constant over the step, or for a staggered

@@ -14,6 +14,7 @@ mod divergence;
 mod faults;
 mod findings;
 mod ledger;
+mod parts;
 mod structures;
 mod together;
 #[cfg(feature = "case")]

@@ -64,8 +64,8 @@ fn instants_and_impulses_of_impacts_are_of_order_two() {
 
 #[test]
 fn a_ball_bounces_at_the_instants_of_its_closed_form_and_rests_on_the_face() {
-    // From 0.1 m at e = ½: impacts at t₁(1 + 2e + 2e² + …), t₁ = √(2 · 0.1/g), which end at 3t₁. A fall
-    // is a parabola, which the rule follows exactly.
+    // From 0.1 m at e = ½: impacts at t₁(1 + 2e + 2e² + …), t₁ = √(2 · 0.1/g), which end at 3t₁. A
+    // fall is a parabola, which the rule follows exactly.
     let (e, g) = (0.5, 9.81);
     let scene = Scene::oscillator(1.0, 0.0, 0.0)
         .with_wall(Wall::lower("floor", 0.0).with_restitution(e))

@@ -1,9 +1,9 @@
 //! The first instant at which a wall is crossed within a step.
 //!
 //! The θ-rule with θ = ½ makes the velocity linear over a step of length s, so that the gap of a
-//! flat wall is a parabola, γ(τ) = γ₀ + γ̇τ + Δγ̇ τ²/2s, with Δγ̇ the change of its rate over the step.
-//! Its smallest value and its roots are known in closed form: no crossing is skipped, also where the
-//! path comes back before the end.
+//! flat wall is a parabola, γ(τ) = γ₀ + γ̇τ + Δγ̇ τ²/2s, with Δγ̇ the change of its rate over the
+//! step. Its smallest value and its roots are known in closed form: no crossing is skipped, also
+//! where the path comes back before the end.
 
 /// The gap of a wall along a step.
 #[derive(Debug, Clone, Copy)]

@@ -89,8 +89,7 @@ impl Ledger {
                     self.made += p * rate + stored - spring.stored;
                     // Impulse of the dashpot, part of p.
                     let depth_rate = -wall.side().sign() * rate;
-                    let plate_rate =
-                        if staggered { depth_rate } else { over(depth_end.max(0.0) - depth.max(0.0)) };
+                    let plate_rate = if staggered { depth_rate } else { over(depth_end.max(0.0) - depth.max(0.0)) };
                     self.made += spring.damping * plate_rate * depth_rate * length;
                 }
                 spring.stored = stored;

@@ -9,7 +9,8 @@ use crate::scheme::{Integrator, Scheme};
 /// restitution `e` or a penalty spring of `kappa` = h²k_w/m; `None` where no closed form is known
 /// here.
 ///
-/// - moreau-jean, located, paoli-schatzman, generalized-alpha and event: e at every phase; implicit-euler:
+/// - moreau-jean, located, paoli-schatzman, generalized-alpha and event: e at every phase;
+/// implicit-euler:
 ///   0.
 /// - newmark: 3 − 4τ for τ < ⅔, one step on the wall; 8τ − 5 beyond, two steps.
 /// - discrete gradient: 1, it keeps the energy of the spring.
@@ -19,7 +20,11 @@ use crate::scheme::{Integrator, Scheme};
 #[must_use]
 pub fn restitution(scheme: &Scheme, e: f64, kappa: Option<f64>, tau: f64) -> Option<f64> {
     match *scheme {
-        Scheme::MoreauJean { .. } | Scheme::Located | Scheme::PaoliSchatzman | Scheme::GeneralizedAlpha { .. } | Scheme::Event => Some(e),
+        Scheme::MoreauJean { .. }
+        | Scheme::Located
+        | Scheme::PaoliSchatzman
+        | Scheme::GeneralizedAlpha { .. }
+        | Scheme::Event => Some(e),
         Scheme::ImplicitEuler => Some(0.0),
         Scheme::Newmark if tau < 2.0 / 3.0 => Some(3.0 - 4.0 * tau),
         Scheme::Newmark => Some(8.0 * tau - 5.0),

@@ -1,4 +1,4 @@
-//! The impact law at an instant, and which walls the body touches there.
+//! Which rigid walls the body touches, and the impact law at an instant.
 
 use super::super::body::Body;
 use super::super::frame::Frame;
@@ -7,7 +7,7 @@ use super::super::space::{Space, zero};
 use super::part::Part;
 use crate::error::Result;
 use crate::qp::Backend;
-use crate::scene::{Scene, Wall};
+use crate::scene::{Scene, Wall, WallLaw};
 
 /// Where the body is at a rigid wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +50,7 @@ impl<S: Space> Contacts<S> {
         };
         let (mass, scale) = (body.matrices.mass.clone(), scene.gap_scale() / body.h);
         Ok(Self {
-            law: Programme::over(scene, super::is_rigid, mass, scale, |_, _| 0.0, backend)?,
+            law: Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, backend)?,
             places: vec![Place::Away; walls],
             opposite: scene.walls.iter().map(opposite).collect(),
             changes: vec![0.0; walls],
