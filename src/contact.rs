@@ -75,6 +75,8 @@ struct Open {
     moment: f64,
     /// Largest finite force, N; `None` while every step had an impact in it.
     peak: Option<f64>,
+    /// The middle (s) of the last two parts in which the wall pushed, and its mean force there, N.
+    forces: [Option<(f64, f64)>; 2],
     approach: f64,
     departure: f64,
 }
@@ -98,6 +100,8 @@ pub(crate) struct Episodes {
     instant: f64,
     /// Largest number of steps of an impact on a rigid wall.
     impact_steps: u64,
+    /// The instant of the last impact at any wall, s, where steps are divided at impacts.
+    last_impact: f64,
     rigid: Vec<bool>,
     floor: Vec<Floor>,
     /// The mass that each wall feels, kg.
@@ -119,6 +123,7 @@ impl Episodes {
         Self {
             instant: contract.instant,
             impact_steps: if contract.divides { 0 } else { IMPACT_STEPS },
+            last_impact: f64::NEG_INFINITY,
             rigid: scene.walls.iter().map(|w| w.law.is_rigid()).collect(),
             floor: Floor::all(scene, masses, contract),
             mass: masses.to_vec(),
@@ -223,6 +228,7 @@ impl Episodes {
             impulse: 0.0,
             moment: 0.0,
             peak: None,
+            forces: [None; 2],
             approach: (-sign * struck).max(0.0),
             departure: 0.0,
         };
@@ -253,13 +259,15 @@ impl Episodes {
         self.closed.clear();
         let over = |wall: usize| impulse[wall] - jump[wall];
         if length > 0.0 {
-            for wall in std::mem::take(&mut self.pushed) {
-                if over(wall) == 0.0 || self.floor[wall].holds(over(wall), length) {
-                    self.part(wall);
-                } else {
-                    self.pushed.push(wall);
+            let mut pushed = std::mem::take(&mut self.pushed);
+            pushed.retain(|&wall| {
+                let pushes = over(wall) != 0.0 && !self.floor[wall].holds(over(wall), length);
+                if !pushes {
+                    self.release(wall, [start, end]);
                 }
-            }
+                pushes
+            });
+            self.pushed = pushed;
         }
         for &wall in pushing {
             if length > 0.0 && over(wall) != 0.0 && !self.floor[wall].holds(over(wall), length) {
@@ -267,10 +275,13 @@ impl Episodes {
                 let episode = self.open(wall, start, rates.before);
                 episode.steps += 1;
                 (episode.last, episode.impulse) = (end, episode.impulse + over(wall).abs());
-                episode.peak = Some(episode.peak.unwrap_or(0.0).max(over(wall).abs() / length));
+                let force = over(wall).abs() / length;
+                episode.peak = Some(episode.peak.unwrap_or(0.0).max(force));
+                episode.forces = [episode.forces[1], Some((0.5 * (start + end), force))];
                 self.leave_at(wall, rates.after);
             }
             if jump[wall] != 0.0 {
+                self.last_impact = end;
                 self.part(wall);
                 let rates = rates(wall);
                 let episode = self.open(wall, end, rates.struck);
@@ -295,9 +306,24 @@ impl Episodes {
             impulse: 0.0,
             moment: 0.0,
             peak: None,
+            forces: [None; 2],
             approach,
             departure: 0.0,
         })
+    }
+
+    /// Closes the episode of a wall that does not push in the part from `start` to `end` (s). Where
+    /// the last one did not end with an impact, its force vanished between the middle of that part
+    /// and of this one: where the straight line through its last two means does.
+    fn release(&mut self, wall: usize, [start, end]: [f64; 2]) {
+        if let Some(episode) = self.open[wall].as_mut().filter(|_| start > self.last_impact)
+            && let [Some((before, more)), Some((middle, force))] = episode.forces
+            && more > force
+        {
+            let vanishes = middle + force * (middle - before) / (more - force);
+            episode.last = vanishes.clamp(middle, 0.5 * (start + end));
+        }
+        self.part(wall);
     }
 
     /// Sets the velocity ẇ (m/s) with which the body leaves a wall.

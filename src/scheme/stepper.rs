@@ -40,7 +40,7 @@ const TINY: f64 = 1e-290;
 /// their times, tables by their rows and as zero after the last.
 ///
 /// A step allocates nothing, apart from Clarabel's own single allocation where that solver was
-/// asked for, and from the penalty in round holes.
+/// asked for, from the penalty in round holes, and from steps that `located` divides.
 #[derive(Debug)]
 pub struct Stepper {
     scene: Checked,

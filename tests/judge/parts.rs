@@ -2,8 +2,7 @@
 
 use crate::common::source;
 use signorini::residual::Judge;
-use signorini::step::Path;
-use signorini::{Load, Refuted, Scene, Scheme, Step, Stepper};
+use signorini::{Load, Path, Refuted, Scene, Scheme, Step, Stepper};
 
 /// What the judge is shown of a part in place of the true values, of one degree of freedom and two
 /// walls.

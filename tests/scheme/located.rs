@@ -63,6 +63,23 @@ fn instants_and_impulses_of_impacts_are_of_order_two() {
 }
 
 #[test]
+fn lasting_contacts_begin_and_end_at_order_two() {
+    let scene = common::source(0.0, 0.0).with_duration(1.0);
+    let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-3)).expect("an exact run");
+    let error = |step: f64, of: &dyn Fn(&signorini::Contact) -> f64| {
+        let run = located(&scene, step);
+        let contacts = run.trajectory.contacts();
+        assert_eq!(contacts.len(), exact.trajectory.contacts().len());
+        let pairs = contacts.iter().zip(exact.trajectory.contacts());
+        pairs.map(|(a, b)| (of(a) - of(b)).abs()).fold(0.0, f64::max)
+    };
+    let ends = order("ends of rests", |step| error(step, &|contact| contact.end.unwrap_or(0.0)));
+    let impulses = order("impulses of rests", |step| error(step, &|contact| contact.impulse));
+    // The force of a rest falls almost straight to zero.
+    assert!((1.7..2.6).contains(&ends) && (1.7..2.4).contains(&impulses), "{ends} {impulses}");
+}
+
+#[test]
 fn a_ball_bounces_at_the_instants_of_its_closed_form_and_rests_on_the_face() {
     // From 0.1 m at e = ½: impacts at t₁(1 + 2e + 2e² + …), t₁ = √(2 · 0.1/g), which end at 3t₁. A
     // fall is a parabola, which the rule follows exactly.

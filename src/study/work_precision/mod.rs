@@ -193,19 +193,13 @@ impl WorkPrecision {
     }
 }
 
-/// Every scheme: those of the constrained QP, every penalty with every integrator, and the exact
-/// one.
+/// Every scheme: the exact one, those of the constrained QP, and every penalty with every
+/// integrator.
 #[must_use]
 pub fn every_method(laws: &[PenaltyLaw]) -> Vec<Method> {
-    let schemes = [
-        Scheme::Event,
-        Scheme::Located,
-        Scheme::MoreauJean { theta: 0.5 },
-        Scheme::GeneralizedAlpha { rho: 0.8 },
-        Scheme::PaoliSchatzman,
-        Scheme::ImplicitEuler,
-    ];
+    let alone = Scheme::ALL.into_iter().filter(|scheme| scheme.entry().kind != SchemeKind::Penalty);
+    let (exact, stepped): (Vec<_>, Vec<_>) = alone.partition(Scheme::is_exact);
     let penalty = |&law| Integrator::ALL.into_iter().rev().map(move |integrator| Scheme::Penalty { law, integrator });
-    let all = schemes.into_iter().chain([Scheme::Newmark]).chain(laws.iter().flat_map(penalty));
+    let all = exact.into_iter().chain(stepped).chain(laws.iter().flat_map(penalty));
     all.map(Method::new).collect()
 }
