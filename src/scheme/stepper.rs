@@ -95,7 +95,8 @@ impl Stepper {
         Ok(stepper)
     }
 
-    /// Advances by one step.
+    /// Advances by one step, or by one part of a step that `located` divides
+    /// ([`Path::Part`](crate::Path::Part)).
     ///
     /// # Errors
     /// [`Error::Qp`], [`Error::Newton`], [`Error::NotFinite`] or [`Error::TooManyEvents`], with the
@@ -105,8 +106,8 @@ impl Stepper {
         self.advance(None)
     }
 
-    /// Advances by one step under an extra force (N, one value per degree of freedom), constant
-    /// over the step: for co-simulation with another program.
+    /// Advances by one step, or by one part as [`Stepper::step`] does, under an extra force (N, one
+    /// value per degree of freedom), constant over it: for co-simulation with another program.
     ///
     /// # Errors
     /// As [`Stepper::step`]; [`Error::Invalid`] for a force of the wrong length or not finite.
@@ -181,9 +182,9 @@ impl Stepper {
     /// pushes or a contact episode ends. Returns the last of these steps, whose
     /// [`index`](Step::index) tells how many there were.
     ///
-    /// For a program that looks at contacts alone. `moreau-jean` makes the steps between two
-    /// contacts in one loop, with the same result to the last bit; other schemes make them one by
-    /// one.
+    /// For a program that looks at contacts alone. `moreau-jean` and `located` make the steps
+    /// between two contacts in one loop, with the same result to the last bit; other schemes make
+    /// them one by one.
     ///
     /// ```
     /// use signorini::{Scene, Scheme, Stepper, Wall};
@@ -246,8 +247,8 @@ impl Stepper {
     /// of it.
     ///
     /// A scheme on a grid continues from a multiple of its step; the exact scheme from any time.
-    /// `moreau-jean`, `implicit-euler` and the penalty's other one-step rules then make the same
-    /// steps as if they had reached that state by themselves. `paoli-schatzman`,
+    /// `moreau-jean`, `located`, `implicit-euler` and the penalty's other one-step rules then make
+    /// the same steps as if they had reached that state by themselves. `paoli-schatzman`,
     /// `generalized-alpha`, `newmark` and the penalty's `central-difference` carry more than the
     /// state from step to step (accelerations, a velocity half a step back) and restart as at the
     /// beginning; so does a lasting contact of the exact scheme. Contact episodes that have not
