@@ -114,8 +114,10 @@ impl Panel {
     /// Range of the contents: (horizontal, vertical), before padding and without marks.
     pub(super) fn extents(&self, x_scale: Scale) -> (Extent, Extent) {
         let (mut xs, mut ys) = (Extent::EMPTY, Extent::EMPTY);
-        let points = self.curves.iter().map(|c| &c.points).chain(self.stems.iter().map(|s| &s.points));
-        for (x, y) in points.flatten().filter_map(|p| Some((x_scale.even(p.0)?, self.y_scale.even(p.1)?))) {
+        let points = self.curves.iter().map(|c| &c.points).chain(self.stems.iter().map(|s| &s.points)).flatten();
+        let bands = self.curves.iter().flat_map(Curve::bands).flatten();
+        let edges = bands.flat_map(|(x, low, high)| [(x, low), (x, high)]);
+        for (x, y) in points.copied().chain(edges).filter_map(|p| Some((x_scale.even(p.0)?, self.y_scale.even(p.1)?))) {
             xs.include(x);
             ys.include(y);
         }

@@ -3,7 +3,7 @@
 use super::command_line::command_line;
 use super::drawing::Formats;
 use super::pipeline::Shown;
-use super::sweep::{picture_messages, status_document, status_messages};
+use super::sweep::{picture_messages, show_means, status_document, status_messages};
 use crate::error::Result;
 use crate::sweep::{Merged, merge_in, write_summary};
 use serde_json::json;
@@ -48,7 +48,9 @@ pub fn answer(args: &Args) -> Result<Shown> {
         "results": args.out,
     });
     let document = write_summary(&mut results, document)?;
+    let request = document["request"].as_object().cloned().unwrap_or_default();
     let mut shown = Shown::of(results, !args.no_report, document);
+    show_means(&mut shown, &args.out, &request)?;
     shown.messages(unverified.iter().map(|folder| {
         format!("{}: of a version that recorded no digests: its tables are not verified", folder.display())
     }));

@@ -148,7 +148,7 @@ fn with_decimals(x: f64, decimals: usize) -> String {
 }
 
 /// A value with two digits of its half width, or with three of its own.
-fn with_interval(x: f64, half: Option<f64>) -> String {
+pub(crate) fn with_interval(x: f64, half: Option<f64>) -> String {
     match half {
         Some(half) if half > 0.0 => {
             let decimals = decimals(half);

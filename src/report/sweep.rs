@@ -78,7 +78,10 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     Ok(json!({
         "program": program,
         "title": summary["title"],
-        "subtitle": format!("{} rows", table.rows.len()),
+        "subtitle": match request["seeds"].as_u64() {
+            Some(count) => format!("{} rows × {count} realisations", table.rows.len()),
+            None => format!("{} rows", table.rows.len()),
+        },
         "command": summary["command_line"],
         "sweep": {
             "table": table.for_page(None),
@@ -88,6 +91,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "walls": names(&request["wall_names"]),
             "scheme": request["methods"][0],
             "kept": kept(folder.path, &table),
+            "seeds": request["seeds"],
             "unjudged": summary["status"]["unjudged"].as_u64().unwrap_or(0),
         },
         "case": folder.manifest["case_text"],

@@ -6,6 +6,7 @@ use super::part::{MOST_WHOLE, Part};
 use super::picture::{Kind, Picture};
 use super::random::Random;
 use super::request::{Kernel, MOST_SAMPLES, Sweep, Window};
+use super::table::SEEDS;
 use super::vary::axis;
 use crate::case::{CaseFile, Embedded, Section, Source, read_text, read_values};
 use crate::error::{Error, Result};
@@ -89,6 +90,7 @@ impl Sweep {
             sweep.scheme = run.word("scheme");
             sweep.kernel = run.word("kernel").map_or(Ok(Kernel::Scalar), |word| word.parse())?;
             sweep.judged = run.whole("judged", MOST_WHOLE)?;
+            sweep.realisations = run.whole(SEEDS, MOST_WHOLE)?;
         }
         if let Some(measure) = file.section("measure") {
             let measure = part(measure);

@@ -9,7 +9,7 @@ use super::picture::Picture;
 use super::plan::Plan;
 use super::request::Window;
 use super::shard::Shard;
-use super::table::{SAMPLES, TABLE};
+use super::table::{REALISATIONS, SAMPLES, SEEDS, TABLE};
 use crate::batch::Width;
 use crate::case::{open_regular, sha256};
 use crate::error::{Error, Result};
@@ -23,7 +23,7 @@ use serde_json::{Map, Value, json};
 use std::path::Path;
 
 /// The tables of a sweep, each of which may be absent but the first.
-const TABLE_NAMES: [&str; 3] = [TABLE, SAMPLES, ATTRACTORS];
+const TABLE_NAMES: [&str; 4] = [TABLE, SAMPLES, ATTRACTORS, REALISATIONS];
 
 /// The contents of a folder.
 #[derive(Debug)]
@@ -53,7 +53,7 @@ impl Plan {
             Window::Seconds { settle, keep } => json!({ "settle_s": settle, "keep_s": keep }),
         };
         let methods = [self.method];
-        request::extended(
+        let mut request = request::extended(
             request::request("sweep", &self.base, &methods),
             json!({
                 "program": program(),
@@ -71,7 +71,11 @@ impl Plan {
                 "rows": self.count(),
                 "rows_of_a_chain": self.chain_rows(),
             }),
-        )
+        );
+        if let Some(count) = sweep.realisations {
+            request.insert(SEEDS.to_owned(), json!(count));
+        }
+        request
     }
 }
 

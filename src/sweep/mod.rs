@@ -12,8 +12,9 @@
 //! | `axis`, `values`, `target`, `follow`, `random` | the values that vary: lists, grids, ranges, tied keys, random designs |
 //! | `measure`, `sample` | the quantities computed for a row, by name |
 //! | `forcing` | the period of the loads |
-//! | `plan` | the rows, by number |
-//! | `row` | one row: built, run, measured |
+//! | `plan`, `headers` | the rows, by number, and the columns of the tables |
+//! | `row`, `status` | one row: built, run, measured |
+//! | `realisations`, `fold` | rows with several realisations of their random loads, and the means over them |
 //! | `batched` | rows of one degree of freedom side by side, by [`batch`](crate::batch) |
 //! | `basin`, `attractors` | rows that find the attractor to which their start leads, and the numbers of attractors |
 //! | `row_observer`, `motion`, `strobe` | collect from the steps of a row what its measures need |
@@ -25,6 +26,7 @@
 //! | `finish`, `finished`, `record` | the tables |
 //! | `picture`, `curves`, `maps`, `instants` | the pictures |
 //! | `table`, `columns` | reading the tables |
+//! | `means` | the means over realisations, for the terminal |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
 //!
 //! A chain of rows, each of which starts from the end of the last, runs on one thread; a row that
@@ -38,7 +40,8 @@
 //! One case, many runs: `request.rs` and `file.rs` are the request, `axis.rs`, `values.rs` and
 //! `random/` the values that vary, `plan.rs` numbers the rows, which `check.rs` checks before they
 //! run, `row.rs` computes one row, measured by `row_observer.rs`, `batched.rs` computes many
-//! oscillators side by side, `basin.rs` finds the attractor of each row and `attractors.rs` numbers
+//! oscillators side by side, `realisations.rs` numbers the runs of rows with several realisations of
+//! their random loads and `fold.rs` makes a row of them, `basin.rs` finds the attractor of each row and `attractors.rs` numbers
 //! them, `chains.rs` computes rows on threads, `run.rs` runs a sweep into a folder, `journal.rs`,
 //! `found.rs` and `folder.rs` keep unfinished sweeps on disk, `estimate.rs` and `finished.rs` say
 //! how long a sweep takes and took, `merge.rs` joins shards, `picture.rs` draws (feature `cli`).
@@ -56,14 +59,17 @@ mod estimate;
 mod file;
 mod finish;
 mod finished;
+mod fold;
 mod folder;
 mod follow;
 mod forcing;
 mod found;
+mod headers;
 mod instants;
 mod journal;
 mod keys;
 mod maps;
+mod means;
 mod measure;
 mod merge;
 mod motion;
@@ -72,6 +78,7 @@ mod part;
 mod picture;
 mod plan;
 mod random;
+mod realisations;
 mod record;
 mod request;
 mod row;
@@ -79,6 +86,7 @@ mod row_observer;
 mod run;
 mod sample;
 mod shard;
+mod status;
 mod strobe;
 mod table;
 mod target;
@@ -91,6 +99,7 @@ pub use finish::Tables;
 pub use finished::Finished;
 pub(crate) use folder::write_summary;
 pub use follow::Follow;
+pub(crate) use means::means;
 pub use measure::{Measure, Scope};
 pub(crate) use merge::merge_in;
 pub use merge::{Merged, merge};
@@ -99,9 +108,10 @@ pub use picture::{Kind, Picture};
 pub use plan::Plan;
 pub use random::{Design, MOST_DIMENSIONS, Normal, Random};
 pub use request::{Kernel, MOST_SAMPLES, Sweep, Window};
-pub use row::{Row, Status};
+pub use row::Row;
 pub use run::{Manner, Progress};
 pub use sample::{Sample, Samples};
 pub use shard::Shard;
+pub use status::Status;
 pub use target::Target;
 pub use values::Values;

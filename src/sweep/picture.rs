@@ -1,6 +1,6 @@
 //! The picture of a sweep, from its tables: the kind of picture and its columns.
 
-use super::columns::{Source, SweepAxis, of};
+use super::columns::{Source, SweepAxis, is_half_width, of};
 use super::measure::Measure;
 use crate::error::{Error, Result};
 use crate::output::results::Results;
@@ -225,6 +225,9 @@ impl Picture {
             let measure =
                 Measure::all().map(Measure::name).filter(|name| of(column, name)).max_by_key(|name| name.len());
             let measure = measure.unwrap_or(column).to_owned();
+            if is_half_width(column, &measure) {
+                continue;
+            }
             let fits = self.wall.as_ref().is_none_or(|wall| column.contains(&format!("_{}", wall.replace('-', "_"))));
             match groups.iter_mut().find(|(name, _)| *name == measure) {
                 Some((_, columns)) if fits => columns.push(column.clone()),

@@ -101,6 +101,7 @@ pub struct Sweep {
     pub(super) most_samples: usize,
     pub(super) judged: Option<u64>,
     pub(super) kernel: Kernel,
+    pub(super) realisations: Option<u64>,
     pub(super) title: String,
     pub(super) picture: Picture,
 }
@@ -122,6 +123,7 @@ impl Sweep {
             samples: None,
             most_samples: MOST_SAMPLES,
             judged: None,
+            realisations: None,
         }
     }
 
@@ -203,6 +205,15 @@ impl Sweep {
     #[must_use]
     pub fn kernel(mut self, kernel: Kernel) -> Self {
         self.kernel = kernel;
+        self
+    }
+
+    /// The same sweep with every row run under `count` realisations of its random loads, 2 or more,
+    /// as [`Case::realisation`](crate::case::Case::realisation) makes them: the same seeds in every
+    /// row, so that rows differ by what varies alone.
+    #[must_use]
+    pub fn realisations(mut self, count: u64) -> Self {
+        self.realisations = Some(count);
         self
     }
 

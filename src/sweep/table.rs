@@ -6,9 +6,19 @@ use std::fs::File;
 use std::io::Take;
 use std::path::{Path, PathBuf};
 
-/// File names of the table of the rows, and of that of their instants.
+/// File names of the table of the rows, of that of their instants, and of that of the realisations of
+/// random loads.
 pub(super) const TABLE: &str = "sweep.csv";
 pub(super) const SAMPLES: &str = "samples.csv";
+pub(super) const REALISATIONS: &str = "realisations.csv";
+
+/// The columns of the number of a realisation, and of the number of realisations in the means of a
+/// row.
+pub(super) const REALISATION: &str = "realisation";
+pub(super) const SEEDS: &str = "seeds";
+
+/// What follows the name of a measure in the name of the column of the half width of its interval.
+pub(super) const HALF_WIDTH: &str = "_half_width_95";
 
 /// A CSV file with a header.
 pub(super) struct Table {

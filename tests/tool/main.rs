@@ -13,6 +13,7 @@ mod seeds;
 mod set_values;
 mod statistics;
 mod sweep;
+mod sweep_seeds;
 mod terminal;
 mod verdicts;
 mod verify;

@@ -31,6 +31,7 @@ mod realisation;
 mod runner;
 mod sample;
 
+pub(crate) use estimate::mean_of;
 pub use estimate::{Estimate, Interval, Larger, StepChange};
 pub use measure::{Figure, Measure};
 pub use realisation::Realisation;
