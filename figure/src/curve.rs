@@ -43,9 +43,9 @@ impl Curve {
         self
     }
 
-    /// Also fills a band about the curve, in its colour: the interval of each value, y ± half width,
-    /// in the order of the points. It is broken where a half width is not finite; about a point
-    /// between two breaks it is a vertical stroke.
+    /// Also fills a band about the curve, in its colour: the interval of each value, y ± half
+    /// width, in the order of the points. It is broken where a half width is not finite; about a
+    /// point between two breaks it is a vertical stroke.
     #[must_use]
     pub fn banded(mut self, half_widths: impl IntoIterator<Item = f64>) -> Self {
         self.half_widths = half_widths.into_iter().collect();

@@ -33,8 +33,8 @@ impl Plan {
         on_threads(self.groups(shard), threads, &work, receive)
     }
 
-    /// Number of groups of chains of `shard`; a group is computed by one thread. Each realisation of
-    /// a chain is a group.
+    /// Number of groups of chains of `shard`; a group is computed by one thread. Each realisation
+    /// of a chain is a group.
     pub(super) fn groups(&self, shard: Shard) -> u64 {
         let chains = shard.chains(self.chains);
         if self.sweep.kernel == Kernel::Batch { chains.div_ceil(TOGETHER) } else { chains * self.runs_of_row() }

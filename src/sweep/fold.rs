@@ -27,9 +27,9 @@ impl Fold {
     }
 
     /// The cells of the row with these `runs`, one or more: what tells the row apart, the number of
-    /// realisations in the means, status, reason, then each mean x̄ and the half width t s/√N of its
-    /// interval, by [`mean_of`]. The means are over the runs that have valid measures; where one of
-    /// these lacks a measure, its cells are empty.
+    /// realisations in the means, status, reason, then each mean x̄ and the half width t s/√N of
+    /// its interval, by [`mean_of`]. The means are over the runs that have valid measures; where
+    /// one of these lacks a measure, its cells are empty.
     pub fn row(&self, runs: &[StringRecord]) -> Vec<String> {
         let good: Vec<&StringRecord> = runs.iter().filter(|run| Status::is_good_word(self.word(run))).collect();
         let lead = runs.first().into_iter().flat_map(|run| run.iter().take(self.status).enumerate());

@@ -218,8 +218,8 @@ impl Lines {
     }
 }
 
-/// Joins the tables of `names`, of so many `rows` in chains of that `length`, each with the number of
-/// lines that a row has.
+/// Joins the tables of `names`, of so many `rows` in chains of that `length`, each with the number
+/// of lines that a row has.
 fn tables(
     parts: &[Part],
     results: &mut Results,

@@ -40,11 +40,12 @@
 //! One case, many runs: `request.rs` and `file.rs` are the request, `axis.rs`, `values.rs` and
 //! `random/` the values that vary, `plan.rs` numbers the rows, which `check.rs` checks before they
 //! run, `row.rs` computes one row, measured by `row_observer.rs`, `batched.rs` computes many
-//! oscillators side by side, `realisations.rs` numbers the runs of rows with several realisations of
-//! their random loads and `fold.rs` makes a row of them, `basin.rs` finds the attractor of each row and `attractors.rs` numbers
-//! them, `chains.rs` computes rows on threads, `run.rs` runs a sweep into a folder, `journal.rs`,
-//! `found.rs` and `folder.rs` keep unfinished sweeps on disk, `estimate.rs` and `finished.rs` say
-//! how long a sweep takes and took, `merge.rs` joins shards, `picture.rs` draws (feature `cli`).
+//! oscillators side by side, `realisations.rs` numbers the runs of rows with several realisations
+//! of their random loads and `fold.rs` makes a row of them, `basin.rs` finds the attractor of each
+//! row and `attractors.rs` numbers them, `chains.rs` computes rows on threads, `run.rs` runs a
+//! sweep into a folder, `journal.rs`, `found.rs` and `folder.rs` keep unfinished sweeps on disk,
+//! `estimate.rs` and `finished.rs` say how long a sweep takes and took, `merge.rs` joins shards,
+//! `picture.rs` draws (feature `cli`).
 #![doc = include_str!("../../docs/sweep.md")]
 
 mod attractors;

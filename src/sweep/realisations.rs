@@ -1,9 +1,10 @@
 //! Rows with several realisations of their random loads: each realisation is a run of its own with
 //! a line of `realisations.csv`, and the row of `sweep.csv` has the means over them.
 //!
-//! The seeds are the same in every row, those of [`Case::realisation`](crate::case::Case::realisation),
-//! so that rows differ by what varies alone. Runs are numbered row by row: run `r N + k − 1` is
-//! realisation `k` of row `r`, of `N`. A row without realisations is one run.
+//! The seeds are the same in every row, those of
+//! [`Case::realisation`](crate::case::Case::realisation), so that rows differ by what varies alone.
+//! Runs are numbered row by row: run `r N + k − 1` is realisation `k` of row `r`, of `N`. A row
+//! without realisations is one run.
 
 use super::plan::{MOST_ROWS, Plan};
 use super::row::Row;

@@ -51,8 +51,8 @@ impl Shard {
         own * self.of + self.index - 1
     }
 
-    /// The position among its runs of run number `run` of `plan`; `None` for a run of another shard.
-    /// All runs of a row are in one shard.
+    /// The position among its runs of run number `run` of `plan`; `None` for a run of another
+    /// shard. All runs of a row are in one shard.
     pub(super) fn place(self, plan: &Plan, run: u64) -> Option<usize> {
         let (row, of_row) = (run / plan.runs_of_row(), run % plan.runs_of_row());
         let (chain, along) = (row / plan.chain_rows(), row % plan.chain_rows());

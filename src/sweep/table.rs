@@ -6,8 +6,8 @@ use std::fs::File;
 use std::io::Take;
 use std::path::{Path, PathBuf};
 
-/// File names of the table of the rows, of that of their instants, and of that of the realisations of
-/// random loads.
+/// File names of the table of the rows, of that of their instants, and of that of the realisations
+/// of random loads.
 pub(super) const TABLE: &str = "sweep.csv";
 pub(super) const SAMPLES: &str = "samples.csv";
 pub(super) const REALISATIONS: &str = "realisations.csv";

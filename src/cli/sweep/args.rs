@@ -79,9 +79,9 @@ pub struct Args {
     /// all; of --kernel batch 16, which the scheme event computes once more]
     #[arg(long, value_name = "N")]
     judged: Option<u64>,
-    /// Run every row with N realisations of the case's random loads, the same in every row: sweep.csv
-    /// has the means and the half widths of their 95 % intervals, realisations.csv each of them.
-    /// Realisation k has the seeds of the case plus k - 1, as with `run --seeds`
+    /// Run every row with N realisations of the case's random loads, the same in every row:
+    /// sweep.csv has the means and the half widths of their 95 % intervals, realisations.csv each
+    /// of them. Realisation k has the seeds of the case plus k - 1, as with `run --seeds`
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seeds: Option<u64>,
     /// Draw the values of all --vary at random: uniform, lhs (Latin hypercube), sobol
