@@ -15,6 +15,9 @@ const SAMPLES: &str = "samples.csv";
 /// Most cells of the tables that a page holds: some tens of megabytes of HTML.
 const MOST_CELLS: usize = 4_000_000;
 
+/// The table of the effects of keys that are varied one at a time.
+const EFFECTS: &str = "effects.csv";
+
 /// The table of the attractors, for a sweep that has them, and the columns that the page shows.
 const ATTRACTORS: &str = "attractors.csv";
 const TOLD: [&str; 8] =
@@ -71,6 +74,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let table = folder.cells(TABLE)?;
     let samples = if folder.has(SAMPLES) { Some(folder.cells(SAMPLES)?) } else { None };
     let attractors = if folder.has(ATTRACTORS) { Some(folder.cells(ATTRACTORS)?) } else { None };
+    let effects = if folder.has(EFFECTS) { Some(folder.cells(EFFECTS)?) } else { None };
     let request = &folder.manifest["request"];
     let axes: Vec<Value> = request["vary"].as_array().cloned().unwrap_or_default();
     let summary = if folder.has("summary.json") { folder.json("summary.json")? } else { Value::Null };
@@ -86,6 +90,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "sweep": {
             "table": table.for_page(None),
             "attractors": attractors.map(|attractors| attractors.for_page(Some(&TOLD))),
+            "effects": effects.map(|effects| effects.for_page(None)),
             "samples": samples.map(|samples| samples.for_page(None)),
             "axes": axes,
             "walls": names(&request["wall_names"]),

@@ -1,7 +1,7 @@
 //! The data of pictures: the axes of a sweep, and the columns of its tables by name.
 
 use super::measure::Measure;
-use super::table::{HALF_WIDTH, SEEDS, TABLE, Table};
+use super::table::{HALF_WIDTH, ONE_AT_A_TIME, SEEDS, TABLE, Table};
 use crate::output::figure::Scale;
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -22,6 +22,7 @@ pub(super) struct Source<'a> {
     pub title: &'a str,
     pub axes: Vec<SweepAxis>,
     pub random: bool,
+    pub one_at_a_time: bool,
     /// Number of realisations of the random loads of every row.
     pub seeds: Option<u64>,
     pub columns: Vec<String>,
@@ -56,6 +57,7 @@ impl<'a> Source<'a> {
                 .and_then(Value::as_array)
                 .map_or_else(Vec::new, |axes| axes.iter().map(along).collect()),
             random: request.get("random").is_some_and(|random| !random.is_null()),
+            one_at_a_time: request.get(ONE_AT_A_TIME).and_then(Value::as_bool).unwrap_or(false),
             seeds: request.get(SEEDS).and_then(Value::as_u64),
             columns: list("columns"),
             sample_columns: list("sample_columns"),

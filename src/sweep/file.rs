@@ -88,6 +88,9 @@ impl Sweep {
             };
             sweep.window = window(length("settle")?, length("keep")?)?;
             sweep.scheme = run.word("scheme");
+            if let Some(word) = run.word("design") {
+                sweep = sweep.laid_out(&word)?;
+            }
             sweep.kernel = run.word("kernel").map_or(Ok(Kernel::Scalar), |word| word.parse())?;
             sweep.judged = run.whole("judged", MOST_WHOLE)?;
             sweep.realisations = run.whole(SEEDS, MOST_WHOLE)?;

@@ -5,11 +5,12 @@ use super::attractors::ATTRACTORS;
 use super::axis::Axis;
 use super::finish::Tables;
 use super::journal::JOURNAL;
+use super::layout::Layout;
 use super::picture::Picture;
 use super::plan::Plan;
 use super::request::Window;
 use super::shard::Shard;
-use super::table::{REALISATIONS, SAMPLES, SEEDS, TABLE};
+use super::table::{ONE_AT_A_TIME, REALISATIONS, SAMPLES, SEEDS, TABLE};
 use crate::batch::Width;
 use crate::case::{open_regular, sha256};
 use crate::error::{Error, Result};
@@ -45,7 +46,8 @@ impl Plan {
         let sweep = &self.sweep;
         let axes: Vec<Value> = self.axis_columns().map(|(axis, column)| described(axis, column)).collect();
         let random = sweep
-            .random
+            .layout
+            .random()
             .map(|random| json!({ "kind": random.design.name(), "points": random.points, "seed": random.seed }));
         let window = match sweep.window {
             Window::Case => json!("the case's"),
@@ -72,6 +74,9 @@ impl Plan {
                 "rows_of_a_chain": self.chain_rows(),
             }),
         );
+        if sweep.layout == Layout::OneAtATime {
+            request.insert(ONE_AT_A_TIME.to_owned(), json!(true));
+        }
         if let Some(count) = sweep.realisations {
             request.insert(SEEDS.to_owned(), json!(count));
         }

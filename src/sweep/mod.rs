@@ -9,7 +9,7 @@
 //! |---|---|
 //! | `request` | [`Sweep`]: the request |
 //! | `file` | the same as a sweep file |
-//! | `axis`, `values`, `target`, `follow`, `random` | the values that vary: lists, grids, ranges, tied keys, random designs |
+//! | `axis`, `values`, `target`, `follow`, `random`, `layout` | the values that vary: lists, grids, ranges, tied keys, random designs |
 //! | `measure`, `sample` | the quantities computed for a row, by name |
 //! | `forcing` | the period of the loads |
 //! | `plan`, `headers` | the rows, by number, and the columns of the tables |
@@ -24,8 +24,9 @@
 //! | `estimate` | time and size of a sweep, from its first rows |
 //! | `journal`, `folder` | the files of an unfinished sweep, and the check whether it may be continued |
 //! | `finish`, `finished`, `record` | the tables |
-//! | `picture`, `curves`, `maps`, `instants` | the pictures |
+//! | `picture`, `curves`, `maps`, `instants`, `tornado` | the pictures |
 //! | `table`, `columns` | reading the tables |
+//! | `effects` | the effect of each key on each measure |
 //! | `means` | the means over realisations, for the terminal |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
 //!
@@ -56,6 +57,7 @@ mod chains;
 mod check;
 mod columns;
 mod curves;
+mod effects;
 mod estimate;
 mod file;
 mod finish;
@@ -69,6 +71,7 @@ mod headers;
 mod instants;
 mod journal;
 mod keys;
+mod layout;
 mod maps;
 mod means;
 mod measure;
@@ -91,10 +94,12 @@ mod status;
 mod strobe;
 mod table;
 mod target;
+mod tornado;
 mod values;
 mod vary;
 
 pub use axis::Axis;
+pub(crate) use effects::{Effect, effects, write_effects};
 pub use estimate::Estimate;
 pub use finish::Tables;
 pub use finished::Finished;

@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::forcing;
+use super::layout::Layout;
 use super::picture::Pictures;
 use super::request::{Kernel, Sweep, Window};
 use super::table::REALISATION;
@@ -37,6 +38,8 @@ pub struct Plan {
     /// Names of the columns of `realisations.csv`, where rows have several realisations.
     pub(super) run_header: Option<Vec<String>>,
     sample_header: Vec<String>,
+    /// The values of the axes in the case itself, where axes are varied one at a time.
+    centre: Vec<KeyValue>,
     /// Names of the columns of each axis.
     axis_columns: Vec<Vec<String>>,
 }
@@ -80,10 +83,10 @@ impl Sweep {
             |(target, _): &(Target, f64)| if let Target::Case(key) = target { Some(key.clone()) } else { None };
         let keys: Vec<Key> = self.axes.iter().flat_map(|axis| &axis.targets).filter_map(case_key).collect();
         let template = Template::new(&self.case, &keys)?;
-        let (sweep, columns) = (self, axis_columns);
+        let centre = self.centre()?;
         let plan = Plan {
             template,
-            sweep,
+            sweep: self,
             base,
             method,
             order,
@@ -91,7 +94,8 @@ impl Sweep {
             header,
             run_header,
             sample_header,
-            axis_columns: columns,
+            centre,
+            axis_columns,
         };
         plan.check_seeds()?;
         plan.check_places()?;
@@ -122,7 +126,7 @@ impl Sweep {
     fn chains(&self, length: u64) -> Result<u64> {
         let free = self.axes.iter().enumerate().filter(|(index, _)| Some(*index) != self.followed());
         let grid = free.fold(1u64, |count, (_, axis)| count.saturating_mul(axis.values.count()));
-        let chains = self.random.map_or(grid, |random| random.points);
+        let chains = self.layout.points(self.axes.len(), grid);
         let rows = chains.saturating_mul(length);
         if rows > MOST_ROWS {
             return Err(Error::invalid("rows", rows, format!("at most {MOST_ROWS}")));
@@ -196,10 +200,14 @@ impl Plan {
         let mut rest = chain;
         let mut values = Vec::with_capacity(self.sweep.axes.len());
         for (index, axis) in self.sweep.axes.iter().enumerate().rev() {
-            values.push(match self.sweep.random {
-                Some(random) => axis.values.at(0, random.share(chain, index)),
-                None if Some(index) == followed => axis.values.at(along, 0.0),
-                None => {
+            values.push(match self.sweep.layout {
+                Layout::Random(random) => axis.values.at(0, random.share(chain, index)),
+                Layout::OneAtATime => match Layout::varied(chain) {
+                    Some((varied, share)) if varied == index => axis.values.at(0, share),
+                    _ => self.centre.get(index).cloned().unwrap_or_else(|| f64::NAN.into()),
+                },
+                Layout::Grid if Some(index) == followed => axis.values.at(along, 0.0),
+                Layout::Grid => {
                     let number = rest % axis.values.count();
                     rest /= axis.values.count();
                     axis.values.at(number, 0.0)

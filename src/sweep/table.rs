@@ -12,10 +12,16 @@ pub(super) const TABLE: &str = "sweep.csv";
 pub(super) const SAMPLES: &str = "samples.csv";
 pub(super) const REALISATIONS: &str = "realisations.csv";
 
+/// The file of the effects of keys that are varied one at a time.
+pub(super) const EFFECTS: &str = "effects.csv";
+
 /// The columns of the number of a realisation, and of the number of realisations in the means of a
 /// row.
 pub(super) const REALISATION: &str = "realisation";
 pub(super) const SEEDS: &str = "seeds";
+
+/// The entry of a request whose axes are varied one at a time.
+pub(super) const ONE_AT_A_TIME: &str = "one_at_a_time";
 
 /// What follows the name of a measure in the name of the column of the half width of its interval.
 pub(super) const HALF_WIDTH: &str = "_half_width_95";

@@ -45,7 +45,7 @@ pub struct Args {
     #[command(flatten)]
     changes: Changes,
     /// Vary a value by its key: FROM:TO:POINTS, FROM:TO:POINTS:log, a list A,B,C, or FROM:TO with
-    /// --random; may be given several times
+    /// --random or --one-at-a-time; may be given several times
     #[arg(long, value_name = "KEY=VALUES")]
     vary: Vec<String>,
     /// Take the values of the first --vary in this direction, each row starting from the end of the
@@ -84,6 +84,10 @@ pub struct Args {
     /// of them. Realisation k has the seeds of the case plus k - 1, as with `run --seeds`
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seeds: Option<u64>,
+    /// Vary each key by itself, from the case: --vary KEY=FROM:TO runs the case, then the case with
+    /// that key at FROM and at TO; effects.csv and the picture sort the keys by what they change
+    #[arg(long, conflicts_with_all = ["random", "follow"])]
+    one_at_a_time: bool,
     /// Draw the values of all --vary at random: uniform, lhs (Latin hypercube), sobol
     #[arg(long, value_name = "KIND", requires = "points")]
     random: Option<Design>,
@@ -128,6 +132,9 @@ impl Args {
         if let (Some(design), Some(points)) = (self.random, self.points) {
             sweep = sweep.drawn(Random { design, points, seed: self.seed });
         }
+        if self.one_at_a_time {
+            sweep = sweep.one_at_a_time();
+        }
         if let Some(keep) = self.keep {
             sweep = sweep.over(Window::Periods { settle: self.settle.unwrap_or(0), keep });
         }
@@ -154,7 +161,8 @@ impl Args {
 /// The axis of an argument of `--vary`.
 fn axis(text: &str) -> Result<Axis> {
     let wrong = || {
-        let expected = "KEY=FROM:TO:POINTS, KEY=FROM:TO:POINTS:log, KEY=A,B,C, or KEY=FROM:TO with --random";
+        let expected = "KEY=FROM:TO:POINTS, KEY=FROM:TO:POINTS:log, KEY=A,B,C, or KEY=FROM:TO with --random or \
+                        --one-at-a-time";
         Error::invalid("--vary", format_args!("{text:?}"), expected)
     };
     let (key, values) = text.split_once('=').ok_or_else(wrong)?;

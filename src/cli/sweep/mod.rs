@@ -1,8 +1,10 @@
 //! `signorini sweep`: one case, many values.
 
 mod args;
+mod effects;
 
 pub use args::Args;
+pub(super) use effects::show_effects;
 
 use super::command_line::command_line;
 use super::estimate::time_in_words;
@@ -10,7 +12,9 @@ use super::pipeline::Shown;
 use super::ui::Ui;
 use crate::error::Result;
 use crate::output::results::Results;
-use crate::sweep::{Finished, Manner, Pictures, Plan, Progress, Shard, Status, Tables, means, write_summary};
+use crate::sweep::{
+    Finished, Manner, Pictures, Plan, Progress, Shard, Status, Tables, effects, means, write_effects, write_summary,
+};
 use serde_json::{Map, Value, json};
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -35,8 +39,11 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let (finished, mut results) = run(args, &plan, &title, ui)?;
     let whole = args.shard.is_none_or(|shard| shard == Shard::WHOLE);
     let pictures = if whole { plan.draw(&mut results)? } else { Pictures::default() };
+    let effects = if whole { effects(&finished.folder, &plan.request())? } else { Vec::new() };
+    write_effects(&mut results, &effects)?;
     let document = write_summary(&mut results, document(&plan, &finished, &pictures.drawn))?;
     let mut shown = Shown::of(results, whole && !args.place.no_report, document);
+    show_effects(&mut shown, &effects, plan.realisations());
     show_means(&mut shown, &finished.folder, &plan.request())?;
     let found = match finished.found {
         0 => String::new(),

@@ -1,7 +1,7 @@
 // Sweeps: curves over one axis, maps over two, bifurcation diagrams.
 
 function sweepSection() {
-  const { axes, samples, scheme, seeds, unjudged } = DATA.sweep;
+  const { axes, effects, samples, scheme, seeds, unjudged } = DATA.sweep;
   const table = tableOf(DATA.sweep.table);
   const { columns } = table;
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
@@ -57,7 +57,7 @@ function sweepSection() {
   const content = [];
   const basins = attractors && numeric("attractor") && axisColumns.length > 1;
   if (basins) content.push(basinMap(columns, axisColumns, attractors, tell, pick));
-  if (measures.length && axisColumns.length && !basins) {
+  if (measures.length && axisColumns.length && !basins && !effects) {
     content.push(
       axisColumns.length > 1
         ? measureMap(columns, axisColumns, measures, tell, pick)
@@ -72,6 +72,7 @@ function sweepSection() {
       csvText([table.names, ...rows.map((i) => table.names.map((name) => columns[name][i]))]),
       "text/csv",
     );
+  if (effects) effectsSection(tableOf(effects), seeds);
   section(
     "sweep",
     "Sweep",
