@@ -91,7 +91,8 @@ impl Tornado {
             frame.draw(&mut canvas, left, y);
             y += height(frame);
         }
-        draw_key(&mut canvas, left, y + 8.0);
+        let hollow = self.frames.iter().flat_map(|frame| &frame.bars).any(|bar| bar.hollow);
+        draw_key(&mut canvas, left, y + 8.0, hollow);
         canvas.finish()
     }
 }
@@ -165,14 +166,12 @@ fn tone(side: usize) -> &'static str {
     colour(if side == 0 { 3 } else { 2 })
 }
 
-/// What the colours stand for.
-fn draw_key(canvas: &mut Canvas, left: f64, y: f64) {
+/// What the colours stand for, and hollow bars where there are any.
+fn draw_key(canvas: &mut Canvas, left: f64, y: f64, hollow: bool) {
     let mut x = left;
-    for (fill, stroke, words) in [
-        (tone(0), tone(0), "at the lower bound"),
-        (tone(1), tone(1), "at the upper bound"),
-        ("#fff", "#000", "not distinguished from none"),
-    ] {
+    let filled = [(tone(0), tone(0), "at the lower bound"), (tone(1), tone(1), "at the upper bound")];
+    let hollow = hollow.then_some(("#fff", "#000", "not distinguished from none"));
+    for (fill, stroke, words) in filled.into_iter().chain(hollow) {
         let corners = [(x, y - 5.0), (x + 16.0, y - 5.0), (x + 16.0, y + 5.0), (x, y + 5.0)];
         canvas.shape(&corners, fill, Stroke::solid(stroke, 1.2));
         canvas.text(Text::new(x + 21.0, y + 3.6, words, SMALL, Anchor::Start));

@@ -62,24 +62,39 @@ impl Effect {
     }
 }
 
-/// The values of the measures of one run, by the columns asked for; a run that failed has none.
-type Values = Vec<Option<f64>>;
+/// The values of the measures of the runs that did not fail, by row and realisation.
+struct Runs(BTreeMap<(u64, u64), Vec<Option<f64>>>);
 
-/// The runs of a table by row and realisation.
-fn runs(folder: &Path, seeds: bool, columns: &[String]) -> Result<BTreeMap<(u64, u64), Values>> {
-    let table = Table::open(&folder.join(if seeds { REALISATIONS } else { TABLE }))?;
-    let indices = columns.iter().map(|column| table.column(column)).collect::<Result<Vec<_>>>()?;
-    let (row, status) = (table.column("row")?, table.column("status")?);
-    let realisation = table.column(REALISATION).ok();
-    let mut runs = BTreeMap::new();
-    table.each(|line| {
-        let number = |index: usize| line.number(index).unwrap_or(0.0) as u64;
-        if Status::is_good_word(line.text(status)) {
-            let values = indices.iter().map(|&index| line.number(index)).collect();
-            runs.insert((number(row), realisation.map_or(0, number)), values);
-        }
-    })?;
-    Ok(runs)
+impl Runs {
+    /// The runs in the tables of `source`, with the values of `columns`.
+    fn read(source: &Source<'_>, columns: &[String]) -> Result<Self> {
+        let name = if source.seeds.is_some() { REALISATIONS } else { TABLE };
+        let table = Table::open(&source.folder.join(name))?;
+        let indices = columns.iter().map(|column| table.column(column)).collect::<Result<Vec<_>>>()?;
+        let (row, status) = (table.column("row")?, table.column("status")?);
+        let realisation = table.column(REALISATION).ok();
+        let mut runs = BTreeMap::new();
+        table.each(|line| {
+            let number = |index: usize| line.number(index).unwrap_or(0.0) as u64;
+            if Status::is_good_word(line.text(status)) {
+                let values = indices.iter().map(|&index| line.number(index)).collect();
+                runs.insert((number(row), realisation.map_or(0, number)), values);
+            }
+        })?;
+        Ok(Self(runs))
+    }
+
+    /// The values of measure number `index` in `row`, by realisation.
+    fn of(&self, row: u64, index: usize) -> BTreeMap<u64, f64> {
+        let own = self.0.range((row, 0)..=(row, u64::MAX));
+        own.filter_map(|((_, k), values)| Some((*k, (*values.get(index)?)?))).collect()
+    }
+
+    /// The mean of them.
+    fn mean(&self, row: u64, index: usize) -> Option<f64> {
+        let values: Vec<f64> = self.of(row, index).into_values().collect();
+        (!values.is_empty()).then(|| mean_of(&values).0)
+    }
 }
 
 /// The effects of the keys of a sweep that varies them one at a time, by its tables in `folder`:
@@ -96,40 +111,28 @@ pub(crate) fn effects(folder: &Path, request: &Map<String, Value>) -> Result<Vec
     let columns: Vec<(String, String)> =
         groups.into_iter().flat_map(|(measure, names)| names.into_iter().map(move |n| (measure.clone(), n))).collect();
     let names: Vec<String> = columns.iter().map(|(_, name)| name.clone()).collect();
-    let runs = runs(folder, source.seeds.is_some(), &names)?;
-    let bounds = bounds(&source)?;
+    let (runs, bounds) = (Runs::read(&source, &names)?, bounds(&source)?);
     let mut all = Vec::new();
     for (index, (measure, column)) in columns.iter().enumerate() {
-        let of_row = |row: u64| -> BTreeMap<u64, f64> {
-            let own = runs.range((row, 0)..=(row, u64::MAX));
-            own.filter_map(|((_, k), values)| Some((*k, (*values.get(index)?)?))).collect()
+        let of_axis = |(axis, bounds): (usize, &[f64; 2])| {
+            let [low, high] = [0, 1].map(|side| Layout::row_of(axis, side));
+            let (at_low, at_high) = (runs.of(low, index), runs.of(high, index));
+            let pairs: Vec<f64> = at_low.iter().filter_map(|(k, x)| Some(at_high.get(k)? - x)).collect();
+            let (effect, _, half_width_95) = mean_of(&pairs);
+            Effect {
+                key: source.axes.get(axis).map_or_else(String::new, |axis| axis.key.clone()),
+                bounds: *bounds,
+                column: column.clone(),
+                place: place_of(column, measure),
+                measure: measure.clone(),
+                base: runs.mean(0, index),
+                at: [low, high].map(|row| runs.mean(row, index)),
+                effect: (!pairs.is_empty()).then_some(effect),
+                half_width_95,
+                count: pairs.len(),
+            }
         };
-        let mean = |values: &[f64]| (!values.is_empty()).then(|| mean_of(values));
-        let at_row = |row: u64| mean(&of_row(row).into_values().collect::<Vec<_>>()).map(|(mean, ..)| mean);
-        let mut effects: Vec<Effect> = source
-            .axes
-            .iter()
-            .zip(&bounds)
-            .enumerate()
-            .map(|(axis, (told, bounds))| {
-                let [low, high] = [0, 1].map(|side| Layout::row_of(axis, side));
-                let (at_low, at_high) = (of_row(low), of_row(high));
-                let pairs: Vec<f64> = at_low.iter().filter_map(|(k, x)| Some(at_high.get(k)? - x)).collect();
-                let found = mean(&pairs);
-                Effect {
-                    key: told.key.clone(),
-                    bounds: *bounds,
-                    column: column.clone(),
-                    place: place_of(column, measure),
-                    measure: measure.clone(),
-                    base: at_row(0),
-                    at: [at_row(low), at_row(high)],
-                    effect: found.map(|(mean, ..)| mean),
-                    half_width_95: found.and_then(|(_, _, half)| half),
-                    count: pairs.len(),
-                }
-            })
-            .collect();
+        let mut effects: Vec<Effect> = bounds.iter().enumerate().map(of_axis).collect();
         let size = |effect: &Effect| effect.effect.map_or(-1.0, f64::abs);
         effects.sort_by(|a, b| size(b).total_cmp(&size(a)));
         all.extend(effects);
@@ -170,4 +173,60 @@ pub(crate) fn write_effects(results: &mut Results, effects: &[Effect]) -> Result
         written.map_err(|error| Error::io(file.path().display(), error.to_string(), false))?;
     }
     file.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hash;
+    use serde_json::json;
+    use std::fmt::Write;
+
+    /// Places whose measure scatters, by realisation and by row, and whose effect is `effect`.
+    fn seen_of_a_thousand(effect: f64) -> usize {
+        let (places, seeds) = (1000, 6_u64);
+        // Normal numbers, by Box and Muller.
+        let normal = |a: u64, b: u64| {
+            let [u, v] = [1, 2].map(|seed| hash::unit(hash::mix(seed, a, b)));
+            (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+        };
+        let columns: Vec<String> = (0..places).map(|place| format!("work_rate_p{place}_W")).collect();
+        let mut runs = format!("row,realisation,gap_m,status,{}\n", columns.join(","));
+        for (row, gap) in [2.0, 1.0, 3.0].into_iter().enumerate() {
+            for k in 1..=seeds {
+                let _ = write!(runs, "{row},{k},{gap},ok");
+                for place in 0..places {
+                    // What the realisations of a pair share, and what they do not.
+                    let (shared, own) = (normal(place, k), normal(1000 + place, 10 * k + row as u64));
+                    let _ = write!(runs, ",{}", 5.0 + shared + own + if row == 2 { effect } else { 0.0 });
+                }
+                runs.push('\n');
+            }
+        }
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join(REALISATIONS), runs).unwrap();
+        std::fs::write(folder.path().join(TABLE), "row,gap_m\n0,2\n1,1\n2,3\n").unwrap();
+        let names: Vec<&str> = ["row", "error"].into_iter().chain(columns.iter().map(String::as_str)).collect();
+        let request = json!({
+            "vary": [{ "column": "gap_m", "keys": [{ "key": "support.*.gap" }], "count": 1, "follow": "No" }],
+            "columns": names,
+            "seeds": seeds,
+            "one_at_a_time": true,
+        });
+        let effects = effects(folder.path(), request.as_object().unwrap()).unwrap();
+        assert_eq!(effects.len(), places as usize);
+        assert!(effects.iter().all(|one| one.bounds == [1.0, 3.0] && one.count == 6));
+        effects.iter().filter(|one| one.is_seen()).count()
+    }
+
+    /// An interval of 95 % excludes 0 in 5 % of the designs without an effect; of 1000 the number
+    /// has the standard deviation 6.9, and three of these are 20.
+    #[test]
+    fn one_in_twenty_effects_of_none_is_seen_and_a_large_one_always() {
+        let seen = seen_of_a_thousand(0.0);
+        assert!((30..=70).contains(&seen), "{seen}");
+        // Ten deviations of the mean difference, √(2/6), against t₅ = 2.57 of its estimate: an
+        // estimate four times too large has the probability of χ²₅ above 75, 1e-14.
+        assert_eq!(seen_of_a_thousand(10.0 * (2.0_f64 / 6.0).sqrt()), 1000);
+    }
 }

@@ -7,6 +7,7 @@ mod folders;
 mod formats;
 mod hazards;
 mod notes;
+mod one_at_a_time;
 mod pictures;
 mod rerun;
 mod seeds;

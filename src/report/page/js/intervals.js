@@ -50,3 +50,9 @@ function bandOf(curve, half) {
   const look = { ...curve.look, behind: true };
   return { ...curve, kind: "own", look, infinite: false, y: edges.flat(), draw };
 }
+
+/** What the numbers of rows with realisations are; those of effects are in a table alone. */
+const seedsText = (seeds, effects) =>
+  ` Of every row there are ${seeds} realisations of the random loads: shown are their means, and ` +
+  (effects ? "the half widths of their" : "as bands their") +
+  " 95 % intervals, by Student's t.";

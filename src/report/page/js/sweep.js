@@ -76,13 +76,13 @@ function sweepSection() {
   section(
     "sweep",
     "Sweep",
-    "Point at a row for its numbers; click it for the command that runs it alone" +
+    (effects
+      ? "Click a row for the command that runs it alone"
+      : "Point at a row for its numbers; click it for the command that runs it alone") +
       (kept.size
         ? `, or for its own report (there ${kept.size === 1 ? "is" : "are"} ${kept.size}).`
         : ".") +
-      (seeds
-        ? ` Of every row there are ${seeds} realisations of the random loads: shown are their means, and as bands the 95 % intervals of these, by Student's t.`
-        : "") +
+      (seeds ? seedsText(seeds, effects) : "") +
       (unjudged ? ` ${unjudged} of ${table.count} rows are unjudged: nothing checked their steps.` : ""),
     ...content,
     command,
