@@ -30,8 +30,8 @@ impl Layout {
         }
     }
 
-    /// The number of the point at which axis number `axis` is at its lower bound, or for `side` 1 at
-    /// its upper one.
+    /// The number of the point at which axis number `axis` is at its lower bound, or for `side` 1
+    /// at its upper one.
     pub fn row_of(axis: usize, side: u64) -> u64 {
         1 + 2 * axis as u64 + side
     }

@@ -2,6 +2,7 @@
 #![cfg(feature = "cli")]
 
 mod commands;
+mod compare_seeds;
 mod documents;
 mod folders;
 mod formats;
