@@ -46,9 +46,9 @@ pub struct Args {
     /// the case]; the exact one is always included
     #[arg(long, value_name = "A,B,…", alias = "scheme", value_parser = values::schemes(), hide_possible_values = true)]
     schemes: Option<String>,
-    /// Run every method with N realisations of the case's random loads, the same for all: means with
-    /// their 95 % intervals, and what each method differs by from the exact one, or else from the
-    /// first. Realisation k has the seeds of the case plus k - 1, as with `run --seeds`
+    /// Run every method with N realisations of the case's random loads, the same for all: means
+    /// with their 95 % intervals, and what each method differs by from the exact one, or else from
+    /// the first. Realisation k has the seeds of the case plus k - 1, as with `run --seeds`
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seeds: Option<u64>,
     /// Do not repeat the methods with half the step
