@@ -186,3 +186,15 @@ pub(super) fn include_marks(data: Extent, marks: impl Iterator<Item = f64>, scal
     }
     grown
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Curve, Panel, Scale};
+
+    #[test]
+    fn the_axis_holds_the_band_about_a_curve() {
+        let curve = Curve::new("mean", [(0.0, 1.0), (1.0, 2.0), (2.0, 4.0)]).banded([0.5, 3.0, f64::NAN]);
+        let (xs, ys) = Panel::new("y").curve(curve).extents(Scale::Linear);
+        assert_eq!([xs.low, xs.high, ys.low, ys.high], [0.0, 2.0, -1.0, 5.0]);
+    }
+}

@@ -1,8 +1,71 @@
-// The effects of keys that a sweep varies one at a time, as a table.
+// The effects of keys that a sweep varies one at a time: a tornado diagram of each measure, a table.
 
 /** True for an effect that its interval distinguishes from none, or that has no interval. */
 const isSeen = (columns, i) =>
   !(Math.abs(columns.effect[i]) <= (columns.half_width_95 || [])[i]);
+
+/** The looks of a measure at the lower and at the upper bound of a key, as in the figure. */
+const BOUND_LOOKS = [3, 2];
+
+/** Bars from the measure in the case to that at each bound, of the keys in these rows. */
+function effectBars(columns, rows, label) {
+  const level = (k) => rows.length - k;
+  const draw = (ctx, plot) => {
+    rows.forEach((i, k) => {
+      const base = plot.sx(columns.base[i]);
+      const ends = [columns.at_low[i], columns.at_high[i]].map((x, side) => [plot.sx(x), side]);
+      // The longer half first, so that both show where they lie on one side.
+      ends.sort(([a], [b]) => Math.abs(b - base) - Math.abs(a - base));
+      for (const [end, side] of ends) {
+        if (!Number.isFinite(end)) continue;
+        ctx.strokeStyle = ctx.fillStyle = lookOf(BOUND_LOOKS[side]).colour();
+        ctx.lineWidth = 1.4;
+        const place = [Math.min(base, end), plot.sy(level(k)) - 8, Math.abs(end - base), 16];
+        if (!isSeen(columns, i)) ctx.fillStyle = ink.paper;
+        ctx.fillRect(...place);
+        ctx.strokeRect(...place);
+      }
+    });
+    ctx.strokeStyle = ink.ink;
+    ctx.beginPath();
+    ctx.moveTo(plot.sx(columns.base[rows[0]]), plot.y0);
+    ctx.lineTo(plot.sx(columns.base[rows[0]]), plot.y1);
+    ctx.stroke();
+  };
+  const values = rows.flatMap((i) => [columns.base[i], columns.at_low[i], columns.at_high[i]]);
+  const plot = new Plot({
+    x: label,
+    height: 60 + 28 * rows.length,
+    left: 210,
+    alt: `Effects on ${label}`,
+    yTicks: rows.map((i, k) => [level(k), String(columns.key[i])]),
+    range: () => [0.4, rows.length + 0.6],
+    series: [{ kind: "own", look: lookOf(0), x: values, y: [], draw }],
+  });
+  return plot.box;
+}
+
+/** The diagrams of all measures and places, with what the colours stand for. */
+function effectDiagrams(columns, count) {
+  const groups = new Map();
+  for (let i = 0; i < count; i++) {
+    const unit = columns.unit[i] ? ` (${columns.unit[i]})` : "";
+    const label = `${columns.measure[i]} ${columns.place[i] || ""}`.replace(/_/g, " ").trim() + unit;
+    if (!groups.has(label)) groups.set(label, []);
+    groups.get(label).push(i);
+  }
+  const words = ["at the lower bound", "at the upper bound"];
+  const hollow = Array.from({ length: count }, (_, i) => i).some((i) => !isSeen(columns, i));
+  return [
+    el(
+      "div",
+      { class: "bar" },
+      words.map((text, side) => swatch(text, () => lookOf(BOUND_LOOKS[side]).colour())),
+      hollow ? el("span", { class: "help" }, "hollow: not distinguished from none") : null,
+    ),
+    ...[...groups].map(([label, rows]) => effectBars(columns, rows, label)),
+  ];
+}
 
 function effectsSection(effects, seeds) {
   const { columns, count } = effects;
@@ -40,6 +103,7 @@ function effectsSection(effects, seeds) {
       (seeds
         ? ` Means over ${seeds} realisations of the random loads, of differences under the same seeds; ± is the half width of the 95 % interval, by Student's t.`
         : ""),
+    ...effectDiagrams(columns, count),
     sortable(
       [
         text("measure", "measure"),
