@@ -45,7 +45,8 @@ impl Sweep {
         header.extend(self.realisations.map(|_| SEEDS.to_owned()));
         header.extend(["status", "error"].map(str::to_owned));
         header.extend(self.measure_columns(&base.scene));
-        let mut seen = HashSet::new();
+        // That of realisations.csv is among them.
+        let mut seen: HashSet<&str> = self.realisations.map(|_| REALISATION).into_iter().collect();
         if let Some(twice) = header.iter().find(|name| !seen.insert(name.as_str())) {
             return Err(Error::invalid("[[vary]] name", twice, "a name that no other column has"));
         }

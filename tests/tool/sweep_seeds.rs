@@ -175,6 +175,17 @@ fn threads_and_shards_change_no_byte() {
     let (out, _) = said(path, &["merge", "parts", "--out", "merged"], 0);
     assert!(out.contains(" ± "), "{out}");
     assert!(bytes(&path.join("merged")) == whole, "two shards");
+    // Rows that follow one another do so for each realisation by itself.
+    let follow = |out: &str, threads: &str| {
+        let own = ["sweep", "tube-round-supports", "--set", "time.end=0.3", "--vary", "support.*.gap=1e-4:4e-4:3"];
+        let more = ["--follow", "up", "--seeds", "2", "--measure", "work_rate", "--threads", threads, "--out", out];
+        said(path, &[&own[..], &more].concat(), 0);
+        rows(&path.join(out).join("realisations.csv"))
+    };
+    let (one, eight) = (follow("follow-one", "1"), follow("follow-eight", "8"));
+    assert_eq!(one, eight);
+    let places: Vec<_> = one.iter().map(|run| (run["row"].as_str(), run["realisation"].as_str())).collect();
+    assert_eq!(places, [("0", "1"), ("0", "2"), ("1", "1"), ("1", "2"), ("2", "1"), ("2", "2")]);
 }
 
 /// A sweep that is killed between two realisations of a row goes on from there.
@@ -289,6 +300,15 @@ fn realisations_that_failed_are_named_with_reason_and_count() {
     assert!(out.contains("3 rows × 3 realisations by") && out.contains("from 9 realisations tried"), "{out}");
 }
 
+/// A sweep file whose varied value has a name.
+const STOP_NAMED: &str = "\
+case = \"stop.toml\"
+[[vary]]
+key = \"wall.stop.restitution\"
+name = \"NAME\"
+values = [0.5, 0.6]
+";
+
 #[test]
 fn seeds_that_make_no_sense_are_refused_by_name() {
     let dir = tempfile::tempdir().unwrap();
@@ -314,6 +334,9 @@ fn seeds_that_make_no_sense_are_refused_by_name() {
         &["load.1.random.seed", "no seeds beside it"],
     );
     refused(&with(&["--seeds", "3", "--vary", "load.*.random.seed=1,2"]), &["random.seed", "no seeds beside it"]);
+    let named = STOP_NAMED.replace("NAME", "realisation");
+    fs::write(path.join("named.toml"), named).unwrap();
+    refused(&["named.toml", "--measure", "contacts", "--seeds", "3"], &["realisation", "no other column"]);
     refused(&with(&["--seeds", "3", "--set", "load.1.random.seed=9007199254740992"]), &["at most 1", "2^53"]);
     assert!(!path.join("out").exists(), "a refused request leaves nothing");
 }
