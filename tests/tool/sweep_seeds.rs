@@ -177,7 +177,8 @@ fn threads_and_shards_change_no_byte() {
     assert!(bytes(&path.join("merged")) == whole, "two shards");
     // Rows that follow one another do so for each realisation by itself.
     let follow = |out: &str, threads: &str| {
-        let own = ["sweep", "tube-round-supports", "--set", "time.end=0.3", "--vary", "support.*.gap=1e-4:4e-4:3"];
+        let own = ["sweep", "tube-round-supports", "--vary", "support.*.gap=1e-4:4e-4:3"];
+        let own = [own, ["--set", "time.end=0.3", "--set", "time.statistics_from=0.1"]].concat();
         let more = ["--follow", "up", "--seeds", "2", "--measure", "work_rate", "--threads", threads, "--out", out];
         said(path, &[&own[..], &more].concat(), 0);
         rows(&path.join(out).join("realisations.csv"))
