@@ -11,6 +11,8 @@ pub struct Curve {
     pub(super) label: String,
     /// Pairs (x, y) in the units of the axes.
     pub(super) points: Vec<(f64, f64)>,
+    /// Half the height of the band at each point; empty without a band.
+    pub(super) half_widths: Vec<f64>,
     pub(super) role: Role,
     pub(super) marked: bool,
     pub(super) oscillates: bool,
@@ -25,6 +27,7 @@ impl Curve {
         Self {
             label: label.into(),
             points,
+            half_widths: Vec::new(),
             role: Role::Ordinary,
             marked: false,
             oscillates: false,
@@ -38,6 +41,23 @@ impl Curve {
     pub fn marked(mut self) -> Self {
         self.marked = true;
         self
+    }
+
+    /// Also fills a band about the curve, in its colour: the interval of each value, y ± half
+    /// width, in the order of the points. It is broken where a half width is not finite; about a
+    /// point between two breaks it is a vertical stroke.
+    #[must_use]
+    pub fn banded(mut self, half_widths: impl IntoIterator<Item = f64>) -> Self {
+        self.half_widths = half_widths.into_iter().collect();
+        self
+    }
+
+    /// The stretches of the band: at each point its x, and the two edges.
+    pub(super) fn bands(&self) -> Vec<Vec<(f64, f64, f64)>> {
+        let known = |pair: &(&(f64, f64), &f64)| pair.0.1.is_finite() && pair.1.is_finite();
+        let pairs: Vec<_> = self.points.iter().zip(&self.half_widths).collect();
+        let edges = |&(&(x, y), half): &(&(f64, f64), &f64)| (x, y - half, y + half);
+        pairs.split(|pair| !known(pair)).map(|run| run.iter().map(edges).collect()).collect()
     }
 
     /// Says that the curve oscillates: where it does so too fast for the page, a filled envelope
@@ -158,5 +178,20 @@ impl Mark {
     pub fn upright(mut self) -> Self {
         self.upright = true;
         self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Curve;
+
+    #[test]
+    fn a_band_is_broken_where_a_value_or_its_half_width_is_missing() {
+        let points = [(0.0, 1.0), (1.0, 2.0), (2.0, f64::NAN), (3.0, 4.0), (4.0, 5.0), (5.0, 6.0)];
+        let half_widths = [0.5, 1.0, 1.0, 0.25, f64::NAN, 2.0];
+        let bands = Curve::new("mean", points).banded(half_widths).bands();
+        let bands: Vec<_> = bands.into_iter().filter(|band| !band.is_empty()).collect();
+        let expected = [vec![(0.0, 0.5, 1.5), (1.0, 1.0, 3.0)], vec![(3.0, 3.75, 4.25)], vec![(5.0, 4.0, 8.0)]];
+        assert_eq!(bands, expected);
     }
 }

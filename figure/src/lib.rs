@@ -5,6 +5,7 @@
 //! | [`Figure`] | panels under one another sharing the horizontal axis: responses, phase plots, work–precision charts |
 //! | [`Panel`] | one frame: [`Curve`]s, [`Stems`] (impulses) and [`Mark`]s (walls, floors) |
 //! | [`HeatMap`] | classes or numbers over two axes |
+//! | [`Tornado`] | how far each of several inputs moves a number, as bars |
 //! | [`Animation`] | lines that move, in [`View`]s beside and under one another |
 //! | [`Scatter`] | any number of points over two axes, with [`Line`]s and [`Sign`]s over them |
 //!
@@ -57,6 +58,7 @@ mod svg;
 mod text;
 mod thin;
 mod tone;
+mod tornado;
 
 pub use animation::{Animation, View};
 pub use axis::Scale;
@@ -67,3 +69,4 @@ pub use overlay::{Line, Sign};
 pub use panel::Panel;
 pub use scatter::Scatter;
 pub use sheet::Figure;
+pub use tornado::{Bar, Bars, Tornado};

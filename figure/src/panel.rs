@@ -114,8 +114,10 @@ impl Panel {
     /// Range of the contents: (horizontal, vertical), before padding and without marks.
     pub(super) fn extents(&self, x_scale: Scale) -> (Extent, Extent) {
         let (mut xs, mut ys) = (Extent::EMPTY, Extent::EMPTY);
-        let points = self.curves.iter().map(|c| &c.points).chain(self.stems.iter().map(|s| &s.points));
-        for (x, y) in points.flatten().filter_map(|p| Some((x_scale.even(p.0)?, self.y_scale.even(p.1)?))) {
+        let points = self.curves.iter().map(|c| &c.points).chain(self.stems.iter().map(|s| &s.points)).flatten();
+        let bands = self.curves.iter().flat_map(Curve::bands).flatten();
+        let edges = bands.flat_map(|(x, low, high)| [(x, low), (x, high)]);
+        for (x, y) in points.copied().chain(edges).filter_map(|p| Some((x_scale.even(p.0)?, self.y_scale.even(p.1)?))) {
             xs.include(x);
             ys.include(y);
         }
@@ -183,4 +185,16 @@ pub(super) fn include_marks(data: Extent, marks: impl Iterator<Item = f64>, scal
         }
     }
     grown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Curve, Panel, Scale};
+
+    #[test]
+    fn the_axis_holds_the_band_about_a_curve() {
+        let curve = Curve::new("mean", [(0.0, 1.0), (1.0, 2.0), (2.0, 4.0)]).banded([0.5, 3.0, f64::NAN]);
+        let (xs, ys) = Panel::new("y").curve(curve).extents(Scale::Linear);
+        assert_eq!([xs.low, xs.high, ys.low, ys.high], [0.0, 2.0, -1.0, 5.0]);
+    }
 }

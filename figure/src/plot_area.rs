@@ -7,6 +7,9 @@ use super::look::{FRAME, GRID, Look, Role, SMALL};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::thin::{Spot, never_goes_back, thin};
 
+/// Opacity of the band about a curve: bands that overlap remain visible.
+const BAND: f64 = 0.18;
+
 /// The rectangle of a panel on the page, with both axes.
 #[derive(Debug)]
 pub(super) struct PlotArea<'a> {
@@ -97,6 +100,19 @@ impl PlotArea<'_> {
             let drawn = spots.iter().flatten().count();
             for (x, y) in spots.iter().flatten().step_by(drawn.div_ceil((budget / 100).clamp(4, 200)).max(1)) {
                 look.mark(canvas, *x, *y);
+            }
+        }
+    }
+
+    /// Fills the band about a curve.
+    pub(super) fn draw_band(&self, canvas: &mut Canvas, curve: &Curve, colour: &'static str) {
+        for band in curve.bands() {
+            let lower: Vec<(f64, f64)> = band.iter().filter_map(|&(x, low, _)| self.spot((x, low))).collect();
+            let upper: Vec<(f64, f64)> = band.iter().rev().filter_map(|&(x, _, high)| self.spot((x, high))).collect();
+            match (lower.as_slice(), upper.as_slice()) {
+                ([low], [high]) => canvas.line(*low, *high, Stroke::solid(colour, 1.0)),
+                ([], []) => {}
+                _ => canvas.area(&[upper, lower].concat(), colour, BAND),
             }
         }
     }

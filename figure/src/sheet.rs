@@ -282,6 +282,11 @@ impl Figure {
         frame.draw_outlines(canvas, &panel.outlines, own.unwrap_or("#555"));
         for curve in panel.curves.iter().filter(|c| c.role == Role::Ordinary) {
             if let Some(found) = found(&curve.label) {
+                frame.draw_band(canvas, curve, found.stroke.colour);
+            }
+        }
+        for curve in panel.curves.iter().filter(|c| c.role == Role::Ordinary) {
+            if let Some(found) = found(&curve.label) {
                 let marker = found.marker.filter(|_| curve.marked);
                 frame.draw_curve(canvas, curve, Look { marker, ..found }, budget);
             }

@@ -1,9 +1,11 @@
 //! `signorini compare`: methods side by side, the main command.
 
+use super::compare_seeds::Studies;
 use super::drawing::PlotSpan;
 use super::estimate::DurationEstimate;
 use super::pipeline::Shown;
 use super::request::Request;
+use super::run::checked_seeds;
 use super::run_notes::run_notes;
 use super::ui::Ui;
 use super::{values, verdicts};
@@ -27,6 +29,7 @@ const EXAMPLES: &str = "\
 Examples:
   signorini compare cases/rigid-walls-sine.toml
   signorini compare rigid-walls-sine --restitution 0.8
+  signorini compare tube-round-supports --seeds 6      means over six realisations of the random loads
   signorini compare rigid-walls-sine --schemes moreau-jean,paoli-schatzman,implicit-euler,newmark
   signorini compare rigid-walls-sine --schemes 'moreau-jean:theta=0.75;penalty:epsilon=1e-9,integrator=trapezoidal'
 
@@ -43,6 +46,11 @@ pub struct Args {
     /// the case]; the exact one is always included
     #[arg(long, value_name = "A,B,…", alias = "scheme", value_parser = values::schemes(), hide_possible_values = true)]
     schemes: Option<String>,
+    /// Run every method with N realisations of the case's random loads, the same for all: means
+    /// with their 95 % intervals, and what each method differs by from the exact one, or else from
+    /// the first. Realisation k has the seeds of the case plus k - 1, as with `run --seeds`
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    seeds: Option<u64>,
     /// Do not repeat the methods with half the step
     #[arg(long)]
     no_verdict: bool,
@@ -55,15 +63,23 @@ pub struct Args {
 
 pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let case = args.request.read(ui)?;
+    let count = checked_seeds(args.seeds, &case)?;
     let methods = args.methods(&case)?;
     args.request.check_use(&methods)?;
     // A stretch outside the run is refused before anything runs.
     let span = args.span.within(&case, case.scene.duration)?;
-    let asked = extended(request("compare", &case, &methods), json!({ "verdict": !args.no_verdict }));
+    let mut asked = extended(request("compare", &case, &methods), json!({ "verdict": !args.no_verdict }));
+    if let Some(count) = count {
+        asked.insert("seeds".to_owned(), json!(count));
+    }
     let mut results = args.request.place.open(&case, "compare", asked)?;
     let (comparison, verdicts) = compared(args, &case, &methods, ui)?;
     refute(&comparison, &verdicts, ui);
     any_succeeded(&comparison)?;
+    let studies = count.map(|count| Studies::of(&case, &comparison, count, ui)).transpose()?;
+    if let Some(studies) = &studies {
+        studies.write(&mut results)?;
+    }
     let common = args.span.within(&case, comparison.horizon)?;
     let report = !args.request.place.no_report;
     if report {
@@ -75,7 +91,11 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let conclusion = conclusion(&case, &comparison, &verdicts);
     results.tell("conclusion", json!(conclusion));
     results.tell("remarks", json!(findings.clone().chain(&notes).collect::<Vec<_>>()));
-    let mut shown = Shown::of(results, report, document(&case, &comparison, rows, &conclusion, &notes));
+    let mut document = document(&case, &comparison, rows, &conclusion, &notes);
+    if let Some(studies) = &studies {
+        document["realisations"] = studies.document();
+    }
+    let mut shown = Shown::of(results, report, document);
     if args.verbose {
         shown.table(whole(&case, &comparison), "compare.csv");
         shown.remarks(remark(&case));
@@ -83,13 +103,30 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
         shown.table(overview(&case, &comparison), "compare.csv");
     }
     shown.prose(conclusion);
+    if let Some(studies) = &studies {
+        studies.show(&mut shown, &case);
+    }
+    tell(&mut shown, args, &case, &comparison, &verdicts, &notes);
+    Ok(shown)
+}
+
+/// Shows what failed, and in full or as a count the findings and notes.
+fn tell(
+    shown: &mut Shown,
+    args: &Args,
+    case: &Case,
+    comparison: &Comparison,
+    verdicts: &[Option<Verdict>],
+    notes: &[String],
+) {
+    let findings = comparison.findings.iter();
     let failure = comparison.rows.iter().filter_map(|row| Some((row.method, row.outcome.as_ref().err()?)));
     shown.messages(failure.map(|(method, error)| format!("- {method} failed: {error}")));
     if !args.verbose {
         let count = findings.count() + notes.len();
         let more = (count > 0).then(|| format!("--verbose shows all quantities and the notes, {count} of them"));
         shown.remarks(more);
-        return Ok(shown);
+        return;
     }
     shown.messages(findings.map(|finding| format!("- {finding}")));
     if case.penalty.laws.is_empty()
@@ -100,9 +137,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     }
     shown.messages(notes.iter().map(|note| format!("- {note}")));
     if !args.no_verdict {
-        shown.messages([format!("refinement: {}", verdicts::line(&comparison, &verdicts))]);
+        shown.messages([format!("refinement: {}", verdicts::line(comparison, verdicts))]);
     }
-    Ok(shown)
 }
 
 impl Args {

@@ -3,10 +3,10 @@
 use super::command_line::command_line;
 use super::drawing::Formats;
 use super::pipeline::Shown;
-use super::sweep::{picture_messages, status_document, status_messages};
+use super::sweep::{picture_messages, show_effects, show_means, status_document, status_messages};
 use crate::error::Result;
-use crate::sweep::{Merged, merge_in, write_summary};
-use serde_json::json;
+use crate::sweep::{Merged, effects, merge_in, write_effects, write_summary};
+use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Join the shards of a sweep: gives the same tables as the sweep that was not divided
@@ -47,8 +47,13 @@ pub fn answer(args: &Args) -> Result<Shown> {
         "pictures": pictures.drawn,
         "results": args.out,
     });
+    let request = document["request"].as_object().cloned().unwrap_or_default();
+    let effects = effects(&args.out, &request)?;
+    write_effects(&mut results, &effects)?;
     let document = write_summary(&mut results, document)?;
     let mut shown = Shown::of(results, !args.no_report, document);
+    show_effects(&mut shown, &effects, request.get("seeds").and_then(Value::as_u64));
+    show_means(&mut shown, &args.out, &request)?;
     shown.messages(unverified.iter().map(|folder| {
         format!("{}: of a version that recorded no digests: its tables are not verified", folder.display())
     }));

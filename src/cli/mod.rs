@@ -12,6 +12,7 @@ mod case_args;
 mod chart;
 mod command_line;
 mod compare;
+mod compare_seeds;
 mod completions;
 mod continuation;
 mod drawing;

@@ -63,6 +63,7 @@ mod labelled;
 pub mod loci;
 mod lock;
 pub(crate) mod manifest;
+pub(crate) mod method_realisations;
 mod motion;
 mod orbit;
 pub mod orbits;

@@ -29,9 +29,31 @@ pub(crate) fn titled(title: &str, count: u64) -> String {
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, study: &Realisations) -> Result<()> {
+    let (header, rows) = (header(), rows(study));
+    csv::table(path, &header, rows.into_iter())
+}
+
+/// The same for the studies of several methods, with a first column that names them.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_methods(path: &Path, studies: &[(String, &Realisations)]) -> Result<()> {
+    let header: Vec<String> = std::iter::once("method".to_owned()).chain(header()).collect();
+    let named = |(method, study): &(String, &Realisations)| {
+        let method = method.clone();
+        rows(study).into_iter().map(move |row| [vec![method.clone()], row].concat())
+    };
+    csv::table(path, &header, studies.iter().flat_map(named))
+}
+
+fn header() -> Vec<String> {
     let mut header = vec!["realisation".to_owned(), "place".to_owned(), "kind".to_owned()];
     header.extend(Measure::ALL.map(|measure| format!("{}_{}", measure.words().replace(' ', "_"), measure.unit())));
     header.push("findings".to_owned());
+    header
+}
+
+fn rows(study: &Realisations) -> Vec<Vec<String>> {
     let places = places(study);
     let rows = study.members.iter().flat_map(|member| {
         places.iter().map(move |place| {
@@ -41,7 +63,7 @@ pub fn write(path: &Path, study: &Realisations) -> Result<()> {
             row
         })
     });
-    csv::table(path, &header, rows)
+    rows.collect()
 }
 
 /// The places of a study, in its order.
@@ -57,7 +79,7 @@ fn places(study: &Realisations) -> Vec<&ContactPlace> {
 
 /// The places that the terminal shows: supports, and walls that are no flats of one; where there
 /// are many, those of the largest mean forces.
-fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a ContactPlace> {
+pub(super) fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a ContactPlace> {
     let wall = |place: &ContactPlace| scene.walls.iter().position(|wall| wall.name == place.name);
     let own = |place: &&ContactPlace| {
         place.kind == PlaceKind::Support || wall(place).is_none_or(|wall| scene.support_of(wall).is_none())
@@ -70,7 +92,7 @@ fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a Con
     places.into_iter().map(|(_, place)| place).collect()
 }
 
-fn find<'a>(study: &'a Realisations, place: &ContactPlace, measure: Measure) -> Option<&'a Estimate> {
+pub(super) fn find<'a>(study: &'a Realisations, place: &ContactPlace, measure: Measure) -> Option<&'a Estimate> {
     study.estimates.iter().find(|one| one.place == *place && one.measure == measure)
 }
 
@@ -148,7 +170,7 @@ fn with_decimals(x: f64, decimals: usize) -> String {
 }
 
 /// A value with two digits of its half width, or with three of its own.
-fn with_interval(x: f64, half: Option<f64>) -> String {
+pub(crate) fn with_interval(x: f64, half: Option<f64>) -> String {
     match half {
         Some(half) if half > 0.0 => {
             let decimals = decimals(half);

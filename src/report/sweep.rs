@@ -15,6 +15,9 @@ const SAMPLES: &str = "samples.csv";
 /// Most cells of the tables that a page holds: some tens of megabytes of HTML.
 const MOST_CELLS: usize = 4_000_000;
 
+/// The table of the effects of keys that are varied one at a time.
+const EFFECTS: &str = "effects.csv";
+
 /// The table of the attractors, for a sweep that has them, and the columns that the page shows.
 const ATTRACTORS: &str = "attractors.csv";
 const TOLD: [&str; 8] =
@@ -71,6 +74,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let table = folder.cells(TABLE)?;
     let samples = if folder.has(SAMPLES) { Some(folder.cells(SAMPLES)?) } else { None };
     let attractors = if folder.has(ATTRACTORS) { Some(folder.cells(ATTRACTORS)?) } else { None };
+    let effects = if folder.has(EFFECTS) { Some(folder.cells(EFFECTS)?) } else { None };
     let request = &folder.manifest["request"];
     let axes: Vec<Value> = request["vary"].as_array().cloned().unwrap_or_default();
     let summary = if folder.has("summary.json") { folder.json("summary.json")? } else { Value::Null };
@@ -78,16 +82,21 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     Ok(json!({
         "program": program,
         "title": summary["title"],
-        "subtitle": format!("{} rows", table.rows.len()),
+        "subtitle": match request["seeds"].as_u64() {
+            Some(count) => format!("{} rows × {count} realisations", table.rows.len()),
+            None => format!("{} rows", table.rows.len()),
+        },
         "command": summary["command_line"],
         "sweep": {
             "table": table.for_page(None),
             "attractors": attractors.map(|attractors| attractors.for_page(Some(&TOLD))),
+            "effects": effects.map(|effects| effects.for_page(None)),
             "samples": samples.map(|samples| samples.for_page(None)),
             "axes": axes,
             "walls": names(&request["wall_names"]),
             "scheme": request["methods"][0],
             "kept": kept(folder.path, &table),
+            "seeds": request["seeds"],
             "unjudged": summary["status"]["unjudged"].as_u64().unwrap_or(0),
         },
         "case": folder.manifest["case_text"],

@@ -2,6 +2,7 @@
 //! range.
 
 use super::follow::Follow;
+use super::layout::Layout;
 use super::target::{Target, with_unit};
 use super::values::{Values, finite};
 use crate::case::KeyValue;
@@ -138,8 +139,8 @@ impl Axis {
         })
     }
 
-    /// Checks the axis by itself, in a `random` design or in a grid.
-    pub(super) fn validate(&self, random: bool) -> Result<()> {
+    /// Checks the axis by itself, among points of that `layout`.
+    pub(super) fn validate(&self, layout: Layout) -> Result<()> {
         let key = |what: &str| format!("[[vary]] {}: {what}", self.label());
         if let Some(name) = &self.name {
             let fits = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
@@ -154,23 +155,29 @@ impl Axis {
             finite(&key, "factors", *factor)?;
         }
         self.values.validate(&key)?;
-        let drawn = self.values.is_drawn();
-        if random && !drawn {
-            let expected = "a range or a normal distribution, without points: [random] says how many";
-            return Err(Error::invalid(key("points"), "given", expected));
+        match layout {
+            Layout::Random(_) if !self.values.is_drawn() => {
+                let expected = "a range or a normal distribution, without points: [random] says how many";
+                return Err(Error::invalid(key("points"), "given", expected));
+            }
+            Layout::OneAtATime if !matches!(self.values, Values::Range { .. }) => {
+                let expected = "from and to alone (--vary KEY=FROM:TO), varied one at a time";
+                return Err(Error::invalid(key("points, values or normal"), "given", expected));
+            }
+            Layout::Grid if self.values.is_drawn() => {
+                let expected = "points or values beside it, a table [random] that draws them, or --one-at-a-time";
+                return Err(Error::invalid(key("from and to"), "given alone", expected));
+            }
+            _ => {}
         }
-        if drawn && !random {
-            let expected = "points or values beside it, or a table [random] that draws them";
-            return Err(Error::invalid(key("from and to"), "given alone", expected));
-        }
-        self.check_follow(random, &key)
+        self.check_follow(layout != Layout::Grid, &key)
     }
 
     /// Refuses to follow values without an order.
-    fn check_follow(&self, random: bool, key: &dyn Fn(&str) -> String) -> Result<()> {
+    fn check_follow(&self, unordered: bool, key: &dyn Fn(&str) -> String) -> Result<()> {
         let (found, expected) = match self.values.word() {
             _ if self.follow == Follow::No => return Ok(()),
-            _ if random => ("given".to_owned(), "no follow in a random design: its rows have no order"),
+            _ if unordered => ("given".to_owned(), "no follow in a design whose rows have no order"),
             Some(word) => (format!("given for {word}"), "numbers: words have no order"),
             None => return Ok(()),
         };

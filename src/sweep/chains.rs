@@ -33,10 +33,11 @@ impl Plan {
         on_threads(self.groups(shard), threads, &work, receive)
     }
 
-    /// Number of groups of chains of `shard`; a group is computed by one thread.
+    /// Number of groups of chains of `shard`; a group is computed by one thread. Each realisation
+    /// of a chain is a group.
     pub(super) fn groups(&self, shard: Shard) -> u64 {
         let chains = shard.chains(self.chains);
-        if self.sweep.kernel == Kernel::Batch { chains.div_ceil(TOGETHER) } else { chains }
+        if self.sweep.kernel == Kernel::Batch { chains.div_ceil(TOGETHER) } else { chains * self.runs_of_row() }
     }
 
     /// Computes the rows of group number `group` that were not `found`, one after another, and
@@ -63,8 +64,10 @@ impl Plan {
             return Ok(());
         }
         let (done, mut start) = found.chain(group);
+        let (chain, realisation) = (shard.chain(group / self.runs_of_row()), group % self.runs_of_row() + 1);
         for along in done..self.chain_rows() {
-            let row = self.row(&self.point(shard.chain(group), along), start.as_ref());
+            let realisation = self.sweep.realisations.map(|_| realisation);
+            let row = self.row(&Point { realisation, ..self.point(chain, along) }, start.as_ref());
             // A row that failed leaves no state: the next one starts from the case's initial state.
             start = row.end.clone().filter(|_| self.sweep.followed().is_some());
             if !take(row)? {

@@ -3,12 +3,13 @@
 use super::axis::Axis;
 use super::follow::Follow;
 use super::forcing;
+use super::layout::Layout;
 use super::measure::{Measure, Scope};
 use super::plan::Plan;
 use super::request::{Sweep, Window};
 use super::sample::Samples;
 use super::target::Target;
-use crate::case::Case;
+use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
 use crate::scheme::Scheme;
 
@@ -24,9 +25,9 @@ impl Sweep {
             return Err(Error::invalid("[measure] columns", "none", format!("one measure or more of {known}")));
         }
         for axis in &self.axes {
-            axis.validate(self.random.is_some())?;
+            axis.validate(self.layout)?;
         }
-        if let Some(random) = &self.random {
+        if let Some(random) = self.layout.random() {
             random.validate(self.axes.len())?;
         }
         let followed: Vec<String> =
@@ -35,6 +36,35 @@ impl Sweep {
             return Err(Error::invalid("follow", followed.join(" and "), "one followed [[vary]] at most"));
         }
         self.unique()
+    }
+
+    /// The values of the axes in the case itself, where they are varied one at a time; an error for
+    /// an axis without one.
+    pub(super) fn centre(&self) -> Result<Vec<KeyValue>> {
+        if self.layout != Layout::OneAtATime {
+            return Ok(Vec::new());
+        }
+        let of = |axis: &Axis| {
+            let in_case = |target: &Target| match target {
+                Target::Case(key) => self.case.get(key),
+                Target::Scheme => Ok(None),
+            };
+            let first = axis.targets.first().map(|(target, _)| in_case(target)).transpose()?.flatten();
+            let value = first.filter(|value| value.number().is_some());
+            let factor = axis.targets.first().map_or(1.0, |(_, factor)| *factor);
+            let value = match value.as_ref().and_then(KeyValue::number) {
+                Some(x) if factor != 1.0 => Some((x / factor).into()),
+                _ => value,
+            };
+            let Some(value) = value else { return Err(no_centre(axis)) };
+            for (target, expected) in axis.settings(&value) {
+                if in_case(target)?.and_then(|found| found.number()) != expected.number() {
+                    return Err(no_centre(axis));
+                }
+            }
+            Ok(value)
+        };
+        self.axes.iter().map(of).collect()
     }
 
     /// An error for a key that is varied twice, or set by two axes under different names.
@@ -105,6 +135,16 @@ impl Sweep {
         }
         Ok(())
     }
+}
+
+/// The error of an axis that is varied from the case, which gives it no value.
+fn no_centre(axis: &Axis) -> Error {
+    let key = axis.targets.first().map_or_else(String::new, |(target, _)| target.to_string());
+    let expected = format!(
+        "a key to which the case gives one number, from which it is varied: set it (--set '{key}=VALUE'), or vary \
+         each value that * stands for by its own key"
+    );
+    Error::invalid(format!("[[vary]] {}", axis.label()), "varied one at a time", expected)
 }
 
 impl Plan {

@@ -1,7 +1,7 @@
 //! The data of pictures: the axes of a sweep, and the columns of its tables by name.
 
 use super::measure::Measure;
-use super::table::{TABLE, Table};
+use super::table::{HALF_WIDTH, ONE_AT_A_TIME, SEEDS, TABLE, Table};
 use crate::output::figure::Scale;
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -22,6 +22,9 @@ pub(super) struct Source<'a> {
     pub title: &'a str,
     pub axes: Vec<SweepAxis>,
     pub random: bool,
+    pub one_at_a_time: bool,
+    /// Number of realisations of the random loads of every row.
+    pub seeds: Option<u64>,
     pub columns: Vec<String>,
     pub sample_columns: Vec<String>,
     /// The names of the walls.
@@ -54,6 +57,8 @@ impl<'a> Source<'a> {
                 .and_then(Value::as_array)
                 .map_or_else(Vec::new, |axes| axes.iter().map(along).collect()),
             random: request.get("random").is_some_and(|random| !random.is_null()),
+            one_at_a_time: request.get(ONE_AT_A_TIME).and_then(Value::as_bool).unwrap_or(false),
+            seeds: request.get(SEEDS).and_then(Value::as_u64),
             columns: list("columns"),
             sample_columns: list("sample_columns"),
             walls: list("wall_names"),
@@ -93,6 +98,16 @@ pub(super) fn place_suffix(column: &str, measure: &str) -> String {
         measure.parse::<Measure>().ok().and_then(Measure::unit).map_or_else(String::new, |unit| format!("_{unit}"));
     let rest = column.strip_prefix(measure).unwrap_or_default();
     rest.strip_suffix(&unit).unwrap_or(rest).to_owned()
+}
+
+/// The column of the half width of the interval of `column`, one of `measure`.
+pub(super) fn half_width_of(column: &str, measure: &str) -> String {
+    format!("{measure}{HALF_WIDTH}{}", column.strip_prefix(measure).unwrap_or_default())
+}
+
+/// True for the column of a half width.
+pub(super) fn is_half_width(column: &str, measure: &str) -> bool {
+    column.strip_prefix(measure).is_some_and(|rest| of(rest, HALF_WIDTH))
 }
 
 /// A cell, rounded to the digits of a label.

@@ -1,6 +1,6 @@
 //! Curves of measures.
 
-use super::columns::{Source, SweepAxis, place_of, place_suffix, short};
+use super::columns::{Source, SweepAxis, half_width_of, place_of, place_suffix, short};
 use super::picture::{Drawn, MOST_PANELS, Picture};
 use super::table::{TABLE, Table, label, quantity};
 use crate::error::Result;
@@ -19,7 +19,8 @@ struct MeasureCurve {
     direction: String,
     /// The wall or probe that its column names.
     place: String,
-    points: Vec<(f64, f64)>,
+    /// Pairs (x, y), each with the half width of its interval, NaN where there is none.
+    points: Vec<((f64, f64), f64)>,
 }
 
 impl Picture {
@@ -38,10 +39,11 @@ impl Picture {
         let named = |axis: &SweepAxis| Ok((table.column(&axis.column)?, quantity(&axis.column).to_lowercase()));
         let others: Vec<(usize, String)> = source.axes.iter().filter(other).map(named).collect::<Result<_>>()?;
         let direction = table.column("direction").ok();
-        let wanted: Vec<Vec<usize>> = groups
-            .iter()
-            .map(|(_, columns)| columns.iter().map(|c| table.column(c)).collect())
-            .collect::<Result<_>>()?;
+        let wanted = |(measure, columns): &(String, Vec<String>)| -> Result<Vec<_>> {
+            let half_width = |column: &str| table.column(&half_width_of(column, measure)).ok();
+            columns.iter().map(|column| Ok((table.column(column)?, half_width(column)))).collect()
+        };
+        let wanted: Vec<Vec<(usize, Option<usize>)>> = groups.iter().map(wanted).collect::<Result<_>>()?;
         let most = if source.random { MOST_CLOUDS } else { MOST_CURVES };
         // By panel, then by column and group of rows: points.
         let mut curves: Vec<Vec<MeasureCurve>> = groups.iter().map(|_| Vec::new()).collect();
@@ -53,12 +55,13 @@ impl Picture {
                 words.extend(others.iter().map(|(index, name)| format!("{name} {}", short(row.text(*index)))));
             }
             for ((curves, columns), (measure, names)) in curves.iter_mut().zip(&wanted).zip(&groups) {
-                for (&index, name) in columns.iter().zip(names) {
+                for (&(index, half_width), name) in columns.iter().zip(names) {
                     let place = place_of(name, measure);
                     let label =
                         [(!place.is_empty()).then(|| place.clone()), (!words.is_empty()).then(|| words.join(", "))];
                     let label = label.into_iter().flatten().collect::<Vec<_>>().join(": ");
-                    let point = (at, row.number(index).unwrap_or(f64::NAN));
+                    let number = |index: usize| row.number(index).unwrap_or(f64::NAN);
+                    let point = ((at, number(index)), half_width.map_or(f64::NAN, number));
                     match curves.iter().position(|known| known.label == label) {
                         Some(known) => curves[known].points.push(point),
                         None if curves.len() < most => {
@@ -75,15 +78,20 @@ impl Picture {
                 }
             }
         })?;
-        let title = match left_out.len() {
-            0 => source.title.to_owned(),
-            count => format!("{}: {count} more left out", source.title),
-        };
+        let title = titled(source, left_out.len());
         if source.random {
             return Ok(cloud(&title, x, &groups, &curves).map(|svg| Drawn { svg, left_out }));
         }
         Ok(Some(Drawn { svg: figure(title, x, &groups, curves, source).to_svg(), left_out }))
     }
+}
+
+/// The title of a picture that leaves out so many curves; it says what the bands are.
+fn titled(source: &Source<'_>, left_out: usize) -> String {
+    let seeds = source.seeds.map(|count| format!("means of {count} realisations, 95 % intervals"));
+    let left_out = (left_out > 0).then(|| format!("{left_out} more left out"));
+    let told: Vec<String> = [seeds, left_out].into_iter().flatten().collect();
+    if told.is_empty() { source.title.to_owned() } else { format!("{}: {}", source.title, told.join("; ")) }
 }
 
 /// A panel of curves for each measure, over `x`.
@@ -102,9 +110,10 @@ fn figure(
         let column = columns.first().map(|column| label(&column.replace(&place_suffix(column, measure), "")));
         let mut panel = Panel::new(column.unwrap_or_else(|| measure.clone()));
         for (MeasureCurve { label, mut points, .. }, colour) in coloured(curves, source) {
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            points.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
             let few = points.len() <= 60;
-            let curve = Curve::new(label, points);
+            let (points, half_widths): (Vec<_>, Vec<f64>) = points.into_iter().unzip();
+            let curve = Curve::new(label, points).banded(half_widths);
             let curve = match colour {
                 Some((look, colour)) => curve.look(look).colour(colour),
                 None => curve,
@@ -143,7 +152,8 @@ fn coloured(curves: Vec<MeasureCurve>, source: &Source<'_>) -> Vec<(MeasureCurve
 fn cloud(title: &str, x: &SweepAxis, groups: &[(String, Vec<String>)], curves: &[Vec<MeasureCurve>]) -> Option<String> {
     let (curves, (measure, columns)) = (curves.first()?, groups.first()?);
     let labels: Vec<&str> = curves.iter().map(|curve| curve.label.as_str()).collect();
-    let points = || curves.iter().flat_map(|curve| &curve.points).filter(|p| p.0.is_finite() && p.1.is_finite());
+    let all = || curves.iter().flat_map(|curve| &curve.points).map(|(point, _)| point);
+    let points = || all().filter(|p| p.0.is_finite() && p.1.is_finite());
     let extent = |pick: fn(&(f64, f64)) -> f64| {
         points().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
     };
@@ -154,7 +164,7 @@ fn cloud(title: &str, x: &SweepAxis, groups: &[(String, Vec<String>)], curves: &
     let mut scatter =
         Scatter::new(title, (&x_label, x.scale, extent(|p| p.0)), (&y_label, Scale::Linear, extent(|p| p.1)), &labels);
     for (group, curve) in curves.iter().enumerate() {
-        curve.points.iter().for_each(|(x, y)| scatter.add(group, *x, *y));
+        curve.points.iter().for_each(|((x, y), _)| scatter.add(group, *x, *y));
     }
     Some(scatter.to_svg())
 }

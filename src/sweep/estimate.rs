@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
-    /// Number of rows that were computed for the estimate.
+    /// Number of rows, or of their realisations, that were computed for the estimate.
     pub tried: u64,
     /// Number of these that failed.
     pub failed: u64,
@@ -41,10 +41,10 @@ impl Plan {
                 break;
             }
         }
-        let all = self.count() as f64 / (tried as f64).max(1.0);
+        let all = self.runs() as f64 / (tried as f64).max(1.0);
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         // A chain runs on one thread.
-        let abreast = (threads as f64).min(self.chains as f64);
+        let abreast = (threads as f64).min((self.chains * self.runs_of_row()) as f64);
         let seconds = started.elapsed().as_secs_f64() * all / abreast;
         Estimate { tried, failed, seconds, threads, bytes: bytes as f64 * all }
     }

@@ -6,6 +6,7 @@ use super::part::{MOST_WHOLE, Part};
 use super::picture::{Kind, Picture};
 use super::random::Random;
 use super::request::{Kernel, MOST_SAMPLES, Sweep, Window};
+use super::table::SEEDS;
 use super::vary::axis;
 use crate::case::{CaseFile, Embedded, Section, Source, read_text, read_values};
 use crate::error::{Error, Result};
@@ -79,16 +80,7 @@ impl Sweep {
             sweep = sweep.drawn(Random { design, points: points.unwrap_or(0), seed });
         }
         if let Some(run) = file.section("run") {
-            let run = part(run);
-            let length = |key: &str| -> Result<Option<Length>> {
-                let Some(length) = run.table.section(key).map(part) else { return Ok(None) };
-                let periods = length.whole("periods", f64::from(u32::MAX))?.map(|periods| periods as u32);
-                Ok(Some(Length { periods, seconds: length.number("seconds") }))
-            };
-            sweep.window = window(length("settle")?, length("keep")?)?;
-            sweep.scheme = run.word("scheme");
-            sweep.kernel = run.word("kernel").map_or(Ok(Kernel::Scalar), |word| word.parse())?;
-            sweep.judged = run.whole("judged", MOST_WHOLE)?;
+            sweep = sweep.run_as(&part(run))?;
         }
         if let Some(measure) = file.section("measure") {
             let measure = part(measure);
@@ -109,6 +101,27 @@ impl Sweep {
         if let Some(stem) = Path::new(name).file_stem() {
             sweep.title = stem.to_string_lossy().into_owned();
         }
+        Ok(sweep)
+    }
+
+    /// The same sweep with what `run`, the table `[run]`, says.
+    fn run_as(self, run: &Part<'_>) -> Result<Self> {
+        let mut sweep = self;
+        let length = |key: &str| -> Result<Option<Length>> {
+            let Some(length) = run.table.section(key).map(|table| Part { source: run.source, table }) else {
+                return Ok(None);
+            };
+            let periods = length.whole("periods", f64::from(u32::MAX))?.map(|periods| periods as u32);
+            Ok(Some(Length { periods, seconds: length.number("seconds") }))
+        };
+        sweep.window = window(length("settle")?, length("keep")?)?;
+        sweep.scheme = run.word("scheme");
+        if let Some(word) = run.word("design") {
+            sweep = sweep.laid_out(&word)?;
+        }
+        sweep.kernel = run.word("kernel").map_or(Ok(Kernel::Scalar), |word| word.parse())?;
+        sweep.judged = run.whole("judged", MOST_WHOLE)?;
+        sweep.realisations = run.whole(SEEDS, MOST_WHOLE)?;
         Ok(sweep)
     }
 }

@@ -1,10 +1,11 @@
 //! The tables of a sweep, in the order of their rows.
 
 use super::attractors::{self, ATTRACTORS, Attractors};
-use super::journal::Journal;
+use super::fold::Fold;
+use super::journal::{Block, Journal};
 use super::plan::Plan;
-use super::row::Status;
-use super::table::{SAMPLES, TABLE, cells_of, line_of, with_number};
+use super::status::Status;
+use super::table::{REALISATIONS, SAMPLES, TABLE, cells_of, line_of, with_number};
 use crate::case::open_regular;
 use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
@@ -92,52 +93,92 @@ impl Columns {
     }
 }
 
+/// The tables that are being written.
+struct Files {
+    table: WholeFile,
+    samples: Option<WholeFile>,
+    /// The table of the realisations, and how these become a row.
+    realisations: Option<(WholeFile, Fold)>,
+    /// The column of the attractors' numbers, and the attractors.
+    attractors: Option<(usize, Attractors)>,
+    columns: Columns,
+    tables: Tables,
+}
+
+impl Files {
+    fn create(plan: &Plan, results: &mut Results) -> Result<Self> {
+        let mut create = |name: &str, header: &[String]| -> Result<WholeFile> {
+            let mut file = WholeFile::create(&results.place(name)?)?;
+            put(&mut file, &line_of(header))?;
+            Ok(file)
+        };
+        let table = create(TABLE, plan.header())?;
+        let samples = plan.sweep.samples.map(|_| create(SAMPLES, plan.sample_header())).transpose()?;
+        let runs = plan.run_header.as_ref();
+        let realisations = runs.map(|header| Ok((create(REALISATIONS, header)?, Fold::of(header)))).transpose()?;
+        Ok(Self {
+            table,
+            samples,
+            realisations,
+            attractors: plan.attractor_column().map(|column| (column, Attractors::default())),
+            columns: Columns::of(&csv::StringRecord::from(plan.header().to_vec())),
+            tables: Tables::default(),
+        })
+    }
+
+    /// Adds the row with these runs.
+    fn add(&mut self, runs: &[Block]) -> Result<()> {
+        let line = match &mut self.realisations {
+            Some((file, fold)) => {
+                runs.iter().try_for_each(|run| put(file, &run.line))?;
+                line_of(&fold.row(&runs.iter().map(|run| cells_of(&run.line)).collect::<Vec<_>>()))
+            }
+            None => runs.iter().flat_map(|run| &run.line).copied().collect(),
+        };
+        let record = cells_of(&line);
+        self.columns.count(&record, &mut self.tables);
+        let told = runs.first().map_or(&[][..], |run| &run.samples);
+        match &mut self.attractors {
+            Some((column, attractors)) if !told.is_empty() => {
+                let told: Vec<String> = cells_of(told).iter().map(str::to_owned).collect();
+                put(&mut self.table, &with_number(&record, *column, attractors.number(&told)))?;
+            }
+            _ => put(&mut self.table, &line)?,
+        }
+        match &mut self.samples {
+            Some(samples) => runs.iter().try_for_each(|run| put(samples, &run.samples)),
+            None => Ok(()),
+        }
+    }
+
+    /// Finishes the tables of `rows` rows.
+    fn finish(self, results: &mut Results, rows: u64) -> Result<Tables> {
+        let realisations = self.realisations.map(|(file, _)| file);
+        self.samples.into_iter().chain(realisations).try_for_each(WholeFile::finish)?;
+        if let Some((_, attractors)) = self.attractors {
+            attractors.write(&results.place(ATTRACTORS)?, rows)?;
+        }
+        self.table.finish()?;
+        Ok(self.tables)
+    }
+}
+
+fn put(file: &mut WholeFile, bytes: &[u8]) -> Result<()> {
+    let help = "help: all rows are kept in the journal; make room and give the same command again";
+    let written = file.write_all(bytes);
+    written.map_err(|error| Error::io(file.path().display(), format!("{error}\n{help}"), false))
+}
+
 /// Adds the tables, written from the journal, to `results`.
 pub(super) fn write_tables(plan: &Plan, results: &mut Results, journal: &mut Journal, rows: u64) -> Result<Tables> {
-    let failed = |path: &Path, error: &std::io::Error| {
-        Error::io(
-            path.display(),
-            format!("{error}\nhelp: all rows are kept in the journal; make room and give the same command again"),
-            false,
-        )
-    };
-    let mut table = WholeFile::create(&results.place(TABLE)?)?;
-    let mut samples =
-        plan.sweep.samples.map(|_| results.place(SAMPLES).and_then(|path| WholeFile::create(&path))).transpose()?;
-    let put = |file: &mut WholeFile, bytes: &[u8]| {
-        let written = file.write_all(bytes);
-        written.map_err(|error| failed(file.path(), &error))
-    };
-    put(&mut table, &line_of(plan.header()))?;
-    if let Some(samples) = &mut samples {
-        put(samples, &line_of(plan.sample_header()))?;
+    let mut files = Files::create(plan, results)?;
+    let missing = |folder: &Path| Error::io(folder.display(), "a row is missing in the journal", false);
+    let count = plan.runs_of_row();
+    for row in 0..rows {
+        let runs = (row * count..(row + 1) * count)
+            .map(|place| journal.read(place as usize)?.ok_or_else(|| missing(results.folder())))
+            .collect::<Result<Vec<_>>>()?;
+        files.add(&runs)?;
     }
-    let mut tables = Tables::default();
-    let columns = Columns::of(&csv::StringRecord::from(plan.header().to_vec()));
-    let (attractor_column, mut attractors) = (plan.attractor_column(), Attractors::default());
-    for place in 0..rows {
-        let block = journal
-            .read(place as usize)?
-            .ok_or_else(|| Error::io(results.folder().display(), "a row is missing in the journal", false))?;
-        let record = cells_of(&block.line);
-        columns.count(&record, &mut tables);
-        match attractor_column {
-            Some(column) if !block.samples.is_empty() => {
-                let told: Vec<String> = cells_of(&block.samples).iter().map(str::to_owned).collect();
-                put(&mut table, &with_number(&record, column, attractors.number(&told)))?;
-            }
-            _ => put(&mut table, &block.line)?,
-        }
-        if let Some(samples) = &mut samples {
-            put(samples, &block.samples)?;
-        }
-    }
-    if let Some(samples) = samples {
-        samples.finish()?;
-    }
-    if attractor_column.is_some() {
-        attractors.write(&results.place(ATTRACTORS)?, rows)?;
-    }
-    table.finish()?;
-    Ok(tables)
+    files.finish(results, rows)
 }

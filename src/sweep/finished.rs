@@ -1,7 +1,7 @@
 //! The result of a finished sweep.
 
 use super::finish::Tables;
-use super::row::Status;
+use super::status::Status;
 use super::table::TABLE;
 use crate::error::Error;
 use std::path::PathBuf;
@@ -14,7 +14,9 @@ pub struct Finished {
     pub folder: PathBuf,
     /// Number of rows.
     pub rows: u64,
-    /// Number of rows that earlier processes had computed.
+    /// Number of runs: rows, or realisations of all rows.
+    pub runs: u64,
+    /// Number of runs that earlier processes had computed.
     pub found: u64,
     /// Number of rows by status.
     pub tables: Tables,

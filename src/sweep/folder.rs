@@ -5,11 +5,12 @@ use super::attractors::ATTRACTORS;
 use super::axis::Axis;
 use super::finish::Tables;
 use super::journal::JOURNAL;
+use super::layout::Layout;
 use super::picture::Picture;
 use super::plan::Plan;
 use super::request::Window;
 use super::shard::Shard;
-use super::table::{SAMPLES, TABLE};
+use super::table::{ONE_AT_A_TIME, REALISATIONS, SAMPLES, SEEDS, TABLE};
 use crate::batch::Width;
 use crate::case::{open_regular, sha256};
 use crate::error::{Error, Result};
@@ -23,7 +24,7 @@ use serde_json::{Map, Value, json};
 use std::path::Path;
 
 /// The tables of a sweep, each of which may be absent but the first.
-const TABLE_NAMES: [&str; 3] = [TABLE, SAMPLES, ATTRACTORS];
+const TABLE_NAMES: [&str; 4] = [TABLE, SAMPLES, ATTRACTORS, REALISATIONS];
 
 /// The contents of a folder.
 #[derive(Debug)]
@@ -45,7 +46,8 @@ impl Plan {
         let sweep = &self.sweep;
         let axes: Vec<Value> = self.axis_columns().map(|(axis, column)| described(axis, column)).collect();
         let random = sweep
-            .random
+            .layout
+            .random()
             .map(|random| json!({ "kind": random.design.name(), "points": random.points, "seed": random.seed }));
         let window = match sweep.window {
             Window::Case => json!("the case's"),
@@ -53,7 +55,7 @@ impl Plan {
             Window::Seconds { settle, keep } => json!({ "settle_s": settle, "keep_s": keep }),
         };
         let methods = [self.method];
-        request::extended(
+        let mut request = request::extended(
             request::request("sweep", &self.base, &methods),
             json!({
                 "program": program(),
@@ -71,7 +73,14 @@ impl Plan {
                 "rows": self.count(),
                 "rows_of_a_chain": self.chain_rows(),
             }),
-        )
+        );
+        if sweep.layout == Layout::OneAtATime {
+            request.insert(ONE_AT_A_TIME.to_owned(), json!(true));
+        }
+        if let Some(count) = sweep.realisations {
+            request.insert(SEEDS.to_owned(), json!(count));
+        }
+        request
     }
 }
 

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// The rows that earlier processes have computed.
 #[derive(Debug, Default)]
 pub(super) struct RowsFound {
-    /// Number of rows done of each chain; empty if none is done.
+    /// Number of rows done of each chain, of each realisation by itself; empty if none is done.
     done: Vec<u32>,
     /// The states from which interrupted chains continue.
     states: BTreeMap<u64, State>,
@@ -22,9 +22,9 @@ impl RowsFound {
         if journal.done() == 0 {
             return Ok(found);
         }
-        let length = plan.chain_rows();
-        for own in 0..shard.chains(plan.chains) {
-            let place = |along: u64| (own * length + along) as usize;
+        let (length, runs) = (plan.chain_rows(), plan.runs_of_row());
+        for own in 0..shard.chains(plan.chains) * runs {
+            let place = |along: u64| ((own / runs * length + along) * runs + own % runs) as usize;
             let done = (0..length).find(|&along| !journal.has(place(along))).unwrap_or(length);
             if plan.sweep.followed().is_some() && done > 0 && done < length {
                 let last = journal.read(place(done - 1))?.and_then(|block| block.end);

@@ -47,6 +47,9 @@ const KEYS: &[KeyEntry] = &[
     entry("run.keep.periods", Number, "", ["", PERIODS, ""]),
     entry("run.keep.seconds", Number, "", ["", SECONDS, ""]),
     entry("run.judged", Number, "", ["", "how many rows are judged, a whole number", ""]),
+    entry("run.seeds", Number, "", ["", "how many realisations of its random loads each row has, a \
+        whole number from 2", ""]),
+    entry("run.design", Word, "", ["grid", "\"grid\" or \"one-at-a-time\"", ""]),
     entry("run.kernel", Word, "", ["scalar", "\"scalar\" or \"batch\"", ""]),
     entry("measure", Table, "", ["", "what is measured", ""]),
     entry("measure.columns", Words, "", ["", "a list of measures in quotes", ""]),

@@ -1,5 +1,6 @@
 //! Measures: the quantities computed for every row, by name.
 
+use super::table::HALF_WIDTH;
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use std::fmt;
@@ -178,6 +179,16 @@ impl Measure {
     /// Its columns in a table of rows of `scene`: `impulse_mean_upper_N_s`.
     #[must_use]
     pub fn columns(self, scene: &Scene) -> Vec<String> {
+        self.columns_with("", scene)
+    }
+
+    /// The columns of the half widths of the intervals of its means.
+    pub(super) fn half_width_columns(self, scene: &Scene) -> Vec<String> {
+        self.columns_with(HALF_WIDTH, scene)
+    }
+
+    /// The columns, whose names have `word` after that of the measure.
+    fn columns_with(self, word: &str, scene: &Scene) -> Vec<String> {
         let walls: Vec<&str> = scene.walls.iter().map(|wall| wall.name.as_str()).collect();
         let supports: Vec<&str> = scene.supports.iter().map(|support| support.name.as_str()).collect();
         let probes: Vec<&str> = scene.probes.iter().map(|probe| probe.name.as_str()).collect();
@@ -190,7 +201,7 @@ impl Measure {
         let unit = self.unit().map_or_else(String::new, |unit| format!("_{unit}"));
         let column = |name: &String| {
             let of = if name.is_empty() { String::new() } else { format!("_{name}") };
-            format!("{}{of}{unit}", self.name())
+            format!("{}{word}{of}{unit}", self.name())
         };
         names.iter().map(column).collect()
     }

@@ -6,7 +6,7 @@ use super::finish::{Columns, Tables};
 use super::folder::{self, Study, wrong};
 use super::picture::Picture;
 use super::shard::Shard;
-use super::table::{SAMPLES, TABLE, cells_of};
+use super::table::{REALISATIONS, SAMPLES, SEEDS, TABLE, cells_of};
 use crate::case::open_regular;
 use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
@@ -127,7 +127,10 @@ pub(crate) fn merge_in(
     let (Some(rows), Some(length)) = (number("rows"), number("rows_of_a_chain")) else {
         return Err(wrong(&first.folder, "its request.json does not say how many rows there are".to_owned()));
     };
-    let sampled = request.get("sample_columns").is_some_and(Value::is_array);
+    // The tables, and how many lines of each a row has, where that is known.
+    let mut names = vec![(TABLE, Some(1))];
+    names.extend(number(SEEDS).map(|seeds| (REALISATIONS, Some(seeds))));
+    names.extend(request.get("sample_columns").filter(|columns| columns.is_array()).map(|_| (SAMPLES, None)));
     let mut unverified = Vec::new();
     for part in &parts {
         if folder::verified(&part.folder, &part.manifest)?.is_empty() {
@@ -136,7 +139,7 @@ pub(crate) fn merge_in(
     }
     let mut results = Results::open(out, request.clone(), force, formats)?;
     folder::tell(&mut results, &first.study, Shard::WHOLE);
-    let tables = tables(&parts, &mut results, rows, length, sampled)?;
+    let tables = tables(&parts, &mut results, (rows, length), &names)?;
     results.finish()?;
     let differing_arithmetic = parts.iter().any(|part| part.arithmetic != first.arithmetic);
     let Study { title, picture, .. } = first.study.clone();
@@ -215,12 +218,19 @@ impl Lines {
     }
 }
 
-fn tables(parts: &[Part], results: &mut Results, rows: u64, length: u64, sampled: bool) -> Result<Tables> {
+/// Joins the tables of `names`, of so many `rows` in chains of that `length`, each with the number
+/// of lines that a row has.
+fn tables(
+    parts: &[Part],
+    results: &mut Results,
+    (rows, length): (u64, u64),
+    names: &[(&str, Option<u64>)],
+) -> Result<Tables> {
     let failed = |path: &Path, error: &std::io::Error| Error::io(path.display(), error.to_string(), false);
     let open = |name: &str| parts.iter().map(|part| Lines::open(part.folder.join(name))).collect::<Result<Vec<_>>>();
     let folders: Vec<&Path> = parts.iter().map(|part| part.folder.as_path()).collect();
     let mut tables = Tables::default();
-    for name in [Some(TABLE), sampled.then_some(SAMPLES)].into_iter().flatten() {
+    for &(name, expected) in names {
         let mut sources = open(name)?;
         let mut file = WholeFile::create(&results.place(name)?)?;
         let header = sources.first().map(|lines| lines.line.clone()).unwrap_or_default();
@@ -244,8 +254,9 @@ fn tables(parts: &[Part], results: &mut Results, rows: u64, length: u64, sampled
                 found += 1;
                 lines.next()?;
             }
-            if name == TABLE && found != 1 {
-                return Err(wrong(&lines.path, format!("row {row} is there {found} times")));
+            if let Some(expected) = expected.filter(|expected| found != *expected) {
+                let reason = format!("row {row} is there {found} times, not {expected}");
+                return Err(wrong(&lines.path, reason));
             }
         }
         if let Some(left) = sources.iter().find(|lines| !lines.line.is_empty()) {

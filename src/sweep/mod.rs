@@ -9,11 +9,12 @@
 //! |---|---|
 //! | `request` | [`Sweep`]: the request |
 //! | `file` | the same as a sweep file |
-//! | `axis`, `values`, `target`, `follow`, `random` | the values that vary: lists, grids, ranges, tied keys, random designs |
+//! | `axis`, `values`, `target`, `follow`, `random`, `layout` | the values that vary: lists, grids, ranges, tied keys, random designs |
 //! | `measure`, `sample` | the quantities computed for a row, by name |
 //! | `forcing` | the period of the loads |
-//! | `plan` | the rows, by number |
-//! | `row` | one row: built, run, measured |
+//! | `plan`, `headers` | the rows, by number, and the columns of the tables |
+//! | `row`, `status` | one row: built, run, measured |
+//! | `realisations`, `fold` | rows with several realisations of their random loads, and the means over them |
 //! | `batched` | rows of one degree of freedom side by side, by [`batch`](crate::batch) |
 //! | `basin`, `attractors` | rows that find the attractor to which their start leads, and the numbers of attractors |
 //! | `row_observer`, `motion`, `strobe` | collect from the steps of a row what its measures need |
@@ -23,8 +24,10 @@
 //! | `estimate` | time and size of a sweep, from its first rows |
 //! | `journal`, `folder` | the files of an unfinished sweep, and the check whether it may be continued |
 //! | `finish`, `finished`, `record` | the tables |
-//! | `picture`, `curves`, `maps`, `instants` | the pictures |
+//! | `picture`, `curves`, `maps`, `instants`, `tornado` | the pictures |
 //! | `table`, `columns` | reading the tables |
+//! | `effects` | the effect of each key on each measure |
+//! | `means` | the means over realisations, for the terminal |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
 //!
 //! A chain of rows, each of which starts from the end of the last, runs on one thread; a row that
@@ -38,10 +41,12 @@
 //! One case, many runs: `request.rs` and `file.rs` are the request, `axis.rs`, `values.rs` and
 //! `random/` the values that vary, `plan.rs` numbers the rows, which `check.rs` checks before they
 //! run, `row.rs` computes one row, measured by `row_observer.rs`, `batched.rs` computes many
-//! oscillators side by side, `basin.rs` finds the attractor of each row and `attractors.rs` numbers
-//! them, `chains.rs` computes rows on threads, `run.rs` runs a sweep into a folder, `journal.rs`,
-//! `found.rs` and `folder.rs` keep unfinished sweeps on disk, `estimate.rs` and `finished.rs` say
-//! how long a sweep takes and took, `merge.rs` joins shards, `picture.rs` draws (feature `cli`).
+//! oscillators side by side, `realisations.rs` numbers the runs of rows with several realisations
+//! of their random loads and `fold.rs` makes a row of them, `basin.rs` finds the attractor of each
+//! row and `attractors.rs` numbers them, `chains.rs` computes rows on threads, `run.rs` runs a
+//! sweep into a folder, `journal.rs`, `found.rs` and `folder.rs` keep unfinished sweeps on disk,
+//! `estimate.rs` and `finished.rs` say how long a sweep takes and took, `merge.rs` joins shards,
+//! `picture.rs` draws (feature `cli`).
 #![doc = include_str!("../../docs/sweep.md")]
 
 mod attractors;
@@ -52,18 +57,23 @@ mod chains;
 mod check;
 mod columns;
 mod curves;
+mod effects;
 mod estimate;
 mod file;
 mod finish;
 mod finished;
+mod fold;
 mod folder;
 mod follow;
 mod forcing;
 mod found;
+mod headers;
 mod instants;
 mod journal;
 mod keys;
+mod layout;
 mod maps;
+mod means;
 mod measure;
 mod merge;
 mod motion;
@@ -72,6 +82,7 @@ mod part;
 mod picture;
 mod plan;
 mod random;
+mod realisations;
 mod record;
 mod request;
 mod row;
@@ -79,18 +90,22 @@ mod row_observer;
 mod run;
 mod sample;
 mod shard;
+mod status;
 mod strobe;
 mod table;
 mod target;
+mod tornado;
 mod values;
 mod vary;
 
 pub use axis::Axis;
+pub(crate) use effects::{Effect, effects, write_effects};
 pub use estimate::Estimate;
 pub use finish::Tables;
 pub use finished::Finished;
 pub(crate) use folder::write_summary;
 pub use follow::Follow;
+pub(crate) use means::means;
 pub use measure::{Measure, Scope};
 pub(crate) use merge::merge_in;
 pub use merge::{Merged, merge};
@@ -99,9 +114,10 @@ pub use picture::{Kind, Picture};
 pub use plan::Plan;
 pub use random::{Design, MOST_DIMENSIONS, Normal, Random};
 pub use request::{Kernel, MOST_SAMPLES, Sweep, Window};
-pub use row::{Row, Status};
+pub use row::Row;
 pub use run::{Manner, Progress};
 pub use sample::{Sample, Samples};
 pub use shard::Shard;
+pub use status::Status;
 pub use target::Target;
 pub use values::Values;

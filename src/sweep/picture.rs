@@ -1,6 +1,6 @@
 //! The picture of a sweep, from its tables: the kind of picture and its columns.
 
-use super::columns::{Source, SweepAxis, of};
+use super::columns::{Source, SweepAxis, is_half_width, of};
 use super::measure::Measure;
 use crate::error::{Error, Result};
 use crate::output::results::Results;
@@ -23,15 +23,18 @@ pub enum Kind {
     Bifurcation,
     /// One column of the instants over another: a Poincaré section of all rows.
     Section,
+    /// What each key changes in a measure, varied one at a time, as bars.
+    Tornado,
 }
 
 impl Kind {
-    const ALL: [(&'static str, Self); 5] = [
+    const ALL: [(&'static str, Self); 6] = [
         ("line", Self::Line),
         ("heat", Self::Heat),
         ("basin", Self::Basin),
         ("bifurcation", Self::Bifurcation),
         ("section", Self::Section),
+        ("tornado", Self::Tornado),
     ];
 }
 
@@ -120,6 +123,12 @@ impl Picture {
                 self.sampled(self.y.as_ref(), 1, &source).map(drop)
             }
             Some(Kind::Bifurcation) => x().and_then(|()| self.sampled(self.y.as_ref(), 0, &source).map(drop)),
+            Some(Kind::Tornado) if !source.one_at_a_time => {
+                let expected = "design = \"one-at-a-time\" in [run] (--one-at-a-time) beside it";
+                Err(Error::invalid("[figure] kind", "tornado", expected))
+            }
+            Some(Kind::Tornado) => self.measures(self.y.as_ref(), &source).map(drop),
+            None if source.one_at_a_time => self.measures(self.y.as_ref(), &source).map(drop),
             None if sampled => x().and_then(|()| self.sampled(self.y.as_ref(), 0, &source).map(drop)),
             Some(Kind::Basin) if !source.tells_attractors() => {
                 Err(Error::invalid("[figure] kind", "basin", "the measure attractor in [measure] columns beside it"))
@@ -162,6 +171,7 @@ impl Picture {
         let sampled = source.sample_columns.len() > 1;
         let is_map = || !source.random && source.axes.iter().all(|axis| axis.count >= FEW && axis.is_numeric(&source));
         let kind = self.kind.unwrap_or(match source.axes.len() {
+            _ if source.one_at_a_time => Kind::Tornado,
             _ if sampled => Kind::Bifurcation,
             2 if is_map() && source.tells_attractors() => Kind::Basin,
             2 if is_map() => Kind::Heat,
@@ -175,6 +185,7 @@ impl Picture {
             ));
         }
         match kind {
+            Kind::Tornado => self.tornado(&source, request),
             Kind::Line => self.line(&source),
             Kind::Heat => self.heat(&source),
             Kind::Basin => Ok(self.basin(&source)?.map(Drawn::whole)),
@@ -225,6 +236,9 @@ impl Picture {
             let measure =
                 Measure::all().map(Measure::name).filter(|name| of(column, name)).max_by_key(|name| name.len());
             let measure = measure.unwrap_or(column).to_owned();
+            if is_half_width(column, &measure) {
+                continue;
+            }
             let fits = self.wall.as_ref().is_none_or(|wall| column.contains(&format!("_{}", wall.replace('-', "_"))));
             match groups.iter_mut().find(|(name, _)| *name == measure) {
                 Some((_, columns)) if fits => columns.push(column.clone()),

@@ -2,8 +2,10 @@
 
 use super::axis::Axis;
 use super::forcing;
+use super::layout::Layout;
 use super::picture::Pictures;
 use super::request::{Kernel, Sweep, Window};
+use super::table::REALISATION;
 use super::target::Target;
 use crate::case::{Case, Key, KeyValue, Template};
 use crate::error::{Error, Result};
@@ -11,11 +13,10 @@ use crate::output::results::Results;
 use crate::scene::{Scene, State};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice::choose;
-use std::collections::HashSet;
 use std::path::Path;
 
 /// Maximum number of rows: their places in the journal are kept in memory, 16 bytes each.
-const MOST_ROWS: u64 = 100_000_000;
+pub(super) const MOST_ROWS: u64 = 100_000_000;
 
 /// Maximum number of rows of one chain: they run one after another.
 const MOST_CHAIN: u64 = 10_000_000;
@@ -34,7 +35,11 @@ pub struct Plan {
     /// The case with placeholders for the values that vary, in the order of the axes.
     template: Template,
     header: Vec<String>,
+    /// Names of the columns of `realisations.csv`, where rows have several realisations.
+    pub(super) run_header: Option<Vec<String>>,
     sample_header: Vec<String>,
+    /// The values of the axes in the case itself, where axes are varied one at a time.
+    centre: Vec<KeyValue>,
     /// Names of the columns of each axis.
     axis_columns: Vec<Vec<String>>,
 }
@@ -43,6 +48,8 @@ pub struct Plan {
 #[derive(Debug, Clone)]
 pub(super) struct Point {
     pub row: u64,
+    /// The realisation of its random loads, from 1, where rows have several.
+    pub realisation: Option<u64>,
     pub direction: Option<&'static str>,
     /// One value per axis.
     pub values: Vec<KeyValue>,
@@ -66,15 +73,31 @@ impl Sweep {
         let order = self.order()?;
         let chains = self.chains(order.len() as u64)?;
         self.times(&base)?;
-        let axis_columns = self.columns();
+        let axis_columns = self.axis_columns();
         let header = self.header(&base, &axis_columns)?;
+        let run_header = self.run_header(&base, &axis_columns);
         let mut sample_header = vec!["row".to_owned()];
+        sample_header.extend(self.realisations.map(|_| REALISATION.to_owned()));
         sample_header.extend(self.samples.iter().flat_map(|samples| samples.columns(&base.scene)));
         let case_key =
             |(target, _): &(Target, f64)| if let Target::Case(key) = target { Some(key.clone()) } else { None };
         let keys: Vec<Key> = self.axes.iter().flat_map(|axis| &axis.targets).filter_map(case_key).collect();
         let template = Template::new(&self.case, &keys)?;
-        let plan = Plan { template, sweep: self, base, method, order, chains, header, sample_header, axis_columns };
+        let centre = self.centre()?;
+        let plan = Plan {
+            template,
+            sweep: self,
+            base,
+            method,
+            order,
+            chains,
+            header,
+            run_header,
+            sample_header,
+            centre,
+            axis_columns,
+        };
+        plan.check_seeds()?;
         plan.check_places()?;
         if plan.sweep.kernel == Kernel::Batch {
             plan.check_batch()?;
@@ -103,38 +126,12 @@ impl Sweep {
     fn chains(&self, length: u64) -> Result<u64> {
         let free = self.axes.iter().enumerate().filter(|(index, _)| Some(*index) != self.followed());
         let grid = free.fold(1u64, |count, (_, axis)| count.saturating_mul(axis.values.count()));
-        let chains = self.random.map_or(grid, |random| random.points);
+        let chains = self.layout.points(self.axes.len(), grid);
         let rows = chains.saturating_mul(length);
         if rows > MOST_ROWS {
             return Err(Error::invalid("rows", rows, format!("at most {MOST_ROWS}")));
         }
         Ok(chains)
-    }
-
-    /// Names of the columns of `sweep.csv`.
-    fn header(&self, base: &Case, axis_columns: &[Vec<String>]) -> Result<Vec<String>> {
-        let mut header = vec!["row".to_owned()];
-        if self.followed().is_some() {
-            header.push("direction".to_owned());
-        }
-        header.extend(axis_columns.iter().flatten().cloned());
-        header.extend(["status", "error"].map(str::to_owned));
-        header.extend(self.measures.iter().flat_map(|measure| measure.columns(&base.scene)));
-        let mut seen = HashSet::new();
-        if let Some(twice) = header.iter().find(|name| !seen.insert(name.as_str())) {
-            return Err(Error::invalid("[[vary]] name", twice, "a name that no other column has"));
-        }
-        Ok(header)
-    }
-
-    /// Names of the axes' columns: the last word of each key if these differ, else the whole keys.
-    fn columns(&self) -> Vec<Vec<String>> {
-        let short: Vec<Vec<String>> = self.axes.iter().map(|axis| axis.columns(false)).collect();
-        let twice = |name: &String| short.iter().flatten().filter(|other| *other == name).count() > 1;
-        let whole = |(axis, columns): (&Axis, &Vec<String>)| {
-            if columns.iter().any(twice) { axis.columns(true) } else { columns.clone() }
-        };
-        self.axes.iter().zip(&short).map(whole).collect()
     }
 }
 
@@ -203,10 +200,14 @@ impl Plan {
         let mut rest = chain;
         let mut values = Vec::with_capacity(self.sweep.axes.len());
         for (index, axis) in self.sweep.axes.iter().enumerate().rev() {
-            values.push(match self.sweep.random {
-                Some(random) => axis.values.at(0, random.share(chain, index)),
-                None if Some(index) == followed => axis.values.at(along, 0.0),
-                None => {
+            values.push(match self.sweep.layout {
+                Layout::Random(random) => axis.values.at(0, random.share(chain, index)),
+                Layout::OneAtATime => match Layout::varied(chain) {
+                    Some((varied, share)) if varied == index => axis.values.at(0, share),
+                    _ => self.centre.get(index).cloned().unwrap_or_else(|| f64::NAN.into()),
+                },
+                Layout::Grid if Some(index) == followed => axis.values.at(along, 0.0),
+                Layout::Grid => {
                     let number = rest % axis.values.count();
                     rest /= axis.values.count();
                     axis.values.at(number, 0.0)
@@ -214,7 +215,7 @@ impl Plan {
             });
         }
         values.reverse();
-        Point { row: chain * self.chain_rows() + place, direction, values }
+        Point { row: chain * self.chain_rows() + place, realisation: None, direction, values }
     }
 
     /// True for a row that is judged.
@@ -257,19 +258,25 @@ impl Plan {
             (None, None) => self.method,
         };
         same_names(&case.scene, &self.base.scene)?;
-        let [from, end] = match self.sweep.window {
-            Window::Case => return Ok((case, method)),
+        let window = match self.sweep.window {
+            Window::Case => None,
             Window::Periods { settle, keep } => {
                 let period = forcing::period(&case.scene)?;
-                [f64::from(settle) * period, f64::from(settle + keep) * period]
+                Some([f64::from(settle) * period, f64::from(settle + keep) * period])
             }
-            Window::Seconds { settle, keep } => [settle, settle + keep],
+            Window::Seconds { settle, keep } => Some([settle, settle + keep]),
         };
-        // The lines of a random force are multiples of 1/end.
-        case.make_random(end)?;
-        case.scene.duration = end;
-        case.time.statistics_from = from;
-        case.time.sample = case.time.sample.filter(|sample| *sample <= end);
+        if let Some([from, end]) = window {
+            case.scene.duration = end;
+            case.time.statistics_from = from;
+            case.time.sample = case.time.sample.filter(|sample| *sample <= end);
+        }
+        match point.realisation {
+            Some(number @ 2..) => case = case.realisation(number)?,
+            // The lines of a random force are multiples of 1/end.
+            _ if window.is_some() => case.make_random(case.scene.duration)?,
+            _ => {}
+        }
         Ok((case, method))
     }
 }

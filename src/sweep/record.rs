@@ -8,9 +8,10 @@ use super::table::line_of;
 use crate::output::csv::digits;
 
 impl Plan {
-    /// The line of `row` in `sweep.csv`, with the line break.
+    /// The line of `row` in `sweep.csv`, or of its realisation in `realisations.csv`, with the line
+    /// break.
     pub(super) fn line(&self, row: &Row) -> Vec<u8> {
-        let mut cells = vec![row.number.to_string()];
+        let mut cells = numbers(row);
         cells.extend(row.direction.map(str::to_owned));
         // Integers and words as they are, other numbers with all their digits.
         cells.extend(row.values.iter().map(|value| match value.number() {
@@ -31,7 +32,7 @@ impl Plan {
         }
         let mut lines = Vec::new();
         for sample in &row.samples {
-            let mut cells = vec![row.number.to_string()];
+            let mut cells = numbers(row);
             match sample {
                 Sample::Impact { wall, start, phase, approach, departure, impulse } => {
                     cells.push(wall.clone());
@@ -47,6 +48,11 @@ impl Plan {
         }
         lines
     }
+}
+
+/// The cells that name `row`: its number, and that of its realisation.
+fn numbers(row: &Row) -> Vec<String> {
+    std::iter::once(row.number).chain(row.realisation).map(|number| number.to_string()).collect()
 }
 
 fn flat(text: &str) -> String {

@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::follow::Follow;
+use super::layout::Layout;
 use super::measure::Measure;
 use super::picture::Picture;
 use super::random::Random;
@@ -93,7 +94,7 @@ const JUDGED_OF_BATCH: u64 = 16;
 pub struct Sweep {
     pub(super) case: CaseFile,
     pub(super) axes: Vec<Axis>,
-    pub(super) random: Option<Random>,
+    pub(super) layout: Layout,
     pub(super) window: Window,
     pub(super) scheme: Option<String>,
     pub(super) measures: Vec<Measure>,
@@ -101,6 +102,7 @@ pub struct Sweep {
     pub(super) most_samples: usize,
     pub(super) judged: Option<u64>,
     pub(super) kernel: Kernel,
+    pub(super) realisations: Option<u64>,
     pub(super) title: String,
     pub(super) picture: Picture,
 }
@@ -115,13 +117,14 @@ impl Sweep {
             kernel: Kernel::Scalar,
             case,
             axes: Vec::new(),
-            random: None,
+            layout: Layout::Grid,
             window: Window::Case,
             scheme: None,
             measures: Vec::new(),
             samples: None,
             most_samples: MOST_SAMPLES,
             judged: None,
+            realisations: None,
         }
     }
 
@@ -145,8 +148,33 @@ impl Sweep {
     /// The same sweep with values drawn at random from the ranges of all its axes.
     #[must_use]
     pub fn drawn(mut self, random: Random) -> Self {
-        self.random = Some(random);
+        self.layout = Layout::Random(random);
         self
+    }
+
+    /// The same sweep with each axis varied by itself: the case, then each axis at the lower and at
+    /// the upper bound of its range, the others as in the case. It gives the effect of each axis on
+    /// each measure.
+    #[must_use]
+    pub fn one_at_a_time(mut self) -> Self {
+        self.layout = Layout::OneAtATime;
+        self
+    }
+
+    /// The same sweep with the design that `word` names in a sweep file.
+    pub(super) fn laid_out(self, word: &str) -> Result<Self> {
+        let known = ["grid", "one-at-a-time"];
+        match (word, self.layout) {
+            ("grid", _) => Ok(self),
+            ("one-at-a-time", Layout::Random(_)) => {
+                Err(Error::invalid("[run] design", "one-at-a-time", "no [random] beside it"))
+            }
+            ("one-at-a-time", _) => Ok(self.one_at_a_time()),
+            _ => {
+                let (name, known) = (word.to_owned(), known.map(str::to_owned).to_vec());
+                Err(Error::Unknown { kind: "design", name, known })
+            }
+        }
     }
 
     /// The same sweep with rows of that duration.
@@ -203,6 +231,15 @@ impl Sweep {
     #[must_use]
     pub fn kernel(mut self, kernel: Kernel) -> Self {
         self.kernel = kernel;
+        self
+    }
+
+    /// The same sweep with every row run under `count` realisations of its random loads, 2 or more,
+    /// as [`Case::realisation`](crate::case::Case::realisation) makes them: the same seeds in every
+    /// row, so that rows differ by what varies alone.
+    #[must_use]
+    pub fn realisations(mut self, count: u64) -> Self {
+        self.realisations = Some(count);
         self
     }
 

@@ -4,6 +4,7 @@ use super::measure::Measure;
 use super::plan::{Plan, Point};
 use super::row_observer::RowObserver;
 use super::sample::Sample;
+use super::status::Status;
 use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
 use crate::residual::{Finding, Judge};
@@ -12,81 +13,6 @@ use crate::scene::{Checked, State};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::study::attractor::Attractor;
 use crate::time::TimeGrid;
-use std::fmt;
-
-/// The status of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Status {
-    /// It ran to its end, and the judge checked its steps.
-    Ok,
-    /// It ran to its end; its steps were not checked.
-    Unjudged,
-    /// It ran to its end, but in a stretch of impacts moreau-jean replaced the exact scheme.
-    Handed,
-    /// Its values give no valid case.
-    Invalid,
-    /// The exact scheme met more contact events than it follows.
-    TooManyEvents,
-    /// The state became infinite or NaN.
-    NotFinite,
-    /// It is far faster than its start and its loads allow, and ended there.
-    Diverged,
-    /// A step was not solved: the quadratic programme, or Newton's method.
-    NotSolved,
-    /// The judge found that the scheme violated what it promises.
-    Refuted,
-    /// It failed in another way.
-    Failed,
-}
-
-impl Status {
-    /// The word for it in the table.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ok => "ok",
-            Self::Unjudged => "unjudged",
-            Self::Handed => "handed",
-            Self::Invalid => "invalid",
-            Self::TooManyEvents => "too-many-events",
-            Self::NotFinite => "not-finite",
-            Self::Diverged => "diverged",
-            Self::NotSolved => "not-solved",
-            Self::Refuted => "refuted",
-            Self::Failed => "failed",
-        }
-    }
-
-    /// True for a row whose measures are valid.
-    #[must_use]
-    pub fn is_good(self) -> bool {
-        matches!(self, Self::Ok | Self::Unjudged | Self::Handed)
-    }
-
-    /// The same for its word in a table.
-    pub(super) fn is_good_word(word: &str) -> bool {
-        [Self::Ok, Self::Unjudged, Self::Handed].iter().any(|status| status.name() == word)
-    }
-
-    fn of(error: &Error) -> Self {
-        match error {
-            Error::TooManyEvents { .. } => Self::TooManyEvents,
-            Error::NotFinite { .. } => Self::NotFinite,
-            Error::Diverged { .. } => Self::Diverged,
-            Error::Qp { .. } | Error::Newton { .. } => Self::NotSolved,
-            Error::Refuted { .. } => Self::Refuted,
-            error if error.is_request() => Self::Invalid,
-            _ => Self::Failed,
-        }
-    }
-}
-
-impl fmt::Display for Status {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// A row of a sweep.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,6 +20,8 @@ impl fmt::Display for Status {
 pub struct Row {
     /// Its number, from 0.
     pub number: u64,
+    /// The realisation of its random loads, from 1; `None` unless rows have several.
+    pub realisation: Option<u64>,
     /// `up` or `down` along a followed axis; `None` if no axis is followed.
     pub direction: Option<&'static str>,
     /// The values set, as in the columns of the axes.
@@ -184,6 +112,7 @@ impl Plan {
         let axes = self.sweep.axes.iter().zip(&point.values);
         Row {
             number: point.row,
+            realisation: point.realisation,
             direction: point.direction,
             values: axes.flat_map(|(axis, value)| axis.cells(value)).collect(),
             status: Status::Ok,

@@ -33,17 +33,17 @@ pub struct Manner {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Progress {
-    /// Rows done, including those of earlier processes.
+    /// Runs done, including those of earlier processes.
     pub done: u64,
-    /// Number of rows.
-    pub rows: u64,
-    /// Rows of this process per second; 0 before the first.
+    /// Number of runs: rows, or realisations of all rows.
+    pub runs: u64,
+    /// Runs of this process per second; 0 before the first.
     pub rate: f64,
 }
 
 impl Plan {
-    /// All rows, in their order, computed on `threads` threads and kept in memory;
-    /// [`Plan::run_into`] writes them to disk.
+    /// All rows, in their order, computed on `threads` threads and kept in memory, of rows with
+    /// several realisations each of these; [`Plan::run_into`] writes them to disk, and the means.
     ///
     /// # Errors
     /// Errors of single rows are not returned: they are in [`Row::status`] and [`Row::error`].
@@ -53,16 +53,16 @@ impl Plan {
             rows.extend(row);
             Ok(())
         })?;
-        rows.sort_by_key(|row: &Row| row.number);
+        rows.sort_by_key(|row: &Row| self.run_number(row));
         self.number(&mut rows);
         Ok(rows)
     }
 
-    /// Runs the sweep into `folder`: `sweep.csv`, `samples.csv` if instants are requested, and
-    /// `request.json`. After an interruption at any instant, the same call continues, and ends with
-    /// the same bytes, whatever the number of threads. Finished tables are read: where one is no
-    /// longer as it was written, all rows are computed again. `progress` is called from time to
-    /// time.
+    /// Runs the sweep into `folder`: `sweep.csv`, `samples.csv` if instants are requested,
+    /// `realisations.csv` if rows have several, and `request.json`. After an interruption at any
+    /// instant, the same call continues, and ends with the same bytes, whatever the number of
+    /// threads. Finished tables are read: where one is no longer as it was written, all rows are
+    /// computed again. `progress` is called from time to time.
     ///
     /// # Errors
     /// [`Error::Io`](crate::Error::Io) for a folder with results of another request, one that
@@ -90,6 +90,7 @@ impl Plan {
         let all = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = manner.threads.unwrap_or(all).max(1);
         let rows = manner.shard.chains(self.chains) * self.chain_rows();
+        let runs = rows * self.runs_of_row();
         let state = if manner.force { State::Empty } else { folder::state(&folder, rows) };
         let mut damaged = None;
         let anew = matches!(state, State::Empty);
@@ -98,7 +99,7 @@ impl Plan {
                 // What an interruption after the last row has left.
                 let _ = std::fs::remove_file(folder.join(JOURNAL));
                 results.keep(records);
-                let finished = Finished { folder, rows, found: rows, tables, damaged, seconds: 0.0, threads };
+                let finished = Finished { folder, rows, runs, found: runs, tables, damaged, seconds: 0.0, threads };
                 return Ok((finished, results));
             }
             State::Damaged(what) => {
@@ -107,35 +108,36 @@ impl Plan {
             }
             State::Empty | State::Begun => {}
         }
-        let place = |row: u64| manner.shard.place(self, row);
-        let journal = Journal::open(&folder, rows, anew, place)?;
+        let place = |run: u64| manner.shard.place(self, run);
+        let journal = Journal::open(&folder, runs, anew, place)?;
         results.begin(JOURNAL)?;
         let found = journal.done();
         let mut journal = self.fill(journal, manner.shard, threads, &|done| {
             let new = done - found;
             let rate = if new > 0 { new as f64 / started.elapsed().as_secs_f64() } else { 0.0 };
-            progress(Progress { done, rows, rate });
+            progress(Progress { done, runs, rate });
         })?;
         let tables = write_tables(self, &mut results, &mut journal, rows)?;
         results.finish()?;
         let seconds = started.elapsed().as_secs_f64();
-        Ok((Finished { folder, rows, found, tables, damaged, seconds, threads }, results))
+        Ok((Finished { folder, rows, runs, found, tables, damaged, seconds, threads }, results))
     }
 
     /// Computes the rows that are not yet in the journal.
     fn fill(&self, mut journal: Journal, shard: Shard, threads: usize, tell: &dyn Fn(u64)) -> Result<Journal> {
         let found = RowsFound::of(self, &mut journal, shard)?;
         let mut told = Instant::now();
-        let outcome = self.compute(shard, threads, &found, &|row| (row.number, self.block(row)), &mut |finished| {
-            if let Some((row, block)) = finished {
-                journal.add(row, shard.place(self, row).unwrap_or(usize::MAX), &block)?;
-            }
-            if told.elapsed() > TELL {
-                told = Instant::now();
-                tell(journal.done());
-            }
-            Ok(())
-        });
+        let outcome =
+            self.compute(shard, threads, &found, &|row| (self.run_number(&row), self.block(row)), &mut |finished| {
+                if let Some((run, block)) = finished {
+                    journal.add(run, shard.place(self, run).unwrap_or(usize::MAX), &block)?;
+                }
+                if told.elapsed() > TELL {
+                    told = Instant::now();
+                    tell(journal.done());
+                }
+                Ok(())
+            });
         // Rows received before writing failed are kept.
         let flushed = journal.flush();
         outcome.and(flushed)?;

@@ -51,12 +51,13 @@ impl Shard {
         own * self.of + self.index - 1
     }
 
-    /// The position among its rows of row number `row` of `plan`; `None` for a row of another
-    /// shard.
-    pub(super) fn place(self, plan: &Plan, row: u64) -> Option<usize> {
+    /// The position among its runs of run number `run` of `plan`; `None` for a run of another
+    /// shard. All runs of a row are in one shard.
+    pub(super) fn place(self, plan: &Plan, run: u64) -> Option<usize> {
+        let (row, of_row) = (run / plan.runs_of_row(), run % plan.runs_of_row());
         let (chain, along) = (row / plan.chain_rows(), row % plan.chain_rows());
         let own = chain.checked_sub(self.index - 1).filter(|c| c % self.of == 0 && chain < plan.chains)? / self.of;
-        usize::try_from(own * plan.chain_rows() + along).ok()
+        usize::try_from((own * plan.chain_rows() + along) * plan.runs_of_row() + of_row).ok()
     }
 }
 

@@ -6,9 +6,25 @@ use std::fs::File;
 use std::io::Take;
 use std::path::{Path, PathBuf};
 
-/// File names of the table of the rows, and of that of their instants.
+/// File names of the table of the rows, of that of their instants, and of that of the realisations
+/// of random loads.
 pub(super) const TABLE: &str = "sweep.csv";
 pub(super) const SAMPLES: &str = "samples.csv";
+pub(super) const REALISATIONS: &str = "realisations.csv";
+
+/// The file of the effects of keys that are varied one at a time.
+pub(super) const EFFECTS: &str = "effects.csv";
+
+/// The columns of the number of a realisation, and of the number of realisations in the means of a
+/// row.
+pub(super) const REALISATION: &str = "realisation";
+pub(super) const SEEDS: &str = "seeds";
+
+/// The entry of a request whose axes are varied one at a time.
+pub(super) const ONE_AT_A_TIME: &str = "one_at_a_time";
+
+/// What follows the name of a measure in the name of the column of the half width of its interval.
+pub(super) const HALF_WIDTH: &str = "_half_width_95";
 
 /// A CSV file with a header.
 pub(super) struct Table {

@@ -8,5 +8,7 @@ mod chromium;
 mod browser;
 #[cfg(all(feature = "cli", unix))]
 mod drawings;
+#[cfg(all(feature = "cli", unix))]
+mod realisations;
 #[cfg(feature = "cli")]
 mod text;

@@ -2,17 +2,20 @@
 #![cfg(feature = "cli")]
 
 mod commands;
+mod compare_seeds;
 mod documents;
 mod folders;
 mod formats;
 mod hazards;
 mod notes;
+mod one_at_a_time;
 mod pictures;
 mod rerun;
 mod seeds;
 mod set_values;
 mod statistics;
 mod sweep;
+mod sweep_seeds;
 mod terminal;
 mod verdicts;
 mod verify;

@@ -6,6 +6,7 @@ mod checked;
 mod seeds;
 
 pub use args::Args;
+pub(super) use seeds::checked as checked_seeds;
 
 use super::pipeline::Shown;
 use super::ui::Ui;

@@ -30,17 +30,25 @@ impl Seeds {
     /// [`Error::Invalid`] for 0, for a case without a random load, and where a seed would exceed
     /// 2^53.
     pub fn check(self, case: &Case) -> Result<Option<u64>> {
-        let Some(count) = self.count else { return Ok(None) };
-        if count == 0 {
-            return Err(Error::invalid("--seeds", 0, "1 or more realisations"));
-        }
-        if !case.is_random() {
-            let expected = "a case with a random load: without one all runs are the same";
-            return Err(Error::invalid("--seeds", count, expected));
-        }
-        case.realisation(count)?;
-        Ok(Some(count))
+        checked(self.count, case)
     }
+}
+
+/// The number of realisations of `case`, where `count` asks for any.
+///
+/// # Errors
+/// As [`Seeds::check`].
+pub fn checked(count: Option<u64>, case: &Case) -> Result<Option<u64>> {
+    let Some(count) = count else { return Ok(None) };
+    if count == 0 {
+        return Err(Error::invalid("--seeds", 0, "1 or more realisations"));
+    }
+    if !case.is_random() {
+        let expected = "a case with a random load: without one all runs are the same";
+        return Err(Error::invalid("--seeds", count, expected));
+    }
+    case.realisation(count)?;
+    Ok(Some(count))
 }
 
 /// The study of `count` realisations of `case`, of which `run` is the first, with `halved` also by

@@ -25,13 +25,15 @@ Examples:
       --measure attractor,period --scheme event --settle 400 --keep 60
   signorini sweep tube.toml --vary system.damping.ratio=0.005:0.02 --random sobol \\
       --points 256 --measure impact_power
+  signorini sweep tube-round-supports --vary 'support.*.gap=1e-4,2e-4,4e-4' --seeds 6 \\
+      --measure work_rate          means over six realisations of the random loads
   signorini sweep bifurcation.toml --plan          how many rows, how long, how many bytes
   signorini sweep bifurcation.toml --shard 3/128   one part of 128; `signorini merge` joins them
 
 A sweep file is TOML with a key `case`; docs/sweep.md has its format, and all measures.
 After an interruption at any instant, the same command continues, and ends with the same bytes.
 Results: sweep.csv, one row per point, with the reason if it failed; samples.csv, the instants;
-attractors.csv, of a basin; a picture; summary.json; report.html.";
+realisations.csv, with --seeds; attractors.csv, of a basin; a picture; summary.json; report.html.";
 
 /// Many runs of one case: curves, maps, bifurcation diagrams and random designs as one table
 #[derive(Debug, clap::Args)]
@@ -43,7 +45,7 @@ pub struct Args {
     #[command(flatten)]
     changes: Changes,
     /// Vary a value by its key: FROM:TO:POINTS, FROM:TO:POINTS:log, a list A,B,C, or FROM:TO with
-    /// --random; may be given several times
+    /// --random or --one-at-a-time; may be given several times
     #[arg(long, value_name = "KEY=VALUES")]
     vary: Vec<String>,
     /// Take the values of the first --vary in this direction, each row starting from the end of the
@@ -77,6 +79,15 @@ pub struct Args {
     /// all; of --kernel batch 16, which the scheme event computes once more]
     #[arg(long, value_name = "N")]
     judged: Option<u64>,
+    /// Run every row with N realisations of the case's random loads, the same in every row:
+    /// sweep.csv has the means and the half widths of their 95 % intervals, realisations.csv each
+    /// of them. Realisation k has the seeds of the case plus k - 1, as with `run --seeds`
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    seeds: Option<u64>,
+    /// Vary each key by itself, from the case: --vary KEY=FROM:TO runs the case, then the case with
+    /// that key at FROM and at TO; effects.csv and the picture sort the keys by what they change
+    #[arg(long, conflicts_with_all = ["random", "follow"])]
+    one_at_a_time: bool,
     /// Draw the values of all --vary at random: uniform, lhs (Latin hypercube), sobol
     #[arg(long, value_name = "KIND", requires = "points")]
     random: Option<Design>,
@@ -121,6 +132,9 @@ impl Args {
         if let (Some(design), Some(points)) = (self.random, self.points) {
             sweep = sweep.drawn(Random { design, points, seed: self.seed });
         }
+        if self.one_at_a_time {
+            sweep = sweep.one_at_a_time();
+        }
         if let Some(keep) = self.keep {
             sweep = sweep.over(Window::Periods { settle: self.settle.unwrap_or(0), keep });
         }
@@ -129,6 +143,9 @@ impl Args {
         }
         if let Some(judged) = self.judged {
             sweep = sweep.judged(judged);
+        }
+        if let Some(count) = self.seeds {
+            sweep = sweep.realisations(count);
         }
         if let Some(scheme) = &self.scheme {
             sweep = sweep.by(scheme);
@@ -144,7 +161,8 @@ impl Args {
 /// The axis of an argument of `--vary`.
 fn axis(text: &str) -> Result<Axis> {
     let wrong = || {
-        let expected = "KEY=FROM:TO:POINTS, KEY=FROM:TO:POINTS:log, KEY=A,B,C, or KEY=FROM:TO with --random";
+        let expected = "KEY=FROM:TO:POINTS, KEY=FROM:TO:POINTS:log, KEY=A,B,C, or KEY=FROM:TO with --random or \
+                        --one-at-a-time";
         Error::invalid("--vary", format_args!("{text:?}"), expected)
     };
     let (key, values) = text.split_once('=').ok_or_else(wrong)?;

@@ -1,8 +1,10 @@
 //! `signorini sweep`: one case, many values.
 
 mod args;
+mod effects;
 
 pub use args::Args;
+pub(super) use effects::show_effects;
 
 use super::command_line::command_line;
 use super::estimate::time_in_words;
@@ -10,8 +12,10 @@ use super::pipeline::Shown;
 use super::ui::Ui;
 use crate::error::Result;
 use crate::output::results::Results;
-use crate::sweep::{Finished, Manner, Pictures, Plan, Progress, Shard, Status, Tables, write_summary};
-use serde_json::{Value, json};
+use crate::sweep::{
+    Finished, Manner, Pictures, Plan, Progress, Shard, Status, Tables, effects, means, write_effects, write_summary,
+};
+use serde_json::{Map, Value, json};
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -35,14 +39,19 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let (finished, mut results) = run(args, &plan, &title, ui)?;
     let whole = args.shard.is_none_or(|shard| shard == Shard::WHOLE);
     let pictures = if whole { plan.draw(&mut results)? } else { Pictures::default() };
+    let effects = if whole { effects(&finished.folder, &plan.request())? } else { Vec::new() };
+    write_effects(&mut results, &effects)?;
     let document = write_summary(&mut results, document(&plan, &finished, &pictures.drawn))?;
     let mut shown = Shown::of(results, whole && !args.place.no_report, document);
+    show_effects(&mut shown, &effects, plan.realisations());
+    show_means(&mut shown, &finished.folder, &plan.request())?;
     let found = match finished.found {
         0 => String::new(),
-        found if found == finished.rows => ", all of them there already".to_owned(),
+        found if found == finished.runs => ", all of them there already".to_owned(),
         found => format!(", {found} of them there already"),
     };
-    shown.messages([format!("{} rows in {}{found}", finished.rows, time_in_words(finished.seconds))]);
+    let seeds = plan.realisations().map_or_else(String::new, |count| format!(" × {count} realisations"));
+    shown.messages([format!("{} rows{seeds} in {}{found}", finished.rows, time_in_words(finished.seconds))]);
     shown.messages(status_messages(&finished.folder, &finished.tables, finished.rows)?);
     shown.messages(picture_messages(&pictures));
     if !whole {
@@ -60,12 +69,14 @@ fn run(args: &Args, plan: &Plan, title: &str, ui: &Ui) -> Result<(Finished, Resu
     let formats = args.place.formats.usable()?;
     ui.with_bar("sweep", |bar| {
         let said = Cell::new(Instant::now());
-        let progress = |Progress { done, rows, rate }| {
-            bar.set_share(done as f64 / rows.max(1) as f64);
+        let progress = |Progress { done, runs, rate }| {
+            bar.set_share(done as f64 / runs.max(1) as f64);
             if said.get().elapsed() > REPORT_INTERVAL {
                 said.set(Instant::now());
-                let left = if rate > 0.0 { (rows - done) as f64 / rate } else { f64::INFINITY };
-                bar.message(&format!("{done} of {rows} rows, {rate:.3} rows/s, {} left", time_in_words(left)));
+                let left = if rate > 0.0 { (runs - done) as f64 / rate } else { f64::INFINITY };
+                let what = if plan.realisations().is_some() { "realisations" } else { "rows" };
+                let left = time_in_words(left);
+                bar.message(&format!("{done} of {runs} {what}, {rate:.3} {what}/s, {left} left"));
             }
         };
         let damaged = |what: &str| bar.message(&format!("the rows are computed again: {what}"));
@@ -73,12 +84,23 @@ fn run(args: &Args, plan: &Plan, title: &str, ui: &Ui) -> Result<(Finished, Resu
     })
 }
 
+/// Shows the means over realisations of the rows in `folder`, where they have several.
+pub(super) fn show_means(shown: &mut Shown, folder: &Path, request: &Map<String, Value>) -> Result<()> {
+    if let Some((table, remark)) = means(folder, request)? {
+        shown.table(table, "sweep.csv");
+        shown.messages([remark]);
+    }
+    Ok(())
+}
+
 /// The size of the sweep, and estimates of its time and bytes.
 fn planned(plan: &Plan) -> Shown {
     let estimate = plan.estimate(TRIAL);
     let chains = plan.count() / plan.chain_rows();
+    let seeds = plan.realisations().map_or_else(String::new, |count| format!(" × {count} realisations"));
     let mut shown = Shown::new(json!({
         "rows": plan.count(),
+        "runs": plan.runs(),
         "chains": chains,
         "columns": plan.header(),
         "method": plan.method().to_string(),
@@ -88,16 +110,17 @@ fn planned(plan: &Plan) -> Shown {
         "threads": estimate.threads,
         "bytes": estimate.bytes,
     }));
-    shown.prose(format!("{} rows by {}, {} columns", plan.count(), plan.method(), plan.header().len()));
+    shown.prose(format!("{} rows{seeds} by {}, {} columns", plan.count(), plan.method(), plan.header().len()));
     if plan.chain_rows() > 1 {
         shown.prose(format!("{chains} chains of {} rows, each on one thread", plan.chain_rows()));
     }
     let failed = if estimate.failed > 0 { format!(", {} of which failed", estimate.failed) } else { String::new() };
     shown.prose(format!(
-        "about {} on {} threads, from {} rows tried{failed}",
+        "about {} on {} threads, from {} {} tried{failed}",
         time_in_words(estimate.seconds),
         estimate.threads,
-        estimate.tried
+        estimate.tried,
+        if seeds.is_empty() { "rows" } else { "realisations" }
     ));
     shown.prose(format!("about {:.1e} bytes of tables, and as much again while it runs", estimate.bytes));
     shown
@@ -110,7 +133,8 @@ fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
         "case": plan.case().name,
         "title": plan.case().title,
         "rows": finished.rows,
-        "rows_of_earlier_runs": finished.found,
+        "runs": finished.runs,
+        "runs_of_earlier_processes": finished.found,
         "command_line": command_line(),
         "status": status_document(&finished.tables),
         "first_error": finished.tables.first_error,

@@ -64,7 +64,7 @@ pub struct Estimate {
 }
 
 /// Mean, standard deviation and half width of the 95 % interval of the mean: x̄, s and t s/√N.
-fn mean_of(values: &[f64]) -> (f64, Option<f64>, Option<f64>) {
+pub(crate) fn mean_of(values: &[f64]) -> (f64, Option<f64>, Option<f64>) {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
     if values.len() < 2 {

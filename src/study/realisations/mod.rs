@@ -27,12 +27,15 @@
 
 mod estimate;
 mod measure;
+mod paired;
 mod realisation;
 mod runner;
 mod sample;
 
+pub(crate) use estimate::mean_of;
 pub use estimate::{Estimate, Interval, Larger, StepChange};
 pub use measure::{Figure, Measure};
+pub use paired::Difference;
 pub use realisation::Realisation;
 pub use runner::realisations;
 pub use sample::Realisations;

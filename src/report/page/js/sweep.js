@@ -1,7 +1,7 @@
 // Sweeps: curves over one axis, maps over two, bifurcation diagrams.
 
 function sweepSection() {
-  const { axes, samples, scheme, unjudged } = DATA.sweep;
+  const { axes, effects, samples, scheme, seeds, unjudged } = DATA.sweep;
   const table = tableOf(DATA.sweep.table);
   const { columns } = table;
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
@@ -9,7 +9,8 @@ function sweepSection() {
   const attractors = readAttractors();
   const measures = table.names.filter(
     (name) =>
-      !["row", "status", "error", "direction"].includes(name) &&
+      !["row", "status", "error", "direction", "seeds"].includes(name) &&
+      !isHalfWidth(name) &&
       !(attractors && name === "attractor") &&
       !axes.some((axis) => axis.column === name) &&
       numeric(name),
@@ -23,7 +24,7 @@ function sweepSection() {
           `${columnLabel(axis.column)}: ${Array.isArray(columns[axis.column]) ? columns[axis.column][i] : digits(columns[axis.column][i], 6)}`,
       ),
       attractors && columns.attractor ? attractorText(attractors, columns.attractor[i]) : null,
-      ...measures.slice(0, 14).map((name) => `${columnLabel(name)}: ${digits(columns[name][i])}`),
+      ...measures.slice(0, 14).map((name) => `${columnLabel(name)}: ${withInterval(columns, name, i)}`),
       columns.status && columns.status[i] !== "ok"
         ? [columns.status[i], columns.error[i]].filter((word) => word).join(": ")
         : null,
@@ -41,7 +42,8 @@ function sweepSection() {
         return `--set ${shellWord(`${key}=${typeof value === "number" ? value * factor : value}`)}`;
       }),
     );
-    const by = scheme ? ` --scheme ${shellWord(scheme)}` : "";
+    const by =
+      (scheme ? ` --scheme ${shellWord(scheme)}` : "") + (seeds ? ` --seeds ${seeds}` : "");
     const file = shellWord(`${DATA.name}.toml`);
     const row = columns.row[i];
     command.textContent =
@@ -55,7 +57,7 @@ function sweepSection() {
   const content = [];
   const basins = attractors && numeric("attractor") && axisColumns.length > 1;
   if (basins) content.push(basinMap(columns, axisColumns, attractors, tell, pick));
-  if (measures.length && axisColumns.length && !basins) {
+  if (measures.length && axisColumns.length && !basins && !effects) {
     content.push(
       axisColumns.length > 1
         ? measureMap(columns, axisColumns, measures, tell, pick)
@@ -70,13 +72,17 @@ function sweepSection() {
       csvText([table.names, ...rows.map((i) => table.names.map((name) => columns[name][i]))]),
       "text/csv",
     );
+  if (effects) effectsSection(tableOf(effects), seeds);
   section(
     "sweep",
     "Sweep",
-    "Point at a row for its numbers; click it for the command that runs it alone" +
+    (effects
+      ? "Click a row for the command that runs it alone"
+      : "Point at a row for its numbers; click it for the command that runs it alone") +
       (kept.size
         ? `, or for its own report (there ${kept.size === 1 ? "is" : "are"} ${kept.size}).`
         : ".") +
+      (seeds ? seedsText(seeds, effects) : "") +
       (unjudged ? ` ${unjudged} of ${table.count} rows are unjudged: nothing checked their steps.` : ""),
     ...content,
     command,
@@ -113,7 +119,7 @@ const directionKeys = () =>
 /** Instants of every row over the axis: a bifurcation diagram. */
 function samplesPlot(table, samples, axisColumns, pick) {
   const names = samples.names.filter(
-    (name) => name !== "row" && !Array.isArray(samples.columns[name]),
+    (name) => !["row", "realisation"].includes(name) && !Array.isArray(samples.columns[name]),
   );
   const wanted = names.find((name) => name.startsWith("displacement")) || names[names.length - 1];
   const axis = table.columns[axisColumns[0]];
@@ -270,6 +276,7 @@ function measureCurves(columns, axis, measures, tell, pick) {
       look: { ...item.look, marker: DIRECTION_MARKERS[direction] || item.look.marker },
       colour: direction && (() => directionColour(direction)),
       infinite: true,
+      name: item.name,
       rows: along,
       x: along.map((i) => columns[axis][i]),
       y: along.map((i) => columns[item.name][i]),
@@ -279,13 +286,14 @@ function measureCurves(columns, axis, measures, tell, pick) {
   const plotsOf = (unit) => {
     const items = measures.filter((name) => unitOf(name) === unit).map(itemOf);
     const series = items.flatMap((item) => directions.map((direction) => curve(item, direction)));
+    const bands = series.map((s) => bandOf(s, halfWidthsOf(columns, s.name))).filter((band) => band);
     const y = items.length > 1 ? unit || "Number" : items[0].label;
     const plot = new Plot({
       x: columnLabel(axis),
       y,
       height: 300,
       alt: `${y} over ${columnLabel(axis)}`,
-      series,
+      series: [...bands, ...series],
     });
     const points = () =>
       series

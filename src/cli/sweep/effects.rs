@@ -1,0 +1,41 @@
+//! The table of the effects of keys that are varied one at a time.
+
+use super::Shown;
+use crate::output::realisations::with_interval;
+use crate::output::table::Table;
+use crate::sweep::Effect;
+
+/// Most lines of the table.
+const MOST_LINES: usize = 40;
+
+/// Shows the effects, by measure and place, the largest first; nothing where there are none.
+pub fn show_effects(shown: &mut Shown, effects: &[Effect], seeds: Option<u64>) {
+    if effects.is_empty() {
+        return;
+    }
+    let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.4e}"));
+    let row = |one: &Effect| {
+        let [low, high] = one.bounds.map(|bound| format!("{bound}"));
+        let effect = one.effect.map_or_else(|| "-".to_owned(), |x| with_interval(x, one.half_width_95));
+        let seen = if one.is_seen() { "" } else { "not distinguished from none" };
+        let [at_low, at_high] = one.at.map(number);
+        vec![one.column.clone(), one.key.clone(), low, high, at_low, at_high, effect, seen.to_owned()]
+    };
+    let header = ["measure", "key", "low", "high", "at low", "at high", "effect", ""];
+    let every = effects.iter().all(Effect::is_seen);
+    let cut = |mut cells: Vec<String>| {
+        cells.truncate(if every { header.len() - 1 } else { header.len() });
+        cells
+    };
+    let rows = effects.iter().take(MOST_LINES).map(|one| cut(row(one))).collect();
+    let header = if every { &header[..header.len() - 1] } else { &header[..] };
+    shown.table(Table::new(header, rows).in_blocks(), "effects.csv");
+    shown.messages([match seeds {
+        Some(count) => format!(
+            "effect: the mean over {count} realisations of the measure at the upper bound less that at the lower one, \
+             under the same seeds; ± is the half width of its 95 % interval, by Student's t"
+        ),
+        None => "effect: the measure at the upper bound less that at the lower one, the other keys as in the case"
+            .to_owned(),
+    }]);
+}

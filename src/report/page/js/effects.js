@@ -1,0 +1,124 @@
+// The effects of keys that a sweep varies one at a time: a tornado diagram of each measure, a table.
+
+/** True for an effect that its interval distinguishes from none, or that has no interval. */
+const isSeen = (columns, i) =>
+  !(Math.abs(columns.effect[i]) <= (columns.half_width_95 || [])[i]);
+
+/** The looks of a measure at the lower and at the upper bound of a key, as in the figure. */
+const BOUND_LOOKS = [3, 2];
+
+/** Bars from the measure in the case to that at each bound, of the keys in these rows. */
+function effectBars(columns, rows, label) {
+  const level = (k) => rows.length - k;
+  const draw = (ctx, plot) => {
+    rows.forEach((i, k) => {
+      const base = plot.sx(columns.base[i]);
+      const ends = [columns.at_low[i], columns.at_high[i]].map((x, side) => [plot.sx(x), side]);
+      // The longer half first, so that both show where they lie on one side.
+      ends.sort(([a], [b]) => Math.abs(b - base) - Math.abs(a - base));
+      for (const [end, side] of ends) {
+        if (!Number.isFinite(end)) continue;
+        ctx.strokeStyle = ctx.fillStyle = lookOf(BOUND_LOOKS[side]).colour();
+        ctx.lineWidth = 1.4;
+        const place = [Math.min(base, end), plot.sy(level(k)) - 8, Math.abs(end - base), 16];
+        if (!isSeen(columns, i)) ctx.fillStyle = ink.paper;
+        ctx.fillRect(...place);
+        ctx.strokeRect(...place);
+      }
+    });
+    ctx.strokeStyle = ink.ink;
+    ctx.beginPath();
+    ctx.moveTo(plot.sx(columns.base[rows[0]]), plot.y0);
+    ctx.lineTo(plot.sx(columns.base[rows[0]]), plot.y1);
+    ctx.stroke();
+  };
+  const values = rows.flatMap((i) => [columns.base[i], columns.at_low[i], columns.at_high[i]]);
+  const plot = new Plot({
+    x: label,
+    height: 60 + 28 * rows.length,
+    left: 210,
+    alt: `Effects on ${label}`,
+    yTicks: rows.map((i, k) => [level(k), String(columns.key[i])]),
+    range: () => [0.4, rows.length + 0.6],
+    series: [{ kind: "own", look: lookOf(0), x: values, y: [], draw }],
+  });
+  return plot.box;
+}
+
+/** The diagrams of all measures and places, with what the colours stand for. */
+function effectDiagrams(columns, count) {
+  const groups = new Map();
+  for (let i = 0; i < count; i++) {
+    const unit = columns.unit[i] ? ` (${columns.unit[i]})` : "";
+    const label = `${columns.measure[i]} ${columns.place[i] || ""}`.replace(/_/g, " ").trim() + unit;
+    if (!groups.has(label)) groups.set(label, []);
+    groups.get(label).push(i);
+  }
+  const words = ["at the lower bound", "at the upper bound"];
+  const hollow = Array.from({ length: count }, (_, i) => i).some((i) => !isSeen(columns, i));
+  return [
+    el(
+      "div",
+      { class: "bar" },
+      words.map((text, side) => swatch(text, () => lookOf(BOUND_LOOKS[side]).colour())),
+      hollow ? el("span", { class: "help" }, "hollow: not distinguished from none") : null,
+    ),
+    ...[...groups].map(([label, rows]) => effectBars(columns, rows, label)),
+  ];
+}
+
+function effectsSection(effects, seeds) {
+  const { columns, count } = effects;
+  const number = (name, title) => ({
+    name: title,
+    value: (i) => columns[name][i],
+    show: (i) => digits(columns[name][i], 4),
+  });
+  const text = (name, title) => ({
+    name: title,
+    text: true,
+    value: (i) => String(columns[name][i]),
+    show: (i) => String(columns[name][i]) || "–",
+  });
+  const half = columns.half_width_95 || [];
+  const effect = {
+    name: "effect",
+    value: (i) => columns.effect[i],
+    show: (i) =>
+      Number.isFinite(half[i])
+        ? `${digits(columns.effect[i], 3)} ± ${digits(half[i], 2)}`
+        : digits(columns.effect[i], 4),
+  };
+  const seen = {
+    name: "distinguished from none",
+    text: true,
+    value: (i) => (isSeen(columns, i) ? "yes" : "no"),
+    show: (i) => (isSeen(columns, i) ? "yes" : "no"),
+  };
+  const named = ["place", "unit"].filter((name) => Array.isArray(columns[name]));
+  section(
+    "effects",
+    "Effects",
+    "Each key by itself, from the case: the measure at the upper bound less that at the lower one, the largest first." +
+      (seeds
+        ? ` Means over ${seeds} realisations of the random loads, of differences under the same seeds; ± is the half width of the 95 % interval, by Student's t.`
+        : ""),
+    ...effectDiagrams(columns, count),
+    sortable(
+      [
+        text("measure", "measure"),
+        ...named.map((name) => text(name, name)),
+        text("key", "key"),
+        number("low", "low"),
+        number("high", "high"),
+        number("base", "in the case"),
+        number("at_low", "at low"),
+        number("at_high", "at high"),
+        effect,
+        ...(seeds ? [seen] : []),
+      ],
+      Array.from({ length: count }, (_, i) => i),
+      { height: 60 + ROW * Math.min(count, 16) },
+    ),
+  );
+}

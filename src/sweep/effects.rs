@@ -1,0 +1,232 @@
+//! The effect of each key on each measure, from a sweep that varies keys one at a time.
+//!
+//! The effect of a key is the measure at its upper bound less that at its lower bound, the other
+//! keys as in the case. Where rows have several realisations of their random loads, it is the mean
+//! over the realisations of the differences between two rows with the same seeds; the half width of
+//! its 95 % interval follows from their scatter, by Student's t. An effect within its half width is
+//! not distinguished from none.
+
+use super::columns::{Source, place_of};
+use super::layout::Layout;
+use super::measure::Measure;
+use super::picture::Picture;
+use super::status::Status;
+use super::table::{EFFECTS, REALISATION, REALISATIONS, SEEDS, TABLE, Table, line_of};
+use crate::error::{Error, Result};
+use crate::output::atomic::WholeFile;
+use crate::output::csv::digits;
+use crate::output::results::Results;
+use crate::study::realisations::mean_of;
+use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::Path;
+
+/// The columns of `effects.csv`.
+const HEADER: [&str; 12] =
+    ["key", "low", "high", "place", "measure", "unit", "base", "at_low", "at_high", "effect", "half_width_95", SEEDS];
+
+/// The effect of one key on one measure at one place.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Effect {
+    pub key: String,
+    /// The bounds of the key.
+    pub bounds: [f64; 2],
+    /// The column of the measure, and its parts.
+    pub column: String,
+    pub place: String,
+    pub measure: String,
+    /// The measure in the case itself, at the lower and at the upper bound.
+    pub base: Option<f64>,
+    pub at: [Option<f64>; 2],
+    /// The mean difference; `None` where it was found in no realisation.
+    pub effect: Option<f64>,
+    pub half_width_95: Option<f64>,
+    /// Number of differences in the mean.
+    pub count: usize,
+}
+
+impl Effect {
+    /// False for an effect that is not distinguished from none.
+    pub fn is_seen(&self) -> bool {
+        self.effect.is_some_and(|effect| self.half_width_95.is_none_or(|half| effect.abs() > half))
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let unit = self.measure.parse::<Measure>().ok().and_then(Measure::unit).unwrap_or_default();
+        let [low, high] = self.bounds.map(|x| digits(Some(x)));
+        let words = [&self.key, &low, &high, &self.place, &self.measure, unit].map(str::to_owned);
+        let [at_low, at_high] = self.at;
+        let numbers = [self.base, at_low, at_high, self.effect, self.half_width_95].map(digits);
+        words.into_iter().chain(numbers).chain([self.count.to_string()]).collect()
+    }
+}
+
+/// The values of the measures of the runs that did not fail, by row and realisation.
+struct Runs(BTreeMap<(u64, u64), Vec<Option<f64>>>);
+
+impl Runs {
+    /// The runs in the tables of `source`, with the values of `columns`.
+    fn read(source: &Source<'_>, columns: &[String]) -> Result<Self> {
+        let name = if source.seeds.is_some() { REALISATIONS } else { TABLE };
+        let table = Table::open(&source.folder.join(name))?;
+        let indices = columns.iter().map(|column| table.column(column)).collect::<Result<Vec<_>>>()?;
+        let (row, status) = (table.column("row")?, table.column("status")?);
+        let realisation = table.column(REALISATION).ok();
+        let mut runs = BTreeMap::new();
+        table.each(|line| {
+            let number = |index: usize| line.number(index).unwrap_or(0.0) as u64;
+            if Status::is_good_word(line.text(status)) {
+                let values = indices.iter().map(|&index| line.number(index)).collect();
+                runs.insert((number(row), realisation.map_or(0, number)), values);
+            }
+        })?;
+        Ok(Self(runs))
+    }
+
+    /// The values of measure number `index` in `row`, by realisation.
+    fn of(&self, row: u64, index: usize) -> BTreeMap<u64, f64> {
+        let own = self.0.range((row, 0)..=(row, u64::MAX));
+        own.filter_map(|((_, k), values)| Some((*k, (*values.get(index)?)?))).collect()
+    }
+
+    /// The mean of them.
+    fn mean(&self, row: u64, index: usize) -> Option<f64> {
+        let values: Vec<f64> = self.of(row, index).into_values().collect();
+        (!values.is_empty()).then(|| mean_of(&values).0)
+    }
+}
+
+/// The effects of the keys of a sweep that varies them one at a time, by its tables in `folder`:
+/// by measure and place, the largest first; empty for another sweep.
+///
+/// # Errors
+/// [`Error::Io`] for a table that cannot be read.
+pub(crate) fn effects(folder: &Path, request: &Map<String, Value>) -> Result<Vec<Effect>> {
+    let source = Source::new(folder, request, "");
+    if !source.one_at_a_time {
+        return Ok(Vec::new());
+    }
+    let groups = Picture::default().measures(None, &source)?;
+    let columns: Vec<(String, String)> =
+        groups.into_iter().flat_map(|(measure, names)| names.into_iter().map(move |n| (measure.clone(), n))).collect();
+    let names: Vec<String> = columns.iter().map(|(_, name)| name.clone()).collect();
+    let (runs, bounds) = (Runs::read(&source, &names)?, bounds(&source)?);
+    let mut all = Vec::new();
+    for (index, (measure, column)) in columns.iter().enumerate() {
+        let of_axis = |(axis, bounds): (usize, &[f64; 2])| {
+            let [low, high] = [0, 1].map(|side| Layout::row_of(axis, side));
+            let (at_low, at_high) = (runs.of(low, index), runs.of(high, index));
+            let pairs: Vec<f64> = at_low.iter().filter_map(|(k, x)| Some(at_high.get(k)? - x)).collect();
+            let (effect, _, half_width_95) = mean_of(&pairs);
+            Effect {
+                key: source.axes.get(axis).map_or_else(String::new, |axis| axis.key.clone()),
+                bounds: *bounds,
+                column: column.clone(),
+                place: place_of(column, measure),
+                measure: measure.clone(),
+                base: runs.mean(0, index),
+                at: [low, high].map(|row| runs.mean(row, index)),
+                effect: (!pairs.is_empty()).then_some(effect),
+                half_width_95,
+                count: pairs.len(),
+            }
+        };
+        let mut effects: Vec<Effect> = bounds.iter().enumerate().map(of_axis).collect();
+        let size = |effect: &Effect| effect.effect.map_or(-1.0, f64::abs);
+        effects.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        all.extend(effects);
+    }
+    Ok(all)
+}
+
+/// The bounds of each axis, from the rows that are at them.
+fn bounds(source: &Source<'_>) -> Result<Vec<[f64; 2]>> {
+    let table = Table::open(&source.folder.join(TABLE))?;
+    let row = table.column("row")?;
+    let columns = source.axes.iter().map(|axis| table.column(&axis.column)).collect::<Result<Vec<_>>>()?;
+    let mut bounds = vec![[f64::NAN; 2]; columns.len()];
+    table.each(|line| {
+        let varied = line.number(row).and_then(|row| Layout::varied(row as u64));
+        if let Some((axis, share)) = varied
+            && let (Some(bounds), Some(&column)) = (bounds.get_mut(axis), columns.get(axis))
+            && let Some(bound) = bounds.get_mut(share as usize)
+        {
+            *bound = line.number(column).unwrap_or(f64::NAN);
+        }
+    })?;
+    Ok(bounds)
+}
+
+/// Adds `effects.csv` to `results`, where there are any.
+///
+/// # Errors
+/// [`Error::Io`] where it cannot be written.
+pub(crate) fn write_effects(results: &mut Results, effects: &[Effect]) -> Result<()> {
+    if effects.is_empty() {
+        return Ok(());
+    }
+    let mut file = WholeFile::create(&results.place(EFFECTS)?)?;
+    let header = HEADER.map(str::to_owned).to_vec();
+    for cells in std::iter::once(header).chain(effects.iter().map(Effect::cells)) {
+        let written = file.write_all(&line_of(&cells));
+        written.map_err(|error| Error::io(file.path().display(), error.to_string(), false))?;
+    }
+    file.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hash;
+    use serde_json::json;
+    use std::fmt::Write;
+
+    /// Places whose measure scatters, by realisation and by row, and whose effect is `effect`.
+    fn seen_of_a_thousand(effect: f64) -> usize {
+        let (places, seeds) = (1000, 6_u64);
+        // Normal numbers, by Box and Muller.
+        let normal = |a: u64, b: u64| {
+            let [u, v] = [1, 2].map(|seed| hash::unit(hash::mix(seed, a, b)));
+            (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+        };
+        let columns: Vec<String> = (0..places).map(|place| format!("work_rate_p{place}_W")).collect();
+        let mut runs = format!("row,realisation,gap_m,status,{}\n", columns.join(","));
+        for (row, gap) in [2.0, 1.0, 3.0].into_iter().enumerate() {
+            for k in 1..=seeds {
+                let _ = write!(runs, "{row},{k},{gap},ok");
+                for place in 0..places {
+                    // What the realisations of a pair share, and what they do not.
+                    let (shared, own) = (normal(place, k), normal(1000 + place, 10 * k + row as u64));
+                    let _ = write!(runs, ",{}", 5.0 + shared + own + if row == 2 { effect } else { 0.0 });
+                }
+                runs.push('\n');
+            }
+        }
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join(REALISATIONS), runs).unwrap();
+        std::fs::write(folder.path().join(TABLE), "row,gap_m\n0,2\n1,1\n2,3\n").unwrap();
+        let names: Vec<&str> = ["row", "error"].into_iter().chain(columns.iter().map(String::as_str)).collect();
+        let request = json!({
+            "vary": [{ "column": "gap_m", "keys": [{ "key": "support.*.gap" }], "count": 1, "follow": "No" }],
+            "columns": names,
+            "seeds": seeds,
+            "one_at_a_time": true,
+        });
+        let effects = effects(folder.path(), request.as_object().unwrap()).unwrap();
+        assert_eq!(effects.len(), places as usize);
+        assert!(effects.iter().all(|one| one.bounds == [1.0, 3.0] && one.count == 6));
+        effects.iter().filter(|one| one.is_seen()).count()
+    }
+
+    /// An interval of 95 % excludes 0 in 5 % of the designs without an effect; of 1000 the number
+    /// has the standard deviation 6.9, and three of these are 20.
+    #[test]
+    fn one_in_twenty_effects_of_none_is_seen_and_a_large_one_always() {
+        let seen = seen_of_a_thousand(0.0);
+        assert!((30..=70).contains(&seen), "{seen}");
+        // Ten deviations of the mean difference, √(2/6), against t₅ = 2.57 of its estimate: an
+        // estimate four times too large has the probability of χ²₅ above 75, 1e-14.
+        assert_eq!(seen_of_a_thousand(10.0 * (2.0_f64 / 6.0).sqrt()), 1000);
+    }
+}

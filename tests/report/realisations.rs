@@ -1,0 +1,60 @@
+//! Pages of sweeps over realisations of random loads, in a real browser.
+use crate::browser::{opened, results};
+use crate::chromium::Browser;
+use serde_json::json;
+use std::fs;
+
+const CASE: [&str; 5] = ["tube-round-supports", "--set", "time.end=0.3", "--set", "time.statistics_from=0.1"];
+const SEEDS: [&str; 4] = ["--seeds", "3", "--measure", "work_rate"];
+
+#[test]
+fn the_page_of_realisations_shows_means_and_intervals() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let vary = ["--vary", "support.*.gap=1e-4,2e-4,4e-4"];
+    let page = results(dir.path(), &[&["sweep"], &CASE[..], &vary, &SEEDS].concat());
+    let mut tab = opened(&mut browser, &page);
+    // One curve a support: the half widths are bands, not curves of their own.
+    let chips = tab.evaluate("[...document.querySelectorAll('#sweep .chip')].map((chip) => chip.textContent)");
+    assert_eq!(chips, json!(["Work rate plate 1 (W)", "Work rate plate 2 (W)"]));
+    // A band is filled about each of them.
+    let fills = "(() => { const pen = CanvasRenderingContext2D.prototype; globalThis.bands = 0; const own = pen.fill; \
+        pen.fill = function (...args) { if (Math.abs(this.globalAlpha - 0.18) < 1e-6) bands += 1; \
+        return own.apply(this, args); }; })()";
+    tab.evaluate(fills);
+    tab.press_button("◐");
+    tab.frame();
+    tab.frame();
+    assert_eq!(tab.evaluate("bands"), 2);
+    tab.evaluate("document.querySelectorAll('#rows tbody tr:not(.space)')[1].click()");
+    let command = tab.evaluate("document.querySelector('#sweep pre.command').textContent");
+    let command = command.as_str().unwrap();
+    assert!(
+        command.contains("--set 'support.*.gap=0.0002'") && command.contains(" --seeds 3 --out rows/1"),
+        "{command}"
+    );
+    let text = tab.evaluate("document.querySelector('#sweep').textContent");
+    assert!(text.as_str().unwrap().contains("3 realisations of the random loads: shown are their means"), "{text}");
+    tab.close();
+}
+
+#[test]
+fn the_page_of_keys_one_at_a_time_has_the_table_of_effects() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let vary = ["--vary", "support.*.gap=1e-4:4e-4", "--vary", "system.damping.ratio=0.005:0.02", "--one-at-a-time"];
+    let page = results(dir.path(), &[&["sweep"], &CASE[..], &vary, &SEEDS].concat());
+    let mut tab = opened(&mut browser, &page);
+    let cells =
+        "[...document.querySelectorAll('#effects tbody tr:not(.space)')].map((tr) => tr.children[3].textContent)";
+    let file = fs::read_to_string(page.with_file_name("effects.csv")).unwrap();
+    let keys: Vec<&str> = file.lines().skip(1).filter_map(|line| line.split(',').next()).collect();
+    assert_eq!(keys.len(), 4);
+    assert_eq!(tab.evaluate(cells), json!(keys), "in the order of the file");
+    let effect = tab.evaluate("document.querySelector('#effects tbody tr:not(.space)').textContent");
+    assert!(effect.as_str().unwrap().contains(" ± "), "{effect}");
+    // A diagram for each of two supports, and no curves.
+    let plots = "['#effects', '#sweep'].map((part) => document.querySelectorAll(`${part} .plot`).length)";
+    assert_eq!(tab.evaluate(plots), json!([2, 0]));
+    tab.close();
+}
