@@ -148,11 +148,41 @@ impl Symmetric {
     #[must_use]
     pub fn sum(terms: &[(f64, &Self)]) -> Self {
         let n = terms.iter().map(|term| term.1.size()).max().unwrap_or(0);
-        let scaled = |(factor, matrix): &(f64, &Self)| {
-            let factor = *factor;
-            matrix.entries().map(|(i, j, value)| (i, j, factor * value)).collect::<Vec<_>>()
-        };
-        Self::from_entries(n, terms.iter().flat_map(scaled))
+        let stored = terms.iter().map(|term| term.1.stored()).max().unwrap_or(0).max(n);
+        let (mut columns, mut values) = (Vec::with_capacity(stored), Vec::with_capacity(stored));
+        let mut starts = Vec::with_capacity(n + 1);
+        starts.push(0);
+        // Where each term's row goes on: rows are merged, in the order of their columns.
+        let mut at = vec![0; terms.len()];
+        for i in 0..n {
+            loop {
+                let ahead = |(&at, (_, matrix)): (&usize, &(f64, &Self))| {
+                    matrix.columns.get(at).copied().filter(|_| i < matrix.size() && at + 1 < matrix.starts[i + 1])
+                };
+                let Some(column) = at.iter().zip(terms).filter_map(ahead).min() else { break };
+                let mut sum = None;
+                for (at, (factor, matrix)) in at.iter_mut().zip(terms) {
+                    let is_here = i < matrix.size() && *at + 1 < matrix.starts[i + 1];
+                    if is_here && matrix.columns[*at] == column {
+                        let value = factor * matrix.values[*at];
+                        sum = Some(sum.map_or(value, |sum: f64| sum + value));
+                        *at += 1;
+                    }
+                }
+                columns.push(column);
+                values.push(sum.unwrap_or(0.0));
+            }
+            // The diagonal ends a row.
+            let mut sum = 0.0;
+            for (at, (factor, matrix)) in at.iter_mut().zip(terms).filter(|(_, (_, matrix))| i < matrix.size()) {
+                sum += factor * matrix.values[*at];
+                *at += 1;
+            }
+            columns.push(i);
+            values.push(sum);
+            starts.push(columns.len());
+        }
+        Self { starts, columns, values }
     }
 
     /// Adds `scale` · A x to `out`; both of length n, others are left as they are.

@@ -12,11 +12,21 @@ use crate::step::Step;
 /// A length of a step that the scheme computed with other roundings.
 const SAME: f64 = 1.0 + 1e-9;
 
+/// Rounding error of the sum of two impulses, in units in the last place.
+const SUM_UNITS: f64 = 4.0;
+
 impl Judge {
     /// Checks a part of `length` seconds.
     pub(super) fn see_part(&mut self, step: &Step<'_>, length: f64) {
         let mut over = std::mem::take(&mut self.over);
-        over.iter_mut().zip(step.impulse.iter().zip(step.jump)).for_each(|(over, (p, jump))| *over = p - jump);
+        let shown = step.impulse.iter().zip(step.jump).zip(step.force);
+        for (over, ((p, jump), force)) in over.iter_mut().zip(shown) {
+            // Their difference has the rounding of both, which is a large force over a short part;
+            // the mean force has not.
+            let (left, mean) = (p - jump, force * length);
+            let rounding = SUM_UNITS * f64::EPSILON * (p.abs() + jump.abs());
+            *over = if (left - mean).abs() <= rounding { mean } else { left };
+        }
         let (own, h) = (self.contract, self.h);
         if length > 0.0 {
             // Blows and the impact law belong to the end.

@@ -157,8 +157,9 @@ pub struct Step<'a> {
     /// resolve instants.
     pub jump: &'a [f64],
     /// Force of each wall: at the instant `end` for the exact scheme, else the multiplier the
-    /// scheme computed, which is impulse/h unless the scheme's impulse averages two of them; N,
-    /// with the sign of the impulse.
+    /// scheme computed, which is impulse/h unless the scheme's impulse averages two of them; in a
+    /// [`Path::Part`] the mean force over it, without the jump at its end. N, with the sign of the
+    /// impulse.
     pub force: &'a [f64],
     /// Friction impulse at each wall over the step, N s, along t = (−n_z, n_y) with n the outward
     /// normal there; empty in scenes without friction and round holes, as are the next two.

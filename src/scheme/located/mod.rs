@@ -86,11 +86,11 @@ pub(super) struct Located<S: Space> {
     programme: Programme<S>,
     division: Division<S>,
     b: S::Vector,
-    /// Control points of the step's path, q + ½hv and q⁺, and v⁺.
-    ahead: S::Vector,
+    /// q⁺, v⁺ and q⁺ + ½hv⁺.
     arrived: S::Vector,
     after: S::Vector,
-    /// True if all rigid walls are out of reach of the state.
+    ahead: S::Vector,
+    /// True if all rigid walls are out of reach of the state and of q + ½hv.
     clear: bool,
 }
 
@@ -102,31 +102,35 @@ impl<S: Space> Located<S> {
         let scale = scene.gap_scale() / h;
         let programme = Programme::new(scene, body.theta_matrix(THETA), scale, compliance, backend)?;
         let division = Division::new(scene, &body, backend)?;
-        let [b, ahead, arrived, after] = [(); 4].map(|()| zero::<S>(body.n));
-        Ok(Self { body, programme, division, b, ahead, arrived, after, clear: false })
+        let [b, arrived, after, ahead] = [(); 4].map(|()| zero::<S>(body.n));
+        Ok(Self { body, programme, division, b, arrived, after, ahead, clear: false })
     }
 
-    /// Writes the state at the end of a whole step to `arrived` and `after`, and returns whether
-    /// all rigid walls are out of its reach.
+    /// Writes the state at the end of a whole step to `arrived` and `after`, and the control point
+    /// of the step that follows, q⁺ + ½hv⁺, to `ahead`. Returns whether all rigid walls are out of
+    /// reach of that point.
     #[inline(always)]
     fn arrive(&mut self, q: &S::Vector, v: &S::Vector) -> bool {
-        let Self { body, programme, arrived, after, .. } = self;
-        let state = q.as_ref().iter().zip(v.as_ref()).zip(programme.x().as_ref());
-        for ((arrived, after), ((q, v), d)) in arrived.as_mut().iter_mut().zip(after.as_mut()).zip(state) {
-            *arrived = q + body.h * (v + THETA * d);
+        let Self { body, programme, arrived, after, ahead, .. } = self;
+        let (h, state) = (body.h, q.as_ref().iter().zip(v.as_ref()).zip(programme.x().as_ref()));
+        let next = arrived.as_mut().iter_mut().zip(after.as_mut()).zip(ahead.as_mut());
+        for (((arrived, after), ahead), ((q, v), d)) in next.zip(state) {
+            *arrived = q + h * (v + THETA * d);
             *after = v + d;
+            *ahead = *arrived + 0.5 * h * *after;
         }
-        programme.first_near(arrived).is_none()
+        programme.first_near(ahead).is_none()
     }
 
-    /// Makes step number `step` whole, if its path crosses no wall. Returns whether it did. A
-    /// parabola lies within the hull of its control points: where these are clear of a wall, so is
-    /// the path.
+    /// Makes step number `step` whole, if its path crosses no wall. Returns whether it did.
+    ///
+    /// A parabola lies within the hull of its control points q, q + ½hv and q⁺: where these are
+    /// clear of a wall, so is the path. q⁺ is the middle between the second of these and that of
+    /// the step that follows, so that one look at that point settles both.
     #[inline(always)]
     fn make_whole(&mut self, step: u64, frame: &mut Frame<S>) -> Result<bool> {
         self.programme.free();
-        set_ahead::<S>(0.5 * self.body.h, &frame.q, &frame.v, &mut self.ahead);
-        let near = !self.clear || self.programme.first_near(&self.ahead).is_some();
+        let near = !self.clear;
         if near {
             self.bind(frame);
         }
@@ -135,7 +139,7 @@ impl<S: Space> Located<S> {
         if (near || !clear) && self.crosses(frame, near) {
             return Ok(false);
         }
-        self.clear = clear;
+        self.clear = clear && (!near || self.programme.first_near(&self.arrived).is_none());
         frame.q.clone_from(&self.arrived);
         frame.v.clone_from(&self.after);
         frame.after.clone_from(&frame.v);
@@ -150,6 +154,9 @@ impl<S: Space> Located<S> {
     #[inline(never)]
     fn crosses(&mut self, frame: &Frame<S>, near: bool) -> bool {
         if !near {
+            if self.programme.first_near(&self.arrived).is_none() {
+                return false;
+            }
             self.division.contacts.leave_all();
         }
         self.division.first_crossing(&self.body, frame, self.programme.x(), self.body.h).is_some()
@@ -176,14 +183,6 @@ impl<S: Space> Located<S> {
     fn make_part(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         self.clear = false;
         self.division.make_part(&mut self.body, step, frame)
-    }
-}
-
-/// Writes q + `span` · v to `out`.
-#[inline(always)]
-fn set_ahead<S: Space>(span: f64, q: &S::Vector, v: &S::Vector, out: &mut S::Vector) {
-    for (out, (q, v)) in out.as_mut().iter_mut().zip(q.as_ref().iter().zip(v.as_ref())) {
-        *out = q + span * v;
     }
 }
 
@@ -215,15 +214,12 @@ impl<S: Space> Rule<S> for Located<S> {
         }
         self.programme.free();
         let (h, mut next) = (self.body.h, step);
-        while next < until {
-            set_ahead::<S>(0.5 * h, &frame.q, &frame.v, &mut self.ahead);
-            if self.programme.first_near(&self.ahead).is_some() {
-                break;
-            }
+        while next < until && self.clear {
             let end = (next + 1) as f64 * h;
             self.body.momentum_to(end, THETA, (&frame.q, &frame.v, &frame.extra), &mut self.b);
             self.programme.release(&self.b, (next as f64 * h, next))?;
-            if !self.arrive(&frame.q, &frame.v) {
+            let clear = self.arrive(&frame.q, &frame.v);
+            if !clear && self.crosses(frame, false) {
                 // The step is made again by itself, from the loads at its start.
                 self.body.restart(next as f64 * h);
                 break;
@@ -231,6 +227,7 @@ impl<S: Space> Rule<S> for Located<S> {
             frame.before.clone_from(&frame.v);
             frame.v.clone_from(&self.after);
             frame.q.clone_from(&self.arrived);
+            self.clear = clear;
             next += 1;
             if let Some(calm) = &mut calm {
                 calm.add(end, (frame.q.as_ref(), frame.v.as_ref()), (frame.before.as_ref(), frame.v.as_ref()));

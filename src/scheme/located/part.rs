@@ -29,6 +29,8 @@ pub(super) struct Part<S: Space> {
     pub load_end: S::Vector,
     mean: S::Vector,
     b: S::Vector,
+    /// A⁻¹gᵀ of the wall that holds.
+    answer: S::Vector,
     /// The change of the velocity, m/s.
     pub delta: S::Vector,
     /// The walls that push and their impulses, N s.
@@ -48,6 +50,7 @@ impl<S: Space> Part<S> {
             load_end: vector(),
             mean: vector(),
             b: vector(),
+            answer: vector(),
             delta: vector(),
             pushes: Vec::with_capacity(scene.walls.len()),
             solves: 0,
@@ -86,13 +89,35 @@ impl<S: Space> Part<S> {
         S::add_product(&body.damping, -1.0, v, &mut self.b);
         S::add_product(&body.stiffness, -1.0, &self.mean, &mut self.b);
         self.b.as_mut().iter_mut().for_each(|b| *b *= length);
-        if holds.is_empty() {
-            self.delta.clone_from(&self.b);
-            let factor = S::theta_factor(&body.matrices, st);
-            S::solve(&mut factor.map_err(|_| Failure::NotFinite { what: "step matrix", index: 0 })?, &mut self.delta);
-            return Ok(());
+        if holds.len() > 1 {
+            return self.solve(body, st, holds);
         }
-        self.solve(body, st, holds)
+        let factor = S::theta_factor(&body.matrices, st);
+        let mut factor = factor.map_err(|_| Failure::NotFinite { what: "step matrix", index: 0 })?;
+        self.delta.clone_from(&self.b);
+        S::solve(&mut factor, &mut self.delta);
+        if let [hold] = holds {
+            self.clamp(body, &mut factor, hold);
+        }
+        Ok(())
+    }
+
+    /// Adds the impulse of the only wall of a part to δ, where δ without it exceeds its bound.
+    fn clamp(&mut self, body: &Body<S>, factor: &mut S::Factor, hold: &Hold) {
+        let beyond = body.seen(hold.wall, &self.delta) - hold.bound;
+        if if hold.upper { beyond <= 0.0 } else { beyond >= 0.0 } {
+            return;
+        }
+        self.solves += 1;
+        self.answer.as_mut().fill(0.0);
+        S::add_transposed(&body.rows, hold.wall, 1.0, &mut self.answer);
+        S::solve(factor, &mut self.answer);
+        let impulse = -beyond / (body.seen(hold.wall, &self.answer) + hold.compliance);
+        // Solved again rather than added, so that the balance keeps its rounding where both cancel.
+        S::add_transposed(&body.rows, hold.wall, impulse, &mut self.b);
+        self.delta.clone_from(&self.b);
+        S::solve(factor, &mut self.delta);
+        self.pushes.push((hold.wall, impulse));
     }
 
     /// Computes δ and the impulses from b as a programme.
