@@ -10,8 +10,7 @@ use crate::scheme::{Integrator, Scheme};
 /// here.
 ///
 /// - moreau-jean, located, paoli-schatzman, generalized-alpha and event: e at every phase;
-/// implicit-euler:
-///   0.
+///   implicit-euler: 0.
 /// - newmark: 3 − 4τ for τ < ⅔, one step on the wall; 8τ − 5 beyond, two steps.
 /// - discrete gradient: 1, it keeps the energy of the spring.
 /// - implicit Euler on the spring at κ = 1: s⁺ = (2s − s⁻)/2 turns (s⁻, s) into half of itself in
