@@ -193,7 +193,7 @@ impl Recorder {
         loop {
             let row = self.columns.time.len() as u64;
             let due = self.due;
-            if row > self.rows || due > step.end {
+            if row > self.rows || due * (1.0 - ROW_UNITS * f64::EPSILON) > step.end {
                 break;
             }
             let [mut q, mut v] = std::mem::take(&mut self.state);

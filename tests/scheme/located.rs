@@ -174,6 +174,13 @@ fn more_impacts_than_a_step_can_be_divided_for_are_given_up_and_said() {
     assert!(run.counters.steps_given_up > 0);
     assert!(run.notes.iter().any(|note| note.contains("without rebound")), "{:?}", run.notes);
     assert!(run.residuals.penetration_m <= 1e-15, "{}", run.residuals.penetration_m);
+    // Every row is there, that at the end too, where the last step was given up.
+    for steps in 1..40_u32 {
+        let scene = scene.clone().with_duration(1e-3 * f64::from(steps));
+        let run = signorini::run(&scene, &Scheme::Located, &Options::with_step(0.9e-3)).expect("a run");
+        let time = run.trajectory.time();
+        assert_eq!((time.len() as u64, time.last().copied()), (run.grid.rows + 1, Some(scene.duration)));
+    }
 }
 
 #[test]

@@ -334,7 +334,7 @@ fn shells_complete_schemes_solvers_and_cases() {
     let dir = tempfile::tempdir().unwrap();
     let script = said(dir.path(), &["completions", "bash"], 0).0;
     for words in [
-        "moreau-jean paoli-schatzman generalized-alpha",
+        "moreau-jean located paoli-schatzman generalized-alpha",
         "condensed clarabel",
         "trapezoidal implicit-euler",
         "linear-sine linear-impulse",

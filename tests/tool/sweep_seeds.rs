@@ -196,8 +196,8 @@ fn a_killed_sweep_goes_on_amidst_a_row() {
     let path = dir.path();
     let started = Instant::now();
     said(path, &["sweep", "gaps.toml", "--out", "short", "--threads", "1"], 0);
-    // The journal is flushed once a second: nine runs of a third of a second each and more.
-    let end = format!("time.end={}", 0.4 * (3.0 / started.elapsed().as_secs_f64()).max(1.0));
+    // The journal is flushed once a second: nine runs of half a second each and more.
+    let end = format!("time.end={}", 0.4 * (5.0 / started.elapsed().as_secs_f64()).max(1.0));
     let args = ["sweep", "gaps.toml", "--set", &end, "--threads", "1", "--out"];
     said(path, &[&args[..], &["whole"]].concat(), 0);
     let whole = bytes(&path.join("whole"));
@@ -207,17 +207,25 @@ fn a_killed_sweep_goes_on_amidst_a_row() {
         std::thread::sleep(Duration::from_millis(1400 + 200 * round));
         child.kill().unwrap();
         child.wait().unwrap();
-        let journal = fs::read_to_string(path.join(&out).join("rows.journal")).unwrap_or_default();
-        let (_, err) = said(path, &[&args[..], &[&out]].concat(), 0);
-        assert!(bytes(&path.join(&out)) == whole, "round {round}");
-        // Runs of a row that is not whole are not computed again.
-        let found = journal.lines().filter(|line| line.starts_with('@')).count();
-        if found % 3 != 0 {
-            assert!(err.contains(&format!(", {found} of them there already")), "{found}: {err}");
+        let journal = path.join(&out).join("rows.journal");
+        let text = fs::read_to_string(&journal).unwrap_or_default();
+        let found = text.lines().filter(|line| line.starts_with('@')).count();
+        if found > 0 {
+            // What a kill leaves that comes amidst a row: the journal up to one or two of its runs.
+            let kept = if found % 3 == 0 { found - 1 } else { found };
+            let runs = |line: &&str| line.starts_with('@');
+            let lines = text.lines().count() - text.lines().rev().take_while(runs).count();
+            let before = text.lines().take(lines).filter(runs).count();
+            let rows: Vec<&str> = text.lines().take(lines + kept - before).collect();
+            fs::write(&journal, rows.join("\n") + "\n").unwrap();
+            let (_, err) = said(path, &[&args[..], &[&out]].concat(), 0);
+            assert!(bytes(&path.join(&out)) == whole, "round {round}");
+            // Runs of a row that is not whole are not computed again.
+            assert!(err.contains(&format!(", {kept} of them there already")), "{kept}: {err}");
             return;
         }
     }
-    panic!("no kill came amidst a row");
+    panic!("no kill came after the first flush of the journal");
 }
 
 /// A table of realisations that was changed is noticed, as the others are.
