@@ -24,9 +24,9 @@ const TINY: f64 = 1e-290;
 /// ```
 /// use signorini::{Scene, Scheme, Stepper, Wall};
 ///
-/// let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop",
-/// 0.1)).with_initial(&[0.0], &[1.0]); let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean {
-/// theta: 0.5 }, 1e-3)?; while stepper.time() < 0.2 {
+/// let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop", 0.1)).with_initial(&[0.0], &[1.0]);
+/// let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3)?;
+/// while stepper.time() < 0.2 {
 ///     let step = stepper.step()?;
 ///     assert!(step.q[0] < 0.1 + 1e-3);
 /// }
@@ -189,9 +189,9 @@ impl Stepper {
     /// ```
     /// use signorini::{Scene, Scheme, Stepper, Wall};
     ///
-    /// let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop",
-    /// 0.1)).with_initial(&[0.0], &[1.0]); let mut stepper = Stepper::new(&scene,
-    /// &Scheme::MoreauJean { theta: 0.5 }, 1e-3)?; let impact = stepper.glide(1000)?;
+    /// let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop", 0.1)).with_initial(&[0.0], &[1.0]);
+    /// let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3)?;
+    /// let impact = stepper.glide(1000)?;
     /// assert!((impact.end - 0.1).abs() < 2e-3); // a step of 1 ms about 0.1 s
     /// assert_eq!(impact.impulse, [-2.0]); // N s, of 1 kg at 1 m/s
     /// # Ok::<(), signorini::Error>(())
@@ -268,9 +268,11 @@ impl Stepper {
     ///     stepper.step()?;
     /// }
     /// let (time, saved) = (stepper.time(), stepper.state());
-    /// // A first guess of the force that the other program gives, and the step again with a better
-    /// one. let guess = stepper.step_with(&[0.5])?.q[0]; stepper.set_state(time, &saved)?; let
-    /// better = stepper.step_with(&[0.2])?.q[0]; assert!(better < guess);
+    /// // A first guess of the force that the other program gives, and the step again with a better one.
+    /// let guess = stepper.step_with(&[0.5])?.q[0];
+    /// stepper.set_state(time, &saved)?;
+    /// let better = stepper.step_with(&[0.2])?.q[0];
+    /// assert!(better < guess);
     /// # Ok::<(), signorini::Error>(())
     /// ```
     ///
