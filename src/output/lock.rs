@@ -2,10 +2,11 @@
 
 use crate::error::{Error, Result};
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// The file in the folder that is locked; it is removed with the lock, and holds nothing.
+/// The file in the folder that is locked. It holds the number of the process once that has the
+/// lock, and is removed with the lock.
 const NAME: &str = ".signorini.lock";
 
 /// The right to write into a folder, until it is dropped. A killed process leaves the file, but
@@ -27,7 +28,7 @@ impl Lock {
         let failed = |error: io::Error| Error::io(path.display(), error.to_string(), true).caused_by(error);
         loop {
             let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
-            let file = opened.map_err(failed)?;
+            let mut file = opened.map_err(failed)?;
             match file.try_lock() {
                 Err(TryLockError::WouldBlock) => {
                     let reason = "another process is at work in this folder".to_owned();
@@ -39,6 +40,8 @@ impl Lock {
             // The file may have been removed, with the lock of another process, after it was
             // opened.
             if is_at(&file, &path) {
+                // For who looks into the folder; the lock holds without it, on a full disk too.
+                let _ = file.set_len(0).and_then(|()| writeln!(file, "{}", std::process::id()));
                 return Ok(Self { path, _file: file });
             }
         }
