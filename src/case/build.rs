@@ -36,6 +36,7 @@ pub(super) fn case(document: &CaseFile, start: Option<&State>) -> Result<Case> {
         document,
         model: Model::Oscillator,
         planes: Planes::One,
+        joints: Vec::new(),
         n: 1,
         static_correction: false,
         written: Written::default(),
@@ -94,6 +95,10 @@ impl Builder<'_> {
             self.written.loads.push(place);
             self.written.origins.push(origin);
         }
+        let mut turbulence = Vec::new();
+        for (index, table) in file.sections("turbulence").iter().enumerate() {
+            turbulence.extend(self.turbulence(index, table, scene.duration, modes.is_some())?);
+        }
         scene.probes = self.probes(&file.sections("probe"), &walls)?;
         let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
         scene.walls = all;
@@ -150,6 +155,7 @@ impl Builder<'_> {
                 static_correction: self.static_correction,
                 start: case.written.start,
                 planes: self.planes.modes(),
+                turbulence,
             };
             let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
             case.scene = reduction.scene.clone();

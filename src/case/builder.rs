@@ -20,6 +20,8 @@ pub(super) struct Builder<'a> {
     pub document: &'a CaseFile,
     pub model: Model,
     pub planes: Planes,
+    /// Where the spans of a beam end, m, in order.
+    pub joints: Vec<f64>,
     /// Degrees of freedom of the structure in one plane; of matrices, of both.
     pub n: usize,
     pub static_correction: bool,

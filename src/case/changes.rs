@@ -2,6 +2,7 @@
 
 use super::key::Key;
 use super::key_value::KeyValue;
+use super::schema::{self, is_list, is_numbered};
 use crate::error::{Error, Result};
 use toml::{Table, Value};
 
@@ -9,7 +10,7 @@ use toml::{Table, Value};
 pub(super) fn set(file: &mut Table, key: &Key, new: &KeyValue) -> Result<()> {
     let Some((first, rest)) = key.parts().split_first() else { return Ok(()) };
     match first.as_str() {
-        "wall" | "support" | "probe" | "load" => {
+        first if is_list(first) => {
             for entry in entries(file, key)? {
                 put(entry, rest.get(1..).unwrap_or_default(), key, &new.0)?;
             }
@@ -31,14 +32,14 @@ pub(super) fn get(file: &Table, key: &Key) -> Option<KeyValue> {
     let (first, rest) = key.parts().split_first()?;
     let mut found: Vec<&Value> = vec![file.get(first)?];
     for (index, part) in rest.iter().enumerate() {
-        let named = index == 0 && ["wall", "support", "probe"].contains(&first.as_str());
+        let named = index == 0 && is_list(first) && !is_numbered(first);
         let mut next = Vec::new();
         for value in found {
             match value {
                 Value::Array(list) if part == "*" => next.extend(list),
                 Value::Array(list) if named => next.extend(list.iter().filter(|entry| is_named(entry, part))),
                 Value::Array(list) => {
-                    let from = usize::from(index == 0 && first == "load");
+                    let from = usize::from(index == 0 && is_numbered(first));
                     next.extend(part.parse::<usize>().ok().and_then(|i| list.get(i.checked_sub(from)?)));
                 }
                 Value::Table(table) => next.extend(table.get(part)),
@@ -70,26 +71,22 @@ fn is_named(entry: &Value, name: &str) -> bool {
     entry.get("name").and_then(Value::as_str) == Some(name)
 }
 
-/// The tables `[[wall]]`, `[[support]]`, `[[probe]]` or `[[load]]` to which the second part of
+/// The tables of a list, as `[[wall]]`, to which the second part of
 /// `key` refers.
 fn entries<'a>(file: &'a mut Table, key: &Key) -> Result<Vec<&'a mut Value>> {
     let part = |index: usize| key.parts().get(index).map_or("", String::as_str);
     let (list, name) = (part(0), part(1));
     let mut all: Vec<&mut Value> =
         file.get_mut(list).and_then(Value::as_array_mut).map_or_else(Vec::new, |list| list.iter_mut().collect());
-    let names: Vec<String> = match list {
-        "load" => (1..=all.len()).map(|number| number.to_string()).collect(),
-        _ => all.iter().filter_map(|entry| entry.get("name")?.as_str()).map(str::to_owned).collect(),
+    let names: Vec<String> = if is_numbered(list) {
+        (1..=all.len()).map(|number| number.to_string()).collect()
+    } else {
+        all.iter().filter_map(|entry| entry.get("name")?.as_str()).map(str::to_owned).collect()
     };
     if name == "*" && !all.is_empty() {
         return Ok(all);
     }
-    let kind = match list {
-        "load" => "load",
-        "probe" => "probe",
-        "support" => "support",
-        _ => "wall",
-    };
+    let kind = schema::list(list).unwrap_or("wall");
     match names.iter().position(|known| known == name) {
         Some(index) if index < all.len() => Ok(vec![all.swap_remove(index)]),
         _ => Err(Error::Unknown { kind, name: name.to_owned(), known: names }),

@@ -44,6 +44,7 @@ const ALL: &[Embedded] = embed![
     "fuel-rod",
     "tube-lattice-bars",
     "base-pulse"["base-pulse.csv"],
+    "tube-in-cross-flow",
     "tube-round-supports",
     "whirl-in-a-hole",
     "code-aster-sdnd100",

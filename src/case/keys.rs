@@ -72,7 +72,10 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("system.beam", Table, "", ["", "a tube in bending, Euler–Bernoulli, Hermite elements; \
         degrees of freedom are deflection (m) and rotation (rad) of each node from left to right, \
         without those that ends hold", ""]),
-    entry("system.beam.length", Number, "m", [REQUIRED, ABOVE_0, UNORDINARY]),
+    entry("system.beam.length", Number, "m", ["required unless spans are given", ABOVE_0,
+        UNORDINARY]),
+    entry("system.beam.spans", Numbers, "m", ["no joints", "a list of numbers above 0, in place of \
+        length: what lies between supports, each ends in a joint", "beside `length`"]),
     entry("system.beam.youngs_modulus", Number, "Pa", [REQUIRED, ABOVE_0, UNORDINARY]),
     entry("system.beam.density", Number, "kg_per_m3", [REQUIRED, ABOVE_0, UNORDINARY]),
     entry("system.beam.outer_diameter", Number, "m", [REQUIRED, ABOVE_0, UNORDINARY]),
@@ -233,6 +236,30 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("load.base.influence", Any, "", ["required of `matrices` and `modal`", "{ row = [[0, \
         1.0], ..] }: how far each degree of freedom moves with the base", "beside other \
         systems"]),
+    entry("turbulence", Tables, "", ["no turbulence", "any number of them, which add up: random \
+        forces along a tube that are coherent over a length, as forces on its modes, see below",
+        "without `modes`; on other systems than a beam"]),
+    entry("turbulence.direction", Any, "deg", ["required in two planes", "a number, or \"both\": \
+        from +y towards +z, or independent fields along y and z", IN_ONE_PLANE]),
+    entry("turbulence.density", Number, "kg_per_m3", ["", "a number above 0: of the fluid", "beside \
+        `spectrum`"]),
+    entry("turbulence.velocity", Any, "m_per_s", ["", "a number, 0 or more, or pairs of m and m/s, \
+        straight between them: of the fluid in the gaps, [[0.0, 0.3], [3.0, 0.6]]", "pairs that do \
+        not reach over the stretch; beside `spectrum`"]),
+    entry("turbulence.reduced", Any, "", ["", "pairs of a reduced frequency fD/V and a reduced \
+        density, straight in logarithms, zero outside: [[0.01, 0.05], [0.2, 0.0112]]", "beside \
+        `spectrum`"]),
+    entry("turbulence.spectrum", Any, "", ["", "pairs of Hz and (N/m)^2/Hz, one-sided, in place of \
+        `density`, `velocity` and `reduced`: [[1.0, 0.02], [100.0, 0.02]]", "beside these"]),
+    entry("turbulence.along", Numbers, "m", ["the whole tube", "[from, to], two numbers", "beyond \
+        the tube"]),
+    entry("turbulence.from", Number, "Hz", [REQUIRED, "a number above 0: where the band begins",
+        UNORDINARY]),
+    entry("turbulence.to", Number, "Hz", [REQUIRED, "a number above from: where the band ends",
+        "not above `from`"]),
+    entry("turbulence.correlation_length", Number, "m", [REQUIRED, "a number above 0: the coherence \
+        of two points falls by e over it", UNORDINARY]),
+    entry("turbulence.seed", Number, "", ["0", "a whole number from 0 to 2^53", ""]),
     entry("initial", Table, "", ["at rest at 0", "", ""]),
     entry("initial.equilibrium", Truth, "", ["`false`", "true or false: at rest in static \
         equilibrium under the constant loads, between all walls and in all holes", "beside \
@@ -295,6 +322,7 @@ pub(super) const KEYS: &[KeyEntry] = &[
     // Places, of walls, supports, loads and probes alike.
     inner("at.dof", ""),
     inner("at.position", "m"),
+    inner("at.joint", ""),
     inner("at.row", ""),
     inner("at.spread", "m"),
     inner("at.point", ""),

@@ -63,6 +63,7 @@ mod table;
 mod template;
 mod text;
 mod truncated;
+mod turbulence;
 mod value;
 mod walls;
 mod wear;

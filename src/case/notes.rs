@@ -20,6 +20,7 @@ impl Case {
         notes.extend(self.open_supports());
         notes.extend(self.odd_coefficients());
         notes.extend(self.start_note());
+        notes.extend(self.turbulence_notes());
         notes
     }
 

@@ -49,6 +49,11 @@ impl Builder<'_> {
             }
             _ => format!("{{ dof = 0 to {last} }}, {{ row = [[0, 1.0], [1, -1.0]] }}"),
         };
+        let joint = match self.joints.len() {
+            0 => String::new(),
+            count => format!(", {{ joint = 1 to {count} }}"),
+        };
+        let dof = format!("{dof}{joint}");
         match self.model.length() {
             Some(length) if spread => {
                 format!("at = {{ position = 0 to {length:?} m }}, {{ spread = [from, to] }} in m, {dof}")
@@ -140,6 +145,18 @@ impl Builder<'_> {
             "position" => {
                 let position = self.finite(&format!("{key}: position"), value, "a number, in m from the left end")?;
                 Ok(Place::Position(position))
+            }
+            "joint" if !self.joints.is_empty() => {
+                let count = self.joints.len();
+                let joint = self.finite(&format!("{key}: joint"), value, "the number of a span, which ends there")?;
+                let index = (1..=count).find(|number| *number as f64 == joint);
+                match index.and_then(|number| self.joints.get(number - 1)) {
+                    Some(position) => Ok(Place::Position(*position)),
+                    None => {
+                        let expected = format!("a whole number from 1 to {count}, the spans");
+                        Err(self.refuse(value.span(), &format!("{key}: joint"), &expected))
+                    }
+                }
             }
             "spread" if load => {
                 let wanted = "[from, to], two numbers in m from the left end";
@@ -261,6 +278,12 @@ impl Builder<'_> {
             Value::Number(x) if x.is_finite() => Ok(*x),
             _ => Err(self.refuse(value.span(), key, wanted)),
         }
+    }
+
+    /// Pairs of finite numbers.
+    pub fn number_pairs(&self, key: &str, value: &Spanned<Value<'_>>, wanted: &str) -> Result<Vec<[f64; 2]>> {
+        let pairs = self.pairs(key, value, wanted)?.into_iter();
+        pairs.map(|(x, y)| Ok([self.finite(key, x, wanted)?, self.finite(key, y, wanted)?])).collect()
     }
 
     /// The error of a bar or beam, shown at the value that it refers to.

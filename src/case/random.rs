@@ -1,12 +1,12 @@
 //! Reads random loads, and computes them again for another end of the run.
 
-use super::Case;
 use super::builder::Builder;
 use super::table::{self, TableColumns};
 use super::value::Section;
 use super::written::Origin;
+use super::{Case, Truncated};
 use crate::error::{Error, Part, Result};
-use crate::scene::{Density, LoadKind, RandomForce, Table};
+use crate::scene::{Density, Load, LoadKind, RandomForce, Table};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -47,9 +47,7 @@ impl Builder<'_> {
             (Some(rms), Some(from), Some(to), ..) => Density::Flat { rms, from, to },
             (_, _, _, Some(psd), _) => {
                 let (key, wanted) = (format!("{owner}: psd"), "pairs of a frequency, in Hz, and a density, in N^2/Hz");
-                let number = |value| self.finite(&key, value, wanted);
-                let pairs = self.pairs(&key, psd, wanted)?;
-                Density::Points(pairs.into_iter().map(|(f, s)| Ok([number(f)?, number(s)?])).collect::<Result<_>>()?)
+                Density::Points(self.number_pairs(&key, psd, wanted)?)
             }
             (_, _, _, _, Some(file)) => Density::Points(self.density(&owner, file)?),
             _ => {
@@ -64,7 +62,7 @@ impl Builder<'_> {
         Ok(NewRandom { force, table, file: file.map(|file| (*file.get_ref()).to_owned()) })
     }
 
-    fn seed(&self, owner: &str, seed: &Spanned<f64>) -> Result<u64> {
+    pub fn seed(&self, owner: &str, seed: &Spanned<f64>) -> Result<u64> {
         let x = *seed.get_ref();
         if x.fract() == 0.0 && (0.0..=MOST_SEED).contains(&x) {
             Ok(x as u64)
@@ -110,17 +108,18 @@ impl Builder<'_> {
 }
 
 impl Case {
-    /// True if the case has a random load.
+    /// True if the case has a random load or turbulence.
     #[must_use]
     pub fn is_random(&self) -> bool {
-        self.written.origins.iter().any(|origin| matches!(origin, Origin::Random { .. }))
+        !self.turbulence().is_empty()
+            || self.written.origins.iter().any(|origin| matches!(origin, Origin::Random { .. }))
     }
 
     /// The size of each random force that has more than 2^20 rows, in words: a user who waits for
     /// the case should know what takes the time and the memory.
     pub fn large_random_forces(&self) -> impl Iterator<Item = String> {
         let made = self.written.origins.iter().zip(&self.whole().loads).enumerate();
-        made.filter_map(|(index, (origin, load))| match (origin, &load.kind) {
+        let single = made.filter_map(|(index, (origin, load))| match (origin, &load.kind) {
             (Origin::Random { force, .. } | Origin::Second(force), LoadKind::Table(table)) => {
                 let rows = table.time().len();
                 let [_, to] = force.density.band();
@@ -135,11 +134,23 @@ impl Case {
                 })
             }
             _ => None,
-        })
+        });
+        // The loads of turbulence come after those of the file.
+        let turbulent = self.scene.loads.get(self.whole().loads.len()..).unwrap_or_default();
+        let rows = |load: &Load| if let LoadKind::Table(table) = &load.kind { table.time().len() } else { 0 };
+        let values: usize = turbulent.iter().map(rows).sum();
+        let fields = (values > MANY_ROWS).then(|| {
+            format!(
+                "turbulence: tables of {values} values, {:.0} MB, up to {} s",
+                8e-6 * values as f64,
+                self.scene.duration
+            )
+        });
+        single.chain(fields)
     }
 
     /// Realisation `number` of the case, from 1: the same case, where the seed of every random load
-    /// is greater by `number` − 1. So realisation 1 is the case itself, and a run with `seed` set
+    /// and turbulence is greater by `number` − 1. So realisation 1 is the case itself, and a run with `seed` set
     /// to that value repeats any of the others.
     ///
     /// # Errors
@@ -149,25 +160,34 @@ impl Case {
             return Err(Error::invalid("realisation", 0, "1 or more: the first is the case itself"));
         };
         let mut case = self.clone();
-        for (index, origin) in case.written.origins.iter_mut().enumerate() {
-            let (Origin::Random { force, .. } | Origin::Second(force)) = &mut *origin else { continue };
-            let seed = force.seed.saturating_add(more);
-            if seed as f64 > MOST_SEED {
-                let most = MOST_SEED as u64 - force.seed.min(MOST_SEED as u64) + 1;
-                let expected = format!("at most {most} beside the seed {}: seeds go up to 2^53", force.seed);
+        let raised = |seed: &mut u64| -> Result<()> {
+            if *seed > MOST_SEED as u64 - more.min(MOST_SEED as u64) {
+                let expected =
+                    format!("at most {} beside the seed {seed}: seeds go up to 2^53", MOST_SEED as u64 - *seed + 1);
                 return Err(Error::invalid("realisation", number, expected));
             }
-            force.seed = seed;
+            *seed += more;
+            Ok(())
+        };
+        for (index, origin) in case.written.origins.iter_mut().enumerate() {
+            let (Origin::Random { force, .. } | Origin::Second(force)) = &mut *origin else { continue };
+            raised(&mut force.seed)?;
+            let seed = force.seed;
             if let Origin::Random { .. } = origin {
                 // A load of the file has its number in the scene.
                 case.document.set(&format!("load.{}.random.seed", index + 1).parse()?, &(seed as i64).into())?;
             }
         }
+        for field in case.truncated.iter_mut().flat_map(|truncated| &mut truncated.whole.turbulence) {
+            raised(&mut field.seed)?;
+            let key = format!("turbulence.{}.seed", field.number()).parse()?;
+            case.document.set(&key, &(field.seed as i64).into())?;
+        }
         case.make_random(case.scene.duration)?;
         Ok(case)
     }
 
-    /// Computes the random forces again, for a run that ends at `end` (s): only their tables
+    /// Computes the random forces and those of turbulence again, for a run that ends at `end` (s): only their tables
     /// change.
     ///
     /// # Errors
@@ -177,6 +197,15 @@ impl Case {
         for (index, origin) in self.written.origins.iter().enumerate() {
             if let Origin::Random { force, .. } | Origin::Second(force) = origin {
                 tables.push((index, force.table(end)?));
+            }
+        }
+        if let Some(Truncated { whole, reduction }) = &mut self.truncated
+            && !whole.turbulence.is_empty()
+        {
+            let loads = whole.turbulent_loads(&reduction.modes, end)?;
+            for scene in [&mut reduction.scene, &mut self.scene] {
+                scene.loads.truncate(whole.scene.loads.len());
+                scene.loads.extend_from_slice(&loads);
             }
         }
         let reduced = self.truncated.as_mut();

@@ -86,9 +86,19 @@ pub(super) fn accepted(path: &str) -> Option<String> {
     find(path).map(|entry| CASE.help(entry))
 }
 
-/// True for the name of walls, supports, loads or probes, of which each has a table.
+/// The name of a list of tables, such as those of walls.
+pub(super) fn list(name: &str) -> Option<&'static str> {
+    ["wall", "support", "load", "turbulence", "probe"].into_iter().find(|list| *list == name)
+}
+
+/// True for the name of a list of tables.
 pub(super) fn is_list(name: &str) -> bool {
-    matches!(name, "wall" | "support" | "load" | "probe")
+    list(name).is_some()
+}
+
+/// True for the name of a list whose tables have numbers, from 1, in place of names.
+pub(super) fn is_numbered(name: &str) -> bool {
+    matches!(name, "load" | "turbulence")
 }
 
 /// The path of every key but those within values, without names and numbers of walls, supports,

@@ -228,8 +228,9 @@ impl Builder<'_> {
             };
         }
         let [left, right] = ends;
+        let length = self.length(beam)?;
         let mut number = |key| self.required(("beam", key), beam, key);
-        let [length, youngs_modulus] = ["length", "youngs_modulus"].map(&mut number);
+        let youngs_modulus = number("youngs_modulus");
         let [density, outer_diameter] = ["density", "outer_diameter"].map(&mut number);
         let mut or_0 = |key| self.optional(("beam", key), beam, key).unwrap_or(0.0);
         let [inner_diameter, added_mass] = ["inner_diameter", "added_mass"].map(&mut or_0);
@@ -237,6 +238,34 @@ impl Builder<'_> {
         let made =
             Beam { length, youngs_modulus, density, outer_diameter, inner_diameter, added_mass, elements, left, right };
         Ok(made)
+    }
+
+    /// The length of a beam, m; where it is the sum of spans, their joints are noted.
+    fn length(&mut self, beam: &Section<'_>) -> Result<f64> {
+        let (length, spans) = (beam.number("length"), beam.numbers("spans"));
+        match (length, spans) {
+            (Some(length), None) => Ok(self.number(("beam", "length"), &length)),
+            (None, Some(spans)) => {
+                let mut reached = 0.0;
+                for span in spans.get_ref() {
+                    if !(span.get_ref().is_finite() && *span.get_ref() > 0.0) {
+                        return Err(self.refuse(span.span(), "system.beam.spans", "numbers above 0, in m"));
+                    }
+                    reached += span.get_ref();
+                    self.joints.push(reached);
+                }
+                self.places.push((("beam", "length").into(), spans.span()));
+                Ok(reached)
+            }
+            (Some(_), Some(spans)) => {
+                let help = "expected one of them: the length is the sum of the spans";
+                Err(self.source.error(spans.span(), "`system.beam` has a length and spans", help))
+            }
+            (None, None) => {
+                let help = "expected length = a number above 0, in m, or spans = a list of them, whose sum it is";
+                Err(self.source.error(beam.span.clone(), "`length` is missing in `system.beam`", help))
+            }
+        }
     }
 
     fn end(&mut self, table: &str, side: &str, end: &Spanned<Value<'_>>) -> Result<End> {

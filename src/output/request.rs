@@ -47,6 +47,9 @@ pub fn request(command: &str, case: &Case, methods: &[Method]) -> Map<String, Va
     ] {
         request.insert(format!("{part}{FINGERPRINT}"), digest);
     }
+    if !case.turbulence().is_empty() {
+        request.insert(format!("turbulence{FINGERPRINT}"), fingerprint(&case.turbulence()));
+    }
     request.insert(VALUES.to_owned(), Value::Object(by_keys(&case.document.json().unwrap_or_default())));
     request
 }

@@ -49,6 +49,7 @@ fn belongs(key: &str, part: &str) -> bool {
         "supports" => table == "support",
         "wear" => table == "wear" || table == "support",
         "loads" => table == "load",
+        "turbulence" => table == "turbulence",
         "initial" => table == "initial",
         "probes" => table == "probe",
         "penalty" => table == "penalty",

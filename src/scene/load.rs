@@ -70,6 +70,18 @@ impl Table {
         Ok(Self { time: Arc::new(time), force: Arc::new(force), pace })
     }
 
+    /// A table of other forces at the times of this one, which both share.
+    pub(super) fn with_force(&self, force: Vec<f64>) -> Result<Self> {
+        if force.len() != self.time.len() {
+            let rows = format!("{} times and {} forces", self.time.len(), force.len());
+            return Err(Error::invalid("load table", rows, "as many times as forces"));
+        }
+        for (i, &f) in force.iter().enumerate() {
+            finite(Subject::of("load table").row(i).part("force_N"), f)?;
+        }
+        Ok(Self { time: Arc::clone(&self.time), force: Arc::new(force), pace: self.pace })
+    }
+
     /// Times of the rows, s.
     #[must_use]
     pub fn time(&self) -> &[f64] {

@@ -8,7 +8,7 @@
 //! users), `checked.rs` (a validated scene), `wall.rs`, `law.rs` (all that differs between rigid,
 //! elastic and penalised walls), `planes.rs` (a structure doubled into two planes, and directions
 //! there), `support.rs` (walls around a place), `load.rs`, `random/` (random forces as tables),
-//! `clear.rs` (a start moved out of walls), `function.rs`, `forcing.rs`, `row.rs` (a location on a
+//! `turbulence/` (random forces along a line, on modes), `clear.rs` (a start moved out of walls), `function.rs`, `forcing.rs`, `row.rs` (a location on a
 //! structure, as weights of degrees of freedom), `builders/` (chains, bars, tubes, modal data),
 //! `matrices/` (read from text), `condensation/` (degrees of freedom without mass), `damping.rs`,
 //! `modal/` (modes, and scenes reduced to them); `Scene::validate` is the only place that decides
@@ -36,6 +36,7 @@ mod shared;
 mod structure;
 mod support;
 mod system;
+mod turbulence;
 mod wall;
 
 pub use builders::{Bar, BarEnd, Beam, BeamEnd, Chain, MOST_ELEMENTS, MassMatrix, ModalData, ModalPoint};
@@ -58,6 +59,7 @@ pub use shared::SharedStructure;
 pub use structure::Structure;
 pub use support::{Hole, Support};
 pub use system::{Oscillator, System};
+pub use turbulence::{Turbulence, TurbulenceSpectrum};
 pub use wall::{Face, Side, Wall};
 
 use crate::error::{Error, Result, Subject};

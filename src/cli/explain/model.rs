@@ -1,7 +1,7 @@
 //! The model of a case in words: structure, supports, walls and loads.
 
 use crate::case::{Case, Model, Origin, Support};
-use crate::scene::{self, Density, Flats, LoadKind, WallSpring};
+use crate::scene::{self, Density, Flats, LoadKind, Turbulence, WallSpring};
 use crate::study::choice;
 use crate::study::truncation::Start;
 
@@ -69,10 +69,33 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
         Origin::Stated | Origin::Second(_) => None,
     };
     let mut lines: Vec<String> = case.written.origins.iter().enumerate().filter_map(line).collect();
+    lines.extend(turbulence(case));
     if case.written.start == Start::Equilibrium {
         lines.push("start: at rest in static equilibrium under the constant loads".to_owned());
     }
     lines
+}
+
+/// Each table of turbulence, of which each field has a direction.
+fn turbulence(case: &Case) -> Vec<String> {
+    let fields = case.turbulence();
+    let line = |field: &Turbulence| {
+        let others = fields.iter().filter(|other| other.number() == field.number()).count() > 1;
+        let both = if others { " along y, and an independent one along z" } else { "" };
+        let rms = field.root_mean_squares(case.scene.duration).unwrap_or_default();
+        let [least, most] =
+            [rms.iter().copied().fold(f64::INFINITY, f64::min), rms.iter().copied().fold(0.0, f64::max)];
+        let [[start, end], [from, to]] = [field.along, field.band];
+        format!(
+            "turbulence {}: a field of force{both} from {start} to {end} m, {least:.4} to {most:.4} N/m RMS from {from} \
+             to {to} Hz, coherent over {} m, seed {}: a table for each mode, the same for every step and scheme, and \
+             for the first modes with more of them",
+            field.number(),
+            field.correlation_length,
+            field.seed
+        )
+    };
+    fields.iter().filter(|field| field.is_first()).map(line).collect()
 }
 
 /// Each support, and how its flats are treated by the schemes.

@@ -1,20 +1,14 @@
 //! Random forces with a given power spectral density.
 
+mod lines;
+
+pub(super) use lines::Lines;
+
 use super::system::{finite, positive};
 use super::{Load, Table};
 use crate::error::{Error, Result, Subject};
 use crate::hash;
-use crate::linear::fourier::inverse;
-use std::f64::consts::{PI, TAU};
-
-/// Most rows of a random table, which has 16 per shortest period.
-const MOST_ROWS: f64 = 16_777_216.0;
-
-/// Rows of the table in the period of the fastest line, at least.
-const ROWS_A_PERIOD: usize = 16;
-
-/// Rounding allowance for the ends of a band, in spacings of lines: a line at an end is included.
-const ON_LINE: f64 = 1e-9;
+use std::f64::consts::TAU;
 
 /// A one-sided power spectral density.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,9 +64,6 @@ pub struct RandomForce {
     pub stream: u64,
 }
 
-/// A line of the spectrum: its number, i = f_i T, and its amplitude, N.
-type Line = (usize, f64);
-
 impl RandomForce {
     /// The force from 0 to `end` (s) as a table, which goes one row beyond the end.
     ///
@@ -80,21 +71,17 @@ impl RandomForce {
     /// [`Error::Invalid`] under `random load` for an invalid density, a band without a line at this
     /// duration, or more than 2^24 rows.
     pub fn table(&self, end: f64) -> Result<Table> {
-        let lines = self.lines(end)?;
-        let last = lines.last().map_or(1, |line| line.0);
-        let rows = (ROWS_A_PERIOD * last).next_power_of_two();
-        let (mut re, mut im) = (vec![0.0; rows], vec![0.0; rows]);
-        for (i, amplitude) in lines {
-            let x = PI * i as f64 / rows as f64;
-            let kept = (x.sin() / x).powi(2);
+        self.density.validate()?;
+        let lines = Lines::new(&Subject::of("random load"), self.density.band(), end)?;
+        let share = match self.density {
+            Density::Flat { .. } => 1.0 / lines.numbers().len() as f64,
+            Density::Points(_) => 1.0 / end,
+        };
+        lines.table(lines.numbers().map(|i| {
+            let amplitude = (2.0 * self.density.at(lines.frequency(i)) * share).sqrt();
             let (sin, cos) = (TAU * hash::unit(hash::mix(self.seed, self.stream, i as u64))).sin_cos();
-            (re[i], im[i]) = (amplitude / kept * cos, amplitude / kept * sin);
-        }
-        inverse(&mut re, &mut im);
-        drop(im);
-        let time = (0..=rows + 1).map(|j| end * (j as f64 / rows as f64)).collect();
-        let force = (0..=rows + 1).map(|j| re[j % rows]).collect();
-        Table::new(time, force)
+            (amplitude * cos, amplitude * sin)
+        }))
     }
 
     /// A load of this force on the first degree of freedom, for a scene of the duration `end` (s).
@@ -103,35 +90,6 @@ impl RandomForce {
     /// As [`RandomForce::table`].
     pub fn load(&self, end: f64) -> Result<Load> {
         Ok(Load::table(self.table(end)?))
-    }
-
-    /// The lines in the band, with their amplitudes.
-    fn lines(&self, end: f64) -> Result<Vec<Line>> {
-        positive(key("duration"), end)?;
-        self.density.validate()?;
-        let [from, to] = self.density.band();
-        let rounded = |x: f64| ON_LINE * x.max(1.0);
-        let first = (from * end - rounded(from * end)).ceil().max(1.0);
-        let last = (to * end + rounded(to * end)).floor();
-        if last < first {
-            let value = format!("{from:?} to {to:?} Hz, without a line");
-            let expected = format!("a band that contains a multiple of 1/end = {:e} Hz", 1.0 / end);
-            return Err(Error::invalid(key("band"), value, expected));
-        }
-        if last * ROWS_A_PERIOD as f64 > MOST_ROWS {
-            let most = MOST_ROWS / ROWS_A_PERIOD as f64 / end;
-            let value = format!("up to {to:?} Hz over {end:?} s");
-            let expected =
-                format!("at most {most:e} Hz at this end: a random table has at most 2^24 rows, 16 a period");
-            return Err(Error::invalid(key("band"), value, expected));
-        }
-        let (first, last) = (first as usize, last as usize);
-        let share = match self.density {
-            Density::Flat { .. } => 1.0 / (last - first + 1) as f64,
-            Density::Points(_) => 1.0 / end,
-        };
-        let amplitude = |i: usize| (2.0 * self.density.at(i as f64 / end) * share).sqrt();
-        Ok((first..=last).map(|i| (i, amplitude(i))).collect())
     }
 }
 
@@ -149,13 +107,7 @@ impl Density {
     fn at(&self, f: f64) -> f64 {
         match self {
             Self::Flat { rms, .. } => rms * rms,
-            Self::Points(points) => {
-                let after = points.partition_point(|point| point[0] <= f).clamp(1, points.len() - 1);
-                let [[f0, s0], [f1, s1]] = [points[after - 1], points[after]];
-                // A line within rounding of an end of the band counts as on it.
-                let along = ((f / f0).ln() / (f1 / f0).ln()).clamp(0.0, 1.0);
-                s0 * ((s1 / s0).ln() * along).exp()
-            }
+            Self::Points(points) => straight_in_logarithms(points, f),
         }
     }
 
@@ -172,25 +124,39 @@ impl Density {
                     Err(Error::invalid(key("to"), format_args!("{to:?}"), format!("more than from, {from:?}")))
                 }
             }
-            Self::Points(points) => {
-                if points.len() < 2 {
-                    let count = format!("{} pairs", points.len());
-                    return Err(Error::invalid(key("psd"), count, "two pairs of frequency and density or more"));
-                }
-                for (i, &[f, s]) in points.iter().enumerate() {
-                    positive(key("psd").value(i).part("frequency"), f)?;
-                    positive(key("psd").value(i).part("density"), s)?;
-                }
-                match points.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
-                    None => Ok(()),
-                    Some(i) => Err(Error::invalid(
-                        key("psd").value(i + 1).part("frequency"),
-                        format_args!("{:?}", points[i + 1][0]),
-                        format!("more than the one before, {:?}", points[i][0]),
-                    )),
-                }
-            }
+            Self::Points(points) => validate_points(&key("psd"), points, ["frequency", "density"]),
         }
+    }
+}
+
+/// The value at `x` between the points, which are positive, straight in logarithms of both; beyond
+/// them, that of the nearest: a line within rounding of an end of the band counts as on it.
+pub(super) fn straight_in_logarithms(points: &[[f64; 2]], x: f64) -> f64 {
+    let after = points.partition_point(|point| point[0] <= x).clamp(1, points.len() - 1);
+    let [[x0, y0], [x1, y1]] = [points[after - 1], points[after]];
+    let along = ((x / x0).ln() / (x1 / x0).ln()).clamp(0.0, 1.0);
+    y0 * ((y1 / y0).ln() * along).exp()
+}
+
+/// Refuses points that are fewer than two, not positive, or not in order of their first values;
+/// `words` name the first and the second value in errors about `subject`.
+pub(super) fn validate_points(subject: &Subject, points: &[[f64; 2]], words: [&'static str; 2]) -> Result<()> {
+    if points.len() < 2 {
+        let count = format!("{} pairs", points.len());
+        let expected = format!("two pairs of {} and {} or more", words[0], words[1]);
+        return Err(Error::invalid(subject.clone(), count, expected));
+    }
+    for (i, &[x, y]) in points.iter().enumerate() {
+        positive(subject.clone().value(i).part(words[0]), x)?;
+        positive(subject.clone().value(i).part(words[1]), y)?;
+    }
+    match points.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
+        None => Ok(()),
+        Some(i) => Err(Error::invalid(
+            subject.clone().value(i + 1).part(words[0]),
+            format_args!("{:?}", points[i + 1][0]),
+            format!("more than the one before, {:?}", points[i][0]),
+        )),
     }
 }
 

@@ -15,7 +15,7 @@ use super::change::{Change, relative};
 use crate::error::Result;
 use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
-use crate::scene::{Damping, Reduction, Scene};
+use crate::scene::{Damping, Load, Modes, Reduction, Scene, Turbulence};
 use crate::scheme::{Method, equilibrium};
 use crate::statistics::PlaceKind;
 use crate::time::TimeOptions;
@@ -36,6 +36,8 @@ pub struct Whole {
     pub planes: usize,
     /// Where the reduced scene starts.
     pub start: Start,
+    /// Fields of force on the modes; their loads come after those of the scene.
+    pub turbulence: Vec<Turbulence>,
 }
 
 /// Where a scene starts.
@@ -61,10 +63,20 @@ impl Whole {
         if self.start == Start::Equilibrium {
             reduction.scene.initial.q = equilibrium(&reduction.scene)?;
         }
+        reduction.scene.loads.extend(self.turbulent_loads(&reduction.modes, self.scene.duration)?);
         match &self.damping {
             Some(damping) => reduction.with_damping(damping),
             None => Ok(reduction),
         }
+    }
+
+    /// The loads of all fields of turbulence on `modes`, from 0 to `end` (s).
+    ///
+    /// # Errors
+    /// As [`Turbulence::forces`], under the number of the field.
+    pub fn turbulent_loads(&self, modes: &Modes, end: f64) -> Result<Vec<Load>> {
+        let of = self.turbulence.iter().map(|field| field.forces(modes, end));
+        Ok(of.collect::<Result<Vec<_>>>()?.concat())
     }
 }
 

@@ -1,0 +1,212 @@
+//! Reads the tables `[[turbulence]]`.
+
+use super::Case;
+use super::builder::Builder;
+use super::model::{Model, Place};
+use super::value::{Section, Value};
+use crate::error::{Error, Part, Result};
+use crate::scene::{Beam, Row, Turbulence, TurbulenceSpectrum};
+use std::ops::Range;
+use toml::Spanned;
+
+/// Cells in an element of the tube.
+const CELLS_AN_ELEMENT: f64 = 4.0;
+
+/// Most cells of a stretch.
+const MOST_CELLS: f64 = 2048.0;
+
+/// Shares of a band that are worth a note.
+const WORTH_SAYING: f64 = 1e-6;
+
+impl Builder<'_> {
+    /// The fields of table `index` in a run until `end` (s): one, or one along y and one along z.
+    /// `modes` tells whether the system is reduced to modes.
+    pub fn turbulence(&mut self, index: usize, table: &Section<'_>, end: f64, modes: bool) -> Result<Vec<Turbulence>> {
+        let owner = format!("turbulence {}", index + 1);
+        let Model::Beam(beam) = self.model.clone() else {
+            let help = "expected [system.beam]: turbulence acts along a tube";
+            return Err(self.source.error(table.span.clone(), &format!("{owner} acts on no tube"), help));
+        };
+        if !modes {
+            let help = "expected modes = k in [system], the modes of each plane";
+            let title = format!("{owner} acts through modes, and the system is not reduced to modes");
+            return Err(self.source.error(table.span.clone(), &title, help));
+        }
+        let along = self.stretch(&owner, table, beam.length)?;
+        let count = (CELLS_AN_ELEMENT * beam.elements as f64 * (along[1] - along[0]) / beam.length).ceil();
+        let count = count.clamp(1.0, MOST_CELLS) as usize;
+        let edge = |i: usize| along[0] + (along[1] - along[0]) * (i as f64 / count as f64);
+        let ends: Vec<[f64; 2]> = (0..count).map(|cell| [edge(cell), edge(cell + 1)]).collect();
+        let spectrum = self.spectrum(&owner, table, &beam, &ends)?;
+        let [from, to, correlation_length] = ["from", "to", "correlation_length"].map(|key| table.required(key));
+        let seed = table.number("seed").map_or(Ok(0), |seed| self.seed(&owner, &seed))?;
+        let mut fields = Vec::new();
+        for (plane, degrees) in self.headings(&owner, table)?.into_iter().enumerate() {
+            let row = |&[from, to]: &[f64; 2]| -> Result<Row> {
+                let place = Place::Spread { from, to };
+                let place = match degrees {
+                    None => place,
+                    Some(degrees) => Place::Towards { place: Box::new(place), degrees },
+                };
+                self.planes.row(&self.model, &place)
+            };
+            let field = Turbulence {
+                cells: ends.iter().map(row).collect::<Result<_>>()?,
+                along,
+                spectrum: spectrum.clone(),
+                correlation_length: *correlation_length.get_ref(),
+                band: [*from.get_ref(), *to.get_ref()],
+                seed,
+                stream: Turbulence::stream(index, plane),
+            };
+            field.check(end).map_err(|error| self.at_turbulence(&owner, table, error))?;
+            fields.push(field);
+        }
+        self.places.push((("turbulence", "band").into(), to.span()));
+        Ok(fields)
+    }
+
+    /// The stretch of the tube on which there are forces, m.
+    fn stretch(&self, owner: &str, table: &Section<'_>, length: f64) -> Result<[f64; 2]> {
+        let Some(along) = table.numbers("along") else { return Ok([0.0, length]) };
+        let ends: Vec<f64> = along.get_ref().iter().map(|x| *x.get_ref()).collect();
+        match ends[..] {
+            [from, to] if (0.0..to).contains(&from) && to <= length => Ok([from, to]),
+            _ => {
+                let expected = format!("[from, to], from 0 to {length:?} m, from below to");
+                Err(self.refuse(along.span(), &format!("{owner}: along"), &expected))
+            }
+        }
+    }
+
+    /// The directions of the fields, degrees; `None` in one plane.
+    fn headings(&self, owner: &str, table: &Section<'_>) -> Result<Vec<Option<f64>>> {
+        let direction = table.get("direction");
+        let Some(value) = direction else {
+            if !self.planes.is_two() {
+                return Ok(vec![None]);
+            }
+            let title = format!("`direction` is missing in {owner}");
+            let help = "expected direction = \"both\", or a number, in deg, from +y (0) towards +z (90)";
+            return Err(self.source.error(table.span.clone(), &title, help));
+        };
+        match value.get_ref() {
+            _ if !self.planes.is_two() => Err(self.undirected(owner, value.span())),
+            Value::Word(word) if word == "both" => Ok(vec![Some(0.0), Some(90.0)]),
+            Value::Number(degrees) if degrees.is_finite() => Ok(vec![Some(*degrees)]),
+            _ => Err(self.refuse(value.span(), &format!("{owner}: direction"), "a number, in deg, or \"both\"")),
+        }
+    }
+
+    /// The spectrum in each of the cells between `ends` (m).
+    fn spectrum(&self, owner: &str, table: &Section<'_>, beam: &Beam, ends: &[[f64; 2]]) -> Result<TurbulenceSpectrum> {
+        let one = "expected density (kg/m^3), velocity (m/s) and reduced = [[fD/V, density], ..], or \
+                   spectrum = [[Hz, (N/m)^2/Hz], ..]";
+        let [density, velocity, reduced] = ["density", "velocity", "reduced"].map(|key| table.get(key));
+        match (table.get("spectrum"), density.and(table.number("density")), velocity, reduced) {
+            (Some(spectrum), None, None, None) => {
+                let wanted = "pairs of a frequency, in Hz, and a density, in (N/m)^2/Hz";
+                Ok(TurbulenceSpectrum::Even(self.number_pairs(&format!("{owner}: spectrum"), spectrum, wanted)?))
+            }
+            (None, Some(density), Some(velocity), Some(reduced)) => {
+                let wanted = "pairs of a reduced frequency fD/V and a reduced density";
+                Ok(TurbulenceSpectrum::Flow {
+                    density: *density.get_ref(),
+                    diameter: beam.outer_diameter,
+                    velocity: self.velocity(owner, velocity, ends)?,
+                    reduced: self.number_pairs(&format!("{owner}: reduced"), reduced, wanted)?,
+                })
+            }
+            (Some(spectrum), ..) => Err(self.source.error(spectrum.span(), &format!("{owner} has two spectra"), one)),
+            _ => {
+                let missing = ["density", "velocity", "reduced"].into_iter().find(|key| table.get(key).is_none());
+                let title = match missing.filter(|_| density.or(velocity).or(reduced).is_some()) {
+                    Some(key) => format!("`{key}` is missing in {owner}"),
+                    None => format!("{owner} has no spectrum"),
+                };
+                Err(self.source.error(table.span.clone(), &title, one))
+            }
+        }
+    }
+
+    /// The velocity at the middle of each cell, m/s.
+    fn velocity(&self, owner: &str, value: &Spanned<Value<'_>>, ends: &[[f64; 2]]) -> Result<Vec<f64>> {
+        let key = format!("{owner}: velocity");
+        let wanted = "a number, 0 or more, in m/s, or pairs of a position, in m, and a velocity, in m/s";
+        if let Value::Number(_) = value.get_ref() {
+            let velocity = self.finite(&key, value, wanted)?;
+            return if velocity >= 0.0 {
+                Ok(vec![velocity; ends.len()])
+            } else {
+                Err(self.refuse(value.span(), &key, wanted))
+            };
+        }
+        let points = self.number_pairs(&key, value, wanted)?;
+        let falls = points.windows(2).any(|pair| pair[1][0] <= pair[0][0]);
+        if points.len() < 2 || falls || points.iter().any(|point| point[1] < 0.0) {
+            let expected = "two pairs or more with increasing positions (m) and velocities of 0 or more (m/s)";
+            return Err(self.refuse(value.span(), &key, expected));
+        }
+        let (from, to) = (ends.first().map_or(0.0, |cell| cell[0]), ends.last().map_or(0.0, |cell| cell[1]));
+        let (first, last) = (points[0][0], points[points.len() - 1][0]);
+        if first > from || last < to {
+            let title =
+                format!("{key} is known from {first:?} to {last:?} m, and the stretch goes from {from:?} to {to:?} m");
+            let help = "expected pairs that reach over the stretch; `along` makes it shorter";
+            return Err(self.source.error(value.span(), &title, help));
+        }
+        let at = |x: f64| {
+            let after = points.partition_point(|point| point[0] <= x).clamp(1, points.len() - 1);
+            let [[x0, v0], [x1, v1]] = [points[after - 1], points[after]];
+            v0 + (v1 - v0) * (x - x0) / (x1 - x0)
+        };
+        Ok(ends.iter().map(|[from, to]| at(0.5 * (from + to))).collect())
+    }
+
+    /// An error of a field, at the key that it is about.
+    fn at_turbulence(&self, owner: &str, table: &Section<'_>, error: Error) -> Error {
+        let Error::Invalid { subject, value, expected } = &error else { return error };
+        let span: Option<Range<usize>> = match subject.parts().get(1) {
+            Some(Part::Name(name)) if name == "band" => table.span_of("to"),
+            Some(Part::Name(name)) => table.span_of(name),
+            _ => None,
+        };
+        let title = format!("{} is {value}", subject.to_string().replacen("turbulence", owner, 1));
+        let span = span.unwrap_or(table.span.clone());
+        self.source.error(span, &title, &format!("expected {expected}")).caused_by(error.clone())
+    }
+}
+
+impl Case {
+    /// Its fields of turbulence.
+    #[must_use]
+    pub fn turbulence(&self) -> &[Turbulence] {
+        self.truncated.as_ref().map_or(&[], |truncated| &truncated.whole.turbulence)
+    }
+
+    /// Where a spectrum ends within the band that was asked for, in sentences.
+    pub(super) fn turbulence_notes(&self) -> Vec<String> {
+        let note = |field: &Turbulence| {
+            let [from, to] = field.band;
+            let place = |cell: usize| {
+                let [start, end] = field.along;
+                start + (end - start) * (cell as f64 + 0.5) / field.cells.len() as f64
+            };
+            let flowing = (0..field.cells.len()).map(|cell| (cell, field.spectrum.band(cell)));
+            let (cell, [_, ends]) = flowing.clone().min_by(|a, b| a.1[1].total_cmp(&b.1[1]))?;
+            let (slow, [begins, _]) = flowing.max_by(|a, b| a.1[0].total_cmp(&b.1[0]))?;
+            let mut said = Vec::new();
+            if ends < to * (1.0 - WORTH_SAYING) {
+                said.push(format!("at {:.3} m its spectrum ends at {ends:.3} Hz", place(cell)));
+            }
+            if begins > from * (1.0 + WORTH_SAYING) {
+                said.push(format!("at {:.3} m it begins at {begins:.3} Hz", place(slow)));
+            }
+            let [all, none] = [said.join(", and "), "beyond that there is no force".to_owned()];
+            (!said.is_empty()).then(|| format!("turbulence {}: {all}: {none}", field.number()))
+        };
+        let mut notes: Vec<String> = self.turbulence().iter().filter_map(note).collect();
+        notes.dedup();
+        notes
+    }
+}
