@@ -25,3 +25,5 @@ mod serialised;
 mod structures;
 #[cfg(feature = "cli")]
 mod support_files;
+#[cfg(feature = "cli")]
+mod turbulence;

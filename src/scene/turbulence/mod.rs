@@ -148,8 +148,8 @@ impl Turbulence {
         let [from, to] = self.band;
         positive(key("from"), from)?;
         positive(key("to"), to)?;
-        if to < from {
-            return Err(Error::invalid(key("to"), format_args!("{to:?}"), format!("from or more, {from:?}")));
+        if to <= from {
+            return Err(Error::invalid(key("to"), format_args!("{to:?}"), format!("more than from, {from:?}")));
         }
         self.spectrum.validate(subject, self.cells.len())
     }
