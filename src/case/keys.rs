@@ -180,6 +180,9 @@ pub(super) const KEYS: &[KeyEntry] = &[
         0: that of the supports", "without `service`"]),
     entry("wear.service", Number, "s", ["required beside a coefficient", "a number above 0: the \
         time for which worn volumes and depths are told", "without a coefficient"]),
+    entry("wear.limit", Number, "", ["no limit", "a number above 0 and at most 1: the depth up to \
+        which the tube may wear, as a share of its wall", "on other systems than a beam; without \
+        `service`"]),
     entry("wear.sectors", Number, "", ["12", "a whole number from 1 to 3600: equal parts of the \
         circle around each support", ""]),
     entry("load", Tables, "", ["no loads", "any number of them, which add up; exactly one kind in \

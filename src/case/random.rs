@@ -150,8 +150,8 @@ impl Case {
     }
 
     /// Realisation `number` of the case, from 1: the same case, where the seed of every random load
-    /// and turbulence is greater by `number` − 1. So realisation 1 is the case itself, and a run with `seed` set
-    /// to that value repeats any of the others.
+    /// and turbulence is greater by `number` − 1. So realisation 1 is the case itself, and a run
+    /// with `seed` set to that value repeats any of the others.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `realisation` for 0, and where a seed would exceed 2^53.
@@ -187,8 +187,8 @@ impl Case {
         Ok(case)
     }
 
-    /// Computes the random forces and those of turbulence again, for a run that ends at `end` (s): only their tables
-    /// change.
+    /// Computes the random forces and those of turbulence again, for a run that ends at `end` (s):
+    /// only their tables change.
     ///
     /// # Errors
     /// [`Error::Invalid`] where a random force has no line at this end or too many rows.

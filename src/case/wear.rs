@@ -1,6 +1,7 @@
 //! Reads the table `[wear]`, and makes the law of wear of each support.
 
 use super::builder::Builder;
+use super::model::Model;
 use super::value::Section;
 use super::{Case, TimeOptions};
 use crate::error::Result;
@@ -19,6 +20,8 @@ pub struct WearOptions {
     pub support_coefficient: Option<f64>,
     /// Time in service, s.
     pub service: Option<f64>,
+    /// The depth up to which the tube may wear, m.
+    pub limit: Option<f64>,
 }
 
 impl Builder<'_> {
@@ -47,6 +50,7 @@ impl Builder<'_> {
             coefficient: self.above_0("wear", "coefficient", "1/Pa", wear)?,
             support_coefficient: self.above_0("wear", "support_coefficient", "1/Pa", wear)?,
             service: self.above_0("wear", "service", "s", wear)?,
+            limit: self.limit(wear)?,
         };
         let coefficient = wear.span_of("coefficient").or(wear.span_of("support_coefficient"));
         match (coefficient, wear.span_of("service")) {
@@ -61,6 +65,22 @@ impl Builder<'_> {
                 SERVICE,
             )),
             _ => Ok((options, self.sectors(wear.number("sectors"))?)),
+        }
+    }
+
+    /// The depth up to which the tube may wear, m.
+    fn limit(&self, wear: &Section<'_>) -> Result<Option<f64>> {
+        let Some(limit) = wear.number("limit") else { return Ok(None) };
+        let Model::Beam(beam) = &self.model else {
+            let help = "expected [system.beam]: the limit is a share of the wall of a tube";
+            return Err(self.source.error(limit.span(), "`wear.limit` without a tube", help));
+        };
+        if wear.get("service").is_none() {
+            return Err(self.source.error(limit.span(), "`wear` has a limit and no service", SERVICE));
+        }
+        match *limit.get_ref() {
+            share if share > 0.0 && share <= 1.0 => Ok(Some(share * beam.wall_thickness())),
+            _ => Err(self.refuse(limit.span(), "wear: limit", "a number above 0 and at most 1, a share of the wall")),
         }
     }
 

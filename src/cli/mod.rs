@@ -34,6 +34,7 @@ mod ui;
 mod values;
 mod verdicts;
 mod verify;
+mod wear;
 
 use crate::error::Result;
 use clap::{Parser, Subcommand};
@@ -52,6 +53,7 @@ Examples:
   signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=1:10:91 --measure contacts    curves and maps
   signorini orbit rigid-walls-sine --set 'wall.*.restitution=0.8'   a periodic orbit and its multipliers
   signorini continue rigid-walls-sine --set 'wall.*.restitution=0.8' --key load.1.harmonic.frequency --range 1:16
+  signorini wear tube-in-cross-flow --years 40       depth over the years, with its interval
   signorini explain elastic-wall                     what would be chosen, and why
   signorini new bouncing-ball                        a case file to start from
   signorini report out/rigid-walls-sine/run          one HTML page of results that exist
@@ -94,6 +96,7 @@ enum Command {
     Stability(stability::Args),
     Sweep(sweep::Args),
     Verify(verify::Args),
+    Wear(wear::Args),
     Completions(completions::Args),
 }
 
@@ -143,6 +146,7 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
         Command::Stability(args) => stability::answer(args, ui)?,
         Command::Sweep(args) => sweep::answer(args, ui)?,
         Command::Verify(args) => verify::answer(args, ui)?,
+        Command::Wear(args) => wear::answer(args, ui)?,
         Command::Completions(args) => completions::answer(args, self::command()),
     };
     shown.conclude(ui)

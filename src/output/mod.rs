@@ -88,6 +88,7 @@ pub mod sweep_overlay;
 pub mod table;
 mod values;
 pub(crate) mod verification;
+pub mod wear_history;
 mod window;
 pub mod work_precision;
 

@@ -218,19 +218,30 @@ pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
     remarks
 }
 
-/// Warnings of scars deeper than the wall of the tube, where the case knows it.
+/// Warnings of scars deeper than the limit or the wall of the tube, where the case knows it.
 #[must_use]
 pub fn warnings(case: &Case, run: &Run) -> Vec<String> {
     let Model::Beam(beam) = &case.model else { return Vec::new() };
-    let wall = 0.5 * (beam.outer_diameter - beam.inner_diameter);
+    let wall = beam.wall_thickness();
     let [thick, whole] = [wall, beam.outer_diameter].map(|x| figures(1e3 * x));
     let one = |Known { wear: support, worn, .. }: Known<'_>| {
         let worn = worn?;
         let (volume, round) = (worn.volume_m3?, worn.depth_all_round_m?);
-        let scar = match worn.depth_one_scar_m {
-            Some(depth) if depth <= wall => return None,
-            Some(depth) => format!("{} mm deep", figures(1e3 * depth)),
-            None => format!("deeper than the whole tube, {whole} mm"),
+        let scar = match (worn.depth_one_scar_m, case.wear.limit) {
+            (Some(depth), Some(limit)) if depth > limit && depth <= wall => {
+                return Some(format!(
+                    "the scar at support {:?} is deeper than the limit of {} mm: {} mm³ off one scar is {} mm deep; off \
+                     evenly all round it is {} mm deep",
+                    support.support,
+                    figures(1e3 * limit),
+                    figures(1e9 * volume),
+                    figures(1e3 * depth),
+                    figures(1e3 * round)
+                ));
+            }
+            (Some(depth), _) if depth <= wall => return None,
+            (Some(depth), _) => format!("{} mm deep", figures(1e3 * depth)),
+            (None, _) => format!("deeper than the whole tube, {whole} mm"),
         };
         Some(format!(
             "the scar at support {:?} goes through the tube, whose wall is {thick} mm: {} mm³ off one scar is {scar}; \

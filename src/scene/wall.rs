@@ -113,6 +113,14 @@ impl Wall {
         Self { name: name.to_owned(), face, law: WallLaw::Rigid { restitution: 1.0 }, friction: 0.0 }
     }
 
+    /// Sets the radial gap (m) of a round wall; a flat one has none.
+    #[cfg(feature = "cli")]
+    pub(crate) fn set_round_gap(&mut self, new: f64) {
+        if let Face::Round { gap, .. } = &mut self.face {
+            *gap = new;
+        }
+    }
+
     /// The same wall at another row; a round wall stays where it is.
     #[must_use]
     pub fn at(mut self, row: Row) -> Self {

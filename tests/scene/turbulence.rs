@@ -1,5 +1,5 @@
-//! Turbulence of case files: the variance that it gives a tube in closed form, the same forces under
-//! other numbers of modes, its seeds and planes, and files that are refused.
+//! Turbulence of case files: the variance that it gives a tube in closed form, the same forces
+//! under other numbers of modes, its seeds and planes, and files that are refused.
 use crate::refused::{Wrong, not_refused};
 use signorini::case::{Case, KeyValue};
 use signorini::{Load, LoadKind, Options, Scheme, Table, run};

@@ -19,3 +19,4 @@ mod sweep_seeds;
 mod terminal;
 mod verdicts;
 mod verify;
+mod wear;

@@ -87,9 +87,9 @@ fn turbulence(case: &Case) -> Vec<String> {
             [rms.iter().copied().fold(f64::INFINITY, f64::min), rms.iter().copied().fold(0.0, f64::max)];
         let [[start, end], [from, to]] = [field.along, field.band];
         format!(
-            "turbulence {}: a field of force{both} from {start} to {end} m, {least:.4} to {most:.4} N/m RMS from {from} \
-             to {to} Hz, coherent over {} m, seed {}: a table for each mode, the same for every step and scheme, and \
-             for the first modes with more of them",
+            "turbulence {}: a field of force{both} from {start} to {end} m, {least:.4} to {most:.4} N/m RMS from \
+             {from} to {to} Hz, coherent over {} m, seed {}: a table for each mode, the same for every step and \
+             scheme, and for the first modes with more of them",
             field.number(),
             field.correlation_length,
             field.seed

@@ -91,6 +91,12 @@ impl Beam {
         self.youngs_modulus * PI / 64.0 * (self.outer_diameter.powi(4) - self.inner_diameter.powi(4))
     }
 
+    /// Thickness of the wall, m; of a rod its radius.
+    #[must_use]
+    pub fn wall_thickness(&self) -> f64 {
+        0.5 * (self.outer_diameter - self.inner_diameter)
+    }
+
     /// Mass per metre m′, kg/m, with the added mass.
     #[must_use]
     pub fn mass_per_metre(&self) -> f64 {

@@ -68,15 +68,20 @@ impl Lines {
         (0..=rows + 1).map(|j| self.end * (j as f64 / rows as f64)).collect()
     }
 
-    /// The signal Σ aᵢ cos 2πfᵢt − bᵢ sin 2πfᵢt at those times, from the pairs (aᵢ, bᵢ) of the lines,
-    /// which are divided by what linear interpolation between the rows keeps of each line.
+    /// The share of line `number` that linear interpolation between the rows keeps, by which its
+    /// amplitude is divided.
+    pub fn kept(&self, number: usize) -> f64 {
+        let x = PI * number as f64 / self.rows() as f64;
+        (x.sin() / x).powi(2)
+    }
+
+    /// The signal Σ aᵢ cos 2πfᵢt − bᵢ sin 2πfᵢt at those times, from the pairs (aᵢ, bᵢ) of the
+    /// lines.
     pub fn signal(&self, pairs: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
         let rows = self.rows();
         let (mut re, mut im) = (vec![0.0; rows], vec![0.0; rows]);
-        for (i, (a, b)) in self.numbers().zip(pairs) {
-            let x = PI * i as f64 / rows as f64;
-            let kept = (x.sin() / x).powi(2);
-            (re[i], im[i]) = (a / kept, b / kept);
+        for (i, pair) in self.numbers().zip(pairs) {
+            (re[i], im[i]) = pair;
         }
         inverse(&mut re, &mut im);
         drop(im);

@@ -78,7 +78,7 @@ impl RandomForce {
             Density::Points(_) => 1.0 / end,
         };
         lines.table(lines.numbers().map(|i| {
-            let amplitude = (2.0 * self.density.at(lines.frequency(i)) * share).sqrt();
+            let amplitude = (2.0 * self.density.at(lines.frequency(i)) * share).sqrt() / lines.kept(i);
             let (sin, cos) = (TAU * hash::unit(hash::mix(self.seed, self.stream, i as u64))).sin_cos();
             (amplitude * cos, amplitude * sin)
         }))

@@ -66,8 +66,8 @@ pub struct Turbulence {
 }
 
 impl Turbulence {
-    /// The stream of a field of table `index`, from 0, of a case: of the only one, or of those along
-    /// y (0) and z (1).
+    /// The stream of a field of table `index`, from 0, of a case: of the only one, or of those
+    /// along y (0) and z (1).
     pub(crate) fn stream(index: usize, plane: usize) -> u64 {
         2 * index as u64 + plane as u64
     }
@@ -103,7 +103,10 @@ impl Turbulence {
         let amplitudes = self.amplitudes(&lines, &weights);
         let Some(((first, _), others)) = weights.split_first() else { return Ok(Vec::new()) };
         let mut amplitudes = amplitudes.into_iter();
-        let mut signal = || lines.signal(amplitudes.next().unwrap_or_default().into_iter());
+        let mut signal = || {
+            let pairs = lines.numbers().zip(amplitudes.next().unwrap_or_default());
+            lines.signal(pairs.map(|(line, (a, b))| (a / lines.kept(line), b / lines.kept(line))))
+        };
         let table = Table::new(lines.times(), signal())?;
         let mut loads = vec![Load { at: Row::dof(*first), ..Load::table(table.clone()) }];
         for (mode, _) in others {

@@ -1,0 +1,211 @@
+//! `history.csv` and `years.csv` of histories of wear, their table, remarks and pictures.
+
+use super::colours::Places;
+use super::csv;
+use super::figure::{Curve, Figure, Mark, Panel};
+use super::realisations::with_interval;
+use super::results::Results;
+use super::table::Table;
+use crate::case::Case;
+use crate::error::Result;
+use crate::study::wear_history::{WearHistories, WearState, mean};
+use serde_json::{Value, json};
+
+/// A year of 365.25 days, s.
+pub const YEAR: f64 = 31_557_600.0;
+
+/// A quantity of a support that changes over the years: its column, its words with the unit of
+/// tables, what one of these is in SI units, and its value.
+struct Quantity {
+    column: &'static str,
+    words: &'static str,
+    unit: f64,
+    value: fn(&WearState) -> f64,
+}
+
+const QUANTITIES: [Quantity; 4] = [
+    Quantity { column: "gap", words: "gap (mm)", unit: 1e-3, value: |state| state.gap_m },
+    Quantity {
+        column: "depth_all_round",
+        words: "depth all round (mm)",
+        unit: 1e-3,
+        value: |state| state.depth_all_round_m,
+    },
+    Quantity { column: "depth_one_scar", words: "or one scar (mm)", unit: 1e-3, value: |state| state.depth_one_scar_m },
+    Quantity { column: "work_rate", words: "work rate (W)", unit: 1.0, value: |state| state.work_rate_w },
+];
+
+impl Quantity {
+    fn unit(&self) -> &'static str {
+        if self.unit == 1.0 { "W" } else { "m" }
+    }
+}
+
+/// Writes `history.csv`, one row a history, time and support, and `years.csv`, the means over the
+/// histories with the half widths of their 95 % intervals.
+///
+/// # Errors
+/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
+pub fn write(results: &mut Results, found: &WearHistories) -> Result<()> {
+    let mut header: Vec<String> = ["history", "year", "place"].map(str::to_owned).to_vec();
+    header.extend(QUANTITIES.map(|quantity| format!("{}_{}", quantity.column, quantity.unit())));
+    header.push("work_J".to_owned());
+    let mut rows = Vec::new();
+    for point in &found.points {
+        for (history, states) in point.histories.iter().enumerate() {
+            for (name, state) in found.supports.iter().zip(states) {
+                let mut row = vec![(history + 1).to_string(), csv::digits(Some(point.time_s / YEAR)), name.clone()];
+                row.extend(QUANTITIES.map(|quantity| csv::digits(Some((quantity.value)(state)).filter(finite))));
+                row.push(csv::digits(Some(state.work_j)));
+                rows.push(row);
+            }
+        }
+    }
+    csv::table(&results.place("history.csv")?, &header, rows.into_iter())?;
+    let mut header: Vec<String> = ["year", "place"].map(str::to_owned).to_vec();
+    for quantity in &QUANTITIES {
+        let (column, unit) = (quantity.column, quantity.unit());
+        header.extend([format!("{column}_{unit}"), format!("{column}_half_width_95_{unit}")]);
+    }
+    let row = |point, support: usize, name: &String, time: f64| {
+        let mut row = vec![csv::digits(Some(time / YEAR)), name.clone()];
+        for quantity in &QUANTITIES {
+            let (mean, half) = mean(point, support, quantity.value);
+            row.extend([csv::digits(Some(mean).filter(finite)), csv::digits(half.filter(finite))]);
+        }
+        row
+    };
+    let rows = found.points.iter().flat_map(|point| {
+        let supports = found.supports.iter().enumerate();
+        supports.map(move |(support, name)| row(point, support, name, point.time_s))
+    });
+    csv::table(&results.place("years.csv")?, &header, rows)
+}
+
+fn finite(x: &f64) -> bool {
+    x.is_finite()
+}
+
+/// The means over the years, a block of rows for each support.
+#[must_use]
+pub fn table(found: &WearHistories) -> Table {
+    let mut header = vec!["support", "year"];
+    header.extend(QUANTITIES.map(|quantity| quantity.words));
+    let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
+    // Four figures of the last year.
+    let decimals = (3.0 - end.log10().floor()).clamp(0.0, 12.0) as usize;
+    let mut rows = Vec::new();
+    for (support, name) in found.supports.iter().enumerate() {
+        for point in &found.points {
+            let mut row = vec![name.clone(), format!("{:.decimals$}", point.time_s / YEAR)];
+            row.extend(QUANTITIES.map(|quantity| {
+                let (mean, half) = mean(point, support, quantity.value);
+                let of = |x: f64| x / quantity.unit;
+                if mean.is_finite() { with_interval(of(mean), half.map(of)) } else { "through".to_owned() }
+            }));
+            rows.push(row);
+        }
+    }
+    Table::new(&header, rows)
+}
+
+/// When the limit is reached, and what the figures mean, a sentence each.
+#[must_use]
+pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
+    for (support, name) in found.supports.iter().enumerate() {
+        let Some(limit) = case.wear.limit else { break };
+        let after = |value: fn(&WearState) -> f64| {
+            found
+                .reaches(support, limit, value)
+                .map_or(format!("not in {end:.4} years"), |time| format!("after {:.3} years", time / YEAR))
+        };
+        remarks.push(format!(
+            "the limit of {:.3} mm is reached at support {name:?} {} if the tube wears evenly all round, {} if all of \
+             it comes off one scar",
+            1e3 * limit,
+            after(|state| state.depth_all_round_m),
+            after(|state| state.depth_one_scar_m)
+        ));
+    }
+    let histories = found.points.first().map_or(0, |point| point.histories.len());
+    if histories > 1 {
+        remarks.push(format!(
+            "± is the half width of the 95 % interval of the mean over {histories} histories, by Student's t; each \
+             window of a history has random loads of its own"
+        ));
+    }
+    remarks.push(
+        "gaps grow by the wear of tube and support, evenly all round, and the work rate is that of the gap; the depth \
+         of one scar is the other extreme"
+            .to_owned(),
+    );
+    let widened = found.supports.iter().enumerate().filter(|(support, _)| {
+        let gap = |point| mean(point, *support, |state| state.gap_m).0;
+        found.points.first().zip(found.points.last()).is_some_and(|(first, last)| gap(last) > MUCH * gap(first))
+    });
+    remarks.extend(widened.map(|(_, name)| {
+        format!(
+            "the gap of support {name:?} grows beyond {MUCH} times the first: a tube worn so far is no ring any more"
+        )
+    }));
+    remarks
+}
+
+/// A gap that has grown by this factor gets a remark.
+const MUCH: f64 = 10.0;
+
+/// The pictures: gap and depth over the years, a curve with its interval for each support.
+#[must_use]
+pub fn figure(case: &Case, found: &WearHistories) -> String {
+    let colours = Places::of(&case.scene);
+    let panel = |words: &str, value: fn(&WearState) -> f64| {
+        let mut panel = Panel::new(words);
+        for (support, name) in found.supports.iter().enumerate() {
+            let means: Vec<_> = found.points.iter().map(|point| (point.time_s, mean(point, support, value))).collect();
+            let points = means.iter().map(|(time, (mean, _))| (time / YEAR, 1e3 * mean));
+            let halves = means.iter().map(|(_, (_, half))| 1e3 * half.unwrap_or(f64::NAN));
+            panel = panel.curve(Curve::new(name.clone(), points).marked().banded(halves).colour(colours.colour(name)));
+        }
+        panel
+    };
+    let mut depth = panel("depth of the tube all round (mm)", |state| state.depth_all_round_m);
+    let deepest = found.points.last().map_or(0.0, |point| {
+        (0..found.supports.len())
+            .map(|support| mean(point, support, |state| state.depth_all_round_m).0)
+            .fold(0.0, f64::max)
+    });
+    if let Some(limit) = case.wear.limit.filter(|limit| *limit < NEAR * deepest) {
+        depth = depth.mark(Mark::wall(1e3 * limit, "limit"));
+    }
+    let title = case.title.as_deref().unwrap_or(&case.name);
+    let figure = Figure::new(title, "time in service (years)");
+    figure.panel(panel("radial gap (mm)", |state| state.gap_m)).panel(depth).to_svg()
+}
+
+/// A limit further away than this multiple of the depth is not drawn.
+const NEAR: f64 = 3.0;
+
+/// The histories as JSON.
+#[must_use]
+pub fn document(case: &Case, found: &WearHistories) -> Value {
+    let limit = case.wear.limit;
+    let limits = found.supports.iter().enumerate().map(|(support, name)| {
+        let years =
+            |value: fn(&WearState) -> f64| limit.and_then(|limit| Some(found.reaches(support, limit, value)? / YEAR));
+        json!({
+            "place": name,
+            "limit_m": limit,
+            "limit_all_round_years": years(|state| state.depth_all_round_m),
+            "limit_one_scar_years": years(|state| state.depth_one_scar_m),
+        })
+    });
+    json!({
+        "command": "wear",
+        "case": case.name,
+        "histories": found,
+        "limits": limits.collect::<Vec<_>>(),
+        "remarks": remarks(case, found),
+    })
+}

@@ -1,0 +1,207 @@
+//! `signorini wear`: gaps that grow by the closed form, histories that are those of their windows,
+//! limits, and what is refused.
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// Runs the tool and expects the exit code; gives stdout and stderr.
+fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
+    let output = command.args(args).current_dir(folder).env_remove("COLUMNS").output().unwrap();
+    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
+    assert!(!err.contains("panicked"), "{args:?}: {err}");
+    (out, err)
+}
+
+/// The rows of a table, each by the names of its columns.
+fn rows(path: &Path) -> Vec<HashMap<String, String>> {
+    csv::Reader::from_path(path).unwrap().deserialize().map(|row| row.unwrap()).collect()
+}
+
+fn number(row: &HashMap<String, String>, column: &str) -> f64 {
+    row[column].parse().unwrap_or_else(|_| panic!("{column} is {:?}", row[column]))
+}
+
+/// The mass that whirls in a hole of 25 mm width, which alone wears; after 5 s it has settled in the
+/// gap of the window.
+const WHIRL: [&str; 13] = [
+    "whirl-in-a-hole",
+    "--set",
+    "time.end=6",
+    "--set",
+    "time.statistics_from=5",
+    "--set",
+    "wear.service=3e6",
+    "--set",
+    "wear.support_coefficient=1e-12",
+    "--set",
+    "support.hole.width=25e-3",
+    "--set",
+    "support.hole.radius=9.525e-3",
+];
+
+/// The work rate of the steady whirl in a gap, W: N Ω γ, with N from the balance of forces in the
+/// turning frame.
+fn whirling(gap: f64) -> f64 {
+    let (mass, damping, stiffness, force, friction, omega) = (1.0, 0.2, 100.0, 3.0, 0.2, TAU * 5.0);
+    let outwards = (mass * omega * omega - stiffness) * gap;
+    let mut normal = outwards;
+    for _ in 0..100 {
+        let along: f64 = damping * omega * gap + friction * normal;
+        normal = outwards + (force * force - along * along).sqrt();
+    }
+    normal * omega * gap
+}
+
+#[test]
+fn the_gap_of_a_steady_whirl_grows_by_its_closed_form() {
+    assert!((whirling(5e-3) / 1.109_652_491_907 - 1.0).abs() < 1e-11);
+    let dir = tempfile::tempdir().unwrap();
+    // dγ/dt = k N(γ) Ω γ/(2πRw), by Runge and Kutta's method of order 4 with 1e5 steps; at the rate
+    // of the first gap it would grow to 5.741655 and 7.224966 mm.
+    for (service, wanted) in [(1e6, 5.838_430e-3), (3e6, 8.384_043e-3)] {
+        let years = (service / 31_557_600.0).to_string();
+        let (out, err) =
+            said(dir.path(), &[&["wear"], &WHIRL[..], &["--years", &years, "--force", "--out", "w"]].concat(), 0);
+        assert!(out.contains("support") && out.contains("gap") && out.contains("hole"), "{out}");
+        assert!(err.contains("evenly all round") && !err.contains('±'), "{err}");
+        let history = rows(&dir.path().join("w/history.csv"));
+        let last = history.last().unwrap();
+        // Heun's steps whose corrections are up to 0.5 % of the gap leave 0.2 % of its growth.
+        let grown = (number(last, "gap_m") - 5e-3) / (wanted - 5e-3);
+        assert!((grown - 1.0).abs() < 4e-3, "{grown}");
+        assert!((number(last, "year") * 31_557_600.0 / service - 1.0).abs() < 1e-12);
+        for row in &history {
+            // Each window has the work rate of its gap, to what 5 s leave of the impact at the start,
+            // since the gap is larger than where the motion starts: 1.6e-5 was found.
+            let (gap, rate) = (number(row, "gap_m"), number(row, "work_rate_W"));
+            assert!((rate / whirling(gap) - 1.0).abs() < 5e-5, "{gap}: {rate}");
+            let grown = 1e-12 * number(row, "work_J") / (TAU * 9.525e-3 * 25e-3);
+            assert!((gap - 5e-3 - grown).abs() < 1e-15);
+            // The mass has no coefficient.
+            assert_eq!(number(row, "depth_all_round_m"), 0.0);
+        }
+    }
+}
+
+const TUBE: [&str; 7] = [
+    "tube-in-cross-flow",
+    "--set",
+    "time.end=0.5",
+    "--set",
+    "time.statistics_from=0.1",
+    "--set",
+    "wear.coefficient=1e-13",
+];
+
+#[test]
+fn histories_are_those_of_their_windows_and_years_their_means() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let (out, err) =
+        said(path, &[&["wear"], &TUBE[..], &["--histories", "4", "--years", "20", "--out", "w"]].concat(), 0);
+    assert!(out.contains("plate-1") && out.contains(" ± "), "{out}");
+    assert!(err.contains("over 4 histories"), "{err}");
+    let history = rows(&path.join("w/history.csv"));
+    // The first windows are realisations 1 to 4 of the case.
+    said(path, &[&["run"], &TUBE[..], &["--seeds", "4", "--no-verdict", "--out", "r"]].concat(), 0);
+    let realisations = rows(&path.join("r/realisations.csv"));
+    for row in history.iter().filter(|row| number(row, "year") == 0.0) {
+        let same =
+            |run: &&HashMap<String, String>| run["realisation"] == row["history"] && run["place"] == row["place"];
+        let run = realisations.iter().filter(|run| run["kind"] == "support").find(same).unwrap();
+        assert_eq!(run["work_rate_W"], row["work_rate_W"]);
+        assert_eq!(number(row, "gap_m"), 0.2e-3);
+    }
+    let years = rows(&path.join("w/years.csv"));
+    assert_eq!(4 * years.len(), history.len());
+    for year in &years {
+        let own: Vec<_> =
+            history.iter().filter(|row| row["year"] == year["year"] && row["place"] == year["place"]).collect();
+        assert_eq!(own.len(), 4);
+        for column in ["gap_m", "depth_all_round_m", "depth_one_scar_m", "work_rate_W"] {
+            let values: Vec<f64> = own.iter().map(|row| number(row, column)).collect();
+            let mean = values.iter().sum::<f64>() / 4.0;
+            let square = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 3.0;
+            // Student's t of 3 degrees of freedom at 97.5 %.
+            let half = 3.182_446_305 * (square / 4.0).sqrt();
+            let (stem, unit) = column.rsplit_once('_').unwrap();
+            let told = number(year, &format!("{stem}_half_width_95_{unit}"));
+            assert!((number(year, column) - mean).abs() <= 1e-12 * mean.abs());
+            assert!((told - half).abs() <= 1e-8 * half + 1e-18, "{column}: {told} for {half}");
+        }
+    }
+    // Tube and plate wear by the same coefficients here: 1e-13 and 1e-14.
+    for row in &history {
+        let depth = number(row, "depth_all_round_m");
+        assert!((number(row, "gap_m") - 0.2e-3 - 1.1 * depth).abs() < 1e-15);
+        let scar = number(row, "depth_one_scar_m");
+        assert!(scar > depth || depth == 0.0);
+        assert!((depth - 1e-13 * number(row, "work_J") / (TAU * 9.525e-3 * 25e-3)).abs() < 1e-15);
+    }
+    // The same request gives the same bytes.
+    said(path, &[&["wear"], &TUBE[..], &["--histories", "4", "--years", "20", "--out", "again"]].concat(), 0);
+    for file in ["history.csv", "years.csv", "wear.svg"] {
+        assert!(fs::read(path.join("w").join(file)).unwrap() == fs::read(path.join("again").join(file)).unwrap());
+    }
+}
+
+#[test]
+fn a_limit_is_reached_after_years_that_are_told() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let limit = ["--set", "wear.limit=0.1", "--histories", "2", "--years", "200", "--json", "--out", "w"];
+    let (out, _) = said(path, &[&["wear"], &TUBE[..], &limit].concat(), 0);
+    let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+    // A tenth of the wall of 1.65 mm.
+    let found = &document["limits"][0];
+    assert!((found["limit_m"].as_f64().unwrap() - 0.165e-3).abs() < 1e-12);
+    let reached = found["limit_one_scar_years"].as_f64().unwrap();
+    let years = rows(&path.join("w/years.csv"));
+    let own: Vec<_> = years.iter().filter(|row| row["place"] == "plate-1").collect();
+    let after = own.iter().position(|row| number(row, "depth_one_scar_m") >= 0.165e-3).unwrap();
+    assert!(number(own[after - 1], "year") <= reached && reached <= number(own[after], "year"));
+    assert!(found["limit_all_round_years"].as_f64().is_none_or(|years| years > reached));
+    let remarks = document["remarks"].to_string();
+    assert!(remarks.contains("the limit of 0.165 mm is reached at support \\\"plate-1\\\" after"), "{remarks}");
+    // A run tells of its scar by itself.
+    let (_, err) = said(
+        path,
+        &[
+            &["run"],
+            &TUBE[..],
+            &["--set", "wear.limit=0.1", "--set", "wear.coefficient=5e-15", "--no-verdict", "--out", "r"],
+        ]
+        .concat(),
+        0,
+    );
+    assert!(err.contains("is deeper than the limit of 0.1650 mm"), "{err}");
+}
+
+#[test]
+fn what_does_not_wear_by_gaps_is_refused_by_name() {
+    let dir = tempfile::tempdir().unwrap();
+    let refused = |args: &[&str], words: &[&str]| {
+        let (_, err) = said(dir.path(), &[&["wear"], args].concat(), 2);
+        assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
+    };
+    refused(&["rigid-walls-sine"], &["round supports", "coefficient and service"]);
+    let wearing = ["--set", "wear.service=1e8", "--set", "wear.coefficient=1e-14"];
+    refused(&[&["tube-lattice-bars"], &wearing[..]].concat(), &["bars", "gaps of flats do not grow"]);
+    refused(&["whirl-in-a-hole", "--set", "wear.service=1", "--set", "wear.coefficient=1e-14"], &["hole", "width"]);
+    refused(&[&WHIRL[..], &["--histories", "2"]].concat(), &["--histories", "random load"]);
+    refused(&[&TUBE[..], &["--histories", "0"]].concat(), &["--histories", "1 or more"]);
+    for years in ["0", "-1", "nan", "inf"] {
+        refused(&[&TUBE[..], &["--years", years]].concat(), &["--years", "above 0"]);
+    }
+    refused(&[&TUBE[..], &["--scheme", "event"]].concat(), &["event", "friction"]);
+    refused(&[&TUBE[..], &["--set", "wear.limit=0"]].concat(), &["wear: limit", "share of the wall"]);
+    refused(&[&WHIRL[..], &["--set", "wear.limit=0.4"]].concat(), &["limit", "[system.beam]"]);
+    assert!(fs::read_dir(dir.path()).unwrap().next().is_none_or(|entry| {
+        let folder = entry.unwrap().path();
+        fs::read_dir(folder).unwrap().count() < 2
+    }));
+}
