@@ -23,10 +23,11 @@ Examples:
   signorini wear tube-round-supports --years 10 --histories 12
   signorini wear my-tube.toml --set wear.coefficient=2e-14
 
-Each support's gap grows by the wear of tube and support, evenly all round: dγ/dt = k W(γ)/(2πRw).
-The work rate W is that of a run with the gap of that time; its statistics begin at
+The gap of a round support grows by the wear of tube and support, evenly all round: dγ/dt = k
+W(γ)/(2πRw); gaps of flats stay. The work rate W is that of a run with the gap of that time; its statistics begin at
 statistics_from. Under random loads several histories are followed, each run with seeds of its own.
-Writes history.csv (every history), years.csv (means with their 95 % intervals) and wear.svg.";
+Writes history.csv (every history), years.csv (means with their 95 % intervals) and wear.svg;
+report.html shows them.";
 
 /// Histories under random loads.
 const HISTORIES: usize = 6;
@@ -54,7 +55,7 @@ pub struct Args {
 /// Follows the histories and shows the years.
 ///
 /// # Errors
-/// A case without round supports that wear, a scheme that refuses it, a run that fails.
+/// A case without supports that wear, a scheme that refuses it, a run that fails.
 pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let case = args.request.read(ui)?;
     let supports = wearing(&case)?;
@@ -82,9 +83,15 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let notes = case.notes();
     results.tell("case_file", case.document.json()?);
     results.tell("remarks", json!(notes));
-    let mut shown = Shown::of(results, false, output::document(&case, &found));
+    let mut answers = output::remarks(&case, &found);
+    answers.extend(supports.iter().filter(|support| !support.grows).map(|support| {
+        format!("the gaps of support {:?} stay as they are: flats wear, but only round supports widen", support.name)
+    }));
+    results.tell("answers", json!(answers));
+    results.tell("supports", json!(found.supports));
+    let mut shown = Shown::of(results, !args.request.place.no_report, output::document(&case, &found));
     shown.table(output::table(&found), "years.csv");
-    shown.remarks(output::remarks(&case, &found));
+    shown.remarks(answers);
     shown.messages([format!("{} by {method}: {} runs of {:?} s", case.name, found.windows, case.scene.duration)]);
     shown.messages(notes.iter().map(|note| format!("note: {note}")));
     Ok(shown)
@@ -114,22 +121,21 @@ impl Args {
     }
 }
 
-/// The round supports of the case that wear.
+/// The supports of the case that wear.
 fn wearing(case: &Case) -> Result<Vec<WearingSupport>> {
     let refuse = |name: &str, expected: &str| Err(Error::invalid("support", format!("{name:?}"), expected));
     let mut wearing = Vec::new();
     for (index, support) in case.scene.supports.iter().enumerate() {
         let Some(law) = case.archard(index) else { continue };
-        let Some(hole) = support.hole(&case.scene.walls) else {
-            return refuse(&support.name, "round supports: gaps of flats do not grow by wear");
-        };
         if law.scar.is_none() {
-            return refuse(&support.name, "a support with a width: its gap grows by the volume over 2πRw");
+            return refuse(&support.name, "a support with a width: its depth is the worn volume over 2πRw");
         }
-        wearing.push(WearingSupport { name: support.name.clone(), gap: hole.gap, law });
+        let gap = support.gaps(&case.scene.walls).into_iter().fold(f64::INFINITY, f64::min);
+        let grows = support.hole(&case.scene.walls).is_some();
+        wearing.push(WearingSupport { name: support.name.clone(), gap, grows, law });
     }
     if wearing.is_empty() {
-        let expected = "a case with round supports, and coefficient and service in [wear]: gaps grow by wear";
+        let expected = "a case with supports, and coefficient and service in [wear]: depths follow from these";
         return Err(Error::invalid("wear", &case.name, expected));
     }
     Ok(wearing)

@@ -117,16 +117,16 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     for (support, name) in found.supports.iter().enumerate() {
         let Some(limit) = case.wear.limit else { break };
         let after = |value: fn(&WearState) -> f64| {
-            found
-                .reaches(support, limit, value)
-                .map_or(format!("not in {end:.4} years"), |time| format!("after {:.3} years", time / YEAR))
+            found.reaches(support, limit, value).map_or(format!("not within {} years", rounded(end)), |time| {
+                format!("after {} years", rounded(time / YEAR))
+            })
         };
         remarks.push(format!(
-            "the limit of {:.3} mm is reached at support {name:?} {} if the tube wears evenly all round, {} if all of \
-             it comes off one scar",
+            "the tube reaches the limit of {:.3} mm at support {name:?} {} if all of its wear comes off one scar, {} if \
+             it comes off evenly all round",
             1e3 * limit,
-            after(|state| state.depth_all_round_m),
-            after(|state| state.depth_one_scar_m)
+            after(|state| state.depth_one_scar_m),
+            after(|state| state.depth_all_round_m)
         ));
     }
     let histories = found.points.first().map_or(0, |point| point.histories.len());
@@ -151,6 +151,11 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
         )
     }));
     remarks
+}
+
+/// Years to three decimals, without zeros at the end.
+fn rounded(years: f64) -> f64 {
+    (1e3 * years).round() / 1e3
 }
 
 /// A gap that has grown by this factor gets a remark.

@@ -8,7 +8,7 @@
 //! | `motion` | `trajectory.csv`, `contacts.csv` and `shape.csv` of one run |
 //! | `scene` | what is drawn: the structure, its walls and loads |
 //! | `cards` | how reliable a run is, in sentences |
-//! | `run`, `compare`, `chart`, `stability`, `sweep`, `orbit`, `branches` | the contents of each kind of page |
+//! | `run`, `compare`, `chart`, `stability`, `sweep`, `orbit`, `branches`, `wear` | the contents of each kind of page |
 //! | `paths` | absolute paths, which a page does not show |
 //! | `html` | the file itself: escapes, and what it may load (nothing) |
 //! | `page/` | the page's HTML, CSS and JavaScript |
@@ -49,6 +49,7 @@ mod scene;
 mod stability;
 mod sweep;
 pub(crate) mod verification;
+mod wear;
 
 pub use html::FILE;
 
@@ -94,10 +95,11 @@ pub fn page(path: &Path, manifest: &Value) -> Result<String> {
         "sweep" => sweep::contents(&folder)?,
         "orbit" => orbit::contents(&folder)?,
         "continue" => branches::contents(&folder)?,
+        "wear" => wear::contents(&folder)?,
         other => {
             let reason = format!(
                 "holds results of {other:?}, which has no report\n\
-                 help: there is one of run, compare, chart, stability, sweep, orbit and continue"
+                 help: there is one of run, compare, chart, stability, sweep, orbit, continue and wear"
             );
             return Err(Error::io(path.display(), reason, true));
         }

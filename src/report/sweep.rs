@@ -62,7 +62,7 @@ pub(super) fn without_page(folder: &Path, reason: &str) -> String {
 }
 
 /// The walls of these names.
-fn names(list: &Value) -> Vec<Value> {
+pub(super) fn names(list: &Value) -> Vec<Value> {
     list.as_array().into_iter().flatten().map(|name| json!({ "name": name })).collect()
 }
 

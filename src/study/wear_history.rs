@@ -14,6 +14,8 @@
 //! Heun's gap differs from Euler's by more than 0.5 %, unless that is within the scatter of the
 //! windows.
 //!
+//! Gaps of flats stay as they are; their wear is counted all the same.
+//!
 //! Under random loads several histories are followed side by side, each window with seeds of its
 //! own, so that the scatter of depths between histories is that of what was not averaged out.
 
@@ -36,13 +38,15 @@ const TOLERANCE: f64 = 0.005;
 /// The shortest step, as a share of the time in service.
 const SHORTEST: f64 = 1.0 / 1024.0;
 
-/// A round support whose gap grows.
+/// A support that wears.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WearingSupport {
     /// Its name.
     pub name: String,
-    /// The radial gap at the start, m.
+    /// The gap at the start, m: of a round support the radial one.
     pub gap: f64,
+    /// True for a round support, whose gap grows; those of flats stay as they are.
+    pub grows: bool,
     /// The law of wear, with the coefficients of tube and support and a scar.
     pub law: Archard,
 }
@@ -51,7 +55,7 @@ pub struct WearingSupport {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WearState {
-    /// The radial gap, m.
+    /// The gap, m.
     pub gap_m: f64,
     /// The work of wear since the start, J.
     pub work_j: f64,
@@ -115,7 +119,8 @@ impl WearingSupport {
     fn gap_per_work(&self) -> f64 {
         let Archard { coefficient, support_coefficient, scar, .. } = self.law;
         let volume = coefficient.unwrap_or(0.0) + support_coefficient.unwrap_or(0.0);
-        scar.map_or(f64::NAN, |scar| all_round(volume, scar.width, scar.radius))
+        let growth = scar.map_or(f64::NAN, |scar| all_round(volume, scar.width, scar.radius));
+        if self.grows { growth } else { 0.0 * growth }
     }
 
     /// The state after the work `work` (J) at the work rate `rate` (W).
@@ -184,11 +189,12 @@ impl WearPlan<'_> {
         if self.histories == 0 {
             return Err(Error::invalid("histories", 0, "1 or more"));
         }
-        match self.supports.iter().find(|support| !(support.gap_per_work() > 0.0 && support.gap > 0.0)) {
+        let wears = |support: &WearingSupport| support.gap_per_work().is_finite() && support.gap >= 0.0;
+        match self.supports.iter().find(|support| !wears(support)) {
             None => Ok(()),
             Some(support) => {
                 let name = format!("{:?}", support.name);
-                Err(Error::invalid("support", name, "a round support with a wear coefficient and a width"))
+                Err(Error::invalid("support", name, "a support with a gap, a wear coefficient and a width"))
             }
         }
     }

@@ -166,7 +166,7 @@ fn a_limit_is_reached_after_years_that_are_told() {
     assert!(number(own[after - 1], "year") <= reached && reached <= number(own[after], "year"));
     assert!(found["limit_all_round_years"].as_f64().is_none_or(|years| years > reached));
     let remarks = document["remarks"].to_string();
-    assert!(remarks.contains("the limit of 0.165 mm is reached at support \\\"plate-1\\\" after"), "{remarks}");
+    assert!(remarks.contains("the tube reaches the limit of 0.165 mm at support \\\"plate-1\\\" after"), "{remarks}");
     // A run tells of its scar by itself.
     let (_, err) = said(
         path,
@@ -182,15 +182,32 @@ fn a_limit_is_reached_after_years_that_are_told() {
 }
 
 #[test]
+fn gaps_of_flats_stay_and_their_wear_is_counted() {
+    let dir = tempfile::tempdir().unwrap();
+    let wearing = ["--set", "wear.service=3.15576e8", "--set", "wear.coefficient=1e-14", "--histories", "2"];
+    let bars = ["tube-lattice-bars", "--end", "0.4", "--set", "support.*.width=25e-3", "--out", "w"];
+    let (_, err) = said(dir.path(), &[&["wear"], &bars[..], &wearing].concat(), 0);
+    assert!(err.contains("stay as they are: flats wear"), "{err}");
+    let history = rows(&dir.path().join("w/history.csv"));
+    let (first, last) = (&history[0], history.last().unwrap());
+    assert_eq!(number(last, "year"), 10.0);
+    for row in &history {
+        let own = history.iter().find(|other| other["place"] == row["place"]).unwrap();
+        assert_eq!(row["gap_m"], own["gap_m"]);
+        let depth = 1e-14 * number(row, "work_J") / (TAU * 9.525e-3 * 25e-3);
+        assert!((number(row, "depth_all_round_m") - depth).abs() < 1e-15);
+    }
+    assert!(number(first, "work_J") == 0.0 && number(last, "work_J") > 0.0);
+}
+
+#[test]
 fn what_does_not_wear_by_gaps_is_refused_by_name() {
     let dir = tempfile::tempdir().unwrap();
     let refused = |args: &[&str], words: &[&str]| {
         let (_, err) = said(dir.path(), &[&["wear"], args].concat(), 2);
         assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
     };
-    refused(&["rigid-walls-sine"], &["round supports", "coefficient and service"]);
-    let wearing = ["--set", "wear.service=1e8", "--set", "wear.coefficient=1e-14"];
-    refused(&[&["tube-lattice-bars"], &wearing[..]].concat(), &["bars", "gaps of flats do not grow"]);
+    refused(&["rigid-walls-sine"], &["with supports", "coefficient and service"]);
     refused(&["whirl-in-a-hole", "--set", "wear.service=1", "--set", "wear.coefficient=1e-14"], &["hole", "width"]);
     refused(&[&WHIRL[..], &["--histories", "2"]].concat(), &["--histories", "random load"]);
     refused(&[&TUBE[..], &["--histories", "0"]].concat(), &["--histories", "1 or more"]);

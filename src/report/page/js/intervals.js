@@ -1,9 +1,11 @@
-// The intervals of means over realisations of random loads, in the tables and curves of a sweep.
+// The intervals of means over realisations of random loads, in the tables and curves of a sweep
+// and of wear over the years.
 
 /** What stands after the name of a measure in the column of the half widths of its intervals. */
 const HALF_WIDTH = "_half_width_95";
 
-const isHalfWidth = (name) => Boolean(DATA.sweep.seeds) && name.includes(HALF_WIDTH);
+const isHalfWidth = (name) =>
+  Boolean((DATA.sweep || DATA.wear).seeds) && name.includes(HALF_WIDTH);
 
 /** The half widths of the intervals of a measure; undefined without realisations. */
 const halfWidthsOf = (columns, name) => {

@@ -56,7 +56,7 @@ const placeOf = (wall) => wall.replace(/-flat-\d+$/, "");
 /** The names of walls and supports, whose colours follow one another as in the SVG figures. */
 const PLACES = (() => {
   const { walls = [], supports = [] } =
-    DATA.scene || DATA.sweep || DATA.orbit || DATA.continue || {};
+    DATA.scene || DATA.sweep || DATA.wear || DATA.orbit || DATA.continue || {};
   // The walls of one orbit have their names as `wall`.
   return [...new Set([...walls, ...supports].map(({ name, wall }) => placeOf(name ?? wall)))];
 })();

@@ -106,6 +106,7 @@ function columnLabel(name) {
     Pa: "Pa",
     m3: "m³",
     m2: "m²",
+    mm: "mm",
     m: "m",
     s: "s",
     N: "N",

@@ -132,6 +132,7 @@ if (lead && lead.probes.length) motionSection();
 if (DATA.chart) chartSection();
 if (DATA.stability) stabilitySection();
 if (DATA.sweep) sweepSection();
+if (DATA.wear) wearSection();
 if (DATA.continue) branchSection();
 if (DATA.orbit) orbitSections();
 if (lead && lead.probes.length) phaseSection();

@@ -1,0 +1,66 @@
+// Wear over the years at supports whose gaps grow: curves with their intervals, and the table.
+
+/** The quantities of years.csv that are drawn, their unit on the page and what it is in theirs. */
+const WEAR_QUANTITIES = [
+  ["gap", "m", "mm", 1e3],
+  ["depth_all_round", "m", "mm", 1e3],
+  ["depth_one_scar", "m", "mm", 1e3],
+  ["work_rate", "W", "W", 1],
+];
+
+/** The rows of years.csv with a column for each quantity of each place, as in a sweep. */
+function wearColumns(table) {
+  const { place, year } = table.columns;
+  const names = [...new Set(place)];
+  const rows = Array.from({ length: table.count }, (_, i) => i);
+  const columns = { year: rows.filter((i) => place[i] === names[0]).map((i) => year[i]) };
+  for (const [quantity, unit, shown, factor] of WEAR_QUANTITIES)
+    for (const name of names)
+      for (const part of ["", HALF_WIDTH]) {
+        const values = table.columns[`${quantity}${part}_${unit}`];
+        columns[`${quantity}${part}_${name.replace(/-/g, "_")}_${shown}`] = rows
+          .filter((i) => place[i] === name)
+          .map((i) => factor * values[i]);
+      }
+  return columns;
+}
+
+function wearSection() {
+  const { answers, seeds } = DATA.wear;
+  const table = tableOf(DATA.wear.years);
+  const columns = wearColumns(table);
+  const measures = Object.keys(columns).filter((name) => name !== "year" && !isHalfWidth(name));
+  const tell = (i) =>
+    [
+      `${digits(columns.year[i], 4)} years`,
+      ...measures.map((name) => `${columnLabel(name)}: ${withInterval(columns, name, i)}`),
+    ].join("\n");
+  section(
+    "wear",
+    "Wear over the years",
+    seeds > 1
+      ? `Means over ${seeds} histories, and as bands their 95 % intervals, by Student's t.`
+      : "One history: without random loads all are the same.",
+    el("ul", {}, answers.map((answer) => el("li", {}, answer.charAt(0).toUpperCase() + answer.slice(1)))),
+    measureCurves(columns, "year", measures, tell, () => {}),
+  );
+  const rows = Array.from({ length: columns.year.length }, (_, i) => i);
+  const cell = (name) => ({
+    name: columnLabel(name),
+    value: (i) => columns[name][i],
+    show: (i) => withInterval(columns, name, i),
+  });
+  section(
+    "years",
+    "Years",
+    null,
+    sortable(
+      [
+        { name: "Year", value: (i) => columns.year[i], show: (i) => digits(columns.year[i], 4) },
+        ...measures.map(cell),
+      ],
+      rows,
+      { height: 60 + ROW * Math.min(rows.length, 16) },
+    ),
+  );
+}
