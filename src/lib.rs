@@ -74,7 +74,7 @@ pub use scene::{
 };
 pub use scene::{
     Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SharedStructure,
-    Side, State, Structure, Support, System, Table, TimeFunction, Wall, WallLaw,
+    Side, State, Structure, Support, System, Table, TimeFunction, Turbulence, TurbulenceSpectrum, Wall, WallLaw,
 };
 pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{

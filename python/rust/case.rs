@@ -103,8 +103,10 @@ pub fn load(py: Python<'_>, case: PathBuf, set: Option<Bound<'_, PyDict>>) -> Py
         _ => Model::Numbered,
     };
     let origin = case.truncated.as_ref().map(|truncated| {
-        let sg::study::truncation::Whole { scene, damping, static_correction, .. } = truncated.whole.clone();
-        Box::new(Origin { scene, damping, modes: Some(truncated.reduction.modes.count()), static_correction })
+        let sg::study::truncation::Whole { scene, damping, static_correction, turbulence, .. } =
+            truncated.whole.clone();
+        let modes = Some(truncated.reduction.modes.count());
+        Box::new(Origin { scene, damping, modes, static_correction, turbulence })
     });
     let scene = Py::new(py, Scene { scene: case.scene.clone(), model, origin })?;
     Ok(Case { file, case, scene })

@@ -10,6 +10,8 @@ pub struct Origin {
     pub damping: Option<sg::Damping>,
     pub modes: Option<usize>,
     pub static_correction: bool,
+    /// Fields of turbulence, whose forces act on the modes.
+    pub turbulence: Vec<sg::Turbulence>,
 }
 
 impl Origin {
@@ -23,7 +25,11 @@ impl Origin {
         let damping = self.damping.as_ref();
         if let Some(modes) = self.modes {
             let reduction = scene.reduced(modes, self.static_correction)?;
+            let duration = scene.duration;
+            let turbulent = self.turbulence.iter().map(|field| field.forces(&reduction.modes, duration));
+            let turbulent = turbulent.collect::<sg::Result<Vec<_>>>()?.concat();
             scene = damping.map_or(Ok(reduction.clone()), |damping| reduction.with_damping(damping))?.scene;
+            scene.loads.extend(turbulent);
         } else if let (Some(damping), sg::System::Structure(structure)) = (damping, &scene.system) {
             scene.system = (**structure).clone().with_damping(damping)?.into();
         }

@@ -94,6 +94,7 @@ impl Scene {
             damping: None,
             modes: None,
             static_correction: false,
+            turbulence: Vec::new(),
         });
         let scene = &mut origin.scene;
         let n = scene.system.degrees_of_freedom();

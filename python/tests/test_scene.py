@@ -138,3 +138,22 @@ def test_a_scene_in_two_planes_has_rows_for_places() -> None:
     assert all(isinstance(eval(repr(wall).split("at=")[1][:-1]), list) for wall in case.scene.walls)
     short = case.scene.replace(duration=0.02)
     assert short.run("moreau-jean", step=case.step).notes is not None
+
+
+def test_turbulence_of_a_case_stays_as_its_scene_is_changed(tmp_path: Path) -> None:
+    """The forces of a field follow from modes and duration, which a changed scene may change."""
+    text = (
+        "[system]\nmodes = 4\n[system.beam]\nspans = [1.0, 2.0]\nyoungs_modulus = 2e11\n"
+        "density = 7850.0\nouter_diameter = 0.02\nelements = 20\nleft = 'pinned'\nright = 'pinned'\n"
+        "[[turbulence]]\nspectrum = [[1.0, 0.02], [40.0, 0.02]]\nfrom = 1.0\nto = 40.0\n"
+        "correlation_length = 0.06\nseed = 3\n[[probe]]\nname = 'joint'\nat = {{ joint = 1 }}\n"
+        "[time]\nend = {}\nstep = 1e-3\n"
+    )
+    (tmp_path / "tube.toml").write_text(text.format(0.5))
+    short = sg.load(tmp_path / "tube.toml")
+    long = sg.load(tmp_path / "tube.toml", set={"time.end": 1.0})
+    changed = pickle.loads(pickle.dumps(short.scene)).replace(duration=1.0)
+    assert np.array_equal(
+        changed.run("moreau-jean", step=1e-3).displacement,
+        long.scene.run("moreau-jean", step=1e-3).displacement,
+    )

@@ -127,6 +127,19 @@ pub enum Error {
         /// Steps of the finest run.
         steps: u64,
     },
+    /// The interval asked for was not reached with the largest number of realisations allowed.
+    Scattered {
+        /// The half width asked for, as a share of the mean.
+        share: f64,
+        /// The one reached.
+        reached: f64,
+        /// The quantity with the widest interval.
+        quantity: String,
+        /// Realisations that were run.
+        count: u64,
+        /// Realisations that are needed.
+        needed: u64,
+    },
     /// Adding modes still changes impulses or peaks at walls by more than was allowed.
     Truncated {
         /// The change that was allowed.
@@ -289,6 +302,13 @@ impl fmt::Display for Words<'_> {
                 f,
                 "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
                  the displacement keeps it until t = {until:.6} s"
+            ),
+            Error::Scattered { share, reached, quantity, count, needed } => write!(
+                f,
+                "an interval of ± {:.1} % was not reached: {count} of {needed} realisations leave ± {:.1} % \
+                 ({quantity}); --most-seeds allows more",
+                100.0 * share,
+                100.0 * reached
             ),
             Error::Stopped => f.write_str("stopped before its end on request"),
             Error::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),

@@ -230,8 +230,8 @@ pub fn warnings(case: &Case, run: &Run) -> Vec<String> {
         let scar = match (worn.depth_one_scar_m, case.wear.limit) {
             (Some(depth), Some(limit)) if depth > limit && depth <= wall => {
                 return Some(format!(
-                    "the scar at support {:?} is deeper than the limit of {} mm: {} mm³ off one scar is {} mm deep; off \
-                     evenly all round it is {} mm deep",
+                    "the scar at support {:?} is deeper than the limit of {} mm: {} mm³ off one scar is {} mm deep; \
+                     off evenly all round it is {} mm deep",
                     support.support,
                     figures(1e3 * limit),
                     figures(1e9 * volume),

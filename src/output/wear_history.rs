@@ -122,8 +122,8 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
             })
         };
         remarks.push(format!(
-            "the tube reaches the limit of {:.3} mm at support {name:?} {} if all of its wear comes off one scar, {} if \
-             it comes off evenly all round",
+            "the tube reaches the limit of {:.3} mm at support {name:?} {} if all of its wear comes off one scar, {} \
+             if it comes off evenly all round",
             1e3 * limit,
             after(|state| state.depth_one_scar_m),
             after(|state| state.depth_all_round_m)

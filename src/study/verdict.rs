@@ -54,6 +54,19 @@ pub struct WallVerdict {
     pub peak_force_n: [Option<f64>; 2],
 }
 
+/// The work rate of one support in the run and in its check.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct WorkRateVerdict {
+    /// The support.
+    pub support: String,
+    /// Work rate of the run and of its check in the window for statistics, W.
+    pub work_rate_w: [f64; 2],
+    /// Half width of the 95 % interval of that of the run, by batch means, W; `None` where the
+    /// window has too few contacts.
+    pub half_width_95_w: Option<f64>,
+}
+
 /// The changes that the check found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -73,6 +86,8 @@ pub struct Verdict {
     /// One entry per wall, then per round support, in the scene's order. Unlike displacements,
     /// these are compared over the whole run.
     pub walls: Vec<WallVerdict>,
+    /// One entry per support, likewise.
+    pub work_rates: Vec<WorkRateVerdict>,
     /// What the judge refutes in the check's own run; if there is anything, the verdict is
     /// meaningless.
     pub findings: Vec<Finding>,
@@ -144,7 +159,14 @@ impl Verdict {
                 peak_force_n: [None, None],
             });
         }
+        let work_rates =
+            run.statistics.wear.iter().zip(&again.statistics.wear).map(|(before, after)| WorkRateVerdict {
+                support: before.support.clone(),
+                work_rate_w: [before.work_rate_w, after.work_rate_w],
+                half_width_95_w: before.work_rate_half_width_95_w,
+            });
         Ok(Self {
+            work_rates: work_rates.collect(),
             check,
             displacement: compared.then_some(change.displacement),
             length_m: scene.gap_scale(),
@@ -173,6 +195,16 @@ impl Verdict {
             walls.truncate(MOST_NAMED);
         }
         walls
+    }
+
+    /// The supports named in the text: those with the largest work rates.
+    fn hardest(&self) -> Vec<&WorkRateVerdict> {
+        let mut supports: Vec<&WorkRateVerdict> = self.work_rates.iter().collect();
+        if supports.len() > MOST_NAMED {
+            supports.sort_by(|a, b| b.work_rate_w[0].total_cmp(&a.work_rate_w[0]));
+            supports.truncate(MOST_NAMED);
+        }
+        supports
     }
 
     /// What the check changes in the displacement, as the rest of a sentence.
@@ -217,14 +249,26 @@ impl fmt::Display for Verdict {
                 write!(f, ", peak force {}", relative([before, after], "N"))?;
             }
         }
-        match self.walls.len() {
-            count if count > MOST_NAMED => {
-                write!(
-                    f,
-                    "; all {count} walls: impulse {:.1e} of the largest wall's at most, contacts {:+}",
-                    self.impulse_change(),
-                    self.contacts_gained()
-                )
+        if self.walls.len() > MOST_NAMED {
+            write!(
+                f,
+                "; all {} walls: impulse {:.1e} of the largest wall's at most, contacts {:+}",
+                self.walls.len(),
+                self.impulse_change(),
+                self.contacts_gained()
+            )?;
+        }
+        self.hardest().into_iter().try_for_each(|support| write!(f, "; {support}"))
+    }
+}
+
+impl fmt::Display for WorkRateVerdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "work rate of support {:?} {}", self.support, relative(self.work_rate_w, "W"))?;
+        let [before, after] = self.work_rate_w;
+        match self.half_width_95_w {
+            Some(half) if before != after && (after - before).abs() <= half => {
+                write!(f, ", within the run's own interval of ± {:.1e}", half / after.abs())
             }
             _ => Ok(()),
         }
@@ -262,6 +306,7 @@ mod tests {
             is_gap: true,
             horizon_s: 1.0,
             walls,
+            work_rates: Vec::new(),
             findings: Vec::new(),
         }
     }
@@ -274,6 +319,19 @@ mod tests {
         assert!(verdict(&[[1.0, 0.8]]).to_string().contains("impulse -2.5e-1 of its value"));
         assert!(verdict(&[[0.0, 0.0], [0.0, 0.0]]).impulse_change() == 0.0);
         assert!((verdict(&[[1.0, 0.8]]).impulse_change() - 0.2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_work_rate_that_changes_less_than_it_scatters_says_so() {
+        let said = |work_rate_w, half_width_95_w| {
+            let support = WorkRateVerdict { support: "plate".to_owned(), work_rate_w, half_width_95_w };
+            Verdict { work_rates: vec![support], ..verdict(&[]) }.to_string()
+        };
+        assert!(said([0.01, 0.02], Some(0.002)).ends_with("; work rate of support \"plate\" +5.0e-1 of its value"));
+        let within = said([0.01, 0.0104], Some(0.001));
+        assert!(within.ends_with("+3.8e-2 of its value, within the run's own interval of ± 9.6e-2"), "{within}");
+        assert!(said([0.01, 0.01], Some(0.001)).ends_with("unchanged"));
+        assert!(said([0.01, 0.0], Some(0.1)).contains("1.0e-2 W → none"));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Wear that feeds back: supports whose gaps grow by the wear that they cause.
 //!
-//! Of a tube in a round support that wears evenly all round, and the support with it, the radial gap
-//! γ grows with the work of wear E by Archard's law,
+//! Of a tube in a round support that wears evenly all round, and the support with it, the radial
+//! gap γ grows with the work of wear E by Archard's law,
 //!
 //! dγ/dt = (k_t + k_s) W(γ)/(2πRw),   E = ∫ W dt,
 //!
@@ -96,8 +96,8 @@ pub struct WearHistories {
 pub struct WearPlan<'a> {
     /// The supports that wear.
     pub supports: &'a [WearingSupport],
-    /// The scene of a window, from its number, from 1, which decides the seeds, and from the gaps of
-    /// the supports (m).
+    /// The scene of a window, from its number, from 1, which decides the seeds, and from the gaps
+    /// of the supports (m).
     pub scene: &'a (dyn Fn(u64, &[f64]) -> Result<Scene> + Sync),
     /// The scheme.
     pub method: &'a Method,

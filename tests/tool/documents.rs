@@ -63,7 +63,7 @@ fn follow(page: &str, folder: &Path) -> (usize, usize, String) {
 fn my_own_tube_in_ten_minutes() {
     let dir = tempfile::tempdir().unwrap();
     let (files, commands, said) = follow("own-tube.md", dir.path());
-    assert_eq!((files, commands), (1, 5));
+    assert_eq!((files, commands), (1, 6));
     for word in ["plate", "bars", "work", "worn", "natural frequencies"] {
         assert!(said.contains(word), "{word}: {said}");
     }

@@ -178,3 +178,41 @@ fn seeds_that_make_no_sense_are_refused() {
     }
     assert!(!path.join("out").exists(), "a refused request leaves nothing");
 }
+
+const FLOW: [&str; 6] = ["run", "tube-in-cross-flow", "--end", "0.4", "--set", "time.statistics_from=0.1"];
+
+#[test]
+fn an_interval_that_is_asked_for_takes_as_many_realisations_as_the_pilots_say() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let wide = ["--until-interval", "60%", "--no-verdict", "--out", "wide"];
+    let (_, err) = said(path, &[&FLOW[..], &wide].concat(), 0);
+    assert!(err.contains("pilots: after 6 realisations the work rate of support"), "{err}");
+    // The realisations are those of `--seeds` of the same number.
+    let table = fs::read_to_string(path.join("wide/realisations.csv")).unwrap();
+    let count = table.lines().last().unwrap().split(',').next().unwrap().to_owned();
+    assert!(err.contains(&format!("± 60.0 % needs {count}\n")), "{err}");
+    said(path, &[&FLOW[..], &["--seeds", &count, "--no-verdict", "--out", "same"]].concat(), 0);
+    assert_eq!(table, fs::read_to_string(path.join("same/realisations.csv")).unwrap());
+    // Where more are needed than allowed, those are run, kept, and the exit code says so.
+    let narrow = ["--until-interval", "0.01", "--most-seeds", "8", "--no-verdict", "--out", "narrow"];
+    let (_, err) = said(path, &[&FLOW[..], &narrow].concat(), 1);
+    assert!(err.contains("an interval of ± 1.0 % was not reached: 8 of"), "{err}");
+    assert!(fs::read_to_string(path.join("narrow/realisations.csv")).unwrap().contains("\n8,"));
+}
+
+#[test]
+fn intervals_that_make_no_sense_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let refused = |args: &[&str], words: &[&str]| {
+        let (_, err) = said(dir.path(), args, 2);
+        assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
+    };
+    for share in ["0", "1", "-5%", "100%", "nan", "five"] {
+        refused(&[&FLOW[..], &["--until-interval", share]].concat(), &["--until-interval", "5% or 0.05"]);
+    }
+    refused(&[&FLOW[..], &["--until-interval", "5%", "--most-seeds", "5"]].concat(), &["--most-seeds", "6 or more"]);
+    refused(&[&FLOW[..], &["--until-interval", "5%", "--seeds", "5"]].concat(), &["cannot be used with"]);
+    refused(&[&FLOW[..], &["--most-seeds", "50"]].concat(), &["--until-interval"]);
+    refused(&["run", "rigid-walls-sine", "--until-interval", "5%"], &["--until-interval", "random load"]);
+}

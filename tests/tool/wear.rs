@@ -25,8 +25,8 @@ fn number(row: &HashMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column} is {:?}", row[column]))
 }
 
-/// The mass that whirls in a hole of 25 mm width, which alone wears; after 5 s it has settled in the
-/// gap of the window.
+/// The mass that whirls in a hole of 25 mm width, which alone wears; after 5 s it has settled in
+/// the gap of the window.
 const WHIRL: [&str; 13] = [
     "whirl-in-a-hole",
     "--set",
@@ -75,8 +75,8 @@ fn the_gap_of_a_steady_whirl_grows_by_its_closed_form() {
         assert!((grown - 1.0).abs() < 4e-3, "{grown}");
         assert!((number(last, "year") * 31_557_600.0 / service - 1.0).abs() < 1e-12);
         for row in &history {
-            // Each window has the work rate of its gap, to what 5 s leave of the impact at the start,
-            // since the gap is larger than where the motion starts: 1.6e-5 was found.
+            // Each window has the work rate of its gap, to what 5 s leave of the impact at the
+            // start, since the gap is larger than where the motion starts: 1.6e-5 was found.
             let (gap, rate) = (number(row, "gap_m"), number(row, "work_rate_W"));
             assert!((rate / whirling(gap) - 1.0).abs() < 5e-5, "{gap}: {rate}");
             let grown = 1e-12 * number(row, "work_J") / (TAU * 9.525e-3 * 25e-3);

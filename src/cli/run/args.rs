@@ -22,6 +22,7 @@ Examples:
   signorini run tube-loose-supports --modes 40
   signorini run rigid-walls-sine --from 4 --to 6   pictures of these two seconds
   signorini run tube-lattice-bars --seeds 6        means over six realisations of the random loads
+  signorini run tube-in-cross-flow --until-interval 5%   as many as that takes
 
 Schemes: implicit-euler, paoli-schatzman, moreau-jean, located, generalized-alpha, newmark (for
 demonstration), penalty, event (exact).";
@@ -55,6 +56,10 @@ impl Args {
         let mut asked = extended(request("run", case, methods), settings);
         if let Some(count) = self.seeds.count {
             asked.insert("seeds".to_owned(), json!(count));
+        }
+        if let Some(share) = &self.seeds.until_interval {
+            asked.insert("until_interval".to_owned(), json!(share));
+            asked.insert("most_seeds".to_owned(), json!(self.seeds.most_seeds));
         }
         self.request.place.open(case, "run", asked)
     }

@@ -27,13 +27,15 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let case = args.request.read(ui)?;
     // A stretch outside the run is refused before anything runs.
     let span = args.span.within(&case, case.scene.duration)?;
-    let count = args.seeds.check(&case)?;
+    let wanted = args.seeds.check(&case)?;
     let CheckedRun { case, mut results, method, reason, run, refinement, truncation, modes, accuracy, shortfall } =
         match args.accuracy {
             Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
             None => checked::checked(args, case, ui)?,
         };
-    let study = count.map(|count| seeds::study(&case, &run, &method, count, !args.no_verdict, ui)).transpose()?;
+    let study = wanted.map(|wanted| seeds::study(&case, &run, &method, wanted, !args.no_verdict, ui)).transpose()?;
+    let (study, scattered) = study.map_or((None, None), |study| (Some(study.realisations), study.shortfall));
+    let shortfall = shortfall.or(scattered);
     if let Some(study) = &study {
         seeds::write(study, &mut results)?;
     }

@@ -34,6 +34,7 @@ use super::{Load, Table};
 use crate::error::{Error, Result, Subject};
 use crate::hash;
 use coherence::CellCoherence;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Most values of the forces of one field: rows times modes, 0.5 GB.
@@ -46,7 +47,7 @@ const STILL: f64 = 1e-12;
 const DEPENDENT: f64 = 1e-14;
 
 /// A field of turbulent forces along a stretch of a structure, in one direction.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Turbulence {
     /// The stretch as equal cells from one end to the other: for each the row of its mean
     /// displacement, on the structure before its reduction to modes.

@@ -3,12 +3,13 @@
 use crate::error::{Error, Result, Subject};
 use crate::scene::random::{straight_in_logarithms, validate_points};
 use crate::scene::system::{nonnegative, positive};
+use serde::{Deserialize, Serialize};
 
 /// Values within this share of an end of a spectrum count as on it.
 const ON_END: f64 = 1e-9;
 
 /// The one-sided power spectral density of a force per length, (N/m)²/Hz.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum TurbulenceSpectrum {
     /// The same along the whole stretch: pairs of a frequency (Hz) and a density ((N/m)²/Hz),

@@ -31,6 +31,7 @@ mod paired;
 mod realisation;
 mod runner;
 mod sample;
+mod stein;
 
 pub(crate) use estimate::mean_of;
 pub use estimate::{Estimate, Interval, Larger, StepChange};
@@ -39,3 +40,4 @@ pub use paired::Difference;
 pub use realisation::Realisation;
 pub use runner::realisations;
 pub use sample::Realisations;
+pub use stein::{NeededRealisations, widest};

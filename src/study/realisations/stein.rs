@@ -1,0 +1,111 @@
+//! How many realisations an interval needs.
+
+use super::estimate::mean_of;
+use super::measure::Measure;
+use super::realisation::Realisation;
+use crate::statistics::{ContactPlace, PlaceKind};
+use serde::Serialize;
+
+/// How many realisations bring the 95 % intervals of the judged means within a share of them: those
+/// of the work rates of supports, or without work of the mean forces of all places.
+///
+/// Stein's procedure in two stages (1945, doi:10.1214/aoms/1177731088): from n pilots with the mean
+/// x̄ and the standard deviation s,
+///
+/// N = ⌈(t s/(εx̄))²⌉,   t of n − 1 degrees of freedom at 97.5 %.
+///
+/// The number is fixed before the other realisations are run: to stop at the first interval that is
+/// narrow enough would favour those that are narrow by chance, and hold the mean too seldom.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct NeededRealisations {
+    /// N.
+    pub count: u64,
+    /// Half width over mean of the pilots.
+    pub pilot_share: f64,
+    /// The place that needs most.
+    #[serde(flatten)]
+    pub place: ContactPlace,
+    /// The measure of it.
+    pub measure: Measure,
+}
+
+/// The judged means of `members`: place, measure, mean and half width.
+fn judged(members: &[Realisation]) -> Vec<(ContactPlace, Measure, f64, f64)> {
+    let of = |wanted: Measure| -> Vec<(ContactPlace, Measure, f64, f64)> {
+        let figures = members.first().map_or(&[][..], |member| &member.figures).iter();
+        let own = figures.filter(|figure| figure.measure == wanted);
+        let own = own.filter(|figure| wanted != Measure::WorkRate || figure.place.kind == PlaceKind::Support);
+        own.filter_map(|figure| {
+            let values: Option<Vec<f64>> = members.iter().map(|member| member.value(&figure.place, wanted)).collect();
+            let (mean, _, half) = mean_of(&values?);
+            Some((figure.place.clone(), wanted, mean.abs(), half?)).filter(|_| mean != 0.0)
+        })
+        .collect()
+    };
+    let rates = of(Measure::WorkRate);
+    if rates.is_empty() { of(Measure::MeanForce) } else { rates }
+}
+
+impl NeededRealisations {
+    /// From two pilots or more; `None` where nothing is judged: no contact, or no scatter.
+    #[must_use]
+    pub fn from_pilots(pilots: &[Realisation], share: f64) -> Option<Self> {
+        let worst = widest(pilots)?;
+        // t s = half width times √n.
+        let count = (pilots.len() as f64 * (worst.pilot_share / share).powi(2)).ceil();
+        Some(Self { count: (count as u64).max(pilots.len() as u64), ..worst })
+    }
+}
+
+/// The judged mean whose interval is widest, with that share, among `members`.
+#[must_use]
+pub fn widest(members: &[Realisation]) -> Option<NeededRealisations> {
+    let all = judged(members).into_iter().map(|(place, measure, mean, half)| NeededRealisations {
+        count: members.len() as u64,
+        pilot_share: half / mean,
+        place,
+        measure,
+    });
+    all.max_by(|a, b| a.pilot_share.total_cmp(&b.pilot_share))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::measure::Figure;
+    use super::*;
+
+    fn members(values: &[(f64, f64)]) -> Vec<Realisation> {
+        let figure = |name: &str, kind, measure, value| {
+            let place = ContactPlace { name: name.to_owned(), kind };
+            Figure { place, measure, value, batch_half_width_95: None }
+        };
+        let member = |(i, &(rate, force)): (usize, &(f64, f64))| Realisation {
+            number: i as u64 + 1,
+            figures: vec![
+                figure("plate", PlaceKind::Support, Measure::WorkRate, rate),
+                figure("stop", PlaceKind::Wall, Measure::MeanForce, force),
+            ],
+            findings: Vec::new(),
+        };
+        values.iter().enumerate().map(member).collect()
+    }
+
+    #[test]
+    fn the_number_follows_from_the_scatter_of_the_pilots() {
+        // 1, 2, 3, 6: mean 3, s² = 14/3, t₃ = 3.182446305284: N = ⌈(t s/0.1 x̄)²⌉ = ⌈525.13⌉.
+        let pilots = members(&[(1.0, 5.0), (2.0, 50.0), (3.0, 5.0), (6.0, 5.0)]);
+        let needed = NeededRealisations::from_pilots(&pilots, 0.1).unwrap();
+        assert_eq!((needed.count, needed.measure, needed.place.name.as_str()), (526, Measure::WorkRate, "plate"));
+        // Never fewer than there are.
+        assert_eq!(NeededRealisations::from_pilots(&pilots, 2.0).unwrap().count, 4);
+    }
+
+    #[test]
+    fn without_work_forces_are_judged_and_without_contact_nothing() {
+        let pilots = members(&[(0.0, 5.0), (0.0, 5.5), (0.0, 4.5)]);
+        assert_eq!(widest(&pilots).unwrap().measure, Measure::MeanForce);
+        assert_eq!(NeededRealisations::from_pilots(&members(&[(0.0, 0.0), (0.0, 0.0)]), 0.1), None);
+        assert_eq!(NeededRealisations::from_pilots(&members(&[(1.0, 1.0)]), 0.1), None);
+    }
+}

@@ -1,0 +1,54 @@
+//! `signorini new tube`: a case file from the data of a tube, and what is refused.
+use signorini::case::{Case, Model};
+use std::path::Path;
+use std::process::Command;
+
+/// Runs the tool and expects the exit code; gives what it says on stderr.
+fn said(folder: &Path, args: &[&str], code: i32) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
+    assert!(!err.contains("panicked"), "{args:?}: {err}");
+    err
+}
+
+#[test]
+fn the_file_has_the_tube_that_was_described_and_runs() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let data = ["--length", "4.5", "--supports", "3", "--outer-diameter", "0.02", "--wall", "2e-3", "--gap", "1.5e-4"];
+    said(path, &[&["new", "tube"], &data[..]].concat(), 0);
+    let case = Case::read(path.join("tube.toml")).unwrap();
+    let Model::Beam(beam) = &case.model else { panic!("{:?}", case.model) };
+    assert_eq!([beam.length, beam.outer_diameter, beam.inner_diameter], [4.5, 0.02, 0.016]);
+    let places: Vec<String> = case.written.supports.iter().map(|support| support.place.to_string()).collect();
+    assert_eq!(places, ["1.125 m along it", "2.25 m along it", "3.375 m along it"]);
+    assert!(case.scene.holes().all(|hole| hole.gap == 1.5e-4));
+    assert!((case.wear.limit.unwrap() - 0.4 * 2e-3).abs() < 1e-15);
+    said(path, &["run", "tube.toml", "--end", "0.2", "--set", "time.statistics_from=0.1", "--no-verdict"], 0);
+    // What is there is not replaced unasked.
+    let err = said(path, &["new", "tube"], 2);
+    assert!(err.contains("tube.toml") && err.contains("already exists"), "{err}");
+    said(path, &["new", "tube", "--out", "rod.toml", "--wall", "9.525e-3"], 0);
+    let rod = Case::read(path.join("rod.toml")).unwrap();
+    assert!(matches!(rod.model, Model::Beam(beam) if beam.inner_diameter == 0.0));
+}
+
+#[test]
+fn values_that_make_no_tube_are_refused_by_name() {
+    let dir = tempfile::tempdir().unwrap();
+    for (args, words) in [
+        (&["tube", "--length", "0"][..], ["--length", "above 0"]),
+        (&["tube", "--length", "nan"], ["--length", "above 0"]),
+        (&["tube", "--length", "-1"], ["--length", "above 0"]),
+        (&["tube", "--supports", "0"], ["--supports", "from 1 to 100"]),
+        (&["tube", "--supports", "101"], ["--supports", "from 1 to 100"]),
+        (&["tube", "--gap", "inf"], ["--gap", "above 0"]),
+        (&["tube", "--wall", "0.1"], ["--wall", "half the outer diameter"]),
+        (&["bouncing-ball", "--length", "1"], ["--length", "signorini new tube"]),
+    ] {
+        let err = said(dir.path(), &[&["new"], args].concat(), 2);
+        assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
+    }
+    assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0);
+}
