@@ -1,8 +1,10 @@
-//! Reads base motion: the ground to which a structure and its walls are fixed accelerates.
+//! Reads loads in proportion to the mass: base motion, in which the ground to which a structure and
+//! its walls are fixed accelerates, and gravity.
 
 use super::builder::Builder;
 use super::model::{Model, Place};
 use super::planes::Planes;
+use super::schema::accepted;
 use super::table::{self, TableColumns};
 use super::value::{Section, Value};
 use super::written::{NewLoad, Origin};
@@ -12,31 +14,97 @@ use std::ops::Range;
 use toml::Spanned;
 
 impl Builder<'_> {
-    /// The load of a base motion. In coordinates relative to the base it is −M ι a(t), with ι = 1
-    /// on every displacement in the direction of the motion: the mass m that moves along times −a,
-    /// as a force, through the row M ι/m. The keys `at` and `direction` stand beside it.
-    pub fn base(
+    /// The load of `kind`, "base" or "gravity". In coordinates relative to the base it is −M ι a(t),
+    /// with ι = 1 on every displacement in the direction of the motion: the mass m that moves along
+    /// times −a, as a force, through the row M ι/m. Gravity of g along the direction is a = −g. The
+    /// keys `at` and `direction` stand beside it.
+    pub fn massive(
         &mut self,
-        owner: &str,
+        (owner, kind): (&str, &str),
+        section: &Section<'_>,
+        beside: (Option<Range<usize>>, Option<&Spanned<f64>>),
+        system: &System,
+    ) -> Result<NewLoad> {
+        let (at, mass) = self.moved((owner, kind), section, beside, system)?;
+        // A mass that is not finite is refused at its own key, once all has been read.
+        let mass = if mass.is_finite() { mass } else { 1.0 };
+        let (kind, origin) = match kind {
+            "gravity" => {
+                let acceleration = self.measured(owner, section, "acceleration")?;
+                (LoadKind::Constant { force: mass * acceleration }, Origin::Gravity(acceleration))
+            }
+            _ => self.base(owner, section, mass)?,
+        };
+        Ok(NewLoad { load: Load { kind, at }, place: Place::Row(Vec::new()), origin })
+    }
+
+    /// The motion of a base that moves the mass `mass` (kg): from a file, or a sine.
+    fn base(&mut self, owner: &str, base: &Section<'_>, mass: f64) -> Result<(LoadKind, Origin)> {
+        let sine = ["amplitude", "frequency", "phase"].into_iter().find_map(|key| base.span_of(key));
+        let one = "expected file = \"motion.csv\", or amplitude (m/s^2) and frequency (Hz)";
+        match (sine, base.word("file")) {
+            (Some(at), Some(_)) => Err(self.source.error(at, &format!("{owner}: base has two motions"), one)),
+            (None, None) => Err(self.source.error(base.span.clone(), &format!("{owner}: base has no motion"), one)),
+            (Some(_), None) => {
+                let amplitude = self.measured(owner, base, "amplitude")?;
+                let frequency = self.measured(owner, base, "frequency")?;
+                let phase = base.number("phase").map_or(Ok(0.0), |_| self.measured(owner, base, "phase"))?;
+                if frequency < 0.0 {
+                    let span = base.span_of("frequency").unwrap_or(base.span.clone());
+                    return Err(self.refuse(span, &format!("{owner}: frequency"), "a number, 0 or more, in Hz"));
+                }
+                let origin = Origin::Base(format!("by {amplitude} m/s² at {frequency} Hz"));
+                Ok((LoadKind::Harmonic { amplitude: -mass * amplitude, frequency, phase }, origin))
+            }
+            (None, Some(file)) => {
+                let plain = TableColumns { force: "acceleration_m_per_s2".to_owned(), ..TableColumns::default() };
+                let owner = format!("{owner}: base");
+                let columns = self.columns(&owner, ("acceleration", "m/s^2"), plain, base)?;
+                let (path, text) = self.table_file(&owner, &file, &columns)?;
+                let felt = TableColumns { scale: -mass * columns.scale, ..columns };
+                let origin = Origin::Base(format!("as {} says", file.get_ref()));
+                Ok((LoadKind::Table(table::read(&path, &text, &felt)?), origin))
+            }
+        }
+    }
+
+    /// The finite number at `key`.
+    fn measured(&self, owner: &str, section: &Section<'_>, key: &str) -> Result<f64> {
+        match section.number(key).map(Spanned::into_inner) {
+            Some(x) if x.is_finite() => Ok(x),
+            found => {
+                let span = section.span_of(key).unwrap_or(section.span.clone());
+                let table = if key == "acceleration" { "gravity" } else { "base" };
+                let accepted = accepted(&format!("load.{table}.{key}")).unwrap_or_default();
+                let what = if found.is_some() { "is not finite" } else { "is missing" };
+                Err(self.source.error(span, &format!("{owner}: {key} {what}"), &format!("expected {accepted}")))
+            }
+        }
+    }
+
+    /// The row M ι/m through which a load of `kind` acts, and the mass m, kg.
+    fn moved(
+        &mut self,
+        (owner, kind): (&str, &str),
         base: &Section<'_>,
         (at, direction): (Option<Range<usize>>, Option<&Spanned<f64>>),
         system: &System,
-    ) -> Result<NewLoad> {
+    ) -> Result<(Row, f64)> {
         if let Some(at) = at {
-            let help = "expected no at: a base moves all of the structure";
-            return Err(self.source.error(at, &format!("{owner} has a place and a base"), help));
+            let help = format!("expected no at: {kind} moves all of the structure");
+            return Err(self.source.error(at, &format!("{owner} has a place and a {kind}"), &help));
         }
         let influence = base.get("influence").map(|value| self.influence(owner, value)).transpose()?;
         let whole = matches!(self.model, Model::Matrices(_) | Model::Modal(_));
         match (whole, base.span_of("influence")) {
             (true, None) => {
-                let title = format!("`influence` is missing in {owner}: base");
+                let title = format!("`influence` is missing in {owner}: {kind}");
                 let help = "expected influence = { row = [[0, 1.0], ..] }: how far each degree of freedom moves when \
                             the base moves by 1 m and the structure is rigid";
                 return Err(self.source.error(base.span.clone(), &title, help));
             }
             (false, Some(at)) => {
-                let title = format!("{owner}: base: influence beside a {}", self.model.kind());
+                let title = format!("{owner}: {kind}: influence beside a {}", self.model.kind());
                 let help = "expected no influence: it is 1 on every displacement; it is for matrices and modal data";
                 return Err(self.source.error(at, &title, help));
             }
@@ -65,19 +133,10 @@ impl Builder<'_> {
         };
         if mass <= 0.0 {
             let span = base.span_of("influence").unwrap_or(base.span.clone());
-            let title = format!("{owner}: base: influence moves no mass");
+            let title = format!("{owner}: {kind}: influence moves no mass");
             return Err(self.source.error(span, &title, "expected the displacements of degrees of freedom with mass"));
         }
-        let plain = TableColumns { force: "acceleration_m_per_s2".to_owned(), ..TableColumns::default() };
-        let (owner, file) = (format!("{owner}: base"), base.required_word("file"));
-        let columns = self.columns(&owner, ("acceleration", "m/s^2"), plain, base)?;
-        let (path, text) = self.table_file(&owner, &file, &columns)?;
-        // A mass that is not finite is refused at its own key, once the table has been read.
-        let carried = if mass.is_finite() { mass } else { 1.0 };
-        let felt = TableColumns { scale: -carried * columns.scale, ..columns };
-        let kind = LoadKind::Table(table::read(&path, &text, &felt)?);
-        let origin = Origin::Base((*file.get_ref()).to_owned());
-        Ok(NewLoad { load: Load { kind, at: row }, place: Place::Row(Vec::new()), origin })
+        Ok((row, mass))
     }
 
     /// M ι/m over one plane, and the mass m = ιᵀM ι that moves along with the base, kg. On a bar or

@@ -227,7 +227,11 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("load.random.seed", Number, "", ["0", "a whole number from 0 to 2^53", ""]),
     entry("load.base", Inline, "", ["", "motion of the ground, from a CSV file, see below",
         "beside `at`"]),
-    entry("load.base.file", Word, "", [REQUIRED, FILE, ""]),
+    entry("load.base.amplitude", Number, "m_per_s2", ["", "a number: of an acceleration that is a \
+        sine, in place of a file", "beside `file`"]),
+    entry("load.base.frequency", Number, "Hz", ["", NOT_NEGATIVE, "beside `file`"]),
+    entry("load.base.phase", Number, "rad", ["0", "a number", "beside `file`"]),
+    entry("load.base.file", Word, "", ["", FILE, "beside `amplitude`"]),
     entry("load.base.time", Word, "", ["`\"time_s\"`", "the header of the column of times, s, in \
         quotes", ""]),
     entry("load.base.acceleration", Word, "", ["`\"acceleration_m_per_s2\"`", "the header of the \
@@ -263,6 +267,12 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("turbulence.correlation_length", Number, "m", [REQUIRED, "a number above 0: the coherence \
         of two points falls by e over it", UNORDINARY]),
     entry("turbulence.seed", Number, "", ["0", "a whole number from 0 to 2^53", ""]),
+    entry("load.gravity", Inline, "", ["", "the weight of all masses along `direction`, in one plane \
+        along the positive displacements", "beside `at`"]),
+    entry("load.gravity.acceleration", Number, "m_per_s2", [REQUIRED, "a number: 9.81 on Earth",
+        "nan, inf"]),
+    entry("load.gravity.influence", Any, "", ["required of `matrices` and `modal`", "as of `base`",
+        "beside other systems"]),
     entry("initial", Table, "", ["at rest at 0", "", ""]),
     entry("initial.equilibrium", Truth, "", ["`false`", "true or false: at rest in static \
         equilibrium under the constant loads, between all walls and in all holes", "beside \

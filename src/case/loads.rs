@@ -16,7 +16,7 @@ impl Builder<'_> {
     pub fn load(&mut self, index: usize, load: &Section<'_>, end: f64, system: &System) -> Result<Vec<NewLoad>> {
         let owner = format!("load {}", index + 1);
         self.places.push((Subject::nth("load", index), load.span.clone()));
-        let kinds = ["constant", "harmonic", "impulse", "table", "random", "base"];
+        let kinds = ["constant", "harmonic", "impulse", "table", "random", "base", "gravity"];
         let mut given = kinds.into_iter().filter_map(|kind| Some((kind, load.section(kind)?)));
         let (first, second) = (given.next(), given.next());
         if let (Some((first, _)), Some((second, section))) = (&first, second) {
@@ -29,7 +29,7 @@ impl Builder<'_> {
         let Some((kind, section)) = first else {
             let help = "expected one of constant = { force }, harmonic = { amplitude, frequency, phase }, \
                         impulse = { impulse, time }, table = { file }, random = { rms, from, to, seed }, \
-                        base = { file }";
+                        base = { file } or { amplitude, frequency, phase }, gravity = { acceleration }";
             return Err(self.source.error(load.span.clone(), &format!("{owner} has no kind"), help));
         };
         let direction = load.get("direction");
@@ -45,8 +45,9 @@ impl Builder<'_> {
         if let Some(other) = direction.filter(|_| both.is_none() && angle.is_none()) {
             return Err(self.refuse(other.span(), &format!("{owner}: direction"), "a finite number, in deg"));
         }
-        if kind == "base" {
-            return Ok(vec![self.base(&owner, &section, (load.span_of("at"), angle.as_ref()), system)?]);
+        if let "base" | "gravity" = kind {
+            let beside = (load.span_of("at"), angle.as_ref());
+            return Ok(vec![self.massive((&owner, kind), &section, beside, system)?]);
         }
         let mut sites = self.sites((&owner, Subject::nth("load", index)), load, true)?;
         let site = sites.pop().ok_or_else(|| self.refuse(load.span.clone(), &owner, "a place"))?;

@@ -45,8 +45,10 @@ pub enum Origin {
     },
     /// The signal along z of such a force; these come after all loads of the file.
     Second(RandomForce),
-    /// As a motion of the base, from the file of that name.
+    /// As a motion of the base, in words.
     Base(String),
+    /// As gravity of this acceleration, m/s².
+    Gravity(f64),
 }
 
 /// A load of the scene, its location, and how the file gave it.

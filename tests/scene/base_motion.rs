@@ -293,3 +293,77 @@ fn negative_ratios_of_a_tube_belong_to_its_modes() {
     let said = Case::parse(&text("modes = 3\n", "[-1.0]"), "minus.toml", "").unwrap_err().to_string();
     assert!(said.contains("above -1"), "{said}");
 }
+
+#[test]
+fn a_base_that_moves_by_a_sine_is_felt_by_its_closed_form() {
+    let text = "[system.oscillator]\nmass = 2.0\ndamping = 0.0\nstiffness = 800.0\n[[load]]\n\
+        base = { amplitude = 3.0, frequency = 1.5 }\n[time]\nend = 1.3\nstep = 1e-3\n";
+    let run = made(&case(text).scene, &Scheme::Event, 1e-3);
+    // u = −a/(ω² − Ω²) (sin Ωt − (Ω/ω) sin ωt), from rest.
+    let (omega, forced, t) = (20.0_f64, 3.0 * PI, 1.3);
+    let wanted = -3.0 / (omega * omega - forced * forced) * ((forced * t).sin() - forced / omega * (omega * t).sin());
+    // Some roundings of amplitudes of 1e-2 m.
+    assert!((last(&run, "") - wanted).abs() < 1e-14, "{} for {wanted}", last(&run, ""));
+    // With a phase of a quarter it begins at its amplitude.
+    let turned = text.replace("frequency = 1.5", "frequency = 0.0, phase = 1.5707963267948966");
+    let run = made(&case(&turned).scene, &Scheme::Event, 1e-3);
+    let wanted = -3.0 / (omega * omega) * (1.0 - (omega * t).cos());
+    assert!((last(&run, "") - wanted).abs() < 1e-14, "{} for {wanted}", last(&run, ""));
+}
+
+#[test]
+fn gravity_bends_a_tube_as_its_weight_does_and_presses_it_into_a_support() {
+    let ends = "left = \"pinned\"\nright = \"pinned\"\n";
+    let rest = "[initial]\nequilibrium = true\n[[probe]]\nname = \"middle\"\nat = { position = 1.0 }\n\
+        [time]\nend = 0.1\nstep = 1e-3\n";
+    let down = case(&format!("{TUBE}{ends}[[load]]\ngravity = {{ acceleration = 9.81 }}\n{rest}"));
+    // 5 m′ g L⁴/(384 EI): exact at nodes under consistent nodal forces.
+    let inertia = PI / 64.0 * (0.02_f64.powi(4) - 0.016_f64.powi(4));
+    let weight = 9.81 * (7850.0 * PI / 4.0 * (0.02_f64.powi(2) - 0.016_f64.powi(2)) + 0.3);
+    let wanted = 5.0 * weight * 16.0 / (384.0 * 2e11 * inertia);
+    let found = down.scene.probes[0].at.dot(&down.scene.initial.q);
+    assert!((found / wanted - 1.0).abs() < 1e-9, "{found} for {wanted}");
+    // In two planes, towards −z.
+    let planes = format!(
+        "[system]\nplanes = 2\n{TUBE}{ends}[[load]]\ndirection = 270\ngravity = {{ acceleration = 9.81 }}\n{rest}"
+    );
+    let both = case(&planes);
+    let seen =
+        |name: &str| both.scene.probes.iter().find(|probe| probe.name == name).unwrap().at.dot(&both.scene.initial.q);
+    assert!(seen("middle-y").abs() < 1e-12 * wanted && (seen("middle-z") / wanted + 1.0).abs() < 1e-9);
+    // A mass on a stop weighs m g.
+    let stop = "[system.oscillator]\nmass = 2.0\ndamping = 0.0\nstiffness = 0.0\n[[wall]]\nname = \"floor\"\nside = \"upper\"\nposition = 0.0\n\
+        restitution = 0.0\n[[load]]\ngravity = { acceleration = 9.81 }\n[time]\nend = 0.5\nstep = 1e-3\n";
+    let run = made(&case(stop).scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3);
+    assert!((run.trajectory.impulse("floor").unwrap() + 2.0 * 9.81 * 0.5).abs() < 1e-12);
+}
+
+#[test]
+fn motions_of_the_base_and_weights_that_make_no_sense_are_refused() {
+    let said = |load: &str| {
+        let text = format!(
+            "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 1.0\n[[load]]\n{load}\n[time]\nend = 1.0\nstep = 1e-3\n"
+        );
+        Case::parse(&text, "wrong.toml", "").unwrap_err().to_string()
+    };
+    for (load, words) in [
+        ("base = { }", ["base has no motion", "amplitude (m/s^2)"]),
+        ("base = { file = \"no.csv\", amplitude = 1.0 }", ["base has two motions", "file"]),
+        ("base = { amplitude = 1.0 }", ["frequency is missing", "expected frequency"]),
+        ("base = { frequency = 1.0 }", ["amplitude is missing", "expected amplitude"]),
+        ("base = { amplitude = nan, frequency = 1.0 }", ["amplitude is not finite", "expected amplitude"]),
+        ("base = { amplitude = 1.0, frequency = -1.0 }", ["frequency is -1.0", "0 or more"]),
+        ("base = { amplitude = 1.0, frequency = 1.0, phase = inf }", ["phase is not finite", "expected phase"]),
+        ("gravity = { }", ["`acceleration` is missing", "9.81"]),
+        ("gravity = { acceleration = inf }", ["acceleration is not finite", "9.81"]),
+        (
+            "gravity = { acceleration = 9.81, influence = { row = [[0, 1.0]] } }",
+            ["gravity: influence beside", "expected no"],
+        ),
+        ("at = { dof = 0 }\ngravity = { acceleration = 9.81 }", ["a place and a gravity", "expected no at"]),
+        ("direction = 0\ngravity = { acceleration = 9.81 }", ["has a direction", "planes = 2"]),
+    ] {
+        let said = said(load);
+        assert!(words.iter().all(|word| said.contains(word)) && said.contains("--> wrong.toml:"), "{load}: {said}");
+    }
+}

@@ -62,8 +62,9 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
                 force.seed
             ))
         }
-        Origin::Base(file) => Some(format!(
-            "load {}: the base moves as {file} says; displacements are relative to it, and walls move with it",
+        Origin::Gravity(acceleration) => Some(format!("load {}: gravity of {acceleration} m/s²", index + 1)),
+        Origin::Base(motion) => Some(format!(
+            "load {}: the base moves {motion}; displacements are relative to it, and walls move with it",
             index + 1
         )),
         Origin::Stated | Origin::Second(_) => None,
