@@ -14,10 +14,10 @@ use std::ops::Range;
 use toml::Spanned;
 
 impl Builder<'_> {
-    /// The load of `kind`, "base" or "gravity". In coordinates relative to the base it is −M ι a(t),
-    /// with ι = 1 on every displacement in the direction of the motion: the mass m that moves along
-    /// times −a, as a force, through the row M ι/m. Gravity of g along the direction is a = −g. The
-    /// keys `at` and `direction` stand beside it.
+    /// The load of `kind`, "base" or "gravity". In coordinates relative to the base it is −M ι
+    /// a(t), with ι = 1 on every displacement in the direction of the motion: the mass m that moves
+    /// along times −a, as a force, through the row M ι/m. Gravity of g along the direction is a =
+    /// −g. The keys `at` and `direction` stand beside it.
     pub fn massive(
         &mut self,
         (owner, kind): (&str, &str),
