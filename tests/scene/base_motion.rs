@@ -333,7 +333,8 @@ fn gravity_bends_a_tube_as_its_weight_does_and_presses_it_into_a_support() {
     assert!(seen("middle-y").abs() < 1e-12 * wanted && (seen("middle-z") / wanted + 1.0).abs() < 1e-9);
     // A mass on a stop weighs m g.
     let stop = "[system.oscillator]\nmass = 2.0\ndamping = 0.0\nstiffness = 0.0\n\
-        [[wall]]\nname = \"floor\"\nside = \"upper\"\nposition = 0.0\nrestitution = 0.0\n[[load]]\ngravity = { acceleration = 9.81 }\n[time]\nend = 0.5\nstep = 1e-3\n";
+        [[wall]]\nname = \"floor\"\nside = \"upper\"\nposition = 0.0\nrestitution = 0.0\n\
+        [[load]]\ngravity = { acceleration = 9.81 }\n[time]\nend = 0.5\nstep = 1e-3\n";
     let run = made(&case(stop).scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3);
     assert!((run.trajectory.impulse("floor").unwrap() + 2.0 * 9.81 * 0.5).abs() < 1e-12);
 }
