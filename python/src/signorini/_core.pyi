@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
+from ._supports import SupportStatistics, Wear
 from ._types import Array, Place, Support
 
 __all__ = [
@@ -28,6 +29,7 @@ __all__ = [
     "_bar",
     "_beam",
     "_bifurcation",
+    "_case",
     "_chain",
     "_chart",
     "_columns",
@@ -38,6 +40,7 @@ __all__ = [
     "_oscillator",
     "_run_many",
     "_stability",
+    "_sweep",
     "_unit",
     "load",
 ]
@@ -104,15 +107,44 @@ class Wall:
 @final
 class Load:
     @staticmethod
-    def constant(force: float, *, at: Place = None) -> Load: ...
+    def constant(force: float, *, at: Place = None, direction: float | str | None = None) -> Load: ...
     @staticmethod
-    def harmonic(amplitude: float, frequency: float, phase: float = 0.0, *, at: Place = None) -> Load: ...
+    def harmonic(
+        amplitude: float,
+        frequency: float,
+        phase: float = 0.0,
+        *,
+        at: Place = None,
+        direction: float | str | None = None,
+    ) -> Load: ...
     @staticmethod
-    def impulse(impulse: float, time: float = 0.0, *, at: Place = None) -> Load: ...
+    def impulse(
+        impulse: float, time: float = 0.0, *, at: Place = None, direction: float | str | None = None
+    ) -> Load: ...
+    @staticmethod
+    def random(
+        *,
+        rms: float | None = None,
+        band: tuple[float, float] | None = None,
+        psd: Sequence[tuple[float, float]] | None = None,
+        seed: int = 0,
+        at: Place = None,
+        direction: float | str | None = None,
+    ) -> Load: ...
+    @staticmethod
+    def base(
+        file: str | PathLike[str],
+        *,
+        time: str | None = None,
+        acceleration: str | None = None,
+        scale: float | None = None,
+        direction: float | str | None = None,
+    ) -> Load: ...
     @staticmethod
     def table(time: Sequence[float] | Array, force: Sequence[float] | Array, *, at: Place = None) -> Load: ...
     @staticmethod
     def function(force: Callable[[float], float], *, at: Place = None) -> Load: ...
+    def _table(self) -> dict[str, Any]: ...
     @staticmethod
     def _restore(version: str, bytes: bytes) -> Load: ...
     def __eq__(self, value: object, /) -> bool: ...
@@ -215,7 +247,7 @@ class Run:
     def hole_force(self, name: str) -> tuple[Array, Array]: ...
     def hole_impulse(self, name: str) -> tuple[Array, Array]: ...
     @property
-    def supports(self) -> list[str]: ...
+    def supports(self) -> Mapping[str, SupportStatistics]: ...
     def wear_work(self, name: str) -> Array: ...
     @property
     def walls(self) -> list[str]: ...
@@ -236,7 +268,7 @@ class Run:
     @property
     def statistics(self) -> dict[str, dict[str, Any]]: ...
     @property
-    def wear(self) -> dict[str, dict[str, Any]]: ...
+    def wear(self) -> Mapping[str, Wear]: ...
     @property
     def summary(self) -> dict[str, Any]: ...
     def to_pandas(self) -> pd.DataFrame: ...
@@ -244,6 +276,7 @@ class Run:
     def verdict(self) -> dict[str, Any]: ...
     def _contacts(self) -> dict[str, npt.NDArray[Any]]: ...
     def _summary(self) -> dict[str, Any]: ...
+    def _supports(self) -> list[dict[str, Any]]: ...
     def _repr_html_(self) -> str: ...
     @staticmethod
     def _restore(version: str, scene: Scene, bytes: bytes) -> Run: ...
@@ -267,6 +300,7 @@ class Stepper:
     def impulse(self) -> Array: ...
 
 def load(case: str | PathLike[str], *, set: Mapping[str, Any] | None = None) -> Case: ...
+def _case(text: str, name: str) -> Case: ...
 def _oscillator(mass: float, damping: float, stiffness: float) -> Scene: ...
 def _chain(
     masses: Sequence[float] | Array, springs: Sequence[float] | Array, grounds: tuple[float, float]
@@ -337,3 +371,14 @@ def _run_many(
     threads: int,
     progress: Callable[[int], None] | None,
 ) -> tuple[Array, list[str | None]]: ...
+def _sweep(
+    case: Case,
+    axes: Sequence[tuple[str, Sequence[Any]]],
+    one_at_a_time: bool,
+    scheme: str | None,
+    measures: Sequence[str],
+    seeds: int | None,
+    threads: int | None,
+    folder: str | PathLike[str],
+    progress: Callable[[int], None],
+) -> tuple[list[str], int, int, str | None]: ...

@@ -11,12 +11,13 @@ import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, as_completed
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from ._core import Scene, _columns, _run_many
+from ._case_sweep import SweepResult, sweep_case
+from ._core import Case, Scene, _columns, _run_many
 from ._progress import Progress
 from ._store import Store
 
@@ -110,31 +111,74 @@ def run_many(
     return _table(names, rows, judge)
 
 
+@overload
+def sweep(
+    make: Case,
+    points: Mapping[str, Sequence[Any]],
+    scheme: str | None = None,
+    *,
+    measures: Sequence[str],
+    seeds: int | None = None,
+    threads: int | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    progress: bool = True,
+) -> SweepResult: ...
+
+
+@overload
 def sweep(
     make: Callable[..., Scene],
     points: Iterable[Mapping[str, Any]],
     scheme: str | None = None,
     *,
     step: float | None = None,
-    statistics_from: float = 0.0,
-    judge: bool = True,
+    statistics_from: float | None = None,
+    judge: bool | None = None,
     threads: int | None = None,
     executor: Any = None,
     chunk: int | None = None,
     folder: str | os.PathLike[str] | None = None,
     progress: bool = True,
-) -> Table:
-    """Run ``make(**point)`` for every point. The table is the same to the last bit wherever it is run.
+) -> Table: ...
+
+
+def sweep(
+    make: Callable[..., Scene] | Case,
+    points: Any,
+    scheme: str | None = None,
+    *,
+    measures: Sequence[str] | None = None,
+    seeds: int | None = None,
+    step: float | None = None,
+    statistics_from: float | None = None,
+    judge: bool | None = None,
+    threads: int | None = None,
+    executor: Any = None,
+    chunk: int | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    progress: bool = True,
+) -> Table | SweepResult:
+    """Run ``make(**point)`` for every point, or a case for every combination of values of its keys.
+
+    The table is the same to the last bit wherever it is run. That of a case is the one that
+    ``signorini sweep`` writes.
 
     Parameters
     ----------
-    make : callable
+    make : callable or Case
         Returns the Scene of a point. For an executor of other processes it has to be pickled: a
         function of a module (Dask also takes one of a notebook).
-    points : iterable of mapping
-        All with the same names; `grid` makes them.
-    scheme, step, statistics_from, judge
+    points : iterable of mapping, or mapping of str to sequence
+        All with the same names; `grid` makes them. Of a case: the values of each key of the case
+        format, ``{"support.*.gap": [1e-4, 2e-4]}``; the last key varies fastest.
+    scheme
         As in `run_many`.
+    measures : sequence of str
+        Of a case: names of measures, as ``signorini sweep --measure``.
+    seeds : int, optional
+        Of a case: realisations of its random loads under which each row is run, 2 or more.
+    step, statistics_from, judge
+        As in `run_many`; a case has its own step and window, and is judged.
     threads : int, optional
         Threads of this process: all cores; with an executor, threads of each of its tasks: one.
     executor : concurrent.futures.Executor, optional
@@ -150,8 +194,8 @@ def sweep(
 
     Returns
     -------
-    dict of str to numpy.ndarray of shape (points,)
-        The columns of the points, then those of `run_many`. A point whose scene is refused, or whose
+    dict of str to numpy.ndarray of shape (points,), or SweepResult
+        The columns of the points, then those of `run_many`; of a case, a `SweepResult`. A point whose scene is refused, or whose
         run fails, is a row with the reason in ``error``; a warning says how many.
 
     Raises
@@ -171,6 +215,17 @@ def sweep(
     >>> table["gap"], table["contacts_stop-upper"] > 0
     (array([0.002, 0.004, 0.006]), array([ True,  True,  True]))
     """
+    if isinstance(make, Case):
+        own = {"step": step, "statistics_from": statistics_from, "judge": judge, "executor": executor, "chunk": chunk}
+        _refuse(own, "no such argument beside a case: its keys time.step and time.statistics_from say it")
+        if not isinstance(points, Mapping):
+            raise ValueError(f"points is {points!r}; expected a mapping of keys to values beside a case")
+        return sweep_case(
+            make, points, scheme, measures=measures or (), seeds=seeds, one_at_a_time=False, threads=threads,
+            folder=None if folder is None else Path(folder), progress=progress,
+        )  # fmt: skip
+    _refuse({"measures": measures, "seeds": seeds}, "a case in place of a function beside it")
+    statistics_from, judge = statistics_from or 0.0, judge is not False
     points = [dict(point) for point in points]
     names = list(points[0]) if points else []
     for i, point in enumerate(points):
@@ -207,6 +262,12 @@ def sweep(
         text = f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}"
         warnings.warn(text, RuntimeWarning, stacklevel=2)
     return table
+
+
+def _refuse(arguments: Mapping[str, Any], expected: str) -> None:
+    for name, value in arguments.items():
+        if value is not None:
+            raise ValueError(f"{name} is {value!r}; expected {expected}")
 
 
 _Options = tuple[str | None, float | None, float, bool, int]
