@@ -198,10 +198,10 @@ def test_points_that_are_all_refused_are_rows_with_their_reasons(chunk: int) -> 
     with ThreadPoolExecutor(1) as executor:
         for options in ({}, {"executor": executor, "chunk": chunk}):
             with pytest.warns(RuntimeWarning, match="4 of 5 rows failed"):
-                table = sg.sweep(make, sg.grid(mass=[1.0, -1.0, -2.0, -3.0, 0.0]), "event", **options)  # type: ignore[arg-type]
+                table = sg.sweep(make, sg.grid(mass=[1.0, -1.0, -2.0, -3.0, 0.0]), "event", **options)  # type: ignore[call-overload]
             assert [error is None for error in table["error"]] == [True, False, False, False, False]
             with pytest.warns(RuntimeWarning, match="2 of 2 rows failed"):
-                table = sg.sweep(make, sg.grid(mass=[-1.0, -2.0]), "event", **options)  # type: ignore[arg-type]
+                table = sg.sweep(make, sg.grid(mass=[-1.0, -2.0]), "event", **options)  # type: ignore[call-overload]
             assert all("mass" in error for error in table["error"])
             assert list(table["status"]) == ["failed"] * 2
 

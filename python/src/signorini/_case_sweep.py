@@ -33,6 +33,10 @@ def _column(cells: Sequence[str]) -> Column:
             return np.array([kind(cell) for cell in filled], kind)
         except ValueError:
             continue
+    return _words(cells)
+
+
+def _words(cells: Sequence[str]) -> Column:
     return np.array([cell or None for cell in cells], object)
 
 
@@ -40,7 +44,9 @@ def _read(path: Path) -> dict[str, Column]:
     """A table of the engine, by columns."""
     with path.open(encoding="utf-8", newline="") as file:
         header, *rows = csv.reader(file)
-    return {name: _column([row[i] for row in rows]) for i, name in enumerate(header)}
+    columns = {name: [row[i] for row in rows] for i, name in enumerate(header)}
+    # Reasons are words, also where no row has one.
+    return {name: _words(cells) if name == "error" else _column(cells) for name, cells in columns.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,12 +122,11 @@ class SweepResult(Mapping[str, Column]):
 
         Examples
         --------
-        >>> import pytest; _ = pytest.importorskip("xarray")
         >>> import signorini as sg
         >>> case = sg.load("rigid-walls-sine", set={"time.end": 1.0})
         >>> table = sg.sweep(case, {"wall.*.restitution": [0.5, 0.8]}, measures=["contacts"])
         >>> table.to_xarray()["contacts_upper"].dims
-        ('wall_restitution',)
+        ('restitution',)
         """
         try:
             import xarray as xr
@@ -168,18 +173,18 @@ def sweep_case(
         notes, count, bad, first = _core._sweep(
             case, axes, one_at_a_time, scheme, list(measures), seeds, threads, place, shown.tell
         )
-        tables = [
+        table, realisations, effects = (
             _read(path) if (path := place / name).exists() else {}
             for name in ("sweep.csv", "realisations.csv", "effects.csv")
-        ]
+        )
     for note in notes:
         warnings.warn(note, ResultWarning, stacklevel=3)
     if bad:
         warnings.warn(f"{bad} of {count} rows failed; the first: {first}", RuntimeWarning, stacklevel=3)
-    names = list(tables[0])
+    names = list(table)
     # The number of the row is before the columns of the keys, the realisations or the status after.
     ends = [names.index(name) for name in ("seeds", "status") if name in names]
-    return SweepResult(*tables, tuple(names[1 : min(ends)]))
+    return SweepResult(table, realisations, effects, tuple(names[1 : min(ends)]))
 
 
 def one_at_a_time(
