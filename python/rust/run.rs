@@ -354,8 +354,8 @@ impl Run {
         Self::by_python(slf, "statistics")
     }
 
-    /// The wear in service at each support, by its name: a mapping to `Wear`, with an entry for each
-    /// support for which the case has a wear coefficient.
+    /// The wear in service at each support, by its name: a mapping to `Wear`, with an entry for
+    /// each support for which the case has a wear coefficient.
     #[getter]
     fn wear<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::by_python(slf, "wear")

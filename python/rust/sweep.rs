@@ -48,8 +48,9 @@ pub fn _unit(key: &str) -> Option<&'static str> {
     key.parse::<sg::case::Key>().ok().and_then(|key| key.unit())
 }
 
-/// A row of numbers for each scene, and the reason where there is none.
-type Rows<'py> = (Bound<'py, PyArray2<f64>>, Vec<Option<String>>);
+/// A row of numbers for each scene, the reason where there is none, and the first note that limits
+/// its use.
+type Rows<'py> = (Bound<'py, PyArray2<f64>>, Vec<Option<String>>, Vec<Option<String>>);
 
 /// Runs scenes on threads without the interpreter's lock.
 #[pyfunction]
@@ -83,7 +84,7 @@ pub fn _run_many<'py>(
         })
         .collect::<PyResult<Vec<_>>>()?;
     let mut table = vec![f64::NAN; width * scenes.len()];
-    let mut errors = vec![None; scenes.len()];
+    let (mut errors, mut notes) = (vec![None; scenes.len()], vec![None; scenes.len()]);
     let finished = AtomicUsize::new(0);
     let work = |index: u64, send: &mut Take<'_, (usize, Numbers)>| {
         let index = index as usize;
@@ -101,7 +102,10 @@ pub fn _run_many<'py>(
     let mut receive = |row: Option<(usize, Numbers)>| {
         if let Some((index, outcome)) = row {
             match outcome {
-                Ok(row) => table[width * index..width * (index + 1)].copy_from_slice(&row),
+                Ok((row, note)) => {
+                    table[width * index..width * (index + 1)].copy_from_slice(&row);
+                    notes[index] = note;
+                }
                 Err(reason) => errors[index] = Some(reason),
             }
             finished.fetch_add(1, Ordering::Relaxed);
@@ -113,21 +117,27 @@ pub fn _run_many<'py>(
         None => Ok(()),
     };
     compute_beside(py, || on_threads(scenes.len() as u64, threads, &work, &mut receive), &mut watch)?;
-    Ok((PyArray1::from_vec(py, table).reshape([scenes.len(), width])?, errors))
+    Ok((PyArray1::from_vec(py, table).reshape([scenes.len(), width])?, errors, notes))
 }
 
-/// The numbers of a run, or the reason why there are none.
-type Numbers = Result<Vec<f64>, String>;
+/// The numbers of a run and its first note, or the reason why there are none.
+type Numbers = Result<Noted, String>;
+
+/// The numbers of a run, and the first note that limits their use.
+type Noted = (Vec<f64>, Option<String>);
 
 /// The numbers of one run.
-fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Vec<f64>> {
+fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Noted> {
     let options = sg::Options::new(plan.time);
-    let statistics = if judge {
-        sg::run(scene, &plan.method, &options)?.unrefuted()?.statistics
+    let (statistics, cautions) = if judge {
+        let run = sg::run(scene, &plan.method, &options)?.unrefuted()?;
+        (run.statistics, run.cautions)
     } else {
-        sg::run(scene, &plan.method, &options.unjudged())?.statistics
+        let run = sg::run(scene, &plan.method, &options.unjudged())?;
+        (run.statistics, run.cautions)
     };
-    Ok(statistics.walls.iter().flat_map(|wall| COLUMNS.map(|(_, number)| number(wall))).collect())
+    let numbers = statistics.walls.iter().flat_map(|wall| COLUMNS.map(|(_, number)| number(wall))).collect();
+    Ok((numbers, cautions.into_iter().next()))
 }
 
 /// Notes before the rows run, the number of rows, how many failed, and the first of these.

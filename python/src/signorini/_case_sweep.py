@@ -229,6 +229,13 @@ def one_at_a_time(
     ValueError
         For a wrong request.
 
+    Warns
+    -----
+    ResultWarning
+        Where the case has very large random forces.
+    RuntimeWarning
+        Where rows failed, with their number and the first reason.
+
     Examples
     --------
     >>> import signorini as sg

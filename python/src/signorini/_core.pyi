@@ -370,7 +370,7 @@ def _run_many(
     judge: bool,
     threads: int,
     progress: Callable[[int], None] | None,
-) -> tuple[Array, list[str | None]]: ...
+) -> tuple[Array, list[str | None], list[str | None]]: ...
 def _sweep(
     case: Case,
     axes: Sequence[tuple[str, Sequence[Any]]],

@@ -17,14 +17,15 @@ import numpy as np
 import numpy.typing as npt
 
 from ._case_sweep import SweepResult, sweep_case
-from ._core import Case, Scene, _columns, _run_many
+from ._core import Case, ResultWarning, Scene, _columns, _run_many
 from ._progress import Progress
 from ._store import Store
 
 Table = dict[str, npt.NDArray[Any]]
 """Columns of equal length, by name."""
 
-_Rows = tuple[npt.NDArray[np.float64], list[str | None]]
+# Numbers, the reasons where there are none, and the first note of each row that limits its use.
+_Rows = tuple[npt.NDArray[np.float64], list[str | None], list[str | None]]
 
 # For a task of two seconds the overhead of a scheduler is a thousandth, and a lost machine loses
 # only so much work. Where this would make few tasks, they are shorter, but still long compared with
@@ -95,6 +96,11 @@ def run_many(
     ValueError
         For a wrong request.
 
+    Warns
+    -----
+    ResultWarning
+        Once, with their number, where runs have notes that limit the use of their results.
+
     Examples
     --------
     >>> import signorini as sg
@@ -108,6 +114,7 @@ def run_many(
     names = scenes[0]._wall_names if scenes else ()
     with Progress(len(scenes), progress) as shown:
         rows = _run_many(scenes, *options, shown.tell)
+    _warn(rows[2])
     return _table(names, rows, judge)
 
 
@@ -205,6 +212,13 @@ def sweep(
     Exception
         Whatever ``make`` raises besides ValueError.
 
+    Warns
+    -----
+    ResultWarning
+        Once, with their number, where runs have notes that limit the use of their results.
+    RuntimeWarning
+        Where rows failed, with their number and the first reason.
+
     Examples
     --------
     >>> import signorini as sg
@@ -235,13 +249,15 @@ def sweep(
     walls = _first_walls(make, points)
     width = len(_columns(walls))
     values, errors = np.full((len(points), width), np.nan), list[str | None]([None] * len(points))
+    notes: list[str | None] = []
     store = Store(folder, make, points, options, width)
     missing = store.missing(values, errors)
 
     def take(indices: Sequence[int], rows: _Rows) -> None:
         for row, index in enumerate(indices):
             values[index], errors[index] = rows[0][row], rows[1][row]
-        store.add(indices, rows)
+        notes.extend(rows[2])
+        store.add(indices, rows[:2])
 
     with Progress(len(points), progress, len(points) - len(missing)) as shown:
         if not missing:
@@ -256,12 +272,21 @@ def sweep(
             size = chunk or _size(make, points, missing, walls, options)
             _send(executor, make, points, _pieces(missing, size), walls, options, take, shown)
     table: Table = {name: np.array([point[name] for point in points]) for name in names}
-    table |= _table(walls, (values, errors), judge)
+    table |= _table(walls, (values, errors, notes), judge)
     failed = [text for text in errors if text is not None]
     if failed:
         text = f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}"
         warnings.warn(text, RuntimeWarning, stacklevel=2)
+    _warn(notes)
     return table
+
+
+def _warn(notes: Sequence[str | None]) -> None:
+    """One warning of a study for the notes of its runs."""
+    found = [note for note in notes if note is not None]
+    if found:
+        text = f"{len(found)} of {len(notes)} runs have notes that limit the use of their results; the first: {found[0]}"
+        warnings.warn(text, ResultWarning, stacklevel=3)
 
 
 def _refuse(arguments: Mapping[str, Any], expected: str) -> None:
@@ -282,7 +307,7 @@ def _options(
 
 
 def _table(walls: Sequence[str], rows: _Rows, judge: bool) -> Table:
-    values, errors = rows
+    values, errors, _ = rows
     table: Table = {name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(_columns(list(walls)))}
     good = "ok" if judge else "unjudged"
     table["status"] = np.array([good if text is None else "failed" for text in errors], object)
@@ -313,6 +338,7 @@ def _task(
     """The rows of some points; executors run this function."""
     values = np.full((len(points), len(_columns(list(walls)))), np.nan)
     errors: list[str | None] = [None] * len(points)
+    notes: list[str | None] = [None] * len(points)
     scenes, rows = [], []
     for row, point in enumerate(points):
         try:
@@ -327,12 +353,12 @@ def _task(
         else:
             errors[row] = f"walls are {', '.join(names)}; expected {', '.join(walls)}, as at the first point"
     if not scenes:
-        return values, errors
-    made, failed = _run_many(scenes, *options, tell)
+        return values, errors, notes
+    made, failed, noted = _run_many(scenes, *options, tell)
     values[rows] = made
-    for row, text in zip(rows, failed, strict=True):
-        errors[row] = text
-    return values, errors
+    for row, text, note in zip(rows, failed, noted, strict=True):
+        errors[row], notes[row] = text, note
+    return values, errors, notes
 
 
 def _pieces(indices: Sequence[int], size: int) -> list[Sequence[int]]:
