@@ -85,6 +85,17 @@ pub fn load(py: Python<'_>, case: PathBuf, set: Option<Bound<'_, PyDict>>) -> Py
         let key = key.extract::<String>()?;
         file.set(&key.parse().map_err(raise)?, &value(&key, &new)?).map_err(raise)?;
     }
+    built(py, file)
+}
+
+/// The case of a text; files that it names are looked for in the working folder.
+#[pyfunction]
+pub fn _case(py: Python<'_>, text: &str, name: &str) -> PyResult<Case> {
+    built(py, CaseFile::from_text(text, name, ""))
+}
+
+/// The case of a file, and its scene.
+fn built(py: Python<'_>, file: CaseFile) -> PyResult<Case> {
     let (file, case) = compute_apart(py, move || {
         let case = file.case()?;
         Ok((file, case))
@@ -108,7 +119,9 @@ pub fn load(py: Python<'_>, case: PathBuf, set: Option<Bound<'_, PyDict>>) -> Py
         let modes = Some(truncated.reduction.modes.count());
         Box::new(Origin { scene, damping, modes, static_correction, turbulence })
     });
-    let scene = Py::new(py, Scene { scene: case.scene.clone(), model, origin })?;
+    let supports = case.scene.supports.iter().enumerate();
+    let laws = supports.filter_map(|(index, support)| Some((support.name.clone(), case.archard(index)?))).collect();
+    let scene = Py::new(py, Scene { scene: case.scene.clone(), model, origin, laws })?;
     Ok(Case { file, case, scene })
 }
 

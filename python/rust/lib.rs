@@ -32,7 +32,7 @@ mod _core {
     #[pymodule_export]
     use super::builders::{_bar, _beam, _chain, _matrices, _modal, _oscillator};
     #[pymodule_export]
-    use super::case::{Case, load};
+    use super::case::{_case, Case, load};
     #[pymodule_export]
     use super::error::{
         AccuracyWarning, DivergedError, NotSolvedError, RefutedError, ResultWarning, RunError, TooManyEventsError,
@@ -50,7 +50,7 @@ mod _core {
     #[pymodule_export]
     use super::study::{_bifurcation, _chart, _compare, _stability};
     #[pymodule_export]
-    use super::sweep::{_columns, _run_many, _unit};
+    use super::sweep::{_columns, _run_many, _sweep, _unit};
     #[pymodule_export]
     use super::values::Rayleigh;
     #[pymodule_export]

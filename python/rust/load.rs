@@ -1,25 +1,75 @@
 //! Loads.
 
-use crate::error::{raise, wrong};
+use crate::error::{raise, wrong, wrong_type};
+use crate::json::loads;
 use crate::pickle::{Reduced, State, pickled, unpickled};
 use crate::place::Place;
 use crate::work::{called_in_run, nested};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 use signorini as sg;
+use std::path::PathBuf;
 
 /// A force that is a given function of time: see its static methods. Loads add up.
 #[pyclass(frozen, eq, module = "signorini", from_py_object)]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Load {
+    force: Force,
+    place: Place,
+    direction: Option<Direction>,
+}
+
+/// What acts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+enum Force {
     /// Its row is that of the place once it acts in a scene.
-    pub load: sg::Load,
-    pub place: Place,
+    Known(sg::Load),
+    /// A kind of load that the reader of case files makes, from its duration and its files, with
+    /// its values as JSON.
+    OfCase { kind: String, values: String },
+}
+
+/// Where a load of two planes points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+enum Direction {
+    Degrees(f64),
+    Word(String),
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Direction {
+    type Error = PyErr;
+
+    fn extract(direction: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(degrees) = direction.extract() {
+            return Ok(Self::Degrees(degrees));
+        }
+        // The reader of case files knows which words there are.
+        direction.extract().map(Self::Word).map_err(|_| wrong_type(&direction, "a number of degrees, or \"both\""))
+    }
+}
+
+impl Load {
+    /// A load of a scene, at its place.
+    pub fn of_scene(load: sg::Load, place: Place) -> Self {
+        Self { force: Force::Known(load), place, direction: None }
+    }
+
+    /// The load and its place, for a scene in one plane; `owner` names it in messages.
+    pub fn in_one_plane(self, owner: &str) -> PyResult<(sg::Load, Place)> {
+        let expected = "a case, as `tube` and `case` make, which has planes and a duration from the start";
+        match (self.force, self.direction) {
+            (Force::Known(load), None) => Ok((load, self.place)),
+            (Force::OfCase { kind, .. }, _) => Err(wrong(&format!("{owner}: kind"), kind, expected)),
+            (_, Some(_)) => Err(wrong(&format!("{owner}: direction"), "given", expected)),
+        }
+    }
 }
 
 /// The load, if its values make sense.
-fn load(load: sg::Load, place: Place) -> PyResult<Load> {
+fn load(load: sg::Load, place: Place, direction: Option<Direction>) -> PyResult<Load> {
     sg::Scene::oscillator(1.0, 0.0, 0.0).with_load(load.clone()).validate().map_err(|error| match error {
         // The load has no number yet.
         sg::Error::Invalid { subject, value, expected } => {
@@ -31,7 +81,13 @@ fn load(load: sg::Load, place: Place) -> PyResult<Load> {
         }
         other => raise(other),
     })?;
-    Ok(Load { load, place })
+    Ok(Load { force: Force::Known(load), place, direction })
+}
+
+/// The values that are not null, as JSON.
+fn given(values: Value) -> String {
+    let Value::Object(values) = values else { return values.to_string() };
+    Value::Object(values.into_iter().filter(|(_, value)| !value.is_null()).collect()).to_string()
 }
 
 #[pymethods]
@@ -44,6 +100,8 @@ impl Load {
     ///     N.
     /// at : place, optional
     ///     As in `Wall.upper`.
+    /// direction : float, optional
+    ///     Degrees from +y towards +z, of a load in two planes.
     ///
     /// Returns
     /// -------
@@ -60,9 +118,10 @@ impl Load {
     /// >>> sg.Load.constant(-9.81)
     /// Load.constant(-9.81)
     #[staticmethod]
-    #[pyo3(signature = (force, *, at=Place::Only), text_signature = "(force, *, at=None)")]
-    fn constant(force: f64, at: Place) -> PyResult<Self> {
-        load(sg::Load::constant(force), at)
+    #[pyo3(signature = (force, *, at=Place::Only, direction=None),
+           text_signature = "(force, *, at=None, direction=None)")]
+    fn constant(force: f64, at: Place, direction: Option<Direction>) -> PyResult<Self> {
+        load(sg::Load::constant(force), at, direction)
     }
 
     /// amplitude · sin(2π frequency t + phase): N, Hz, rad.
@@ -77,6 +136,8 @@ impl Load {
     ///     rad.
     /// at : place, optional
     ///     As in `Wall.upper`.
+    /// direction : float, optional
+    ///     Degrees from +y towards +z, of a load in two planes.
     ///
     /// Returns
     /// -------
@@ -93,10 +154,10 @@ impl Load {
     /// >>> sg.Load.harmonic(3.0, 5.0)
     /// Load.harmonic(3.0, 5.0, 0.0)
     #[staticmethod]
-    #[pyo3(signature = (amplitude, frequency, phase=0.0, *, at=Place::Only),
-           text_signature = "(amplitude, frequency, phase=0.0, *, at=None)")]
-    fn harmonic(amplitude: f64, frequency: f64, phase: f64, at: Place) -> PyResult<Self> {
-        load(sg::Load::harmonic(amplitude, frequency, phase), at)
+    #[pyo3(signature = (amplitude, frequency, phase=0.0, *, at=Place::Only, direction=None),
+           text_signature = "(amplitude, frequency, phase=0.0, *, at=None, direction=None)")]
+    fn harmonic(amplitude: f64, frequency: f64, phase: f64, at: Place, direction: Option<Direction>) -> PyResult<Self> {
+        load(sg::Load::harmonic(amplitude, frequency, phase), at, direction)
     }
 
     /// A blow of ``impulse`` (N s) at ``time`` (s).
@@ -109,6 +170,8 @@ impl Load {
     ///     s.
     /// at : place, optional
     ///     As in `Wall.upper`.
+    /// direction : float, optional
+    ///     Degrees from +y towards +z, of a load in two planes.
     ///
     /// Returns
     /// -------
@@ -125,9 +188,99 @@ impl Load {
     /// >>> sg.Load.impulse(0.5, 0.2)
     /// Load.impulse(0.5, 0.2)
     #[staticmethod]
-    #[pyo3(signature = (impulse, time=0.0, *, at=Place::Only), text_signature = "(impulse, time=0.0, *, at=None)")]
-    fn impulse(impulse: f64, time: f64, at: Place) -> PyResult<Self> {
-        load(sg::Load::impulse(impulse, time), at)
+    #[pyo3(signature = (impulse, time=0.0, *, at=Place::Only, direction=None),
+           text_signature = "(impulse, time=0.0, *, at=None, direction=None)")]
+    fn impulse(impulse: f64, time: f64, at: Place, direction: Option<Direction>) -> PyResult<Self> {
+        load(sg::Load::impulse(impulse, time), at, direction)
+    }
+
+    /// A random force of a case, with the phases that follow from a seed.
+    ///
+    /// Parameters
+    /// ----------
+    /// rms : float, optional
+    ///     N; its density is even over the band.
+    /// band : pair of float, optional
+    ///     Hz: from and to, beside ``rms``.
+    /// psd : sequence of pairs of float, optional
+    ///     The one-sided density in place of these: Hz and N²/Hz, straight between in logarithms.
+    /// seed : int
+    ///     0 or more.
+    /// at : place, optional
+    ///     As in `Wall.upper`.
+    /// direction : float or str, optional
+    ///     Degrees from +y towards +z, or ``"both"``: independent signals along y and z.
+    ///
+    /// Returns
+    /// -------
+    /// Load
+    ///
+    /// Raises
+    /// ------
+    /// TypeError
+    ///     For values of other types; `tube` and `case` check the numbers.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> sg.Load.random(rms=3.0, band=(1.0, 100.0), at=0.5, direction="both")
+    /// Load.random({"rms":3.0,"from":1.0,"to":100.0,"seed":0}, at=0.5)
+    #[staticmethod]
+    #[pyo3(signature = (*, rms=None, band=None, psd=None, seed=0, at=Place::Only, direction=None),
+           text_signature = "(*, rms=None, band=None, psd=None, seed=0, at=None, direction=None)")]
+    fn random(
+        rms: Option<f64>,
+        band: Option<(f64, f64)>,
+        psd: Option<Vec<(f64, f64)>>,
+        seed: u64,
+        at: Place,
+        direction: Option<Direction>,
+    ) -> Self {
+        let (from, to) = band.unzip();
+        let values = given(json!({ "rms": rms, "from": from, "to": to, "psd": psd, "seed": seed }));
+        Self { force: Force::OfCase { kind: "random".to_owned(), values }, place: at, direction }
+    }
+
+    /// An acceleration of the base of a case, from a CSV file.
+    ///
+    /// Parameters
+    /// ----------
+    /// file : path
+    ///     The file, with a column of times in s and one of accelerations.
+    /// time, acceleration : str, optional
+    ///     The headers of these columns, ``time_s`` and ``acceleration_m_per_s2``.
+    /// scale : float, optional
+    ///     How many m/s² one unit of the column is.
+    /// direction : float, optional
+    ///     Degrees from +y towards +z, in two planes.
+    ///
+    /// Returns
+    /// -------
+    /// Load
+    ///
+    /// Raises
+    /// ------
+    /// TypeError
+    ///     For values of other types; `tube` and `case` read the file.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> sg.Load.base("quake.csv", scale=9.80665)
+    /// Load.base({"file":"quake.csv","scale":9.80665})
+    #[staticmethod]
+    #[pyo3(signature = (file, *, time=None, acceleration=None, scale=None, direction=None))]
+    fn base(
+        file: PathBuf,
+        time: Option<&str>,
+        acceleration: Option<&str>,
+        scale: Option<f64>,
+        direction: Option<Direction>,
+    ) -> Self {
+        let values = given(json!({
+            "file": file.display().to_string(), "time": time, "acceleration": acceleration, "scale": scale,
+        }));
+        Self { force: Force::OfCase { kind: "base".to_owned(), values }, place: Place::Only, direction }
     }
 
     /// A force (N) at increasing times (s): linear between them, zero outside.
@@ -159,7 +312,7 @@ impl Load {
     #[staticmethod]
     #[pyo3(signature = (time, force, *, at=Place::Only), text_signature = "(time, force, *, at=None)")]
     fn table(time: Vec<f64>, force: Vec<f64>, at: Place) -> PyResult<Self> {
-        load(sg::Load::table(sg::Table::new(time, force).map_err(raise)?), at)
+        load(sg::Load::table(sg::Table::new(time, force).map_err(raise)?), at, None)
     }
 
     /// The force that a function of the time returns.
@@ -206,12 +359,16 @@ impl Load {
         let call =
             move |t: f64| Python::attach(|py| force.bind(py).call1((t,)).and_then(|value| value.extract::<f64>()));
         let at_time = move |t: f64| called_in_run(|| call(t)).unwrap_or(f64::NAN);
-        load(sg::Load::function(at_time), at)
+        load(sg::Load::function(at_time), at, None)
     }
 
     fn __repr__(&self) -> String {
         let at = self.place.argument();
-        match &self.load.kind {
+        let load = match &self.force {
+            Force::Known(load) => load,
+            Force::OfCase { kind, values } => return format!("Load.{kind}({values}{at})"),
+        };
+        match &load.kind {
             sg::LoadKind::Constant { force } => format!("Load.constant({force:?}{at})"),
             sg::LoadKind::Harmonic { amplitude, frequency, phase } => {
                 format!("Load.harmonic({amplitude:?}, {frequency:?}, {phase:?}{at})")
@@ -223,6 +380,38 @@ impl Load {
             }
             _ => format!("Load.function(<a Python function>{at})"),
         }
+    }
+
+    /// The load as a table of a case file, on a beam.
+    fn _table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (kind, values) = match &self.force {
+            Force::OfCase { kind, values } => (kind.as_str(), values.clone()),
+            Force::Known(load) => match &load.kind {
+                sg::LoadKind::Constant { force } => ("constant", json!({ "force": force }).to_string()),
+                sg::LoadKind::Harmonic { amplitude, frequency, phase } => {
+                    let values = json!({ "amplitude": amplitude, "frequency": frequency, "phase": phase });
+                    ("harmonic", values.to_string())
+                }
+                sg::LoadKind::Impulse { impulse, time } => {
+                    ("impulse", json!({ "impulse": impulse, "time": time }).to_string())
+                }
+                _ => {
+                    let expected = "a load that a case file describes: constant, harmonic, impulse, random or base";
+                    return Err(wrong("load", self.__repr__(), expected));
+                }
+            },
+        };
+        let table = PyDict::new(py);
+        table.set_item(kind, loads(py, &values)?)?;
+        if let Some(at) = self.place.table() {
+            table.set_item("at", loads(py, &at.to_string())?)?;
+        }
+        match &self.direction {
+            Some(Direction::Degrees(degrees)) => table.set_item("direction", degrees)?,
+            Some(Direction::Word(word)) => table.set_item("direction", word)?,
+            None => {}
+        }
+        Ok(table.into_any())
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, State<'py>>> {

@@ -3,6 +3,7 @@
 use crate::error::wrong;
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 use signorini as sg;
 
 /// A location as given; its meaning depends on the structure.
@@ -106,6 +107,18 @@ impl Place {
             Self::Point(name) => format!("{name:?}"),
             Self::Row(entries) => format!("{entries:?}"),
             Self::Points(points) => format!("{points:?}"),
+        }
+    }
+
+    /// The place as the value of `at` in a case file; `None` where it is not given.
+    pub fn table(&self) -> Option<Value> {
+        match self {
+            Self::Only => None,
+            Self::Number(x) => Some(json!({ "position": x })),
+            Self::Stretch(from, to) => Some(json!({ "spread": [from, to] })),
+            Self::Point(name) => Some(json!({ "point": name })),
+            Self::Row(entries) => Some(json!({ "row": entries })),
+            Self::Points(points) => Some(json!({ "points": points })),
         }
     }
 

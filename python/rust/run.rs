@@ -259,10 +259,11 @@ impl Run {
         Ok((view(slf, y), view(slf, z)))
     }
 
-    /// The names of the supports: flats and round ones.
+    /// The statistics of each support in two planes, flats and round ones, over the window, by its
+    /// name: a mapping to `SupportStatistics`, empty in one plane.
     #[getter]
-    fn supports(&self) -> Vec<String> {
-        self.run.trajectory.supports().to_vec()
+    fn supports<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::by_python(slf, "supports")
     }
 
     /// Work of wear at a support from the start to each row, J; shape (rows,). Without friction it
@@ -353,9 +354,8 @@ impl Run {
         Self::by_python(slf, "statistics")
     }
 
-    /// Wear statistics of each support in two planes over the window, by its name, with the keys of
-    /// ``summary.json``: ``work_rate_w``, ``impact_share``, ``sliding_m``, ``friction_power_w``,
-    /// ``sectors`` and more; empty in one plane.
+    /// The wear in service at each support, by its name: a mapping to `Wear`, with an entry for
+    /// each support for which the case has a wear coefficient.
     #[getter]
     fn wear<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::by_python(slf, "wear")
@@ -480,6 +480,18 @@ impl Run {
             dict.set_item("accuracy", loads(py, accuracy)?)?;
         }
         Ok(dict)
+    }
+
+    /// Contact and wear statistics of each support, and the wear by its work rate.
+    fn _supports<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (statistics, laws) = (&self.run.statistics, &self.scene.get().laws);
+        let known = statistics.wear.iter().zip(&statistics.supports).map(|(wear, contact)| {
+            let law = laws.iter().find(|(name, _)| *name == wear.support);
+            let worn = law.map(|(_, law)| law.worn(wear.work_rate_w));
+            let window = statistics.to_s - statistics.from_s;
+            serde_json::json!({ "wear": wear, "contact": contact, "worn": worn, "window_s": window })
+        });
+        loads(py, &serde_json::Value::from(known.collect::<Vec<_>>()).to_string())
     }
 
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {

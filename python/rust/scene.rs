@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde::{Deserialize, Serialize};
 use signorini as sg;
+use signorini::wear::Archard;
 use std::mem;
 
 /// M q̈ + C q̇ + K q = f(t) + Gᵀ r(t), bounded by walls, over a duration. Scenes are made by
@@ -28,11 +29,13 @@ pub struct Scene {
     pub model: Model,
     /// The scene from which it was made, where that differs.
     pub origin: Option<Box<Origin>>,
+    /// The laws of wear of its supports, by their names.
+    pub laws: Vec<(String, Archard)>,
 }
 
 impl Scene {
     pub fn new(scene: sg::Scene, model: Model) -> Self {
-        Self { scene, model, origin: None }
+        Self { scene, model, origin: None, laws: Vec::new() }
     }
 }
 
@@ -125,8 +128,10 @@ impl Scene {
             }
         }
         if let Some(loads) = loads {
-            let act = |(i, Load { load, place }): (usize, Load)| {
-                let at = self.model.row(&format!("load {}", i + 1), &place, n)?;
+            let act = |(i, load): (usize, Load)| {
+                let owner = format!("load {}", i + 1);
+                let (load, place) = load.in_one_plane(&owner)?;
+                let at = self.model.row(&owner, &place, n)?;
                 Ok(sg::Load { at, ..load })
             };
             scene.loads = loads.into_iter().enumerate().map(act).collect::<PyResult<_>>()?;
@@ -159,7 +164,8 @@ impl Scene {
             compute_apart(py, move || origin.built())?
         };
         let same = origin.damping.is_none() && origin.modes.is_none() && built.initial.q.len() == n;
-        Ok(Self { scene: built, model: self.model.clone(), origin: (!same).then(|| Box::new(origin)) })
+        let (model, laws) = (self.model.clone(), self.laws.clone());
+        Ok(Self { scene: built, model, origin: (!same).then(|| Box::new(origin)), laws })
     }
 
     /// Runs the scene to its end.
@@ -238,7 +244,7 @@ impl Scene {
     /// The loads.
     #[getter]
     fn loads<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.given().loads.iter().map(|load| Load { load: load.clone(), place: self.place(&load.at) }))
+        PyTuple::new(py, self.given().loads.iter().map(|load| Load::of_scene(load.clone(), self.place(&load.at))))
     }
 
     /// The names of the probes; an oscillator has one without a name.

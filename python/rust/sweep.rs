@@ -1,5 +1,7 @@
 //! Many runs side by side: a row of numbers for each; motions are not kept.
 
+use crate::case::{Case, value};
+use crate::error::raise;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::work::{compute_beside, kept};
@@ -8,7 +10,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use signorini as sg;
 use signorini::WallStatistics;
+use signorini::case::KeyValue;
 use signorini::parallel::{Take, on_threads};
+use signorini::sweep::{Axis, Finished, Manner, Shard, Sweep, Values};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A number of a wall; nan where there is none.
@@ -43,8 +48,9 @@ pub fn _unit(key: &str) -> Option<&'static str> {
     key.parse::<sg::case::Key>().ok().and_then(|key| key.unit())
 }
 
-/// A row of numbers for each scene, and the reason where there is none.
-type Rows<'py> = (Bound<'py, PyArray2<f64>>, Vec<Option<String>>);
+/// A row of numbers for each scene, the reason where there is none, and the first note that limits
+/// its use.
+type Rows<'py> = (Bound<'py, PyArray2<f64>>, Vec<Option<String>>, Vec<Option<String>>);
 
 /// Runs scenes on threads without the interpreter's lock.
 #[pyfunction]
@@ -78,7 +84,7 @@ pub fn _run_many<'py>(
         })
         .collect::<PyResult<Vec<_>>>()?;
     let mut table = vec![f64::NAN; width * scenes.len()];
-    let mut errors = vec![None; scenes.len()];
+    let (mut errors, mut notes) = (vec![None; scenes.len()], vec![None; scenes.len()]);
     let finished = AtomicUsize::new(0);
     let work = |index: u64, send: &mut Take<'_, (usize, Numbers)>| {
         let index = index as usize;
@@ -96,7 +102,10 @@ pub fn _run_many<'py>(
     let mut receive = |row: Option<(usize, Numbers)>| {
         if let Some((index, outcome)) = row {
             match outcome {
-                Ok(row) => table[width * index..width * (index + 1)].copy_from_slice(&row),
+                Ok((row, note)) => {
+                    table[width * index..width * (index + 1)].copy_from_slice(&row);
+                    notes[index] = note;
+                }
                 Err(reason) => errors[index] = Some(reason),
             }
             finished.fetch_add(1, Ordering::Relaxed);
@@ -108,19 +117,76 @@ pub fn _run_many<'py>(
         None => Ok(()),
     };
     compute_beside(py, || on_threads(scenes.len() as u64, threads, &work, &mut receive), &mut watch)?;
-    Ok((PyArray1::from_vec(py, table).reshape([scenes.len(), width])?, errors))
+    Ok((PyArray1::from_vec(py, table).reshape([scenes.len(), width])?, errors, notes))
 }
 
-/// The numbers of a run, or the reason why there are none.
-type Numbers = Result<Vec<f64>, String>;
+/// The numbers of a run and its first note, or the reason why there are none.
+type Numbers = Result<Noted, String>;
+
+/// The numbers of a run, and the first note that limits their use.
+type Noted = (Vec<f64>, Option<String>);
 
 /// The numbers of one run.
-fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Vec<f64>> {
+fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Noted> {
     let options = sg::Options::new(plan.time);
-    let statistics = if judge {
-        sg::run(scene, &plan.method, &options)?.unrefuted()?.statistics
+    let (statistics, cautions) = if judge {
+        let run = sg::run(scene, &plan.method, &options)?.unrefuted()?;
+        (run.statistics, run.cautions)
     } else {
-        sg::run(scene, &plan.method, &options.unjudged())?.statistics
+        let run = sg::run(scene, &plan.method, &options.unjudged())?;
+        (run.statistics, run.cautions)
     };
-    Ok(statistics.walls.iter().flat_map(|wall| COLUMNS.map(|(_, number)| number(wall))).collect())
+    let numbers = statistics.walls.iter().flat_map(|wall| COLUMNS.map(|(_, number)| number(wall))).collect();
+    Ok((numbers, cautions.into_iter().next()))
+}
+
+/// Notes before the rows run, the number of rows, how many failed, and the first of these.
+type Told = (Vec<String>, u64, u64, Option<String>);
+
+/// Varies the keys of a case over a grid, or one at a time between two bounds, and writes the
+/// tables into `folder`.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
+pub fn _sweep(
+    py: Python<'_>,
+    case: &Case,
+    axes: Vec<(String, Vec<Bound<'_, PyAny>>)>,
+    one_at_a_time: bool,
+    scheme: Option<&str>,
+    measures: Vec<String>,
+    seeds: Option<u64>,
+    threads: Option<usize>,
+    folder: PathBuf,
+    progress: Py<PyAny>,
+) -> PyResult<Told> {
+    let mut sweep = Sweep::new(case.file.clone());
+    for (key, values) in axes {
+        let values = values.iter().map(|one| value(&key, one)).collect::<PyResult<Vec<_>>>()?;
+        let numbers: Option<Vec<f64>> = values.iter().map(KeyValue::number).collect();
+        let values = match numbers.as_deref() {
+            Some(&[from, to]) if one_at_a_time => Values::Range { from, to, log: false },
+            _ => Values::List(values),
+        };
+        sweep = sweep.vary(Axis::new(&key, values).map_err(raise)?);
+    }
+    if one_at_a_time {
+        sweep = sweep.one_at_a_time();
+    }
+    if let Some(scheme) = scheme {
+        sweep = sweep.by(scheme);
+    }
+    if let Some(seeds) = seeds {
+        sweep = sweep.realisations(seeds);
+    }
+    sweep = sweep.measure(measures.iter().map(|name| name.parse().map_err(raise)).collect::<PyResult<Vec<_>>>()?);
+    let (done, mut notes) = (AtomicUsize::new(0), Vec::new());
+    let work = || {
+        let plan = sweep.plan()?;
+        notes = plan.notes();
+        let manner = Manner { threads, shard: Shard::WHOLE, force: false };
+        plan.run_into(&folder, manner, &|progress| done.store(progress.done as usize, Ordering::Relaxed))
+    };
+    let mut watch = |py: Python<'_>| progress.bind(py).call1((done.load(Ordering::Relaxed),)).map(drop);
+    let Finished { rows, tables, .. } = compute_beside(py, work, &mut watch)?;
+    Ok((notes, rows, tables.bad(), tables.first_error))
 }

@@ -198,10 +198,10 @@ def test_points_that_are_all_refused_are_rows_with_their_reasons(chunk: int) -> 
     with ThreadPoolExecutor(1) as executor:
         for options in ({}, {"executor": executor, "chunk": chunk}):
             with pytest.warns(RuntimeWarning, match="4 of 5 rows failed"):
-                table = sg.sweep(make, sg.grid(mass=[1.0, -1.0, -2.0, -3.0, 0.0]), "event", **options)  # type: ignore[arg-type]
+                table = sg.sweep(make, sg.grid(mass=[1.0, -1.0, -2.0, -3.0, 0.0]), "event", **options)  # type: ignore[call-overload]
             assert [error is None for error in table["error"]] == [True, False, False, False, False]
             with pytest.warns(RuntimeWarning, match="2 of 2 rows failed"):
-                table = sg.sweep(make, sg.grid(mass=[-1.0, -2.0]), "event", **options)  # type: ignore[arg-type]
+                table = sg.sweep(make, sg.grid(mass=[-1.0, -2.0]), "event", **options)  # type: ignore[call-overload]
             assert all("mass" in error for error in table["error"])
             assert list(table["status"]) == ["failed"] * 2
 
@@ -214,6 +214,20 @@ def test_round_supports_have_the_columns_of_walls() -> None:
     for name, (short, long) in [(name, table[f"impulse_{name}_N_s"]) for name in ("plate-1", "plate-2")]:
         # The longer run begins with the shorter one.
         assert 0.0 < short < long, name
+
+
+def test_notes_that_limit_results_are_told_once_with_a_count(scene: sg.Scene) -> None:
+    # A period of the load is 5 steps of 0.04 s.
+    points = sg.grid(duration=[1.0, 2.0, -1.0])
+    with pytest.warns() as caught:
+        table = sg.sweep(lambda duration: scene.replace(duration=duration), points, "moreau-jean", step=0.04)
+    assert [warning.category for warning in caught] == [RuntimeWarning, sg.ResultWarning]
+    assert "2 of 3 runs have notes that limit the use of their results; the first: " in str(caught[1].message)
+    assert "fewer than 10 do not resolve it" in str(caught[1].message)
+    assert all(warning.filename == __file__ for warning in caught)
+    assert list(table["status"]) == ["ok", "ok", "failed"]
+    with pytest.warns(sg.ResultWarning, match="1 of 1 runs"):
+        sg.run_many([scene], "moreau-jean", step=0.04, judge=False)
 
 
 def test_nothing_to_run() -> None:

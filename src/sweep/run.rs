@@ -1,6 +1,7 @@
 //! Computes the rows on several threads, into memory, or into a folder, where an interrupted sweep
 //! can be continued.
 
+use super::effects::{effects, write_effects};
 use super::finish::write_tables;
 use super::finished::Finished;
 use super::folder::{self, State, Study};
@@ -9,6 +10,7 @@ use super::journal::{Block, JOURNAL, Journal};
 use super::plan::Plan;
 use super::row::Row;
 use super::shard::Shard;
+use super::table::EFFECTS;
 use crate::error::Result;
 use crate::output::format::Format;
 use crate::output::results::Results;
@@ -59,16 +61,23 @@ impl Plan {
     }
 
     /// Runs the sweep into `folder`: `sweep.csv`, `samples.csv` if instants are requested,
-    /// `realisations.csv` if rows have several, and `request.json`. After an interruption at any
-    /// instant, the same call continues, and ends with the same bytes, whatever the number of
-    /// threads. Finished tables are read: where one is no longer as it was written, all rows are
-    /// computed again. `progress` is called from time to time.
+    /// `realisations.csv` if rows have several, `effects.csv` if keys vary one at a time, and
+    /// `request.json`. After an interruption at any instant, the same call continues, and ends with
+    /// the same bytes, whatever the number of threads. Finished tables are read: where one is no
+    /// longer as it was written, all rows are computed again. `progress` is called from time to
+    /// time.
     ///
     /// # Errors
     /// [`Error::Io`](crate::Error::Io) for a folder with results of another request, one that
     /// another process is writing to, and if writing fails.
     pub fn run_into(&self, folder: &Path, manner: Manner, progress: &dyn Fn(Progress)) -> Result<Finished> {
-        self.run_in(folder, manner, Vec::new(), progress, &|_| ()).map(|(finished, _)| finished)
+        let (finished, mut results) = self.run_in(folder, manner, Vec::new(), progress, &|_| ())?;
+        let effects = effects(&finished.folder, &self.request())?;
+        if !effects.is_empty() && manner.shard == Shard::WHOLE && !finished.folder.join(EFFECTS).exists() {
+            write_effects(&mut results, &effects)?;
+            results.finish()?;
+        }
+        Ok(finished)
     }
 
     /// As [`Plan::run_into`]; also returns the folder, in whose place files can be added, pictures

@@ -18,6 +18,7 @@ All values are in SI units. Forces of walls are signed: a lower wall pushes up, 
 
 from ._bifurcation import Bifurcation, bifurcation
 from ._builders import SceneOptions, bar, beam, chain, matrices, modal, oscillator, support
+from ._case_sweep import SweepResult, one_at_a_time
 from ._core import (
     AccuracyWarning,
     Case,
@@ -36,17 +37,22 @@ from ._core import (
     __version__,
     load,
 )
+from ._document import case
 from ._orbit import Orbit, orbit
 from ._studies import Chart, Comparison, Stability, chart, compare, stability
+from ._supports import Estimate, SupportStatistics, Wear
 from ._sweep import Table, grid, run_many, sweep
+from ._tube import Archard, Support, flats, hole, tube
 
 __all__ = [
     "AccuracyWarning",
+    "Archard",
     "Bifurcation",
     "Case",
     "Chart",
     "Comparison",
     "DivergedError",
+    "Estimate",
     "Load",
     "NotSolvedError",
     "Orbit",
@@ -59,24 +65,33 @@ __all__ = [
     "SceneOptions",
     "Stability",
     "Stepper",
+    "Support",
+    "SupportStatistics",
+    "SweepResult",
     "Table",
     "TooManyEventsError",
     "Wall",
+    "Wear",
     "__version__",
     "bar",
     "beam",
     "bifurcation",
+    "case",
     "chain",
     "chart",
     "compare",
+    "flats",
     "grid",
+    "hole",
     "load",
     "matrices",
     "modal",
+    "one_at_a_time",
     "orbit",
     "oscillator",
     "run_many",
     "stability",
     "support",
     "sweep",
+    "tube",
 ]

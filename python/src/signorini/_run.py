@@ -8,10 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from ._supports import supports, wear
+
 if TYPE_CHECKING:
     import pandas as pd
 
     from ._core import Run
+
+__all__ = ["columns", "contacts", "html", "statistics", "summary", "supports", "to_pandas", "wear"]
 
 _NUMBERS = ("start", "end", "impulse", "peak_force", "approach_speed", "departure_speed")
 
@@ -54,7 +58,8 @@ def columns(run: Run) -> dict[str, npt.NDArray[np.float64]]:
         for plane, force, impulse in parts:
             out[f"contact_force_{word}_{plane}_N"] = force
             out[f"contact_impulse_{word}_{plane}_N_s"] = impulse
-    for name, word in zip(run.supports, _words(run.supports), strict=True):
+    supports = list(run.supports)
+    for name, word in zip(supports, _words(supports), strict=True):
         out[f"wear_work_{word}_J"] = run.wear_work(name)
     return out
 
@@ -67,11 +72,6 @@ def summary(run: Run) -> dict[str, Any]:
 def statistics(run: Run) -> dict[str, dict[str, Any]]:
     """The statistics of each wall, as `Run.statistics` says."""
     return {wall["wall"]: wall for wall in run._summary()["statistics"]["walls"]}
-
-
-def wear(run: Run) -> dict[str, dict[str, Any]]:
-    """The wear statistics of each support, as `Run.wear` says."""
-    return {support["support"]: support for support in run._summary()["statistics"]["wear"]}
 
 
 def to_pandas(run: Run) -> pd.DataFrame:

@@ -11,19 +11,21 @@ import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, as_completed
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from ._core import Scene, _columns, _run_many
+from ._case_sweep import SweepResult, sweep_case
+from ._core import Case, ResultWarning, Scene, _columns, _run_many
 from ._progress import Progress
 from ._store import Store
 
 Table = dict[str, npt.NDArray[Any]]
 """Columns of equal length, by name."""
 
-_Rows = tuple[npt.NDArray[np.float64], list[str | None]]
+# Numbers, the reasons where there are none, and the first note of each row that limits its use.
+_Rows = tuple[npt.NDArray[np.float64], list[str | None], list[str | None]]
 
 # For a task of two seconds the overhead of a scheduler is a thousandth, and a lost machine loses
 # only so much work. Where this would make few tasks, they are shorter, but still long compared with
@@ -94,6 +96,11 @@ def run_many(
     ValueError
         For a wrong request.
 
+    Warns
+    -----
+    ResultWarning
+        Once, with their number, where runs have notes that limit the use of their results.
+
     Examples
     --------
     >>> import signorini as sg
@@ -107,34 +114,78 @@ def run_many(
     names = scenes[0]._wall_names if scenes else ()
     with Progress(len(scenes), progress) as shown:
         rows = _run_many(scenes, *options, shown.tell)
+    _warn(rows[2])
     return _table(names, rows, judge)
 
 
+@overload
+def sweep(
+    make: Case,
+    points: Mapping[str, Sequence[Any]],
+    scheme: str | None = None,
+    *,
+    measures: Sequence[str],
+    seeds: int | None = None,
+    threads: int | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    progress: bool = True,
+) -> SweepResult: ...
+
+
+@overload
 def sweep(
     make: Callable[..., Scene],
     points: Iterable[Mapping[str, Any]],
     scheme: str | None = None,
     *,
     step: float | None = None,
-    statistics_from: float = 0.0,
-    judge: bool = True,
+    statistics_from: float | None = None,
+    judge: bool | None = None,
     threads: int | None = None,
     executor: Any = None,
     chunk: int | None = None,
     folder: str | os.PathLike[str] | None = None,
     progress: bool = True,
-) -> Table:
-    """Run ``make(**point)`` for every point. The table is the same to the last bit wherever it is run.
+) -> Table: ...
+
+
+def sweep(
+    make: Callable[..., Scene] | Case,
+    points: Any,
+    scheme: str | None = None,
+    *,
+    measures: Sequence[str] | None = None,
+    seeds: int | None = None,
+    step: float | None = None,
+    statistics_from: float | None = None,
+    judge: bool | None = None,
+    threads: int | None = None,
+    executor: Any = None,
+    chunk: int | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    progress: bool = True,
+) -> Table | SweepResult:
+    """Run ``make(**point)`` for every point, or a case for every combination of values of its keys.
+
+    The table is the same to the last bit wherever it is run. That of a case is the one that
+    ``signorini sweep`` writes.
 
     Parameters
     ----------
-    make : callable
+    make : callable or Case
         Returns the Scene of a point. For an executor of other processes it has to be pickled: a
         function of a module (Dask also takes one of a notebook).
-    points : iterable of mapping
-        All with the same names; `grid` makes them.
-    scheme, step, statistics_from, judge
+    points : iterable of mapping, or mapping of str to sequence
+        All with the same names; `grid` makes them. Of a case: the values of each key of the case
+        format, ``{"support.*.gap": [1e-4, 2e-4]}``; the last key varies fastest.
+    scheme
         As in `run_many`.
+    measures : sequence of str
+        Of a case: names of measures, as ``signorini sweep --measure``.
+    seeds : int, optional
+        Of a case: realisations of its random loads under which each row is run, 2 or more.
+    step, statistics_from, judge
+        As in `run_many`; a case has its own step and window, and is judged.
     threads : int, optional
         Threads of this process: all cores; with an executor, threads of each of its tasks: one.
     executor : concurrent.futures.Executor, optional
@@ -150,8 +201,8 @@ def sweep(
 
     Returns
     -------
-    dict of str to numpy.ndarray of shape (points,)
-        The columns of the points, then those of `run_many`. A point whose scene is refused, or whose
+    dict of str to numpy.ndarray of shape (points,), or SweepResult
+        The columns of the points, then those of `run_many`; of a case, a `SweepResult`. A point whose scene is refused, or whose
         run fails, is a row with the reason in ``error``; a warning says how many.
 
     Raises
@@ -160,6 +211,13 @@ def sweep(
         For a wrong request.
     Exception
         Whatever ``make`` raises besides ValueError.
+
+    Warns
+    -----
+    ResultWarning
+        Once, with their number, where runs have notes that limit the use of their results.
+    RuntimeWarning
+        Where rows failed, with their number and the first reason.
 
     Examples
     --------
@@ -171,6 +229,17 @@ def sweep(
     >>> table["gap"], table["contacts_stop-upper"] > 0
     (array([0.002, 0.004, 0.006]), array([ True,  True,  True]))
     """
+    if isinstance(make, Case):
+        own = {"step": step, "statistics_from": statistics_from, "judge": judge, "executor": executor, "chunk": chunk}
+        _refuse(own, "no such argument beside a case: its keys time.step and time.statistics_from say it")
+        if not isinstance(points, Mapping):
+            raise ValueError(f"points is {points!r}; expected a mapping of keys to values beside a case")
+        return sweep_case(
+            make, points, scheme, measures=measures or (), seeds=seeds, one_at_a_time=False, threads=threads,
+            folder=None if folder is None else Path(folder), progress=progress,
+        )  # fmt: skip
+    _refuse({"measures": measures, "seeds": seeds}, "a case in place of a function beside it")
+    statistics_from, judge = statistics_from or 0.0, judge is not False
     points = [dict(point) for point in points]
     names = list(points[0]) if points else []
     for i, point in enumerate(points):
@@ -180,13 +249,15 @@ def sweep(
     walls = _first_walls(make, points)
     width = len(_columns(walls))
     values, errors = np.full((len(points), width), np.nan), list[str | None]([None] * len(points))
+    notes: list[str | None] = []
     store = Store(folder, make, points, options, width)
     missing = store.missing(values, errors)
 
     def take(indices: Sequence[int], rows: _Rows) -> None:
         for row, index in enumerate(indices):
             values[index], errors[index] = rows[0][row], rows[1][row]
-        store.add(indices, rows)
+        notes.extend(rows[2])
+        store.add(indices, rows[:2])
 
     with Progress(len(points), progress, len(points) - len(missing)) as shown:
         if not missing:
@@ -201,12 +272,27 @@ def sweep(
             size = chunk or _size(make, points, missing, walls, options)
             _send(executor, make, points, _pieces(missing, size), walls, options, take, shown)
     table: Table = {name: np.array([point[name] for point in points]) for name in names}
-    table |= _table(walls, (values, errors), judge)
+    table |= _table(walls, (values, errors, notes), judge)
     failed = [text for text in errors if text is not None]
     if failed:
         text = f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}"
         warnings.warn(text, RuntimeWarning, stacklevel=2)
+    _warn(notes)
     return table
+
+
+def _warn(notes: Sequence[str | None]) -> None:
+    """One warning of a study for the notes of its runs."""
+    found = [note for note in notes if note is not None]
+    if found:
+        text = f"{len(found)} of {len(notes)} runs have notes that limit the use of their results; the first: {found[0]}"
+        warnings.warn(text, ResultWarning, stacklevel=3)
+
+
+def _refuse(arguments: Mapping[str, Any], expected: str) -> None:
+    for name, value in arguments.items():
+        if value is not None:
+            raise ValueError(f"{name} is {value!r}; expected {expected}")
 
 
 _Options = tuple[str | None, float | None, float, bool, int]
@@ -221,7 +307,7 @@ def _options(
 
 
 def _table(walls: Sequence[str], rows: _Rows, judge: bool) -> Table:
-    values, errors = rows
+    values, errors, _ = rows
     table: Table = {name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(_columns(list(walls)))}
     good = "ok" if judge else "unjudged"
     table["status"] = np.array([good if text is None else "failed" for text in errors], object)
@@ -252,6 +338,7 @@ def _task(
     """The rows of some points; executors run this function."""
     values = np.full((len(points), len(_columns(list(walls)))), np.nan)
     errors: list[str | None] = [None] * len(points)
+    notes: list[str | None] = [None] * len(points)
     scenes, rows = [], []
     for row, point in enumerate(points):
         try:
@@ -266,12 +353,12 @@ def _task(
         else:
             errors[row] = f"walls are {', '.join(names)}; expected {', '.join(walls)}, as at the first point"
     if not scenes:
-        return values, errors
-    made, failed = _run_many(scenes, *options, tell)
+        return values, errors, notes
+    made, failed, noted = _run_many(scenes, *options, tell)
     values[rows] = made
-    for row, text in zip(rows, failed, strict=True):
-        errors[row] = text
-    return values, errors
+    for row, text, note in zip(rows, failed, noted, strict=True):
+        errors[row], notes[row] = text, note
+    return values, errors, notes
 
 
 def _pieces(indices: Sequence[int], size: int) -> list[Sequence[int]]:

@@ -1,0 +1,124 @@
+"""Statistics of the supports of a run, and the wear there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from ._core import Run
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A mean over time, with its 95 % interval.
+
+    ``half_width`` is None where the run is too short to tell; ``kind`` says what the interval is
+    made of: ``"batches"`` are ten equal parts of the window.
+    """
+
+    value: float
+    half_width: float | None
+    kind: Literal["batches"] | None
+
+    def __str__(self) -> str:
+        return f"{self.value:.4g}" if self.half_width is None else f"{self.value:.4g} ± {self.half_width:.2g}"
+
+
+@dataclass(frozen=True, eq=False)
+class SupportStatistics:
+    """What one support did over the window of the statistics.
+
+    ``work_rate`` is the work of wear ∫ F_n |v_t| dt per time, W, an upper figure where
+    ``upper_figure`` is True (without friction); ``impact_share`` the share of it that impacts did.
+    ``force_mean`` and ``force_rms`` are of the normal force and of the force vector, N,
+    ``force_largest`` the largest normal force of an elastic support, N. ``sliding_rate`` is the
+    distance slid in contact per time, m/s, ``sliding_speed`` the mean speed while in contact, m/s,
+    ``friction_power`` what friction takes out of the motion, W, and ``contact_time_ratio`` the share
+    of the time in contact. ``sectors`` is an array with the fields ``from_deg``, ``to_deg``,
+    ``work_rate`` (W) and ``impulse_share``. None stands where there is no value.
+    """
+
+    name: str
+    contacts: int
+    friction: float
+    upper_figure: bool
+    work_rate: Estimate
+    impact_share: float | None
+    force_mean: Estimate | None
+    force_rms: Estimate | None
+    force_largest: float | None
+    sliding_rate: float
+    sliding_speed: float | None
+    friction_power: float
+    contact_time_ratio: float
+    sectors: npt.NDArray[np.void]
+
+
+@dataclass(frozen=True)
+class Wear:
+    """The wear in service at one support, by Archard's law; None where there is no value.
+
+    Volumes are in m³: ``volume`` worn off the tube, ``support_volume`` off the support. Depths on
+    the tube are in m: ``depth_scar`` where all of it comes off one scar, ``depth_even`` where it
+    comes off evenly all round.
+    """
+
+    name: str
+    volume: float | None
+    support_volume: float | None
+    depth_scar: float | None
+    depth_even: float | None
+
+
+def _estimate(value: float, half_width: float | None) -> Estimate:
+    return Estimate(value, half_width, None if half_width is None else "batches")
+
+
+def _statistics(known: dict[str, Any]) -> SupportStatistics:
+    wear, contact = known["wear"], known["contact"]
+    force = contact["force"]
+    fields = [("from_deg", "f8"), ("to_deg", "f8"), ("work_rate", "f8"), ("impulse_share", "f8")]
+    keys = ("from_deg", "to_deg", "work_rate_w", "impulse_share")
+    sectors = np.array([tuple(sector[key] for key in keys) for sector in wear["sectors"]], fields)
+    sectors.flags.writeable = False
+    return SupportStatistics(
+        name=wear["support"],
+        contacts=contact["contacts"],
+        friction=wear["friction"],
+        upper_figure=wear["upper_figure"],
+        work_rate=_estimate(wear["work_rate_w"], wear["work_rate_half_width_95_w"]),
+        impact_share=wear["impact_share"],
+        force_mean=force and _estimate(force["mean_n"], force["mean_half_width_95_n"]),
+        force_rms=force and _estimate(force["rms_n"], force["rms_half_width_95_n"]),
+        force_largest=contact["episode_peak_force_n"]["max"],
+        sliding_rate=wear["sliding_m"] / known["window_s"],
+        sliding_speed=wear["sliding_speed_m_per_s"],
+        friction_power=wear["friction_power_w"],
+        contact_time_ratio=wear["contact_time_ratio"],
+        sectors=sectors,
+    )
+
+
+def supports(run: Run) -> Mapping[str, SupportStatistics]:
+    """The statistics of each support, as `Run.supports` says."""
+    known = run._supports()
+    return MappingProxyType({one["wear"]["support"]: _statistics(one) for one in known})
+
+
+def wear(run: Run) -> Mapping[str, Wear]:
+    """The wear in service at each support, as `Run.wear` says."""
+    worn = {one["wear"]["support"]: one["worn"] for one in run._supports() if one["worn"] is not None}
+    return MappingProxyType(
+        {
+            name: Wear(
+                name, w["volume_m3"], w["support_volume_m3"], w["depth_one_scar_m"], w["depth_all_round_m"]
+            )
+            for name, w in worn.items()
+        }
+    )

@@ -1,0 +1,298 @@
+"""A tube in two planes, its loose supports, and the law of their wear."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from ._core import Case, Load
+from ._document import case
+from ._types import Place
+from ._types import Support as End
+
+SECONDS_PER_YEAR = 365.25 * 86400.0
+
+
+@dataclass(frozen=True)
+class Support:
+    """A loose support in two planes: see `hole` and `flats`."""
+
+    name: str
+    values: Mapping[str, Any] = field(repr=False)
+
+    def _table(self) -> dict[str, Any]:
+        return {"name": self.name, **self.values}
+
+
+Joint = Mapping[str, int]
+
+
+def _at(at: Place | Joint) -> Any:
+    """A place as a table of a case file."""
+    return {"position": at} if isinstance(at, (int, float)) else at
+
+
+def hole(
+    name: str,
+    gap: float,
+    *,
+    at: float | Joint | None = None,
+    centre: Sequence[float] | None = None,
+    restitution: float | None = None,
+    stiffness: float | None = None,
+    damping: float | None = None,
+    friction: float | None = None,
+    width: float | None = None,
+    coefficient: float | None = None,
+    support_coefficient: float | None = None,
+) -> Support:
+    """A round hole around a place, as in the plates of a steam generator.
+
+    Parameters
+    ----------
+    name : str
+        Letters, digits, ``-`` and ``_``.
+    gap : float
+        Radius of the hole less that of the tube, m; above 0.
+    at : float or mapping, optional
+        The place: m from the left end of a tube, or a place of the case format such as
+        ``{"joint": 1}`` (the end of the first span) or ``{"dof": 0}``.
+    centre : pair of float, optional
+        Along y and z, m; 0 unless given.
+    restitution : float, optional
+        Of a rigid hole, 0 to 1; the default is 1.
+    stiffness, damping : float, optional
+        N/m and N s/m of an elastic hole.
+    friction : float, optional
+        Coefficient of Coulomb friction; none unless given.
+    width : float, optional
+        Along the tube, m, for the depth of wear.
+    coefficient, support_coefficient : float, optional
+        Wear coefficients of tube and support here, 1/Pa, in place of those of `Archard`.
+
+    Returns
+    -------
+    Support
+        For the ``supports`` of `tube`, or the list ``support`` of `case`, which check it.
+
+    Raises
+    ------
+    TypeError
+        For arguments that do not exist.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> sg.hole("plate-1", 2e-4, at=1.0, restitution=0.5, friction=0.2, width=25e-3)
+    Support(name='plate-1')
+    """
+    values = {
+        "at": _at(at), "shape": "round", "gap": gap, "centre": centre, "restitution": restitution,
+        "stiffness": stiffness, "damping": damping, "friction": friction, "width": width,
+        "coefficient": coefficient, "support_coefficient": support_coefficient,
+    }  # fmt: skip
+    return Support(name, values)
+
+
+def flats(
+    name: str,
+    gap: float | Sequence[float],
+    directions: Sequence[float] | None = None,
+    *,
+    sides: int | None = None,
+    turn: float | None = None,
+    at: float | Joint | None = None,
+    centre: Sequence[float] | None = None,
+    restitution: float | None = None,
+    stiffness: float | None = None,
+    damping: float | None = None,
+    friction: float | None = None,
+    width: float | None = None,
+    coefficient: float | None = None,
+    support_coefficient: float | None = None,
+) -> Support:
+    """Flats around a place, as the bars of a lattice.
+
+    Parameters
+    ----------
+    name : str
+        Letters, digits, ``-`` and ``_``; its walls are ``name-flat-1`` and so on.
+    gap : float or sequence of float
+        From the centre to each flat, m; 0 or more.
+    directions : sequence of float, optional
+        Where the flats stand, degrees from +y towards +z.
+    sides : int, optional
+        In place of directions: so many flats, evenly round.
+    turn : float, optional
+        Beside ``sides``: where the first flat stands, degrees.
+    at, centre, restitution, stiffness, damping, friction, width, coefficient, support_coefficient
+        As in `hole`, of each flat.
+
+    Returns
+    -------
+    Support
+        For the ``supports`` of `tube`, or the list ``support`` of `case`, which check it.
+
+    Raises
+    ------
+    TypeError
+        For arguments that do not exist.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> sg.flats("bars", 2e-4, sides=4, at=1.0, restitution=0.5)
+    Support(name='bars')
+    """
+    same = hole(
+        name, 0.0, at=at, centre=centre, restitution=restitution, stiffness=stiffness, damping=damping,
+        friction=friction, width=width, coefficient=coefficient, support_coefficient=support_coefficient,
+    )  # fmt: skip
+    own = {"shape": "flats", "gap": gap, "directions": directions, "sides": sides, "turn": turn}
+    return Support(name, {**same.values, **own})
+
+
+@dataclass(frozen=True)
+class Archard:
+    """Archard's law of wear: volume = coefficient × work rate × time in service.
+
+    Parameters
+    ----------
+    coefficient, support_coefficient : float, optional
+        Of the tube and of its supports, 1/Pa.
+    years, service : float, optional
+        The time in service: years of 365.25 days, or s.
+    limit : float, optional
+        The depth up to which the tube may wear, as a share of its wall.
+    sectors : int, optional
+        Equal parts of the circle around each support; 12 unless given.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> sg.Archard(1e-14, years=40).coefficient
+    1e-14
+    """
+
+    coefficient: float | None = None
+    support_coefficient: float | None = None
+    years: float | None = None
+    service: float | None = None
+    limit: float | None = None
+    sectors: int | None = None
+
+    def _table(self) -> dict[str, Any]:
+        if self.years is not None and self.service is not None:
+            raise ValueError(f"Archard: years is {self.years!r}, beside service; expected one of the two")
+        service = self.service if self.years is None else self.years * SECONDS_PER_YEAR
+        return {
+            "coefficient": self.coefficient,
+            "support_coefficient": self.support_coefficient,
+            "service": service,
+            "limit": self.limit,
+            "sectors": self.sectors,
+        }
+
+
+def _end(end: End) -> Any:
+    """The support of an end as a value of a case file."""
+    if isinstance(end, tuple):
+        stiffness, rotational = end
+        return {"stiffness": stiffness, "rotational": rotational}
+    return end
+
+
+def tube(
+    *,
+    length: float | None = None,
+    spans: Sequence[float] | None = None,
+    youngs_modulus: float,
+    density: float,
+    outer_diameter: float,
+    inner_diameter: float | None = None,
+    added_mass: float | None = None,
+    elements: int,
+    left: End = "pinned",
+    right: End = "pinned",
+    modes: int | None = None,
+    damping: float | Sequence[float] | None = None,
+    supports: Sequence[Support] = (),
+    loads: Sequence[Load] = (),
+    wear: Archard | None = None,
+    duration: float,
+    step: float,
+    sample: float | None = None,
+    statistics_from: float | None = None,
+    name: str = "tube",
+) -> Case:
+    """A tube in bending in two planes, in round holes and between flats, as a case.
+
+    It is the case that a file with these values describes: `Case.text` is that file.
+
+    Parameters
+    ----------
+    length : float, optional
+        m.
+    spans : sequence of float, optional
+        In place of the length: what lies between supports, m; ``at={"joint": 1}`` is the end of
+        the first.
+    youngs_modulus, density : float
+        Pa, kg/m³.
+    outer_diameter, inner_diameter : float
+        m; a rod has no inner one.
+    added_mass : float, optional
+        Mass of the fluid that moves with it, kg/m.
+    elements : int
+        Of the whole tube.
+    left, right : str or pair of float
+        ``"free"``, ``"pinned"``, ``"clamped"``, or the stiffnesses of springs, N/m and N m/rad.
+    modes : int, optional
+        How many modes of each plane are kept, the slowest.
+    damping : float or sequence of float, optional
+        Share of critical damping of every mode, or of each from the slowest on.
+    supports : sequence of Support
+        Made by `hole` and `flats`.
+    loads : sequence of Load
+        Each with a ``direction``; at positions in m.
+    wear : Archard, optional
+        Wear coefficients and the time in service.
+    duration, step : float
+        s.
+    sample : float, optional
+        Time between two recorded rows, s; every step unless given.
+    statistics_from : float, optional
+        Where the window of the statistics begins, s.
+    name : str
+        Of the case.
+
+    Returns
+    -------
+    Case
+
+    Raises
+    ------
+    ValueError
+        For the first value that makes no sense: line and key of the case, and what would be
+        accepted.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> case = sg.tube(length=3.0, youngs_modulus=2e11, density=7850.0, outer_diameter=19.05e-3,
+    ...     inner_diameter=15.75e-3, added_mass=0.565, elements=30, modes=10, damping=0.01,
+    ...     supports=[sg.hole("plate", 2e-4, at=1.0, restitution=0.5, friction=0.2)],
+    ...     loads=[sg.Load.harmonic(10.0, 25.0, at=0.5, direction=30.0)], duration=0.1, step=1e-4)
+    >>> case.scene
+    <Scene: 20 of 120 modes, 1 wall, 1 load, 0.1 s>
+    """
+    beam = {
+        "length": length, "spans": spans, "youngs_modulus": youngs_modulus, "density": density,
+        "outer_diameter": outer_diameter, "inner_diameter": inner_diameter, "added_mass": added_mass,
+        "elements": elements, "left": _end(left), "right": _end(right),
+    }  # fmt: skip
+    ratio = "ratio" if isinstance(damping, (int, float)) else "ratios"
+    system = {"planes": 2, "modes": modes, "beam": beam, "damping": None if damping is None else {ratio: damping}}
+    time = {"end": duration, "step": step, "sample": sample, "statistics_from": statistics_from}
+    lists = {"support": list(supports) or None, "load": list(loads) or None}
+    return case({"system": system, **lists, "wear": wear, "time": time}, name=name)

@@ -1,0 +1,189 @@
+"""Cases made in Python are those of case files, to the last bit."""
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import signorini as sg
+
+CASES = Path(__file__).parents[2] / "cases"
+TUBE: dict[str, Any] = {
+    "length": 3.0,
+    "youngs_modulus": 2e11,
+    "density": 7850.0,
+    "outer_diameter": 19.05e-3,
+    "inner_diameter": 15.75e-3,
+    "added_mass": 0.565,
+    "elements": 60,
+    "modes": 20,
+    "damping": 0.01,
+    "duration": 5.0,
+    "step": 5e-5,
+    "sample": 5e-4,
+    "statistics_from": 1.0,
+}
+LOADS = [sg.Load.random(rms=3.0, band=(1.0, 100.0), seed=1, at=x, direction="both") for x in (0.5, 2.3)]
+
+
+def tube(**other: Any) -> sg.Case:
+    return sg.tube(**{**TUBE, **other})
+
+
+@pytest.mark.parametrize("name", sorted(path.stem for path in CASES.glob("*.toml")))
+def test_the_mapping_of_a_file_is_its_case(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    # The files that cases name are found there.
+    monkeypatch.chdir(CASES)
+    text = (CASES / f"{name}.toml").read_text(encoding="utf-8")
+    made, read = sg.case(tomllib.loads(text), name=name), sg.load(name)
+    assert made.scene == read.scene
+    assert (made.name, made.title) == (name, read.title)
+    assert (made.step, made.sample, made.statistics_from) == (read.step, read.sample, read.statistics_from)
+    assert tomllib.loads(made.text) == tomllib.loads(text)
+
+
+def test_a_tube_in_holes_is_the_case_of_the_file() -> None:
+    plates = [
+        sg.hole("plate-1", 0.2e-3, at=1.0, restitution=0.5, friction=0.2, width=25e-3),
+        sg.hole("plate-2", 0.2e-3, at=2.0, centre=(0.1e-3, 0.0), restitution=0.5, friction=0.2, width=25e-3),
+    ]
+    wear = sg.Archard(1e-14, 1e-14, service=3.156e8)
+    made = tube(supports=plates, loads=LOADS, wear=wear, duration=0.3, statistics_from=0.1)
+    read = sg.load("tube-round-supports", set={"time.end": 0.3, "time.statistics_from": 0.1})
+    assert made.scene == read.scene
+    ours, theirs = made.run(), read.run()
+    for name, column in theirs.columns.items():
+        np.testing.assert_array_equal(ours.columns[name], column, strict=True)
+    assert ours.wear == theirs.wear and set(ours.wear) == {"plate-1", "plate-2"}
+
+
+def test_a_tube_between_flats_is_the_case_of_the_file() -> None:
+    bars = [
+        sg.flats("bars-1", 0.2e-3, sides=4, at=1.0, restitution=0.5),
+        sg.flats("bars-2", 0.2e-3, sides=4, turn=45, at=2.0, centre=(0.1e-3, 0.0), restitution=0.5),
+    ]
+    assert tube(supports=bars, loads=LOADS).scene == sg.load("tube-lattice-bars").scene
+    named = sg.flats("bars-1", [0.2e-3] * 4, [0, 90, 180, 270], at={"joint": 1}, restitution=0.5)
+    spans = tube(length=None, spans=[1.0, 1.0, 1.0], supports=[named, bars[1]], loads=LOADS)
+    assert spans.scene.walls == tube(supports=bars, loads=LOADS).scene.walls
+
+
+def test_loads_and_ends_become_what_a_file_says(tmp_path: Path) -> None:
+    quake = tmp_path / "quake.csv"
+    quake.write_text("t,a\n0,0\n0.1,1\n0.2,0\n", encoding="utf-8")
+    loads = [
+        sg.Load.constant(1.0, at=0.5, direction=30.0),
+        sg.Load.harmonic(2.0, 25.0, 0.1, at=(0.5, 1.0), direction=0.0),
+        sg.Load.impulse(0.1, 0.01, at=1.5, direction=90.0),
+        sg.Load.random(psd=[(1.0, 0.5), (40.0, 0.3)], at=0.5, direction=10.0),
+        sg.Load.base(quake, time="t", acceleration="a", scale=9.80665, direction=90.0),
+    ]
+    table = tomllib.loads(tube(left=(1e6, 10.0), right="clamped", damping=[0.01, 0.02], loads=loads, duration=1.5).text)
+    assert table["load"] == [
+        {"at": {"position": 0.5}, "direction": 30.0, "constant": {"force": 1.0}},
+        {"at": {"spread": [0.5, 1.0]}, "direction": 0.0, "harmonic": {"amplitude": 2.0, "frequency": 25.0, "phase": 0.1}},
+        {"at": {"position": 1.5}, "direction": 90.0, "impulse": {"impulse": 0.1, "time": 0.01}},
+        {"at": {"position": 0.5}, "direction": 10.0, "random": {"psd": [[1.0, 0.5], [40.0, 0.3]], "seed": 0}},
+        {"direction": 90.0, "base": {"file": str(quake), "time": "t", "acceleration": "a", "scale": 9.80665}},
+    ]
+    beam = table["system"]["beam"]
+    assert (beam["left"], beam["right"]) == ({"stiffness": 1e6, "rotational": 10.0}, "clamped")
+    assert table["system"]["damping"] == {"ratios": [0.01, 0.02]}
+
+
+def test_forty_years_are_those_of_365_and_a_quarter_days() -> None:
+    plate = sg.hole("plate", 2e-4, at=1.0)
+    text = tube(supports=[plate], wear=sg.Archard(1e-14, years=40)).text
+    assert tomllib.loads(text)["wear"] == {"coefficient": 1e-14, "service": 40 * 365.25 * 24 * 3600}
+
+
+HOLE: dict[str, Any] = {"name": "plate", "gap": 2e-4, "at": 1.0}
+
+
+@pytest.mark.parametrize(
+    "wrong, message",
+    [
+        ({"supports": [sg.hole("plate", 0.0, at=1.0)]}, "a number above 0, in m: the radius of the hole less"),
+        ({"supports": [sg.hole("plate", 2e-4)]}, "plate"),
+        ({"supports": [sg.hole("plate", 2e-4, at=4.0)]}, "4"),
+        ({"supports": [sg.hole(**HOLE, friction=11.0)]}, "0 to 10"),
+        ({"supports": [sg.hole(**HOLE, centre=(1e-4,))]}, "two numbers in m"),
+        ({"supports": [sg.hole(**HOLE), sg.hole(**HOLE)]}, "a name of its own for each support"),
+        ({"supports": [sg.hole(**HOLE, restitution=0.5, stiffness=1e6)]}, "restitution"),
+        ({"supports": [sg.flats("bars", 2e-4, at=1.0)]}, "directions"),
+        ({"supports": [sg.flats("bars", [2e-4], sides=4, at=1.0)]}, "4"),
+        ({"loads": [sg.Load.constant(1.0, at=0.5)]}, "direction"),
+        ({"loads": [sg.Load.constant(1.0, at=0.5, direction="both")]}, "both"),
+        ({"loads": [sg.Load.random(rms=3.0, at=0.5, direction="both")]}, "from"),
+        ({"loads": [sg.Load.random(rms=3.0, band=(1, 9), psd=[(1, 1), (2, 1)], at=0.5, direction=0)]}, "psd"),
+        ({"loads": [sg.Load.table([0.0, 1.0], [0.0, 1.0], at=0.5)]}, "expected a load that a case file describes"),
+        ({"loads": [sg.Load.base("nowhere.csv", direction=0.0)]}, "no such file"),
+        ({"supports": [sg.hole(**HOLE)], "wear": sg.Archard(1e-14)}, "expected service"),
+        ({"supports": [sg.hole(**HOLE)], "wear": sg.Archard(1e-14, years=1, service=1.0)}, "expected one of the two"),
+        ({"wear": sg.Archard(1e-14, years=1)}, "without a support"),
+        ({"spans": [1.0, 2.0]}, "spans"),
+        ({"step": 0.0}, "step"),
+    ],
+)
+def test_a_tube_that_makes_no_sense_is_refused(wrong: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match="expected") as refused:
+        tube(**wrong)
+    assert message in str(refused.value)
+
+
+def test_other_values_are_refused() -> None:
+    with pytest.raises(TypeError, match="title is <object .*; expected a number, a text"):
+        sg.case({"title": object()})
+    with pytest.raises(TypeError, match="expected a number of degrees"):
+        sg.Load.constant(1.0, direction=[1.0])  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="load 1: kind is random; expected a case"):
+        sg.oscillator(1.0, 0.0, 1.0, loads=[sg.Load.random(rms=1.0, band=(1.0, 2.0))])
+    with pytest.raises(ValueError, match="load 1: direction is given; expected a case"):
+        sg.oscillator(1.0, 0.0, 1.0, loads=[sg.Load.constant(1.0, direction=0.0)])
+
+
+def test_texts_survive() -> None:
+    title = 'a "quoted" title, µm, and a \\ backslash'
+    tables = {**tomllib.loads(sg.load("bouncing-ball").text), "title": title}
+    assert sg.case(tables).title == title
+
+
+def test_supports_have_statistics_with_types() -> None:
+    run = sg.load("whirl-in-a-hole").run()
+    assert list(run.supports) == ["hole"] and run.wear == {}
+    hole = run.supports["hole"]
+    # The closed form of the case; the midpoint rule on the circle is 7e-7 off.
+    assert abs(hole.work_rate.value - 1.109652491907) < 1e-6
+    assert hole.force_mean is not None and abs(hole.force_mean.value - 7.064267168) < 1e-5
+    # Pressed round the hole without a rest: it slides all the time, and of some 20 000 steps the
+    # first two count as an impact.
+    assert hole.impact_share is not None and 0.0 < hole.impact_share < 2e-4
+    assert abs(hole.contact_time_ratio - 1.0) < 1e-3
+    assert hole.sliding_speed is not None
+    assert abs(hole.work_rate.value / (hole.force_mean.value * hole.sliding_speed) - 1.0) < 1e-3
+    # The parts make the whole, but for the rounding of their sum.
+    assert abs(hole.sectors["work_rate"].sum() / hole.work_rate.value - 1.0) < 1e-12
+    assert (hole.work_rate.kind is None) == (hole.work_rate.half_width is None)
+    with pytest.raises(AttributeError):
+        hole.contacts = 0  # type: ignore[misc]
+    with pytest.raises(TypeError):
+        run.supports["hole"] = hole  # type: ignore[index]
+    assert sg.load("rigid-walls-sine", set={"time.end": 0.1}).run().supports == {}
+
+
+def test_wear_follows_work() -> None:
+    case = sg.load("tube-round-supports", set={"time.end": 1.0, "time.statistics_from": 0.2, "support.plate-1.coefficient": 2e-14})
+    run = case.run()
+    for name, coefficient in [("plate-1", 2e-14), ("plate-2", 1e-14)]:
+        # V = k W T, and the depth all round V / (2π R w) of that tube and plate.
+        volume = coefficient * run.supports[name].work_rate.value * 3.156e8
+        wear = run.wear[name]
+        assert wear.volume is not None and wear.depth_even is not None and wear.depth_scar is not None
+        assert abs(wear.volume / volume - 1.0) < 1e-12
+        assert abs(wear.depth_even / (volume / (2 * np.pi * 9.525e-3 * 25e-3)) - 1.0) < 1e-12
+        assert wear.depth_scar > wear.depth_even
+    # Another scene of the case keeps its laws of wear.
+    shorter = case.scene.replace(duration=0.5).run(step=5e-5)
+    assert set(shorter.wear) == set(run.wear)
