@@ -241,12 +241,14 @@ impl Load {
         Self { force: Force::OfCase { kind: "random".to_owned(), values }, place: at, direction }
     }
 
-    /// An acceleration of the base of a case, from a CSV file.
+    /// An acceleration of the base of a case: from a CSV file, or a sine.
     ///
     /// Parameters
     /// ----------
-    /// file : path
+    /// file : path, optional
     ///     The file, with a column of times in s and one of accelerations.
+    /// amplitude, frequency, phase : float, optional
+    ///     In place of the file: m/s², Hz and rad of a sine.
     /// time, acceleration : str, optional
     ///     The headers of these columns, ``time_s`` and ``acceleration_m_per_s2``.
     /// scale : float, optional
@@ -269,18 +271,54 @@ impl Load {
     /// >>> sg.Load.base("quake.csv", scale=9.80665)
     /// Load.base({"file":"quake.csv","scale":9.80665})
     #[staticmethod]
-    #[pyo3(signature = (file, *, time=None, acceleration=None, scale=None, direction=None))]
+    #[pyo3(signature = (file=None, *, amplitude=None, frequency=None, phase=None, time=None, acceleration=None,
+                        scale=None, direction=None))]
+    #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
     fn base(
-        file: PathBuf,
+        file: Option<PathBuf>,
+        amplitude: Option<f64>,
+        frequency: Option<f64>,
+        phase: Option<f64>,
         time: Option<&str>,
         acceleration: Option<&str>,
         scale: Option<f64>,
         direction: Option<Direction>,
     ) -> Self {
         let values = given(json!({
-            "file": file.display().to_string(), "time": time, "acceleration": acceleration, "scale": scale,
+            "file": file.map(|file| file.display().to_string()), "amplitude": amplitude, "frequency": frequency,
+            "phase": phase, "time": time, "acceleration": acceleration, "scale": scale,
         }));
         Self { force: Force::OfCase { kind: "base".to_owned(), values }, place: Place::Only, direction }
+    }
+
+    /// The weight of all masses of a case.
+    ///
+    /// Parameters
+    /// ----------
+    /// acceleration : float
+    ///     m/s²: 9.81 on Earth.
+    /// direction : float, optional
+    ///     Degrees from +y towards +z, in two planes.
+    ///
+    /// Returns
+    /// -------
+    /// Load
+    ///
+    /// Raises
+    /// ------
+    /// TypeError
+    ///     For values of other types; `tube` and `case` check the number.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> sg.Load.gravity(9.81, direction=270.0)
+    /// Load.gravity({"acceleration":9.81}, direction=270.0)
+    #[staticmethod]
+    #[pyo3(signature = (acceleration, *, direction=None))]
+    fn gravity(acceleration: f64, direction: Option<Direction>) -> Self {
+        let values = given(json!({ "acceleration": acceleration }));
+        Self { force: Force::OfCase { kind: "gravity".to_owned(), values }, place: Place::Only, direction }
     }
 
     /// A force (N) at increasing times (s): linear between them, zero outside.
@@ -396,7 +434,8 @@ impl Load {
                     ("impulse", json!({ "impulse": impulse, "time": time }).to_string())
                 }
                 _ => {
-                    let expected = "a load that a case file describes: constant, harmonic, impulse, random or base";
+                    let expected =
+                        "a load that a case file describes: constant, harmonic, impulse, random, base or gravity";
                     return Err(wrong("load", self.__repr__(), expected));
                 }
             },

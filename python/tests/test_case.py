@@ -187,3 +187,39 @@ def test_wear_follows_work() -> None:
     # Another scene of the case keeps its laws of wear.
     shorter = case.scene.replace(duration=0.5).run(step=5e-5)
     assert set(shorter.wear) == set(run.wear)
+
+
+def test_a_tube_in_a_turbulent_flow_is_the_case_of_the_file() -> None:
+    plates = [
+        sg.hole("plate-1", 0.2e-3, at={"joint": 1}, restitution=0.5, friction=0.2, width=25e-3),
+        sg.hole("plate-2", 0.2e-3, at={"joint": 2}, centre=(0.1e-3, 0.0), restitution=0.5, friction=0.2, width=25e-3),
+    ]
+    flow = sg.turbulence(
+        density=740.0,
+        velocity=[(0.0, 3.0), (1.0, 3.0), (1.2, 1.5), (3.0, 1.5)],
+        reduced=[(0.01, 0.05), (0.2, 0.0112), (3.0, 8.6e-7)],
+        band=(5.0, 150.0),
+        correlation_length=0.06,
+        seed=1,
+    )
+    made = tube(length=None, spans=[1.0] * 3, supports=plates, loads=[flow], duration=0.3, statistics_from=0.1)
+    read = sg.load("tube-in-cross-flow", set={"time.end": 0.3, "time.statistics_from": 0.1})
+    assert made.scene == read.scene
+    ours, theirs = made.run(), read.run()
+    for name, column in theirs.columns.items():
+        np.testing.assert_array_equal(ours.columns[name], column, strict=True)
+    with pytest.raises(ValueError, match="correlation_length is 0.0"):
+        tube(loads=[sg.turbulence(spectrum=[(1.0, 1.0), (2.0, 1.0)], band=(1.0, 2.0), correlation_length=0.0)])
+
+
+def test_a_shaken_tube_under_its_weight_is_the_case_of_these_keys() -> None:
+    loads = [sg.Load.base(amplitude=2.0, frequency=5.0, phase=0.1, direction=0.0), sg.Load.gravity(9.81, direction=270.0)]
+    made = tube(loads=loads, duration=0.1, statistics_from=0.0)
+    written = tomllib.loads(made.text)["load"]
+    assert written == [
+        {"base": {"amplitude": 2.0, "frequency": 5.0, "phase": 0.1}, "direction": 0.0},
+        {"gravity": {"acceleration": 9.81}, "direction": 270.0},
+    ]
+    assert made.scene == sg.case(tomllib.loads(made.text)).scene
+    with pytest.raises(ValueError, match="base has no motion"):
+        tube(loads=[sg.Load.base(direction=0.0)])

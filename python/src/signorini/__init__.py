@@ -43,6 +43,7 @@ from ._studies import Chart, Comparison, Stability, chart, compare, stability
 from ._supports import Estimate, SupportStatistics, Wear
 from ._sweep import Table, grid, run_many, sweep
 from ._tube import Archard, Support, flats, hole, tube
+from ._turbulence import Turbulence, turbulence
 
 __all__ = [
     "AccuracyWarning",
@@ -70,6 +71,7 @@ __all__ = [
     "SweepResult",
     "Table",
     "TooManyEventsError",
+    "Turbulence",
     "Wall",
     "Wear",
     "__version__",
@@ -94,4 +96,5 @@ __all__ = [
     "support",
     "sweep",
     "tube",
+    "turbulence",
 ]

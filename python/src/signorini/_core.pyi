@@ -133,13 +133,18 @@ class Load:
     ) -> Load: ...
     @staticmethod
     def base(
-        file: str | PathLike[str],
+        file: str | PathLike[str] | None = None,
         *,
+        amplitude: float | None = None,
+        frequency: float | None = None,
+        phase: float | None = None,
         time: str | None = None,
         acceleration: str | None = None,
         scale: float | None = None,
         direction: float | str | None = None,
     ) -> Load: ...
+    @staticmethod
+    def gravity(acceleration: float, *, direction: float | str | None = None) -> Load: ...
     @staticmethod
     def table(time: Sequence[float] | Array, force: Sequence[float] | Array, *, at: Place = None) -> Load: ...
     @staticmethod

@@ -9,6 +9,7 @@ from typing import Any
 from ._core import Case, Load
 from ._document import case
 from ._types import Place
+from ._turbulence import Turbulence
 from ._types import Support as End
 
 SECONDS_PER_YEAR = 365.25 * 86400.0
@@ -218,7 +219,7 @@ def tube(
     modes: int | None = None,
     damping: float | Sequence[float] | None = None,
     supports: Sequence[Support] = (),
-    loads: Sequence[Load] = (),
+    loads: Sequence[Load | Turbulence] = (),
     wear: Archard | None = None,
     duration: float,
     step: float,
@@ -253,8 +254,8 @@ def tube(
         Share of critical damping of every mode, or of each from the slowest on.
     supports : sequence of Support
         Made by `hole` and `flats`.
-    loads : sequence of Load
-        Each with a ``direction``; at positions in m.
+    loads : sequence of Load or Turbulence
+        Each with a ``direction``; at positions in m, or along the tube.
     wear : Archard, optional
         Wear coefficients and the time in service.
     duration, step : float
@@ -294,5 +295,7 @@ def tube(
     ratio = "ratio" if isinstance(damping, (int, float)) else "ratios"
     system = {"planes": 2, "modes": modes, "beam": beam, "damping": None if damping is None else {ratio: damping}}
     time = {"end": duration, "step": step, "sample": sample, "statistics_from": statistics_from}
-    lists = {"support": list(supports) or None, "load": list(loads) or None}
+    flows = [load for load in loads if isinstance(load, Turbulence)]
+    forces = [load for load in loads if not isinstance(load, Turbulence)]
+    lists = {"support": list(supports) or None, "load": forces or None, "turbulence": flows or None}
     return case({"system": system, **lists, "wear": wear, "time": time}, name=name)
