@@ -313,7 +313,7 @@ impl Load {
     /// --------
     /// >>> import signorini as sg
     /// >>> sg.Load.gravity(9.81, direction=270.0)
-    /// Load.gravity({"acceleration":9.81}, direction=270.0)
+    /// Load.gravity({"acceleration":9.81})
     #[staticmethod]
     #[pyo3(signature = (acceleration, *, direction=None))]
     fn gravity(acceleration: f64, direction: Option<Direction>) -> Self {

@@ -202,7 +202,9 @@ def test_a_tube_in_a_turbulent_flow_is_the_case_of_the_file() -> None:
         correlation_length=0.06,
         seed=1,
     )
-    made = tube(length=None, spans=[1.0] * 3, supports=plates, loads=[flow], duration=0.3, statistics_from=0.1)
+    wear = sg.Archard(1e-14, 1e-14, years=40, limit=0.4)
+    own = {"length": None, "spans": [1.0] * 3, "duration": 0.3, "statistics_from": 0.1}
+    made = tube(supports=plates, loads=[flow], wear=wear, **own)
     read = sg.load("tube-in-cross-flow", set={"time.end": 0.3, "time.statistics_from": 0.1})
     assert made.scene == read.scene
     ours, theirs = made.run(), read.run()
