@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGES = {"docs/python.md": 10, "docs/own-tube.md": 1, "README.md": 1, "python/README.md": 1}
+PAGES = {"docs/python.md": 10, "docs/own-tube.md": 1, "docs/own-paper-figure.md": 1, "README.md": 1, "python/README.md": 1}
 
 
 @pytest.mark.parametrize("page", PAGES)
@@ -26,4 +26,4 @@ def test_blocks_run_from_top_to_bottom(
     plt.close("all")
     shown = re.findall(r"savefig\(\"(.*?)\"\)", "".join(blocks))
     assert all((tmp_path / name).stat().st_size > 10_000 for name in shown)
-    assert len(shown) == {"docs/python.md": 5, "README.md": 1}.get(page, 0)
+    assert len(shown) == {"docs/python.md": 5, "docs/own-paper-figure.md": 1, "README.md": 1}.get(page, 0)

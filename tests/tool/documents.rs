@@ -72,6 +72,25 @@ fn my_own_tube_in_ten_minutes() {
     }
 }
 
+#[test]
+fn my_own_paper_figure_in_ten_minutes() {
+    let dir = tempfile::tempdir().unwrap();
+    let (files, commands, said) = follow("own-paper-figure.md", dir.path());
+    assert_eq!((files, commands), (1, 5));
+    for word in ["stop-upper", "symmetry-breaking", "generalized-alpha"] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+    for file in [
+        "out/my-paper/run/phase.svg",
+        "out/my-paper/run/contact-force.svg",
+        "bifurcation/sweep.svg",
+        "branches/beneath.csv",
+        "out/my-paper/chart/work-precision.csv",
+    ] {
+        assert!(dir.path().join(file).is_file(), "{file}");
+    }
+}
+
 /// The modes of the page are those of its matrices, so both motions have the same contacts before
 /// they can have grown apart.
 #[test]
