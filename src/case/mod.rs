@@ -18,11 +18,11 @@
 //! `value.rs` reads TOML with the position of each value, `check.rs` checks it against the keys,
 //! `build.rs` builds the case table by table, `model.rs`, `place.rs`, `planes.rs` and
 //! `direction.rs` read the structure, the locations on it and their directions, `loads.rs`,
-//! `random.rs` and `base.rs` the loads, `truncated.rs` keeps the full scene of a case reduced to
-//! modes, `wording.rs` finds the key of each value of the scene, `written.rs` keeps what the scene
-//! itself no longer shows; `case_file.rs` is the document that a case keeps, `key.rs` the path of a
-//! value, by which it is changed before it is built (`changes.rs`), `summary.rs` reads the case of
-//! a finished run (feature `case`).
+//! `random.rs`, `turbulence.rs` and `base.rs` the loads, `truncated.rs` keeps the full scene of a
+//! case reduced to modes, `wording.rs` finds the key of each value of the scene, `written.rs` keeps
+//! what the scene itself no longer shows; `case_file.rs` is the document that a case keeps,
+//! `key.rs` the path of a value, by which it is changed before it is built (`changes.rs`),
+//! `summary.rs` reads the case of a finished run (feature `case`).
 #![doc = include_str!("../../cases/README.md")]
 
 mod base;

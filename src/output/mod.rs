@@ -25,6 +25,7 @@
 //! | [`pictures`] | the figures of one or several runs |
 //! | [`stability`] | tables and maps of a stability study |
 //! | `cheapest` | the cheapest methods of a chart, and its conclusion |
+//! | [`wear_history`] | `history.csv` and `years.csv` of wear over the years, and their picture |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
 //! | [`shape`] | `shape.csv`: the displacement of the whole structure, for a drawing |
