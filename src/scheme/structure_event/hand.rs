@@ -54,6 +54,12 @@ impl StructureEvent {
             return Ok(());
         }
         let to = self.limit().min(self.time + window);
+        // A blow is given at the end of a step of exact motion, so the stretch ends before it.
+        let blown = self.blows.get(self.blow).is_some_and(|&blow| blow <= to);
+        let to = if blown { to.next_down() } else { to };
+        if to <= self.time {
+            return Ok(());
+        }
         let (scene, h) = (self.scene_from_here(to - self.time), (to - self.time) / PARTS as f64);
         let contract = Scheme::MoreauJean { theta: THETA }.contract();
         let mut grid: Box<dyn Motion> = if self.body.rounds.is_empty() {

@@ -49,6 +49,29 @@ fn a_stretch_is_handed_over_after_5000_events_or_50_where_one_was_just_before() 
 }
 
 #[test]
+fn a_stretch_ends_before_the_next_blow_which_exact_motion_gives_at_its_time() {
+    let blow = 5e-4;
+    let scene = masses(&[1.0], &[], &[])
+        .with_wall(rigid(Wall::lower("floor", -1.0), 0.5, &[(0, 1.0)]))
+        .with_load(on(Load::impulse(0.3, blow), 0));
+    let mut event = started(&scene, 1.0);
+    event.clock.count().events += 6000;
+    event.hand_over().unwrap();
+    assert_eq!(event.stretch.as_ref().unwrap().to, blow.next_down());
+    for _ in 0..PARTS {
+        event.advance(None).unwrap();
+    }
+    assert_eq!((event.time, event.v[0]), (blow.next_down(), 0.0));
+    // A step that ends at the blow has it, as everywhere in exact motion.
+    event.advance(None).unwrap();
+    assert_eq!((event.time, event.v[0]), (blow, 0.3));
+    // No stretch fits before a blow that is the next number.
+    let mut event = started(&scene, 1.0);
+    event.time = blow.next_down();
+    assert!(!is_handed(&mut event, 6000));
+}
+
+#[test]
 fn a_body_that_a_stretch_left_behind_a_wall_starts_from_the_wall_although_it_moves_away() {
     let mut event =
         started(&masses(&[1.0], &[], &[]).with_wall(rigid(Wall::lower("floor", 0.0), 0.5, &[(0, 1.0)])), 1.0);
