@@ -17,14 +17,29 @@ impl Judge {
         self.walls.see_gap(&self.noise, hole.index, (slack, self.way(step, hole)), pressure);
     }
 
+    /// Checks a rigid hole that pushes only while the body stays at it, along the middle of its path.
+    pub(super) fn hold_along(&mut self, step: &Step<'_>, hole: &Hole<'_>, did: &HolePush, askew: &mut Residual) {
+        let (pressure, start, end) = (did.impulse / self.h, hole.offset(&self.q), hole.offset(step.q));
+        self.hold_disk(step, hole, pressure);
+        if pressure != 0.0 {
+            let slack = hole.gap - start[0].hypot(start[1]);
+            self.walls.see_gap(&self.noise, hole.index, (slack, self.way(step, hole)), pressure);
+        }
+        self.along(step, (hole, did), [start[0] + end[0], start[1] + end[1]], askew);
+    }
+
     /// Checks that the hole pushes along w⁺, and notes the part of its force that is not in `askew`
     /// (N).
     pub(super) fn along_end(&self, step: &Step<'_>, hole: &Hole<'_>, did: &HolePush, askew: &mut Residual) {
+        self.along(step, (hole, did), hole.offset(step.q), askew);
+    }
+
+    /// Notes the part of a hole's force that is not along `end` in `askew` (N).
+    fn along(&self, step: &Step<'_>, (hole, did): (&Hole<'_>, &HolePush), end: [f64; 2], askew: &mut Residual) {
         let force = did.impulse.hypot(did.friction) / self.h;
         if force == 0.0 {
             return;
         }
-        let end = hole.offset(step.q);
         let distance = end[0].hypot(end[1]);
         let across = force * (did.normal[0] - end[0] / distance).hypot(did.normal[1] - end[1] / distance);
         let noise = force * self.noise.of(self.way(step, hole)) / distance + self.noise.wall_force(hole.index);

@@ -2,11 +2,16 @@
 //! velocity at its end.
 //!
 //! The jump keeps M(v − v₊) = J + Gᵀ p with J the blows at that instant and p the impulses of the
-//! walls, and the impact law 0 ≤ rebound ⟂ |p| ≥ 0 at the walls that are touched there.
+//! walls, and the impact law 0 ≤ rebound ⟂ |p| ≥ 0 at the walls that are touched there; at round
+//! walls along the normal there, with friction by Coulomb's law on the impulse and the velocity
+//! after it.
 
 use super::Judge;
 use super::complementarity::rebound;
 use super::energy::Moved;
+use super::friction::Rub;
+use super::pushes::{pushes, terms};
+use crate::scene::Hole;
 use crate::step::Step;
 
 /// A length of a step that the scheme computed with other roundings.
@@ -33,7 +38,12 @@ impl Judge {
             self.blows.hide();
             self.contract.promise.rigid.velocity = None;
             self.h = length;
-            self.see_grid(&Step { v: step.velocity_after, impulse: &over, ..*step });
+            let rubbed = self.supports.as_mut().map(|supports| supports.friction_over(step));
+            let friction = rubbed.as_deref().unwrap_or(step.friction);
+            self.see_grid(&Step { v: step.velocity_after, impulse: &over, friction, ..*step });
+            if let (Some(supports), Some(rubbed)) = (&mut self.supports, rubbed) {
+                supports.keep_part(rubbed, step, (length, h));
+            }
             (self.contract, self.h) = (own, h);
             self.blows.hide();
         }
@@ -51,6 +61,7 @@ impl Judge {
         for index in 0..self.scene.walls.len() {
             self.rebound_at_end(step, length, index);
         }
+        self.supports_at_end(step);
         self.jump_momentum(step);
         let mid: Vec<f64> = step.velocity_after.iter().zip(&self.blows.struck).map(|(v, struck)| v + struck).collect();
         let (blow, left) = (&self.blows.impulse, step.velocity_after);
@@ -64,12 +75,67 @@ impl Judge {
         self.extent.see(step.q, step.v, &self.weights, step.v.len());
     }
 
+    /// Checks the impulses of round walls and of friction at the end of a part.
+    fn supports_at_end(&mut self, step: &Step<'_>) {
+        let Some(mut supports) = self.supports.take() else { return };
+        let scene = std::sync::Arc::clone(&self.scene);
+        let after = Step { velocity_after: step.v, impulse: step.jump, ..*step };
+        for hole in scene.holes() {
+            self.rebound_at_hole(step, &hole, &mut supports);
+            let ([y, z], place) = (step.normal[hole.index], hole.index);
+            let impulse = [step.jump[place], if step.jump[place] == 0.0 { 0.0 } else { step.friction[place] }];
+            let rub = Rub { place, friction: hole.friction, impulse, tangent: [-z, y] };
+            self.rub(&after, hole.at, &rub, &mut supports.rubs);
+        }
+        let at_end = Step { friction: &supports.friction_at_end(step), ..after };
+        self.rub_flats(&at_end, &mut supports.rubs);
+        for (index, _, [push, rub]) in pushes(&scene, &at_end) {
+            let force = [push[0] + rub[0], push[1] + rub[1]];
+            if let (Some([y, z]), Some(size)) = (supports.impulse.get_mut(index), supports.size.get_mut(index)) {
+                (*y, *z) = (*y + force[0], *z + force[1]);
+                *size += force[0].hypot(force[1]);
+            }
+        }
+        self.supports = Some(supports);
+    }
+
+    /// Checks the impact law of a round wall at the end of a part.
+    fn rebound_at_hole(&mut self, step: &Step<'_>, hole: &Hole<'_>, supports: &mut super::Supports) {
+        let (place, p, end) = (hole.index, step.jump[hole.index], hole.offset(step.q));
+        let distance = end[0].hypot(end[1]);
+        let gap = hole.gap - distance;
+        if p == 0.0 && gap > self.walls.touch {
+            return;
+        }
+        let n = end.map(|x| x / distance);
+        let along = |v: [f64; 2]| n[0] * v[0] + n[1] * v[1];
+        let struck = along(hole.seen(step.velocity_after)) + along(hole.seen(&self.blows.struck));
+        let after = along(hole.seen(step.v));
+        let pressure = p / self.h;
+        self.walls.see_force(&mut self.noise, place, (pressure, pressure.abs()), true);
+        let speeds = terms(hole.at, step.velocity_after) + terms(hole.at, step.v) + terms(hole.at, &self.blows.struck);
+        let size = terms(hole.at, step.q) + hole.centre[0].abs() + hole.centre[1].abs() + hole.gap;
+        self.walls.see_gap(&self.noise, place, (gap, size), pressure);
+        let noise = self.noise.velocity(speeds, self.noise.span) + self.noise.of(size) / hole.gap * speeds;
+        let rests = step.resting.contains(&place) && supports.ends_rebounds(hole, (n, struck), self.h, noise);
+        let e = if rests || step.wedged.contains(&place) { 0.0 } else { hole.restitution };
+        let slack = -after - if struck > 0.0 { e * struck } else { struck };
+        // Rounding decides whether a wall in front of the body is touched.
+        let edge = if p == 0.0 && gap > 0.0 { f64::INFINITY } else { 0.0 };
+        self.walls.see_rebound(&self.noise, place, (slack, noise + edge), pressure);
+        if p != 0.0 {
+            let across = pressure * (step.normal[place][0] - n[0]).hypot(step.normal[place][1] - n[1]);
+            let noise = pressure * self.noise.of(size) / distance + self.noise.wall_force(place);
+            supports.askew.see(across, noise, self.noise.end, Some(place));
+        }
+    }
+
     /// Checks the impact law of a wall at the end of a part.
     fn rebound_at_end(&mut self, step: &Step<'_>, length: f64, index: usize) {
         let wall = &self.scene.walls[index];
         let row = wall.row();
         let (sign, p) = (wall.side().sign(), step.jump[index]);
-        let Some(e) = wall.law.restitution() else { return };
+        let Some(e) = wall.law.restitution().filter(|_| !wall.is_round()) else { return };
         let (gap, before, after) = (wall.gap(row.dot(step.q)), row.dot(step.velocity_after), row.dot(step.v));
         if p == 0.0 && gap > self.walls.touch {
             return;
@@ -81,12 +147,18 @@ impl Judge {
         let noise = self.noise.velocity(self.speeds(step, wall), self.noise.span);
         let terms = row.entries().iter().map(|&(i, g)| (g * step.q[i]).abs()).sum::<f64>() + wall.position().abs();
         self.walls.see_gap(&self.noise, index, (gap, terms), pressure);
-        // The rebounds end within a step if the acceleration of the part presses the body so.
+        // The rebounds end within a step if the acceleration of the part presses the body so; in
+        // two planes, of the last one of some length.
         let rests = step.resting.contains(&index) && {
-            let pressed = -sign * (before - row.dot(step.velocity_before)) + noise;
-            2.0 * e * struck.abs() * length <= SAME * (1.0 - e) * self.h * pressed
+            let change = |before: f64, after: f64| -sign * (after - before);
+            let (pressed, length) = match &self.supports {
+                Some(supports) => (supports.change_in_part(|v| row.dot(v), change), supports.part_length()),
+                None => (change(row.dot(step.velocity_before), before), length),
+            };
+            2.0 * e * struck.abs() * length <= SAME * (1.0 - e) * self.h * (pressed + noise)
         };
-        let slack = rebound(wall, if rests { 0.0 } else { e }, struck, after);
+        let e = if rests || step.wedged.contains(&index) { 0.0 } else { e };
+        let slack = rebound(wall, e, struck, after);
         // Rounding decides whether a wall in front of the body is touched.
         let edge = if p == 0.0 && gap > 0.0 { f64::INFINITY } else { 0.0 };
         self.walls.see_rebound(&self.noise, index, (slack, noise + edge), pressure);
@@ -108,6 +180,16 @@ impl Judge {
         for (wall, &p) in self.scene.walls.iter().zip(step.jump).filter(|(_, p)| **p != 0.0) {
             for &(i, weight) in wall.row().entries() {
                 s.residual[i] -= weight * p;
+            }
+        }
+        if let Some(supports) = &self.supports {
+            let at_end = Step { impulse: step.jump, friction: &supports.friction_at_end(step), ..*step };
+            for (_, at, [push, rub]) in pushes(&self.scene, &at_end) {
+                for (row, force) in [(&at.y, push[0] + rub[0]), (&at.z, push[1] + rub[1])] {
+                    for &(i, weight) in row.entries() {
+                        s.residual[i] -= weight * force;
+                    }
+                }
             }
         }
         let (largest, worst) = s.open(1.0 / self.h, &self.weights, step.v.len(), self.balance.largest);

@@ -62,8 +62,10 @@ impl Judge {
             let end = hole.offset(if beyond { &self.blows.arrived } else { step.q });
             return self.hold_ring(step, hole, (did, end), askew);
         }
-        if self.contract.promise.hole == Some(Bound::End) {
-            self.hold_disk(step, hole, pressure);
+        match self.contract.promise.hole {
+            Some(Bound::Along) => return self.hold_along(step, hole, did, askew),
+            Some(Bound::End) => self.hold_disk(step, hole, pressure),
+            _ => {}
         }
         let Some(turning) = self.contract.promise.round else {
             return self.along_end(step, hole, did, askew);

@@ -2,7 +2,14 @@
 
 use super::front::ComplementarityFront;
 use super::worst::Residual;
-use crate::scene::Scene;
+use crate::scene::{Hole, Scene};
+use crate::step::Step;
+
+/// An acceleration that the scheme computed with other roundings.
+const SAME: f64 = 1.0 + 1e-9;
+
+/// A part shorter than this share of a step has no acceleration to tell.
+const INSTANT: f64 = 1e-12;
 
 /// Round supports and friction of a run.
 #[derive(Debug)]
@@ -22,6 +29,11 @@ pub(super) struct Supports {
     pub size: Vec<f64>,
     /// The sums of the round walls as the recorder has them, in their order, if told.
     pub recorded: Option<Vec<[f64; 2]>>,
+    /// Friction over a part of a step without that at its end, N s.
+    rubbed: Vec<f64>,
+    /// Velocities at both ends of the last part of some length, m/s, and its length, s.
+    part: [Vec<f64>; 2],
+    length: f64,
 }
 
 impl Supports {
@@ -40,6 +52,57 @@ impl Supports {
             impulse: vec![[0.0; 2]; scene.walls.len()],
             size: vec![0.0; scene.walls.len()],
             recorded: None,
+            rubbed: Vec::new(),
+            part: [Vec::new(), Vec::new()],
+            length: 0.0,
         }))
+    }
+
+    /// The friction over a part: a wall with an impulse at its end has its friction there.
+    pub fn friction_over(&mut self, step: &Step<'_>) -> Vec<f64> {
+        let mut rubbed = std::mem::take(&mut self.rubbed);
+        rubbed.clear();
+        rubbed.extend(step.friction.iter().zip(step.jump).map(|(f, jump)| if *jump == 0.0 { *f } else { 0.0 }));
+        rubbed
+    }
+
+    /// The friction at the end of a part.
+    pub fn friction_at_end(&self, step: &Step<'_>) -> Vec<f64> {
+        step.friction.iter().zip(step.jump).map(|(f, jump)| if *jump == 0.0 { 0.0 } else { *f }).collect()
+    }
+
+    /// Keeps a part of `length` seconds of a step of `h` seconds, whose friction was `rubbed`.
+    pub fn keep_part(&mut self, rubbed: Vec<f64>, step: &Step<'_>, (length, h): (f64, f64)) {
+        self.rubbed = rubbed;
+        // In the last roundings before a blow there is no acceleration to tell.
+        if length > INSTANT * h {
+            self.length = length;
+            for (kept, v) in self.part.iter_mut().zip([step.velocity_before, step.velocity_after]) {
+                kept.clear();
+                kept.extend_from_slice(v);
+            }
+        }
+    }
+
+    /// Length of the last part, s.
+    pub fn part_length(&self) -> f64 {
+        self.length
+    }
+
+    /// `change` between the `seen` velocities at both ends of the last part.
+    pub fn change_in_part(&self, seen: impl Fn(&[f64]) -> f64, change: impl Fn(f64, f64) -> f64) -> f64 {
+        let [before, after] = &self.part;
+        change(seen(before), seen(after))
+    }
+
+    /// True if the rebounds of a body that strikes a hole at the speed `struck` (m/s) along the normal `n` end
+    /// within a step of `h` seconds: under the acceleration of the last part along n and that of its way
+    /// along the circle.
+    pub fn ends_rebounds(&self, hole: &Hole<'_>, (n, struck): ([f64; 2], f64), h: f64, noise: f64) -> bool {
+        let [before, after] = [&self.part[0], &self.part[1]].map(|v| hole.seen(v));
+        let gained = n[0] * (after[0] - before[0]) + n[1] * (after[1] - before[1]);
+        let along = n[0] * after[1] - n[1] * after[0];
+        let pressed = gained + self.length * along * along / hole.gap + noise;
+        2.0 * hole.restitution * struck * self.length <= SAME * (1.0 - hole.restitution) * h * pressed
     }
 }

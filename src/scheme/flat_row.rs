@@ -33,4 +33,15 @@ impl FlatRow {
     pub fn plate(&self, w: f64) -> f64 {
         if self.upper { w.max(self.g) } else { w.min(self.g) }
     }
+
+    /// The bound on the change of velocity at the row of an elastic wall over a part of `length`
+    /// seconds with the weight θ, from the displacement `w` (m) and the velocity `rate` (m/s), and
+    /// the compliance by which its impulse exceeds that bound, m/s per N s; `(0, 0)` for a rigid
+    /// one.
+    pub fn spring_bound(&self, w: f64, rate: f64, (length, theta): (f64, f64)) -> (f64, f64) {
+        let Some(spring) = self.law.spring() else { return (0.0, 0.0) };
+        let st = length * theta;
+        let compliance = 1.0 / (st * st * spring.over(st));
+        (-length * spring.force(w + st * rate, self.g, self.plate(w), st) * compliance, compliance)
+    }
 }

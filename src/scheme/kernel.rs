@@ -8,7 +8,7 @@ use super::fits;
 use super::generalized_alpha::GeneralizedAlpha;
 use super::grid::Grid;
 use super::line::Line;
-use super::located::Located;
+use super::located::{Located, LocatedPlanar};
 use super::matrices::Matrices;
 use super::moreau_jean::MoreauJean;
 use super::motion::Motion;
@@ -59,6 +59,7 @@ fn planar(scene: &Checked, scheme: Scheme, h: f64) -> Result<Box<dyn Motion>> {
     let rigid = scene.holes().all(|hole| hole.law.is_rigid());
     Ok(match scheme {
         Scheme::Event => Box::new(StructureEvent::new(scene.shared(), h)?),
+        Scheme::Located => Box::new(LocatedPlanar::new(scene, scheme.contract(), h)?),
         Scheme::MoreauJean { theta } if rigid => Box::new(Supports::new(scene, theta, scheme.contract(), h)?),
         _ => Box::new(Disks::new(scene, scheme.contract(), h)?),
     })

@@ -94,7 +94,11 @@ impl SupportTally {
     pub fn add(&mut self, step: &Step<'_>, [from, to]: [f64; 2]) {
         let share = (to - from) / (step.end - step.start);
         for source in &self.sources {
+            let (Source::Flat(wall, ..) | Source::Round(wall)) = source;
+            // A wall with an impulse at the end of a part of a step has its friction there.
+            let at_end = matches!(step.path, Path::Part { .. }) && step.jump.get(*wall).is_some_and(|p| *p != 0.0);
             let push = match (source, step.path) {
+                _ if at_end => continue,
                 (Source::Flat(wall, _, tangent), _) => {
                     let friction = step.friction.get(*wall).copied().unwrap_or(0.0);
                     tangent.map(|t| share * (t * friction))
@@ -106,13 +110,21 @@ impl SupportTally {
         }
     }
 
-    /// Adds what round walls gave at the instant of the end of a step of exact motion.
+    /// Adds what round walls and friction gave at the instant of the end of a step of exact motion,
+    /// or of a part of a step.
     pub fn jump(&mut self, step: &Step<'_>) {
         for source in &self.sources {
-            let Source::Round(wall) = source else { continue };
-            if let Some((jump, normal)) = step.jump.get(*wall).zip(step.normal.get(*wall)) {
-                self.stretch.iter_mut().zip(normal).for_each(|(sum, n)| *sum -= jump * n);
-            }
+            let (Source::Flat(wall, ..) | Source::Round(wall)) = source;
+            let Some(jump) = step.jump.get(*wall).copied().filter(|p| *p != 0.0) else { continue };
+            let friction = step.friction.get(*wall).copied().unwrap_or(0.0);
+            let push = match source {
+                Source::Flat(_, _, tangent) => tangent.map(|t| t * friction),
+                Source::Round(_) => {
+                    let [y, z] = step.normal.get(*wall).copied().unwrap_or_default();
+                    [-jump * y - friction * z, -jump * z + friction * y]
+                }
+            };
+            self.stretch.iter_mut().zip(push).for_each(|(sum, p)| *sum += p);
         }
     }
 

@@ -25,7 +25,9 @@ pub struct Promise {
     /// The bound on the displacement at rigid round holes, complementary to the impulse p of the
     /// step: under [`Bound::End`] 0 ≤ γ − |w⁺| ⟂ p ≥ 0, with w⁺ at the step's end, including the
     /// displacement that blows add; where there is no impact law [`Promise::round`] beside it, the
-    /// impulse is −p n with n = w⁺/|w⁺|. `None` for a scheme without such a bound.
+    /// impulse is −p n with n = w⁺/|w⁺|. Under [`Bound::Along`] p is not 0 only where the body
+    /// stays at the hole, |w| = |w⁺| = γ, and n is parallel to w + w⁺. `None` for a scheme without
+    /// such a bound.
     pub hole: Option<Bound>,
     /// At supports with friction; `None` for a scheme without friction.
     pub friction: Option<Friction>,
@@ -151,6 +153,8 @@ pub enum Bound {
     /// (1+e_u)g_u − e_u w⁻, with the smaller e in both where unequal ones would make them cross (or
     /// [`Path::OneRestitution`](super::Path::OneRestitution)).
     Reflected,
+    /// The slack is the gap at the step's end, and that at its start where the wall pushes.
+    Along,
     /// The gap at every instant of the step's [`Arc`] or [`Series`].
     Throughout,
 }

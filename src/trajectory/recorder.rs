@@ -121,16 +121,22 @@ impl Recorder {
                     self.push(due, step.q, step.v, step.force);
                 }
             }
-            Path::Part { .. } => {
+            Path::Part { length } => {
                 self.wear(step);
                 for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
                     *sum += p;
                 }
+                // A part of no length has no force: that of the part before it is shown.
+                let mut force = std::mem::take(&mut self.partial);
+                if length > 0.0 {
+                    force.copy_from_slice(step.force);
+                }
                 // Rows are due where steps end, up to the rounding of both products.
                 let due = self.due;
                 if step.end >= due * (1.0 - ROW_UNITS * f64::EPSILON) {
-                    self.push(due, step.q, step.v, step.force);
+                    self.push(due, step.q, step.v, &force);
                 }
+                self.partial = force;
             }
             Path::Exact(_) | Path::Series(_) => self.see_exact(step),
             Path::Handed { .. } => self.see_handed(step),

@@ -46,7 +46,10 @@ impl Rubbed {
         for ((sum, force), hole) in self.holes.iter_mut().zip(&mut self.force).zip(&self.walls) {
             let push = step.hole_push(*hole);
             *sum = [sum[0] + push[0], sum[1] + push[1]];
-            *force = push.map(|push| push / h);
+            // An impulse at the end of a part is no force, and a part of no length has none.
+            if step.jump[*hole] == 0.0 && h > 0.0 {
+                *force = push.map(|push| push / h);
+            }
         }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! The sliding velocity is v_t = t · (g_y · q̇, g_z · q̇) with t = (−n_z, n_y) and n the outward
 //! normal of the contact. In a step on a grid it varies linearly from the step's start, after the
-//! impulses of loads, to its end. For exact motion force and velocity are polynomials in time, and
+//! impulses of loads, to its end; in a part of a step, whose impulses come at its end, from its
+//! start to its end, and at the instant that ends it. For exact motion force and velocity are polynomials in time, and
 //! |v_t| is integrated from one sign change to the next.
 
 use super::blows::Blow;
@@ -141,7 +142,13 @@ impl Rubs {
                     (Path::Series(series), Contact::Hole { wall, .. }) => {
                         around(series, (step, *wall), section, [from, to], &blank, &mut each);
                     }
-                    _ => each(&on_grid(step, section, [from, to], &blank)),
+                    (Path::Part { .. }, _) => {
+                        in_part(step, section, (contact.wall(), [from, to]), &blank, &mut each);
+                    }
+                    _ => {
+                        let blown = Blow::along(&section.blows, blank.normal, [step.start, step.end]);
+                        each(&on_grid(step, section, [from, to], &blank, blown));
+                    }
                 }
             }
         }
@@ -161,6 +168,11 @@ impl Contact {
         match self {
             Self::Flat { rigid, .. } | Self::Hole { rigid, .. } => rigid,
         }
+    }
+
+    fn wall(self) -> usize {
+        let (Self::Flat { wall, .. } | Self::Hole { wall, .. }) = self;
+        wall
     }
 
     /// The index of the contact, with its force and impulse; `None` if there was none.
@@ -187,12 +199,13 @@ impl Section {
     }
 }
 
-/// A piece of a step on a grid: its share of the step's impulse.
-fn on_grid(step: &Step<'_>, section: &Section, [from, to]: [f64; 2], blank: &Rub) -> Rub {
+/// A piece of a step on a grid: its share of the step's impulse, with the sliding velocity `blown`
+/// (m/s) that the blows give at its start.
+fn on_grid(step: &Step<'_>, section: &Section, [from, to]: [f64; 2], blank: &Rub, blown: f64) -> Rub {
     let length = step.end - step.start;
     let share = if length > 0.0 { ((to - from) / length).clamp(0.0, 1.0) } else { 1.0 };
     let [before, after] = [step.velocity_before, step.velocity_after].map(|v| section.along(blank.normal, v));
-    let before = before + Blow::along(&section.blows, blank.normal, [step.start, step.end]);
+    let before = before + blown;
     let (impulse, friction) = (share * blank.impulse, share * blank.friction);
     Rub {
         impulse,
@@ -201,6 +214,29 @@ fn on_grid(step: &Step<'_>, section: &Section, [from, to]: [f64; 2], blank: &Rub
         dissipated: -0.5 * friction * (before + after),
         sliding: sliding_distance(to - from, before, after),
         ..*blank
+    }
+}
+
+/// A piece of a part of a step: the force over it, then the impulse at its end. A wall with an
+/// impulse there has its friction there.
+fn in_part(
+    step: &Step<'_>,
+    section: &Section,
+    (wall, [from, to]): (usize, [f64; 2]),
+    blank: &Rub,
+    each: &mut impl FnMut(&Rub),
+) {
+    let jump = step.jump.get(wall).map_or(0.0, |p| p.abs());
+    let impulse = blank.impulse - jump;
+    // Rounding of the sum is not a contact.
+    if step.end > step.start && impulse > f64::EPSILON * jump {
+        let friction = if jump == 0.0 { blank.friction } else { 0.0 };
+        let over = Rub { manner: Manner::Lasting, impulse, friction, ..*blank };
+        each(&on_grid(step, section, [from, to], &over, 0.0));
+    }
+    if to >= step.end {
+        let left = section.along(blank.normal, step.velocity_after);
+        knock(step, section, (jump, left), blank, each);
     }
 }
 
@@ -313,7 +349,8 @@ fn lasting(blank: &Rub, slid: &Slid) -> Rub {
 fn knock(step: &Step<'_>, section: &Section, (jump, left): (f64, f64), blank: &Rub, each: &mut impl FnMut(&Rub)) {
     if jump > 0.0 {
         let before = left + Blow::along(&section.blows, blank.normal, [step.start, step.end]);
-        let work = work_of_impulse(jump, before, section.along(blank.normal, step.v));
-        each(&Rub { manner: Manner::Instant, impulse: jump, friction: 0.0, work, time: 0.0, ..*blank });
+        let after = section.along(blank.normal, step.v);
+        let (work, dissipated) = (work_of_impulse(jump, before, after), -0.5 * blank.friction * (before + after));
+        each(&Rub { manner: Manner::Instant, impulse: jump, work, dissipated, time: 0.0, ..*blank });
     }
 }

@@ -1,6 +1,7 @@
 //! The energy ledger of a structure's exact motion: integrals over a stretch, and the jump at its
 //! end.
 
+use super::super::pushes::pushes;
 use super::{Flows, Ledger, stored};
 use crate::scene::Scene;
 use crate::step::Step;
@@ -66,6 +67,12 @@ impl Ledger {
             let (jump, [y, z]) = (step.jump[hole.index], step.normal[hole.index]);
             let [before, after] = [mid, step.v].map(|v| hole.seen(v));
             flows.impact += 0.5 * jump * (y * (before[0] + after[0]) + z * (before[1] + after[1]));
+        }
+        if !step.friction.is_empty() {
+            for (_, at, [_, rub]) in pushes(scene, step).filter(|(index, ..)| step.jump[*index] != 0.0) {
+                let [before, after] = [mid, step.v].map(|v| at.dot(v));
+                flows.friction -= 0.5 * (rub[0] * (before[0] + after[0]) + rub[1] * (before[1] + after[1]));
+            }
         }
         let system = &scene.system;
         self.book(0.5 * (system.mass_form(step.v, step.v) + system.stiffness_form(step.q, step.q)) + walls, flows);

@@ -1,20 +1,23 @@
-//! Which rigid walls the body touches, and the impact law at an instant.
+//! The trait of the contacts of a scene, as the division of a step needs them.
 
+use super::super::Counters;
 use super::super::body::Body;
 use super::super::frame::Frame;
-use super::super::programme::Programme;
-use super::super::space::{Space, zero};
+use super::super::space::Space;
 use super::part::Part;
 use crate::error::Result;
-use crate::qp::Backend;
-use crate::scene::{Scene, Wall, WallLaw};
+use crate::qp::Failure;
+use std::fmt::Debug;
+
+/// Whether the motion over a part was found; if not, it may be over a shorter one.
+pub(super) type Solved = std::result::Result<bool, Failure>;
 
 /// Where the body is at a rigid wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+pub(super) enum Place {
     /// In front of it.
     Away,
-    /// On its face, at rest.
+    /// On its face, without speed towards or away from it.
     Resting,
     /// On its face, moving away.
     Leaving,
@@ -22,144 +25,82 @@ enum Place {
     Struck,
 }
 
-/// The rigid walls that the body touches, and the law of their impacts.
-#[derive(Debug)]
-pub(super) struct Contacts<S: Space> {
-    /// The programme of an impact, in the metric of the mass.
-    law: Programme<S>,
-    places: Vec<Place>,
-    /// The walls on the other side of each wall's row.
-    opposite: Vec<Vec<usize>>,
-    /// The change of the rate of each wall's gap in the last part, m/s, and its length, s.
-    changes: Vec<f64>,
-    length: f64,
-    /// No momentum but that of the walls.
-    none: S::Vector,
-    impulse: Vec<f64>,
-    pushing: Vec<usize>,
-    /// Impacts so far.
-    pub impacts: u64,
+/// What ends a part before its time, at this wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Event {
+    /// The path crosses the wall.
+    Crossing(usize),
+    /// Sliding along the wall ends.
+    Reversal(usize),
 }
 
-impl<S: Space> Contacts<S> {
-    pub fn new(scene: &Scene, body: &Body<S>, backend: Backend) -> Result<Self> {
-        let walls = scene.walls.len();
-        let opposite = |wall: &Wall| {
-            let faces = |other: &Wall| other.row() == wall.row() && other.side() != wall.side();
-            (0..walls).filter(|&other| scene.walls.get(other).is_some_and(faces)).collect()
-        };
-        let (mass, scale) = (body.matrices.mass.clone(), scene.gap_scale() / body.h);
-        Ok(Self {
-            law: Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, backend)?,
-            places: vec![Place::Away; walls],
-            opposite: scene.walls.iter().map(opposite).collect(),
-            changes: vec![0.0; walls],
-            length: 0.0,
-            none: zero::<S>(body.n),
-            impulse: vec![0.0; walls],
-            pushing: Vec::with_capacity(walls),
-            impacts: 0,
-        })
-    }
+/// How far an event is from the end of a part.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ahead {
+    /// What is left of the gap (m) or of the sliding velocity (m/s), positive before the event, and
+    /// its rate, 1/s.
+    pub left: f64,
+    pub rate: f64,
+    /// At or below this much is left where the event is met.
+    pub met: f64,
+}
 
-    /// Finds where the state of `frame` is at each rigid wall. A speed that moves the body by less
-    /// than the touching distance within a step is rest.
-    pub fn classify(&mut self, body: &Body<S>, part: &Part<S>, frame: &Frame<S>) {
-        for (wall, (face, place)) in body.walls.iter().zip(&mut self.places).enumerate() {
-            let touches = face.law.is_rigid() && -face.depth(body.seen(wall, &frame.q)) <= body.touch;
-            *place = if touches {
-                let rate = face.sign * body.seen(wall, &frame.v);
-                if rate.abs() <= body.touch / body.h + part.rounding(wall, &frame.v) {
-                    Place::Resting
-                } else if rate > 0.0 {
-                    Place::Leaving
-                } else {
-                    Place::Struck
-                }
-            } else {
-                Place::Away
-            };
-        }
-    }
-
-    /// Notes that the body touches no rigid wall.
-    pub fn leave_all(&mut self) {
-        self.places.fill(Place::Away);
-    }
-
-    /// True if the body rests on this wall.
-    pub fn rests(&self, wall: usize) -> bool {
-        self.places[wall] == Place::Resting
-    }
-
-    /// True if the body rests on a wall of the other side of this wall's row too.
-    pub fn rests_between(&self, wall: usize) -> bool {
-        self.opposite[wall].iter().any(|&other| self.rests(other))
-    }
+/// The contacts of a scene: on single rows ([`super::row_contacts`]), or at places in two planes
+/// with round walls and friction ([`super::plane_contacts`]).
+pub(super) trait Contacts<S: Space>: Debug + Send {
+    /// Finds where the state of `frame` is at each rigid wall.
+    fn classify(&mut self, body: &Body<S>, part: &Part<S>, frame: &Frame<S>);
 
     /// True if the body moves into a wall that it touches.
-    pub fn is_struck(&self) -> bool {
-        self.places.contains(&Place::Struck)
+    fn is_struck(&self) -> bool;
+
+    /// True if a blow at the end of a part must come in a part of its own.
+    fn sets_blows_apart(&self) -> bool {
+        false
     }
 
-    /// Forgets how the rates of the gaps changed: the last part had no length.
-    pub fn forget_changes(&mut self) {
-        self.length = 0.0;
+    /// Computes δ and what the walls give over a part of `length` seconds from the state of
+    /// `frame`, whose momentum `part` has.
+    fn answer(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved;
+
+    /// Where no motion was found: whether walls along which the body slides must first stop its speed
+    /// across them, by an impulse without rebound.
+    fn stops(&mut self) -> bool {
+        false
     }
 
-    /// Keeps how the rates of the gaps changed in a part of `length` seconds.
-    pub fn set_changes(&mut self, body: &Body<S>, delta: &S::Vector, length: f64) {
-        self.length = length;
-        for (wall, (face, change)) in body.walls.iter().zip(&mut self.changes).enumerate() {
-            *change = face.sign * body.seen(wall, delta);
-        }
+    /// The number of parts that the rest of a step may have without rebounds, if too many impacts
+    /// follow one another in it; after these, and where it is 0, comes [`Contacts::give_up`].
+    fn parts_without_rebound(&self) -> u32 {
+        0
     }
+
+    /// Sets whether a body that strikes a wall rebounds.
+    fn set_rebounds(&mut self, _rebounds: bool) {}
+
+    /// The same by implicit-euler, at whose end the body is in front of all walls.
+    fn give_up(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved;
+
+    /// The first event on the path of `length` seconds that changes the velocity by `delta`, and its
+    /// instant within the path, s.
+    fn first_event(&self, body: &Body<S>, frame: &Frame<S>, motion: (&S::Vector, f64)) -> Option<(f64, Event)>;
+
+    /// How far the end of that path is from an event.
+    fn ahead(&self, body: &Body<S>, frame: &Frame<S>, event: Event, motion: (&S::Vector, f64)) -> Ahead;
+
+    /// Notes a part of no length.
+    fn stay(&mut self) {}
+
+    /// Notes that the last part was one of implicit-euler.
+    fn forget(&mut self) {}
+
+    /// Keeps what a part of `length` seconds, at whose end `frame` is, leaves to the next one.
+    fn keep(&mut self, body: &Body<S>, part: &Part<S>, frame: &Frame<S>, length: f64);
 
     /// Applies the impact law to the state of `frame`, if a wall is struck, and writes the impulses
     /// of the instant. Returns whether there was an impact.
-    pub fn strike(&mut self, body: &Body<S>, part: &Part<S>, frame: &mut Frame<S>, step: u64) -> Result<bool> {
-        self.classify(body, part, frame);
-        if !self.is_struck() {
-            return Ok(false);
-        }
-        self.impacts += 1;
-        self.law.free();
-        frame.resting.clear();
-        for row in 0..self.law.count_rows() {
-            for number in self.law.walls(row) {
-                let face = self.law.wall(number);
-                let rate = body.seen(face.index, &frame.v);
-                let bound = match self.places[face.index] {
-                    Place::Away => continue,
-                    Place::Resting => -rate,
-                    Place::Leaving => -2.0 * rate,
-                    Place::Struck => {
-                        let e = face.law.restitution().unwrap_or(0.0);
-                        let ends = e > 0.0 && self.rebounds_end(face.index, e, rate.abs(), body.h);
-                        if ends {
-                            frame.resting.push(face.index);
-                        }
-                        if ends { -rate } else { -(1.0 + e) * rate }
-                    }
-                };
-                self.law.bind(row, number, bound);
-            }
-        }
-        let Self { law, none, impulse, pushing, .. } = self;
-        law.solve(none, (frame.end, step), impulse, pushing)?;
-        for (v, d) in frame.v.as_mut().iter_mut().zip(law.x().as_ref()) {
-            *v += d;
-        }
-        for wall in pushing.drain(..) {
-            frame.push_at_end(wall, std::mem::take(&mut impulse[wall]));
-        }
-        Ok(true)
-    }
+    fn strike(&mut self, body: &Body<S>, part: &Part<S>, frame: &mut Frame<S>, step: u64) -> Result<bool>;
 
-    /// True if the rebounds of a body that strikes a wall at `speed` (m/s) end within a step of `h`
-    /// seconds, under the acceleration of the last part.
-    fn rebounds_end(&self, wall: usize, e: f64, speed: f64, h: f64) -> bool {
-        let pressed = -self.changes[wall];
-        e < 1.0 && self.length > 0.0 && 2.0 * e * speed * self.length <= (1.0 - e) * h * pressed
-    }
+    /// Adds the work that the contacts have cost.
+    fn count(&self, counters: &mut Counters);
 }

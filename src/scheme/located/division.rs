@@ -2,22 +2,18 @@
 
 use super::super::Counters;
 use super::super::body::Body;
-use super::super::flat_row::FlatRow;
 use super::super::frame::{Frame, Stretch};
 use super::super::jumps::Jumps;
 use super::super::position;
 use super::super::programme::failure;
 use super::super::space::{Space, zero};
+use super::THETA;
 use super::contacts::Contacts;
-use super::crossing::GapPath;
-use super::part::{Hold, Part};
+use super::part::Part;
 use crate::error::{Error, Result};
 use crate::qp::{Backend, Failure};
 use crate::scene::Scene;
-use crate::step::{Balance, Contract};
-
-/// θ of the rule.
-const THETA: f64 = 0.5;
+use crate::step::{Balance, Contract, Friction};
 
 /// Maximum number of parts of a step.
 const MOST_PARTS: u32 = 64;
@@ -26,15 +22,17 @@ const MOST_PARTS: u32 = 64;
 const MOST_EVALUATIONS: u32 = 60;
 
 /// The contract of the rest of a step that was given up.
-const GIVEN_UP: Contract = position::contract(1.0);
+const GIVEN_UP: Contract = {
+    let mut contract = position::contract(1.0);
+    contract.promise.friction = Some(Friction::EndVelocity);
+    contract
+};
 
 /// The parts of a step, and what they need.
 #[derive(Debug)]
-pub(super) struct Division<S: Space> {
+pub(super) struct Division<S: Space, C> {
     part: Part<S>,
-    pub contacts: Contacts<S>,
-    /// Walls that bound the velocity in the current step or part.
-    pub holds: Vec<Hold>,
+    pub contacts: C,
     /// The instants of blows and of jumps of loads, s, in order, and the jumps.
     breaks: Vec<f64>,
     jumps: Option<Jumps>,
@@ -55,23 +53,22 @@ struct Progress {
     parts: u32,
 }
 
-impl<S: Space> Division<S> {
-    pub fn new(scene: &Scene, body: &Body<S>, backend: Backend) -> Result<Self> {
+impl<S: Space, C: Contacts<S>> Division<S, C> {
+    pub fn new(scene: &Scene, body: &Body<S>, contacts: C, backend: Backend) -> Self {
         let jumps = Jumps::new(scene, Balance::Theta(THETA), body.h);
         let mut breaks: Vec<f64> = jumps.iter().flat_map(Jumps::instants).chain(body.blow_instants()).collect();
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
-        Ok(Self {
+        Self {
             part: Part::new(scene, body, backend),
-            contacts: Contacts::new(scene, body, backend)?,
-            holds: Vec::with_capacity(scene.walls.len()),
+            contacts,
             breaks,
             jumps,
             extra: zero::<S>(body.n),
             progress: None,
             parts: 0,
             given_up: 0,
-        })
+        }
     }
 
     /// Forgets the parts of the current step.
@@ -117,61 +114,9 @@ impl<S: Space> Division<S> {
 
     /// Adds the work that the division has cost.
     pub fn count(&self, counters: &mut Counters) {
-        counters.qp_solves += self.part.solves + self.contacts.impacts;
+        self.contacts.count(counters);
+        counters.qp_solves += self.part.solves;
         (counters.parts, counters.steps_given_up) = (self.parts, self.given_up);
-    }
-
-    /// The bounds of the walls at which the body rests and of elastic walls, for a part of `length`
-    /// seconds from the state of `frame`, with its contacts classified.
-    pub fn hold(&mut self, body: &Body<S>, frame: &Frame<S>, length: f64) {
-        let Self { contacts, holds, .. } = self;
-        holds.clear();
-        for (wall, &face) in body.walls.iter().enumerate() {
-            if face.law.is_rigid() && !contacts.rests(wall) {
-                continue;
-            }
-            let (w, rate) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
-            let (bound, compliance) = match face.law.spring() {
-                Some(spring) => {
-                    let st = length * THETA;
-                    let compliance = 1.0 / (st * st * spring.over(st));
-                    (-length * spring.force(w + st * rate, face.g, face.plate(w), st) * compliance, compliance)
-                }
-                None if contacts.rests_between(wall) => (-rate, 0.0),
-                None => (rest_bound(face, w, rate, body.h), 0.0),
-            };
-            holds.push(Hold { wall, upper: face.upper, bound, compliance });
-        }
-    }
-
-    /// The first crossing of a wall by the path of `length` seconds that changes the velocity by
-    /// `delta`: its instant within the path, s, and the wall.
-    pub fn first_crossing(
-        &self,
-        body: &Body<S>,
-        frame: &Frame<S>,
-        delta: &S::Vector,
-        length: f64,
-    ) -> Option<(f64, usize)> {
-        let mut first: Option<(f64, usize)> = None;
-        for (wall, face) in body.walls.iter().enumerate() {
-            let damped = face.law.damping() > 0.0;
-            if !face.law.is_rigid() && !damped || self.contacts.rests(wall) {
-                continue;
-            }
-            let gap = -face.depth(body.seen(wall, &frame.q));
-            if damped && gap <= body.touch {
-                continue;
-            }
-            let [rate, change] = [&frame.v, delta].map(|v| face.sign * body.seen(wall, v));
-            let path = GapPath { gap, rate, change, span: length };
-            if let Some(at) = path.crossing(body.touch)
-                && first.is_none_or(|(earliest, _)| at < earliest)
-            {
-                first = Some((at, wall));
-            }
-        }
-        first
     }
 
     /// Makes the next part of a divided step.
@@ -183,13 +128,19 @@ impl<S: Space> Division<S> {
         (frame.start, frame.blown) = (from, false);
         frame.before.clone_from(&frame.v);
         frame.extra.clone_from(&self.extra);
-        let limit = self.next_break(from, end).unwrap_or(end);
         self.classify(body, frame);
+        let mut limit = self.next_break(from, end).unwrap_or(end);
+        if limit.next_down() > from && self.contacts.sets_blows_apart() && self.next_break(from, end).is_some() {
+            limit = limit.next_down();
+        }
         // What is given up ends before a blow or a jump of a load, with which the division goes on.
         let given_up = if self.breaks.is_empty() { limit } else { limit.next_down() };
-        if progress.parts > MOST_PARTS && given_up > from {
+        let spent = progress.parts > MOST_PARTS + self.contacts.parts_without_rebound();
+        self.contacts.set_rebounds(progress.parts <= MOST_PARTS);
+        self.given_up += u64::from(progress.parts == MOST_PARTS + 1);
+        if spent && given_up > from {
             self.give_up(body, step, frame, (from, given_up))?;
-        } else if progress.parts > MOST_PARTS {
+        } else if spent {
             self.compute(body, step, frame, (from, limit, limit - from))?;
             self.commit(body, frame, limit - from, limit);
         } else if self.contacts.is_struck() {
@@ -223,18 +174,26 @@ impl<S: Space> Division<S> {
         let (mut low, mut high) = (0.0, whole);
         let (mut length, mut target) = (whole, None);
         for evaluation in 0..MOST_EVALUATIONS {
-            self.compute(body, step, frame, (from, limit, length))?;
-            let next = if let Some((at, wall)) = self.first_crossing(body, frame, &self.part.delta, length) {
-                (high, target) = (length, Some(wall));
+            let found = self.compute(body, step, frame, (from, limit, length))?;
+            if !found && evaluation == 0 && self.contacts.stops() {
+                self.stay(frame, from);
+                return Ok(());
+            }
+            let motion = (&self.part.delta, length);
+            let next = if !found && evaluation + 1 < MOST_EVALUATIONS {
+                high = length;
+                0.5 * (low + length)
+            } else if let Some((at, event)) = self.contacts.first_event(body, frame, motion) {
+                (high, target) = (length, Some(event));
                 at
             } else {
-                let path = target.map(|wall| self.gap_path(body, frame, wall, length));
-                let Some(path) = path.filter(|path| path.end() > body.touch) else {
+                let ahead = target.map(|event| self.contacts.ahead(body, frame, event, motion));
+                let Some(ahead) = ahead.filter(|ahead| ahead.left > ahead.met) else {
                     self.commit(body, frame, length, if length == whole { limit } else { from + length });
                     return Ok(());
                 };
                 low = length;
-                length - path.end() / (path.rate + path.change)
+                length - ahead.left / ahead.rate
             };
             let within = low < next && next < high && evaluation < MOST_EVALUATIONS / 2;
             length = if within { next } else { 0.5 * (low + high) };
@@ -256,17 +215,10 @@ impl<S: Space> Division<S> {
     fn stay(&mut self, frame: &mut Frame<S>, time: f64) {
         (frame.end, frame.stretch) = (time, Stretch::Part(0.0));
         frame.after.clone_from(&frame.v);
-        self.contacts.forget_changes();
+        self.contacts.stay();
     }
 
-    /// The gap of a wall along the part of `length` seconds that was computed last.
-    fn gap_path(&self, body: &Body<S>, frame: &Frame<S>, wall: usize, length: f64) -> GapPath {
-        let face = body.walls[wall];
-        let [rate, change] = [&frame.v, &self.part.delta].map(|v| face.sign * body.seen(wall, v));
-        GapPath { gap: -face.depth(body.seen(wall, &frame.q)), rate, change, span: length }
-    }
-
-    /// Computes the part of `length` seconds from `from`; one that ends at `limit` (s) ends there
+    /// Computes the part of `length` seconds from `from`, and returns whether it was found; one that ends at `limit` (s) ends there
     /// to the last bit, and before a jump of the loads there.
     fn compute(
         &mut self,
@@ -274,16 +226,15 @@ impl<S: Space> Division<S> {
         step: u64,
         frame: &mut Frame<S>,
         (from, limit, length): (f64, f64, f64),
-    ) -> Result<()> {
+    ) -> Result<bool> {
         let end = if length == limit - from { limit } else { from + length };
         if let Some(jumps) = &mut self.jumps {
             let extra = jumps.force_within((from, end), length, Some(self.extra.as_ref()));
             frame.extra.as_mut().copy_from_slice(extra);
         }
-        self.hold(body, frame, length);
-        let Self { part, holds, .. } = self;
-        let computed = part.compute(body, (&frame.q, &frame.v, &frame.extra), (length, end, THETA), holds);
-        computed.map_err(|fault| refusal(&fault, end, step))
+        let Self { part, contacts, .. } = self;
+        part.set_momentum(body, (&frame.q, &frame.v, &frame.extra), (length, end, THETA));
+        contacts.answer(body, part, frame, length).map_err(|fault| refusal(&fault, end, step))
     }
 
     /// Takes over the state at `end` (s) of the part of `length` seconds that was computed last.
@@ -299,10 +250,14 @@ impl<S: Space> Division<S> {
             *v += d;
         }
         frame.after.clone_from(&frame.v);
-        for &(wall, impulse) in &part.pushes {
-            frame.push(wall, impulse, length);
+        for push in &part.pushes {
+            frame.push(push.wall, push.impulse, length);
+            if let (Some(friction), Some(normal)) = (frame.friction.get_mut(push.wall), frame.normal.get_mut(push.wall))
+            {
+                (*friction, *normal) = (push.friction, push.normal);
+            }
         }
-        self.contacts.set_changes(body, &part.delta, length);
+        self.contacts.keep(body, part, frame, length);
         std::mem::swap(&mut part.load_start, &mut part.load_end);
     }
 
@@ -316,35 +271,15 @@ impl<S: Space> Division<S> {
         frame: &mut Frame<S>,
         (from, limit): (f64, f64),
     ) -> Result<()> {
-        self.given_up += 1;
         let length = limit - from;
-        self.holds.clear();
-        for (wall, face) in body.walls.iter().enumerate() {
-            let (w, rate) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
-            let (bound, compliance) = match face.law.spring() {
-                Some(spring) => {
-                    let compliance = 1.0 / (length * length * spring.over(length));
-                    let force = spring.force(w + length * rate, face.g, face.plate(w), length);
-                    (-length * force * compliance, compliance)
-                }
-                None => ((face.g - w) / length - rate, 0.0),
-            };
-            self.holds.push(Hold { wall, upper: face.upper, bound, compliance });
-        }
-        let Self { part, holds, .. } = self;
-        let computed = part.compute(body, (&frame.q, &frame.v, &frame.extra), (length, limit, 1.0), holds);
-        computed.map_err(|fault| refusal(&fault, limit, step))?;
+        let Self { part, contacts, .. } = self;
+        part.set_momentum(body, (&frame.q, &frame.v, &frame.extra), (length, limit, 1.0));
+        contacts.give_up(body, part, frame, length).map_err(|fault| refusal(&fault, limit, step))?;
         (frame.end, frame.stretch) = (limit, Stretch::Other(length, &GIVEN_UP));
         self.take(body, frame, length, 1.0);
+        self.contacts.forget();
         Ok(())
     }
-}
-
-/// The bound on the change of velocity at a rigid wall on which the body rests: no speed into it,
-/// and out of it by what rounding has left behind the face.
-fn rest_bound(face: FlatRow, w: f64, rate: f64, h: f64) -> f64 {
-    let behind = face.depth(w).max(0.0);
-    face.sign * behind / h - rate
 }
 
 /// The error of a programme that was not solved in the step that ends at `time` (s).

@@ -39,10 +39,17 @@ mod contacts;
 mod crossing;
 mod division;
 mod part;
+mod planar;
+mod plane_contacts;
+mod response;
+mod round_path;
+mod row_contacts;
+
+pub(super) use planar::LocatedPlanar;
 
 use super::Counters;
 use super::body::Body;
-use super::entry::{Coverage, ONE_FOR_FRICTION, ONES_FOR_RINGS, Realised, SchemeEntry, SchemeKind};
+use super::entry::{Coverage, ONES_FOR_RINGS, Realised, SchemeEntry, SchemeKind};
 use super::frame::{Frame, Stretch};
 use super::programme::Programme;
 use super::rule::Rule;
@@ -50,8 +57,10 @@ use super::space::{Space, zero};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
-use crate::step::{Balance, Bound, Calm, Conserves, Contract, Law, Promise, Reached, Tolerances};
+use crate::step::{Balance, Bound, Calm, Conserves, Contract, Friction, Law, Promise, Reached, Tolerances};
+use contacts::Contacts;
 use division::Division;
+use row_contacts::RowContacts;
 
 /// θ of the rule.
 const THETA: f64 = 0.5;
@@ -66,14 +75,15 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     realises: "e, per wall",
     purpose: "order 2 through impacts: steps are divided where a wall is struck; a body that rests stands on the face",
     fails: "a step with more than 64 parts ends without rebound (reported); an impact costs several steps",
-    round: Coverage::Refused("moreau-jean or event: this scheme has no rule for the turning normal of a round support"),
+    round: Coverage::Stepped("finds the instants of contact, and follows the circle while the body slides along it"),
     elastic_round: Coverage::Refused(ONES_FOR_RINGS),
-    friction: Coverage::Refused(ONE_FOR_FRICTION),
+    friction: Coverage::Stepped("finds the instants at which sliding ends"),
 };
 
 /// What every step satisfies.
 pub(super) fn contract() -> Contract {
-    let promise = Promise::constraints(Some(Bound::End), Some(Reached::Closed), Law::Depth(THETA));
+    let mut promise = Promise::constraints(Some(Bound::End), Some(Reached::Closed), Law::Depth(THETA));
+    (promise.hole, promise.friction) = (Some(Bound::Along), Some(Friction::EndVelocity));
     let tolerances = Tolerances::of(Conserves::RigidWalls);
     Contract { balance: Balance::Theta(THETA), promise, instant: 1.0, tolerances, divides: true }
 }
@@ -84,7 +94,7 @@ pub(super) struct Located<S: Space> {
     body: Body<S>,
     /// The programme of a whole step.
     programme: Programme<S>,
-    division: Division<S>,
+    division: Division<S, RowContacts<S>>,
     b: S::Vector,
     /// q⁺, v⁺ and q⁺ + ½hv⁺.
     arrived: S::Vector,
@@ -101,7 +111,7 @@ impl<S: Space> Located<S> {
         let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
         let scale = scene.gap_scale() / h;
         let programme = Programme::new(scene, body.theta_matrix(THETA), scale, compliance, backend)?;
-        let division = Division::new(scene, &body, backend)?;
+        let division = Division::new(scene, &body, RowContacts::new(scene, &body, backend)?, backend);
         let [b, arrived, after, ahead] = [(); 4].map(|()| zero::<S>(body.n));
         Ok(Self { body, programme, division, b, arrived, after, ahead, clear: false })
     }
@@ -159,7 +169,7 @@ impl<S: Space> Located<S> {
             }
             self.division.contacts.leave_all();
         }
-        self.division.first_crossing(&self.body, frame, self.programme.x(), self.body.h).is_some()
+        self.division.contacts.first_event(&self.body, frame, (self.programme.x(), self.body.h)).is_some()
     }
 
     /// Sets the bounds of a whole step.
@@ -167,8 +177,8 @@ impl<S: Space> Located<S> {
     fn bind(&mut self, frame: &Frame<S>) {
         let Self { body, programme, division, .. } = self;
         division.classify(body, frame);
-        division.hold(body, frame, body.h);
-        for hold in &division.holds {
+        division.contacts.set_holds(body, frame, body.h);
+        for hold in &division.contacts.holds {
             let row = programme.row_of(hold.wall);
             for number in programme.walls(row) {
                 if programme.wall(number).index == hold.wall {

@@ -16,6 +16,17 @@ pub(super) struct Hold {
     pub compliance: f64,
 }
 
+/// What a wall does over a part.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Push {
+    pub wall: usize,
+    /// Impulse, signed as the wall's force, and that of friction along t, N s.
+    pub impulse: f64,
+    pub friction: f64,
+    /// Outward normal of a round wall; zero for a flat one.
+    pub normal: [f64; 2],
+}
+
 /// The part of a step that is being computed, from the state at its start.
 #[derive(Debug)]
 pub(super) struct Part<S: Space> {
@@ -28,13 +39,13 @@ pub(super) struct Part<S: Space> {
     pub load_start: S::Vector,
     pub load_end: S::Vector,
     mean: S::Vector,
-    b: S::Vector,
+    /// The momentum that all but the walls give, N s.
+    pub b: S::Vector,
     /// A⁻¹gᵀ of the wall that holds.
     answer: S::Vector,
     /// The change of the velocity, m/s.
     pub delta: S::Vector,
-    /// The walls that push and their impulses, N s.
-    pub pushes: Vec<(usize, f64)>,
+    pub pushes: Vec<Push>,
     /// Programmes solved.
     pub solves: u64,
 }
@@ -59,24 +70,19 @@ impl<S: Space> Part<S> {
 
     /// Rounding error of the velocity of a wall's row, m/s.
     pub fn rounding(&self, wall: usize, v: &S::Vector) -> f64 {
-        let terms = self.rows[wall].entries().iter();
-        let size: f64 = terms.filter_map(|&(i, g)| v.as_ref().get(i).map(|v| (g * v).abs())).sum();
-        8.0 * f64::EPSILON * size
+        ROUNDING * size_of(&self.rows[wall], v.as_ref())
     }
 
-    /// Computes δ and the walls' impulses for a part of `length` seconds that ends at `end` (s),
-    /// from the displacement `q` and the velocity `v` under the extra force `extra`, with the walls
-    /// of `holds`:
+    /// Computes the momentum b that all but the walls give in a part of `length` seconds that ends at
+    /// `end` (s), from the displacement `q` and the velocity `v` under the extra force `extra`:
     ///
-    /// [M + sθC + s²θ²K] δ = s[f_θ + f_x − C v − K(q + sθ v)] + Gᵀ p.
-    pub fn compute(
+    /// [M + sθC + s²θ²K] δ = b + Gᵀ p,   b = s[f_θ + f_x − C v − K(q + sθ v)].
+    pub fn set_momentum(
         &mut self,
         body: &mut Body<S>,
         (q, v, extra): (&S::Vector, &S::Vector, &S::Vector),
         (length, end, theta): (f64, f64, f64),
-        holds: &[Hold],
-    ) -> Result<(), Failure> {
-        let st = length * theta;
+    ) {
         self.pushes.clear();
         body.force_at(end, &mut self.load_end);
         let loads = self.load_start.as_ref().iter().zip(self.load_end.as_ref()).zip(extra.as_ref());
@@ -84,16 +90,19 @@ impl<S: Space> Part<S> {
             *b = (1.0 - theta) * start + theta * end + extra;
         }
         for ((mean, q), v) in self.mean.as_mut().iter_mut().zip(q.as_ref()).zip(v.as_ref()) {
-            *mean = q + st * v;
+            *mean = q + length * theta * v;
         }
         S::add_product(&body.damping, -1.0, v, &mut self.b);
         S::add_product(&body.stiffness, -1.0, &self.mean, &mut self.b);
         self.b.as_mut().iter_mut().for_each(|b| *b *= length);
+    }
+
+    /// Computes δ and the impulses of the walls of `holds`, with `st` = sθ (s).
+    pub fn hold(&mut self, body: &Body<S>, st: f64, holds: &[Hold]) -> Result<(), Failure> {
         if holds.len() > 1 {
             return self.solve(body, st, holds);
         }
-        let factor = S::theta_factor(&body.matrices, st);
-        let mut factor = factor.map_err(|_| Failure::NotFinite { what: "step matrix", index: 0 })?;
+        let mut factor = theta_factor::<S>(body, st)?;
         self.delta.clone_from(&self.b);
         S::solve(&mut factor, &mut self.delta);
         if let [hold] = holds {
@@ -117,7 +126,7 @@ impl<S: Space> Part<S> {
         S::add_transposed(&body.rows, hold.wall, impulse, &mut self.b);
         self.delta.clone_from(&self.b);
         S::solve(factor, &mut self.delta);
-        self.pushes.push((hold.wall, impulse));
+        self.pushes.push(Push { wall: hold.wall, impulse, friction: 0.0, normal: [0.0; 2] });
     }
 
     /// Computes δ and the impulses from b as a programme.
@@ -135,7 +144,21 @@ impl<S: Space> Part<S> {
         solver.solve(&self.b, (&lo, &hi), &all)?;
         self.delta.clone_from(solver.x());
         let impulses = holds.iter().zip(solver.multiplier().unwrap_or_default());
-        self.pushes.extend(impulses.filter(|(_, p)| **p != 0.0).map(|(hold, p)| (hold.wall, *p)));
+        let push = |(hold, &impulse): (&Hold, &f64)| Push { wall: hold.wall, impulse, friction: 0.0, normal: [0.0; 2] };
+        self.pushes.extend(impulses.filter(|(_, p)| **p != 0.0).map(push));
         Ok(())
     }
+}
+
+/// M + sθC + s²θ²K, factored, for `st` = sθ (s).
+pub(super) fn theta_factor<S: Space>(body: &Body<S>, st: f64) -> Result<S::Factor, Failure> {
+    S::theta_factor(&body.matrices, st).map_err(|_| Failure::NotFinite { what: "step matrix", index: 0 })
+}
+
+/// Rounding error of the velocity of a row, relative to the sum of its terms.
+pub(super) const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// The sum of the magnitudes of the terms of a row.
+pub(super) fn size_of(row: &Row, x: &[f64]) -> f64 {
+    row.entries().iter().filter_map(|&(i, g)| x.get(i).map(|x| (g * x).abs())).sum()
 }

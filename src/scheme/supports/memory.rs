@@ -73,6 +73,7 @@ mod tests {
             own: [1.0, 0.0, 1.0],
             state: State::Ahead,
             impulse,
+            slides: 0.0,
         }
     }
 

@@ -33,7 +33,11 @@ mod reach;
 mod sweeps;
 mod touch;
 
-pub(super) use normal::{CROSSING, TURNING, meet, meet_middle};
+pub(super) use normal::{CROSSING, TURNING, dot, meet, meet_middle};
+pub(super) use places::Places;
+pub(super) use points::{ContactPoint, contact_points};
+pub(super) use sweeps::Sweeps;
+pub(super) use touch::Touch;
 
 use super::Counters;
 use super::body::Body;
@@ -48,11 +52,8 @@ use crate::qp::Backend;
 use crate::scene::{Checked, Scene, Wall};
 use crate::step::{Contact, Contract, Step};
 use memory::Memory;
-use normal::{Met, dot};
-use places::Places;
-use points::contact_points;
+use normal::Met;
 use reach::Reach;
-use sweeps::Sweeps;
 
 /// The motion of a scene with supports.
 #[derive(Debug)]

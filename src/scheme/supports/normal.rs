@@ -67,7 +67,7 @@ fn split((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], normal: [f64; 2], h:
     Met { normal, arriving, bound: -(e * arriving + (a - arriving)), turn }
 }
 
-pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(in crate::scheme) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 

@@ -44,7 +44,7 @@ impl Run {
 /// The rows of all places, and the response of the structure to an impulse on each: A⁻¹gᵀ, and W =
 /// G A⁻¹ Gᵀ. All of it is computed once, since only the directions of the contacts change.
 #[derive(Debug)]
-pub(super) struct Places {
+pub(in crate::scheme) struct Places {
     rows: Vec<Run>,
     /// A⁻¹gᵢᵀ.
     lift: Vec<Run>,

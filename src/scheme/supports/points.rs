@@ -4,7 +4,7 @@ use crate::scene::{Face, PlaneRows, Row, Scene, heading};
 
 /// Where a wall pushes, and how.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ContactPoint {
+pub(in crate::scheme) struct ContactPoint {
     /// The rows of its place; twice the same for a flat wall that belongs to no support.
     pub rows: [usize; 2],
     /// Outward normal of a flat wall.
@@ -14,7 +14,7 @@ pub(super) struct ContactPoint {
 
 /// The contact points of all walls, and the rows of their places: two of each support and of each
 /// round wall outside of supports, one of each flat wall that belongs to none.
-pub(super) fn contact_points(scene: &Scene) -> (Vec<ContactPoint>, Vec<&Row>) {
+pub(in crate::scheme) fn contact_points(scene: &Scene) -> (Vec<ContactPoint>, Vec<&Row>) {
     let mut rows: Vec<&Row> = Vec::new();
     let mut points: Vec<Option<ContactPoint>> = vec![None; scene.walls.len()];
     for support in &scene.supports {

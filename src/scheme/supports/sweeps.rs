@@ -35,7 +35,7 @@ const WEDGED: f64 = 1e5;
 
 /// The contacts of a step.
 #[derive(Debug)]
-pub(super) struct Sweeps {
+pub(in crate::scheme) struct Sweeps {
     pub touches: Vec<Touch>,
     /// Velocity of each row at the step's end without contacts, m/s, and with them.
     pub free: Vec<f64>,

@@ -20,7 +20,7 @@ use super::places::Places;
 
 /// What a contact does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum State {
+pub(in crate::scheme) enum State {
     Open,
     Stick,
     /// Slip with t·ẇ⁺ > 0, or without friction.
@@ -42,7 +42,7 @@ impl State {
 
 /// A contact in play.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Touch {
+pub(in crate::scheme) struct Touch {
     /// Index of the wall, or number of walls plus that of the hole.
     pub index: usize,
     /// The rows of its place; twice the same for a wall by itself, whose normal is (±1, 0).
@@ -59,6 +59,9 @@ pub(super) struct Touch {
     pub state: State,
     /// p and f, N s.
     pub impulse: [f64; 2],
+    /// The sign of t·ẇ of a contact that slides with full friction throughout, also where t·ẇ⁺ has
+    /// the other sign; 0 where the law applies to t·ẇ⁺.
+    pub slides: f64,
 }
 
 impl Touch {
@@ -77,7 +80,19 @@ impl Touch {
         } else {
             [form(normal, normal) + compliance, 0.0, 0.0]
         };
-        Self { index, rows, normal, tangent, bound, friction, compliance, own, state: State::Open, impulse }
+        Self {
+            index,
+            rows,
+            normal,
+            tangent,
+            bound,
+            friction,
+            compliance,
+            own,
+            state: State::Open,
+            impulse,
+            slides: 0.0,
+        }
     }
 
     /// n·ẇ⁺ − κp − β and t·ẇ⁺ for these velocities of all rows.
@@ -133,6 +148,11 @@ impl Touch {
         if mu == 0.0 {
             return (Some(State::Ahead), [n / a, 0.0]);
         }
+        if self.slides != 0.0 && a + self.slides * mu * b > 0.0 {
+            let p = n / (a + self.slides * mu * b);
+            let state = if self.slides > 0.0 { State::Ahead } else { State::Back };
+            return (Some(state), [p, -self.slides * mu * p]);
+        }
         let p = (n - b * t / c) / (a - b * b / c);
         let f = (b * p - t) / c;
         if p >= 0.0 && f.abs() <= mu * p {
@@ -157,7 +177,9 @@ impl Touch {
         match self.state {
             State::Open => n <= noise,
             State::Stick => presses && t.abs() <= noise && (f.abs() - self.friction * p) * c <= noise,
-            State::Ahead | State::Back => presses && (!rubs || self.state.sign() * t >= -noise),
+            State::Ahead | State::Back => {
+                presses && (!rubs || self.slides == self.state.sign() || self.state.sign() * t >= -noise)
+            }
         }
     }
 }

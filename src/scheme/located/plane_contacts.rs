@@ -1,0 +1,524 @@
+//! Flat and round walls at places in two planes, with friction: which of them the body touches, the
+//! motion of a part along them, and the impact law at an instant.
+//!
+//! A round wall that pushed over a part does so in the next one, until it would have to pull: a part
+//! leaves a speed across the circle, half the angle by which the normal turns times the change of
+//! the sliding velocity, which the next part reflects.
+//!
+//! Friction is Coulomb's, on the impulse over a part and the velocity at its end. A body that slides
+//! at the start of a part slides with full friction until its sliding velocity, which is linear in
+//! time, vanishes: the part ends there (`Event::Reversal`), and from rest the law decides whether
+//! the body sticks or slides back.
+
+use super::super::Counters;
+use super::super::body::Body;
+use super::super::frame::Frame;
+use super::super::matrices::Matrices;
+use super::super::space::Space;
+use super::super::supports::{ContactPoint, Places, Sweeps, Touch, contact_points, dot};
+use super::THETA;
+use super::contacts::{Ahead, Contacts, Event, Place, Solved};
+use super::crossing::GapPath;
+use super::part::{Part, ROUNDING, size_of};
+use super::response::{Guide, PlaneHold, Response};
+use super::round_path::RoundPath;
+use crate::error::Result;
+use crate::qp::Failure;
+use crate::scene::{Row, Scene};
+
+/// A part shorter than this share of the step ends at a blow, and no contact acts in it.
+const INSTANT: f64 = 1e-12;
+
+/// Parts of a step after its rebounds are given up.
+const PARTS_WITHOUT_REBOUND: u32 = 256;
+
+/// Speeds that count as rest where rebounds are given up, in multiples of those where they are not.
+const SLOW: f64 = 1e4;
+
+/// What a step is told that has no motion.
+const UNSETTLED: &str = "no motion keeps the laws of all contacts; a smaller step or moreau-jean may do";
+
+/// A wall, and where the body is at it.
+#[derive(Debug, Clone, Copy)]
+struct Contact {
+    point: ContactPoint,
+    /// Centre (m) and gap (m) of a round wall.
+    round: Option<([f64; 2], f64)>,
+    place: Place,
+    /// True if a round wall pushed over the last part.
+    lasts: bool,
+    /// Outward normal, and the rate of the place along it and along the tangent, m/s.
+    normal: [f64; 2],
+    rate: [f64; 2],
+    /// Rounding error of a rate, m/s, and below which one counts as 0.
+    rounding: f64,
+    least: f64,
+    /// The acceleration that pressed the body against the wall in the last part of some length,
+    /// m/s².
+    pressed: f64,
+}
+
+/// The walls of a scene in two planes.
+#[derive(Debug)]
+pub(super) struct PlaneContacts {
+    all: Vec<Contact>,
+    rows: Vec<Row>,
+    /// The responses in the metric of the mass, and the solver of the impacts.
+    impact: (Places, Sweeps),
+    /// The response over a whole step.
+    whole: Response,
+    holds: Vec<PlaneHold>,
+    /// Contacts that gave up their rebound at the last instant.
+    pub wedged: Vec<usize>,
+    /// True if a body that strikes a wall rebounds.
+    rebounds: bool,
+    /// True if the contacts of the last part that was computed were settled.
+    settled: bool,
+    /// True if round walls must take the speed across them at once.
+    stops: bool,
+    solves: u64,
+    unsettled: u64,
+}
+
+impl PlaneContacts {
+    pub fn new(scene: &Scene, body: &Body<Matrices>) -> Result<Self> {
+        let (points, rows) = contact_points(scene);
+        let mut mass = Matrices::mass(&body.matrices)?;
+        let whole = Response::new(body, body.h * THETA).map_err(super::super::space::indefinite)?;
+        let places = Places::new(body.n, &rows, &mut mass);
+        let impact = (places, Sweeps::new(body.matrices.mass.clone(), &rows, points.len()));
+        let contact = |(index, (point, wall)): (usize, (ContactPoint, &crate::scene::Wall))| Contact {
+            point,
+            round: wall.hole(index).map(|hole| (hole.centre, hole.gap)),
+            place: Place::Away,
+            lasts: false,
+            normal: point.normal,
+            rate: [0.0; 2],
+            rounding: 0.0,
+            least: 0.0,
+            pressed: 0.0,
+        };
+        Ok(Self {
+            all: points.into_iter().zip(&scene.walls).enumerate().map(contact).collect(),
+            rows: rows.into_iter().cloned().collect(),
+            impact,
+            whole,
+            holds: Vec::new(),
+            wedged: Vec::new(),
+            rebounds: true,
+            settled: true,
+            stops: false,
+            solves: 0,
+            unsettled: 0,
+        })
+    }
+
+    /// The displacement of a place of a velocity or a displacement.
+    pub fn pair(&self, wall: usize, x: &[f64]) -> [f64; 2] {
+        self.impact.0.pair(self.all[wall].point.rows, x)
+    }
+
+    /// The rates of a wall's place along its normal `normal` (of a flat one, its own).
+    pub fn rate_along(&self, wall: usize, normal: [f64; 2], v: &[f64]) -> f64 {
+        let contact = &self.all[wall];
+        dot(if contact.round.is_some() { normal } else { contact.point.normal }, self.pair(wall, v))
+    }
+
+    /// Displacement from the centre of a round wall, m.
+    fn offset(&self, wall: usize, centre: [f64; 2], q: &[f64]) -> [f64; 2] {
+        let [y, z] = self.pair(wall, q);
+        [y - centre[0], z - centre[1]]
+    }
+
+    /// The gap of a wall, m, and its outward normal.
+    fn gap(&self, wall: usize, body: &Body<Matrices>, q: &Vec<f64>) -> (f64, [f64; 2]) {
+        match self.all[wall].round {
+            None => (-body.walls[wall].depth(body.seen(wall, q)), self.all[wall].point.normal),
+            Some((centre, gap)) => {
+                let from = self.offset(wall, centre, q);
+                let distance = dot(from, from).sqrt();
+                (gap - distance, if distance > 0.0 { from.map(|x| x / distance) } else { [1.0, 0.0] })
+            }
+        }
+    }
+
+    /// True if the motion of a whole step is that without walls, apart from crossings.
+    pub fn is_free(&self, body: &Body<Matrices>, frame: &Frame<Matrices>, delta: &[f64]) -> bool {
+        let elastic = |(wall, face): (usize, &super::super::flat_row::FlatRow)| {
+            let (w, change) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
+            let end =
+                w + body.h * (change + 0.5 * dot(self.all[wall].point.normal, self.pair(wall, delta)) * -face.sign);
+            face.law.is_rigid() || (face.depth(w) <= 0.0 && face.depth(end) <= 0.0)
+        };
+        self.all.iter().all(|contact| matches!(contact.place, Place::Away | Place::Leaving))
+            && body.walls.iter().enumerate().all(elastic)
+    }
+
+    /// δ of a whole step without walls, from the momentum `b`.
+    pub fn release(&mut self, b: &[f64], delta: &mut Vec<f64>) {
+        self.whole.release(b, delta);
+    }
+
+    fn solve(
+        &mut self,
+        body: &Body<Matrices>,
+        part: &mut Part<Matrices>,
+        v: &[f64],
+        (length, theta): (f64, f64),
+    ) -> Solved {
+        let Self { whole, rows, holds, .. } = self;
+        let laws: (&[Row], &[PlaneHold]) = (rows, holds);
+        let settled = if length == body.h && theta == THETA {
+            whole.solve(body, laws, part, (v, length, theta))
+        } else {
+            let mut response = Response::new(body, length * theta)?;
+            let settled = response.solve(body, laws, part, (v, length, theta));
+            self.solves += response.solves();
+            settled
+        };
+        self.settled = settled;
+        Ok(settled)
+    }
+
+    /// The contact of a wall with this guide over a part.
+    fn hold(&self, wall: usize, (body, frame): (&Body<Matrices>, &Frame<Matrices>), guide: Guide) -> PlaneHold {
+        let contact = &self.all[wall];
+        let centre = contact.round.map_or([0.0; 2], |(centre, _)| centre);
+        PlaneHold {
+            wall,
+            rows: contact.point.rows,
+            guide,
+            friction: contact.point.friction,
+            compliance: 0.0,
+            slides: 0.0,
+            sign: if contact.round.is_some() { 1.0 } else { body.walls[wall].sign },
+            from: self.offset(wall, centre, &frame.q),
+            rate: self.pair(wall, &frame.v),
+        }
+    }
+
+    /// The contact of an elastic flat wall over a part of `length` seconds of the weight θ.
+    fn spring(&self, wall: usize, state: (&Body<Matrices>, &Frame<Matrices>), span: (f64, f64)) -> PlaneHold {
+        let (body, frame) = state;
+        let face = body.walls[wall];
+        let (w, rate) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
+        let (bound, compliance) = face.spring_bound(w, rate, span);
+        let guide = Guide::Flat(self.all[wall].point.normal, -face.sign * (rate + bound));
+        PlaneHold { compliance, ..self.hold(wall, state, guide) }
+    }
+
+    /// True if the rebounds of a body that strikes a wall of restitution `e` end within a step of
+    /// `h` seconds, under the acceleration of the last part of some length.
+    fn rebounds_end(contact: &Contact, e: f64, h: f64) -> bool {
+        e > 0.0 && e < 1.0 && 2.0 * e * contact.rate[0] <= (1.0 - e) * h * contact.pressed
+    }
+}
+
+impl Contacts<Matrices> for PlaneContacts {
+    fn classify(&mut self, body: &Body<Matrices>, _: &Part<Matrices>, frame: &Frame<Matrices>) {
+        for (wall, face) in body.walls.iter().enumerate() {
+            let (gap, normal) = self.gap(wall, body, &frame.q);
+            let pair = self.pair(wall, &frame.v);
+            let size: f64 = self.all[wall].point.rows.iter().map(|&row| size_of(&self.rows[row], &frame.v)).sum();
+            let contact = &mut self.all[wall];
+            contact.normal = normal;
+            contact.rate = [dot(normal, pair), normal[0] * pair[1] - normal[1] * pair[0]];
+            // Where rebounds are given up, impacts of walls on one another end sooner.
+            let least = if self.rebounds { body.touch } else { SLOW * body.touch };
+            // A body that leaves more slowly comes back before it is out of touch.
+            let turning = contact.round.map_or(0.0, |(_, gap)| contact.rate[1] * contact.rate[1] / gap);
+            let returns = (2.0 * body.touch * turning).sqrt();
+            contact.rounding = ROUNDING * size;
+            contact.least = returns.max(least / body.h) + contact.rounding;
+            let touches = face.law.is_rigid() && gap <= body.touch;
+            contact.place = if !touches {
+                Place::Away
+            } else if contact.rate[0].abs() <= contact.least || (contact.lasts && !frame.blown) {
+                Place::Resting
+            } else if contact.rate[0] < 0.0 {
+                Place::Leaving
+            } else {
+                Place::Struck
+            };
+        }
+    }
+
+    fn is_struck(&self) -> bool {
+        self.all.iter().any(|contact| contact.place == Place::Struck)
+    }
+
+    fn sets_blows_apart(&self) -> bool {
+        self.all.iter().any(|contact| contact.place == Place::Resting)
+    }
+
+    fn answer(
+        &mut self,
+        body: &Body<Matrices>,
+        part: &mut Part<Matrices>,
+        frame: &Frame<Matrices>,
+        length: f64,
+    ) -> Solved {
+        self.holds.clear();
+        for wall in 0..self.all.len() {
+            if length <= INSTANT * body.h {
+                break;
+            }
+            let contact = self.all[wall];
+            if !body.walls[wall].law.is_rigid() {
+                self.holds.push(self.spring(wall, (body, frame), (length, THETA)));
+                continue;
+            }
+            if contact.place != Place::Resting {
+                continue;
+            }
+            let behind = (-self.gap(wall, body, &frame.q).0).max(0.0) / body.h;
+            let guide = match contact.round {
+                None => Guide::Flat(contact.normal, -behind),
+                Some(_) => Guide::Chord { return_rate: 2.0 * behind },
+            };
+            let slides = contact.point.friction > 0.0 && contact.rate[1].abs() > contact.least;
+            let slides = if slides { contact.rate[1].signum() } else { 0.0 };
+            self.holds.push(PlaneHold { slides, ..self.hold(wall, (body, frame), guide) });
+        }
+        self.solve(body, part, &frame.v, (length, THETA))
+    }
+
+    fn give_up(
+        &mut self,
+        body: &Body<Matrices>,
+        part: &mut Part<Matrices>,
+        frame: &Frame<Matrices>,
+        length: f64,
+    ) -> Solved {
+        self.holds.clear();
+        self.wedged.clear();
+        for wall in 0..self.all.len() {
+            let hold = if body.walls[wall].law.is_rigid() {
+                let (gap, normal) = self.gap(wall, body, &frame.q);
+                let guide = match self.all[wall].round {
+                    None => Guide::Flat(normal, gap / length),
+                    Some((_, gap)) => Guide::End { gap },
+                };
+                self.hold(wall, (body, frame), guide)
+            } else {
+                self.spring(wall, (body, frame), (length, 1.0))
+            };
+            self.holds.push(hold);
+        }
+        if self.solve(body, part, &frame.v, (length, 1.0))? {
+            return Ok(true);
+        }
+        Err(Failure::NotSolved { status: UNSETTLED })
+    }
+
+    fn stops(&mut self) -> bool {
+        let across = |contact: &Contact| contact.place == Place::Resting && contact.rate[0] > contact.rounding;
+        self.stops = self.all.iter().any(across);
+        self.stops
+    }
+
+    fn parts_without_rebound(&self) -> u32 {
+        PARTS_WITHOUT_REBOUND
+    }
+
+    fn set_rebounds(&mut self, rebounds: bool) {
+        self.rebounds = rebounds;
+    }
+
+    fn first_event(
+        &self,
+        body: &Body<Matrices>,
+        frame: &Frame<Matrices>,
+        (delta, length): (&Vec<f64>, f64),
+    ) -> Option<(f64, Event)> {
+        let mut first: Option<(f64, Event)> = None;
+        let mut add = |at: f64, event: Event| {
+            if first.is_none_or(|(earliest, _)| at < earliest) {
+                first = Some((at, event));
+            }
+        };
+        for (wall, face) in body.walls.iter().enumerate() {
+            let contact = &self.all[wall];
+            if contact.place == Place::Resting {
+                let ahead = self.ahead(body, frame, Event::Reversal(wall), (delta, length));
+                let slides = contact.point.friction > 0.0 && contact.rate[1].abs() > contact.least;
+                if slides && ahead.left < -ahead.met {
+                    let start = contact.rate[1].abs();
+                    add(length * start / (start - ahead.left), Event::Reversal(wall));
+                }
+                continue;
+            }
+            let damped = face.law.damping() > 0.0;
+            if !face.law.is_rigid() && !damped {
+                continue;
+            }
+            let crossing = match contact.round {
+                None => {
+                    let path = self.gap_path(body, frame, wall, (delta, length));
+                    if damped && path.gap <= body.touch {
+                        continue;
+                    }
+                    path.crossing(body.touch)
+                }
+                Some(_) => self.round_path(frame, wall, (delta, length)).and_then(|path| path.crossing(body.touch)),
+            };
+            if let Some(at) = crossing {
+                add(at, Event::Crossing(wall));
+            }
+        }
+        first
+    }
+
+    fn ahead(
+        &self,
+        body: &Body<Matrices>,
+        frame: &Frame<Matrices>,
+        event: Event,
+        (delta, length): (&Vec<f64>, f64),
+    ) -> Ahead {
+        match event {
+            Event::Reversal(wall) => {
+                let contact = &self.all[wall];
+                // The direction of the friction over the part.
+                let hold = self.holds.iter().find(|hold| hold.wall == wall);
+                let change = self.pair(wall, delta);
+                let normal = hold.map_or(contact.normal, |hold| hold.normal_over(&change, length, THETA));
+                let along = |[y, z]: [f64; 2]| contact.rate[1].signum() * (normal[0] * z - normal[1] * y);
+                let (start, change) = (along(self.pair(wall, &frame.v)), along(change));
+                Ahead { left: start + change, rate: change / length, met: body.touch / body.h }
+            }
+            Event::Crossing(wall) => {
+                let (left, rate) = match self.round_path(frame, wall, (delta, length)) {
+                    None => {
+                        let path = self.gap_path(body, frame, wall, (delta, length));
+                        return Ahead { left: path.end(), rate: path.rate + path.change, met: body.touch };
+                    }
+                    Some(path) => path.end(),
+                };
+                // The search aims at half of the touching distance, so that rounding leaves the
+                // body in front of the wall.
+                Ahead { left: left - 0.5 * body.touch, rate, met: 0.5 * body.touch }
+            }
+        }
+    }
+
+    fn forget(&mut self) {
+        self.all.iter_mut().for_each(|contact| (contact.lasts, contact.pressed) = (false, 0.0));
+    }
+
+    fn keep(&mut self, body: &Body<Matrices>, part: &Part<Matrices>, frame: &Frame<Matrices>, length: f64) {
+        self.unsettled += u64::from(!std::mem::replace(&mut self.settled, true));
+        if length <= INSTANT * body.h {
+            self.all.iter_mut().for_each(|contact| contact.lasts = false);
+            return;
+        }
+        for wall in 0..self.all.len() {
+            let (_, normal) = self.gap(wall, body, &frame.q);
+            let (change, rate) = (self.pair(wall, &part.delta), self.pair(wall, &frame.v));
+            let pushed = part.pushes.iter().any(|push| push.wall == wall);
+            let contact = &mut self.all[wall];
+            contact.lasts = false;
+            contact.pressed = dot(normal, change) / length;
+            let Some((_, gap)) = contact.round else { continue };
+            let [along, gained] = [rate, change].map(|v| normal[0] * v[1] - normal[1] * v[0]);
+            contact.pressed += along * along / gap;
+            let fastest = along.abs().max((along - gained).abs());
+            let across = 0.5 * body.h / gap * fastest * (fastest + gained.abs());
+            contact.lasts = pushed && dot(normal, rate).abs() <= across;
+        }
+    }
+
+    fn strike(
+        &mut self,
+        body: &Body<Matrices>,
+        part: &Part<Matrices>,
+        frame: &mut Frame<Matrices>,
+        _: u64,
+    ) -> Result<bool> {
+        self.wedged.clear();
+        // What pushes over a part has no impulse at its end: a part of no length follows.
+        if frame.pushing.iter().any(|&wall| body.walls[wall].law.is_rigid()) {
+            return Ok(false);
+        }
+        self.classify(body, part, frame);
+        let stops = std::mem::take(&mut self.stops);
+        if !self.is_struck() && !stops {
+            return Ok(false);
+        }
+        self.solves += 1;
+        frame.resting.clear();
+        let (places, sweeps) = &mut self.impact;
+        (sweeps.wedged.clear(), sweeps.touches.clear());
+        for (wall, contact) in self.all.iter().enumerate() {
+            let rate = contact.rate[0];
+            let e = body.walls[wall].law.restitution().unwrap_or(0.0);
+            let bound = match contact.place {
+                Place::Away => continue,
+                Place::Leaving => -rate,
+                Place::Resting if rate < 0.0 => -rate,
+                Place::Struck if Self::rebounds_end(contact, e, body.h) => {
+                    frame.resting.push(wall);
+                    0.0
+                }
+                Place::Struck | Place::Resting if !self.rebounds || stops => {
+                    self.wedged.push(wall);
+                    0.0
+                }
+                Place::Resting | Place::Struck => -e * rate,
+            };
+            let laws = (contact.point.friction, 0.0);
+            let at = (wall, contact.point.rows);
+            sweeps.touches.push(Touch::new(places, at, (contact.normal, bound), laws, [0.0; 2]));
+        }
+        for (row, rate) in sweeps.free.iter_mut().enumerate() {
+            *rate = places.seen(row, &frame.v);
+        }
+        let unsettled = sweeps.unsettled;
+        if sweeps.solve(places) {
+            places.lift(&sweeps.impulse, &mut frame.v);
+        }
+        self.unsettled += sweeps.unsettled - unsettled;
+        self.wedged.extend_from_slice(&sweeps.wedged);
+        for touch in sweeps.touches.iter().filter(|touch| touch.impulse[0] != 0.0) {
+            let contact = &mut self.all[touch.index];
+            let sign = if contact.round.is_some() { 1.0 } else { body.walls[touch.index].sign };
+            frame.push_at_end(touch.index, sign * touch.impulse[0]);
+            frame.friction[touch.index] = touch.impulse[1];
+            frame.normal[touch.index] = if contact.round.is_some() { contact.normal } else { [0.0; 2] };
+        }
+        for contact in self.all.iter_mut().filter(|contact| contact.lasts) {
+            let after = dot(contact.normal, self.impact.0.pair(contact.point.rows, &frame.v));
+            contact.lasts = contact.place == Place::Resting && after.abs() <= contact.rate[0].abs() + contact.least;
+        }
+        Ok(true)
+    }
+
+    fn count(&self, counters: &mut Counters) {
+        counters.qp_solves += self.solves + self.whole.solves();
+        counters.qp_unsettled += self.unsettled;
+        counters.wedged_steps += self.impact.1.gave_up;
+    }
+}
+
+impl PlaneContacts {
+    /// The gap of a flat wall along a path.
+    fn gap_path(
+        &self,
+        body: &Body<Matrices>,
+        frame: &Frame<Matrices>,
+        wall: usize,
+        (delta, length): (&Vec<f64>, f64),
+    ) -> GapPath {
+        let face = body.walls[wall];
+        let [rate, change] = [&frame.v, delta].map(|v| face.sign * body.seen(wall, v));
+        GapPath { gap: -face.depth(body.seen(wall, &frame.q)), rate, change, span: length }
+    }
+
+    /// The path of the place of a round wall; `None` for a flat one.
+    fn round_path(&self, frame: &Frame<Matrices>, wall: usize, (delta, length): (&Vec<f64>, f64)) -> Option<RoundPath> {
+        let (centre, gap) = self.all[wall].round?;
+        let from = self.offset(wall, centre, &frame.q);
+        let [rate, change] = [&frame.v, delta].map(|v| self.pair(wall, v));
+        Some(RoundPath { from, rate, change, span: length, gap })
+    }
+}

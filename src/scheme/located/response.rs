@@ -1,0 +1,206 @@
+//! The motion over a part of a step under contacts in two planes.
+//!
+//! Over a part of length s, contacts in which the body rests or slides give Σ Pᵀ(−p n + f t). A
+//! flat wall bounds n·ẇ⁺. Along a round wall the impulse acts along the middle of the path,
+//!
+//! n ∥ w + w⁺,   n·ẇ⁺ ≤ −n·ẇ,
+//!
+//! so that (w⁺ + w)·(w⁺ − w) = 0: the body stays on the circle, and p does no work. n is found with
+//! w⁺, by repetition from w + ½sẇ. A step of implicit-euler takes n ∥ w⁺ and n·w⁺ ≤ γ instead.
+
+use super::super::body::Body;
+use super::super::matrices::Matrices;
+use super::super::space::Space;
+use super::super::supports::{CROSSING, Places, Sweeps, Touch, dot};
+use super::part::{Part, Push, theta_factor};
+use crate::linear::Factor;
+use crate::qp::Failure;
+use crate::scene::Row;
+
+/// Most repetitions with the normals of the one before.
+const MOST_TURNS: u32 = 60;
+
+/// Normals that change by no more than this are found, rad.
+const TURNED: f64 = 4.0 * f64::EPSILON;
+
+/// How a contact bounds the motion.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Guide {
+    /// A flat wall: n, and the bound on n·ẇ⁺, m/s.
+    Flat([f64; 2], f64),
+    /// A round wall along which the body slides; what rounding has left behind it returns at
+    /// `return_rate` (m/s).
+    Chord { return_rate: f64 },
+    /// A round wall of this gap (m) that is not passed at the end.
+    End { gap: f64 },
+}
+
+/// A contact that bounds the motion over a part.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PlaneHold {
+    pub wall: usize,
+    pub rows: [usize; 2],
+    pub guide: Guide,
+    /// μ, and the compliance of an elastic wall, m/s per N s.
+    pub friction: f64,
+    pub compliance: f64,
+    /// As [`Touch::slides`].
+    pub slides: f64,
+    /// The sign of the wall's impulse.
+    pub sign: f64,
+    /// Displacement from the centre of a round wall, m, and rate of the place, m/s, at the start.
+    pub from: [f64; 2],
+    pub rate: [f64; 2],
+}
+
+impl PlaneHold {
+    /// n and the bound on n·ẇ⁺ if the place moves by `way` (m) over `length` seconds; the same for
+    /// a flat wall always.
+    fn bound(&self, way: [f64; 2], length: f64) -> ([f64; 2], f64) {
+        let unit = |x: [f64; 2]| {
+            let size = dot(x, x).sqrt();
+            if size > 0.0 { x.map(|x| x / size) } else { [1.0, 0.0] }
+        };
+        match self.guide {
+            Guide::Flat(normal, bound) => (normal, bound),
+            Guide::Chord { return_rate } => {
+                let normal = unit([0, 1].map(|i: usize| 2.0 * self.from[i] + way[i]));
+                (normal, -dot(normal, self.rate) - return_rate)
+            }
+            Guide::End { gap } => {
+                let normal = unit([0, 1].map(|i: usize| self.from[i] + way[i]));
+                (normal, (gap - dot(normal, self.from)) / length)
+            }
+        }
+    }
+}
+
+impl PlaneHold {
+    /// n over a part of `length` seconds of the weight θ that changes the rate of the place by
+    /// `change` (m/s).
+    pub fn normal_over(&self, change: &[f64; 2], length: f64, theta: f64) -> [f64; 2] {
+        self.bound([0, 1].map(|i: usize| length * (self.rate[i] + theta * change[i])), length).0
+    }
+}
+
+impl PlaneHold {
+    /// True if the end of the path lies outside of a round wall.
+    fn is_passed(&self, way: [f64; 2]) -> bool {
+        let end = [0, 1].map(|i: usize| self.from[i] + way[i]);
+        let limit = match self.guide {
+            Guide::Flat(..) => return false,
+            Guide::Chord { .. } => dot(self.from, self.from),
+            Guide::End { gap } => gap * gap,
+        };
+        dot(end, end) > limit
+    }
+
+    /// True if the middle of the path along a round wall says little of its normal.
+    fn turns_far(&self, way: [f64; 2]) -> bool {
+        let middle = [0, 1].map(|i: usize| self.from[i] + 0.5 * way[i]);
+        matches!(self.guide, Guide::Chord { .. }) && dot(middle, middle) < CROSSING.powi(2) * dot(self.from, self.from)
+    }
+}
+
+/// The response of the structure over parts of one length.
+#[derive(Debug)]
+pub(super) struct Response {
+    st: f64,
+    factor: Factor,
+    /// The responses at all rows, and the solver of the contacts; only where a contact acts.
+    contacts: Option<(Places, Sweeps)>,
+}
+
+impl Response {
+    /// For M + sθC + s²θ²K with `st` = sθ (s).
+    pub fn new(body: &Body<Matrices>, st: f64) -> Result<Self, Failure> {
+        Ok(Self { st, factor: theta_factor::<Matrices>(body, st)?, contacts: None })
+    }
+
+    /// Computes δ without contacts from the momentum of `part`.
+    pub fn release(&mut self, b: &[f64], delta: &mut Vec<f64>) {
+        delta.clear();
+        delta.extend_from_slice(b);
+        Matrices::solve(&mut self.factor, delta);
+    }
+
+    /// Computes δ and the impulses of `holds` over a part of `length` seconds of the weight θ, from
+    /// the velocity `v`, for a structure with these `rows`. Returns whether the contacts were
+    /// settled.
+    pub fn solve(
+        &mut self,
+        body: &Body<Matrices>,
+        (rows, holds): (&[Row], &[PlaneHold]),
+        part: &mut Part<Matrices>,
+        (v, length, theta): (&[f64], f64, f64),
+    ) -> bool {
+        self.release(&part.b, &mut part.delta);
+        if holds.is_empty() {
+            return true;
+        }
+        let Self { st, factor, contacts } = self;
+        let (places, sweeps) = contacts.get_or_insert_with(|| {
+            let rows: Vec<&Row> = rows.iter().collect();
+            (Places::new(body.n, &rows, factor), Sweeps::new(body.theta_matrix_over(*st), &rows, body.walls.len()))
+        });
+        let free: Vec<f64> = v.iter().zip(&part.delta).map(|(v, d)| v + d).collect();
+        for (row, rate) in sweeps.free.iter_mut().enumerate() {
+            *rate = places.seen(row, &free);
+        }
+        let mut ways: Vec<[f64; 2]> = holds.iter().map(|hold| hold.rate.map(|rate| length * rate)).collect();
+        let mut warm = vec![[0.0; 2]; holds.len()];
+        let unsettled = sweeps.unsettled;
+        let mut settled = false;
+        for turn in 0..MOST_TURNS {
+            let touches = holds.iter().zip(ways.iter().zip(&warm)).map(|(hold, (way, warm))| {
+                let (laws, contact) = ((hold.friction, hold.compliance), (hold.wall, hold.rows));
+                let touch = Touch::new(places, contact, hold.bound(*way, length), laws, *warm);
+                Touch { slides: hold.slides, ..touch }
+            });
+            sweeps.touches.clear();
+            sweeps.touches.extend(touches);
+            sweeps.solve(places);
+            let mut delta = part.delta.clone();
+            places.lift(&sweeps.impulse, &mut delta);
+            let (mut turned, mut far) = (0.0_f64, false);
+            for ((hold, way), (touch, warm)) in holds.iter().zip(&mut ways).zip(sweeps.touches.iter().zip(&mut warm)) {
+                let change = places.pair(hold.rows, &delta);
+                let found = [0, 1].map(|i: usize| length * (hold.rate[i] + theta * change[i]));
+                *warm = touch.impulse;
+                let (normal, _) = hold.bound(found, length);
+                if touch.impulse[0] > 0.0 || hold.is_passed(found) {
+                    turned = turned.max((normal[0] - touch.normal[0]).hypot(normal[1] - touch.normal[1]));
+                }
+                far |= touch.impulse[0] > 0.0 && hold.turns_far(found);
+                // Normals that swing to and fro meet in the middle.
+                let share = if turn % 4 == 3 && turn >= MOST_TURNS / 4 { 0.5 } else { 1.0 };
+                *way = [0, 1].map(|i: usize| way[i] + share * (found[i] - way[i]));
+            }
+            settled = turned <= TURNED && !far;
+            if settled || far {
+                break;
+            }
+        }
+        for (hold, touch) in holds.iter().zip(&sweeps.touches) {
+            let [p, friction] = touch.impulse;
+            if p == 0.0 {
+                continue;
+            }
+            let normal = if matches!(hold.guide, Guide::Flat(..)) { [0.0; 2] } else { touch.normal };
+            part.pushes.push(Push { wall: hold.wall, impulse: hold.sign * p, friction, normal });
+            for (row, push) in touch.rows.into_iter().zip(touch.push(touch.impulse)) {
+                for &(i, weight) in rows[row].entries() {
+                    part.b[i] += weight * push;
+                }
+            }
+        }
+        // Solved again rather than added, so that the balance keeps its rounding where both cancel.
+        self.release(&part.b, &mut part.delta);
+        settled && self.contacts.as_ref().is_some_and(|(_, sweeps)| sweeps.unsettled == unsettled)
+    }
+
+    /// Programmes solved.
+    pub fn solves(&self) -> u64 {
+        self.contacts.as_ref().map_or(0, |(_, sweeps)| sweeps.solves)
+    }
+}

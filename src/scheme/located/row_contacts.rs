@@ -1,0 +1,243 @@
+//! Walls on single rows: which of them the body touches, the programme of a part that they bound,
+//! and the impact law at an instant.
+
+use super::super::Counters;
+use super::super::body::Body;
+use super::super::flat_row::FlatRow;
+use super::super::frame::Frame;
+use super::super::programme::Programme;
+use super::super::space::{Space, zero};
+use super::THETA;
+use super::contacts::{Ahead, Contacts, Event, Place, Solved};
+use super::crossing::GapPath;
+use super::part::{Hold, Part};
+use crate::error::Result;
+use crate::qp::Backend;
+use crate::scene::{Scene, Wall, WallLaw};
+
+/// The rigid walls that the body touches, and the law of their impacts.
+#[derive(Debug)]
+pub(super) struct RowContacts<S: Space> {
+    /// The programme of an impact, in the metric of the mass.
+    law: Programme<S>,
+    places: Vec<Place>,
+    /// Walls that bound the velocity in the current step or part.
+    pub holds: Vec<Hold>,
+    /// The walls on the other side of each wall's row.
+    opposite: Vec<Vec<usize>>,
+    /// The change of the rate of each wall's gap in the last part, m/s, and its length, s.
+    changes: Vec<f64>,
+    length: f64,
+    /// No momentum but that of the walls.
+    none: S::Vector,
+    impulse: Vec<f64>,
+    pushing: Vec<usize>,
+    /// Impacts so far.
+    impacts: u64,
+}
+
+impl<S: Space> RowContacts<S> {
+    pub fn new(scene: &Scene, body: &Body<S>, backend: Backend) -> Result<Self> {
+        let walls = scene.walls.len();
+        let opposite = |wall: &Wall| {
+            let faces = |other: &Wall| other.row() == wall.row() && other.side() != wall.side();
+            (0..walls).filter(|&other| scene.walls.get(other).is_some_and(faces)).collect()
+        };
+        let (mass, scale) = (body.matrices.mass.clone(), scene.gap_scale() / body.h);
+        Ok(Self {
+            law: Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, backend)?,
+            places: vec![Place::Away; walls],
+            holds: Vec::with_capacity(walls),
+            opposite: scene.walls.iter().map(opposite).collect(),
+            changes: vec![0.0; walls],
+            length: 0.0,
+            none: zero::<S>(body.n),
+            impulse: vec![0.0; walls],
+            pushing: Vec::with_capacity(walls),
+            impacts: 0,
+        })
+    }
+
+    /// Notes that the body touches no rigid wall.
+    pub fn leave_all(&mut self) {
+        self.places.fill(Place::Away);
+    }
+
+    /// True if the body rests on this wall.
+    fn rests(&self, wall: usize) -> bool {
+        self.places[wall] == Place::Resting
+    }
+
+    /// True if the body rests on a wall of the other side of this wall's row too.
+    fn rests_between(&self, wall: usize) -> bool {
+        self.opposite[wall].iter().any(|&other| self.rests(other))
+    }
+
+    /// True if the rebounds of a body that strikes a wall at `speed` (m/s) end within a step of `h`
+    /// seconds, under the acceleration of the last part.
+    fn rebounds_end(&self, wall: usize, e: f64, speed: f64, h: f64) -> bool {
+        let pressed = -self.changes[wall];
+        e < 1.0 && self.length > 0.0 && 2.0 * e * speed * self.length <= (1.0 - e) * h * pressed
+    }
+
+    /// Sets the bounds of the walls at which the body rests and of elastic walls, for a part of
+    /// `length` seconds from the state of `frame`, with its contacts classified.
+    pub fn set_holds(&mut self, body: &Body<S>, frame: &Frame<S>, length: f64) {
+        self.holds.clear();
+        for (wall, &face) in body.walls.iter().enumerate() {
+            if face.law.is_rigid() && !self.rests(wall) {
+                continue;
+            }
+            let (w, rate) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
+            let (bound, compliance) = if face.law.is_rigid() {
+                (if self.rests_between(wall) { -rate } else { rest_bound(face, w, rate, body.h) }, 0.0)
+            } else {
+                face.spring_bound(w, rate, (length, THETA))
+            };
+            self.holds.push(Hold { wall, upper: face.upper, bound, compliance });
+        }
+    }
+
+    /// The gap of a wall along the part of `length` seconds that changes the velocity by `delta`.
+    fn gap_path(body: &Body<S>, frame: &Frame<S>, wall: usize, (delta, length): (&S::Vector, f64)) -> GapPath {
+        let face = body.walls[wall];
+        let [rate, change] = [&frame.v, delta].map(|v| face.sign * body.seen(wall, v));
+        GapPath { gap: -face.depth(body.seen(wall, &frame.q)), rate, change, span: length }
+    }
+}
+
+impl<S: Space> Contacts<S> for RowContacts<S> {
+    /// A speed that moves the body by less than the touching distance within a step is rest.
+    fn classify(&mut self, body: &Body<S>, part: &Part<S>, frame: &Frame<S>) {
+        for (wall, (face, place)) in body.walls.iter().zip(&mut self.places).enumerate() {
+            let touches = face.law.is_rigid() && -face.depth(body.seen(wall, &frame.q)) <= body.touch;
+            *place = if touches {
+                let rate = face.sign * body.seen(wall, &frame.v);
+                if rate.abs() <= body.touch / body.h + part.rounding(wall, &frame.v) {
+                    Place::Resting
+                } else if rate > 0.0 {
+                    Place::Leaving
+                } else {
+                    Place::Struck
+                }
+            } else {
+                Place::Away
+            };
+        }
+    }
+
+    fn is_struck(&self) -> bool {
+        self.places.contains(&Place::Struck)
+    }
+
+    fn answer(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved {
+        self.set_holds(body, frame, length);
+        part.hold(body, length * THETA, &self.holds).map(|()| true)
+    }
+
+    fn give_up(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved {
+        self.holds.clear();
+        for (wall, &face) in body.walls.iter().enumerate() {
+            let (w, rate) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
+            let (bound, compliance) = if face.law.is_rigid() {
+                ((face.g - w) / length - rate, 0.0)
+            } else {
+                face.spring_bound(w, rate, (length, 1.0))
+            };
+            self.holds.push(Hold { wall, upper: face.upper, bound, compliance });
+        }
+        part.hold(body, length, &self.holds).map(|()| true)
+    }
+
+    fn first_event(
+        &self,
+        body: &Body<S>,
+        frame: &Frame<S>,
+        (delta, length): (&S::Vector, f64),
+    ) -> Option<(f64, Event)> {
+        let mut first: Option<(f64, Event)> = None;
+        for (wall, face) in body.walls.iter().enumerate() {
+            let damped = face.law.damping() > 0.0;
+            if !face.law.is_rigid() && !damped || self.rests(wall) {
+                continue;
+            }
+            let path = Self::gap_path(body, frame, wall, (delta, length));
+            if damped && path.gap <= body.touch {
+                continue;
+            }
+            if let Some(at) = path.crossing(body.touch)
+                && first.is_none_or(|(earliest, _)| at < earliest)
+            {
+                first = Some((at, Event::Crossing(wall)));
+            }
+        }
+        first
+    }
+
+    fn ahead(&self, body: &Body<S>, frame: &Frame<S>, event: Event, motion: (&S::Vector, f64)) -> Ahead {
+        let (Event::Crossing(wall) | Event::Reversal(wall)) = event;
+        let path = Self::gap_path(body, frame, wall, motion);
+        Ahead { left: path.end(), rate: path.rate + path.change, met: body.touch }
+    }
+
+    fn stay(&mut self) {
+        self.length = 0.0;
+    }
+
+    fn keep(&mut self, body: &Body<S>, part: &Part<S>, _: &Frame<S>, length: f64) {
+        self.length = length;
+        for (wall, (face, change)) in body.walls.iter().zip(&mut self.changes).enumerate() {
+            *change = face.sign * body.seen(wall, &part.delta);
+        }
+    }
+
+    fn strike(&mut self, body: &Body<S>, part: &Part<S>, frame: &mut Frame<S>, step: u64) -> Result<bool> {
+        self.classify(body, part, frame);
+        if !self.is_struck() {
+            return Ok(false);
+        }
+        self.impacts += 1;
+        self.law.free();
+        frame.resting.clear();
+        for row in 0..self.law.count_rows() {
+            for number in self.law.walls(row) {
+                let face = self.law.wall(number);
+                let rate = body.seen(face.index, &frame.v);
+                let bound = match self.places[face.index] {
+                    Place::Away => continue,
+                    Place::Resting => -rate,
+                    Place::Leaving => -2.0 * rate,
+                    Place::Struck => {
+                        let e = face.law.restitution().unwrap_or(0.0);
+                        let ends = e > 0.0 && self.rebounds_end(face.index, e, rate.abs(), body.h);
+                        if ends {
+                            frame.resting.push(face.index);
+                        }
+                        if ends { -rate } else { -(1.0 + e) * rate }
+                    }
+                };
+                self.law.bind(row, number, bound);
+            }
+        }
+        let Self { law, none, impulse, pushing, .. } = self;
+        law.solve(none, (frame.end, step), impulse, pushing)?;
+        for (v, d) in frame.v.as_mut().iter_mut().zip(law.x().as_ref()) {
+            *v += d;
+        }
+        for wall in pushing.drain(..) {
+            frame.push_at_end(wall, std::mem::take(&mut impulse[wall]));
+        }
+        Ok(true)
+    }
+
+    fn count(&self, counters: &mut Counters) {
+        counters.qp_solves += self.impacts;
+    }
+}
+
+/// The bound on the change of velocity at a rigid wall on which the body rests: no speed into it,
+/// and out of it by what rounding has left behind the face.
+fn rest_bound(face: FlatRow, w: f64, rate: f64, h: f64) -> f64 {
+    let behind = face.depth(w).max(0.0);
+    face.sign * behind / h - rate
+}
