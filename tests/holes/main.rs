@@ -15,6 +15,7 @@ mod flats;
 mod friction;
 mod frictionless;
 mod judge;
+mod located;
 mod penalty;
 mod pendulum;
 mod position;

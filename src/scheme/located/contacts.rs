@@ -32,13 +32,15 @@ pub(super) enum Event {
     Crossing(usize),
     /// Sliding along the wall ends.
     Reversal(usize),
+    /// Sliding along it begins.
+    Slip(usize),
 }
 
 /// How far an event is from the end of a part.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ahead {
-    /// What is left of the gap (m) or of the sliding velocity (m/s), positive before the event, and
-    /// its rate, 1/s.
+    /// What is left of the gap (m), of the sliding velocity (m/s) or of the time (s), positive before
+    /// the event, and its rate, 1/s.
     pub left: f64,
     pub rate: f64,
     /// At or below this much is left where the event is met.

@@ -21,6 +21,12 @@ const MOST_PARTS: u32 = 64;
 /// Maximum number of evaluations of a part's end in the search for its length.
 const MOST_EVALUATIONS: u32 = 60;
 
+/// The shortest part by implicit-euler, in steps.
+const SHORTEST: f64 = 1e-6;
+
+/// What a step is told that has no motion.
+const UNSETTLED: &str = "no motion keeps the laws of all contacts; a smaller step or moreau-jean may do";
+
 /// The contract of the rest of a step that was given up.
 const GIVEN_UP: Contract = {
     let mut contract = position::contract(1.0);
@@ -271,11 +277,23 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         frame: &mut Frame<S>,
         (from, limit): (f64, f64),
     ) -> Result<()> {
-        let length = limit - from;
-        let Self { part, contacts, .. } = self;
-        part.set_momentum(body, (&frame.q, &frame.v, &frame.extra), (length, limit, 1.0));
-        contacts.give_up(body, part, frame, length).map_err(|fault| refusal(&fault, limit, step))?;
-        (frame.end, frame.stretch) = (limit, Stretch::Other(length, &GIVEN_UP));
+        let whole = limit - from;
+        let mut length = whole;
+        let Self { part, contacts, progress, .. } = self;
+        let last = progress.is_some_and(|progress| progress.parts > 2 * (MOST_PARTS + contacts.parts_without_rebound()));
+        let end = loop {
+            let end = if length == whole { limit } else { from + length };
+            part.set_momentum(body, (&frame.q, &frame.v, &frame.extra), (length, end, 1.0));
+            let found = contacts.give_up(body, part, frame, length).map_err(|fault| refusal(&fault, end, step))?;
+            if found {
+                break end;
+            }
+            length *= 0.5;
+            if last || length < SHORTEST * body.h {
+                return Err(refusal(&Failure::NotSolved { status: UNSETTLED }, end, step));
+            }
+        };
+        (frame.end, frame.stretch) = (end, Stretch::Other(length, &GIVEN_UP));
         self.take(body, frame, length, 1.0);
         self.contacts.forget();
         Ok(())

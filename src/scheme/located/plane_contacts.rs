@@ -8,7 +8,8 @@
 //! Friction is Coulomb's, on the impulse over a part and the velocity at its end. A body that slides
 //! at the start of a part slides with full friction until its sliding velocity, which is linear in
 //! time, vanishes: the part ends there (`Event::Reversal`), and from rest the law decides whether
-//! the body sticks or slides back.
+//! the body sticks or slides back. It begins to slide where the straight line through what its last
+//! two parts left of the friction vanishes (`Event::Slip`).
 
 use super::super::Counters;
 use super::super::body::Body;
@@ -23,7 +24,6 @@ use super::part::{Part, ROUNDING, size_of};
 use super::response::{Guide, PlaneHold, Response};
 use super::round_path::RoundPath;
 use crate::error::Result;
-use crate::qp::Failure;
 use crate::scene::{Row, Scene};
 
 /// A part shorter than this share of the step ends at a blow, and no contact acts in it.
@@ -35,8 +35,8 @@ const PARTS_WITHOUT_REBOUND: u32 = 256;
 /// Speeds that count as rest where rebounds are given up, in multiples of those where they are not.
 const SLOW: f64 = 1e4;
 
-/// What a step is told that has no motion.
-const UNSETTLED: &str = "no motion keeps the laws of all contacts; a smaller step or moreau-jean may do";
+/// A part shorter than this share of the step is not worth the begin of a slide.
+const SOON: f64 = 1e-9;
 
 /// A wall, and where the body is at it.
 #[derive(Debug, Clone, Copy)]
@@ -56,6 +56,18 @@ struct Contact {
     /// The acceleration that pressed the body against the wall in the last part of some length,
     /// m/s².
     pressed: f64,
+    /// The middle (s) of the last two parts in which it stuck, and what was left of the friction
+    /// there, μp − |f| as a mean force, N.
+    stuck: [Option<(f64, f64)>; 2],
+}
+
+impl Contact {
+    /// The time (s) at which it begins to slide: where the straight line through what was left of
+    /// its friction vanishes.
+    fn slips(&self) -> Option<f64> {
+        let [Some((before, more)), Some((middle, left))] = self.stuck else { return None };
+        (more > left).then(|| middle + left * (middle - before) / (more - left))
+    }
 }
 
 /// The walls of a scene in two planes.
@@ -97,6 +109,7 @@ impl PlaneContacts {
             rounding: 0.0,
             least: 0.0,
             pressed: 0.0,
+            stuck: [None; 2],
         };
         Ok(Self {
             all: points.into_iter().zip(&scene.walls).enumerate().map(contact).collect(),
@@ -305,10 +318,7 @@ impl Contacts<Matrices> for PlaneContacts {
             };
             self.holds.push(hold);
         }
-        if self.solve(body, part, &frame.v, (length, 1.0))? {
-            return Ok(true);
-        }
-        Err(Failure::NotSolved { status: UNSETTLED })
+        self.solve(body, part, &frame.v, (length, 1.0))
     }
 
     fn stops(&mut self) -> bool {
@@ -345,6 +355,11 @@ impl Contacts<Matrices> for PlaneContacts {
                 if slides && ahead.left < -ahead.met {
                     let start = contact.rate[1].abs();
                     add(length * start / (start - ahead.left), Event::Reversal(wall));
+                }
+                // In the first and the last of a step's roundings it is not worth a part.
+                let slips = contact.slips().map(|time| time - frame.start);
+                if let Some(at) = slips.filter(|at| !slides && *at > SOON * body.h && *at < length - SOON * body.h) {
+                    add(at, Event::Slip(wall));
                 }
                 continue;
             }
@@ -387,6 +402,10 @@ impl Contacts<Matrices> for PlaneContacts {
                 let (start, change) = (along(self.pair(wall, &frame.v)), along(change));
                 Ahead { left: start + change, rate: change / length, met: body.touch / body.h }
             }
+            Event::Slip(wall) => {
+                let at = self.all[wall].slips().map_or(length, |time| time - frame.start);
+                Ahead { left: at - length, rate: -1.0, met: SOON * body.h }
+            }
             Event::Crossing(wall) => {
                 let (left, rate) = match self.round_path(frame, wall, (delta, length)) {
                     None => {
@@ -403,7 +422,9 @@ impl Contacts<Matrices> for PlaneContacts {
     }
 
     fn forget(&mut self) {
-        self.all.iter_mut().for_each(|contact| (contact.lasts, contact.pressed) = (false, 0.0));
+        self.all.iter_mut().for_each(|contact| {
+            (contact.lasts, contact.pressed, contact.stuck) = (false, 0.0, [None; 2]);
+        });
     }
 
     fn keep(&mut self, body: &Body<Matrices>, part: &Part<Matrices>, frame: &Frame<Matrices>, length: f64) {
@@ -415,14 +436,23 @@ impl Contacts<Matrices> for PlaneContacts {
         for wall in 0..self.all.len() {
             let (_, normal) = self.gap(wall, body, &frame.q);
             let (change, rate) = (self.pair(wall, &part.delta), self.pair(wall, &frame.v));
-            let pushed = part.pushes.iter().any(|push| push.wall == wall);
+            let push = part.pushes.iter().find(|push| push.wall == wall);
             let contact = &mut self.all[wall];
+            let sliding = normal[0] * rate[1] - normal[1] * rate[0];
+            contact.stuck = match push {
+                Some(push) if contact.rate[1].abs().max(sliding.abs()) <= contact.least => {
+                    let left = contact.point.friction * push.impulse.abs() - push.friction.abs();
+                    [contact.stuck[1], Some((frame.end - 0.5 * length, left / length))]
+                }
+                _ => [None; 2],
+            };
+            let pushed = push.is_some();
             contact.lasts = false;
             contact.pressed = dot(normal, change) / length;
             let Some((_, gap)) = contact.round else { continue };
-            let [along, gained] = [rate, change].map(|v| normal[0] * v[1] - normal[1] * v[0]);
-            contact.pressed += along * along / gap;
-            let fastest = along.abs().max((along - gained).abs());
+            let gained = normal[0] * change[1] - normal[1] * change[0];
+            contact.pressed += sliding * sliding / gap;
+            let fastest = sliding.abs().max((sliding - gained).abs());
             let across = 0.5 * body.h / gap * fastest * (fastest + gained.abs());
             contact.lasts = pushed && dot(normal, rate).abs() <= across;
         }

@@ -175,7 +175,7 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
     }
 
     fn ahead(&self, body: &Body<S>, frame: &Frame<S>, event: Event, motion: (&S::Vector, f64)) -> Ahead {
-        let (Event::Crossing(wall) | Event::Reversal(wall)) = event;
+        let (Event::Crossing(wall) | Event::Reversal(wall) | Event::Slip(wall)) = event;
         let path = Self::gap_path(body, frame, wall, motion);
         Ahead { left: path.end(), rate: path.rate + path.change, met: body.touch }
     }
