@@ -17,7 +17,8 @@ impl Judge {
         self.walls.see_gap(&self.noise, hole.index, (slack, self.way(step, hole)), pressure);
     }
 
-    /// Checks a rigid hole that pushes only while the body stays at it, along the middle of its path.
+    /// Checks a rigid hole that pushes only while the body stays at it, along the middle of its
+    /// path.
     pub(super) fn hold_along(&mut self, step: &Step<'_>, hole: &Hole<'_>, did: &HolePush, askew: &mut Residual) {
         let (pressure, start, end) = (did.impulse / self.h, hole.offset(&self.q), hole.offset(step.q));
         self.hold_disk(step, hole, pressure);

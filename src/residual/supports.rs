@@ -95,9 +95,9 @@ impl Supports {
         change(seen(before), seen(after))
     }
 
-    /// True if the rebounds of a body that strikes a hole at the speed `struck` (m/s) along the normal `n` end
-    /// within a step of `h` seconds: under the acceleration of the last part along n and that of its way
-    /// along the circle.
+    /// True if the rebounds of a body that strikes a hole at the speed `struck` (m/s) along the
+    /// normal `n` end within a step of `h` seconds: under the acceleration of the last part along n
+    /// and that of its way along the circle.
     pub fn ends_rebounds(&self, hole: &Hole<'_>, (n, struck): ([f64; 2], f64), h: f64, noise: f64) -> bool {
         let [before, after] = [&self.part[0], &self.part[1]].map(|v| hole.seen(v));
         let gained = n[0] * (after[0] - before[0]) + n[1] * (after[1] - before[1]);

@@ -94,8 +94,8 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
     }
     if run.counters.steps_given_up > 0 {
         notes.push(format!(
-            "in {} steps impacts follow one another too fast for {name}: the rest of each was made by \
-             implicit-euler, without rebound; use a smaller step",
+            "in {} steps impacts follow one another too fast for {name}: the rest of each was made \
+             without rebound; use a smaller step",
             run.counters.steps_given_up
         ));
     }

@@ -27,7 +27,7 @@ pub struct Counters {
     pub newton_iterations: u64,
     /// Parts into which located divided its steps.
     pub parts: u64,
-    /// Steps of located with too many impacts, whose rest implicit-euler made.
+    /// Steps of located with too many impacts, whose rest was made without rebound.
     pub steps_given_up: u64,
     /// Contact events of the exact scheme.
     pub events: u64,

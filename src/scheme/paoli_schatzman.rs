@@ -26,7 +26,7 @@
 use super::Counters;
 use super::body::Body;
 use super::entry::{
-    Coverage, NO_ENERGY_ON_A_CIRCLE, ONE_FOR_FRICTION, ONES_FOR_RINGS, Realised, SchemeEntry, SchemeKind,
+    Coverage, NO_ENERGY_ON_A_CIRCLE, ONES_FOR_FRICTION, ONES_FOR_RINGS, Realised, SchemeEntry, SchemeKind,
 };
 use super::frame::{Frame, Stretch};
 use super::programme::Programme;
@@ -51,7 +51,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     fails: "order 1 at e > 0; penetrates by up to 2ehv/(1+e)",
     round: Coverage::Refused(NO_ENERGY_ON_A_CIRCLE),
     elastic_round: Coverage::Refused(ONES_FOR_RINGS),
-    friction: Coverage::Refused(ONE_FOR_FRICTION),
+    friction: Coverage::Refused(ONES_FOR_FRICTION),
 };
 
 /// What every step satisfies.

@@ -24,7 +24,7 @@
 //! times as far as the rounding error, and across a face of a wall.
 
 use super::body::Body;
-use super::entry::{Coverage, ONE_FOR_FRICTION, Realised, SchemeEntry, SchemeKind};
+use super::entry::{Coverage, ONES_FOR_FRICTION, Realised, SchemeEntry, SchemeKind};
 use super::frame::Frame;
 use super::newton::{Answer, Walls};
 use super::rule::Rule;
@@ -51,7 +51,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
          tends to restitution 1",
     ),
     elastic_round: Coverage::Stepped("(discrete-gradient) keeps energy and angular momentum"),
-    friction: Coverage::Refused(ONE_FOR_FRICTION),
+    friction: Coverage::Refused(ONES_FOR_FRICTION),
 };
 
 /// What every step by this integrator satisfies.

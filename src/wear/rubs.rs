@@ -3,7 +3,8 @@
 //! The sliding velocity is v_t = t · (g_y · q̇, g_z · q̇) with t = (−n_z, n_y) and n the outward
 //! normal of the contact. In a step on a grid it varies linearly from the step's start, after the
 //! impulses of loads, to its end; in a part of a step, whose impulses come at its end, from its
-//! start to its end, and at the instant that ends it. For exact motion force and velocity are polynomials in time, and
+//! start to its end, and at the instant that ends it. For exact motion force and velocity are
+//! polynomials in time, and
 //! |v_t| is integrated from one sign change to the next.
 
 use super::blows::Blow;

@@ -39,8 +39,8 @@ pub(super) enum Event {
 /// How far an event is from the end of a part.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ahead {
-    /// What is left of the gap (m), of the sliding velocity (m/s) or of the time (s), positive before
-    /// the event, and its rate, 1/s.
+    /// What is left of the gap (m), of the sliding velocity (m/s) or of the time (s), positive
+    /// before the event, and its rate, 1/s.
     pub left: f64,
     pub rate: f64,
     /// At or below this much is left where the event is met.
@@ -65,8 +65,8 @@ pub(super) trait Contacts<S: Space>: Debug + Send {
     /// `frame`, whose momentum `part` has.
     fn answer(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved;
 
-    /// Where no motion was found: whether walls along which the body slides must first stop its speed
-    /// across them, by an impulse without rebound.
+    /// Where no motion was found: whether walls along which the body slides must first stop its
+    /// speed across them, by an impulse without rebound.
     fn stops(&mut self) -> bool {
         false
     }
@@ -83,8 +83,8 @@ pub(super) trait Contacts<S: Space>: Debug + Send {
     /// The same by implicit-euler, at whose end the body is in front of all walls.
     fn give_up(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved;
 
-    /// The first event on the path of `length` seconds that changes the velocity by `delta`, and its
-    /// instant within the path, s.
+    /// The first event on the path of `length` seconds that changes the velocity by `delta`, and
+    /// its instant within the path, s.
     fn first_event(&self, body: &Body<S>, frame: &Frame<S>, motion: (&S::Vector, f64)) -> Option<(f64, Event)>;
 
     /// How far the end of that path is from an event.

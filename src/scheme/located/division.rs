@@ -7,9 +7,8 @@ use super::super::jumps::Jumps;
 use super::super::position;
 use super::super::programme::failure;
 use super::super::space::{Space, zero};
-use super::THETA;
 use super::contacts::Contacts;
-use super::part::Part;
+use super::part::{Part, THETA};
 use crate::error::{Error, Result};
 use crate::qp::{Backend, Failure};
 use crate::scene::Scene;
@@ -224,8 +223,8 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         self.contacts.stay();
     }
 
-    /// Computes the part of `length` seconds from `from`, and returns whether it was found; one that ends at `limit` (s) ends there
-    /// to the last bit, and before a jump of the loads there.
+    /// Computes the part of `length` seconds from `from`, and returns whether it was found; one
+    /// that ends at `limit` (s) ends there to the last bit, and before a jump of the loads there.
     fn compute(
         &mut self,
         body: &mut Body<S>,
@@ -280,7 +279,8 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         let whole = limit - from;
         let mut length = whole;
         let Self { part, contacts, progress, .. } = self;
-        let last = progress.is_some_and(|progress| progress.parts > 2 * (MOST_PARTS + contacts.parts_without_rebound()));
+        let last =
+            progress.is_some_and(|progress| progress.parts > 2 * (MOST_PARTS + contacts.parts_without_rebound()));
         let end = loop {
             let end = if length == whole { limit } else { from + length };
             part.set_momentum(body, (&frame.q, &frame.v, &frame.extra), (length, end, 1.0));

@@ -19,7 +19,8 @@
 //!
 //! over the walls that are touched, with ε = e where the body approaches or rests and 1 where it
 //! separates: Moreau's law at an instant (Moreau 1988, doi:10.1007/978-3-7091-2624-0_1;
-//! `contacts.rs`). A wall that is still approached after that is struck again at the same instant.
+//! `row_contacts.rs`). A wall that is still approached after that is struck again at the same
+//! instant.
 //!
 //! A body rests where it touches a wall without speed. Such walls bound the velocity at the end of
 //! each part, ẇ⁺ ≤ 0, so that the body stays on the face, at no depth. If the pressing acceleration
@@ -29,6 +30,12 @@
 //!
 //! Loads of no duration and jumps of tables divide a step too. Elastic walls act as in moreau-jean;
 //! one with a dashpot divides the step where the body meets it, since its force jumps there.
+//!
+//! With round walls or friction ([`planar`], [`plane_contacts`]) the same division ends parts where
+//! a place meets a circle (`round_path.rs`), where sliding ends and where it begins; a body that
+//! slides along a circle is guided by an impulse along the middle of its path (`response.rs`).
+//! There the rest of a step of more than 64 parts has no rebounds, and implicit-euler takes over
+//! after 256 more.
 //!
 //! Order 2 through impacts. More than 64 parts of one step (dense chatter, or a
 //! step that does not resolve the motion between two walls) are given up: the rest of that step is
@@ -60,10 +67,8 @@ use crate::scene::Scene;
 use crate::step::{Balance, Bound, Calm, Conserves, Contract, Friction, Law, Promise, Reached, Tolerances};
 use contacts::Contacts;
 use division::Division;
+use part::THETA;
 use row_contacts::RowContacts;
-
-/// θ of the rule.
-const THETA: f64 = 0.5;
 
 /// What is known of the scheme beside its rule.
 pub(super) const ENTRY: SchemeEntry = SchemeEntry {
@@ -73,8 +78,10 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     kind: SchemeKind::Qp,
     restitution: Realised::PerWall,
     realises: "e, per wall",
-    purpose: "order 2 through impacts: steps are divided where a wall is struck; a body that rests stands on the face",
-    fails: "a step with more than 64 parts ends without rebound (reported); an impact costs several steps",
+    purpose: "order 2 through impacts, round holes and friction: steps are divided where a wall is struck or sliding \
+              turns; a body that rests stands on the face",
+    fails: "a step with more than 64 parts ends without rebound (reported); an impact costs several steps; a body that \
+            friction jams may have no motion at a coarse step (an error)",
     round: Coverage::Stepped("finds the instants of contact, and follows the circle while the body slides along it"),
     elastic_round: Coverage::Refused(ONES_FOR_RINGS),
     friction: Coverage::Stepped("finds the instants at which sliding ends"),

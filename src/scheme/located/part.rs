@@ -6,6 +6,9 @@ use crate::linear::Rows;
 use crate::qp::{Backend, Failure, Problem};
 use crate::scene::{Row, Scene};
 
+/// θ of the rule.
+pub(super) const THETA: f64 = 0.5;
+
 /// A bound on the velocity of a wall's row in a part: g·δ ≤ `bound` at an upper wall, ≥ at a lower
 /// one, exceeded by compliance times impulse.
 #[derive(Debug, Clone, Copy)]
@@ -73,8 +76,8 @@ impl<S: Space> Part<S> {
         ROUNDING * size_of(&self.rows[wall], v.as_ref())
     }
 
-    /// Computes the momentum b that all but the walls give in a part of `length` seconds that ends at
-    /// `end` (s), from the displacement `q` and the velocity `v` under the extra force `extra`:
+    /// Computes the momentum b that all but the walls give in a part of `length` seconds that ends
+    /// at `end` (s), from the displacement `q` and the velocity `v` under the extra force `extra`:
     ///
     /// [M + sθC + s²θ²K] δ = b + Gᵀ p,   b = s[f_θ + f_x − C v − K(q + sθ v)].
     pub fn set_momentum(

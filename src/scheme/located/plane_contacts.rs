@@ -1,15 +1,15 @@
 //! Flat and round walls at places in two planes, with friction: which of them the body touches, the
 //! motion of a part along them, and the impact law at an instant.
 //!
-//! A round wall that pushed over a part does so in the next one, until it would have to pull: a part
-//! leaves a speed across the circle, half the angle by which the normal turns times the change of
-//! the sliding velocity, which the next part reflects.
+//! A round wall that pushed over a part does so in the next one, until it would have to pull: a
+//! part leaves a speed across the circle, half the angle by which the normal turns times the change
+//! of the sliding velocity, which the next part reflects.
 //!
-//! Friction is Coulomb's, on the impulse over a part and the velocity at its end. A body that slides
-//! at the start of a part slides with full friction until its sliding velocity, which is linear in
-//! time, vanishes: the part ends there (`Event::Reversal`), and from rest the law decides whether
-//! the body sticks or slides back. It begins to slide where the straight line through what its last
-//! two parts left of the friction vanishes (`Event::Slip`).
+//! Friction is Coulomb's, on the impulse over a part and the velocity at its end. A body that
+//! slides at the start of a part slides with full friction until its sliding velocity, which is
+//! linear in time, vanishes: the part ends there (`Event::Reversal`), and from rest the law decides
+//! whether the body sticks or slides back. It begins to slide where the straight line through what
+//! its last two parts left of the friction vanishes (`Event::Slip`).
 
 use super::super::Counters;
 use super::super::body::Body;
@@ -17,10 +17,9 @@ use super::super::frame::Frame;
 use super::super::matrices::Matrices;
 use super::super::space::Space;
 use super::super::supports::{ContactPoint, Places, Sweeps, Touch, contact_points, dot};
-use super::THETA;
 use super::contacts::{Ahead, Contacts, Event, Place, Solved};
 use super::crossing::GapPath;
-use super::part::{Part, ROUNDING, size_of};
+use super::part::{Part, ROUNDING, THETA, size_of};
 use super::response::{Guide, PlaneHold, Response};
 use super::round_path::RoundPath;
 use crate::error::Result;

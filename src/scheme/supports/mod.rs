@@ -20,9 +20,10 @@
 //! still between opposite sides of a hole: such steps are counted, and so is the largest angle by
 //! which a normal turned.
 //!
-//! Why no other scheme steps such scenes: the bound of paoli-schatzman, |w⁺ + e w⁻| ≤ (1+e)γ, does
-//! not keep energy on a circle (with e = 1, over a way of 200 gaps, it lost 95 % to gained 60 % at
-//! h v = γ/10), and newmark does not keep it on any wall.
+//! `located` steps such scenes with order 2 ([`super::located`]). Why others do not: the bound of
+//! paoli-schatzman, |w⁺ + e w⁻| ≤ (1+e)γ, does not keep energy on a circle (with e = 1, over a way
+//! of 200 gaps, it lost 95 % to gained 60 % at h v = γ/10), and newmark does not keep it on any
+//! wall.
 
 mod linear;
 mod memory;
