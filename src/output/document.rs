@@ -41,6 +41,13 @@ pub fn chart(case: &Case, chart: &WorkPrecision) -> Value {
     under_head(case, value)
 }
 
+/// The order of convergence of each method of a chart, by its name: null where there is none.
+#[must_use]
+pub fn orders(chart: &WorkPrecision) -> Value {
+    let order = |one: &Series| (one.method.to_string(), json!(one.order(chart.known(&one.method.scheme))));
+    Value::Object(chart.series.iter().map(order).collect())
+}
+
 fn series(chart: &WorkPrecision, series: &Series, walls: &[&str]) -> Value {
     json!({
         "method": series.method.to_string(),

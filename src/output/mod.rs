@@ -25,6 +25,7 @@
 //! | [`pictures`] | the figures of one or several runs |
 //! | [`stability`] | tables and maps of a stability study |
 //! | `cheapest` | the cheapest methods of a chart, and its conclusion |
+//! | `floors` | how near penalties come to rigid walls, and why no nearer |
 //! | [`wear_history`] | `history.csv` and `years.csv` of wear over the years, and their picture |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
@@ -42,7 +43,7 @@
 //! periodic orbits, `orbits.rs` the motion of those along branches and `sweep_overlay.rs` a sweep's
 //! points under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
 //! `table.rs`, `document.rs`, `detail.rs` (what `[statistics]` asks for: `episodes.rs`,
-//! `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart), figures
+//! `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart), `floors.rs` (that of its penalties), figures
 //! (`colours.rs` has the colour of every wall and support, `part.rs` the walls that are drawn
 //! together), `format.rs` (figures as SVG, PDF or PNG; feature `cli`).
 
@@ -58,6 +59,7 @@ mod detail;
 pub mod document;
 pub mod episodes;
 pub use signorini_figure as figure;
+pub(crate) mod floors;
 pub mod format;
 pub(crate) mod json;
 mod labelled;

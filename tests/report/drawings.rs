@@ -223,34 +223,68 @@ fn no_label_hides_the_branches() {
     tab.close();
 }
 
+/// What the plot of a chart tells of the points that the pointer meets.
+const TIPS: &str = "(() => { const plot = document.querySelector('#work .plot'), tip = plot.querySelector('.tip'); \
+    const surface = plot.querySelector('canvas + canvas'), box = surface.getBoundingClientRect(), found = new Set(); \
+    for (let x = 0; x < box.width; x += 8) for (let y = 0; y < box.height; y += 8) { \
+    surface.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + x, clientY: box.top + y })); \
+    if (!tip.hidden) found.add(tip.textContent); } return [...found]; })()";
+
 /// The page of a chart says its conclusion before its picture, whose curves carry their names.
 #[test]
 fn a_chart_has_its_conclusion_above_its_named_curves() {
     let Some(mut browser) = Browser::start() else { return };
     let dir = tempfile::tempdir().unwrap();
+    let peers = dir.path().join("peers.csv");
+    fs::write(&peers, "program,method,error_over_gap,seconds\nOther,RK,1e-3,2e-3\nOther,RK,2e-4,5e-3\n").unwrap();
     let schemes = ["--schemes", "event,moreau-jean,generalized-alpha,penalty:epsilon=1e-9"];
-    let few = ["--end", "1", "--levels", "6", "--repeats", "1"];
+    let few = ["--end", "1", "--levels", "6", "--repeats", "1", "--with", "peers.csv"];
     let page = results(dir.path(), &[&["chart", "rigid-walls-sine"], &schemes[..], &few[..]].concat());
     let mut tab = opened(&mut browser, &page);
     let conclusion = tab.evaluate("document.querySelector('#work .conclusion').textContent");
     assert!(conclusion.as_str().unwrap().starts_with("For 1 % of the gap: event "), "{conclusion}");
     let order = "[...document.querySelectorAll('#work .conclusion, #work table, #work .plot')].map((one) => \
         one.className || one.tagName)";
-    assert_eq!(tab.evaluate(order), json!(["conclusion", "TABLE", "plot"]));
+    assert_eq!(tab.evaluate(order), json!(["conclusion", "plain cheapest", "plot"]));
     assert_eq!(tab.evaluate("document.querySelectorAll('#work .chip').length"), 0);
+    // A row for each error and a column for each kind of method.
+    let cells = "[...document.querySelectorAll('#work th, #work td:first-child')].map((cell) => cell.textContent)";
+    let tolerances = ["10 %", "1 %", "0.1 %", "10⁻⁴", "10⁻⁵", "10⁻⁶", "10⁻⁷", "10⁻⁸"];
+    let kinds = ["error within", "exact", "QP", "penalty", "other program"];
+    assert_eq!(tab.evaluate(cells), json!([&kinds[..], &tolerances[..]].concat()));
     let texts = texts(&mut tab);
-    for name in ["event", "moreau-jean", "generalized-alpha", "ε = 1e-9"] {
+    for name in ["event", "moreau-jean", "generalized-alpha", "ε = 1e-9: floor ", "Other RK"] {
         assert!(texts.iter().any(|text| text.contains(name)), "{name}: {texts:?}");
     }
+    let reasons = tab.evaluate("document.querySelector('#work .floors').textContent");
+    assert!(reasons.as_str().unwrap().contains("its walls give way"), "{reasons}");
     // The exact scheme's error of some 1e-14 is named at the edge; the axis is that of the others.
     assert!(texts.iter().any(|text| text.starts_with("◂ event (")), "{texts:?}");
     for beyond in ["10⁻¹²", "10⁻¹⁴", "10"] {
         assert!(!texts.iter().any(|text| text == beyond), "{beyond}: {texts:?}");
     }
-    // The table follows the error that is drawn.
-    let first = "document.querySelector('#work tbody tr:not(.space) td').textContent";
-    let (displacement, _) = (tab.evaluate(first), tab.press_button("Impulse"));
-    assert_ne!(tab.evaluate(first), displacement);
+    // A point tells its step, and the order from the coarser step to its own.
+    let tips = tab.evaluate(TIPS);
+    let tips: Vec<&str> = tips.as_array().unwrap().iter().filter_map(Value::as_str).collect();
+    let table = fs::read_to_string(page.with_file_name("work-precision.csv")).unwrap();
+    let points: Vec<[f64; 2]> = table
+        .lines()
+        .filter(|row| row.starts_with("moreau-jean,"))
+        .map(|row| [1, 4].map(|at| row.split(',').nth(at).unwrap().parse().unwrap()))
+        .collect();
+    let orders: Vec<String> = points
+        .windows(2)
+        .map(|two| (two[1][1] / two[0][1]).ln() / (two[1][0] / two[0][0]).ln())
+        .map(|order| format!("order {order:.2} from").replace('-', "−"))
+        .collect();
+    let told = |tip: &&&str| orders.iter().any(|order| tip.contains(order));
+    assert!(tips.iter().filter(told).count() >= 2, "{orders:?}: {tips:?}");
+    assert!(tips.iter().any(|tip| tip.starts_with("moreau-jean\nstep ") && tip.contains("took ")), "{tips:?}");
+    assert!(tips.iter().any(|tip| tip.starts_with("Other RK\ntook 5 ms")), "{tips:?}");
+    // The table follows the error that is drawn; other programs tell that of the displacement.
+    tab.press_button("Impulse");
+    assert_eq!(tab.evaluate("document.querySelectorAll('#work th').length"), 4);
     assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), Value::from("0"));
+    assert!(tab.pdf() > 20_000);
     tab.close();
 }
