@@ -24,6 +24,7 @@
 //! | [`table`] | tables for people, as wide as the terminal |
 //! | [`pictures`] | the figures of one or several runs |
 //! | [`stability`] | tables and maps of a stability study |
+//! | `safe_steps` | the largest safe step of each scheme, and the conclusion of a stability study |
 //! | `cheapest` | the cheapest methods of a chart, and its conclusion |
 //! | `floors` | how near penalties come to rigid walls, and why no nearer |
 //! | [`wear_history`] | `history.csv` and `years.csv` of wear over the years, and their picture |
@@ -43,7 +44,8 @@
 //! periodic orbits, `orbits.rs` the motion of those along branches and `sweep_overlay.rs` a sweep's
 //! points under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
 //! `table.rs`, `document.rs`, `detail.rs` (what `[statistics]` asks for: `episodes.rs`,
-//! `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart), `floors.rs` (that of its penalties), figures
+//! `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart), `floors.rs` (why its
+//! penalties have floors), `safe_steps.rs` (the conclusion of a stability study), figures
 //! (`colours.rs` has the colour of every wall and support, `part.rs` the walls that are drawn
 //! together), `format.rs` (figures as SVG, PDF or PNG; feature `cli`).
 
@@ -81,6 +83,7 @@ pub mod results;
 pub(crate) mod ring;
 mod rubbed;
 pub mod run;
+pub(crate) mod safe_steps;
 pub mod shape;
 mod site;
 mod spectra;

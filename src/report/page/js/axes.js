@@ -29,7 +29,7 @@ function logTicks(lo, hi, room) {
   for (let k = a; k <= b; k += every)
     ticks.push([
       10 ** k,
-      Math.abs(k) < 3 ? String(+(10 ** k).toFixed(3)) : digits(10 ** k, 1).replace("1·", ""),
+      Math.abs(k) < 4 ? String(+(10 ** k).toFixed(3)) : `10${raised(k)}`,
     ]);
   return ticks;
 }

@@ -28,7 +28,7 @@ function cheapestTable(cheapest, column) {
   const line = (tolerance) => {
     const own = kinds.map((kind) => found(tolerance, kind));
     const least = Math.min(...own.filter((row) => row.method).map((row) => row.seconds));
-    const within = tolerance < 1e-3 ? digits(tolerance, 1).replace("1·", "") : own[0].within;
+    const within = tolerance < 1e-3 ? `10${raised(Math.round(Math.log10(tolerance)))}` : own[0].within;
     return el("tr", {}, el("td", {}, within), own.map((row) => cell(row, least)));
   };
   const head = ["error within", ...kinds].map((text) => el("th", { scope: "col" }, text));

@@ -45,7 +45,10 @@ function compareSection() {
 
 /** What a study says in one sentence, if it does. */
 function conclusionOf(text) {
-  return text ? el("p", { class: "conclusion" }, `${text[0].toUpperCase()}${text.slice(1)}.`) : null;
+  if (!text) return null;
+  // A number and its unit stand on one line.
+  const whole = text.replace(/(\d) (?=([mµn]?s|%)(\W|$))/g, "$1\u00a0");
+  return el("p", { class: "conclusion" }, `${whole[0].toUpperCase()}${whole.slice(1)}.`);
 }
 
 /** The distance of each method from the reference: the largest of each stretch, since |Δu| itself passes through 0. */
