@@ -18,7 +18,7 @@
 //! | [`realisations`] | `realisations.csv`, and its table |
 //! | [`periodic`] | a periodic orbit: its document, motion and pictures |
 //! | [`branches`] | branches of orbits: tables, document and picture |
-//! | [`sweep_overlay`] | `beneath.csv`: points of a sweep beneath the branches |
+//! | [`overlay`] | `beneath.csv`: points of other results beneath the branches |
 //! | [`orbits`] | `orbits.csv`: the motion of the orbits along branches, for a drawing |
 //! | [`loci`] | curves of special points over two keys |
 //! | [`table`] | tables for people, as wide as the terminal |
@@ -41,8 +41,8 @@
 //! it, `record.rs` whether a table is still as it was written, `atomic.rs` writes a file onto the
 //! disk before it gets its name, `request.rs` records the request, `run.rs` and `compare.rs` write
 //! all files and tables of a run and of a comparison, `periodic.rs` and `branches.rs` those of
-//! periodic orbits, `orbits.rs` the motion of those along branches and `sweep_overlay.rs` a sweep's
-//! points under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
+//! periodic orbits, `orbits.rs` the motion of those along branches and `overlay.rs` points
+//! of other results under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
 //! `table.rs`, `document.rs`, `detail.rs` (what `[statistics]` asks for: `episodes.rs`,
 //! `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart), `floors.rs` (why its
 //! penalties have floors), `safe_steps.rs` (the conclusion of a stability study), figures
@@ -72,6 +72,7 @@ pub(crate) mod method_realisations;
 mod motion;
 mod orbit;
 pub mod orbits;
+pub mod overlay;
 mod part;
 pub mod periodic;
 pub mod pictures;
@@ -90,7 +91,6 @@ mod spectra;
 pub mod stability;
 pub mod summary;
 pub mod supports;
-pub mod sweep_overlay;
 pub mod table;
 mod values;
 pub(crate) mod verification;

@@ -255,11 +255,35 @@ const placeOfColumn = (column) =>
 /** Markers of rising and falling values. */
 const DIRECTION_MARKERS = { up: "triangle", down: "down" };
 
-/** Measures over one axis, those of one unit in one plot. */
+/** A bend of a curve of more than this share of its range is where something happens. */
+const BEND = 0.03;
+
+/** The values of the axis about which a measure does not go on as beside it. */
+function eventful(columns, axis, measures) {
+  const found = [];
+  const order = Array.from(columns[axis], (_, i) => i).sort((i, j) => columns[axis][i] - columns[axis][j]);
+  const x = order.map((i) => columns[axis][i]);
+  for (const name of measures) {
+    const y = order.map((i) => columns[name][i]);
+    const [least, most] = extent(y) || [0, 0];
+    for (let k = 1; k + 1 < x.length; k++) {
+      const share = (x[k] - x[k - 1]) / (x[k + 1] - x[k - 1] || 1);
+      const bend = y[k] - (y[k - 1] + share * (y[k + 1] - y[k - 1]));
+      if (Math.abs(bend) > BEND * (most - least)) found.push(x[k - 1], x[k + 1]);
+    }
+  }
+  return found;
+}
+
+/** Measures over one axis, those of one unit in one plot; all plots show one stretch of it. */
 function measureCurves(columns, axis, measures, tell, pick) {
+  const ends = extent(columns[axis]) || [0, 1];
+  const view = new View(...padded(ends[1] > ends[0] ? ends : [ends[0] - 1, ends[0] + 1], 0.03));
+  const part = view.beginAbout(eventful(columns, axis, measures));
   const unitOf = (name) => (/\((.*)\)$/.exec(columnLabel(name)) || ["", ""])[1];
   const units = [...new Set(measures.map(unitOf))];
-  const rows = Array.from(columns[axis], (_, i) => i);
+  // From left to right, also where the values fall.
+  const rows = Array.from(columns[axis], (_, i) => i).sort((i, j) => columns[axis][i] - columns[axis][j]);
   // Up and down are curves of their own colours; else a measure of a place has the place's colour.
   const directions = bothDirections(columns.direction) ? ["up", "down"] : [undefined];
   const itemOf = (name, n) => {
@@ -293,6 +317,7 @@ function measureCurves(columns, axis, measures, tell, pick) {
       y,
       height: 300,
       alt: `${y} over ${columnLabel(axis)}`,
+      view,
       series: [...bands, ...series],
     });
     const points = () =>
@@ -311,6 +336,16 @@ function measureCurves(columns, axis, measures, tell, pick) {
     "div",
     {},
     directions.length > 1 ? el("div", { class: "bar" }, directionKeys()) : null,
+    el(
+      "div",
+      { class: "bar controls" },
+      button("All values", () => view.set(...view.full), "Whole range"),
+      el(
+        "span",
+        { class: "right help" },
+        `${part ? "shown: where curves bend · " : ""}drag to zoom · double click for all`,
+      ),
+    ),
     units.flatMap(plotsOf),
   );
 }
