@@ -1,5 +1,5 @@
-//! The cheapest methods of a chart: the table, and the conclusion in one sentence, for the terminal,
-//! the picture and the page of the report.
+//! The cheapest methods of a chart: the table, and the conclusion in one sentence, for the
+//! terminal, the picture and the page of the report.
 
 use super::table::Table;
 use super::work_precision::label;
@@ -144,8 +144,8 @@ pub fn conclusion(scene: &Scene, best: &[Best]) -> String {
     format!("for 1 % of the {of}: {}", parts.join(", "))
 }
 
-/// A share of two digits, rounded down: what has this share is not below it. As a percentage, unless
-/// it is far from 1.
+/// A share of two digits, rounded down: what has this share is not below it. As a percentage,
+/// unless it is far from 1.
 pub(super) fn percent(x: f64) -> String {
     if x <= 0.0 {
         return "0 %".to_owned();

@@ -25,14 +25,14 @@ pub fn write(path: &Path, column: &str, points: &[(f64, f64)]) -> Result<()> {
     csv::table(path, &[column, SPEED].map(str::to_owned), rows)
 }
 
-/// The approach speeds of results over `key`, whose values tables have in `column`: of a sweep and of
-/// branches over this key, and of one run or orbit at the value of its case. `path` is their folder,
-/// or the table of a sweep.
+/// The approach speeds of results over `key`, whose values tables have in `column`: of a sweep and
+/// of branches over this key, and of one run or orbit at the value of its case. `path` is their
+/// folder, or the table of a sweep.
 ///
 /// # Errors
 /// [`Error::Io`] for results that cannot be read or have no approach speeds over a key;
-/// [`Error::Unknown`] for a table without the column; [`Error::Invalid`] for a run whose case has no
-/// value of the key.
+/// [`Error::Unknown`] for a table without the column; [`Error::Invalid`] for a run whose case has
+/// no value of the key.
 pub fn read(path: &Path, key: &Key, column: &str) -> Result<Vec<(f64, f64)>> {
     if path.is_file() {
         return sweep(path, column);
@@ -60,7 +60,8 @@ pub fn read(path: &Path, key: &Key, column: &str) -> Result<Vec<(f64, f64)>> {
     }
 }
 
-/// The approach speeds of the contacts of one run or orbit, at the value that its case has of `key`.
+/// The approach speeds of the contacts of one run or orbit, at the value that its case has of
+/// `key`.
 fn contacts(folder: &Path, key: &Key, case: &CaseFile) -> Result<Vec<(f64, f64)>> {
     let found = case.get(key)?.map(|value| value.to_string());
     let Some(x) = found.as_ref().and_then(|text| text.parse::<f64>().ok()) else {

@@ -1,5 +1,5 @@
-//! The largest safe step of each scheme on a case, with the reason: the table, and the conclusion in
-//! one sentence, for the terminal and the page of the report.
+//! The largest safe step of each scheme on a case, with the reason: the table, and the conclusion
+//! in one sentence, for the terminal and the page of the report.
 
 use super::cheapest::time;
 use super::table::Table;
@@ -15,7 +15,8 @@ pub struct SafeStep {
     scheme: Scheme,
     /// Its name without what the tables of a case share.
     label: String,
-    /// The largest step that is stable together with all smaller ones, s; `None` where there is none.
+    /// The largest step that is stable together with all smaller ones, s; `None` where there is
+    /// none.
     step: Option<f64>,
     /// The same, by the frequency of the scene.
     by_omega: Option<f64>,

@@ -205,7 +205,7 @@ fn branches_are_written_and_joined() {
         last = now;
     }
     assert_eq!(table.matches("fold").count(), 1);
-    // So can be the folder of the sweep, other branches, a run and an orbit at the case's frequency.
+    // So can be a folder: the sweep, other branches, a run and an orbit at the case's frequency.
     let run = ["run", CASE, "--set", "wall.*.restitution=0.8", "--end", "2", "--no-verdict", "--out", "r"];
     said(path, &run, 0);
     said(path, &[&["orbit"], &SOFT[..], &["--out", "o"]].concat(), 0);

@@ -7,6 +7,7 @@ function sweepSection() {
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
   const axisColumns = axes.map((axis) => axis.column).filter(numeric);
   const attractors = readAttractors();
+  const over = readOver();
   const measures = table.names.filter(
     (name) =>
       !["row", "status", "error", "direction", "seeds"].includes(name) &&
@@ -61,10 +62,10 @@ function sweepSection() {
     content.push(
       axisColumns.length > 1
         ? measureMap(columns, axisColumns, measures, tell, pick)
-        : measureCurves(columns, axisColumns[0], measures, tell, pick),
+        : measureCurves(columns, axisColumns[0], measures, tell, pick, over),
     );
   }
-  if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns, pick));
+  if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns, pick, over));
   const rows = Array.from({ length: table.count }, (_, i) => i);
   const saved = () =>
     save(
@@ -104,6 +105,17 @@ function sweepSection() {
   );
 }
 
+/** Another sweep that is drawn in the same figures: its name, table and instants; null without. */
+function readOver() {
+  const { over } = DATA.sweep;
+  if (!over) return null;
+  const table = tableOf(over.table);
+  return { name: over.name, columns: table.columns, samples: over.samples && tableOf(over.samples) };
+}
+
+/** What tells the curves of the other sweep. */
+const overKey = (over) => swatch(`pale: ${over.name}`, () => ink.faint);
+
 /** True where rows of both directions are among those of a sweep. */
 const bothDirections = (directions) =>
   Boolean(directions) && ["up", "down"].every((one) => directions.includes(one));
@@ -117,7 +129,7 @@ const directionKeys = () =>
   );
 
 /** Instants of every row over the axis: a bifurcation diagram. */
-function samplesPlot(table, samples, axisColumns, pick) {
+function samplesPlot(table, samples, axisColumns, pick, over) {
   const names = samples.names.filter(
     (name) => !["row", "realisation"].includes(name) && !Array.isArray(samples.columns[name]),
   );
@@ -127,7 +139,20 @@ function samplesPlot(table, samples, axisColumns, pick) {
   const at = Array.from(samples.columns.row, (row) => rowAt.get(row));
   const directions = table.columns.direction;
   const choice = { name: wanted };
+  const others = over && over.samples;
+  const rowOfOther = others && new Map(Array.from(over.columns.row, (row, i) => [row, i]));
+  const drawOthers = (ctx, plot) => {
+    const y = others && others.columns[choice.name];
+    if (!y) return;
+    ctx.fillStyle = clear(ink.faint, 0.6);
+    for (let k = 0; k < y.length; k++) {
+      const x = over.columns[axisColumns[0]][rowOfOther.get(others.columns.row[k])];
+      if (Number.isFinite(x) && Number.isFinite(y[k]))
+        ctx.fillRect(plot.sx(x) - 1.2, plot.sy(y[k]) - 1.2, 2.4, 2.4);
+    }
+  };
   const dot = (ctx, plot) => {
+    drawOthers(ctx, plot);
     const y = samples.columns[choice.name];
     const size = at.length > 2e4 ? 1 : 1.6;
     for (let i = 0; i < at.length; i++) {
@@ -141,12 +166,14 @@ function samplesPlot(table, samples, axisColumns, pick) {
     y: " ",
     height: 460,
     alt: "Instants of every row",
-    view: new View(...padded(extent(axis), 0.02)),
+    view: new View(...padded(extent([...axis, ...(over ? over.columns[axisColumns[0]] : [])]), 0.02)),
     series: [{ kind: "own", look: lookOf(0), draw: dot }],
   });
   const fill = () => {
     plot.y = columnLabel(choice.name);
-    const span = extent(samples.columns[choice.name]) || [0, 1];
+    const theirs = others && others.columns[choice.name];
+    const both = [samples.columns[choice.name], theirs].filter((list) => list);
+    const span = extent(both.flatMap((list) => extent(list) || [])) || [0, 1];
     plot.range = () => padded(span, 0.05);
     plot.dirty = true;
     refresh();
@@ -166,6 +193,7 @@ function samplesPlot(table, samples, axisColumns, pick) {
       { class: "bar controls" },
       columnChoice("Quantity", names, choice, fill),
       bothDirections(directions) ? directionKeys() : null,
+      others ? overKey(over) : null,
       el("span", { class: "right help" }, "drag to zoom · double click for all"),
     ),
     plot.box,
@@ -276,8 +304,8 @@ function eventful(columns, axis, measures) {
 }
 
 /** Measures over one axis, those of one unit in one plot; all plots show one stretch of it. */
-function measureCurves(columns, axis, measures, tell, pick) {
-  const ends = extent(columns[axis]) || [0, 1];
+function measureCurves(columns, axis, measures, tell, pick, over = null) {
+  const ends = extent([...columns[axis], ...(over ? over.columns[axis] : [])]) || [0, 1];
   const view = new View(...padded(ends[1] > ends[0] ? ends : [ends[0] - 1, ends[0] + 1], 0.03));
   const part = view.beginAbout(eventful(columns, axis, measures));
   const unitOf = (name) => (/\((.*)\)$/.exec(columnLabel(name)) || ["", ""])[1];
@@ -307,8 +335,17 @@ function measureCurves(columns, axis, measures, tell, pick) {
       hidden: () => !item.shown,
     };
   };
+  /** The same measure of the other sweep: thin and pale, in its colour. */
+  const paleCurve = (item) => {
+    const [x, y] = [over.columns[axis], over.columns[item.name]];
+    const along = Array.from(x, (_, i) => i).sort((i, j) => x[i] - x[j]);
+    const look = { ...item.look, dash: [], width: 3, behind: true };
+    const series = { kind: "line", look, alpha: 0.4, hidden: () => !item.shown };
+    return { ...series, x: along.map((i) => x[i]), y: along.map((i) => y[i]) };
+  };
   const plotsOf = (unit) => {
     const items = measures.filter((name) => unitOf(name) === unit).map(itemOf);
+    const shared = items.filter(({ name }) => over && over.columns[name] && !Array.isArray(over.columns[name]));
     const series = items.flatMap((item) => directions.map((direction) => curve(item, direction)));
     const bands = series.map((s) => bandOf(s, halfWidthsOf(columns, s.name))).filter((band) => band);
     const y = items.length > 1 ? unit || "Number" : items[0].label;
@@ -318,7 +355,7 @@ function measureCurves(columns, axis, measures, tell, pick) {
       height: 300,
       alt: `${y} over ${columnLabel(axis)}`,
       view,
-      series: [...bands, ...series],
+      series: [...shared.map(paleCurve), ...bands, ...series],
     });
     const points = () =>
       series
@@ -340,6 +377,7 @@ function measureCurves(columns, axis, measures, tell, pick) {
       "div",
       { class: "bar controls" },
       button("All values", () => view.set(...view.full), "Whole range"),
+      over ? overKey(over) : null,
       el(
         "span",
         { class: "right help" },
