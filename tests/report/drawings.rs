@@ -4,6 +4,7 @@ use crate::chromium::{Browser, Tab};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
+use std::process::Command;
 
 /// From here on texts and lines are recorded as `drawn`: [kind, style, x, y, text or line width].
 const RECORD: &str = "(() => { const pen = CanvasRenderingContext2D.prototype; globalThis.drawn = []; \
@@ -329,5 +330,37 @@ fn a_stability_page_begins_with_the_safe_steps() {
     assert!(shared.ends_with(": 1.0000"), "{shared}");
     assert!(curves[0].iter().any(|one| one.starts_with("newmark: 0.3")), "{curves:?}");
     assert_eq!(tab.evaluate("document.querySelectorAll('#impact .plot').length"), 5);
+    tab.close();
+}
+
+/// The first view of a sweep is where its curves bend; another sweep is drawn pale beneath them.
+#[test]
+fn a_sweep_opens_where_its_curves_bend_and_shows_another_beneath() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let sweep = ["sweep", "rigid-walls-sine", "--vary", "load.1.harmonic.frequency=3:9:31", "--scheme", "event"];
+    let more = ["--settle", "60", "--keep", "20", "--measure", "approach_speed_max", "--samples", "impacts", "--set"];
+    let [soft, hard] = ["wall.*.restitution=0.7", "wall.*.restitution=0.8"]
+        .map(|set| results(dir.path(), &[&sweep[..], &more[..], &[set]].concat()));
+    let both = dir.path().join("both.html");
+    let tool = Command::new(env!("CARGO_BIN_EXE_signorini"))
+        .arg("report")
+        .args([soft.parent().unwrap(), "--over".as_ref(), hard.parent().unwrap(), "--out".as_ref(), &both])
+        .status();
+    assert!(tool.unwrap().success());
+    let mut tab = opened(&mut browser, &both);
+    let keys = tab.evaluate("document.querySelector('#sweep').textContent.match(/pale: /g).length");
+    assert_eq!(keys, 2, "one for the curves, one for the instants");
+    // Above 5 Hz both sweeps have one impact a wall and period, of a speed that rises steadily.
+    let numbers = |tab: &mut Tab<'_>| -> Vec<f64> {
+        let texts = texts(tab);
+        let end = texts.iter().position(|text| text.starts_with("Frequency")).unwrap();
+        // The numbers below the axis stand before its label, those beside it before them.
+        texts[..end].iter().rev().map_while(|text| text.parse().ok()).collect()
+    };
+    assert!(numbers(&mut tab)[0] < 7.0);
+    tab.press_button("Whole range");
+    assert_eq!(numbers(&mut tab)[0], 9.0);
+    assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), "0");
     tab.close();
 }

@@ -54,6 +54,9 @@ function sweepSection() {
     command.hidden = false;
     if (kept.has(row)) open(`rows/${row}/report.html`);
   };
+  // Over one axis, curves say where something happens.
+  const curves = axisColumns.length === 1 ? measures : [];
+  const view = axisColumns.length ? firstView(columns, axisColumns[0], curves, over) : undefined;
   // First the measures, which are there only where they were asked for.
   const content = [];
   const basins = attractors && numeric("attractor") && axisColumns.length > 1;
@@ -62,10 +65,10 @@ function sweepSection() {
     content.push(
       axisColumns.length > 1
         ? measureMap(columns, axisColumns, measures, tell, pick)
-        : measureCurves(columns, axisColumns[0], measures, tell, pick, over),
+        : measureCurves(columns, axisColumns[0], measures, tell, pick, { over, view }),
     );
   }
-  if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns, pick, over));
+  if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns[0], pick, { over, view }));
   const rows = Array.from({ length: table.count }, (_, i) => i);
   const saved = () =>
     save(
@@ -129,12 +132,12 @@ const directionKeys = () =>
   );
 
 /** Instants of every row over the axis: a bifurcation diagram. */
-function samplesPlot(table, samples, axisColumns, pick, over) {
+function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
   const names = samples.names.filter(
     (name) => !["row", "realisation"].includes(name) && !Array.isArray(samples.columns[name]),
   );
   const wanted = names.find((name) => name.startsWith("displacement")) || names[names.length - 1];
-  const axis = table.columns[axisColumns[0]];
+  const axis = table.columns[axisColumn];
   const rowAt = new Map(Array.from(table.columns.row, (row, i) => [row, i]));
   const at = Array.from(samples.columns.row, (row) => rowAt.get(row));
   const directions = table.columns.direction;
@@ -146,7 +149,7 @@ function samplesPlot(table, samples, axisColumns, pick, over) {
     if (!y) return;
     ctx.fillStyle = clear(ink.faint, 0.6);
     for (let k = 0; k < y.length; k++) {
-      const x = over.columns[axisColumns[0]][rowOfOther.get(others.columns.row[k])];
+      const x = over.columns[axisColumn][rowOfOther.get(others.columns.row[k])];
       if (Number.isFinite(x) && Number.isFinite(y[k]))
         ctx.fillRect(plot.sx(x) - 1.2, plot.sy(y[k]) - 1.2, 2.4, 2.4);
     }
@@ -162,11 +165,11 @@ function samplesPlot(table, samples, axisColumns, pick, over) {
     }
   };
   const plot = new Plot({
-    x: columnLabel(axisColumns[0]),
+    x: columnLabel(axisColumn),
     y: " ",
     height: 460,
     alt: "Instants of every row",
-    view: new View(...padded(extent([...axis, ...(over ? over.columns[axisColumns[0]] : [])]), 0.02)),
+    view,
     series: [{ kind: "own", look: lookOf(0), draw: dot }],
   });
   const fill = () => {
@@ -192,6 +195,7 @@ function samplesPlot(table, samples, axisColumns, pick, over) {
       "div",
       { class: "bar controls" },
       columnChoice("Quantity", names, choice, fill),
+      button("All values", () => view.set(...view.full), "Whole range"),
       bothDirections(directions) ? directionKeys() : null,
       others ? overKey(over) : null,
       el("span", { class: "right help" }, "drag to zoom · double click for all"),
@@ -273,117 +277,5 @@ function measureMap(columns, [first, second], measures, tell, pick) {
       swatch("no number", () => "rgb(128 128 128)"),
     ),
     plot.box,
-  );
-}
-
-/** The place that a column of a measure is about, by its name; undefined where it is about none. */
-const placeOfColumn = (column) =>
-  PLACES.find((place) => `${column}_`.includes(`_${place.replace(/-/g, "_")}_`));
-
-/** Markers of rising and falling values. */
-const DIRECTION_MARKERS = { up: "triangle", down: "down" };
-
-/** A bend of a curve of more than this share of its range is where something happens. */
-const BEND = 0.03;
-
-/** The values of the axis about which a measure does not go on as beside it. */
-function eventful(columns, axis, measures) {
-  const found = [];
-  const order = Array.from(columns[axis], (_, i) => i).sort((i, j) => columns[axis][i] - columns[axis][j]);
-  const x = order.map((i) => columns[axis][i]);
-  for (const name of measures) {
-    const y = order.map((i) => columns[name][i]);
-    const [least, most] = extent(y) || [0, 0];
-    for (let k = 1; k + 1 < x.length; k++) {
-      const share = (x[k] - x[k - 1]) / (x[k + 1] - x[k - 1] || 1);
-      const bend = y[k] - (y[k - 1] + share * (y[k + 1] - y[k - 1]));
-      if (Math.abs(bend) > BEND * (most - least)) found.push(x[k - 1], x[k + 1]);
-    }
-  }
-  return found;
-}
-
-/** Measures over one axis, those of one unit in one plot; all plots show one stretch of it. */
-function measureCurves(columns, axis, measures, tell, pick, over = null) {
-  const ends = extent([...columns[axis], ...(over ? over.columns[axis] : [])]) || [0, 1];
-  const view = new View(...padded(ends[1] > ends[0] ? ends : [ends[0] - 1, ends[0] + 1], 0.03));
-  const part = view.beginAbout(eventful(columns, axis, measures));
-  const unitOf = (name) => (/\((.*)\)$/.exec(columnLabel(name)) || ["", ""])[1];
-  const units = [...new Set(measures.map(unitOf))];
-  // From left to right, also where the values fall.
-  const rows = Array.from(columns[axis], (_, i) => i).sort((i, j) => columns[axis][i] - columns[axis][j]);
-  // Up and down are curves of their own colours; else a measure of a place has the place's colour.
-  const directions = bothDirections(columns.direction) ? ["up", "down"] : [undefined];
-  const itemOf = (name, n) => {
-    const place = placeOfColumn(name);
-    const own = lookOf(n);
-    const colour =
-      directions.length > 1 ? () => ink.ink : place ? () => placeColour(place) : own.colour;
-    return { label: columnLabel(name), look: { ...own, colour }, shown: n < 6, name };
-  };
-  const curve = (item, direction) => {
-    const along = rows.filter((i) => !direction || columns.direction[i] === direction);
-    return {
-      kind: rows.length > 120 ? "line" : "marked",
-      look: { ...item.look, marker: DIRECTION_MARKERS[direction] || item.look.marker },
-      colour: direction && (() => directionColour(direction)),
-      infinite: true,
-      name: item.name,
-      rows: along,
-      x: along.map((i) => columns[axis][i]),
-      y: along.map((i) => columns[item.name][i]),
-      hidden: () => !item.shown,
-    };
-  };
-  /** The same measure of the other sweep: thin and pale, in its colour. */
-  const paleCurve = (item) => {
-    const [x, y] = [over.columns[axis], over.columns[item.name]];
-    const along = Array.from(x, (_, i) => i).sort((i, j) => x[i] - x[j]);
-    const look = { ...item.look, dash: [], width: 3, behind: true };
-    const series = { kind: "line", look, alpha: 0.4, hidden: () => !item.shown };
-    return { ...series, x: along.map((i) => x[i]), y: along.map((i) => y[i]) };
-  };
-  const plotsOf = (unit) => {
-    const items = measures.filter((name) => unitOf(name) === unit).map(itemOf);
-    const shared = items.filter(({ name }) => over && over.columns[name] && !Array.isArray(over.columns[name]));
-    const series = items.flatMap((item) => directions.map((direction) => curve(item, direction)));
-    const bands = series.map((s) => bandOf(s, halfWidthsOf(columns, s.name))).filter((band) => band);
-    const y = items.length > 1 ? unit || "Number" : items[0].label;
-    const plot = new Plot({
-      x: columnLabel(axis),
-      y,
-      height: 300,
-      alt: `${y} over ${columnLabel(axis)}`,
-      view,
-      series: [...shared.map(paleCurve), ...bands, ...series],
-    });
-    const points = () =>
-      series
-        .filter((s) => !s.hidden())
-        .flatMap((s) => s.rows.map((i, k) => ({ x: s.x[k], y: s.y[k], i })));
-    tellNearest(plot, points, ({ i }) => tell(i));
-    plot.click = () => plot.found && pick(plot.found.i);
-    const redraw = () => {
-      plot.dirty = true;
-      refresh();
-    };
-    return [items.length > 1 ? chips(items, redraw) : null, plot.box];
-  };
-  return el(
-    "div",
-    {},
-    directions.length > 1 ? el("div", { class: "bar" }, directionKeys()) : null,
-    el(
-      "div",
-      { class: "bar controls" },
-      button("All values", () => view.set(...view.full), "Whole range"),
-      over ? overKey(over) : null,
-      el(
-        "span",
-        { class: "right help" },
-        `${part ? "shown: where curves bend · " : ""}drag to zoom · double click for all`,
-      ),
-    ),
-    units.flatMap(plotsOf),
   );
 }
