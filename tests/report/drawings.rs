@@ -321,6 +321,13 @@ fn a_stability_page_begins_with_the_safe_steps() {
         assert_eq!(cells[4], beyond["class"].as_str().unwrap_or("stable on the whole grid"), "{cells:?}");
         assert!(cells[5].starts_with(beyond["reason"].as_str().unwrap_or("–")), "{cells:?}");
     }
+    // The names of the maps stand above them: no text is over their cells.
+    let names = "[...document.querySelectorAll('#maps h3')].map((name) => name.textContent)";
+    let names: Vec<String> = serde_json::from_value(tab.evaluate(names)).unwrap();
+    assert_eq!(names.len() as f64, tab.evaluate("document.querySelectorAll('#maps .plot').length").as_f64().unwrap());
+    assert!(names.iter().any(|name| name == "penalty, trapezoidal"), "{names:?}");
+    let drawn = texts(&mut tab);
+    assert!(!drawn.iter().any(|text| names.contains(text)), "{drawn:?}");
     let curves = "[...document.querySelectorAll('#impact .curves')].map((list) => [...list.children].map((one) => \
         one.textContent))";
     let curves: Vec<Vec<String>> = serde_json::from_value(tab.evaluate(curves)).unwrap();

@@ -90,17 +90,18 @@ function stabilitySection() {
       .join("\n");
   const plots = [...groups].map(([name, rows]) => {
     const numbers = rows.map((i) => (Number.isFinite(value[i]) ? value[i] : 0));
-    return cellMap({
+    const plot = cellMap({
       x: "Step (s)",
       y: columnLabel(parameter[rows[0]].replace(/_n_per_m$/, "_N_per_m")),
-      heading: scheme[rows[0]],
       height: 210,
       alt: `Classes of ${name}`,
       xs: rows.map((i) => step[i]),
       ys: numbers,
       toneOf: (k) => classTone(maps.columns.class[rows[k]]),
       tell: (k) => row(rows[k]),
-    }).box;
+    });
+    // Above the map: over it, the name would hide its cells.
+    return el("div", {}, el("h3", {}, scheme[rows[0]].replace(":integrator=", ", ")), plot.box);
   });
   const legend = el(
     "div",
