@@ -16,6 +16,7 @@ const BUDGET: usize = 22_000;
 #[derive(Debug, Clone)]
 pub struct Figure {
     title: String,
+    subtitle: String,
     x_label: String,
     x_scale: Scale,
     x_range: Option<(f64, f64)>,
@@ -55,6 +56,7 @@ impl Figure {
     pub fn new(title: impl Into<String>, x_label: impl Into<String>) -> Self {
         Self {
             title: title.into(),
+            subtitle: String::new(),
             x_label: x_label.into(),
             x_scale: Scale::Linear,
             x_range: None,
@@ -62,6 +64,13 @@ impl Figure {
             detail: None,
             panels: Vec::new(),
         }
+    }
+
+    /// Adds a sentence below the title: what the figure shows.
+    #[must_use]
+    pub fn subtitle(mut self, subtitle: impl Into<String>) -> Self {
+        self.subtitle = subtitle.into();
+        self
     }
 
     /// Makes the horizontal axis logarithmic.
@@ -135,8 +144,10 @@ impl Figure {
         let columns = self.columns(left, width);
 
         let title = text::wrap(&self.title, BOLD * TITLE, WIDTH - 20.0, 3);
+        let below_title = text::wrap(&self.subtitle, LABEL, WIDTH - 20.0, 3);
+        let lines = (title.len() + below_title.len()) as f64;
         let heads: Vec<f64> = self.panels.iter().zip(&y_axes).map(|(p, axis)| head_height(p, axis)).collect();
-        let top = 12.0 + 17.0 * title.len() as f64 + if self.detail.is_some() { 15.0 } else { 0.0 };
+        let top = 12.0 + 17.0 * lines + if self.detail.is_some() { 15.0 } else { 0.0 };
         let frames = heads.iter().sum::<f64>() + (height + 10.0) * self.panels.len() as f64;
         // A power of ten has a line of its own between the numbers and the label.
         let factor = if columns.iter().any(|c| c.axis.factor.is_some()) { 13.0 } else { 0.0 };
@@ -144,9 +155,10 @@ impl Figure {
         let total = top + frames + below + legend.height();
 
         let mut canvas = Canvas::new(WIDTH, total, &self.title);
-        for (i, line) in title.iter().enumerate() {
+        for (i, line) in title.iter().chain(&below_title).enumerate() {
+            let (bold, size) = if i < title.len() { (true, TITLE) } else { (false, LABEL) };
             let y = 22.0 + 17.0 * i as f64;
-            canvas.text(Text { bold: true, ..Text::new(WIDTH / 2.0, y, line, TITLE, Anchor::Middle) });
+            canvas.text(Text { bold, ..Text::new(WIDTH / 2.0, y, line, size, Anchor::Middle) });
         }
         for (column, heading) in columns.iter().zip(self.detail.iter().flat_map(|d| &d.headings)) {
             let heading = text::shorten(heading, LABEL, column.width);

@@ -8,7 +8,8 @@ use super::ui::Ui;
 use super::values;
 use crate::case::Case;
 use crate::error::{Error, Result};
-use crate::output::cheapest::{cheapest, conclusion, rows, table};
+use crate::output::cheapest::{cheapest, conclusion, rows, tables};
+use crate::output::floors;
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
 use crate::output::{document, work_precision as output};
@@ -95,18 +96,24 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     })?;
     refute(&chart, ui);
     any_ran(&chart)?;
-    write(&mut results, &case, &chart, &peers)?;
     let best = cheapest(&chart, &peers);
-    let conclusion = conclusion(&case.scene, &chart, &peers, &best);
+    let conclusion = conclusion(&case.scene, &best);
+    write(&mut results, &case, &chart, &peers, &conclusion)?;
+    let mut document = document::chart(&case, &chart);
     results.tell("case_file", case.document.json()?);
     results.tell("remarks", json!(case.notes()));
     results.tell("conclusion", json!(conclusion));
     results.tell("cheapest", rows(&best));
-    let mut document = document::chart(&case, &chart);
+    results.tell("floors", floors::rows(&chart));
+    results.tell("orders", document::orders(&chart));
+    results.tell("other_programs", json!(output::programs(&peers)));
+    results.tell("compared", json!(compared(&case, &chart)));
     document["conclusion"] = json!(conclusion);
     document["cheapest"] = rows(&best);
     let mut shown = Shown::of(results, !args.place.no_report, document);
-    shown.table(table(&best), "work-precision.csv");
+    for table in tables(&best) {
+        shown.table(table, "work-precision.csv");
+    }
     shown.remarks([conclusion]);
     shown.messages(messages(&case, &chart));
     Ok(shown)
@@ -151,7 +158,7 @@ fn any_ran(chart: &WorkPrecision) -> Result<()> {
     }
 }
 
-fn write(results: &mut Results, case: &Case, chart: &WorkPrecision, peers: &[Peer]) -> Result<()> {
+fn write(results: &mut Results, case: &Case, chart: &WorkPrecision, peers: &[Peer], conclusion: &str) -> Result<()> {
     output::table(&results.place("work-precision.csv")?, chart)?;
     output::walls(&results.place("work-precision-walls.csv")?, &case.scene, chart)?;
     let title = case.title.as_deref().unwrap_or(&case.name);
@@ -161,36 +168,29 @@ fn write(results: &mut Results, case: &Case, chart: &WorkPrecision, peers: &[Pee
         Some(e) if asked.iter().all(|other| other == e) => format!("{title}, e = {e}"),
         _ => title.to_owned(),
     };
-    for (name, svg) in output::charts(&title, chart, peers) {
+    for (name, svg) in output::charts(&title, conclusion, chart, peers) {
         results.draw(name, &svg)?;
     }
     Ok(())
 }
 
-/// Up to when the methods are compared, with which reference, and what each of them reached.
-fn messages(case: &Case, chart: &WorkPrecision) -> Vec<String> {
+/// Up to when the methods are compared, and with which reference.
+fn compared(case: &Case, chart: &WorkPrecision) -> [String; 2] {
     let (horizon, reference) = (&chart.horizon, &chart.reference);
-    let mut messages = Vec::new();
-    messages.push(format!(
-        "compared up to t = {:.4} s of {} s: a small change of the start grows by {:.1e} until then, {:.1e} \
-         over all ({})",
-        horizon.end, case.scene.duration, horizon.growth, horizon.growth_of_all, horizon.how
-    ));
-    messages
-        .push(format!("reference: {}; known to {:.1e} of the gap", reference.how, reference.uncertainty.displacement));
-    for floor in &chart.floors {
-        match (&floor.reference, &floor.errors) {
-            (Ok(own), Some(errors)) => messages.push(format!(
-                "penalty {}: no step reduces its error against the rigid walls below {:.1e} of the gap; its own \
-                 motion up to t = {:.4} s: {}, known to {:.1e}",
-                floor.law, errors.displacement, floor.end, own.how, own.uncertainty.displacement
-            )),
-            (Err(error), _) => {
-                messages.push(format!("penalty {}: no motion of its own to compare with: {error}", floor.law))
-            }
-            _ => {}
-        }
-    }
+    [
+        format!(
+            "compared up to t = {:.4} s of {} s: a small change of the start grows by {:.1e} until then, {:.1e} \
+             over all ({})",
+            horizon.end, case.scene.duration, horizon.growth, horizon.growth_of_all, horizon.how
+        ),
+        format!("reference: {}; known to {:.1e} of the gap", reference.how, reference.uncertainty.displacement),
+    ]
+}
+
+/// With what the methods are compared, and what each of them reached.
+fn messages(case: &Case, chart: &WorkPrecision) -> Vec<String> {
+    let mut messages = Vec::from(compared(case, chart));
+    messages.extend(floors::sentences(chart));
     for series in &chart.series {
         if let Some(order) = series.order(chart.known(&series.method.scheme)) {
             messages.push(format!("{}: order {order:.2} in the displacement{}", series.method, own_words(series)));

@@ -7,13 +7,14 @@ use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
 use crate::output::request::request;
+use crate::output::safe_steps::{SafeStep, conclusion, rows, safe_steps, table};
 use crate::output::table::Table;
 use crate::output::{document, stability as output};
 use crate::scheme::{PenaltyLaw, Scheme};
 use crate::study::stability::family::{Family, Question};
-use crate::study::stability::impact::{self, ImpactMap};
+use crate::study::stability::impact;
 use crate::study::stability::lasting::{Line, MULTIPLES, Quality};
-use crate::study::stability::plan::{Grid, Maps, Plan, Row};
+use crate::study::stability::plan::{Grid, Maps, Plan};
 use serde_json::json;
 
 const EXAMPLES: &str = "\
@@ -83,10 +84,16 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let quality = lasting_contacts(&case, &maps, ui)?;
     output::quality(&results.place("lasting-contact.csv")?, &quality)?;
     results.tell("case_file", case.document.json()?);
+    let safe = safe_steps(&maps, &impacts);
     results.tell("remarks", json!(case.notes()));
-    let document = document::stability(&case, &maps, &quality, &|scheme| range(scheme, &impacts));
+    results.tell("conclusion", json!(conclusion(&safe)));
+    results.tell("safe_steps", rows(&safe));
+    results.tell("impacts", output::impact_groups(&impacts));
+    let mut document = document::stability(&case, &maps, &quality);
+    document["conclusion"] = json!(conclusion(&safe));
+    document["schemes"] = rows(&safe);
     let mut shown = Shown::of(results, !args.place.no_report, document);
-    show_maps(&mut shown, &maps, &impacts);
+    show_maps(&mut shown, &maps, &safe);
     show_contacts(&mut shown, &quality);
     Ok(shown)
 }
@@ -174,7 +181,7 @@ fn share(x: f64) -> String {
 }
 
 /// Shows the largest safe step of each scheme.
-fn show_maps(shown: &mut Shown, maps: &Maps, impacts: &[ImpactMap]) {
+fn show_maps(shown: &mut Shown, maps: &Maps, safe: &[SafeStep]) {
     let (first, last) = (maps.steps.first().copied().unwrap_or(0.0), maps.steps.last().copied().unwrap_or(0.0));
     shown.remarks([format!(
         "{} steps from {first:.2e} to {last:.2e} s, runs of {:.4} s, {} ({:.4} rad/s)",
@@ -183,38 +190,6 @@ fn show_maps(shown: &mut Shown, maps: &Maps, impacts: &[ImpactMap]) {
         maps.scale.origin.describe(),
         maps.scale.omega
     )]);
-    let headers = ["scheme", "largest safe step (s)", "hω", "h²k_w/m", "restitution of one free impact", "beyond it"];
-    shown.table(Table::new(&headers, maps.own().map(|row| map_cells(row, maps, impacts)).collect()), "stability.csv");
-}
-
-fn map_cells(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> Vec<String> {
-    let subject = &row.subject;
-    let step = row.safe.as_ref().and_then(|safe| safe.step);
-    let beyond = row.safe.as_ref().and_then(|safe| safe.beyond.as_ref());
-    let kappa = step.and_then(|h| subject.kappa(&maps.scale, h));
-    vec![
-        subject.scheme.to_string(),
-        step.map_or_else(|| "none".to_owned(), |h| format!("{h:.2e}")),
-        step.map_or_else(String::new, |h| format!("{:.2e}", h * maps.scale.omega)),
-        kappa.map_or_else(String::new, |k| format!("{k:.2e}")),
-        range(&subject.scheme, impacts).map_or_else(String::new, |(low, high)| {
-            let at = if matches!(subject.scheme, Scheme::Penalty { .. }) { " at h²k_w/m = 1" } else { "" };
-            if high - low < 1e-9 { format!("{low:.4}{at}") } else { format!("{low:.4} to {high:.4}{at}") }
-        }),
-        beyond.map_or_else(
-            || "stable on the whole grid".to_owned(),
-            |cell| format!("{:.2e} s {}: {}", cell.step, cell.class, cell.reason),
-        ),
-    ]
-}
-
-/// Range of the restitution over all phases; for a penalty at h²k_w/m = 1.
-fn range(scheme: &Scheme, impacts: &[ImpactMap]) -> Option<(f64, f64)> {
-    let same = |map: &&ImpactMap| match (map.scheme, *scheme) {
-        (Scheme::Penalty { integrator: a, .. }, Scheme::Penalty { integrator: b, .. }) => {
-            a == b && map.kappa == Some(1.0)
-        }
-        (a, b) => a == b,
-    };
-    impacts.iter().find(same).and_then(ImpactMap::range)
+    shown.table(table(safe), "stability.csv");
+    shown.remarks([conclusion(safe)]);
 }

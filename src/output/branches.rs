@@ -217,7 +217,7 @@ impl Drawn<'_> {
     }
 
     /// The approach speeds over the key: stable orbits solid, unstable ones dashed,
-    /// special points marked; `beneath` are points of a sweep.
+    /// special points marked; `beneath` are points of other results.
     #[must_use]
     pub fn picture(&self, title: &str, beneath: &[(f64, f64)]) -> String {
         let shown = |point: &Point| {

@@ -1,5 +1,5 @@
-//! The cheapest methods of a chart: the table, and the conclusion in one sentence, for the terminal
-//! and the page of the report.
+//! The cheapest methods of a chart: the table, and the conclusion in one sentence, for the
+//! terminal, the picture and the page of the report.
 
 use super::table::Table;
 use super::work_precision::label;
@@ -8,8 +8,17 @@ use crate::scheme::SchemeKind;
 use crate::study::work_precision::{Peer, Quantity, WorkPrecision};
 use serde_json::{Value, json};
 
-/// The errors for which the table names the cheapest methods.
-const TOLERANCES: [(f64, &str); 5] = [(0.1, "10 %"), (1e-2, "1 %"), (1e-3, "0.1 %"), (1e-6, "1e-6"), (1e-9, "1e-9")];
+/// The errors for which the table names the cheapest methods, and the words for them.
+const TOLERANCES: [(f64, &str); 8] = [
+    (1e-1, "10 %"),
+    (1e-2, "1 %"),
+    (1e-3, "0.1 %"),
+    (1e-4, "1e-4"),
+    (1e-5, "1e-5"),
+    (1e-6, "1e-6"),
+    (1e-7, "1e-7"),
+    (1e-8, "1e-8"),
+];
 
 /// The error of the displacement that the conclusion is about: what an engineer asks for.
 const ASKED: f64 = 1e-2;
@@ -17,15 +26,16 @@ const ASKED: f64 = 1e-2;
 /// What the methods of other programs are called.
 const OTHER: &str = "other program";
 
-/// A row of the table: an error within a tolerance, and the cheapest method of a kind that has it.
+/// An error within a tolerance, and the cheapest method of a kind that has it.
 #[derive(Debug, Clone)]
 pub struct Best {
     quantity: Quantity,
     tolerance: f64,
     within: &'static str,
     kind: &'static str,
-    exact: bool,
     method: Option<Cheapest>,
+    /// Where no method has it: how near the kind comes.
+    missed: String,
 }
 
 /// The method that reaches a tolerance in the least time.
@@ -45,6 +55,7 @@ pub fn cheapest(chart: &WorkPrecision, peers: &[Peer]) -> Vec<Best> {
     for quantity in Quantity::ALL {
         let present = |kind: &SchemeKind| chart.series.iter().any(|s| s.method.scheme.entry().kind == *kind);
         for kind in SchemeKind::ALL.into_iter().filter(present) {
+            let missed = missed(chart, kind, quantity);
             for (tolerance, within) in TOLERANCES {
                 let best = chart.cheapest(kind, quantity, tolerance);
                 let method = best.map(|(series, step, m)| Cheapest {
@@ -54,17 +65,11 @@ pub fn cheapest(chart: &WorkPrecision, peers: &[Peer]) -> Vec<Best> {
                     seconds: m.seconds,
                     reached: quantity.of(&m.errors).unwrap_or(f64::NAN),
                 });
-                rows.push(Best {
-                    quantity,
-                    tolerance,
-                    within,
-                    kind: kind.name(),
-                    exact: kind == SchemeKind::Exact,
-                    method,
-                });
+                rows.push(Best { quantity, tolerance, within, kind: kind.name(), method, missed: missed.clone() });
             }
         }
     }
+    let least = peers.iter().map(|peer| peer.error).reduce(f64::min);
     for (tolerance, within) in TOLERANCES.into_iter().filter(|_| !peers.is_empty()) {
         let reached = peers.iter().filter(|p| p.error <= tolerance);
         let best = reached.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
@@ -75,71 +80,80 @@ pub fn cheapest(chart: &WorkPrecision, peers: &[Peer]) -> Vec<Best> {
             seconds: p.seconds,
             reached: p.error,
         });
-        rows.push(Best { quantity: Quantity::Displacement, tolerance, within, kind: OTHER, exact: false, method });
+        let missed = above(least);
+        rows.push(Best { quantity: Quantity::Displacement, tolerance, within, kind: OTHER, method, missed });
     }
     rows
 }
 
-/// The rows as JSON; `shown` marks those of the table for the terminal.
+/// How near a kind of methods comes to an error that it does not reach. Springs have a floor, which
+/// no step passes; other methods stay above an error with the steps that were tried.
+fn missed(chart: &WorkPrecision, kind: SchemeKind, quantity: Quantity) -> String {
+    let of_kind = || chart.series.iter().filter(|series| series.method.scheme.entry().kind == kind);
+    // With the finest steps; what a coarse run has by chance does not count, as in the table.
+    let finest = of_kind().filter_map(|series| quantity.of(&series.measured().last()?.1.errors));
+    let finest = finest.filter(|error| error.is_finite()).reduce(f64::min);
+    let floor = |scheme| quantity.of(chart.floor(scheme)?.errors.as_ref()?).filter(|error| error.is_finite());
+    let floors: Option<Vec<f64>> = of_kind().map(|series| floor(&series.method.scheme)).collect();
+    match floors.and_then(|floors| floors.into_iter().chain(finest).reduce(f64::min)) {
+        Some(least) => format!("never below {}", percent(least)),
+        None => above(finest),
+    }
+}
+
+fn above(least: Option<f64>) -> String {
+    least.map_or_else(|| "no result".to_owned(), |least| format!("stays above {}", percent(least)))
+}
+
+/// The rows as JSON.
 #[must_use]
 pub fn rows(best: &[Best]) -> Value {
-    groups(best)
-        .flat_map(|(shown, group)| group.iter().enumerate().map(move |(i, row)| row.document(i < shown)))
-        .collect()
+    best.iter().map(Best::document).collect()
 }
 
-/// The table for the terminal: of each error and kind the tolerances that are reached, and the
-/// first that is not; of the exact scheme one row.
+/// The tables for the terminal, one for each error: a row for each tolerance, a column for each
+/// kind.
 #[must_use]
-pub fn table(best: &[Best]) -> Table {
-    let header = ["error within", "kind", "cheapest method", "step (s)", "time (s)"];
-    let lines = groups(best).flat_map(|(shown, group)| group.iter().take(shown).map(Best::line)).collect();
-    Table::new(&header, lines)
-}
-
-/// The rows of each error and kind, and how many of them the table shows.
-fn groups(best: &[Best]) -> impl Iterator<Item = (usize, &[Best])> {
-    best.chunk_by(|a, b| a.quantity == b.quantity && a.kind == b.kind).map(|group| {
-        let reached = group.iter().take_while(|row| row.method.is_some()).count();
-        (if group.iter().any(|row| row.exact) { 1 } else { reached + 1 }, group)
-    })
+pub fn tables(best: &[Best]) -> Vec<Table> {
+    let of = |group: &[Best]| {
+        let kinds: Vec<&[Best]> = group.chunk_by(|a, b| a.kind == b.kind).collect();
+        let quantity = group.first().map_or("", |row| row.quantity.name());
+        let header: Vec<&str> = std::iter::once(quantity).chain(kinds.iter().map(|kind| kind[0].kind)).collect();
+        let line = |(i, (_, within)): (usize, (f64, &str))| {
+            std::iter::once(within.to_owned()).chain(kinds.iter().map(|kind| kind[i].cell())).collect()
+        };
+        Table::new(&header, TOLERANCES.into_iter().enumerate().map(line).collect())
+    };
+    let mut sorted: Vec<Best> = best.to_vec();
+    sorted.sort_by_key(|row| Quantity::ALL.iter().position(|quantity| *quantity == row.quantity));
+    sorted.chunk_by(|a, b| a.quantity == b.quantity).map(of).collect()
 }
 
 /// What the chart says, in one sentence: what a displacement known to 1 % of the gap costs with
 /// each kind of method, or how near a kind comes that does not reach it.
 #[must_use]
-pub fn conclusion(scene: &Scene, chart: &WorkPrecision, peers: &[Peer], best: &[Best]) -> String {
+pub fn conclusion(scene: &Scene, best: &[Best]) -> String {
     let asked = best.iter().filter(|row| row.quantity == Quantity::Displacement && row.tolerance == ASKED);
-    let parts = asked.map(|row| match &row.method {
-        Some(method) => format!("{} {}", method.short, time(method.seconds)),
-        None => match least(chart, peers, row.kind) {
-            Some(error) => format!("{} stays above {}", row.kind, percent(error)),
-            None => format!("{}: no run has a result", row.kind),
-        },
-    });
-    let parts: Vec<String> = parts.collect();
+    let parts: Vec<String> = asked
+        .map(|row| match &row.method {
+            Some(method) => format!("{} {}", method.short, time(method.seconds)),
+            None => format!("{} {}", row.kind, row.missed),
+        })
+        .collect();
     let of = if scene.walls.is_empty() && scene.supports.is_empty() { "reference length" } else { "gap" };
     format!("for 1 % of the {of}: {}", parts.join(", "))
 }
 
-/// The least error of the displacement that a kind comes to with its finest steps; one that a
-/// coarse run has by chance does not count, as in the table.
-fn least(chart: &WorkPrecision, peers: &[Peer], kind: &str) -> Option<f64> {
-    let of_kind = chart.series.iter().filter(|series| series.method.scheme.entry().kind.name() == kind);
-    let own = of_kind.filter_map(|series| series.measured().last().map(|(_, m)| m.errors.displacement));
-    let others = peers.iter().filter(|_| kind == OTHER).map(|peer| peer.error);
-    own.chain(others).filter(|error| error.is_finite()).reduce(f64::min)
-}
-
-/// A share as a percentage of two digits, rounded down: what has this share is not below it.
-fn percent(x: f64) -> String {
-    let percent = 100.0 * x;
-    if percent <= 0.0 {
+/// A share of two digits, rounded down: what has this share is not below it. As a percentage,
+/// unless it is far from 1.
+pub(super) fn percent(x: f64) -> String {
+    if x <= 0.0 {
         return "0 %".to_owned();
     }
-    let unit = 10_f64.powf(percent.log10().floor() - 1.0);
-    let down: f64 = format!("{:.1e}", (percent / unit).floor() * unit).parse().unwrap_or(percent);
-    if down < 1e4 { format!("{down} %") } else { format!("{down:e} %") }
+    let unit = 10_f64.powf(x.log10().floor() - 1.0);
+    let down = (x / unit).floor() * unit;
+    let digits = |x: f64| format!("{x:.1e}").parse::<f64>().unwrap_or(x);
+    if (1e-4..1e2).contains(&down) { format!("{} %", digits(100.0 * down)) } else { format!("{:e}", digits(down)) }
 }
 
 /// A time to two digits, in the unit that suits it.
@@ -152,42 +166,27 @@ pub(super) fn time(seconds: f64) -> String {
 }
 
 impl Best {
-    fn document(&self, shown: bool) -> Value {
+    fn document(&self) -> Value {
         let method = self.method.as_ref();
         json!({
             "error": self.quantity.name(),
             "tolerance": self.tolerance,
-            "within": self.within(),
+            "within": self.within,
             "kind": self.kind,
             "method": method.map(|m| &m.name),
             "label": method.map(|m| &m.short),
             "step_s": method.and_then(|m| m.step),
             "seconds": method.map(|m| m.seconds),
             "reached": method.map(|m| m.reached),
-            "shown": shown,
+            "missed": if method.is_none() { Some(&self.missed) } else { None },
         })
     }
 
-    /// The tolerance in words; of the exact scheme the error that it has.
-    fn within(&self) -> String {
-        match &self.method {
-            Some(method) if self.exact => format!("{:.0e}", method.reached),
-            _ => self.within.to_owned(),
-        }
-    }
-
-    /// The row for the terminal.
-    fn line(&self) -> Vec<String> {
-        let mut line = vec![format!("{} {}", self.quantity.name(), self.within()), self.kind.to_owned()];
-        match &self.method {
-            Some(m) => line.extend([
-                m.short.clone(),
-                m.step.map_or_else(|| "-".into(), |h| format!("{h:.1e}")),
-                format!("{:.1e}", m.seconds),
-            ]),
-            None => line.extend(["none of the steps tried".into(), "-".into(), "-".into()]),
-        }
-        line
+    /// The cell for the terminal: method, time and step.
+    fn cell(&self) -> String {
+        let Some(method) = &self.method else { return self.missed.clone() };
+        let step = method.step.map_or_else(String::new, |step| format!(", h = {}", time(step)));
+        format!("{} {}{step}", method.short, time(method.seconds))
     }
 }
 
@@ -200,7 +199,7 @@ mod tests {
         let times = [3.475e-6, 1.17e-3, 0.0999, 12.34, 1e-10, 9.99e-4].map(time);
         assert_eq!(times, ["3.5 µs", "1.2 ms", "100 ms", "12 s", "0.1 ns", "1 ms"]);
         // Rounded down, so that a run of this error is not below it.
-        let shares = [0.063_09, 0.0999, 1.99, 3e-5, 0.0, 1e6].map(percent);
-        assert_eq!(shares, ["6.3 %", "9.9 %", "190 %", "0.003 %", "0 %", "1e8 %"]);
+        let shares = [0.063_09, 0.0999, 1.99, 3.19e-4, 3.19e-5, 0.0, 1.27e6].map(percent);
+        assert_eq!(shares, ["6.3 %", "9.9 %", "190 %", "0.031 %", "3.1e-5", "0 %", "1.2e6"]);
     }
 }

@@ -2,9 +2,8 @@
 //! missing or not finite is null.
 
 use crate::case::Case;
-use crate::scheme::Scheme;
 use crate::study::stability::lasting::{Line, Quality};
-use crate::study::stability::plan::{Maps, Row};
+use crate::study::stability::plan::Maps;
 use crate::study::work_precision::{Errors, Measured, Outcome, Point, Series, WorkPrecision};
 use serde_json::{Value, json};
 
@@ -39,6 +38,13 @@ pub fn chart(case: &Case, chart: &WorkPrecision) -> Value {
         "notes": case.notes(),
     });
     under_head(case, value)
+}
+
+/// The order of convergence of each method of a chart, by its name: null where there is none.
+#[must_use]
+pub fn orders(chart: &WorkPrecision) -> Value {
+    let order = |one: &Series| (one.method.to_string(), json!(one.order(chart.known(&one.method.scheme))));
+    Value::Object(chart.series.iter().map(order).collect())
 }
 
 fn series(chart: &WorkPrecision, series: &Series, walls: &[&str]) -> Value {
@@ -79,35 +85,15 @@ fn errors(errors: &Errors, walls: &[&str]) -> Value {
     })
 }
 
-/// Where each scheme fails: its largest safe step, the first failure beyond that step, the
-/// restitution of one free impact over all phases (as `range` returns it), and what the scheme does
-/// to the energy and to a lasting contact. The CSV has every cell of the maps.
+/// A stability study: its scale, and what each scheme does to the energy and to a lasting contact.
+/// The CSV has every cell of the maps.
 #[must_use]
-pub fn stability(case: &Case, maps: &Maps, quality: &Quality, range: &dyn Fn(&Scheme) -> Option<(f64, f64)>) -> Value {
-    let row = |row: &Row| {
-        let safe = row.safe.as_ref();
-        let step = safe.and_then(|safe| safe.step);
-        let restitution =
-            range(&row.subject.scheme).map(|(least, largest)| json!({ "least": least, "largest": largest }));
-        json!({
-            "scheme": row.subject.scheme.to_string(),
-            "largest_safe_step_s": step,
-            "largest_safe_step_times_omega": step.map(|h| h * maps.scale.omega),
-            "kappa": step.and_then(|h| row.subject.kappa(&maps.scale, h)),
-            "restitution": restitution,
-            "beyond": safe.and_then(|safe| safe.beyond.as_ref()).map(|cell| json!({
-                "step_s": cell.step,
-                "class": cell.class.to_string(),
-                "reason": cell.reason,
-            })),
-        })
-    };
+pub fn stability(case: &Case, maps: &Maps, quality: &Quality) -> Value {
     let value = json!({
         "steps_s": maps.steps,
         "duration_s": maps.horizon,
         "omega_rad_per_s": maps.scale.omega,
         "omega_is": maps.scale.origin.describe(),
-        "schemes": maps.own().map(row).collect::<Vec<_>>(),
         "energy_j": quality.energy,
         "lasting_contacts": quality.lines.iter().map(lasting).collect::<Vec<_>>(),
         "notes": case.notes(),

@@ -18,13 +18,15 @@
 //! | [`realisations`] | `realisations.csv`, and its table |
 //! | [`periodic`] | a periodic orbit: its document, motion and pictures |
 //! | [`branches`] | branches of orbits: tables, document and picture |
-//! | [`sweep_overlay`] | `beneath.csv`: points of a sweep beneath the branches |
+//! | [`overlay`] | `beneath.csv`: points of other results beneath the branches |
 //! | [`orbits`] | `orbits.csv`: the motion of the orbits along branches, for a drawing |
 //! | [`loci`] | curves of special points over two keys |
 //! | [`table`] | tables for people, as wide as the terminal |
 //! | [`pictures`] | the figures of one or several runs |
 //! | [`stability`] | tables and maps of a stability study |
+//! | `safe_steps` | the largest safe step of each scheme, and the conclusion of a stability study |
 //! | `cheapest` | the cheapest methods of a chart, and its conclusion |
+//! | `floors` | how near penalties come to rigid walls, and why no nearer |
 //! | [`wear_history`] | `history.csv` and `years.csv` of wear over the years, and their picture |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
@@ -39,10 +41,11 @@
 //! it, `record.rs` whether a table is still as it was written, `atomic.rs` writes a file onto the
 //! disk before it gets its name, `request.rs` records the request, `run.rs` and `compare.rs` write
 //! all files and tables of a run and of a comparison, `periodic.rs` and `branches.rs` those of
-//! periodic orbits, `orbits.rs` the motion of those along branches and `sweep_overlay.rs` a sweep's
-//! points under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
+//! periodic orbits, `orbits.rs` the motion of those along branches and `overlay.rs` points of other
+//! results under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
 //! `table.rs`, `document.rs`, `detail.rs` (what `[statistics]` asks for: `episodes.rs`,
-//! `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart), figures
+//! `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart), `floors.rs` (why
+//! its penalties have floors), `safe_steps.rs` (the conclusion of a stability study), figures
 //! (`colours.rs` has the colour of every wall and support, `part.rs` the walls that are drawn
 //! together), `format.rs` (figures as SVG, PDF or PNG; feature `cli`).
 
@@ -58,6 +61,7 @@ mod detail;
 pub mod document;
 pub mod episodes;
 pub use signorini_figure as figure;
+pub(crate) mod floors;
 pub mod format;
 pub(crate) mod json;
 mod labelled;
@@ -68,6 +72,7 @@ pub(crate) mod method_realisations;
 mod motion;
 mod orbit;
 pub mod orbits;
+pub mod overlay;
 mod part;
 pub mod periodic;
 pub mod pictures;
@@ -79,13 +84,13 @@ pub mod results;
 pub(crate) mod ring;
 mod rubbed;
 pub mod run;
+pub(crate) mod safe_steps;
 pub mod shape;
 mod site;
 mod spectra;
 pub mod stability;
 pub mod summary;
 pub mod supports;
-pub mod sweep_overlay;
 pub mod table;
 mod values;
 pub(crate) mod verification;

@@ -2,13 +2,15 @@
 
 use super::csv;
 use super::figure::{Class as Tone, Curve, Figure, HeatMap, Mark, Panel, Scale};
+use super::safe_steps::range_text;
 use crate::error::Result;
 use crate::scheme::Scheme;
 use crate::study::stability::class::Class;
 use crate::study::stability::family::{Family, Parameter};
-use crate::study::stability::impact::{ImpactMap, KAPPAS};
+use crate::study::stability::impact::{ImpactMap, KAPPAS, alike};
 use crate::study::stability::lasting::{Lasting, Line, Quality};
 use crate::study::stability::plan::{Maps, Row};
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// Writes one row per scheme and phase.
@@ -168,16 +170,15 @@ fn failure(empty: usize, reason: String) -> impl Iterator<Item = String> {
 }
 
 /// The restitution over the phase of the impact: one panel for the schemes that treat walls as
-/// constraints, then one for the penalty at each κ.
+/// constraints, where those that agree have one curve with all their names, then one for the
+/// penalty at each κ.
 #[must_use]
 pub fn impact_figure(maps: &[ImpactMap], e: f64) -> String {
-    let points = |map: &ImpactMap| map.measured().map(|i| (i.phase, i.restitution)).collect::<Vec<_>>();
     let title = format!("Restitution of one free impact, wall with e = {e}");
     let mut figure = Figure::new(title, "Phase of the impact within the step, τ (–)");
     let mut panel = Panel::new("Restitution (–)").heading("Walls as constraints").range(-0.15, 3.15);
-    for map in maps.iter().filter(|map| map.kappa.is_none()) {
-        let curve = Curve::new(map.label.clone(), points(map));
-        panel = panel.curve(if map.scheme.is_exact() { curve.backdrop() } else { curve });
+    for group in alike(maps).iter().filter(|group| group.iter().all(|map| map.kappa.is_none())) {
+        panel = panel.curve(Curve::new(names(group), group.first().map_or_else(Vec::new, |map| points(map))));
     }
     figure = figure.panel(panel);
     for kappa in KAPPAS {
@@ -186,12 +187,52 @@ pub fn impact_figure(maps: &[ImpactMap], e: f64) -> String {
         let mut panel = Panel::new("Restitution (–)").heading(format!("Penalty, h²k_w/m = {kappa}"));
         panel = if high / low.max(f64::MIN_POSITIVE) > 100.0 { panel.log() } else { panel };
         for (map, look) in maps.iter().filter(|m| m.kappa == Some(kappa)).zip(8..) {
-            let name = map.label.split(", ").nth(1).unwrap_or_default();
-            panel = panel.curve(Curve::new(format!("penalty, {name}"), points(map)).look(look));
+            panel = panel.curve(Curve::new(format!("penalty, {}", short(map)), points(map)).look(look));
         }
         figure = figure.panel(panel.mark(Mark::floor(1.0, "no loss")));
     }
     figure.to_svg()
+}
+
+fn points(map: &ImpactMap) -> Vec<(f64, f64)> {
+    map.measured().map(|i| (i.phase, i.restitution)).collect()
+}
+
+/// The name of a scheme; of a penalty that of its integrator.
+fn short(map: &ImpactMap) -> String {
+    match map.scheme {
+        Scheme::Penalty { integrator, .. } => integrator.to_string(),
+        _ => map.label.clone(),
+    }
+}
+
+/// The names of schemes that agree; those of one scheme with several θ together.
+fn names(group: &[&ImpactMap]) -> String {
+    let theta = |map: &ImpactMap| if let Scheme::MoreauJean { theta } = map.scheme { Some(theta) } else { None };
+    let runs = group.chunk_by(|a, b| theta(a).is_some() && theta(b).is_some());
+    let name = |run: &[&ImpactMap]| match run {
+        [one] => short(one),
+        several => {
+            let settings = several.iter().filter_map(|map| theta(map)).map(|theta| theta.to_string());
+            format!("moreau-jean (θ = {})", settings.collect::<Vec<_>>().join(", "))
+        }
+    };
+    runs.map(name).collect::<Vec<_>>().join(", ")
+}
+
+/// The schemes that agree at every phase of one impact as JSON, for the page: their names, and the
+/// first of them by its number in `impact-map.csv`.
+pub(crate) fn impact_groups(maps: &[ImpactMap]) -> Value {
+    let row = |group: &Vec<&ImpactMap>| {
+        let map = group.first()?;
+        Some(json!({
+            "names": names(group),
+            "kappa": map.kappa,
+            "range": map.range().map(range_text),
+            "first": maps.iter().position(|other| std::ptr::eq(other, *map)),
+        }))
+    };
+    alike(maps).iter().filter_map(row).collect()
 }
 
 /// One map of classes per family: file name without extension, and SVG text.

@@ -2,6 +2,7 @@
 
 use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
+use super::floors;
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::scheme::{Method, PenaltyLaw, Scheme};
@@ -129,27 +130,27 @@ fn front(chart: &WorkPrecision, peers: &[Peer]) -> Vec<(f64, f64)> {
 /// The figures, each with its file name without extension: error across, time up, both logarithmic.
 /// `work-precision` has a panel for each error against the scene; for each penalty it shows the
 /// modelling error (its floor) and one integrator, since all integrators end at the same floor.
-/// `work-precision-penalties` shows all of them against their own springs.
+/// `work-precision-penalties` shows all of them against their own springs. `conclusion`, what the
+/// chart says in one sentence, stands below the title.
 #[must_use]
-pub fn charts(title: &str, chart: &WorkPrecision, peers: &[Peer]) -> Vec<(&'static str, String)> {
+pub fn charts(title: &str, conclusion: &str, chart: &WorkPrecision, peers: &[Peer]) -> Vec<(&'static str, String)> {
     let title = format!("{title}, t ≤ {} s", significant(chart.horizon.end));
-    let mut charts = vec![("work-precision", against_the_scene(&title, chart, peers))];
+    let mut charts = vec![("work-precision", against_the_scene(&title, conclusion, chart, peers))];
     if !chart.floors.is_empty() {
         charts.push(("work-precision-penalties", against_their_springs(&title, chart)));
     }
     charts
 }
 
-fn against_the_scene(title: &str, chart: &WorkPrecision, peers: &[Peer]) -> String {
-    let mut figure = Figure::new(title, "Error (–)").log();
+fn against_the_scene(title: &str, conclusion: &str, chart: &WorkPrecision, peers: &[Peer]) -> String {
+    let mut figure = Figure::new(title, "Error (–)").subtitle(conclusion).log();
     let mut all = Vec::new();
     for quantity in Quantity::ALL {
         let series = shown(chart).map(|(number, series)| (number, label(&series.method), points(series, quantity)));
         let mut curves: Vec<_> = series.collect();
         if quantity == Quantity::Displacement {
-            curves.extend(
-                programs(peers).into_iter().zip(chart.series.len()..).map(|((label, points), n)| (n, label, points)),
-            );
+            curves
+                .extend(programs(peers).into_iter().zip(curves.len()..).map(|((label, points), n)| (n, label, points)));
         }
         if curves.iter().all(|curve| curve.2.is_empty()) {
             continue;
@@ -162,8 +163,8 @@ fn against_the_scene(title: &str, chart: &WorkPrecision, peers: &[Peer]) -> Stri
             panel = panel.curve(Curve::new(label, points).marked().look(number));
         }
         for floor in &chart.floors {
-            if let Some(error) = floor.errors.as_ref().and_then(|e| quantity.of(e)).filter(|e| e.is_finite()) {
-                panel = panel.mark(Mark::floor(error, law_label(floor.law)).upright());
+            if let Some(error) = floors::of(floor, quantity) {
+                panel = panel.mark(Mark::floor(error, floors::mark(floor, error)).upright());
             }
         }
         figure = figure.panel(panel);
@@ -180,17 +181,18 @@ fn heading(quantity: Quantity) -> &'static str {
     }
 }
 
-/// The series of the first figure with their indices: for each penalty only the first integrator.
+/// The series of the first figure, numbered: for each penalty only the first integrator.
 fn shown(chart: &WorkPrecision) -> impl Iterator<Item = (usize, &Series)> {
     let mut laws = Vec::new();
-    chart.series.iter().enumerate().filter(move |(_, series)| match series.method.scheme {
+    let first = move |series: &&Series| match series.method.scheme {
         Scheme::Penalty { law, .. } if laws.contains(&law) => false,
         Scheme::Penalty { law, .. } => {
             laws.push(law);
             true
         }
         _ => true,
-    })
+    };
+    chart.series.iter().filter(first).enumerate()
 }
 
 /// Error and time of each run that has this error.
@@ -199,8 +201,8 @@ fn points(series: &Series, quantity: Quantity) -> Vec<(f64, f64)> {
     series.measured().filter_map(|(_, m)| point(m)).filter(|p| p.0.is_finite()).collect()
 }
 
-/// The points of other programs by label, by rising time.
-fn programs(peers: &[Peer]) -> Vec<(String, Vec<(f64, f64)>)> {
+/// The points of other programs by label, by rising time: error over the gap, and time (s).
+pub(crate) fn programs(peers: &[Peer]) -> Vec<(String, Vec<(f64, f64)>)> {
     let mut programs: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
     for peer in peers {
         let point = (peer.error, peer.seconds);
@@ -247,7 +249,7 @@ pub fn label(method: &Method) -> String {
     }
 }
 
-fn law_label(law: PenaltyLaw) -> String {
+pub(super) fn law_label(law: PenaltyLaw) -> String {
     match law {
         PenaltyLaw::Quartic { epsilon } => format!("ε = {epsilon:e}"),
         PenaltyLaw::Linear { stiffness, damping: 0.0 } => format!("k = {stiffness:e}"),
@@ -256,6 +258,6 @@ fn law_label(law: PenaltyLaw) -> String {
 }
 
 /// At most four digits.
-fn significant(x: f64) -> String {
+pub(super) fn significant(x: f64) -> String {
     format!("{x:.3e}").parse::<f64>().map_or_else(|_| x.to_string(), |x| x.to_string())
 }

@@ -4,11 +4,11 @@ use super::column;
 use super::folder::{Cells, Folder};
 use super::run::case_text;
 use crate::error::Result;
-use crate::output::{orbits, sweep_overlay};
+use crate::output::{orbits, overlay};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 
-/// Most orbits, and most points of a sweep beneath them, that the page holds.
+/// Most orbits, and most points of other results beneath them, that the page holds.
 const MOST_POINTS: usize = 20_000;
 const MOST_BENEATH: usize = 100_000;
 
@@ -70,8 +70,8 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     } else {
         notes.push("there is no orbits.csv, from which the motion along each orbit is drawn".to_owned());
     }
-    if folder.has(sweep_overlay::FILE) {
-        let points = folder.numbers(sweep_overlay::FILE)?;
+    if folder.has(overlay::FILE) {
+        let points = folder.numbers(overlay::FILE)?;
         let [x, y] = &points.columns[..] else {
             return Err(points.wrong("expected two columns, the key and the approach speed"));
         };
@@ -80,7 +80,8 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             notes.push(format!("of {} points beneath the branches every {every}th is drawn", x.len()));
         }
         let picked = |column: &[f64]| column::f32(column.iter().copied().step_by(every));
-        out["beneath"] = json!({ "x": picked(x), "y": picked(y) });
+        let name = &folder.manifest["request"]["over"];
+        out["beneath"] = json!({ "x": picked(x), "y": picked(y), "name": name });
     }
     if folder.has("loci.csv") {
         out["loci"] = loci(&folder.cells("loci.csv")?);

@@ -23,7 +23,7 @@ const SHOWN: [&str; 12] = [
     "remark",
 ];
 
-/// The short name of a method; that of another program is its own.
+/// The short name of a method.
 fn short(method: &str) -> String {
     method.parse::<Method>().map_or_else(|_| method.to_owned(), |method| label(&method))
 }
@@ -35,17 +35,20 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     for name in ["seconds", "displacement_error_over_gap"] {
         table.column(name)?;
     }
-    let rows = folder.manifest["cheapest"].as_array().map_or(&[][..], Vec::as_slice);
-    let cheapest: Vec<&Value> = rows.iter().filter(|row| row["shown"] == true).collect();
+    let told = |key: &str| &folder.manifest[key];
     Ok(json!({
         "subtitle": "accuracy against speed",
         "chart": {
             "table": table.for_page(Some(&SHOWN)),
             "labels": (0..table.rows.len()).map(|row| short(table.text(row, "method"))).collect::<Vec<_>>(),
-            "conclusion": folder.manifest["conclusion"],
-            "cheapest": cheapest,
+            "conclusion": told("conclusion"),
+            "cheapest": told("cheapest"),
+            "floors": told("floors"),
+            "orders": told("orders"),
+            "programs": told("other_programs"),
+            "compared": told("compared"),
         },
-        "case": case_text(&folder.manifest["case_file"]),
-        "notes": folder.manifest["remarks"],
+        "case": case_text(told("case_file")),
+        "notes": told("remarks"),
     }))
 }

@@ -17,7 +17,7 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 34] = [
+const SCRIPT: [&str; 38] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
@@ -37,12 +37,16 @@ const SCRIPT: [&str; 34] = [
     include_str!("page/js/phase.js"),
     include_str!("page/js/supports.js"),
     include_str!("page/js/contacts.js"),
-    include_str!("page/js/studies.js"),
+    include_str!("page/js/compare.js"),
+    include_str!("page/js/endnames.js"),
+    include_str!("page/js/cheapest.js"),
+    include_str!("page/js/chart.js"),
     include_str!("page/js/map.js"),
     include_str!("page/js/stability.js"),
     include_str!("page/js/basin.js"),
     include_str!("page/js/intervals.js"),
     include_str!("page/js/effects.js"),
+    include_str!("page/js/measures.js"),
     include_str!("page/js/sweep.js"),
     include_str!("page/js/wear.js"),
     include_str!("page/js/orbit.js"),

@@ -9,6 +9,7 @@
 //! | `scene` | what is drawn: the structure, its walls and loads |
 //! | `cards` | how reliable a run is, in sentences |
 //! | `run`, `compare`, `chart`, `stability`, `sweep`, `orbit`, `branches`, `wear` | the contents of each kind of page |
+//! | `over` | other results in the figures of a page |
 //! | `paths` | absolute paths, which a page does not show |
 //! | `html` | the file itself: escapes, and what it may load (nothing) |
 //! | `page/` | the page's HTML, CSS and JavaScript |
@@ -43,6 +44,7 @@ mod folder;
 mod html;
 mod motion;
 mod orbit;
+mod over;
 mod paths;
 mod run;
 mod scene;
@@ -80,22 +82,36 @@ pub fn too_large(path: &Path, manifest: &Value) -> Result<Option<String>> {
 /// report, or results that are not finished, or where one of its files is missing, was changed or
 /// is not what that command writes.
 pub fn page(path: &Path, manifest: &Value) -> Result<String> {
-    let folder = Folder { path, manifest };
-    if !manifest::is_finished(manifest) {
-        let reason = "its results are not finished: a run was interrupted, or is still at work\n\
-                      help: the same command writes them again, a sweep goes on";
-        return Err(Error::io(path.display(), reason, true));
+    page_of(&Folder { path, manifest }, None)
+}
+
+/// The same page with the results in `other`, a path and its manifest, in its figures.
+///
+/// # Errors
+/// As [`page`], and where the other results do not go into the figures of the page.
+pub fn page_over(path: &Path, manifest: &Value, other: (&Path, &Value)) -> Result<String> {
+    page_of(&Folder { path, manifest }, Some(&Folder { path: other.0, manifest: other.1 }))
+}
+
+fn page_of(folder: &Folder<'_>, other: Option<&Folder<'_>>) -> Result<String> {
+    for folder in [Some(folder), other].into_iter().flatten() {
+        if !manifest::is_finished(folder.manifest) {
+            let reason = "its results are not finished: a run was interrupted, or is still at work\n\
+                          help: the same command writes them again, a sweep goes on";
+            return Err(Error::io(folder.path.display(), reason, true));
+        }
     }
+    let (path, manifest) = (folder.path, folder.manifest);
     let command = manifest["request"]["command"].as_str().unwrap_or_default();
-    let contents = match command {
-        "run" => run::contents(&folder)?,
-        "compare" => compare::contents(&folder)?,
-        "chart" => chart::contents(&folder)?,
-        "stability" => stability::contents(&folder)?,
-        "sweep" => sweep::contents(&folder)?,
-        "orbit" => orbit::contents(&folder)?,
-        "continue" => branches::contents(&folder)?,
-        "wear" => wear::contents(&folder)?,
+    let mut contents = match command {
+        "run" => run::contents(folder)?,
+        "compare" => compare::contents(folder)?,
+        "chart" => chart::contents(folder)?,
+        "stability" => stability::contents(folder)?,
+        "sweep" => sweep::contents(folder)?,
+        "orbit" => orbit::contents(folder)?,
+        "continue" => branches::contents(folder)?,
+        "wear" => wear::contents(folder)?,
         other => {
             let reason = format!(
                 "holds results of {other:?}, which has no report\n\
@@ -104,6 +120,9 @@ pub fn page(path: &Path, manifest: &Value) -> Result<String> {
             return Err(Error::io(path.display(), reason, true));
         }
     };
+    if let Some(other) = other {
+        over::add(&mut contents, command, other, &other.path.display().to_string())?;
+    }
     let word = |key: &str| manifest[key].as_str();
     let name = manifest["request"]["case"].as_str().unwrap_or(command);
     let title = contents["title"].as_str().or(word("title")).unwrap_or(name).to_owned();

@@ -3,6 +3,7 @@
 use super::folder::Folder;
 use super::run::case_text;
 use crate::error::Result;
+use crate::study::stability::impact::PHASES;
 use serde_json::{Value, json};
 
 /// The columns of the maps that the page draws or shows as text.
@@ -29,7 +30,11 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "subtitle": "where each scheme fails",
         "stability": {
             "maps": maps.for_page(Some(&SHOWN)),
-            "impacts": folder.cells("impact-map.csv")?.for_page(None),
+            "conclusion": folder.manifest["conclusion"],
+            "safe": folder.manifest["safe_steps"],
+            "impacts": folder.cells("impact-map.csv")?.for_page(Some(&["phase", "restitution"])),
+            "groups": folder.manifest["impacts"],
+            "phases": PHASES,
             "lasting": folder.cells("lasting-contact.csv")?.for_page(None),
         },
         "case": case_text(&folder.manifest["case_file"]),

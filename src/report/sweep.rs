@@ -9,8 +9,8 @@ use std::collections::HashSet;
 use std::path::Path;
 
 /// The tables of the rows and of their instants.
-const TABLE: &str = "sweep.csv";
-const SAMPLES: &str = "samples.csv";
+pub(super) const TABLE: &str = "sweep.csv";
+pub(super) const SAMPLES: &str = "samples.csv";
 
 /// Most cells of the tables that a page holds: some tens of megabytes of HTML.
 const MOST_CELLS: usize = 4_000_000;

@@ -205,6 +205,33 @@ fn branches_are_written_and_joined() {
         last = now;
     }
     assert_eq!(table.matches("fold").count(), 1);
+    // So can be a folder: the sweep, other branches, a run and an orbit at the case's frequency.
+    let run = ["run", CASE, "--set", "wall.*.restitution=0.8", "--end", "2", "--no-verdict", "--out", "r"];
+    said(path, &run, 0);
+    said(path, &[&["orbit"], &SOFT[..], &["--out", "o"]].concat(), 0);
+    let points = |over: &str| {
+        let more = ["--range", "4.9:5.1", "--over", over, "--out", "over", "--force"];
+        said(path, &[&["continue"], &SOFT[..], &key, &more].concat(), 0);
+        let text = fs::read_to_string(path.join("over/beneath.csv")).unwrap();
+        let pair = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>();
+        text.lines().skip(1).map(pair).collect::<Vec<_>>()
+    };
+    assert_eq!(points("s").len() + 1, lines("s/samples.csv"));
+    // All events of these branches are impacts: as many as there are speeds.
+    let speeds: Vec<usize> =
+        header.split(',').enumerate().filter(|(_, name)| name.starts_with("speed_")).map(|(index, _)| index).collect();
+    let told = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        speeds.iter().filter(|index| !cells[**index].is_empty()).count()
+    };
+    let impacts: usize = table.lines().skip(1).map(told).sum();
+    assert_eq!(points("b").len(), impacts);
+    let orbit = points("o");
+    assert!(orbit.len() == 2 && orbit.iter().all(|point| (point[0] - 5.0).abs() < 1e-12), "{orbit:?}");
+    let run = points("r");
+    assert_eq!(run.len() + 1, lines("r/contacts.csv"));
+    // The run settles on the orbit.
+    assert!(run.iter().all(|point| point[0] == 5.0) && (run.last().unwrap()[1] - orbit[0][1]).abs() < 1e-2, "{run:?}");
     let second =
         ["--second", "wall.*.restitution", "--second-range", "0.7:0.9", "--locus", "grazing-out", "--out", "l"];
     let (out, _) =

@@ -233,6 +233,12 @@ fn branches_show_the_orbit_that_is_clicked() {
     assert_ne!(tab.evaluate(over), before);
     assert_ne!(tab.evaluate("document.querySelector('#orbit .plot canvas').toDataURL()"), portrait);
 
+    // The first view is about the special points, which are in a part of the range.
+    let first = tab.evaluate(picture);
+    tab.press_button("Whole range");
+    tab.frame();
+    assert_ne!(tab.evaluate(picture), first);
+
     // Hover tells the nearest orbit, a click chooses it: somewhere along the middle of the picture.
     let [x, y, w, h] = tab.place("#branches .plot canvas + canvas");
     let told =

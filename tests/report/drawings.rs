@@ -4,6 +4,7 @@ use crate::chromium::{Browser, Tab};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
+use std::process::Command;
 
 /// From here on texts and lines are recorded as `drawn`: [kind, style, x, y, text or line width].
 const RECORD: &str = "(() => { const pen = CanvasRenderingContext2D.prototype; globalThis.drawn = []; \
@@ -223,34 +224,150 @@ fn no_label_hides_the_branches() {
     tab.close();
 }
 
+/// What the plot of a chart tells of the points that the pointer meets.
+const TIPS: &str = "(() => { const plot = document.querySelector('#work .plot'), tip = plot.querySelector('.tip'); \
+    const surface = plot.querySelector('canvas + canvas'), box = surface.getBoundingClientRect(), found = new Set(); \
+    for (let x = 0; x < box.width; x += 8) for (let y = 0; y < box.height; y += 8) { \
+    surface.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + x, clientY: box.top + y })); \
+    if (!tip.hidden) found.add(tip.textContent); } return [...found]; })()";
+
 /// The page of a chart says its conclusion before its picture, whose curves carry their names.
 #[test]
 fn a_chart_has_its_conclusion_above_its_named_curves() {
     let Some(mut browser) = Browser::start() else { return };
     let dir = tempfile::tempdir().unwrap();
+    let peers = dir.path().join("peers.csv");
+    fs::write(&peers, "program,method,error_over_gap,seconds\nOther,RK,1e-3,2e-3\nOther,RK,2e-4,5e-3\n").unwrap();
     let schemes = ["--schemes", "event,moreau-jean,generalized-alpha,penalty:epsilon=1e-9"];
-    let few = ["--end", "1", "--levels", "6", "--repeats", "1"];
+    let few = ["--end", "1", "--levels", "6", "--repeats", "1", "--with", "peers.csv"];
     let page = results(dir.path(), &[&["chart", "rigid-walls-sine"], &schemes[..], &few[..]].concat());
     let mut tab = opened(&mut browser, &page);
     let conclusion = tab.evaluate("document.querySelector('#work .conclusion').textContent");
-    assert!(conclusion.as_str().unwrap().starts_with("For 1 % of the gap: event "), "{conclusion}");
+    assert!(conclusion.as_str().unwrap().starts_with("For 1\u{a0}% of the gap: event "), "{conclusion}");
     let order = "[...document.querySelectorAll('#work .conclusion, #work table, #work .plot')].map((one) => \
         one.className || one.tagName)";
-    assert_eq!(tab.evaluate(order), json!(["conclusion", "TABLE", "plot"]));
+    assert_eq!(tab.evaluate(order), json!(["conclusion", "plain cheapest", "plot"]));
     assert_eq!(tab.evaluate("document.querySelectorAll('#work .chip').length"), 0);
+    // A row for each error and a column for each kind of method.
+    let cells = "[...document.querySelectorAll('#work th, #work td:first-child')].map((cell) => cell.textContent)";
+    let tolerances = ["10 %", "1 %", "0.1 %", "10⁻⁴", "10⁻⁵", "10⁻⁶", "10⁻⁷", "10⁻⁸"];
+    let kinds = ["error within", "exact", "QP", "penalty", "other program"];
+    assert_eq!(tab.evaluate(cells), json!([&kinds[..], &tolerances[..]].concat()));
     let texts = texts(&mut tab);
-    for name in ["event", "moreau-jean", "generalized-alpha", "ε = 1e-9"] {
+    for name in ["event", "moreau-jean", "generalized-alpha", "ε = 1e-9: floor ", "Other RK"] {
         assert!(texts.iter().any(|text| text.contains(name)), "{name}: {texts:?}");
     }
+    let reasons = tab.evaluate("document.querySelector('#work .floors').textContent");
+    assert!(reasons.as_str().unwrap().contains("its walls give way"), "{reasons}");
     // The exact scheme's error of some 1e-14 is named at the edge; the axis is that of the others.
     assert!(texts.iter().any(|text| text.starts_with("◂ event (")), "{texts:?}");
     for beyond in ["10⁻¹²", "10⁻¹⁴", "10"] {
         assert!(!texts.iter().any(|text| text == beyond), "{beyond}: {texts:?}");
     }
-    // The table follows the error that is drawn.
-    let first = "document.querySelector('#work tbody tr:not(.space) td').textContent";
-    let (displacement, _) = (tab.evaluate(first), tab.press_button("Impulse"));
-    assert_ne!(tab.evaluate(first), displacement);
+    // A point tells its step, and the order from the coarser step to its own.
+    let tips = tab.evaluate(TIPS);
+    let tips: Vec<&str> = tips.as_array().unwrap().iter().filter_map(Value::as_str).collect();
+    let table = fs::read_to_string(page.with_file_name("work-precision.csv")).unwrap();
+    let points: Vec<[f64; 2]> = table
+        .lines()
+        .filter(|row| row.starts_with("moreau-jean,"))
+        .map(|row| [1, 4].map(|at| row.split(',').nth(at).unwrap().parse().unwrap()))
+        .collect();
+    let orders: Vec<String> = points
+        .windows(2)
+        .map(|two| (two[1][1] / two[0][1]).ln() / (two[1][0] / two[0][0]).ln())
+        .map(|order| format!("order {order:.2} from").replace('-', "−"))
+        .collect();
+    let told = |tip: &&&str| orders.iter().any(|order| tip.contains(order));
+    assert!(tips.iter().filter(told).count() >= 2, "{orders:?}: {tips:?}");
+    assert!(tips.iter().any(|tip| tip.starts_with("moreau-jean\nstep ") && tip.contains("took ")), "{tips:?}");
+    assert!(tips.iter().any(|tip| tip.starts_with("Other RK\ntook 5 ms")), "{tips:?}");
+    // The table follows the error that is drawn; other programs tell that of the displacement.
+    tab.press_button("Impulse");
+    assert_eq!(tab.evaluate("document.querySelectorAll('#work th').length"), 4);
     assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), Value::from("0"));
+    assert!(tab.pdf() > 20_000);
+    tab.close();
+}
+
+/// The page of a stability study begins with the largest safe step of each scheme and the reason,
+/// and schemes that agree in one impact share one curve with all their names.
+#[test]
+fn a_stability_page_begins_with_the_safe_steps() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let short = ["--set", "time.end=0.2", "--set", "penalty.epsilon=[1e-9]"];
+    let page = results(dir.path(), &[&["stability", "rigid-walls-sine"], &short[..]].concat());
+    let manifest = fs::read_to_string(page.with_file_name("request.json")).unwrap();
+    let manifest: Value = serde_json::from_str(&manifest).unwrap();
+    let safe = manifest["safe_steps"].as_array().unwrap();
+    let mut tab = opened(&mut browser, &page);
+    let sections = "[...document.querySelectorAll('section')].slice(0, 3).map(({ id }) => id)";
+    assert_eq!(tab.evaluate(sections), json!(["safe", "maps", "impact"]));
+    let said = tab.evaluate("document.querySelector('#safe .conclusion').textContent");
+    let conclusion = manifest["conclusion"].as_str().unwrap();
+    assert_eq!(said.as_str().unwrap().replace('\u{a0}', " ").to_lowercase(), format!("{conclusion}.").to_lowercase());
+    // The largest first, each with what happens beyond it and why; those without any last.
+    let steps: Vec<f64> = safe.iter().map(|row| row["largest_safe_step_s"].as_f64().unwrap_or(0.0)).collect();
+    assert!(steps.is_sorted_by(|a, b| a >= b) && steps[0] > 0.0 && steps.contains(&0.0), "{steps:?}");
+    let rows = "[...document.querySelectorAll('#safe tbody tr')].map((tr) => [...tr.children].map((td) => \
+        td.textContent))";
+    let rows: Vec<Vec<String>> = serde_json::from_value(tab.evaluate(rows)).unwrap();
+    assert_eq!(rows.len(), safe.len());
+    for (cells, row) in rows.iter().zip(safe) {
+        assert_eq!(cells[0], row["label"].as_str().unwrap());
+        assert_eq!(cells[1] == "none", row["largest_safe_step_s"].is_null(), "{cells:?}");
+        let beyond = &row["beyond"];
+        assert_eq!(cells[4], beyond["class"].as_str().unwrap_or("stable on the whole grid"), "{cells:?}");
+        assert!(cells[5].starts_with(beyond["reason"].as_str().unwrap_or("–")), "{cells:?}");
+    }
+    // The names of the maps stand above them: no text is over their cells.
+    let names = "[...document.querySelectorAll('#maps h3')].map((name) => name.textContent)";
+    let names: Vec<String> = serde_json::from_value(tab.evaluate(names)).unwrap();
+    assert_eq!(names.len() as f64, tab.evaluate("document.querySelectorAll('#maps .plot').length").as_f64().unwrap());
+    assert!(names.iter().any(|name| name == "penalty, trapezoidal"), "{names:?}");
+    let drawn = texts(&mut tab);
+    assert!(!drawn.iter().any(|text| names.contains(text)), "{drawn:?}");
+    let curves = "[...document.querySelectorAll('#impact .curves')].map((list) => [...list.children].map((one) => \
+        one.textContent))";
+    let curves: Vec<Vec<String>> = serde_json::from_value(tab.evaluate(curves)).unwrap();
+    assert_eq!(curves.len(), 5, "walls as constraints, and four stiffnesses: {curves:?}");
+    let shared = &curves[0][0];
+    assert!(shared.contains("event, located") && shared.contains("moreau-jean (θ = 0.5, 0.75, 1)"), "{shared}");
+    assert!(shared.ends_with(": 1.0000"), "{shared}");
+    assert!(curves[0].iter().any(|one| one.starts_with("newmark: 0.3")), "{curves:?}");
+    assert_eq!(tab.evaluate("document.querySelectorAll('#impact .plot').length"), 5);
+    tab.close();
+}
+
+/// The first view of a sweep is where its curves bend; another sweep is drawn pale beneath them.
+#[test]
+fn a_sweep_opens_where_its_curves_bend_and_shows_another_beneath() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let sweep = ["sweep", "rigid-walls-sine", "--vary", "load.1.harmonic.frequency=3:9:31", "--scheme", "event"];
+    let more = ["--settle", "60", "--keep", "20", "--measure", "approach_speed_max", "--samples", "impacts", "--set"];
+    let [soft, hard] = ["wall.*.restitution=0.7", "wall.*.restitution=0.8"]
+        .map(|set| results(dir.path(), &[&sweep[..], &more[..], &[set]].concat()));
+    let both = dir.path().join("both.html");
+    let tool = Command::new(env!("CARGO_BIN_EXE_signorini"))
+        .arg("report")
+        .args([soft.parent().unwrap(), "--over".as_ref(), hard.parent().unwrap(), "--out".as_ref(), &both])
+        .status();
+    assert!(tool.unwrap().success());
+    let mut tab = opened(&mut browser, &both);
+    let keys = tab.evaluate("document.querySelector('#sweep').textContent.match(/pale: /g).length");
+    assert_eq!(keys, 2, "one for the curves, one for the instants");
+    // Above 5 Hz both sweeps have one impact a wall and period, of a speed that rises steadily.
+    let numbers = |tab: &mut Tab<'_>| -> Vec<f64> {
+        let texts = texts(tab);
+        let end = texts.iter().position(|text| text.starts_with("Frequency")).unwrap();
+        // The numbers below the axis stand before its label, those beside it before them.
+        texts[..end].iter().rev().map_while(|text| text.parse().ok()).collect()
+    };
+    assert!(numbers(&mut tab)[0] < 7.0);
+    tab.press_button("Whole range");
+    assert_eq!(numbers(&mut tab)[0], 9.0);
+    assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), "0");
     tab.close();
 }

@@ -3,7 +3,7 @@
 use signorini::case::Case;
 use signorini::study::stability::class::Class;
 use signorini::study::stability::family::{Family, Question};
-use signorini::study::stability::impact::{ImpactMap, impact, maps};
+use signorini::study::stability::impact::{ImpactMap, alike, impact, maps};
 use signorini::study::stability::plan::{Grid, Maps, Plan};
 use signorini::{Integrator, PenaltyLaw, Scheme};
 
@@ -84,6 +84,28 @@ fn schemes_that_carry_the_law_return_it_at_every_phase() {
         assert!((low - E).abs() < 1e-9 && (high - E).abs() < 1e-9, "{label}: {low} to {high}");
     }
     assert_eq!(find(&all, "implicit-euler").range(), Some((0.0, 0.0)));
+}
+
+#[test]
+fn schemes_that_agree_at_every_phase_stand_together() {
+    let maps = impacts();
+    let groups = alike(&maps);
+    assert_eq!(groups.iter().map(Vec::len).sum::<usize>(), maps.len());
+    let names: Vec<Vec<&str>> =
+        groups.iter().map(|group| group.iter().map(|map| map.label.as_str()).collect()).collect();
+    let of = |label: &str| names.iter().find(|group| group.contains(&label)).unwrap();
+    assert!(of("event").contains(&"located") && of("event").contains(&"moreau-jean"), "{names:?}");
+    assert_eq!((of("newmark").len(), of("implicit-euler").len()), (1, 1));
+    // The members of a group have its restitutions, those of the next have others.
+    for (i, group) in groups.iter().enumerate() {
+        let apart = |a: &ImpactMap, b: &ImpactMap| {
+            let pairs = a.measured().zip(b.measured());
+            pairs.map(|(a, b)| (a.restitution - b.restitution).abs()).fold(0.0, f64::max)
+        };
+        assert!(group.iter().all(|map| apart(map, group[0]) < 1e-9 && map.kappa == group[0].kappa));
+        let others = groups.iter().skip(i + 1).filter(|other| other[0].kappa == group[0].kappa);
+        assert!(others.into_iter().all(|other| apart(other[0], group[0]) >= 1e-9), "{names:?}");
+    }
 }
 
 #[test]

@@ -135,7 +135,10 @@ fn a_path_of_the_wrong_kind_is_refused_with_what_was_expected() {
         (&merge("file"), "expected a shard of a sweep, or a folder that holds shards"),
         (&merge("nowhere"), "expected a shard of a sweep, or a folder that holds shards"),
         (&orbit, "a folder, not a file; expected the orbit.json of `signorini orbit`"),
-        (&[&branches[..], &["--over", "folder"]].concat(), "expected the sweep.csv of `signorini sweep`"),
+        (
+            &[&branches[..], &["--over", "folder"]].concat(),
+            "expected a folder of results of sweep, continue, orbit or run",
+        ),
         (&["chart", "rigid-walls-sine", "--with", "folder"], "expected a CSV file with the columns program"),
     ] {
         let err = said(dir.path(), args, 2);

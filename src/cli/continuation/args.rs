@@ -16,8 +16,8 @@ Examples:
       --from out/bouncing-ball/orbit/orbit.json
   signorini continue rigid-walls-sine … --second 'wall.*.restitution' \\
       --second-range 0.3:0.95 --locus fold,symmetry-breaking
-  signorini continue rigid-walls-sine … --over out/rigid-walls-sine/sweep/sweep.csv
-      a sweep's points beneath the branches
+  signorini continue rigid-walls-sine … --over out/rigid-walls-sine/sweep
+      a sweep's points beneath the branches; so can be the branches of another case
 
 The branch starts from the orbit of --from, or from the one on which the case settles, at the
 case's value of the key. Writes branches.csv (every orbit), special.csv (folds, period doublings,
@@ -57,8 +57,9 @@ pub struct Args {
     /// Most points of one branch
     #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(2..))]
     pub(super) points: u32,
-    /// Draw the points of a sweep in the same key beneath the branches
-    #[arg(long, value_name = "SWEEP.CSV", value_hint = clap::ValueHint::FilePath)]
+    /// Draw the impacts of other results beneath the branches: the folder of a sweep or of branches
+    /// over the same key, of a run or of an orbit; or a sweep.csv
+    #[arg(long, value_name = "RESULTS", value_hint = clap::ValueHint::AnyPath)]
     pub(super) over: Option<PathBuf>,
     /// Follow special points in the plane of --key and this key
     #[arg(long, value_name = "KEY", requires = "second_range")]

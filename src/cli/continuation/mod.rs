@@ -17,7 +17,7 @@ use crate::output::branches::{Drawn, ended};
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
 use crate::output::table::Table;
-use crate::output::{self, json, orbits, sweep_overlay};
+use crate::output::{self, json, orbits, overlay};
 use begin::Begin;
 use family::SceneFamily;
 use serde_json::{Value, json};
@@ -27,14 +27,14 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let family = SceneFamily::new(args, ui)?;
     let begin = args.from.as_deref().map(|path| Begin::read(path, &family)).transpose()?;
     let column = family.key.column();
-    let overlay = args.over.as_deref().map(|path| sweep_overlay::read(path, &column)).transpose()?;
+    let beneath = args.over.as_deref().map(|path| overlay::read(path, &family.key.key, &column)).transpose()?;
     let case = &family.case;
     let asked = extended(request("continue", case, &[]), args.settings());
     let mut results = args.place.open(case, "continue", asked)?;
     let begin = begin.map_or_else(|| Begin::settled(&family, args.settle, ui), Ok)?;
     let found = branches(args, &family, &begin, ui)?;
     let drawn = Drawn { graph: &found, column, label: family.key.label(), scene: &case.scene };
-    let document = write(&mut results, &drawn, &family, overlay.as_deref(), !args.place.no_report)?;
+    let document = write(&mut results, &drawn, &family, beneath.as_deref(), !args.place.no_report)?;
     let mut traced = Vec::new();
     if let Some(second) = &family.second {
         traced = loci::follow(&family, second, &found, args, ui)?;
@@ -72,7 +72,7 @@ fn write(
     results: &mut Results,
     drawn: &Drawn<'_>,
     family: &SceneFamily,
-    overlay: Option<&[(f64, f64)]>,
+    beneath: Option<&[(f64, f64)]>,
     report: bool,
 ) -> Result<Value> {
     drawn.branches(&results.place("branches.csv")?)?;
@@ -89,9 +89,9 @@ fn write(
     }
     write_whole(&results.place("branches.json")?, json::text(&document).as_bytes())?;
     let title = format!("{}: branches of periodic orbits", family.title());
-    results.draw("branches", &drawn.picture(&title, overlay.unwrap_or_default()))?;
-    if let Some(points) = overlay {
-        sweep_overlay::write(&results.place(sweep_overlay::FILE)?, &drawn.column, points)?;
+    results.draw("branches", &drawn.picture(&title, beneath.unwrap_or_default()))?;
+    if let Some(points) = beneath {
+        overlay::write(&results.place(overlay::FILE)?, &drawn.column, points)?;
     }
     if report {
         orbits::write(&results.place(orbits::FILE)?, drawn, &|value| family.scene(value))?;

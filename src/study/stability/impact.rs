@@ -111,6 +111,30 @@ pub fn maps(mass: f64, h: f64, e: f64) -> Vec<ImpactMap> {
     schemes.into_par_iter().map(map).collect()
 }
 
+/// Restitutions that differ by less than this are the same.
+const SAME: f64 = 1e-9;
+
+/// The maps in groups that have the same restitution at every phase: of one κ each, in their order.
+#[must_use]
+pub fn alike(maps: &[ImpactMap]) -> Vec<Vec<&ImpactMap>> {
+    let same = |a: &ImpactMap, b: &ImpactMap| {
+        let mut pairs = a.impacts.iter().zip(&b.impacts);
+        a.kappa == b.kappa
+            && pairs.all(|pair| match pair {
+                (Ok(a), Ok(b)) => (a.restitution - b.restitution).abs() < SAME,
+                _ => false,
+            })
+    };
+    let mut groups: Vec<Vec<&ImpactMap>> = Vec::new();
+    for map in maps {
+        match groups.iter_mut().find(|group| group.first().is_some_and(|first| same(first, map))) {
+            Some(group) => group.push(map),
+            None => groups.push(vec![map]),
+        }
+    }
+    groups
+}
+
 /// One impact of a body of `mass` (kg) by `scheme` with steps of `h` (s) on a wall of restitution
 /// `e`, which it would reach after the fraction `phase` of a step.
 ///

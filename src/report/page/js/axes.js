@@ -29,10 +29,13 @@ function logTicks(lo, hi, room) {
   for (let k = a; k <= b; k += every)
     ticks.push([
       10 ** k,
-      Math.abs(k) < 3 ? String(+(10 ** k).toFixed(3)) : digits(10 ** k, 1).replace("1·", ""),
+      Math.abs(k) < 4 ? String(+(10 ** k).toFixed(3)) : `10${raised(k)}`,
     ]);
   return ticks;
 }
+
+/** A stretch longer than this share of an axis is not worth hiding the rest for. */
+const MOST_OF_ALL = 0.7;
 
 /** A stretch of an axis that several plots share. */
 class View {
@@ -48,6 +51,18 @@ class View {
     this.lo = clamp(lo, this.full[0], this.full[1] - width);
     this.hi = this.lo + width;
     this.listeners.forEach((listener) => listener());
+  }
+
+  /**
+   * Begins on the stretch about these values, where it is much shorter than the whole; true if it is.
+   */
+  beginAbout(values) {
+    const [lo, hi] = extent(values) || this.full;
+    const whole = this.full[1] - this.full[0];
+    const width = Math.max(1.3 * (hi - lo), 0.1 * whole);
+    if (!(width < MOST_OF_ALL * whole)) return false;
+    this.set((lo + hi - width) / 2, (lo + hi + width) / 2);
+    return true;
   }
 
   zoom(about, factor) {

@@ -78,6 +78,9 @@ const padded = ([lo, hi], share) => [lo - share * (hi - lo), hi + share * (hi - 
 
 const minus = (text) => text.replace(/-/g, "−");
 
+/** A whole number as an exponent. */
+const raised = (n) => [...String(n)].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] || "⁻").join("");
+
 /** A number to n digits, with powers of ten written out. */
 function digits(x, n = 4) {
   if (x === null || x === undefined || Number.isNaN(x)) return "–";
@@ -85,8 +88,7 @@ function digits(x, n = 4) {
   if (x === 0) return "0";
   if (Math.abs(x) < 1e5 && Math.abs(x) >= 1e-3) return minus(String(+x.toPrecision(n)));
   const [mantissa, exponent] = x.toExponential(n - 1).split("e");
-  const raised = [...String(+exponent)].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] || "⁻").join("");
-  return minus(mantissa.replace(/\.?0+$/, "")) + "·10" + raised;
+  return minus(mantissa.replace(/\.?0+$/, "")) + "·10" + raised(+exponent);
 }
 
 /** A number with a prefixed unit: 0.0031 s becomes 3.1 ms. */

@@ -90,10 +90,11 @@ function branchSection() {
     );
   if (DATA.continue.loci) locusSection();
   pointSection(points, select);
-  // A stable orbit in the middle of the first branch.
+  // A stable orbit in the middle of what is in view of the first branch.
   const rows = rowsOf(1);
   const stable = rows.filter((i) => points.columns.stable[i] && !points.label(i));
-  const initial = stable.length ? stable : rows;
+  const inView = stable.filter((i) => points.value[i] >= plot.view.lo && points.value[i] <= plot.view.hi);
+  const initial = [inView, stable, rows].find((list) => list.length) || [];
   if (initial.length) select(initial[initial.length >> 1]);
 }
 

@@ -21,7 +21,7 @@ function branchPlot(points, choice, select) {
     if (!beneath || choice.measure.name !== "speed") return;
     ctx.fillStyle = clear(ink.faint, 0.75);
     for (let k = 0; k < beneath.x.length; k++)
-      ctx.fillRect(plot.sx(beneath.x[k]) - 1, plot.sy(beneath.y[k]) - 1, 2, 2);
+      ctx.fillRect(plot.sx(beneath.x[k]) - 1.2, plot.sy(beneath.y[k]) - 1.2, 2.4, 2.4);
   };
   const drawLines = (ctx, plot) => {
     for (const run of curves.lines) {
@@ -59,6 +59,8 @@ function branchPlot(points, choice, select) {
     ),
     series: [own(drawBeneath), own(drawLines), own(drawSpecials)],
   });
+  // Orbits change their kind at the special points: the first view is about them.
+  const part = plot.view.beginAbout(specials.map((i) => points.value[i]));
   plot.range = () => {
     const [lo, hi] = plot.X;
     const seen = curves.all.filter(({ x }) => x >= lo && x <= hi).map(({ y }) => y);
@@ -124,7 +126,7 @@ function branchPlot(points, choice, select) {
       .filter((state) => used.has(state))
       .map((state) => el("span", { class: "key" }, sampleOf(BRANCH_LOOKS[state]), state)),
     labels.map((label) => el("span", { class: "key" }, markerSample(specialMarker(label)), label)),
-    beneath ? swatch("runs of a sweep", () => ink.faint) : null,
+    beneath ? swatch(`impacts of ${DATA.continue.beneath.name || "a sweep"}`, () => ink.faint) : null,
   );
   const bar = el(
     "div",
@@ -134,7 +136,7 @@ function branchPlot(points, choice, select) {
     el(
       "span",
       { class: "right help" },
-      "drag to zoom · double click for all · click an orbit to see it",
+      `${part ? "shown: about the special points · " : ""}drag to zoom · double click for all · click an orbit to see it`,
     ),
   );
   return { plot, box: el("div", {}, bar, plot.box, keys) };

@@ -60,7 +60,6 @@ function cellMap(options) {
     log: logs,
     series: [{ kind: "own", look: lookOf(0), x: [], y: [], draw }],
     beside: options.beside,
-    heading: options.heading,
   });
   plot.limits = () => {
     [plot.X, plot.Y] = edges.map((list) => [list[0], list[list.length - 1]]);

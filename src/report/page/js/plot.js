@@ -10,7 +10,7 @@ class Plot {
    *   log       [x, y], true for a logarithmic axis
    *   series    list of { kind, x, y, look, hidden() }; kind is line, marked, points, stems,
    *             orbit, bars or own (with draw(ctx, plot)); infinite: true shows −∞ and ∞ at the edges
-   *   marks     lines at x or y, with side (of a wall) and label
+   *   marks     lines at x or y, with side (of a wall), floor (at x, for all curves) and label
    *   over      function (ctx, plot) that draws what follows the cursor
    *   hover     function (x, [px, py], plot), null when the pointer leaves
    *   click     function (x, [px, py], plot)
@@ -189,6 +189,8 @@ class Plot {
       if (mark.side === "upper") ctx.fillRect(x0, y0, x1 - x0, at - y0);
       else ctx.fillRect(x0, at, x1 - x0, y1 - at);
     }
+    // A floor keeps curves from smaller values.
+    if (mark.floor) ctx.fillRect(at - 7, y0, 7, y1 - y0);
     ctx.strokeStyle = mark.colour ? mark.colour() : ink.wall;
     ctx.lineWidth = mark.dash ? 1 : 2;
     ctx.setLineDash(mark.dash || []);

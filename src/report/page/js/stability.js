@@ -23,7 +23,55 @@ const CLASS_TONES = {
 const classTone = (word) =>
   CLASS_TONES[isDark() ? "dark" : "light"][CLASSES.indexOf(word)] || [128, 128, 128];
 
+/** A class of stability in its tone. */
+const classSwatch = (word) => swatch(word, () => `rgb(${classTone(word)})`);
+
+/** The largest safe step of each scheme, and what happens beyond it. */
+function safeSection() {
+  const { safe, conclusion } = DATA.stability;
+  if (!safe) return;
+  const range = (e) =>
+    !e ? "–" : e.largest - e.least < 1e-9 ? digits(e.least) : `${digits(e.least, 3)} to ${digits(e.largest, 3)}`;
+  const line = (row) => {
+    const { beyond, largest_safe_step_s: step } = row;
+    const longest = step ? `${beyond ? "" : "at least "}${prefixed(step, "s")}` : "none";
+    return el(
+      "tr",
+      {},
+      el("td", { title: row.scheme }, row.label),
+      el("td", { class: step ? null : "none" }, el("b", {}, longest)),
+      el("td", {}, digits(row.largest_safe_step_times_omega, 3)),
+      el("td", {}, range(row.restitution)),
+      el("td", {}, beyond ? classSwatch(beyond.class) : "stable on the whole grid"),
+      el("td", {}, beyond ? `${beyond.reason}, at ${prefixed(beyond.step_s, "s")}` : "–"),
+    );
+  };
+  const head = ["scheme", "largest safe step", "hω", "one free impact", "beyond it", "reason"];
+  section(
+    "safe",
+    "The largest safe step",
+    null,
+    conclusionOf(conclusion),
+    el(
+      "div",
+      { class: "scroll" },
+      el(
+        "table",
+        { class: "plain told" },
+        el("thead", {}, el("tr", {}, head.map((text) => el("th", { scope: "col" }, text)))),
+        el("tbody", {}, safe.map(line)),
+      ),
+    ),
+    el(
+      "p",
+      { class: "lead" },
+      "With the walls and springs of the case; a step is safe if it is stable together with all smaller ones. One free impact: the restitution that the scheme realises, over all phases of a step; of a penalty at h²k/m = 1.",
+    ),
+  );
+}
+
 function stabilitySection() {
+  safeSection();
   const maps = tableOf(DATA.stability.maps);
   const { scheme, parameter, value, step_s: step, reason } = maps.columns;
   const groups = new Map();
@@ -42,22 +90,23 @@ function stabilitySection() {
       .join("\n");
   const plots = [...groups].map(([name, rows]) => {
     const numbers = rows.map((i) => (Number.isFinite(value[i]) ? value[i] : 0));
-    return cellMap({
+    const plot = cellMap({
       x: "Step (s)",
       y: columnLabel(parameter[rows[0]].replace(/_n_per_m$/, "_N_per_m")),
-      heading: scheme[rows[0]],
       height: 210,
       alt: `Classes of ${name}`,
       xs: rows.map((i) => step[i]),
       ys: numbers,
       toneOf: (k) => classTone(maps.columns.class[rows[k]]),
       tell: (k) => row(rows[k]),
-    }).box;
+    });
+    // Above the map: over it, the name would hide its cells.
+    return el("div", {}, el("h3", {}, scheme[rows[0]].replace(":integrator=", ", ")), plot.box);
   });
   const legend = el(
     "div",
     { class: "bar" },
-    CLASSES.map((word) => swatch(word, () => `rgb(${classTone(word)})`)),
+    CLASSES.map(classSwatch),
   );
   section(
     "maps",
@@ -86,48 +135,43 @@ function stabilitySection() {
 
 /** The restitution of one free impact by its phase within the step. */
 function impactSection() {
-  const table = tableOf(DATA.stability.impacts);
-  const { scheme, kappa, phase, restitution } = table.columns;
-  const setting = table.columns.integrator_or_setting;
-  const names = scheme.map((name, i) =>
-    [
-      name,
-      setting && setting[i] !== "" && !Number.isNaN(setting[i]) ? setting[i] : "",
-      kappa && Number.isFinite(kappa[i]) ? `κ = ${digits(kappa[i], 2)}` : "",
-    ]
-      .filter((part) => part !== "")
-      .join(" "),
-  );
-  const items = [...new Set(names)].map((label, n) => ({
-    label,
-    look: lookOf(n),
-    shown: !label.includes("κ"),
-  }));
-  const series = items.map((item) => {
-    const rows = names.map((_, i) => i).filter((i) => names[i] === item.label);
-    return {
-      look: item.look,
-      x: rows.map((i) => phase[i]),
-      y: rows.map((i) => restitution[i]),
-      hidden: () => !item.shown,
-    };
-  });
-  const plot = new Plot({
-    x: "Phase of the impact within the step",
-    y: "Restitution",
-    height: 340,
-    alt: "Restitution of one impact",
-    view: new View(0, 1),
-    series,
-  });
+  const { groups, phases } = DATA.stability;
+  const { phase, restitution } = tableOf(DATA.stability.impacts).columns;
+  if (!groups) return;
+  const kappas = [...new Set(groups.map(({ kappa }) => kappa))];
+  const panel = (kappa) => {
+    const own = groups.filter((group) => group.kappa === kappa);
+    const series = own.map(({ first }, n) => ({
+      look: { ...lookOf(n), width: 2 },
+      x: phase.slice(first * phases, (first + 1) * phases),
+      y: restitution.slice(first * phases, (first + 1) * phases),
+    }));
+    const all = series.flatMap(({ y }) => [...y]);
+    const [least, largest] = extent(all.filter((e) => e > 0)) || [1, 1];
+    const log = kappa !== null && largest > 100 * least;
+    // From 0 on, unless all are far from it and differ.
+    const near = Math.min(...all) > 0.5 * largest && least < 0.99 * largest;
+    const span = near ? padded([least, largest], 0.12) : [-0.05 * largest, 1.12 * largest];
+    const plot = new Plot({
+      x: "Phase of the impact within the step",
+      y: "Restitution",
+      height: 240,
+      alt: "Restitution of one impact",
+      view: new View(0, 1),
+      log: [false, log],
+      range: log ? undefined : () => span,
+      series,
+    });
+    const told = own.map(({ names, range }, n) =>
+      el("li", {}, sampleOf(series[n].look), el("span", {}, `${names}: ${range ?? "no result"}`)),
+    );
+    const title = kappa === null ? "Walls as constraints" : `Penalty, h²k/m = ${digits(kappa, 2)}`;
+    return el("div", {}, el("h3", {}, title), plot.box, el("ul", { class: "curves" }, told));
+  };
   section(
     "impact",
     "One impact",
-    "The restitution that one free impact realises, by when in a step it falls; κ is h²k/m of the penalty spring.",
-    plot.box,
-    chips(items, () => {
-      plot.dirty = true;
-      refresh();
-    }),
+    "The restitution that one free impact realises, by when in a step it falls. Schemes that agree at every phase share a curve; h²k/m is that of the penalty spring.",
+    el("div", { class: "two" }, kappas.map(panel)),
   );
 }

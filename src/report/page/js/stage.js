@@ -143,7 +143,7 @@ function cardList() {
     );
   const whose =
     runs.length > 1
-      ? el("p", { class: "lead" }, `Of ${runs[0].label}, the first of the methods:`)
+      ? el("p", { class: "lead" }, `Of ${runs[0].label}, the first of the ${DATA.compare ? "methods" : "runs"}:`)
       : null;
   return el("div", { class: "cards" }, whose, (DATA.cards || []).map(card));
 }

@@ -7,6 +7,7 @@ function sweepSection() {
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
   const axisColumns = axes.map((axis) => axis.column).filter(numeric);
   const attractors = readAttractors();
+  const over = readOver();
   const measures = table.names.filter(
     (name) =>
       !["row", "status", "error", "direction", "seeds"].includes(name) &&
@@ -53,6 +54,9 @@ function sweepSection() {
     command.hidden = false;
     if (kept.has(row)) open(`rows/${row}/report.html`);
   };
+  // Over one axis, curves say where something happens.
+  const curves = axisColumns.length === 1 ? measures : [];
+  const view = axisColumns.length ? firstView(columns, axisColumns[0], curves, over) : undefined;
   // First the measures, which are there only where they were asked for.
   const content = [];
   const basins = attractors && numeric("attractor") && axisColumns.length > 1;
@@ -61,10 +65,10 @@ function sweepSection() {
     content.push(
       axisColumns.length > 1
         ? measureMap(columns, axisColumns, measures, tell, pick)
-        : measureCurves(columns, axisColumns[0], measures, tell, pick),
+        : measureCurves(columns, axisColumns[0], measures, tell, pick, { over, view }),
     );
   }
-  if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns, pick));
+  if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns[0], pick, { over, view }));
   const rows = Array.from({ length: table.count }, (_, i) => i);
   const saved = () =>
     save(
@@ -104,6 +108,17 @@ function sweepSection() {
   );
 }
 
+/** Another sweep that is drawn in the same figures: its name, table and instants; null without. */
+function readOver() {
+  const { over } = DATA.sweep;
+  if (!over) return null;
+  const table = tableOf(over.table);
+  return { name: over.name, columns: table.columns, samples: over.samples && tableOf(over.samples) };
+}
+
+/** What tells the curves of the other sweep. */
+const overKey = (over) => swatch(`pale: ${over.name}`, () => ink.faint);
+
 /** True where rows of both directions are among those of a sweep. */
 const bothDirections = (directions) =>
   Boolean(directions) && ["up", "down"].every((one) => directions.includes(one));
@@ -117,17 +132,30 @@ const directionKeys = () =>
   );
 
 /** Instants of every row over the axis: a bifurcation diagram. */
-function samplesPlot(table, samples, axisColumns, pick) {
+function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
   const names = samples.names.filter(
     (name) => !["row", "realisation"].includes(name) && !Array.isArray(samples.columns[name]),
   );
   const wanted = names.find((name) => name.startsWith("displacement")) || names[names.length - 1];
-  const axis = table.columns[axisColumns[0]];
+  const axis = table.columns[axisColumn];
   const rowAt = new Map(Array.from(table.columns.row, (row, i) => [row, i]));
   const at = Array.from(samples.columns.row, (row) => rowAt.get(row));
   const directions = table.columns.direction;
   const choice = { name: wanted };
+  const others = over && over.samples;
+  const rowOfOther = others && new Map(Array.from(over.columns.row, (row, i) => [row, i]));
+  const drawOthers = (ctx, plot) => {
+    const y = others && others.columns[choice.name];
+    if (!y) return;
+    ctx.fillStyle = clear(ink.faint, 0.6);
+    for (let k = 0; k < y.length; k++) {
+      const x = over.columns[axisColumn][rowOfOther.get(others.columns.row[k])];
+      if (Number.isFinite(x) && Number.isFinite(y[k]))
+        ctx.fillRect(plot.sx(x) - 1.2, plot.sy(y[k]) - 1.2, 2.4, 2.4);
+    }
+  };
   const dot = (ctx, plot) => {
+    drawOthers(ctx, plot);
     const y = samples.columns[choice.name];
     const size = at.length > 2e4 ? 1 : 1.6;
     for (let i = 0; i < at.length; i++) {
@@ -137,16 +165,18 @@ function samplesPlot(table, samples, axisColumns, pick) {
     }
   };
   const plot = new Plot({
-    x: columnLabel(axisColumns[0]),
+    x: columnLabel(axisColumn),
     y: " ",
     height: 460,
     alt: "Instants of every row",
-    view: new View(...padded(extent(axis), 0.02)),
+    view,
     series: [{ kind: "own", look: lookOf(0), draw: dot }],
   });
   const fill = () => {
     plot.y = columnLabel(choice.name);
-    const span = extent(samples.columns[choice.name]) || [0, 1];
+    const theirs = others && others.columns[choice.name];
+    const both = [samples.columns[choice.name], theirs].filter((list) => list);
+    const span = extent(both.flatMap((list) => extent(list) || [])) || [0, 1];
     plot.range = () => padded(span, 0.05);
     plot.dirty = true;
     refresh();
@@ -165,7 +195,9 @@ function samplesPlot(table, samples, axisColumns, pick) {
       "div",
       { class: "bar controls" },
       columnChoice("Quantity", names, choice, fill),
+      button("All values", () => view.set(...view.full), "Whole range"),
       bothDirections(directions) ? directionKeys() : null,
+      others ? overKey(over) : null,
       el("span", { class: "right help" }, "drag to zoom · double click for all"),
     ),
     plot.box,
@@ -245,72 +277,5 @@ function measureMap(columns, [first, second], measures, tell, pick) {
       swatch("no number", () => "rgb(128 128 128)"),
     ),
     plot.box,
-  );
-}
-
-/** The place that a column of a measure is about, by its name; undefined where it is about none. */
-const placeOfColumn = (column) =>
-  PLACES.find((place) => `${column}_`.includes(`_${place.replace(/-/g, "_")}_`));
-
-/** Markers of rising and falling values. */
-const DIRECTION_MARKERS = { up: "triangle", down: "down" };
-
-/** Measures over one axis, those of one unit in one plot. */
-function measureCurves(columns, axis, measures, tell, pick) {
-  const unitOf = (name) => (/\((.*)\)$/.exec(columnLabel(name)) || ["", ""])[1];
-  const units = [...new Set(measures.map(unitOf))];
-  const rows = Array.from(columns[axis], (_, i) => i);
-  // Up and down are curves of their own colours; else a measure of a place has the place's colour.
-  const directions = bothDirections(columns.direction) ? ["up", "down"] : [undefined];
-  const itemOf = (name, n) => {
-    const place = placeOfColumn(name);
-    const own = lookOf(n);
-    const colour =
-      directions.length > 1 ? () => ink.ink : place ? () => placeColour(place) : own.colour;
-    return { label: columnLabel(name), look: { ...own, colour }, shown: n < 6, name };
-  };
-  const curve = (item, direction) => {
-    const along = rows.filter((i) => !direction || columns.direction[i] === direction);
-    return {
-      kind: rows.length > 120 ? "line" : "marked",
-      look: { ...item.look, marker: DIRECTION_MARKERS[direction] || item.look.marker },
-      colour: direction && (() => directionColour(direction)),
-      infinite: true,
-      name: item.name,
-      rows: along,
-      x: along.map((i) => columns[axis][i]),
-      y: along.map((i) => columns[item.name][i]),
-      hidden: () => !item.shown,
-    };
-  };
-  const plotsOf = (unit) => {
-    const items = measures.filter((name) => unitOf(name) === unit).map(itemOf);
-    const series = items.flatMap((item) => directions.map((direction) => curve(item, direction)));
-    const bands = series.map((s) => bandOf(s, halfWidthsOf(columns, s.name))).filter((band) => band);
-    const y = items.length > 1 ? unit || "Number" : items[0].label;
-    const plot = new Plot({
-      x: columnLabel(axis),
-      y,
-      height: 300,
-      alt: `${y} over ${columnLabel(axis)}`,
-      series: [...bands, ...series],
-    });
-    const points = () =>
-      series
-        .filter((s) => !s.hidden())
-        .flatMap((s) => s.rows.map((i, k) => ({ x: s.x[k], y: s.y[k], i })));
-    tellNearest(plot, points, ({ i }) => tell(i));
-    plot.click = () => plot.found && pick(plot.found.i);
-    const redraw = () => {
-      plot.dirty = true;
-      refresh();
-    };
-    return [items.length > 1 ? chips(items, redraw) : null, plot.box];
-  };
-  return el(
-    "div",
-    {},
-    directions.length > 1 ? el("div", { class: "bar" }, directionKeys()) : null,
-    units.flatMap(plotsOf),
   );
 }

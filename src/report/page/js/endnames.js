@@ -1,0 +1,80 @@
+// The names of curves at their ends, where neither a name nor a point stands.
+
+/** Pixels between the places that are tried along a line, and between a marker and its name. */
+const ALONG = 8;
+const ASIDE = 8;
+const NAME_HEIGHT = 15;
+
+/** The parts of the frame that a curve through these pixels covers: rectangles [x, y, w, h]. */
+function covered(spots) {
+  return spots.flatMap(([x, y], k) => {
+    const [a, b] = spots[k + 1] || [x, y];
+    const parts = Math.max(1, Math.ceil(Math.hypot(a - x, b - y) / ALONG));
+    return Array.from({ length: parts }, (_, part) => [
+      x + ((a - x) * part) / parts - ALONG / 2,
+      y + ((b - y) * part) / parts - ALONG / 2,
+      ALONG,
+      ALONG,
+    ]);
+  });
+}
+
+const overlap = ([x, y, w, h], [a, b, c, d]) => x < a + c && a < x + w && y < b + d && b < y + h;
+
+/**
+ * Draws the names of curves: `curves` is a list of { x, y, name, look }. A curve that lies beyond
+ * the axis is named at its edge, with an arrow and, on the left, its value.
+ */
+function drawEndNames(ctx, plot, curves) {
+  const spotsOf = (s) =>
+    s.x
+      .map((x, k) => [x, plot.sy(s.y[k])])
+      .filter(([x]) => x >= plot.X[0] && x <= plot.X[1])
+      .map(([x, y]) => [plot.sx(x), y]);
+  const upright = plot.marks.filter(({ x }) => x !== undefined).map(({ x }) => plot.sx(x));
+  const lines = [
+    ...curves.map(spotsOf),
+    ...upright.map((x) => [
+      [x, plot.y0],
+      [x, plot.y1],
+    ]),
+  ];
+  const taken = lines.flatMap(covered);
+  const names = [];
+  const inFrame = ([x, y, w, h]) =>
+    x >= plot.x0 + 2 && x + w <= plot.x1 - 2 && y >= plot.y0 + 2 && y + h <= plot.y1 - 2;
+  const apart = (others) => (place) => !others.some((other) => overlap(place, other));
+  ctx.textBaseline = "middle";
+  ctx.textAlign = "left";
+  ctx.lineJoin = "round";
+  for (const s of curves) {
+    const own = spotsOf(s).sort(([, y], [, other]) => y - other);
+    const most = extent(s.x)[1];
+    const beyond = own.length ? "" : most < plot.X[0] ? "left" : "right";
+    const edge = beyond === "left" ? plot.x0 + ASIDE - 2 : plot.x1 - ASIDE + 2;
+    const ends = own.length ? [own[0], own[own.length - 1]] : [[edge, plot.sy(Math.max(...s.y))]];
+    const text = { "": s.name, left: `◂ ${s.name} (${digits(most, 1)})`, right: `${s.name} ▸` }[beyond];
+    const [w, h] = [ctx.measureText(text).width, NAME_HEIGHT];
+    const around = ([x, y]) => [
+      [x + ASIDE, y - h / 2, w, h],
+      [x - ASIDE - w, y - h / 2, w, h],
+      [x - w / 2, y - ASIDE - h, w, h],
+      [x - w / 2, y + ASIDE, w, h],
+    ];
+    // Farther and farther along the frame, where the ends are crowded.
+    const places = Array.from({ length: 40 }, (_, k) => k).flatMap((k) =>
+      ends.flatMap(([x, y]) => [...around([x, y + 10 * k]), ...around([x, y - 10 * k])]),
+    );
+    // Over a line where there is no room beside all of them, over no other name.
+    const within = places.filter(inFrame).filter(apart(names));
+    const place = within.find(apart(taken)) || within[0];
+    if (!place) continue;
+    names.push(place);
+    const [x, y] = [place[0], place[1] + h / 2];
+    ctx.strokeStyle = ink.paper;
+    ctx.lineWidth = 4;
+    ctx.strokeText(text, x, y);
+    ctx.fillStyle = s.look.colour();
+    ctx.fillText(text, x, y);
+  }
+}

@@ -1,0 +1,119 @@
+// The measures of a sweep over one axis: curves, with those of another sweep beneath.
+
+/** The place that a column of a measure is about, by its name; undefined where it is about none. */
+const placeOfColumn = (column) =>
+  PLACES.find((place) => `${column}_`.includes(`_${place.replace(/-/g, "_")}_`));
+
+/** Markers of rising and falling values. */
+const DIRECTION_MARKERS = { up: "triangle", down: "down" };
+
+/** A bend of a curve of more than this share of its range is where something happens. */
+const BEND = 0.03;
+
+/** The values of the axis about which a measure does not go on as beside it. */
+function eventful(columns, axis, measures) {
+  const found = [];
+  const order = Array.from(columns[axis], (_, i) => i).sort((i, j) => columns[axis][i] - columns[axis][j]);
+  const x = order.map((i) => columns[axis][i]);
+  for (const name of measures) {
+    const y = order.map((i) => columns[name][i]);
+    const [least, most] = extent(y) || [0, 0];
+    for (let k = 1; k + 1 < x.length; k++) {
+      const share = (x[k] - x[k - 1]) / (x[k + 1] - x[k - 1] || 1);
+      const bend = y[k] - (y[k - 1] + share * (y[k + 1] - y[k - 1]));
+      if (Math.abs(bend) > BEND * (most - least)) found.push(x[k - 1], x[k + 1]);
+    }
+  }
+  return found;
+}
+
+/** The stretch of the axis that is shown first: where something happens, if that is a part of it. */
+function firstView(columns, axis, measures, over = null) {
+  const ends = extent([...columns[axis], ...(over ? over.columns[axis] : [])]) || [0, 1];
+  const view = new View(...padded(ends[1] > ends[0] ? ends : [ends[0] - 1, ends[0] + 1], 0.03));
+  view.part = view.beginAbout(eventful(columns, axis, measures));
+  return view;
+}
+
+/** Measures over one axis, those of one unit in one plot; all plots show one stretch of it. */
+function measureCurves(columns, axis, measures, tell, pick, options = {}) {
+  const { over = null, view = firstView(columns, axis, measures) } = options;
+  const unitOf = (name) => (/\((.*)\)$/.exec(columnLabel(name)) || ["", ""])[1];
+  const units = [...new Set(measures.map(unitOf))];
+  // From left to right, also where the values fall.
+  const rows = Array.from(columns[axis], (_, i) => i).sort((i, j) => columns[axis][i] - columns[axis][j]);
+  // Up and down are curves of their own colours; else a measure of a place has the place's colour.
+  const directions = bothDirections(columns.direction) ? ["up", "down"] : [undefined];
+  const itemOf = (name, n) => {
+    const place = placeOfColumn(name);
+    const own = lookOf(n);
+    const colour =
+      directions.length > 1 ? () => ink.ink : place ? () => placeColour(place) : own.colour;
+    return { label: columnLabel(name), look: { ...own, colour }, shown: n < 6, name };
+  };
+  const curve = (item, direction) => {
+    const along = rows.filter((i) => !direction || columns.direction[i] === direction);
+    return {
+      kind: rows.length > 120 ? "line" : "marked",
+      look: { ...item.look, marker: DIRECTION_MARKERS[direction] || item.look.marker },
+      colour: direction && (() => directionColour(direction)),
+      infinite: true,
+      name: item.name,
+      rows: along,
+      x: along.map((i) => columns[axis][i]),
+      y: along.map((i) => columns[item.name][i]),
+      hidden: () => !item.shown,
+    };
+  };
+  /** The same measure of the other sweep: thin and pale, in its colour. */
+  const paleCurve = (item) => {
+    const [x, y] = [over.columns[axis], over.columns[item.name]];
+    const along = Array.from(x, (_, i) => i).sort((i, j) => x[i] - x[j]);
+    const look = { ...item.look, dash: [], width: 3, behind: true };
+    const series = { kind: "line", look, alpha: 0.4, hidden: () => !item.shown };
+    return { ...series, x: along.map((i) => x[i]), y: along.map((i) => y[i]) };
+  };
+  const plotsOf = (unit) => {
+    const items = measures.filter((name) => unitOf(name) === unit).map(itemOf);
+    const shared = items.filter(({ name }) => over && over.columns[name] && !Array.isArray(over.columns[name]));
+    const series = items.flatMap((item) => directions.map((direction) => curve(item, direction)));
+    const bands = series.map((s) => bandOf(s, halfWidthsOf(columns, s.name))).filter((band) => band);
+    const y = items.length > 1 ? unit || "Number" : items[0].label;
+    const plot = new Plot({
+      x: columnLabel(axis),
+      y,
+      height: 300,
+      alt: `${y} over ${columnLabel(axis)}`,
+      view,
+      series: [...shared.map(paleCurve), ...bands, ...series],
+    });
+    const points = () =>
+      series
+        .filter((s) => !s.hidden())
+        .flatMap((s) => s.rows.map((i, k) => ({ x: s.x[k], y: s.y[k], i })));
+    tellNearest(plot, points, ({ i }) => tell(i));
+    plot.click = () => plot.found && pick(plot.found.i);
+    const redraw = () => {
+      plot.dirty = true;
+      refresh();
+    };
+    return [items.length > 1 ? chips(items, redraw) : null, plot.box];
+  };
+  return el(
+    "div",
+    {},
+    directions.length > 1 ? el("div", { class: "bar" }, directionKeys()) : null,
+    el(
+      "div",
+      { class: "bar controls" },
+      button("All values", () => view.set(...view.full), "Whole range"),
+      over ? overKey(over) : null,
+      el(
+        "span",
+        { class: "right help" },
+        `${view.part ? "shown: where curves bend · " : ""}drag to zoom · double click for all`,
+      ),
+    ),
+    units.flatMap(plotsOf),
+  );
+}
