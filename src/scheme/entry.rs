@@ -81,9 +81,8 @@ pub struct SchemeEntry {
 pub(super) const ONES_FOR_FRICTION: &str = "moreau-jean or located, the schemes for friction";
 
 /// What a scheme that bounds displacements expects where there is friction.
-pub(super) const NO_SPEED_TO_STICK_AT: &str =
-    "moreau-jean, located or no friction: a bound on the displacement leaves a contact no velocity at which it could \
-     stick";
+pub(super) const NO_SPEED_TO_STICK_AT: &str = "moreau-jean, located or no friction: a bound on the displacement leaves \
+                                               a contact no velocity at which it could stick";
 
 /// What a scheme that gains or loses energy on a circle expects instead.
 pub(super) const NO_ENERGY_ON_A_CIRCLE: &str = "moreau-jean: this scheme does not keep the energy of a body in a \

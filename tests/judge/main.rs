@@ -15,6 +15,7 @@ mod faults;
 mod findings;
 mod ledger;
 mod parts;
+mod parts_planar;
 mod structures;
 mod together;
 #[cfg(feature = "case")]

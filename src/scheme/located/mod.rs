@@ -45,8 +45,10 @@
 mod contacts;
 mod crossing;
 mod division;
+mod impact;
 mod part;
 mod planar;
+mod plane_contact;
 mod plane_contacts;
 mod response;
 mod round_path;

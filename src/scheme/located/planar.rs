@@ -122,7 +122,7 @@ impl Motion for LocatedPlanar {
     }
 
     fn step(&self, index: u64) -> Step<'_> {
-        Step { wedged: &self.division.contacts.wedged, ..self.frame.step(index, self.episodes.closed()) }
+        Step { wedged: &self.division.contacts.impact.wedged, ..self.frame.step(index, self.episodes.closed()) }
     }
 
     fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {

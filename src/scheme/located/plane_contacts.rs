@@ -1,9 +1,5 @@
 //! Flat and round walls at places in two planes, with friction: which of them the body touches, the
-//! motion of a part along them, and the impact law at an instant.
-//!
-//! A round wall that pushed over a part does so in the next one, until it would have to pull: a
-//! part leaves a speed across the circle, half the angle by which the normal turns times the change
-//! of the sliding velocity, which the next part reflects.
+//! motion of a part along them, and what ends it.
 //!
 //! Friction is Coulomb's, on the impulse over a part and the velocity at its end. A body that
 //! slides at the start of a part slides with full friction until its sliding velocity, which is
@@ -15,11 +11,13 @@ use super::super::Counters;
 use super::super::body::Body;
 use super::super::frame::Frame;
 use super::super::matrices::Matrices;
-use super::super::space::Space;
-use super::super::supports::{ContactPoint, Places, Sweeps, Touch, contact_points, dot};
+use super::super::space::indefinite;
+use super::super::supports::{contact_points, dot};
 use super::contacts::{Ahead, Contacts, Event, Place, Solved};
 use super::crossing::GapPath;
-use super::part::{Part, ROUNDING, THETA, size_of};
+use super::impact::Impact;
+use super::part::{Part, THETA, size_of};
+use super::plane_contact::PlaneContact;
 use super::response::{Guide, PlaneHold, Response};
 use super::round_path::RoundPath;
 use crate::error::Result;
@@ -37,50 +35,15 @@ const SLOW: f64 = 1e4;
 /// A part shorter than this share of the step is not worth the begin of a slide.
 const SOON: f64 = 1e-9;
 
-/// A wall, and where the body is at it.
-#[derive(Debug, Clone, Copy)]
-struct Contact {
-    point: ContactPoint,
-    /// Centre (m) and gap (m) of a round wall.
-    round: Option<([f64; 2], f64)>,
-    place: Place,
-    /// True if a round wall pushed over the last part.
-    lasts: bool,
-    /// Outward normal, and the rate of the place along it and along the tangent, m/s.
-    normal: [f64; 2],
-    rate: [f64; 2],
-    /// Rounding error of a rate, m/s, and below which one counts as 0.
-    rounding: f64,
-    least: f64,
-    /// The acceleration that pressed the body against the wall in the last part of some length,
-    /// m/s².
-    pressed: f64,
-    /// The middle (s) of the last two parts in which it stuck, and what was left of the friction
-    /// there, μp − |f| as a mean force, N.
-    stuck: [Option<(f64, f64)>; 2],
-}
-
-impl Contact {
-    /// The time (s) at which it begins to slide: where the straight line through what was left of
-    /// its friction vanishes.
-    fn slips(&self) -> Option<f64> {
-        let [Some((before, more)), Some((middle, left))] = self.stuck else { return None };
-        (more > left).then(|| middle + left * (middle - before) / (more - left))
-    }
-}
-
 /// The walls of a scene in two planes.
 #[derive(Debug)]
 pub(super) struct PlaneContacts {
-    all: Vec<Contact>,
+    all: Vec<PlaneContact>,
     rows: Vec<Row>,
-    /// The responses in the metric of the mass, and the solver of the impacts.
-    impact: (Places, Sweeps),
+    pub impact: Impact,
     /// The response over a whole step.
     whole: Response,
     holds: Vec<PlaneHold>,
-    /// Contacts that gave up their rebound at the last instant.
-    pub wedged: Vec<usize>,
     /// True if a body that strikes a wall rebounds.
     rebounds: bool,
     /// True if the contacts of the last part that was computed were settled.
@@ -94,29 +57,15 @@ pub(super) struct PlaneContacts {
 impl PlaneContacts {
     pub fn new(scene: &Scene, body: &Body<Matrices>) -> Result<Self> {
         let (points, rows) = contact_points(scene);
-        let mut mass = Matrices::mass(&body.matrices)?;
-        let whole = Response::new(body, body.h * THETA).map_err(super::super::space::indefinite)?;
-        let places = Places::new(body.n, &rows, &mut mass);
-        let impact = (places, Sweeps::new(body.matrices.mass.clone(), &rows, points.len()));
-        let contact = |(index, (point, wall)): (usize, (ContactPoint, &crate::scene::Wall))| Contact {
-            point,
-            round: wall.hole(index).map(|hole| (hole.centre, hole.gap)),
-            place: Place::Away,
-            lasts: false,
-            normal: point.normal,
-            rate: [0.0; 2],
-            rounding: 0.0,
-            least: 0.0,
-            pressed: 0.0,
-            stuck: [None; 2],
-        };
+        let whole = Response::new(body, body.h * THETA).map_err(indefinite)?;
+        let impact = Impact::new(body, &rows, points.len())?;
+        let walls = points.into_iter().zip(&scene.walls).enumerate();
         Ok(Self {
-            all: points.into_iter().zip(&scene.walls).enumerate().map(contact).collect(),
+            all: walls.map(|(index, (point, wall))| PlaneContact::new(index, point, wall)).collect(),
             rows: rows.into_iter().cloned().collect(),
             impact,
             whole,
             holds: Vec::new(),
-            wedged: Vec::new(),
             rebounds: true,
             settled: true,
             stops: false,
@@ -127,7 +76,7 @@ impl PlaneContacts {
 
     /// The displacement of a place of a velocity or a displacement.
     pub fn pair(&self, wall: usize, x: &[f64]) -> [f64; 2] {
-        self.impact.0.pair(self.all[wall].point.rows, x)
+        self.impact.places.pair(self.all[wall].point.rows, x)
     }
 
     /// The rates of a wall's place along its normal `normal` (of a flat one, its own).
@@ -218,12 +167,6 @@ impl PlaneContacts {
         let guide = Guide::Flat(self.all[wall].point.normal, -face.sign * (rate + bound));
         PlaneHold { compliance, ..self.hold(wall, state, guide) }
     }
-
-    /// True if the rebounds of a body that strikes a wall of restitution `e` end within a step of
-    /// `h` seconds, under the acceleration of the last part of some length.
-    fn rebounds_end(contact: &Contact, e: f64, h: f64) -> bool {
-        e > 0.0 && e < 1.0 && 2.0 * e * contact.rate[0] <= (1.0 - e) * h * contact.pressed
-    }
 }
 
 impl Contacts<Matrices> for PlaneContacts {
@@ -232,26 +175,10 @@ impl Contacts<Matrices> for PlaneContacts {
             let (gap, normal) = self.gap(wall, body, &frame.q);
             let pair = self.pair(wall, &frame.v);
             let size: f64 = self.all[wall].point.rows.iter().map(|&row| size_of(&self.rows[row], &frame.v)).sum();
-            let contact = &mut self.all[wall];
-            contact.normal = normal;
-            contact.rate = [dot(normal, pair), normal[0] * pair[1] - normal[1] * pair[0]];
             // Where rebounds are given up, impacts of walls on one another end sooner.
-            let least = if self.rebounds { body.touch } else { SLOW * body.touch };
-            // A body that leaves more slowly comes back before it is out of touch.
-            let turning = contact.round.map_or(0.0, |(_, gap)| contact.rate[1] * contact.rate[1] / gap);
-            let returns = (2.0 * body.touch * turning).sqrt();
-            contact.rounding = ROUNDING * size;
-            contact.least = returns.max(least / body.h) + contact.rounding;
+            let rest = if self.rebounds { body.touch } else { SLOW * body.touch } / body.h;
             let touches = face.law.is_rigid() && gap <= body.touch;
-            contact.place = if !touches {
-                Place::Away
-            } else if contact.rate[0].abs() <= contact.least || (contact.lasts && !frame.blown) {
-                Place::Resting
-            } else if contact.rate[0] < 0.0 {
-                Place::Leaving
-            } else {
-                Place::Struck
-            };
+            self.all[wall].classify(touches, (normal, pair, size), (body.touch, rest), frame.blown);
         }
     }
 
@@ -288,9 +215,7 @@ impl Contacts<Matrices> for PlaneContacts {
                 None => Guide::Flat(contact.normal, -behind),
                 Some(_) => Guide::Chord { return_rate: 2.0 * behind },
             };
-            let slides = contact.point.friction > 0.0 && contact.rate[1].abs() > contact.least;
-            let slides = if slides { contact.rate[1].signum() } else { 0.0 };
-            self.holds.push(PlaneHold { slides, ..self.hold(wall, (body, frame), guide) });
+            self.holds.push(PlaneHold { slides: contact.slides(), ..self.hold(wall, (body, frame), guide) });
         }
         self.solve(body, part, &frame.v, (length, THETA))
     }
@@ -303,7 +228,7 @@ impl Contacts<Matrices> for PlaneContacts {
         length: f64,
     ) -> Solved {
         self.holds.clear();
-        self.wedged.clear();
+        self.impact.wedged.clear();
         for wall in 0..self.all.len() {
             let hold = if body.walls[wall].law.is_rigid() {
                 let (gap, normal) = self.gap(wall, body, &frame.q);
@@ -321,7 +246,7 @@ impl Contacts<Matrices> for PlaneContacts {
     }
 
     fn stops(&mut self) -> bool {
-        let across = |contact: &Contact| contact.place == Place::Resting && contact.rate[0] > contact.rounding;
+        let across = |contact: &PlaneContact| contact.place == Place::Resting && contact.rate[0] > contact.rounding;
         self.stops = self.all.iter().any(across);
         self.stops
     }
@@ -350,7 +275,7 @@ impl Contacts<Matrices> for PlaneContacts {
             let contact = &self.all[wall];
             if contact.place == Place::Resting {
                 let ahead = self.ahead(body, frame, Event::Reversal(wall), (delta, length));
-                let slides = contact.point.friction > 0.0 && contact.rate[1].abs() > contact.least;
+                let slides = contact.slides() != 0.0;
                 if slides && ahead.left < -ahead.met {
                     let start = contact.rate[1].abs();
                     add(length * start / (start - ahead.left), Event::Reversal(wall));
@@ -421,9 +346,7 @@ impl Contacts<Matrices> for PlaneContacts {
     }
 
     fn forget(&mut self) {
-        self.all.iter_mut().for_each(|contact| {
-            (contact.lasts, contact.pressed, contact.stuck) = (false, 0.0, [None; 2]);
-        });
+        self.all.iter_mut().for_each(PlaneContact::forget);
     }
 
     fn keep(&mut self, body: &Body<Matrices>, part: &Part<Matrices>, frame: &Frame<Matrices>, length: f64) {
@@ -436,24 +359,8 @@ impl Contacts<Matrices> for PlaneContacts {
             let (_, normal) = self.gap(wall, body, &frame.q);
             let (change, rate) = (self.pair(wall, &part.delta), self.pair(wall, &frame.v));
             let push = part.pushes.iter().find(|push| push.wall == wall);
-            let contact = &mut self.all[wall];
-            let sliding = normal[0] * rate[1] - normal[1] * rate[0];
-            contact.stuck = match push {
-                Some(push) if contact.rate[1].abs().max(sliding.abs()) <= contact.least => {
-                    let left = contact.point.friction * push.impulse.abs() - push.friction.abs();
-                    [contact.stuck[1], Some((frame.end - 0.5 * length, left / length))]
-                }
-                _ => [None; 2],
-            };
-            let pushed = push.is_some();
-            contact.lasts = false;
-            contact.pressed = dot(normal, change) / length;
-            let Some((_, gap)) = contact.round else { continue };
-            let gained = normal[0] * change[1] - normal[1] * change[0];
-            contact.pressed += sliding * sliding / gap;
-            let fastest = sliding.abs().max((sliding - gained).abs());
-            let across = 0.5 * body.h / gap * fastest * (fastest + gained.abs());
-            contact.lasts = pushed && dot(normal, rate).abs() <= across;
+            let ends = (length, frame.end - 0.5 * length, body.h);
+            self.all[wall].keep(push, (normal, rate, change), ends);
         }
     }
 
@@ -464,7 +371,7 @@ impl Contacts<Matrices> for PlaneContacts {
         frame: &mut Frame<Matrices>,
         _: u64,
     ) -> Result<bool> {
-        self.wedged.clear();
+        self.impact.wedged.clear();
         // What pushes over a part has no impulse at its end: a part of no length follows.
         if frame.pushing.iter().any(|&wall| body.walls[wall].law.is_rigid()) {
             return Ok(false);
@@ -474,58 +381,20 @@ impl Contacts<Matrices> for PlaneContacts {
         if !self.is_struck() && !stops {
             return Ok(false);
         }
-        self.solves += 1;
-        frame.resting.clear();
-        let (places, sweeps) = &mut self.impact;
-        (sweeps.wedged.clear(), sweeps.touches.clear());
-        for (wall, contact) in self.all.iter().enumerate() {
-            let rate = contact.rate[0];
-            let e = body.walls[wall].law.restitution().unwrap_or(0.0);
-            let bound = match contact.place {
-                Place::Away => continue,
-                Place::Leaving => -rate,
-                Place::Resting if rate < 0.0 => -rate,
-                Place::Struck if Self::rebounds_end(contact, e, body.h) => {
-                    frame.resting.push(wall);
-                    0.0
-                }
-                Place::Struck | Place::Resting if !self.rebounds || stops => {
-                    self.wedged.push(wall);
-                    0.0
-                }
-                Place::Resting | Place::Struck => -e * rate,
-            };
-            let laws = (contact.point.friction, 0.0);
-            let at = (wall, contact.point.rows);
-            sweeps.touches.push(Touch::new(places, at, (contact.normal, bound), laws, [0.0; 2]));
-        }
-        for (row, rate) in sweeps.free.iter_mut().enumerate() {
-            *rate = places.seen(row, &frame.v);
-        }
-        let unsettled = sweeps.unsettled;
-        if sweeps.solve(places) {
-            places.lift(&sweeps.impulse, &mut frame.v);
-        }
-        self.unsettled += sweeps.unsettled - unsettled;
-        self.wedged.extend_from_slice(&sweeps.wedged);
-        for touch in sweeps.touches.iter().filter(|touch| touch.impulse[0] != 0.0) {
-            let contact = &mut self.all[touch.index];
-            let sign = if contact.round.is_some() { 1.0 } else { body.walls[touch.index].sign };
-            frame.push_at_end(touch.index, sign * touch.impulse[0]);
-            frame.friction[touch.index] = touch.impulse[1];
-            frame.normal[touch.index] = if contact.round.is_some() { contact.normal } else { [0.0; 2] };
-        }
+        let rebounds = self.rebounds && !stops;
+        self.impact.strike(body, &self.all, frame, rebounds);
         for contact in self.all.iter_mut().filter(|contact| contact.lasts) {
-            let after = dot(contact.normal, self.impact.0.pair(contact.point.rows, &frame.v));
+            let after = dot(contact.normal, self.impact.places.pair(contact.point.rows, &frame.v));
             contact.lasts = contact.place == Place::Resting && after.abs() <= contact.rate[0].abs() + contact.least;
         }
         Ok(true)
     }
 
     fn count(&self, counters: &mut Counters) {
-        counters.qp_solves += self.solves + self.whole.solves();
-        counters.qp_unsettled += self.unsettled;
-        counters.wedged_steps += self.impact.1.gave_up;
+        let [unsettled, wedged] = self.impact.unsettled_and_wedged();
+        counters.qp_solves += self.solves + self.whole.solves() + self.impact.instants;
+        counters.qp_unsettled += self.unsettled + unsettled;
+        counters.wedged_steps += wedged;
     }
 }
 

@@ -1,0 +1,130 @@
+//! A wall at a place in two planes, and where the body is at it.
+//!
+//! A round wall that pushed over a part does so in the next one, until it would have to pull: a
+//! part leaves a speed across the circle, half the angle by which the normal turns times the change
+//! of the sliding velocity, which the next part reflects.
+
+use super::super::supports::{ContactPoint, dot};
+use super::contacts::Place;
+use super::part::{Push, ROUNDING};
+use crate::scene::Wall;
+
+/// A wall, and where the body is at it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PlaneContact {
+    pub point: ContactPoint,
+    /// Centre (m) and gap (m) of a round wall.
+    pub round: Option<([f64; 2], f64)>,
+    pub place: Place,
+    /// True if a round wall pushed over the last part.
+    pub lasts: bool,
+    /// Outward normal, and the rate of the place along it and along the tangent, m/s.
+    pub normal: [f64; 2],
+    pub rate: [f64; 2],
+    /// Rounding error of a rate, m/s, and below which one counts as 0.
+    pub rounding: f64,
+    pub least: f64,
+    /// The acceleration that pressed the body against the wall in the last part of some length,
+    /// m/s².
+    pub pressed: f64,
+    /// The middle (s) of the last two parts in which it stuck, and what was left of the friction
+    /// there, μp − |f| as a mean force, N.
+    pub stuck: [Option<(f64, f64)>; 2],
+}
+
+impl PlaneContact {
+    /// Wall number `index`, which pushes at this point.
+    pub fn new(index: usize, point: ContactPoint, wall: &Wall) -> Self {
+        Self {
+            point,
+            round: wall.hole(index).map(|hole| (hole.centre, hole.gap)),
+            place: Place::Away,
+            lasts: false,
+            normal: point.normal,
+            rate: [0.0; 2],
+            rounding: 0.0,
+            least: 0.0,
+            pressed: 0.0,
+            stuck: [None; 2],
+        }
+    }
+
+    /// Forgets the last part.
+    pub fn forget(&mut self) {
+        (self.lasts, self.pressed, self.stuck) = (false, 0.0, [None; 2]);
+    }
+
+    /// Finds where the body is at the wall: touching it or not, with this outward normal and rate
+    /// of the place (m/s), whose terms have the sum `size` (m/s). `touch` is the touching distance
+    /// (m), a rate of `rest` (m/s) is rest, and a contact that lasts ends with a blow.
+    pub fn classify(
+        &mut self,
+        touches: bool,
+        (normal, pair, size): ([f64; 2], [f64; 2], f64),
+        (touch, rest): (f64, f64),
+        blown: bool,
+    ) {
+        self.normal = normal;
+        self.rate = [dot(normal, pair), normal[0] * pair[1] - normal[1] * pair[0]];
+        // A body that leaves more slowly comes back before it is out of touch.
+        let turning = self.round.map_or(0.0, |(_, gap)| self.rate[1] * self.rate[1] / gap);
+        let returns = (2.0 * touch * turning).sqrt();
+        self.rounding = ROUNDING * size;
+        self.least = returns.max(rest) + self.rounding;
+        self.place = if !touches {
+            Place::Away
+        } else if self.rate[0].abs() <= self.least || (self.lasts && !blown) {
+            Place::Resting
+        } else if self.rate[0] < 0.0 {
+            Place::Leaving
+        } else {
+            Place::Struck
+        };
+    }
+
+    /// The sign of the sliding velocity of a contact with friction; 0 where it does not slide.
+    pub fn slides(&self) -> f64 {
+        let slides = self.point.friction > 0.0 && self.rate[1].abs() > self.least;
+        if slides { self.rate[1].signum() } else { 0.0 }
+    }
+
+    /// True if the rebounds of a body that strikes the wall with the restitution `e` end within a
+    /// step of `h` seconds, under the acceleration of the last part of some length.
+    pub fn rebounds_end(&self, e: f64, h: f64) -> bool {
+        e > 0.0 && e < 1.0 && 2.0 * e * self.rate[0] <= (1.0 - e) * h * self.pressed
+    }
+
+    /// Keeps a part of `length` seconds with this middle (s) of a step of `h` seconds: what the
+    /// wall did, the normal and the rate of the place (m/s) at its end, and the `change` of that
+    /// rate.
+    pub fn keep(
+        &mut self,
+        push: Option<&Push>,
+        (normal, rate, change): ([f64; 2], [f64; 2], [f64; 2]),
+        (length, middle, h): (f64, f64, f64),
+    ) {
+        let sliding = normal[0] * rate[1] - normal[1] * rate[0];
+        self.stuck = match push {
+            Some(push) if self.rate[1].abs().max(sliding.abs()) <= self.least => {
+                let left = self.point.friction * push.impulse.abs() - push.friction.abs();
+                [self.stuck[1], Some((middle, left / length))]
+            }
+            _ => [None; 2],
+        };
+        self.lasts = false;
+        self.pressed = dot(normal, change) / length;
+        let Some((_, gap)) = self.round else { return };
+        let gained = normal[0] * change[1] - normal[1] * change[0];
+        self.pressed += sliding * sliding / gap;
+        let fastest = sliding.abs().max((sliding - gained).abs());
+        let across = 0.5 * h / gap * fastest * (fastest + gained.abs());
+        self.lasts = push.is_some() && dot(normal, rate).abs() <= across;
+    }
+
+    /// The time (s) at which it begins to slide: where the straight line through what was left of
+    /// its friction vanishes.
+    pub fn slips(&self) -> Option<f64> {
+        let [Some((before, more)), Some((middle, left))] = self.stuck else { return None };
+        (more > left).then(|| middle + left * (middle - before) / (more - left))
+    }
+}
