@@ -23,6 +23,9 @@ pub struct Recorder {
     /// Impulse per wall since the last row, N s.
     pending: Vec<f64>,
     partial: Vec<f64>,
+    /// True once a part of a step has ended at the last row, whose state and force wait in `state`
+    /// and `partial`.
+    ended: bool,
     /// Impulse of each round support along y and z and friction of each wall since the last row, N
     /// s.
     rubbed: Rubbed,
@@ -68,6 +71,7 @@ impl Recorder {
             due: 0.0,
             pending: vec![0.0; m],
             partial: vec![0.0; m],
+            ended: false,
             rubbed: Rubbed {
                 walls: scene.holes().map(|hole| hole.index).collect(),
                 force: vec![[0.0; 2]; holes.len()],
@@ -134,7 +138,14 @@ impl Recorder {
                 // Rows are due where steps end, up to the rounding of both products.
                 let due = self.due;
                 if step.end >= due * (1.0 - ROW_UNITS * f64::EPSILON) {
-                    self.push(due, step.q, step.v, &force);
+                    if self.columns.time.len() as u64 == self.rows {
+                        // A part of a few roundings or of no length may follow, with an impact.
+                        self.ended = true;
+                        self.state[0].copy_from_slice(step.q);
+                        self.state[1].copy_from_slice(step.v);
+                    } else {
+                        self.push(due, step.q, step.v, &force);
+                    }
                 }
                 self.partial = force;
             }
@@ -334,7 +345,12 @@ impl Recorder {
     /// The trajectory, with the episodes `open` at the end of the run.
     #[must_use]
     pub fn finish(self, open: &[Contact]) -> Trajectory {
-        let Self { mut columns, mut worn, .. } = self;
+        let mut whole = self;
+        if whole.ended && whole.columns.time.len() as u64 == whole.rows {
+            let ([q, v], force) = (std::mem::take(&mut whole.state), std::mem::take(&mut whole.partial));
+            whole.push(whole.end, &q, &v, &force);
+        }
+        let Self { mut columns, mut worn, .. } = whole;
         columns.fill();
         columns.contacts.extend_from_slice(open);
         if worn.is_empty() {

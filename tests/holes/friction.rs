@@ -210,9 +210,9 @@ fn friction_takes_energy_and_without_friction_the_scene_is_the_same_as_before() 
 #[test]
 fn other_schemes_refuse_friction() {
     for (scheme, words) in [
-        (Scheme::PaoliSchatzman, "the one scheme for friction"),
-        (Scheme::Event, "moreau-jean, or no friction"),
-        (Scheme::GeneralizedAlpha { rho: 0.8 }, "moreau-jean, or no friction"),
+        (Scheme::PaoliSchatzman, "moreau-jean or located, the schemes for friction"),
+        (Scheme::Event, "moreau-jean, located or no friction"),
+        (Scheme::GeneralizedAlpha { rho: 0.8 }, "moreau-jean, located or no friction"),
     ] {
         let error = Stepper::new(&pressed(), &scheme, 1e-4).unwrap_err();
         assert!(error.is_request() && error.to_string().contains(words), "{error}");

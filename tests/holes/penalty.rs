@@ -219,7 +219,8 @@ fn other_integrators_and_friction_are_refused() {
     let mut rubs = free();
     rubs.walls[0].friction = 0.2;
     let error = Stepper::new(&rubs, &penalty(linear(1e6, 0.0)), 1e-4).unwrap_err();
-    assert!(error.is_request() && error.to_string().contains("the one scheme for friction"), "{error}");
+    let expected = "moreau-jean or located, the schemes for friction";
+    assert!(error.is_request() && error.to_string().contains(expected), "{error}");
 }
 
 /// Forces, statistics and work of wear of a run are there as with every other scheme.

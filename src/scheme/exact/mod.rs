@@ -29,8 +29,8 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     round: Coverage::Stepped("is exact"),
     elastic_round: Coverage::Refused("a scheme with a step: the force of an elastic hole has no series of its own"),
     friction: Coverage::Refused(
-        "moreau-jean, or no friction: where a contact sticks, slips or turns round in the middle of an impact, the \
-         exact scheme has no law for it",
+        "moreau-jean, located or no friction: where a contact sticks, slips or turns round in the middle of an impact, \
+         the exact scheme has no law for it",
     ),
 };
 
