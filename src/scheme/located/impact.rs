@@ -40,7 +40,8 @@ impl Impact {
         let Self { places, sweeps, wedged, instants } = self;
         *instants += 1;
         frame.resting.clear();
-        (sweeps.wedged.clear(), sweeps.touches.clear());
+        sweeps.wedged.clear();
+        sweeps.touches.clear();
         for (wall, contact) in contacts.iter().enumerate() {
             let rate = contact.rate[0];
             let e = body.walls[wall].law.restitution().unwrap_or(0.0);

@@ -100,8 +100,8 @@ fn first_negative(coefficients: Quartic, from: f64, to: f64, halvings: u32) -> O
         return (coefficients[4] < 0.0).then_some(to);
     }
     let (mut left, mut right) = ([0.0; 5], coefficients);
-    for k in 0..5 {
-        left[k] = right[0];
+    for (k, left) in left.iter_mut().enumerate() {
+        *left = right[0];
         for i in 0..4 - k {
             right[i] = 0.5 * (right[i] + right[i + 1]);
         }
