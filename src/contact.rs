@@ -5,7 +5,7 @@
 //! is not in contact with it, whatever the scheme: the force that a scheme computes there is
 //! rounding, and counts as 0.
 
-use crate::scene::{LoadKind, Scene, Side, System, WallLaw};
+use crate::scene::{LoadKind, Scene, Side, System, Wall, WallLaw};
 use crate::step::{Bound, Contact, Contract};
 
 /// An impact on a rigid wall takes one step in a velocity-level scheme and up to two in a
@@ -64,6 +64,9 @@ impl Floor {
 /// come in adjacent steps and end in a lasting force.)
 const BLOW: f64 = 1e-2;
 
+/// The least length of the parts, of the longest one, over which a round wall's mean force is told.
+const SHORT: f64 = 0.5;
+
 /// An open episode at one wall.
 #[derive(Debug, Clone, Copy)]
 struct Open {
@@ -77,6 +80,8 @@ struct Open {
     peak: Option<f64>,
     /// The middle (s) of the last two parts in which the wall pushed, and its mean force there, N.
     forces: [Option<(f64, f64)>; 2],
+    /// Impulse and length of parts too short for a mean force of their own, N s and s.
+    short: (f64, f64),
     approach: f64,
     departure: f64,
 }
@@ -102,7 +107,10 @@ pub(crate) struct Episodes {
     impact_steps: u64,
     /// The instant of the last impact at any wall, s, where steps are divided at impacts.
     last_impact: f64,
+    /// The longest part so far, s.
+    longest: f64,
     rigid: Vec<bool>,
+    round: Vec<bool>,
     floor: Vec<Floor>,
     /// The mass that each wall feels, kg.
     mass: Vec<f64>,
@@ -124,7 +132,9 @@ impl Episodes {
             instant: contract.instant,
             impact_steps: if contract.divides { 0 } else { IMPACT_STEPS },
             last_impact: f64::NEG_INFINITY,
+            longest: 0.0,
             rigid: scene.walls.iter().map(|w| w.law.is_rigid()).collect(),
+            round: scene.walls.iter().map(Wall::is_round).collect(),
             floor: Floor::all(scene, masses, contract),
             mass: masses.to_vec(),
             side: scene.walls.iter().map(|w| w.side()).collect(),
@@ -229,6 +239,7 @@ impl Episodes {
             moment: 0.0,
             peak: None,
             forces: [None; 2],
+            short: (0.0, 0.0),
             approach: (-sign * struck).max(0.0),
             departure: 0.0,
         };
@@ -258,6 +269,7 @@ impl Episodes {
     ) {
         self.closed.clear();
         let over = |wall: usize| impulse[wall] - jump[wall];
+        self.longest = self.longest.max(length);
         if length > 0.0 {
             let mut pushed = std::mem::take(&mut self.pushed);
             pushed.retain(|&wall| {
@@ -271,13 +283,18 @@ impl Episodes {
         }
         for &wall in pushing {
             if length > 0.0 && over(wall) != 0.0 && !self.floor[wall].holds(over(wall), length) {
-                let rates = rates(wall);
+                let (rates, round, longest) = (rates(wall), self.round[wall], self.longest);
                 let episode = self.open(wall, start, rates.before);
                 episode.steps += 1;
                 (episode.last, episode.impulse) = (end, episode.impulse + over(wall).abs());
                 let force = over(wall).abs() / length;
-                episode.peak = Some(episode.peak.unwrap_or(0.0).max(force));
                 episode.forces = [episode.forces[1], Some((0.5 * (start + end), force))];
+                episode.short = (episode.short.0 + over(wall).abs(), episode.short.1 + length);
+                // Along a circle a short part reflects what a long one has left across it.
+                if !round || episode.short.1 >= SHORT * longest {
+                    let (impulse, span) = std::mem::take(&mut episode.short);
+                    episode.peak = Some(episode.peak.unwrap_or(0.0).max(impulse / span));
+                }
                 self.leave_at(wall, rates.after);
             }
             if jump[wall] != 0.0 {
@@ -307,6 +324,7 @@ impl Episodes {
             moment: 0.0,
             peak: None,
             forces: [None; 2],
+            short: (0.0, 0.0),
             approach,
             departure: 0.0,
         })
@@ -341,6 +359,11 @@ impl Episodes {
     }
 }
 
+/// The mean force of an impulse over some length; `None` without one.
+fn mean_of((impulse, length): (f64, f64)) -> Option<f64> {
+    (length > 0.0).then(|| impulse / length)
+}
+
 fn contact(wall: usize, sign: f64, impact: bool, episode: &Open, ended: bool) -> Contact {
     let (start, end) = if impact {
         let mean = episode.moment / episode.impulse;
@@ -353,7 +376,7 @@ fn contact(wall: usize, sign: f64, impact: bool, episode: &Open, ended: bool) ->
         start,
         end: ended.then_some(end),
         impulse: sign * episode.impulse,
-        peak_force: if impact { None } else { episode.peak },
+        peak_force: if impact { None } else { episode.peak.or_else(|| mean_of(episode.short)) },
         approach_speed: episode.approach,
         departure_speed: ended.then_some(episode.departure),
     }

@@ -199,6 +199,9 @@ fn solved(run: &Run) -> String {
         Scheme::ImplicitEuler | Scheme::GeneralizedAlpha { .. } if run.backend == Backend::Auto => {
             format!("{} programmes with disks", counters.qp_solves)
         }
+        _ if run.backend == Backend::Auto && counters.parts > 0 => {
+            format!("{} contact problems in parts of steps, solved in sweeps", counters.qp_solves)
+        }
         _ if run.backend == Backend::Auto => format!("{} steps in contact, solved in sweeps", counters.qp_solves),
         _ if counters.qp_fallbacks > 0 => {
             let (all, left) = (counters.qp_solves, counters.qp_fallbacks);

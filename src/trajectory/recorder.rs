@@ -77,6 +77,7 @@ impl Recorder {
                 force: vec![[0.0; 2]; holes.len()],
                 holes: vec![[0.0; 2]; holes.len()],
                 friction: vec![0.0; rubbed],
+                parts: (u64::MAX, 0.0),
             },
             state: [vec![0.0; n], vec![0.0; n]],
         };

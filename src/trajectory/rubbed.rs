@@ -1,7 +1,7 @@
 //! What round supports and friction do between two rows.
 
 use crate::flow::Series;
-use crate::step::Step;
+use crate::step::{Path, Step};
 
 /// What round supports and friction did since the last row; all empty in scenes without.
 #[derive(Debug, Clone)]
@@ -11,8 +11,10 @@ pub(super) struct Rubbed {
     /// Impulse of each round support along y and z, and friction of each wall, N s.
     pub holes: Vec<[f64; 2]>,
     pub friction: Vec<f64>,
-    /// Force of each round support in the last step, N.
+    /// Force of each round support in the last step, N; of parts of a step, their mean.
     pub force: Vec<[f64; 2]>,
+    /// The step to which the last part belongs, and its length so far, s.
+    pub parts: (u64, f64),
 }
 
 impl Rubbed {
@@ -40,6 +42,9 @@ impl Rubbed {
     #[inline(never)]
     pub fn see(&mut self, step: &Step<'_>) {
         let h = step.end - step.start;
+        let is_part = matches!(step.path, Path::Part { .. });
+        let before = if is_part && self.parts.0 == step.index { self.parts.1 } else { 0.0 };
+        self.parts = (step.index, before + h);
         for (sum, f) in self.friction.iter_mut().zip(step.friction) {
             *sum += f;
         }
@@ -47,8 +52,9 @@ impl Rubbed {
             let push = step.hole_push(*hole);
             *sum = [sum[0] + push[0], sum[1] + push[1]];
             // An impulse at the end of a part is no force, and a part of no length has none.
-            if step.jump[*hole] == 0.0 && h > 0.0 {
-                *force = push.map(|push| push / h);
+            let push = if step.jump[*hole] == 0.0 { push } else { [0.0; 2] };
+            if h > 0.0 {
+                *force = [0, 1].map(|axis: usize| (before * force[axis] + push[axis]) / (before + h));
             }
         }
     }

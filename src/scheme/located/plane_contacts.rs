@@ -48,8 +48,9 @@ pub(super) struct PlaneContacts {
     rebounds: bool,
     /// True if the contacts of the last part that was computed were settled.
     settled: bool,
-    /// True if round walls must take the speed across them at once.
+    /// True if round walls must take the speed across them at once, and how often they did.
     stops: bool,
+    stopped: u64,
     solves: u64,
     unsettled: u64,
 }
@@ -69,6 +70,7 @@ impl PlaneContacts {
             rebounds: true,
             settled: true,
             stops: false,
+            stopped: 0,
             solves: 0,
             unsettled: 0,
         })
@@ -381,6 +383,7 @@ impl Contacts<Matrices> for PlaneContacts {
         if !self.is_struck() && !stops {
             return Ok(false);
         }
+        self.stopped += u64::from(stops);
         let rebounds = self.rebounds && !stops;
         self.impact.strike(body, &self.all, frame, rebounds);
         for contact in self.all.iter_mut().filter(|contact| contact.lasts) {
@@ -394,7 +397,7 @@ impl Contacts<Matrices> for PlaneContacts {
         let [unsettled, wedged] = self.impact.unsettled_and_wedged();
         counters.qp_solves += self.solves + self.whole.solves() + self.impact.instants;
         counters.qp_unsettled += self.unsettled + unsettled;
-        counters.wedged_steps += wedged;
+        counters.wedged_steps += wedged + self.stopped;
     }
 }
 
