@@ -120,8 +120,8 @@ impl Judge {
         let rests = step.resting.contains(&place) && supports.ends_rebounds(hole, (n, struck), self.h, noise);
         let e = if rests || step.wedged.contains(&place) { 0.0 } else { hole.restitution };
         let slack = -after - if struck > 0.0 { e * struck } else { struck };
-        // Rounding decides whether a wall in front of the body is touched.
-        let edge = if p == 0.0 && gap > 0.0 { f64::INFINITY } else { 0.0 };
+        // Rounding decides whether a wall that does not push is touched.
+        let edge = if p == 0.0 && gap > -self.noise.of(size) { f64::INFINITY } else { 0.0 };
         self.walls.see_rebound(&self.noise, place, (slack, noise + edge), pressure);
         if p != 0.0 {
             let across = pressure * (step.normal[place][0] - n[0]).hypot(step.normal[place][1] - n[1]);

@@ -23,8 +23,8 @@ pub struct Recorder {
     /// Impulse per wall since the last row, N s.
     pending: Vec<f64>,
     partial: Vec<f64>,
-    /// True once a part of a step has ended at the last row, whose state and force wait in `state`
-    /// and `partial`.
+    /// True once a part of a step, or a step that was handed over, has ended at the last row, whose
+    /// state and force wait in `state` and `partial`.
     ended: bool,
     /// Impulse of each round support along y and z and friction of each wall since the last row, N
     /// s.
@@ -220,8 +220,16 @@ impl Recorder {
             for (i, q) in q.iter_mut().enumerate() {
                 *q = step.q[i] - back * (step.velocity_before[i] + step.v[i]);
             }
-            self.push(due, &q, &v, step.force);
+            self.ended = row == self.rows;
+            if !self.ended {
+                self.push(due, &q, &v, step.force);
+            }
             self.state = [q, v];
+            if self.ended {
+                // As after a part: one with an impact may follow.
+                self.partial.copy_from_slice(step.force);
+                break;
+            }
         }
     }
 
