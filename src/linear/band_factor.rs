@@ -31,48 +31,32 @@ const NOTHING: f64 = 1e-26;
 
 impl BandFactor {
     pub(super) fn new(matrix: &Symmetric) -> Result<Self, NotDefinite> {
-        let (n, width) = (matrix.size(), matrix.half_bandwidth());
-        let mut lower = vec![0.0; n * width];
-        let diagonal = matrix.diagonal_entries();
-        let mut pivots = vec![0.0; n];
+        let mut factor = Self { n: 0, width: 0, lower: Vec::new(), inverse: Vec::new() };
+        factor.renew(matrix)?;
+        Ok(factor)
+    }
+
+    /// Makes it the factor of `matrix`. If that is not positive definite, it is the factor of
+    /// nothing.
+    pub(super) fn renew(&mut self, matrix: &Symmetric) -> Result<(), NotDefinite> {
+        (self.n, self.width) = (matrix.size(), matrix.half_bandwidth());
+        let Self { n, width, lower, inverse } = self;
+        lower.clear();
+        lower.resize(*n * *width, 0.0);
+        inverse.clear();
+        inverse.extend(matrix.diagonal_entries());
         for (i, j, value) in matrix.entries() {
             if j < i && value != 0.0 {
-                lower[i * width + j + width - i] = value;
+                lower[i * *width + j + *width - i] = value;
             }
         }
-        for i in 0..n {
-            let (before, row) = lower.split_at_mut(i * width);
-            let first = i.saturating_sub(width);
-            let mut pivot = diagonal[i];
-            // Row i holds L D until it is divided.
-            for j in first..i {
-                let at = j + width - i;
-                let from = first.max(j.saturating_sub(width));
-                let (a, b) = (from + width - i, from + width - j);
-                let above = &before[j * width + b..(j + 1) * width];
-                let dot: f64 = row[a..at].iter().zip(above).map(|(x, y)| x * y).sum();
-                row[at] -= dot;
-            }
-            for (entry, d) in row[first + width - i..].iter_mut().zip(&pivots[first..i]) {
-                let l = *entry / d;
-                pivot -= *entry * l;
-                *entry = l;
-            }
-            if pivot.is_nan() || pivot <= LEAST_PIVOT * diagonal[i].abs() {
-                return Err(NotDefinite { row: i });
-            }
-            pivots[i] = pivot;
+        match *width {
+            0 => inverse.iter().enumerate().try_for_each(|(row, &d)| definite(row, d, d))?,
+            1 => twist(lower, inverse)?,
+            width => eliminate(width, lower, inverse)?,
         }
-        if width == 1 {
-            twist(matrix, &diagonal, &mut lower, &mut pivots);
-            // Close to singular, rounding may make a pivot negative in this order although the
-            // other order found it positive.
-            if let Some(row) = pivots.iter().position(|pivot| pivot.is_nan() || *pivot <= 0.0) {
-                return Err(NotDefinite { row });
-            }
-        }
-        let inverse = pivots.iter().map(|d| 1.0 / d).collect();
-        Ok(Self { n, width, lower, inverse })
+        inverse.iter_mut().for_each(|d| *d = 1.0 / *d);
+        Ok(())
     }
 
     pub(super) fn width(&self) -> usize {
@@ -251,26 +235,58 @@ impl BandFactor {
     }
 }
 
+/// Refuses a `pivot` that is rounding beside the `diagonal` entry of its row.
+fn definite(row: usize, pivot: f64, diagonal: f64) -> Result<(), NotDefinite> {
+    if pivot.is_nan() || pivot <= LEAST_PIVOT * diagonal.abs() { Err(NotDefinite { row }) } else { Ok(()) }
+}
+
+/// The factor of a band matrix, row by row, from its entries below the diagonal and those on it.
+fn eliminate(width: usize, lower: &mut [f64], pivots: &mut [f64]) -> Result<(), NotDefinite> {
+    for i in 0..pivots.len() {
+        let (before, row) = lower.split_at_mut(i * width);
+        let first = i.saturating_sub(width);
+        // Row i holds L D until it is divided.
+        for j in first..i {
+            let at = j + width - i;
+            let from = first.max(j.saturating_sub(width));
+            let (a, b) = (from + width - i, from + width - j);
+            let above = &before[j * width + b..(j + 1) * width];
+            let dot: f64 = row[a..at].iter().zip(above).map(|(x, y)| x * y).sum();
+            row[at] -= dot;
+        }
+        let diagonal = pivots[i];
+        let mut pivot = diagonal;
+        for (entry, d) in row[first + width - i..].iter_mut().zip(&pivots[first..i]) {
+            let l = *entry / d;
+            pivot -= *entry * l;
+            *entry = l;
+        }
+        definite(i, pivot, diagonal)?;
+        pivots[i] = pivot;
+    }
+    Ok(())
+}
+
 /// The factor of a tridiagonal matrix that is eliminated from both ends at once towards row n/2
 /// (the twisted factorisation): entry k of `lower` is that of rows k and k − 1, over the pivot of
 /// the one further from the middle.
-fn twist(matrix: &Symmetric, diagonal: &[f64], lower: &mut [f64], pivots: &mut [f64]) {
-    let (n, middle) = (diagonal.len(), diagonal.len() / 2);
-    lower.fill(0.0);
-    for (i, j, value) in matrix.entries() {
-        if j + 1 == i {
-            lower[i] = value;
-        }
-    }
-    pivots.copy_from_slice(diagonal);
+fn twist(lower: &mut [f64], pivots: &mut [f64]) -> Result<(), NotDefinite> {
+    let (n, middle) = (pivots.len(), pivots.len() / 2);
+    let (own, mut diagonal) = (pivots[middle], pivots[0]);
     for k in 1..=middle {
+        definite(k - 1, pivots[k - 1], diagonal)?;
+        diagonal = pivots[k];
         let l = lower[k] / pivots[k - 1];
         pivots[k] -= lower[k] * l;
         lower[k] = l;
     }
+    diagonal = pivots[n - 1];
     for k in (middle + 1..n).rev() {
+        definite(k, pivots[k], diagonal)?;
+        diagonal = pivots[k - 1];
         let l = lower[k] / pivots[k];
         pivots[k - 1] -= lower[k] * l;
         lower[k] = l;
     }
+    definite(middle, pivots[middle], own)
 }

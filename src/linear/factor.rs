@@ -42,6 +42,20 @@ impl Factor {
         Ok(Self { n, kind: Kind::Sparse(Arc::new(SparseFactor::new(matrix)?)), room: vec![0.0; n] })
     }
 
+    /// Makes it the factor of `matrix`; a band keeps its memory.
+    ///
+    /// # Errors
+    /// [`NotDefinite`]; it is then the factor of nothing.
+    pub(crate) fn renew(&mut self, matrix: &Symmetric) -> Result<(), NotDefinite> {
+        match &mut self.kind {
+            Kind::Band(factor) if matrix.size() == self.n && is_band(matrix) => Arc::make_mut(factor).renew(matrix),
+            _ => {
+                *self = Self::new(matrix)?;
+                Ok(())
+            }
+        }
+    }
+
     /// Solves A x = b in place; `x` has n entries, others are left as they are.
     #[inline]
     pub fn solve(&mut self, x: &mut [f64]) {

@@ -4,6 +4,7 @@
 //! | type | what it holds |
 //! |---|---|
 //! | [`Symmetric`] | a symmetric matrix, by the rows of its lower triangle |
+//! | [`MatrixPolynomial`] | M + sC + s²K for many s |
 //! | [`Rows`] | a few sparse rows, such as those of walls |
 //! | [`Operator`] | a symmetric matrix made ready for products, by diagonals where it is a band |
 //! | [`Factor`] | L D Lᵀ of a positive definite matrix: a band's own, or a sparse one with a fill-reducing order |
@@ -20,6 +21,7 @@ mod definite;
 mod factor;
 pub(crate) mod fourier;
 mod operator;
+mod polynomial;
 mod rows;
 mod sparse;
 mod symmetric;
@@ -29,6 +31,7 @@ pub use factor::Factor;
 #[cfg(test)]
 pub(crate) use factor::counted;
 pub use operator::Operator;
+pub use polynomial::MatrixPolynomial;
 pub use rows::Rows;
 pub use sparse::negative_pivots;
 pub use symmetric::Symmetric;

@@ -109,6 +109,16 @@ impl Symmetric {
         (0..self.size()).flat_map(move |i| self.row(i).map(move |(j, value)| (i, j, value)))
     }
 
+    /// The stored values, row by row.
+    pub(super) fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
+    /// The same.
+    pub(super) fn into_values(self) -> Vec<f64> {
+        self.values
+    }
+
     /// The entries (column, value) of row `i` up to the diagonal.
     fn row(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let span = self.starts[i]..self.starts[i + 1];

@@ -73,8 +73,8 @@ impl GridForcing {
         if t == self.next as f64 * self.h && !self.next.is_multiple_of(RESTART) {
             self.next += 1;
             self.phasors.iter_mut().for_each(Phasor::turn);
-        } else {
-            self.set(t);
+        } else if !self.set(t) {
+            return self.forcing.force(t);
         }
         let mut force = self.forcing.constant;
         for phasor in &self.phasors {
@@ -83,20 +83,21 @@ impl GridForcing {
         if self.others { force + self.forcing.irregular(t) } else { force }
     }
 
-    /// Computes the sines at `t` as if all instants before had been asked for; between instants, by
-    /// themselves.
+    /// Computes the sines at `t` as if all instants before had been asked for, and returns true;
+    /// between two instants, returns false, and the sines stay those of the last instant.
     #[inline(never)]
-    fn set(&mut self, t: f64) {
+    fn set(&mut self, t: f64) -> bool {
         let index = (t / self.h).round() as u64;
-        let on_grid = t == index as f64 * self.h;
-        let turns = if on_grid { index % RESTART } else { 0 };
-        let from = if turns > 0 { (index - turns) as f64 * self.h } else { t };
+        if t != index as f64 * self.h {
+            return false;
+        }
+        let turns = index % RESTART;
         for phasor in &mut self.phasors {
-            phasor.set(from);
+            phasor.set((index - turns) as f64 * self.h);
             (0..turns).for_each(|_| phasor.turn());
         }
-        // From a time between two instants there is no rotation to one.
-        self.next = if on_grid { index + 1 } else { 0 };
+        self.next = index + 1;
+        true
     }
 }
 

@@ -18,6 +18,7 @@ impl Space for Line {
     type Vector = [f64; 1];
     type Operator = f64;
     type Factor = f64;
+    type Polynomial = [f64; 3];
     type Rows = ();
     type Forces = GridForcing;
     type Solver = Clamp;
@@ -35,11 +36,13 @@ impl Space for Line {
         if a > 0.0 { Ok(a) } else { Err(indefinite(a)) }
     }
 
-    fn theta_factor(structure: &SharedStructure, s: f64) -> Result<f64> {
-        let [mass, damping, stiffness] =
-            [&structure.mass, &structure.damping, &structure.stiffness].map(|matrix| matrix.get(0, 0));
-        let a = mass + s * damping + s * s * stiffness;
-        if a > 0.0 { Ok(a) } else { Err(indefinite(a)) }
+    fn polynomial(structure: &SharedStructure) -> [f64; 3] {
+        [&structure.mass, &structure.damping, &structure.stiffness].map(|matrix| matrix.get(0, 0))
+    }
+
+    fn factor_at([mass, damping, stiffness]: &mut [f64; 3], s: f64, factor: &mut f64) -> Result<()> {
+        *factor = *mass + s * *damping + s * s * *stiffness;
+        if *factor > 0.0 { Ok(()) } else { Err(indefinite(*factor)) }
     }
 
     fn mass(structure: &SharedStructure) -> Result<f64> {

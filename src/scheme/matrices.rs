@@ -3,7 +3,7 @@
 
 use super::space::{Solve, Space, indefinite};
 use crate::error::Result;
-use crate::linear::{Factor, Operator, Rows, Symmetric};
+use crate::linear::{Factor, MatrixPolynomial, Operator, Rows, Symmetric};
 use crate::qp::{self, Backend, Failure, Problem, Rhs};
 use crate::scene::{Load, Loads, Row, SharedStructure};
 
@@ -15,6 +15,7 @@ impl Space for Matrices {
     type Vector = Vec<f64>;
     type Operator = Operator;
     type Factor = Factor;
+    type Polynomial = MatrixPolynomial;
     type Rows = Rows;
     type Forces = Loads;
     type Solver = qp::Solver;
@@ -31,8 +32,12 @@ impl Space for Matrices {
         Factor::new(a).map_err(indefinite)
     }
 
-    fn theta_factor(structure: &SharedStructure, s: f64) -> Result<Factor> {
-        Self::factor(&structure.theta_matrix(s))
+    fn polynomial(structure: &SharedStructure) -> MatrixPolynomial {
+        MatrixPolynomial::new([&structure.mass, &structure.damping, &structure.stiffness])
+    }
+
+    fn factor_at(polynomial: &mut MatrixPolynomial, s: f64, factor: &mut Factor) -> Result<()> {
+        factor.renew(polynomial.at(s)).map_err(indefinite)
     }
 
     fn mass(structure: &SharedStructure) -> Result<Factor> {

@@ -17,6 +17,8 @@ pub(super) trait Space: Debug + Sized + 'static {
     type Operator: Debug + Send;
     /// A positive definite matrix, factored.
     type Factor: Debug + Send;
+    /// M + sC + s²K for many s.
+    type Polynomial: Debug + Send;
     /// The rows of the walls.
     type Rows: Debug + Send;
     /// The loads without their impulses.
@@ -29,11 +31,12 @@ pub(super) trait Space: Debug + Sized + 'static {
     /// # Errors
     /// [`Error::Invalid`] unless `a` is positive definite.
     fn factor(a: &Symmetric) -> Result<Self::Factor>;
-    /// M + sC + s²K, factored.
+    fn polynomial(structure: &SharedStructure) -> Self::Polynomial;
+    /// M + sC + s²K, factored into `factor`.
     ///
     /// # Errors
     /// As [`Space::factor`].
-    fn theta_factor(structure: &SharedStructure, s: f64) -> Result<Self::Factor>;
+    fn factor_at(polynomial: &mut Self::Polynomial, s: f64, factor: &mut Self::Factor) -> Result<()>;
     /// M, factored.
     ///
     /// # Errors

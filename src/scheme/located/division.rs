@@ -7,7 +7,7 @@ use super::super::jumps::Jumps;
 use super::super::position;
 use super::super::programme::failure;
 use super::super::space::{Space, zero};
-use super::contacts::Contacts;
+use super::contacts::{Contacts, Event};
 use super::part::{Part, THETA};
 use crate::error::{Error, Result};
 use crate::qp::{Backend, Failure};
@@ -43,6 +43,8 @@ pub(super) struct Division<S: Space, C> {
     jumps: Option<Jumps>,
     /// The caller's extra force in this step, N.
     extra: S::Vector,
+    /// The loads at the end of this step, N.
+    load_end: S::Vector,
     progress: Option<Progress>,
     parts: u64,
     given_up: u64,
@@ -56,24 +58,27 @@ struct Progress {
     end: f64,
     /// Parts of it so far.
     parts: u32,
+    /// The first event on the path of the whole step, where that is known.
+    first: Option<(f64, Event)>,
 }
 
 impl<S: Space, C: Contacts<S>> Division<S, C> {
-    pub fn new(scene: &Scene, body: &Body<S>, contacts: C, backend: Backend) -> Self {
+    pub fn new(scene: &Scene, body: &Body<S>, contacts: C, backend: Backend) -> Result<Self> {
         let jumps = Jumps::new(scene, Balance::Theta(THETA), body.h);
         let mut breaks: Vec<f64> = jumps.iter().flat_map(Jumps::instants).chain(body.blow_instants()).collect();
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
-        Self {
-            part: Part::new(scene, body, backend),
+        Ok(Self {
+            part: Part::new(scene, body, backend)?,
             contacts,
             breaks,
             jumps,
             extra: zero::<S>(body.n),
+            load_end: zero::<S>(body.n),
             progress: None,
             parts: 0,
             given_up: 0,
-        }
+        })
     }
 
     /// Forgets the parts of the current step.
@@ -81,11 +86,13 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         self.progress = None;
     }
 
-    /// Begins the division of the step of `frame`, whose loads `body` has.
-    pub fn begin(&mut self, body: &Body<S>, frame: &Frame<S>) {
+    /// Begins the division of the step of `frame`, whose loads `body` has, with the `first` event on
+    /// its path and the instant of that (s) within it, where the step was computed whole.
+    pub fn begin(&mut self, body: &Body<S>, frame: &Frame<S>, first: Option<(f64, Event)>) {
         self.part.load_start.clone_from(body.load_before());
+        self.load_end.clone_from(&body.load);
         self.extra.clone_from(&frame.extra);
-        self.progress = Some(Progress { reached: frame.start, end: frame.end, parts: 0 });
+        self.progress = Some(Progress { reached: frame.start, end: frame.end, parts: 0, first });
     }
 
     /// True if a divided step has further parts.
@@ -151,7 +158,7 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         } else if self.contacts.is_struck() {
             self.stay(frame, from);
         } else {
-            self.advance_to_crossing(body, step, frame, (from, limit))?;
+            self.advance_to_crossing(body, step, frame, (from, limit, progress.first.take()))?;
         }
         let at = frame.end;
         if !matches!(frame.stretch, Stretch::Other(..)) {
@@ -167,17 +174,19 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         Ok(())
     }
 
-    /// Advances to the first crossing of a wall, or to `limit` (s) if there is none before.
+    /// Advances to the first crossing of a wall, or to `limit` (s) if there is none before. With
+    /// the `first` event on the path up to there, the search begins at that.
     fn advance_to_crossing(
         &mut self,
         body: &mut Body<S>,
         step: u64,
         frame: &mut Frame<S>,
-        (from, limit): (f64, f64),
+        (from, limit, first): (f64, f64, Option<(f64, Event)>),
     ) -> Result<()> {
         let whole = limit - from;
         let (mut low, mut high) = (0.0, whole);
-        let (mut length, mut target) = (whole, None);
+        let first = first.filter(|(at, _)| low < *at && *at < high);
+        let (mut length, mut target) = first.map_or((whole, None), |(at, event)| (at, Some(event)));
         for evaluation in 0..MOST_EVALUATIONS {
             let found = self.compute(body, step, frame, (from, limit, length))?;
             if !found && evaluation == 0 && self.contacts.stops() {
@@ -237,8 +246,13 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
             let extra = jumps.force_within((from, end), length, Some(self.extra.as_ref()));
             frame.extra.as_mut().copy_from_slice(extra);
         }
-        let Self { part, contacts, .. } = self;
-        part.set_momentum(body, (&frame.q, &frame.v, &frame.extra), (length, end, THETA));
+        let Self { part, contacts, progress, load_end, .. } = self;
+        if progress.is_some_and(|progress| end == progress.end) {
+            part.load_end.clone_from(load_end);
+        } else {
+            body.force_at(end, &mut part.load_end);
+        }
+        part.set_momentum(body, (&frame.q, &frame.v, &frame.extra), (length, THETA));
         contacts.answer(body, part, frame, length).map_err(|fault| refusal(&fault, end, step))
     }
 
@@ -283,7 +297,8 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
             progress.is_some_and(|progress| progress.parts > 2 * (MOST_PARTS + contacts.parts_without_rebound()));
         let end = loop {
             let end = if length == whole { limit } else { from + length };
-            part.set_momentum(body, (&frame.q, &frame.v, &frame.extra), (length, end, 1.0));
+            body.force_at(end, &mut part.load_end);
+            part.set_momentum(body, (&frame.q, &frame.v, &frame.extra), (length, 1.0));
             let found = contacts.give_up(body, part, frame, length).map_err(|fault| refusal(&fault, end, step))?;
             if found {
                 break end;

@@ -67,7 +67,7 @@ use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
 use crate::step::{Balance, Bound, Calm, Conserves, Contract, Friction, Law, Promise, Reached, Tolerances};
-use contacts::Contacts;
+use contacts::{Contacts, Event};
 use division::Division;
 use part::THETA;
 use row_contacts::RowContacts;
@@ -120,7 +120,7 @@ impl<S: Space> Located<S> {
         let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
         let scale = scene.gap_scale() / h;
         let programme = Programme::new(scene, body.theta_matrix(THETA), scale, compliance, backend)?;
-        let division = Division::new(scene, &body, RowContacts::new(scene, &body, backend)?, backend);
+        let division = Division::new(scene, &body, RowContacts::new(scene, &body, backend)?, backend)?;
         let [b, arrived, after, ahead] = [(); 4].map(|()| zero::<S>(body.n));
         Ok(Self { body, programme, division, b, arrived, after, ahead, clear: false })
     }
@@ -141,13 +141,14 @@ impl<S: Space> Located<S> {
         programme.first_near(ahead).is_none()
     }
 
-    /// Makes step number `step` whole, if its path crosses no wall. Returns whether it did.
+    /// Makes step number `step` whole, if its path crosses no wall. Returns the first crossing
+    /// otherwise.
     ///
     /// A parabola lies within the hull of its control points q, q + ½hv and q⁺: where these are
     /// clear of a wall, so is the path. q⁺ is the middle between the second of these and that of
     /// the step that follows, so that one look at that point settles both.
     #[inline(always)]
-    fn make_whole(&mut self, step: u64, frame: &mut Frame<S>) -> Result<bool> {
+    fn make_whole(&mut self, step: u64, frame: &mut Frame<S>) -> Result<Option<(f64, Event)>> {
         self.programme.free();
         let near = !self.clear;
         if near {
@@ -155,8 +156,10 @@ impl<S: Space> Located<S> {
         }
         self.programme.solve(&self.b, (frame.start, step), &mut frame.impulse, &mut frame.pushing)?;
         let clear = self.arrive(&frame.q, &frame.v);
-        if (near || !clear) && self.crosses(frame, near) {
-            return Ok(false);
+        if (near || !clear)
+            && let Some(crossing) = self.first_crossing(frame, near)
+        {
+            return Ok(Some(crossing));
         }
         self.clear = clear && (!near || self.programme.first_near(&self.arrived).is_none());
         frame.q.clone_from(&self.arrived);
@@ -165,20 +168,18 @@ impl<S: Space> Located<S> {
         for &wall in &frame.pushing {
             frame.force[wall] = frame.impulse[wall] / self.body.h;
         }
-        Ok(true)
+        Ok(None)
     }
 
-    /// True if the path of a whole step crosses a wall; unless it begins `near` one, the body
-    /// touches none.
+    /// The first crossing of a wall on the path of a whole step, and its instant within it, s. The
+    /// contacts are classified where the path begins `near` a wall.
     #[inline(never)]
-    fn crosses(&mut self, frame: &Frame<S>, near: bool) -> bool {
+    fn first_crossing(&mut self, frame: &Frame<S>, near: bool) -> Option<(f64, Event)> {
         if !near {
-            if self.programme.first_near(&self.arrived).is_none() {
-                return false;
-            }
-            self.division.contacts.leave_all();
+            self.programme.first_near(&self.arrived)?;
+            self.division.classify(&self.body, frame);
         }
-        self.division.contacts.first_event(&self.body, frame, (self.programme.x(), self.body.h)).is_some()
+        self.division.contacts.first_event(&self.body, frame, (self.programme.x(), self.body.h))
     }
 
     /// Sets the bounds of a whole step.
@@ -220,10 +221,14 @@ impl<S: Space> Rule<S> for Located<S> {
         frame.begin(step, self.body.h);
         (frame.stretch, frame.blown) = (Stretch::Grid, false);
         self.body.theta_momentum(THETA, frame, &mut self.b);
-        if !self.division.has_break(frame.start, frame.end) && self.make_whole(step, frame)? {
-            return Ok(());
+        let mut first = None;
+        if !self.division.has_break(frame.start, frame.end) {
+            first = self.make_whole(step, frame)?;
+            if first.is_none() {
+                return Ok(());
+            }
         }
-        self.division.begin(&self.body, frame);
+        self.division.begin(&self.body, frame, first);
         self.make_part(step, frame)
     }
 
@@ -238,7 +243,7 @@ impl<S: Space> Rule<S> for Located<S> {
             self.body.momentum_to(end, THETA, (&frame.q, &frame.v, &frame.extra), &mut self.b);
             self.programme.release(&self.b, (next as f64 * h, next))?;
             let clear = self.arrive(&frame.q, &frame.v);
-            if !clear && self.crosses(frame, false) {
+            if !clear && self.first_crossing(frame, false).is_some() {
                 // The step is made again by itself, from the loads at its start.
                 self.body.restart(next as f64 * h);
                 break;

@@ -2,6 +2,7 @@
 
 use super::super::body::Body;
 use super::super::space::{Solve, Space, zero};
+use crate::error::Result;
 use crate::linear::Rows;
 use crate::qp::{Backend, Failure, Problem};
 use crate::scene::{Row, Scene};
@@ -30,6 +31,9 @@ pub(super) struct Push {
     pub normal: [f64; 2],
 }
 
+/// Whether δ and the impulses were found.
+type Solution = std::result::Result<(), Failure>;
+
 /// The part of a step that is being computed, from the state at its start.
 #[derive(Debug)]
 pub(super) struct Part<S: Space> {
@@ -44,6 +48,9 @@ pub(super) struct Part<S: Space> {
     mean: S::Vector,
     /// The momentum that all but the walls give, N s.
     pub b: S::Vector,
+    /// A for parts of any length, and that of the current part, factored.
+    polynomial: S::Polynomial,
+    factor: S::Factor,
     /// A⁻¹gᵀ of the wall that holds.
     answer: S::Vector,
     /// The change of the velocity, m/s.
@@ -54,10 +61,12 @@ pub(super) struct Part<S: Space> {
 }
 
 impl<S: Space> Part<S> {
-    pub fn new(scene: &Scene, body: &Body<S>, backend: Backend) -> Self {
+    pub fn new(scene: &Scene, body: &Body<S>, backend: Backend) -> Result<Self> {
         let vector = || zero::<S>(body.n);
-        Self {
+        Ok(Self {
             backend,
+            polynomial: S::polynomial(&body.matrices),
+            factor: S::factor(&body.theta_matrix(THETA))?,
             scale: scene.gap_scale() / body.h,
             rows: scene.walls.iter().map(|wall| wall.row().clone()).collect(),
             load_start: vector(),
@@ -68,7 +77,7 @@ impl<S: Space> Part<S> {
             delta: vector(),
             pushes: Vec::with_capacity(scene.walls.len()),
             solves: 0,
-        }
+        })
     }
 
     /// Rounding error of the velocity of a wall's row, m/s.
@@ -76,18 +85,18 @@ impl<S: Space> Part<S> {
         ROUNDING * size_of(&self.rows[wall], v.as_ref())
     }
 
-    /// Computes the momentum b that all but the walls give in a part of `length` seconds that ends
-    /// at `end` (s), from the displacement `q` and the velocity `v` under the extra force `extra`:
+    /// Computes the momentum b that all but the walls give in a part of `length` seconds, with the
+    /// loads at its ends known, from the displacement `q` and the velocity `v` under the extra force
+    /// `extra`:
     ///
     /// [M + sθC + s²θ²K] δ = b + Gᵀ p,   b = s[f_θ + f_x − C v − K(q + sθ v)].
     pub fn set_momentum(
         &mut self,
-        body: &mut Body<S>,
+        body: &Body<S>,
         (q, v, extra): (&S::Vector, &S::Vector, &S::Vector),
-        (length, end, theta): (f64, f64, f64),
+        (length, theta): (f64, f64),
     ) {
         self.pushes.clear();
-        body.force_at(end, &mut self.load_end);
         let loads = self.load_start.as_ref().iter().zip(self.load_end.as_ref()).zip(extra.as_ref());
         for (b, ((start, end), extra)) in self.b.as_mut().iter_mut().zip(loads) {
             *b = (1.0 - theta) * start + theta * end + extra;
@@ -101,21 +110,21 @@ impl<S: Space> Part<S> {
     }
 
     /// Computes δ and the impulses of the walls of `holds`, with `st` = sθ (s).
-    pub fn hold(&mut self, body: &Body<S>, st: f64, holds: &[Hold]) -> Result<(), Failure> {
+    pub fn hold(&mut self, body: &Body<S>, st: f64, holds: &[Hold]) -> Solution {
         if holds.len() > 1 {
             return self.solve(body, st, holds);
         }
-        let mut factor = theta_factor::<S>(body, st)?;
+        S::factor_at(&mut self.polynomial, st, &mut self.factor).map_err(indefinite)?;
         self.delta.clone_from(&self.b);
-        S::solve(&mut factor, &mut self.delta);
+        S::solve(&mut self.factor, &mut self.delta);
         if let [hold] = holds {
-            self.clamp(body, &mut factor, hold);
+            self.clamp(body, hold);
         }
         Ok(())
     }
 
     /// Adds the impulse of the only wall of a part to δ, where δ without it exceeds its bound.
-    fn clamp(&mut self, body: &Body<S>, factor: &mut S::Factor, hold: &Hold) {
+    fn clamp(&mut self, body: &Body<S>, hold: &Hold) {
         let beyond = body.seen(hold.wall, &self.delta) - hold.bound;
         if if hold.upper { beyond <= 0.0 } else { beyond >= 0.0 } {
             return;
@@ -123,17 +132,17 @@ impl<S: Space> Part<S> {
         self.solves += 1;
         self.answer.as_mut().fill(0.0);
         S::add_transposed(&body.rows, hold.wall, 1.0, &mut self.answer);
-        S::solve(factor, &mut self.answer);
+        S::solve(&mut self.factor, &mut self.answer);
         let impulse = -beyond / (body.seen(hold.wall, &self.answer) + hold.compliance);
         // Solved again rather than added, so that the balance keeps its rounding where both cancel.
         S::add_transposed(&body.rows, hold.wall, impulse, &mut self.b);
         self.delta.clone_from(&self.b);
-        S::solve(factor, &mut self.delta);
+        S::solve(&mut self.factor, &mut self.delta);
         self.pushes.push(Push { wall: hold.wall, impulse, friction: 0.0, normal: [0.0; 2] });
     }
 
     /// Computes δ and the impulses from b as a programme.
-    fn solve(&mut self, body: &Body<S>, st: f64, holds: &[Hold]) -> Result<(), Failure> {
+    fn solve(&mut self, body: &Body<S>, st: f64, holds: &[Hold]) -> Solution {
         self.solves += 1;
         let rows = holds.iter().filter_map(|hold| self.rows.get(hold.wall)).map(Row::entries);
         let compliance = holds.iter().map(|hold| hold.compliance).collect();
@@ -153,9 +162,9 @@ impl<S: Space> Part<S> {
     }
 }
 
-/// M + sθC + s²θ²K, factored, for `st` = sθ (s).
-pub(super) fn theta_factor<S: Space>(body: &Body<S>, st: f64) -> Result<S::Factor, Failure> {
-    S::theta_factor(&body.matrices, st).map_err(|_| Failure::NotFinite { what: "step matrix", index: 0 })
+/// The fault of a part whose matrix has no factor.
+pub(super) fn indefinite<T>(_: T) -> Failure {
+    Failure::NotFinite { what: "step matrix", index: 0 }
 }
 
 /// Rounding error of the velocity of a row, relative to the sum of its terms.

@@ -39,7 +39,7 @@ impl LocatedPlanar {
             frame: Frame::new(scene)?,
             b: zero(),
             delta: zero(),
-            division: Division::new(scene, &body, contacts, Backend::Auto),
+            division: Division::new(scene, &body, contacts, Backend::Auto)?,
             episodes: Episodes::new(scene, scene.wall_masses(), contract),
             forced: false,
             body,
@@ -104,7 +104,7 @@ impl Motion for LocatedPlanar {
             body.theta_momentum(THETA, frame, b);
             let breaks = self.division.has_break(self.frame.start, self.frame.end);
             if breaks || !self.make_whole() {
-                self.division.begin(&self.body, &self.frame);
+                self.division.begin(&self.body, &self.frame, None);
                 self.division.make_part(&mut self.body, step, &mut self.frame)?;
             }
         }

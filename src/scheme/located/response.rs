@@ -12,7 +12,7 @@ use super::super::body::Body;
 use super::super::matrices::Matrices;
 use super::super::space::Space;
 use super::super::supports::{CROSSING, Places, Sweeps, Touch, dot};
-use super::part::{Part, Push, theta_factor};
+use super::part::{Part, Push, indefinite};
 use crate::linear::Factor;
 use crate::qp::Failure;
 use crate::scene::Row;
@@ -114,7 +114,7 @@ pub(super) struct Response {
 impl Response {
     /// For M + sθC + s²θ²K with `st` = sθ (s).
     pub fn new(body: &Body<Matrices>, st: f64) -> Result<Self, Failure> {
-        Ok(Self { st, factor: theta_factor::<Matrices>(body, st)?, contacts: None })
+        Ok(Self { st, factor: Factor::new(&body.theta_matrix_over(st)).map_err(indefinite)?, contacts: None })
     }
 
     /// Computes δ without contacts from the momentum of `part`.

@@ -20,6 +20,8 @@ pub(super) struct RowContacts<S: Space> {
     /// The programme of an impact, in the metric of the mass.
     law: Programme<S>,
     places: Vec<Place>,
+    /// The gap of each wall (m) and its rate (m/s) where the current step or part begins.
+    gaps: Vec<(f64, f64)>,
     /// Walls that bound the velocity in the current step or part.
     pub holds: Vec<Hold>,
     /// The walls on the other side of each wall's row.
@@ -46,6 +48,7 @@ impl<S: Space> RowContacts<S> {
         Ok(Self {
             law: Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, backend)?,
             places: vec![Place::Away; walls],
+            gaps: vec![(f64::INFINITY, 0.0); walls],
             holds: Vec::with_capacity(walls),
             opposite: scene.walls.iter().map(opposite).collect(),
             changes: vec![0.0; walls],
@@ -55,11 +58,6 @@ impl<S: Space> RowContacts<S> {
             pushing: Vec::with_capacity(walls),
             impacts: 0,
         })
-    }
-
-    /// Notes that the body touches no rigid wall.
-    pub fn leave_all(&mut self) {
-        self.places.fill(Place::Away);
     }
 
     /// True if the body rests on this wall.
@@ -98,20 +96,22 @@ impl<S: Space> RowContacts<S> {
     }
 
     /// The gap of a wall along the part of `length` seconds that changes the velocity by `delta`.
-    fn gap_path(body: &Body<S>, frame: &Frame<S>, wall: usize, (delta, length): (&S::Vector, f64)) -> GapPath {
-        let face = body.walls[wall];
-        let [rate, change] = [&frame.v, delta].map(|v| face.sign * body.seen(wall, v));
-        GapPath { gap: -face.depth(body.seen(wall, &frame.q)), rate, change, span: length }
+    #[inline]
+    fn gap_path(&self, body: &Body<S>, wall: usize, (delta, length): (&S::Vector, f64)) -> GapPath {
+        let (gap, rate) = self.gaps[wall];
+        GapPath { gap, rate, change: body.walls[wall].sign * body.seen(wall, delta), span: length }
     }
 }
 
 impl<S: Space> Contacts<S> for RowContacts<S> {
     /// A speed that moves the body by less than the touching distance within a step is rest.
     fn classify(&mut self, body: &Body<S>, part: &Part<S>, frame: &Frame<S>) {
-        for (wall, (face, place)) in body.walls.iter().zip(&mut self.places).enumerate() {
-            let touches = face.law.is_rigid() && -face.depth(body.seen(wall, &frame.q)) <= body.touch;
-            *place = if touches {
-                let rate = face.sign * body.seen(wall, &frame.v);
+        let states = self.places.iter_mut().zip(&mut self.gaps);
+        for (wall, (face, (place, state))) in body.walls.iter().zip(states).enumerate() {
+            let gap = -face.depth(body.seen(wall, &frame.q));
+            let rate = face.sign * body.seen(wall, &frame.v);
+            *state = (gap, rate);
+            *place = if face.law.is_rigid() && gap <= body.touch {
                 if rate.abs() <= body.touch / body.h + part.rounding(wall, &frame.v) {
                     Place::Resting
                 } else if rate > 0.0 {
@@ -151,7 +151,7 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
     fn first_event(
         &self,
         body: &Body<S>,
-        frame: &Frame<S>,
+        _: &Frame<S>,
         (delta, length): (&S::Vector, f64),
     ) -> Option<(f64, Event)> {
         let mut first: Option<(f64, Event)> = None;
@@ -160,7 +160,7 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
             if !face.law.is_rigid() && !damped || self.rests(wall) {
                 continue;
             }
-            let path = Self::gap_path(body, frame, wall, (delta, length));
+            let path = self.gap_path(body, wall, (delta, length));
             if damped && path.gap <= body.touch {
                 continue;
             }
@@ -173,9 +173,9 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
         first
     }
 
-    fn ahead(&self, body: &Body<S>, frame: &Frame<S>, event: Event, motion: (&S::Vector, f64)) -> Ahead {
+    fn ahead(&self, body: &Body<S>, _: &Frame<S>, event: Event, motion: (&S::Vector, f64)) -> Ahead {
         let (Event::Crossing(wall) | Event::Reversal(wall) | Event::Slip(wall)) = event;
-        let path = Self::gap_path(body, frame, wall, motion);
+        let path = self.gap_path(body, wall, motion);
         Ahead { left: path.end(), rate: path.rate + path.change, met: body.touch }
     }
 
