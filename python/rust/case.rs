@@ -194,7 +194,7 @@ impl Case {
     /// --------
     /// >>> import signorini as sg
     /// >>> sg.load("rigid-walls-sine", set={"time.end": 2.0}).run()
-    /// <Run: moreau-jean, 2001 rows to 2.0 s, 20 contacts>
+    /// <Run: located, 2001 rows to 2.0 s, 20 contacts>
     #[pyo3(signature = (scheme=None, *, step=None, accuracy=None))]
     fn run(&self, py: Python<'_>, scheme: Option<&str>, step: Option<f64>, accuracy: Option<f64>) -> PyResult<Py<Run>> {
         let (scene, time) = (self.scene.bind(py), &self.case.time);

@@ -164,12 +164,12 @@ mod tests {
     use crate::scene::counted as checked;
     use clap::Parser;
 
-    /// Number of times that `signorini run CASE --no-verdict` checks a scene, and the sizes of the
-    /// matrices that it factors.
+    /// Number of times that `signorini run CASE --scheme moreau-jean --no-verdict` checks a scene,
+    /// and the sizes of the matrices that it factors.
     fn counted(case: &str) -> (usize, Vec<usize>) {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("out").display().to_string();
-        let words = ["signorini", "run", case, "--no-verdict", "--quiet", "--out", &out];
+        let words = ["signorini", "run", case, "--scheme", "moreau-jean", "--no-verdict", "--quiet", "--out", &out];
         let cli = Cli::try_parse_from(words).unwrap();
         checked::take();
         factored::take();

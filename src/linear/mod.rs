@@ -31,7 +31,7 @@ pub use factor::Factor;
 #[cfg(test)]
 pub(crate) use factor::counted;
 pub use operator::Operator;
-pub use polynomial::MatrixPolynomial;
+pub(crate) use polynomial::MatrixPolynomial;
 pub use rows::Rows;
 pub use sparse::negative_pivots;
 pub use symmetric::Symmetric;

@@ -5,7 +5,7 @@ use super::Symmetric;
 /// The matrix polynomial M + sC + s²K: the matrices of implicit steps of several lengths, over one
 /// pattern of entries.
 #[derive(Debug, Clone)]
-pub struct MatrixPolynomial {
+pub(crate) struct MatrixPolynomial {
     /// The entries of M, C and K over the pattern of `sum`.
     coefficients: [Vec<f64>; 3],
     sum: Symmetric,
@@ -13,7 +13,6 @@ pub struct MatrixPolynomial {
 
 impl MatrixPolynomial {
     /// Of `coefficients` M, C, K, of one size.
-    #[must_use]
     pub fn new(coefficients: [&Symmetric; 3]) -> Self {
         let sum = Symmetric::sum(&coefficients.map(|matrix| (1.0, matrix)));
         let spread = |matrix| Symmetric::sum(&[(1.0, matrix), (0.0, &sum)]).into_values();

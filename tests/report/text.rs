@@ -83,7 +83,7 @@ fn the_page_of_a_run_holds_its_rows_and_contacts() {
     assert_eq!(data["command"], "signorini run rigid-walls-sine --end 1 --no-verdict --out o");
     assert_eq!(data["title"], "Two rigid walls, 5 Hz sine");
     assert!(data["case"].as_str().unwrap().contains("stiffness = 100.0"));
-    assert_eq!(data["summary"]["scheme"], "moreau-jean");
+    assert_eq!(data["summary"]["scheme"], "located");
     let cards = data["cards"].as_array().unwrap();
     let states: Vec<_> =
         cards.iter().map(|card| (card["title"].as_str().unwrap(), card["state"].as_str().unwrap())).collect();
@@ -485,7 +485,7 @@ fn a_comparison_reads_within_its_folder_only() {
     forget_records(&dir.path().join("c"));
     let table = dir.path().join("c/compare.csv");
     let text = fs::read_to_string(&table).unwrap();
-    fs::write(&table, text.replacen("moreau-jean,", "../c/event,", 1)).unwrap();
+    fs::write(&table, text.replacen("located,", "../c/event,", 1)).unwrap();
     assert!(said(dir.path(), &["report", "c"], 2).contains("not the name of a method"));
 }
 
@@ -565,7 +565,7 @@ fn other_results_are_drawn_in_the_same_figures() {
     assert_eq!((runs.as_array().unwrap().len(), &runs[0]), (2, &page("r0.7/report.html")["runs"][0]));
     let own = page("r0.8/report.html")["runs"][0].clone();
     assert_eq!((&runs[1]["probes"], &runs[1]["contacts"]), (&own["probes"], &own["contacts"]));
-    assert_eq!(runs[1]["label"], "moreau-jean, r0.8");
+    assert_eq!(runs[1]["label"], "located, r0.8");
     // The page within the folder is as before.
     assert_eq!(page("r0.7/report.html")["runs"].as_array().unwrap().len(), 1);
     said(folder, &["run", "bouncing-ball", "--end", "0.5", "--no-verdict", "--out", "ball"], 0);

@@ -351,7 +351,7 @@ fn runs_and_comparisons_end_with_a_verdict_unless_told_not_to() {
         (&["run", "linear-sine", "--end", "1"], "refinement: with half the step"),
         (
             &["compare", "rigid-walls-sine", "--end", "0.5", "--verbose"],
-            "refinement: with half the step: moreau-jean: the displacement changes by",
+            "refinement: with half the step: located: the displacement changes by",
         ),
     ] {
         let (code, said, summary) = tool(args);

@@ -71,7 +71,7 @@ fn a_run_writes_everything_it_promises() {
     let mut scene = case.scene.with_duration(1.0);
     scene.walls = scene.walls.into_iter().map(|wall| wall.with_restitution(0.8)).collect();
     let options = signorini::Options::new(case.time);
-    let run = signorini::run(&scene, &signorini::Scheme::MoreauJean { theta: 0.5 }, &options).unwrap();
+    let run = signorini::run(&scene, &signorini::Scheme::Located, &options).unwrap();
     let columns = [(1, run.trajectory.displacement()), (2, run.trajectory.velocity())];
     for (column, computed) in columns {
         let read: Vec<f64> = rows.iter().map(|row| row[column].parse().unwrap()).collect();
@@ -127,17 +127,18 @@ fn compare_ends_with_a_short_table_and_one_sentence() {
     let said = done(dir.path(), &["compare", "rigid-walls-sine", "--no-report"]);
     let (table, conclusion) = said.trim_end().rsplit_once('\n').unwrap();
     assert!(table.lines().all(|line| line.chars().count() <= 60), "{table}");
-    assert_eq!(table.lines().filter(|line| line.contains("moreau-jean") || line.starts_with("penalty:")).count(), 5);
+    assert_eq!(table.lines().filter(|line| line.starts_with("located") || line.starts_with("penalty:")).count(), 5);
     // That the errors are those of compare.csv, and who passes the walls, at ±5 mm.
     let (header, rows) = csv(&dir.path().join("out/rigid-walls-sine/compare/compare.csv"));
     let number = |row: &[String], name: &str| {
         row[header.iter().position(|head| head == name).unwrap()].parse::<f64>().unwrap_or(f64::NAN)
     };
     let error = number(&rows[0], "error_over_gap");
-    let first = format!("moreau-jean keeps to the exact motion within {} of the gap until ", two_digits(error));
-    assert!(conclusion.starts_with(&first), "{first}: {conclusion}");
+    let said = conclusion.strip_prefix("located keeps to the exact motion within ");
+    let said = said.and_then(|rest| rest.split_once(" of the gap until ")).map(|(said, _)| said.parse().unwrap());
+    assert_eq!(said, Some(two_digits(error)), "{conclusion}");
     assert!(conclusion.contains("where chaos takes over"), "{conclusion}");
-    assert!(conclusion.contains("; half the step changes moreau-jean by "), "{conclusion}");
+    assert!(conclusion.contains("; half the step changes located by "), "{conclusion}");
     for row in rows.iter().filter(|row| row[0].starts_with("penalty")) {
         let unseen = conclusion.contains(&format!("{} passes the walls by ", row[0]));
         assert_eq!(unseen, number(row, "penetration_m") > 5e-3, "{}: {conclusion}", row[0]);
@@ -178,8 +179,8 @@ fn compare_puts_qp_penalty_and_the_exact_motion_side_by_side() {
     let rows = rows(&table);
     let methods: Vec<_> = rows.iter().map(|r| r["method"].as_str().unwrap()).collect();
     let expected = [
-        "moreau-jean",
-        "moreau-jean:qp=clarabel",
+        "located",
+        "located:qp=clarabel",
         "penalty:epsilon=1e-12",
         "penalty:epsilon=1e-9",
         "penalty:epsilon=1e-6",

@@ -237,7 +237,7 @@ fn json_is_one_document_for_every_command() {
     assert_eq!(ask(&["new", "bouncing-ball", "--out", "ball.toml"])["files_written"][0], "ball.toml");
     assert!(ask(&["completions", "bash"])["script"].as_str().unwrap().contains("signorini"));
     let explained = ask(&["explain", "elastic-wall"]);
-    assert_eq!(explained["scheme"], "moreau-jean");
+    assert_eq!(explained["scheme"], "located");
     assert!(explained["walls"][0]["mass_kg"].is_f64() && explained["estimated_time"]["event"]["seconds"].is_f64());
     assert!(explained["model"][0].as_str().unwrap().contains("natural frequency"));
 

@@ -154,7 +154,7 @@ fn a_method_has_one_colour_in_all_figures_of_a_command() {
     let mut colours: BTreeMap<String, String> = BTreeMap::new();
     for name in ["displacement.svg", "velocity.svg", "phase.svg", "contact-force.svg"] {
         let legend = legend(&read(folder.path(), name));
-        for method in ["moreau-jean", "moreau-jean:qp=clarabel", "penalty:epsilon=1e-9", "event"] {
+        for method in ["located", "located:qp=clarabel", "penalty:epsilon=1e-9", "event"] {
             let colour = legend.get(method).unwrap_or_else(|| panic!("{name}: {legend:?}")).clone();
             let first = colours.entry(method.to_owned()).or_insert_with(|| colour.clone());
             assert_eq!(*first, colour, "{method} in {name}");

@@ -711,7 +711,7 @@ fn all_rows_failed_or_one_under_strict_is_exit_code_1() {
     assert!(err.contains("invalid: 1 of 2 rows"), "{err}");
     said(&path, &[&args[..], &["--out", "some", "--strict"]].concat(), 1);
     let (out, _) = said(&path, &[&args[..], &["--plan"]].concat(), 0);
-    assert!(out.contains("2 rows by moreau-jean") && out.contains("1 of which failed"), "{out}");
+    assert!(out.contains("2 rows by located") && out.contains("1 of which failed"), "{out}");
     let text = fs::read_to_string(path.join("some/sweep.csv")).unwrap();
     assert_eq!(text.lines().count(), 3);
     assert!(text.starts_with("row,position_m,status,error,contacts_upper,contacts_lower\n"), "{text}");

@@ -47,7 +47,7 @@ def case(tables: Mapping[str, Any], *, name: str = "case") -> Case:
     ...     "time": {"end": 1.0, "step": 1e-3},
     ... })
     >>> ball.run()
-    <Run: moreau-jean, 1001 rows to 1.0 s, 2 contacts>
+    <Run: located, 1001 rows to 1.0 s, 2 contacts>
     """
     return _core._case(text(tables), name)
 

@@ -33,19 +33,21 @@ impl GapPath {
     /// The first τ in [0, s] at which the path crosses the wall from the front, if it goes deeper
     /// than `touch` (m) behind it or ends behind it while approaching. A wall within `touch` at the
     /// start counts as touched.
-    #[inline]
+    #[inline(always)]
     pub fn crossing(&self, touch: f64) -> Option<f64> {
-        let Self { rate, change, span, .. } = *self;
         // A parabola lies within the hull of its control points.
-        let end = self.end();
-        if self.gap > touch && self.gap + 0.5 * span * rate > 0.0 && end > 0.0 {
-            return None;
-        }
+        let in_front = self.gap > touch && self.gap + 0.5 * self.span * self.rate > 0.0 && self.end() > 0.0;
+        if in_front { None } else { self.root(touch) }
+    }
+
+    /// The same of any path.
+    fn root(&self, touch: f64) -> Option<f64> {
+        let Self { rate, change, span, .. } = *self;
         let touched = self.gap <= touch;
         if touched && rate < 0.0 {
             return Some(0.0);
         }
-        let arrives = end <= 0.0 && rate + change < 0.0;
+        let arrives = self.end() <= 0.0 && rate + change < 0.0;
         if self.least() >= -touch && !arrives {
             return None;
         }

@@ -86,8 +86,8 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         self.progress = None;
     }
 
-    /// Begins the division of the step of `frame`, whose loads `body` has, with the `first` event on
-    /// its path and the instant of that (s) within it, where the step was computed whole.
+    /// Begins the division of the step of `frame`, whose loads `body` has, with the `first` event
+    /// on its path and the instant of that (s) within it, where the step was computed whole.
     pub fn begin(&mut self, body: &Body<S>, frame: &Frame<S>, first: Option<(f64, Event)>) {
         self.part.load_start.clone_from(body.load_before());
         self.load_end.clone_from(&body.load);

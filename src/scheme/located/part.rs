@@ -86,8 +86,8 @@ impl<S: Space> Part<S> {
     }
 
     /// Computes the momentum b that all but the walls give in a part of `length` seconds, with the
-    /// loads at its ends known, from the displacement `q` and the velocity `v` under the extra force
-    /// `extra`:
+    /// loads at its ends known, from the displacement `q` and the velocity `v` under the extra
+    /// force `extra`:
     ///
     /// [M + sθC + s²θ²K] δ = b + Gᵀ p,   b = s[f_θ + f_x − C v − K(q + sθ v)].
     pub fn set_momentum(
@@ -111,7 +111,8 @@ impl<S: Space> Part<S> {
 
     /// Computes δ and the impulses of the walls of `holds`, with `st` = sθ (s).
     pub fn hold(&mut self, body: &Body<S>, st: f64, holds: &[Hold]) -> Solution {
-        if holds.len() > 1 {
+        let asked = matches!(self.backend, Backend::Condensed | Backend::Clarabel);
+        if holds.len() > 1 || asked && !holds.is_empty() {
             return self.solve(body, st, holds);
         }
         S::factor_at(&mut self.polynomial, st, &mut self.factor).map_err(indefinite)?;

@@ -148,12 +148,7 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
         part.hold(body, length, &self.holds).map(|()| true)
     }
 
-    fn first_event(
-        &self,
-        body: &Body<S>,
-        _: &Frame<S>,
-        (delta, length): (&S::Vector, f64),
-    ) -> Option<(f64, Event)> {
+    fn first_event(&self, body: &Body<S>, _: &Frame<S>, (delta, length): (&S::Vector, f64)) -> Option<(f64, Event)> {
         let mut first: Option<(f64, Event)> = None;
         for (wall, face) in body.walls.iter().enumerate() {
             let damped = face.law.damping() > 0.0;
