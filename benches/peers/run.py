@@ -34,7 +34,7 @@ def measure(simulate, repeats):
 def points(name, scene, reference, repeats):
     try:
         peer = importlib.import_module(f"peer_{name}")
-    except ImportError as missing:
+    except Exception as missing:  # OpenSeesPy raises more than ImportError
         print(f"{name}: skipped, {missing}", file=sys.stderr)
         return
     try:
