@@ -14,6 +14,11 @@ use crate::time::TimeOptions;
 const QUIET: f64 = 0.25;
 const QUIET_HALVINGS: usize = 2;
 
+/// The ratios of two successive changes by which the runs are taken to converge with order 2, which
+/// gives 4: orders of 1.5 to 2.5. With two such ratios in succession one change below [`QUIET`] is
+/// enough: the finest run then errs by about a third of it.
+const ORDER_2: std::ops::RangeInclusive<f64> = 2.8..=5.7;
+
 /// Number of levels before a trend is looked for: the coarsest steps may not see the motion at all.
 const FEWEST_LEVELS: usize = 8;
 
@@ -53,6 +58,12 @@ fn leads_nowhere(levels: &[Level]) -> bool {
     let errors: Vec<f64> = levels.iter().rev().map_while(|level| level.error).collect();
     let (Some(&last), Some(&before)) = (errors.first(), errors.get(TREND)) else { return false };
     errors.len() >= FEWEST_LEVELS && last > LOST && last > 0.5 * before
+}
+
+/// True if the changes by the last three halvings fall as those of order 2.
+fn converges(levels: &[Level]) -> bool {
+    let changes: Vec<f64> = levels.iter().rev().map_while(|level| level.error).take(3).collect();
+    changes.len() == 3 && changes.windows(2).all(|pair| ORDER_2.contains(&(pair[1] / pair[0])))
 }
 
 /// Halves the step of `method` until the tolerance is kept, until the next run would take too many
@@ -124,7 +135,8 @@ fn refine_by(judged: &Judged, target: &Target, make: &mut dyn FnMut(&Options) ->
         if done.len() > QUIET_HALVINGS + 1 {
             done.remove(0);
         }
-        kept = quiet >= if reference.is_some() { 1 } else { QUIET_HALVINGS };
+        let enough = if reference.is_some() || converges(&levels) { 1 } else { QUIET_HALVINGS };
+        kept = quiet >= enough;
         if kept || leads_nowhere(&levels) {
             break;
         }
