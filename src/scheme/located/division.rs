@@ -153,7 +153,9 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         if spent && given_up > from {
             self.give_up(body, step, frame, (from, given_up))?;
         } else if spent {
-            self.compute(body, step, frame, (from, limit, limit - from))?;
+            if !self.compute(body, step, frame, (from, limit, limit - from))? {
+                return Err(refusal(&Failure::NotSolved { status: UNSETTLED }, limit, step));
+            }
             self.commit(body, frame, limit - from, limit);
         } else if self.contacts.is_struck() {
             self.stay(frame, from);
@@ -194,7 +196,7 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
                 return Ok(());
             }
             let motion = (&self.part.delta, length);
-            let next = if !found && evaluation + 1 < MOST_EVALUATIONS {
+            let next = if !found {
                 high = length;
                 0.5 * (low + length)
             } else if let Some((at, event)) = self.contacts.first_event(body, frame, motion) {
@@ -216,8 +218,7 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
             }
         }
         // Neighbouring numbers: the path grazes the wall, and the part ends in front of it.
-        if low > 0.0 {
-            self.compute(body, step, frame, (from, limit, low))?;
+        if low > 0.0 && self.compute(body, step, frame, (from, limit, low))? {
             self.commit(body, frame, low, from + low);
         } else {
             self.stay(frame, from);
