@@ -49,7 +49,7 @@ pub(super) struct Part<S: Space> {
     /// The momentum that all but the walls give, N s.
     pub b: S::Vector,
     /// A for parts of any length, and that of the current part, factored.
-    polynomial: S::Polynomial,
+    pub polynomial: S::Polynomial,
     factor: S::Factor,
     /// A⁻¹gᵀ of the wall that holds.
     answer: S::Vector,

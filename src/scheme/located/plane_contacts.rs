@@ -41,8 +41,9 @@ pub(super) struct PlaneContacts {
     all: Vec<PlaneContact>,
     rows: Vec<Row>,
     pub impact: Impact,
-    /// The response over a whole step.
+    /// The response over a whole step, and that over the last part.
     whole: Response,
+    short: Response,
     holds: Vec<PlaneHold>,
     /// True if a body that strikes a wall rebounds.
     rebounds: bool,
@@ -51,27 +52,26 @@ pub(super) struct PlaneContacts {
     /// True if round walls must take the speed across them at once, and how often they did.
     stops: bool,
     stopped: u64,
-    solves: u64,
     unsettled: u64,
 }
 
 impl PlaneContacts {
     pub fn new(scene: &Scene, body: &Body<Matrices>) -> Result<Self> {
         let (points, rows) = contact_points(scene);
-        let whole = Response::new(body, body.h * THETA).map_err(indefinite)?;
+        let [whole, short] = [(); 2].map(|()| Response::new(body.theta_matrix(THETA)).map_err(indefinite));
         let impact = Impact::new(body, &rows, points.len())?;
         let walls = points.into_iter().zip(&scene.walls).enumerate();
         Ok(Self {
             all: walls.map(|(index, (point, wall))| PlaneContact::new(index, point, wall)).collect(),
             rows: rows.into_iter().cloned().collect(),
             impact,
-            whole,
+            whole: whole?,
+            short: short?,
             holds: Vec::new(),
             rebounds: true,
             settled: true,
             stops: false,
             stopped: 0,
-            solves: 0,
             unsettled: 0,
         })
     }
@@ -129,18 +129,15 @@ impl PlaneContacts {
         v: &[f64],
         (length, theta): (f64, f64),
     ) -> Solved {
-        let Self { whole, rows, holds, .. } = self;
-        let laws: (&[Row], &[PlaneHold]) = (rows, holds);
-        let settled = if length == body.h && theta == THETA {
-            whole.solve(body, laws, part, (v, length, theta))
+        let Self { whole, short, rows, holds, .. } = self;
+        let response = if length == body.h && theta == THETA {
+            whole
         } else {
-            let mut response = Response::new(body, length * theta)?;
-            let settled = response.solve(body, laws, part, (v, length, theta));
-            self.solves += response.solves();
-            settled
+            short.renew(part.polynomial.at(length * theta))?;
+            short
         };
-        self.settled = settled;
-        Ok(settled)
+        self.settled = response.solve(body, (rows, holds), part, (v, length, theta));
+        Ok(self.settled)
     }
 
     /// The contact of a wall with this guide over a part.
@@ -395,7 +392,7 @@ impl Contacts<Matrices> for PlaneContacts {
 
     fn count(&self, counters: &mut Counters) {
         let [unsettled, wedged] = self.impact.unsettled_and_wedged();
-        counters.qp_solves += self.solves + self.whole.solves() + self.impact.instants;
+        counters.qp_solves += self.whole.solves() + self.short.solves() + self.impact.instants;
         counters.qp_unsettled += self.unsettled + unsettled;
         counters.wedged_steps += wedged + self.stopped;
     }

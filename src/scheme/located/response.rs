@@ -13,7 +13,7 @@ use super::super::matrices::Matrices;
 use super::super::space::Space;
 use super::super::supports::{CROSSING, Places, Sweeps, Touch, dot};
 use super::part::{Part, Push, indefinite};
-use crate::linear::Factor;
+use crate::linear::{Factor, Symmetric};
 use crate::qp::Failure;
 use crate::scene::Row;
 
@@ -105,16 +105,26 @@ impl PlaneHold {
 /// The response of the structure over parts of one length.
 #[derive(Debug)]
 pub(super) struct Response {
-    st: f64,
+    /// M + sθC + s²θ²K, and its factor.
+    matrix: Symmetric,
     factor: Factor,
     /// The responses at all rows, and the solver of the contacts; only where a contact acts.
     contacts: Option<(Places, Sweeps)>,
+    /// True if these are of `matrix`.
+    current: bool,
 }
 
 impl Response {
-    /// For M + sθC + s²θ²K with `st` = sθ (s).
-    pub fn new(body: &Body<Matrices>, st: f64) -> Result<Self, Failure> {
-        Ok(Self { st, factor: Factor::new(&body.theta_matrix_over(st)).map_err(indefinite)?, contacts: None })
+    /// For `matrix` M + sθC + s²θ²K.
+    pub fn new(matrix: Symmetric) -> Result<Self, Failure> {
+        Ok(Self { factor: Factor::new(&matrix).map_err(indefinite)?, matrix, contacts: None, current: false })
+    }
+
+    /// Makes it the response for another `matrix` of the same pattern.
+    pub fn renew(&mut self, matrix: &Symmetric) -> Result<(), Failure> {
+        self.matrix.clone_from(matrix);
+        self.current = false;
+        self.factor.renew(matrix).map_err(indefinite)
     }
 
     /// Computes δ without contacts from the momentum of `part`.
@@ -138,11 +148,23 @@ impl Response {
         if holds.is_empty() {
             return true;
         }
-        let Self { st, factor, contacts } = self;
-        let (places, sweeps) = contacts.get_or_insert_with(|| {
-            let rows: Vec<&Row> = rows.iter().collect();
-            (Places::new(body.n, &rows, factor), Sweeps::new(body.theta_matrix_over(*st), &rows, body.walls.len()))
-        });
+        let Self { matrix, factor, contacts, current } = self;
+        let (places, sweeps) = match contacts {
+            Some((places, sweeps)) => {
+                if !*current {
+                    places.renew(factor);
+                    sweeps.renew(matrix);
+                }
+                (places, sweeps)
+            }
+            none => {
+                let rows: Vec<&Row> = rows.iter().collect();
+                let sweeps = Sweeps::new(matrix.clone(), &rows, body.walls.len());
+                let (places, sweeps) = none.insert((Places::new(body.n, &rows, factor), sweeps));
+                (places, sweeps)
+            }
+        };
+        *current = true;
         let free: Vec<f64> = v.iter().zip(&part.delta).map(|(v, d)| v + d).collect();
         for (row, rate) in sweeps.free.iter_mut().enumerate() {
             *rate = places.seen(row, &free);

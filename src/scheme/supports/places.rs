@@ -50,6 +50,9 @@ pub(in crate::scheme) struct Places {
     lift: Vec<Run>,
     /// W, row by row.
     delassus: Vec<f64>,
+    /// The rows as they were given, of n entries.
+    sparse: Rows,
+    n: usize,
 }
 
 impl Places {
@@ -57,20 +60,32 @@ impl Places {
     pub fn new(n: usize, rows: &[&Row], factor: &mut Factor) -> Self {
         let sparse = Rows::new(n, rows.iter().map(|row| row.entries()));
         let count = sparse.count();
-        let (mut rows, mut lift) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        let mut delassus = vec![0.0; count * count];
-        let mut x = vec![0.0; n];
+        let (rows, lift) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut places = Self { rows, lift, delassus: vec![0.0; count * count], sparse, n };
+        places.rows = (0..count).map(|i| Run::new(&places.dense(i))).collect();
+        places.renew(factor);
+        places
+    }
+
+    /// Row `i` with its zeros.
+    fn dense(&self, i: usize) -> Vec<f64> {
+        let mut x = vec![0.0; self.n];
+        self.sparse.add_transposed(i, 1.0, &mut x);
+        x
+    }
+
+    /// Computes the responses anew, for another A.
+    pub fn renew(&mut self, factor: &mut Factor) {
+        let count = self.count();
+        self.lift.clear();
         for i in 0..count {
-            x.fill(0.0);
-            sparse.add_transposed(i, 1.0, &mut x);
-            rows.push(Run::new(&x));
+            let mut x = self.dense(i);
             factor.solve(&mut x);
             for j in 0..count {
-                delassus[j * count + i] = sparse.dot(j, &x);
+                self.delassus[j * count + i] = self.sparse.dot(j, &x);
             }
-            lift.push(Run::new(&x));
+            self.lift.push(Run::new(&x));
         }
-        Self { rows, lift, delassus }
     }
 
     /// Number of rows.

@@ -75,6 +75,11 @@ impl Sweeps {
         }
     }
 
+    /// Takes another matrix.
+    pub fn renew(&mut self, a: &Symmetric) {
+        self.problem.0.clone_from(a);
+    }
+
     /// Solves for the impulses of all contacts, from the velocities `free`. Returns whether one
     /// pushes.
     pub fn solve(&mut self, places: &Places) -> bool {
