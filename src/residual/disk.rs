@@ -7,7 +7,7 @@ use super::pushes::terms;
 use super::round::HolePush;
 use super::worst::Residual;
 use crate::scene::Hole;
-use crate::step::{Normal, Step, Turning};
+use crate::step::Step;
 
 impl Judge {
     /// Checks the gap of a rigid hole at the end of the step, and that it pushes only without one.
@@ -45,17 +45,6 @@ impl Judge {
         let across = force * (did.normal[0] - end[0] / distance).hypot(did.normal[1] - end[1] / distance);
         let noise = force * self.noise.of(self.way(step, hole)) / distance + self.noise.wall_force(hole.index);
         askew.see(across, noise, self.noise.end, Some(hole.index));
-    }
-
-    /// True if a hole is closed after the step: touched there, or pushing.
-    pub(super) fn closes_hole(&self, step: &Step<'_>) -> bool {
-        let Some(Turning { normal: Normal::Middle(_), touching, .. }) = self.contract.promise.round else {
-            return false;
-        };
-        self.scene.holes().any(|hole| {
-            let [y, z] = hole.offset(step.q);
-            step.impulse[hole.index] != 0.0 || y.hypot(z) >= hole.gap * (1.0 - 2.0 * touching)
-        })
     }
 
     /// True if the velocity that the blows give drives the structure into a hole that is touched.
