@@ -56,10 +56,12 @@ impl Judge {
     }
 
     /// Size of the terms that add up to a place's distance from the centre, for its rounding error,
-    /// and of its way within a step, m.
+    /// and of its way within a step, m; with those of the other degrees of freedom, from which the
+    /// equations of the step find it.
     pub(super) fn way(&self, step: &Step<'_>, hole: &Hole<'_>) -> f64 {
         let speeds = terms(hole.at, step.velocity_before) + terms(hole.at, step.velocity_after);
         let centre = hole.centre[0].abs() + hole.centre[1].abs();
-        terms(hole.at, &self.q) + terms(hole.at, step.q) + centre + hole.gap + self.h * speeds
+        let others = self.noise.reach(hole.index);
+        terms(hole.at, &self.q) + terms(hole.at, step.q) + centre + hole.gap + self.h * speeds + others
     }
 }

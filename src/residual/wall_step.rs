@@ -91,7 +91,7 @@ impl Judge {
         let wall = |&index: &usize| {
             let wall = &self.scene.walls[index];
             wall.law.is_rigid()
-                && (step.impulse[index] != 0.0 || at(wall.gap(wall.row().dot(step.q)), self.size(step, wall)))
+                && (step.impulse[index] != 0.0 || at(wall.gap(wall.row().dot(step.q)), self.size(step, index)))
         };
         let hole = |hole: Hole<'_>| {
             let [y, z] = hole.offset(step.q);
@@ -101,11 +101,13 @@ impl Judge {
     }
 
     /// Size of the terms that add up to the body's position, for its rounding error, and of its way
-    /// within a step, m.
-    fn size(&self, step: &Step<'_>, wall: &Wall) -> f64 {
+    /// within a step, m; with those of the other degrees of freedom, from which the equations of
+    /// the step find it.
+    fn size(&self, step: &Step<'_>, index: usize) -> f64 {
+        let wall = &self.scene.walls[index];
         let terms = wall.row().entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * self.q[i]).abs());
         let speeds = wall.row().dot(step.velocity_before).abs() + wall.row().dot(step.velocity_after).abs();
-        terms.sum::<f64>() + wall.position().abs() + self.h * speeds
+        terms.sum::<f64>() + wall.position().abs() + self.h * speeds + self.noise.reach(index)
     }
 
     /// Size of the terms that add up to the body's velocities in a step, for their rounding error,
@@ -127,7 +129,7 @@ impl Judge {
             error = error.max((mean - 0.5 * (*last + force)).abs());
             *last = force;
         }
-        let size = self.size(step, wall);
+        let size = self.size(step, seen.index);
         let depth = (-wall.gap(seen.w.0)).max(-wall.gap(seen.w.1)).max(f64::MIN_POSITIVE);
         let slope = wall.law.tangent(depth) + 2.0 * wall.law.damping() / self.h;
         self.walls.see_law(&self.noise, seen.index, error, slope * self.noise.place(size));
@@ -140,7 +142,7 @@ impl Judge {
         if let Some(bound) = promise.displacement {
             let slack = slack(&self.scene, index, (bound, step.path), self.h, w, struck);
             if slack < 0.0 || pressure != 0.0 {
-                self.walls.see_gap(&self.noise, index, (slack, self.size(step, wall)), pressure);
+                self.walls.see_gap(&self.noise, index, (slack, self.size(step, index)), pressure);
             }
         }
         let (reached, way) = match promise.velocity {
@@ -165,7 +167,7 @@ impl Judge {
             } else {
                 // Near the limit, rounding decides whether the body reaches the wall within the
                 // step: either is accepted.
-                (way - self.walls.touch).abs() <= self.noise.of(self.size(step, wall))
+                (way - self.walls.touch).abs() <= self.noise.of(self.size(step, index))
             };
             let accepted = if is_edge { f64::INFINITY } else { 0.0 };
             if reached {
