@@ -100,7 +100,9 @@ pub enum Normal {
 /// may contradict the rebounds that these contacts demand. Then the contacts give up their rebound
 /// for the step, which lists them ([`Step::wedged`]), and ε = 0 in place of their e, also for the
 /// approach that the turning of a normal adds: without rebounds a solution always exists (Anitescu
-/// & Potra 1997, doi:10.1023/A:1008292328909).
+/// & Potra 1997, doi:10.1023/A:1008292328909). They do so, too, where impulses that obey both laws
+/// would add energy (Kane & Levinson 1985, Dynamics: Theory and Applications): with ε = 0 they
+/// cannot, since n·ẇ⁺ p = 0 and t·ẇ⁺ p_t ≤ 0.
 ///
 /// A wall with friction on which a load presses, and which pushed with p⁻ in the step before, may
 /// have ε = 0 too ([`Step::resting`]) if the approach a at the mass m that the wall feels keeps 2 e
