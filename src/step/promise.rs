@@ -40,12 +40,14 @@ pub struct Promise {
 ///
 /// At the instant of its end the hole may give the impulse −p n, p ≥ 0, where |w| = γ. Then the
 /// structure does not approach the hole any more, n·ẇ⁺ ≤ 0, and if no other wall or hole gives one
-/// at that instant, Newton's law holds: n·ẇ⁺ = −e n·ẇ⁻. An approach slower than `tail` times the
-/// largest speed at walls and holes may be the last of infinitely many, and end anywhere between
-/// −e n·ẇ⁻ and 0.
+/// at that instant, Newton's law holds: n·ẇ⁺ = −e n·ẇ⁻. An approach whose rebound e n·ẇ⁻ is slower
+/// than `tail` times the largest speed at walls and holes may be the last of infinitely many, and
+/// end anywhere between −e n·ẇ⁻ and 0: the flight after it is too low to be followed. (With 1e-4 it
+/// is lower than 1e-12 γ where 5000 times that speed squared over γ presses the body back.)
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circle {
-    /// Share of the largest speed below which an approach may be the last of infinitely many.
+    /// Share of the largest speed below which a rebound may be that of the last of infinitely many
+    /// approaches.
     pub tail: f64,
 }
 
