@@ -16,9 +16,9 @@
 //!
 //! Order 1 through impacts, 2 while sliding with θ = ½. Without friction a step never adds energy.
 //! With friction it might where W couples normal and tangent and e > 0 (Kane & Levinson 1985,
-//! Dynamics: Theory and Applications): there, too, the contacts give up their rebounds. If h v exceeds the gap, the body stands
-//! still between opposite sides of a hole: such steps are counted, and so is the largest angle by
-//! which a normal turned.
+//! Dynamics: Theory and Applications): there, too, the contacts give up their rebounds. If h v
+//! exceeds the gap, the body stands still between opposite sides of a hole: such steps are counted,
+//! and so is the largest angle by which a normal turned.
 //!
 //! `located` steps such scenes with order 2 ([`super::located`]). Why others do not: the bound of
 //! paoli-schatzman, |w⁺ + e w⁻| ≤ (1+e)γ, does not keep energy on a circle (with e = 1, over a way

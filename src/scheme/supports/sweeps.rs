@@ -54,8 +54,8 @@ pub(in crate::scheme) struct Sweeps {
     problem: (Symmetric, Rows),
     /// Contacts that gave up their rebound in the step.
     pub wedged: Vec<usize>,
-    /// Programmes that met something, those in which contacts gave up their rebound, and those without
-    /// an answer.
+    /// Problems that met something, those in which contacts gave up their rebound, and those
+    /// without an answer.
     pub solves: u64,
     pub gave_up: u64,
     pub unsettled: u64,

@@ -198,9 +198,9 @@ fn no_impact_in_a_random_corner_adds_energy() {
 
 #[test]
 fn an_oblique_impact_that_would_add_energy_ends_in_rest() {
-    // Of a body with the momentum (2 ẏ + 0.9 ż, 0.9 ẏ + ż) that sticks to a flat towards y: Newton's
-    // law demands (−1, 0) m/s after (1, −0.9) m/s, 1 J after 0.595 J. Without friction it leaves
-    // with −1 m/s and the energy that it had.
+    // Of a body with the momentum (2 ẏ + 0.9 ż, 0.9 ẏ + ż) that sticks to a flat towards y:
+    // Newton's law demands (−1, 0) m/s after (1, −0.9) m/s, 1 J after 0.595 J. Without friction it
+    // leaves with −1 m/s and the energy that it had.
     let mass = vec![vec![2.0, 0.9], vec![0.9, 1.0]];
     let a = Symmetric::from_entries(2, [(0, 0, 2.0), (0, 1, 0.9), (1, 1, 1.0)]);
     let (rows, free) = ([Row::dof(0), Row::dof(1)], vec![1.0, -0.9]);
