@@ -91,7 +91,7 @@ impl Judge {
             let (before, after) = (along(hole.seen(&self.scratch.spring)), along(hole.seen(step.v)));
             let unit = self.noise.span.max(SHORTEST * self.scene.duration);
             let noise = self.noise.velocity(speeds, unit) + noise / gap * speeds;
-            let slow = before <= law.tail * self.extent.speed;
+            let slow = e * before <= law.tail * self.extent.speed;
             let mut missed = after.max(0.0);
             if alone && !(slow && after <= noise && after >= -e * before) {
                 missed = missed.max((after + e * before).abs());

@@ -13,7 +13,8 @@ impl Judge {
         let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = self.contract.balance else { return };
         let Some(mut memory) = self.memory.take() else { return };
         let h = self.h;
-        let closed = self.walls_on_grid(step, false) | (self.supports.is_some() && self.closes_hole(step));
+        self.walls_on_grid(step, false);
+        let closed = self.closes(step);
         let Memory { s, force, s_end, force_end, .. } = &mut *memory;
         let scratch = &mut self.scratch;
         force_end.copy_from_slice(&self.load_end);

@@ -7,7 +7,7 @@ use super::pushes::terms;
 use super::round::HolePush;
 use super::worst::Residual;
 use crate::scene::Hole;
-use crate::step::{Normal, Step, Turning};
+use crate::step::Step;
 
 impl Judge {
     /// Checks the gap of a rigid hole at the end of the step, and that it pushes only without one.
@@ -47,17 +47,6 @@ impl Judge {
         askew.see(across, noise, self.noise.end, Some(hole.index));
     }
 
-    /// True if a hole is closed after the step: touched there, or pushing.
-    pub(super) fn closes_hole(&self, step: &Step<'_>) -> bool {
-        let Some(Turning { normal: Normal::Middle(_), touching, .. }) = self.contract.promise.round else {
-            return false;
-        };
-        self.scene.holes().any(|hole| {
-            let [y, z] = hole.offset(step.q);
-            step.impulse[hole.index] != 0.0 || y.hypot(z) >= hole.gap * (1.0 - 2.0 * touching)
-        })
-    }
-
     /// True if the velocity that the blows give drives the structure into a hole that is touched.
     pub(super) fn drives_into_hole(&self, step: &Step<'_>) -> bool {
         self.scene.holes().any(|hole| {
@@ -67,10 +56,12 @@ impl Judge {
     }
 
     /// Size of the terms that add up to a place's distance from the centre, for its rounding error,
-    /// and of its way within a step, m.
+    /// and of its way within a step, m; with those of the other degrees of freedom, from which the
+    /// equations of the step find it.
     pub(super) fn way(&self, step: &Step<'_>, hole: &Hole<'_>) -> f64 {
         let speeds = terms(hole.at, step.velocity_before) + terms(hole.at, step.velocity_after);
         let centre = hole.centre[0].abs() + hole.centre[1].abs();
-        terms(hole.at, &self.q) + terms(hole.at, step.q) + centre + hole.gap + self.h * speeds
+        let others = self.noise.reach(hole.index);
+        terms(hole.at, &self.q) + terms(hole.at, step.q) + centre + hole.gap + self.h * speeds + others
     }
 }

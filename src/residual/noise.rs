@@ -176,6 +176,12 @@ impl NoiseModel {
         self.unit * self.reach
     }
 
+    /// The largest displacement so far, of whichever degree of freedom, as one of the mass that a
+    /// wall feels, m.
+    pub fn reach(&self, wall: usize) -> f64 {
+        self.reach / self.wall.get(wall).copied().unwrap_or(1.0)
+    }
+
     /// Adds the rounding error of as many `steps` of this length and of `bodies` degrees of
     /// freedom to that of the energy ledger. A velocity has the rounding error of the momentum that
     /// the load gives in a step, even of a body that a wall holds at rest.

@@ -2,7 +2,7 @@
 
 use super::Judge;
 use super::complementarity::{expected_pressure, rebound, slack};
-use crate::scene::Wall;
+use crate::scene::{Hole, Wall};
 use crate::step::{Bound, PromisedForce, Reached, Step};
 
 /// The quantities of a step at one wall.
@@ -21,10 +21,8 @@ struct Seen {
 
 impl Judge {
     /// Checks every wall against its part of the promise; `beyond` says that blows add to the
-    /// displacement of the step's rule. Returns whether a rigid wall is closed after the step,
-    /// where the promise depends on that.
-    pub(super) fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) -> bool {
-        let mut closed = false;
+    /// displacement of the step's rule.
+    pub(super) fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) {
         let blows = self.loads.has_blows();
         for place in 0..self.sights.len() {
             let sight = &self.sights[place];
@@ -41,15 +39,14 @@ impl Judge {
                 }
             }
             for wall in 0..sight.walls.len() {
-                closed |= self.hold(step, beyond, self.sights[place].walls[wall]);
+                self.hold(step, beyond, self.sights[place].walls[wall]);
             }
         }
-        closed
     }
 
-    /// Checks one wall, and returns whether it is closed after the step.
+    /// Checks one wall.
     #[inline(never)]
-    fn hold(&mut self, step: &Step<'_>, beyond: bool, index: usize) -> bool {
+    fn hold(&mut self, step: &Step<'_>, beyond: bool, index: usize) {
         let promise = self.contract.promise;
         let wall = &self.scene.walls[index];
         let (sign, is_rigid) = (wall.side().sign(), wall.law.is_rigid());
@@ -78,18 +75,39 @@ impl Judge {
         };
         self.walls.see_depth(index, -wall.gap(wall.row().dot(step.q)));
         if is_rigid {
-            self.hold_rigid(step, seen)
+            self.hold_rigid(step, seen);
         } else {
             self.hold_elastic(step, seen, mean);
-            false
         }
     }
 
+    /// True if walls may have corrected the displacement of the step: a rigid wall or hole pushes,
+    /// or the body is at it. Of a gap and a correction, which exclude each other, the gap counts as
+    /// none up to the tolerance of the promise: how near a solver comes to the bound depends on how
+    /// far the walls carry the body, which the step does not show.
+    pub(super) fn closes(&self, step: &Step<'_>) -> bool {
+        let near = self.contract.tolerances.walls.limit * self.energy.gap_scale;
+        let at = |gap: f64, size: f64| gap <= near + self.noise.of(size);
+        let wall = |&index: &usize| {
+            let wall = &self.scene.walls[index];
+            wall.law.is_rigid()
+                && (step.impulse[index] != 0.0 || at(wall.gap(wall.row().dot(step.q)), self.size(step, index)))
+        };
+        let hole = |hole: Hole<'_>| {
+            let [y, z] = hole.offset(step.q);
+            step.impulse[hole.index] != 0.0 || at(hole.gap - y.hypot(z), self.way(step, &hole))
+        };
+        self.sights.iter().any(|sight| sight.walls.iter().any(wall)) || self.scene.holes().any(hole)
+    }
+
     /// Size of the terms that add up to the body's position, for its rounding error, and of its way
-    /// within a step, m.
-    fn size(&self, step: &Step<'_>, wall: &Wall, seen: &Seen) -> f64 {
+    /// within a step, m; with those of the other degrees of freedom, from which the equations of
+    /// the step find it.
+    fn size(&self, step: &Step<'_>, index: usize) -> f64 {
+        let wall = &self.scene.walls[index];
         let terms = wall.row().entries().iter().map(|&(i, g)| (g * step.q[i]).abs() + (g * self.q[i]).abs());
-        terms.sum::<f64>() + wall.position().abs() + self.h * (seen.before.abs() + seen.after.abs())
+        let speeds = wall.row().dot(step.velocity_before).abs() + wall.row().dot(step.velocity_after).abs();
+        terms.sum::<f64>() + wall.position().abs() + self.h * speeds + self.noise.reach(index)
     }
 
     /// Size of the terms that add up to the body's velocities in a step, for their rounding error,
@@ -111,22 +129,20 @@ impl Judge {
             error = error.max((mean - 0.5 * (*last + force)).abs());
             *last = force;
         }
-        let size = self.size(step, wall, &seen);
+        let size = self.size(step, seen.index);
         let depth = (-wall.gap(seen.w.0)).max(-wall.gap(seen.w.1)).max(f64::MIN_POSITIVE);
         let slope = wall.law.tangent(depth) + 2.0 * wall.law.damping() / self.h;
         self.walls.see_law(&self.noise, seen.index, error, slope * self.noise.place(size));
     }
 
-    /// Checks a rigid wall. Returns whether it is closed after the step, where the promise depends
-    /// on that.
-    fn hold_rigid(&mut self, step: &Step<'_>, seen: Seen) -> bool {
+    fn hold_rigid(&mut self, step: &Step<'_>, seen: Seen) {
         let Seen { index, pressure, w, struck, after, .. } = seen;
         let promise = self.contract.promise.rigid;
         let wall = &self.scene.walls[index];
         if let Some(bound) = promise.displacement {
             let slack = slack(&self.scene, index, (bound, step.path), self.h, w, struck);
             if slack < 0.0 || pressure != 0.0 {
-                self.walls.see_gap(&self.noise, index, (slack, self.size(step, wall, &seen)), pressure);
+                self.walls.see_gap(&self.noise, index, (slack, self.size(step, index)), pressure);
             }
         }
         let (reached, way) = match promise.velocity {
@@ -151,7 +167,7 @@ impl Judge {
             } else {
                 // Near the limit, rounding decides whether the body reaches the wall within the
                 // step: either is accepted.
-                (way - self.walls.touch).abs() <= self.noise.of(self.size(step, wall, &seen))
+                (way - self.walls.touch).abs() <= self.noise.of(self.size(step, index))
             };
             let accepted = if is_edge { f64::INFINITY } else { 0.0 };
             if reached {
@@ -161,9 +177,5 @@ impl Judge {
                 self.walls.see_law(&self.noise, index, pressure.abs(), accepted);
             }
         }
-        // A wall at which the walls' correction of the displacement left the body is closed, also
-        // where the displacement is so large that its rounding error exceeds the touching distance.
-        promise.velocity == Some(Reached::Closed)
-            && (reached || way - self.walls.touch <= self.noise.of(self.size(step, wall, &seen)))
     }
 }

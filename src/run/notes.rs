@@ -124,8 +124,8 @@ fn of_supports(counters: &Counters) -> Vec<String> {
     }
     if counters.wedged_steps > 0 {
         notes.push(format!(
-            "in {} steps a body was wedged between contacts with friction, so that no impulses give it the rebounds \
-             that their restitution demands: these contacts took a restitution of 0 in those steps",
+            "in {} steps no impulses of contacts with friction give the rebounds that their restitution demands (a \
+             body is wedged), or only impulses that add energy: these contacts took a restitution of 0 in those steps",
             counters.wedged_steps
         ));
     }

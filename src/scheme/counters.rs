@@ -20,8 +20,8 @@ pub struct Counters {
     /// Steps in which rounding left the contacts of round holes and friction without a common
     /// state: their forces are those of the last sweep.
     pub qp_unsettled: u64,
-    /// Steps in which contacts of a wedged body gave up their rebound, since no impulses satisfy
-    /// Coulomb's law together with it.
+    /// Steps in which contacts with friction gave up their rebound, since no impulses satisfy
+    /// Coulomb's law together with it, as of a wedged body, or only some that add energy.
     pub wedged_steps: u64,
     /// Newton iterations of the penalty schemes.
     pub newton_iterations: u64,

@@ -45,8 +45,9 @@ pub enum Balance {
     /// where (1−α_m)s⁺ + α_m s = (1−α_f)F⁺ + α_f F with F = F(t, q, v₋) and F⁺ = F(t⁺, q⁺, v₊),
     /// each with the elastic walls' forces [`Step::force`] there; at the start s = F. p is the
     /// impulse of the rigid walls, and U, by which they correct the displacement, is 0 unless one
-    /// is closed after the step. To J belong the blows J_b at t_b in (t, t⁺], and M d = Σ(t⁺ − h/2
-    /// − t_b)J_b: under this rule the damper feels J from the middle of the step on.
+    /// is closed after the step, to the tolerance of its gap. To J belong the blows J_b at t_b in
+    /// (t, t⁺], and M d = Σ(t⁺ − h/2 − t_b)J_b: under this rule the damper feels J from the middle
+    /// of the step on.
     GeneralizedAlpha {
         /// α_m.
         alpha_m: f64,

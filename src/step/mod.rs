@@ -170,8 +170,8 @@ pub struct Step<'a> {
     /// The impulse of each round hole on the structure in addition to −p n + f t, since the normal
     /// turned in the step, N s along y and z; 0 for schemes on a grid, which use one normal a step.
     pub turned: &'a [[f64; 2]],
-    /// Walls and round holes that gave up their rebound in the step since
-    /// no impulses satisfy Coulomb's law together with it: their ε is 0 ([`Friction`]).
+    /// Walls and round holes that gave up their rebound in the step since no impulses satisfy
+    /// Coulomb's law together with it, or only some that add energy: their ε is 0 ([`Friction`]).
     pub wedged: &'a [usize],
     /// Walls whose rebounds end within the step: their ε is 0 (where there is friction by
     /// [`Friction`]; in a [`Path::Part`] where the acceleration a before the impact presses the

@@ -40,12 +40,14 @@ pub struct Promise {
 ///
 /// At the instant of its end the hole may give the impulse −p n, p ≥ 0, where |w| = γ. Then the
 /// structure does not approach the hole any more, n·ẇ⁺ ≤ 0, and if no other wall or hole gives one
-/// at that instant, Newton's law holds: n·ẇ⁺ = −e n·ẇ⁻. An approach slower than `tail` times the
-/// largest speed at walls and holes may be the last of infinitely many, and end anywhere between
-/// −e n·ẇ⁻ and 0.
+/// at that instant, Newton's law holds: n·ẇ⁺ = −e n·ẇ⁻. An approach whose rebound e n·ẇ⁻ is slower
+/// than `tail` times the largest speed at walls and holes may be the last of infinitely many, and
+/// end anywhere between −e n·ẇ⁻ and 0: the flight after it is too low to be followed. (With 1e-4 it
+/// is lower than 1e-12 γ where 5000 times that speed squared over γ presses the body back.)
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circle {
-    /// Share of the largest speed below which an approach may be the last of infinitely many.
+    /// Share of the largest speed below which a rebound may be that of the last of infinitely many
+    /// approaches.
     pub tail: f64,
 }
 
@@ -100,7 +102,9 @@ pub enum Normal {
 /// may contradict the rebounds that these contacts demand. Then the contacts give up their rebound
 /// for the step, which lists them ([`Step::wedged`]), and ε = 0 in place of their e, also for the
 /// approach that the turning of a normal adds: without rebounds a solution always exists (Anitescu
-/// & Potra 1997, doi:10.1023/A:1008292328909).
+/// & Potra 1997, doi:10.1023/A:1008292328909). They do so, too, where impulses that obey both laws
+/// would add energy (Kane & Levinson 1985, Dynamics: Theory and Applications): with ε = 0 they
+/// cannot, since n·ẇ⁺ p = 0 and t·ẇ⁺ p_t ≤ 0.
 ///
 /// A wall with friction on which a load presses, and which pushed with p⁻ in the step before, may
 /// have ε = 0 too ([`Step::resting`]) if the approach a at the mass m that the wall feels keeps 2 e

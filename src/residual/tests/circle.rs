@@ -164,14 +164,15 @@ fn an_impact_keeps_newtons_law_beside_an_idle_wall_and_a_slow_one_may_be_the_las
         (4.0, -1.0, 1.0),
         (4.0, -2.5, 0.5),
         (4.0, 0.5, 2.5),
-        // Below 1e-4 of 100 m/s: anywhere between −e of the approach and 0.
+        // Rebounds below 1e-4 of 100 m/s: anywhere between −e of the approach and 0.
         (0.0078125, -0.00390625, 0.0),
         (0.0078125, -0.001953125, 0.0),
         (0.0078125, 0.0, 0.0),
         (0.0078125, -0.0048828125, 0.0009765625),
         (0.0078125, 0.0009765625, 0.0048828125),
+        (0.015625, -0.001953125, 0.0),
         // And not above.
-        (0.015625, -0.001953125, 0.005859375),
+        (0.03125, -0.001953125, 0.013671875),
     ] {
         let along = |v: f64| [0.6 * v, 0.8 * v];
         let judge = strike(&scene, 1.0, [3.0, 4.0], (along(before), along(after)));

@@ -62,6 +62,19 @@ fn a_wrong_displacement_counts_in_flight_though_there_are_holes() {
 }
 
 #[test]
+fn a_wall_may_correct_a_displacement_that_ends_at_it_but_for_rounding() {
+    // From 1 m behind where it is free to be, back to the wall, which the sum misses by 4 touching
+    // distances; and by 2e-6 of the gap scale.
+    let scene = body([4.0, 16.0], 0.0).with_wall(Wall::upper("stop", 0.25));
+    for (missed, residual) in [(1e-12, 0.0), (5e-7, 2.0)] {
+        let mut judge = judge(&scene, rule(), H, &[-0.25, 0.0]);
+        let made = Made { q: vec![0.25 - missed, 0.0], ..Made::rest(&scene, H) };
+        judge.see(&Step { velocity_before: &[6.0, 0.0], ..made.step() });
+        assert!((judge.balance.path.value - residual).abs() < 1e-5, "{missed}");
+    }
+}
+
+#[test]
 fn loads_and_extra_forces_accelerate_and_are_exchanged() {
     // 2 N and 8 N more on 4 kg; −4 N on 16 kg.
     let load = |dof: usize, force: f64| Load { at: Row::dof(dof), ..Load::constant(force) };

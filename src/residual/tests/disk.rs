@@ -57,16 +57,16 @@ fn a_push_beside_the_place_at_the_end_counts_less_the_rounding_of_place_and_forc
 }
 
 #[test]
-fn a_hole_is_closed_where_it_is_touched_or_pushes() {
-    let touching = 1.0 / 1024.0;
+fn a_hole_is_closed_within_the_tolerance_of_gaps_or_where_it_pushes() {
+    // A millionth of the gap.
+    let tolerance = 0.5e-6;
     let scene = with_hole(body([4.0; 2], 0.0), "hole", 0.5, RIGID);
-    let closes = |share: f64, impulse: f64| {
-        let made = Made { q: vec![0.0, 0.5 * (share * touching - 1.0)], ..Made::rest(&scene, 0.25) };
-        let made = made.pushing(0, [0.0; 2], impulse);
-        judge(&scene, bounds(Some(touching)), 0.25, &[0.0, 0.0]).closes_hole(&made.step())
+    let closes = |gap: f64, impulse: f64| {
+        let made = Made { q: vec![0.0, gap - 0.5], ..Made::rest(&scene, 0.25) };
+        judge(&scene, bounds(Some(1e-12)), 0.25, &[0.0, 0.0]).closes(&made.pushing(0, [0.0; 2], impulse).step())
     };
-    assert!(closes(1.0, 0.0) && closes(-1.0, 0.0) && closes(500.0, 0.125));
-    assert!(!closes(3.0, 0.0) && !closes(1024.0, 0.0));
+    assert!(closes(0.0, 0.0) && closes(-tolerance, 0.0) && closes(0.9 * tolerance, 0.0) && closes(0.25, 0.125));
+    assert!(!closes(1.1 * tolerance, 0.0) && !closes(0.5, 0.0));
 }
 
 #[test]

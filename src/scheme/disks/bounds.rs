@@ -10,7 +10,7 @@ use crate::scene::{Face, Row, Scene, WallLaw};
 
 /// A programme over all walls and holes, and its bounds in a step.
 #[derive(Debug)]
-pub(super) struct Bounds {
+pub(in crate::scheme) struct Bounds {
     solver: DiskSolver,
     bounds: Vec<DiskBound>,
     /// The first row of each wall.

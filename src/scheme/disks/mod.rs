@@ -20,6 +20,8 @@ mod position;
 mod springs;
 mod velocity;
 
+pub(super) use bounds::Bounds;
+
 use super::Counters;
 use super::motion::Motion;
 use crate::contact::{Episodes, Rates};

@@ -65,7 +65,9 @@ impl Impact {
         for (row, rate) in sweeps.free.iter_mut().enumerate() {
             *rate = places.seen(row, &frame.v);
         }
-        if sweeps.solve(places) {
+        // At an instant nothing but the impulses changes the velocities.
+        sweeps.before.copy_from_slice(&sweeps.free);
+        if sweeps.strike(places) {
             places.lift(&sweeps.impulse, &mut frame.v);
         }
         wedged.extend_from_slice(&sweeps.wedged);

@@ -5,6 +5,8 @@
 //!
 //! minimise ½ (q − q*)ᵀ M (q − q*)   subject to   gap(q) ≥ 0 at every wall.
 //!
+//! Walls along the holes, which turn as it moves there, put it onto them to rounding.
+//!
 //! To put the structure onto each wall that it is behind would be too little, since that may move
 //! it behind others, and too much where there are more such walls than degrees of freedom.
 
@@ -13,12 +15,19 @@ use super::round::PLACINGS;
 use super::rows::SIGNS;
 use crate::error::Result;
 use crate::flow::Held;
+use crate::qp::DiskBound;
+use crate::scene::Hole;
+use crate::scheme::disks::Bounds;
+use crate::scheme::flat_row::FlatRow;
 
 impl StructureEvent {
     /// Puts the structure in front of the walls and holes that it is behind, also where it is
     /// leaving them. The rows of holes turn as it moves, so this is repeated.
     pub(super) fn put_back(&mut self) -> Result<()> {
         self.turn();
+        if !self.body.rounds.is_empty() {
+            self.put_into_holes();
+        }
         for _ in 0..PLACINGS {
             let behind: Vec<Held> = self.rows_where(|gap, _| gap < 0.0);
             if behind.is_empty() {
@@ -38,6 +47,27 @@ impl StructureEvent {
             self.turn();
         }
         Ok(())
+    }
+
+    /// Moves the structure to the displacement sought, up to the tolerance of a solver. From far
+    /// behind several holes, the walls along which these are now would lead it farther off. Leaves
+    /// it where it is if no such displacement is found.
+    fn put_into_holes(&mut self) {
+        let mass = self.scene.system.structure().mass.clone();
+        let Ok(mut bounds) = Bounds::new(&self.scene, mass, self.length, |_, _| 0.0) else { return };
+        for (index, wall) in self.scene.walls.iter().enumerate() {
+            match wall.hole(index) {
+                Some(Hole { centre, gap, .. }) => bounds.bind_hole(index, DiskBound::Disk { centre, radius: gap }),
+                None if wall.law.is_rigid() => bounds.bind_wall(index, FlatRow::new(index, wall), wall.position()),
+                None => bounds.open_wall(index),
+            }
+        }
+        self.rhs.fill(0.0);
+        self.body.add_inertia(&self.q, &mut self.rhs);
+        if bounds.solve(&self.rhs, (self.time, self.steps)).is_ok() {
+            self.q.copy_from_slice(bounds.x());
+        }
+        self.turn();
     }
 
     /// Moves the structure to the solution of the programme, and returns the walls that push it

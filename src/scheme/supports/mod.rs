@@ -15,10 +15,10 @@
 //! answer has the rebounds that the contacts demand, they give these up for the step.
 //!
 //! Order 1 through impacts, 2 while sliding with θ = ½. Without friction a step never adds energy.
-//! With friction it may where W couples normal and tangent and e > 0 (Kane & Levinson 1985,
-//! Dynamics: Theory and Applications; the ledger shows it). If h v exceeds the gap, the body stands
-//! still between opposite sides of a hole: such steps are counted, and so is the largest angle by
-//! which a normal turned.
+//! With friction it might where W couples normal and tangent and e > 0 (Kane & Levinson 1985,
+//! Dynamics: Theory and Applications): there, too, the contacts give up their rebounds. If h v
+//! exceeds the gap, the body stands still between opposite sides of a hole: such steps are counted,
+//! and so is the largest angle by which a normal turned.
 //!
 //! `located` steps such scenes with order 2 ([`super::located`]). Why others do not: the bound of
 //! paoli-schatzman, |w⁺ + e w⁻| ≤ (1+e)γ, does not keep energy on a circle (with e = 1, over a way
@@ -147,8 +147,9 @@ impl Supports {
         }
         for (row, rate) in sweeps.free.iter_mut().enumerate() {
             *rate = places.seen(row, free);
+            sweeps.before[row] = places.seen(row, frame.struck());
         }
-        if sweeps.solve(places) {
+        if sweeps.strike(places) {
             places.lift(&sweeps.impulse, delta);
             self.book();
         }

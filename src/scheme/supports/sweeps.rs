@@ -11,7 +11,8 @@
 //! Without friction the problem is a convex programme, the sweeps descend in its dual and the
 //! answer is its minimiser. With friction it is no minimisation: for large μ answers may be
 //! several, or, where rebounds are demanded of a body that is wedged between its contacts, none.
-//! Then those contacts give up their rebound ([`Coulomb`]).
+//! Then those contacts give up their rebound ([`Coulomb`]), as do those whose impulses would add
+//! energy ([`Sweeps::strike`]).
 
 use super::linear::Linear;
 use super::normal::dot;
@@ -30,6 +31,9 @@ const STILL: f64 = 4.0 * f64::EPSILON;
 /// Rounding of velocities, relative to the largest: a state is accepted within this.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
+/// A gain of energy below this share of what the impulses alone would give is none.
+const GAIN: f64 = 1e-9;
+
 /// The most by which changes of velocity may exceed the velocities.
 const WEDGED: f64 = 1e5;
 
@@ -37,7 +41,9 @@ const WEDGED: f64 = 1e5;
 #[derive(Debug)]
 pub(in crate::scheme) struct Sweeps {
     pub touches: Vec<Touch>,
-    /// Velocity of each row at the step's end without contacts, m/s, and with them.
+    /// Velocity of each row before the impacts of the step, m/s; at its end without contacts, and
+    /// with them.
+    pub before: Vec<f64>,
     pub free: Vec<f64>,
     y: Vec<f64>,
     /// Impulse on each row, N s.
@@ -48,8 +54,8 @@ pub(in crate::scheme) struct Sweeps {
     problem: (Symmetric, Rows),
     /// Contacts that gave up their rebound in the step.
     pub wedged: Vec<usize>,
-    /// Steps that met something, those in which contacts gave up their rebound, and those without
-    /// an answer.
+    /// Problems that met something, those in which contacts gave up their rebound, and those
+    /// without an answer.
     pub solves: u64,
     pub gave_up: u64,
     pub unsettled: u64,
@@ -63,6 +69,7 @@ impl Sweeps {
         Self {
             problem: (a, places),
             touches: Vec::with_capacity(contacts),
+            before: vec![0.0; rows],
             free: vec![0.0; rows],
             y: vec![0.0; rows],
             impulse: vec![0.0; rows],
@@ -109,6 +116,48 @@ impl Sweeps {
             }
         }
         true
+    }
+
+    /// As [`Sweeps::solve`] for impacts of a body with the velocities `before`: where the impulses
+    /// would add energy, the contacts give up their rebound, and it is solved again. What impulses
+    /// P add to ½ẇ·A ẇ is P·ẇ⁺ − ½ P·W P, of which P·ẇ⁺ ≤ 0 without rebounds.
+    pub fn strike(&mut self, places: &Places) -> bool {
+        let pushes = self.solve(places);
+        if pushes && self.gains(places) {
+            let gave_up = self.wedged.len();
+            for touch in self.touches.iter_mut().filter(|touch| touch.rebounds()) {
+                touch.bound = 0.0;
+                self.wedged.push(touch.index);
+            }
+            self.gave_up += u64::from(gave_up == 0);
+            self.solve(places);
+        }
+        pushes
+    }
+
+    /// True if the impulses of rigid contacts, some of which rebound and some rub, add energy: to
+    /// the velocities before the step as well as to those that it gives without them.
+    fn gains(&mut self, places: &Places) -> bool {
+        let Self { touches, before, free, y, .. } = self;
+        let pushing = |touch: &&Touch| touch.impulse[0] > 0.0;
+        if !touches.iter().filter(pushing).any(Touch::rebounds) || touches.iter().all(|touch| touch.impulse[1] == 0.0) {
+            return false;
+        }
+        let work = |rates: &[f64]| -> f64 {
+            let of = |touch: &Touch| dot(touch.push(touch.impulse), touch.rows.map(|row| rates[row]));
+            touches.iter().filter(|touch| touch.compliance == 0.0).map(of).sum()
+        };
+        let push = |rigid: bool, y: &mut [f64]| {
+            for touch in touches.iter().filter(|touch| (touch.compliance == 0.0) == rigid) {
+                places.add(touch.rows, touch.push(touch.impulse), y);
+            }
+        };
+        y.fill(0.0);
+        push(true, y);
+        let own = 0.5 * work(y);
+        y.copy_from_slice(free);
+        push(false, y);
+        work(before).min(work(y)) + own > GAIN * own
     }
 
     /// Sweeps until the states stay and the linear system of these states confirms them. Returns

@@ -95,6 +95,11 @@ impl Touch {
         }
     }
 
+    /// True if the body has to leave again, with a velocity that is not 0.
+    pub fn rebounds(&self) -> bool {
+        self.compliance == 0.0 && self.bound < 0.0
+    }
+
     /// n·ẇ⁺ − κp − β and t·ẇ⁺ for these velocities of all rows.
     pub fn excess(&self, y: &[f64]) -> [f64; 2] {
         let rate = self.rows.map(|row| y[row]);

@@ -5,7 +5,8 @@ use super::*;
 /// The judge after its walls were shown a step, and whether one is closed.
 fn shown(mut judge: Judge, claim: &Claim) -> (Judge, bool) {
     judge.noise.span = H;
-    let closed = judge.walls_on_grid(&claim.step(), false);
+    judge.walls_on_grid(&claim.step(), false);
+    let closed = judge.closes(&claim.step());
     (judge, closed)
 }
 

@@ -53,6 +53,19 @@ fn walls_more_than_the_degrees_of_freedom_leave_the_structure_behind_none() {
 }
 
 #[test]
+fn far_behind_two_holes_the_structure_goes_to_where_their_circles_cross() {
+    // Circles of 1 mm about ±0.95 mm cross at 0.312 mm on both sides of the line of their centres.
+    let free = masses(&[1.0, 1.0], &[], &[]);
+    let scene = with(with(free, hole(1e-3, 0.5, [-0.95e-3, 0.0])), hole(1e-3, 0.5, [0.95e-3, 0.0]));
+    let mut event = started(&scene, 1.0);
+    event.restart(0.5, &[0.02e-3, 0.9e-3], &[0.0, 0.0]).unwrap();
+    event.put_back().unwrap();
+    let edge = 1e-3 * (1.0_f64 - 0.95 * 0.95).sqrt();
+    // Rounding of 1 mm, over the angle at which the circles cross.
+    assert!(event.q[0].abs() < 1e-18 && (event.q[1] - edge).abs() < 1e-18, "{:?}, {edge}", event.q);
+}
+
+#[test]
 fn a_hole_and_a_wall_that_cross_at_a_sharp_angle_hold_the_structure_where_they_cross() {
     // A hole of 1 mm whose circle passes through the origin towards x, and a wall at 170°.
     let scene = with(masses(&[1.0, 1.0], &[], &[]), hole(1e-3, 0.5, [-1e-3, 0.0])).with_wall(wall(170.0));

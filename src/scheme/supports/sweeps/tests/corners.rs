@@ -75,21 +75,36 @@ impl Corner {
                 }
             }
         }
+        sweeps.before.copy_from_slice(&start);
         sweeps.free.copy_from_slice(&free);
         Self { mass, contacts, bounds, free, places, sweeps }
+    }
+
+    /// The impulses on the bodies.
+    fn impulses(&self) -> Vec<f64> {
+        let mut impulses = vec![0.0; self.free.len()];
+        for (&(body, [y, z], _), touch) in self.contacts.iter().zip(&self.sweeps.touches) {
+            let [p, f] = touch.impulse;
+            impulses[2 * body] += -p * y - f * z;
+            impulses[2 * body + 1] += -p * z + f * y;
+        }
+        impulses
+    }
+
+    /// The energy that the impulses add to these velocities, over what they would give to a body at
+    /// rest.
+    fn gain(&self, v: &[f64]) -> f64 {
+        let impulses = self.impulses();
+        let own = 0.5 * product(&impulses, &solved(&self.mass, impulses.clone()));
+        if own == 0.0 { 0.0 } else { product(&impulses, v) / own + 1.0 }
     }
 
     /// By how much the impulses miss Coulomb's law, the law of impact and the balance of momentum,
     /// relative to the velocities and the impulses. Knows the masses, and nothing of the solver.
     fn miss(&self) -> f64 {
         let touches = &self.sweeps.touches;
-        let mut momentum: Vec<f64> = self.mass.iter().map(|row| product(row, &self.free)).collect();
-        for (&(body, [y, z], _), touch) in self.contacts.iter().zip(touches) {
-            let [p, f] = touch.impulse;
-            momentum[2 * body] += -p * y - f * z;
-            momentum[2 * body + 1] += -p * z + f * y;
-        }
-        let v = solved(&self.mass, momentum);
+        let momentum = self.mass.iter().zip(self.impulses()).map(|(row, p)| product(row, &self.free) + p);
+        let v = solved(&self.mass, momentum.collect());
         let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0_f64, |most, x| most.max(x.abs()));
         let speed = largest(&mut self.free.iter().chain(&self.bounds).chain(&v).copied());
         let push = largest(&mut touches.iter().flat_map(|touch| touch.impulse));
@@ -152,6 +167,56 @@ fn every_random_corner_has_an_answer_that_obeys_coulomb_and_newton() {
     }
     println!("{met} of {count} corners met something, {wedged} gave up rebounds; largest residual {worst:e}");
     assert!(met * 10 > count * 7 && wedged * 100 > count && wedged * 8 < count, "{met} {wedged}");
+}
+
+#[test]
+fn no_impact_in_a_random_corner_adds_energy() {
+    let (count, first) = (from_environment("SIGNORINI_CASES", 3000_u64), from_environment("SIGNORINI_SEED", 0_u64));
+    let (mut rigid, mut stopped) = (0, 0);
+    for seed in first..first + count {
+        let mut corner = Corner::random(seed);
+        if corner.contacts.iter().any(|contact| contact.2 > 0.0) {
+            continue;
+        }
+        rigid += 1;
+        corner.sweeps.strike(&corner.places);
+        let gave_up = corner.sweeps.gave_up;
+        // Loads add to the velocities: impulses may add energy to those before them or to those
+        // after them, of which the other would then be wrong.
+        let gain = corner.gain(&corner.sweeps.before).min(corner.gain(&corner.free));
+        assert!(gain < 1e-8 && corner.miss() < 1e-9, "seed {seed}: {gain:e}, {:e}", corner.miss());
+        let mut newton = Corner::random(seed);
+        newton.sweeps.solve(&newton.places);
+        let gain = newton.gain(&newton.sweeps.before).min(newton.gain(&newton.free));
+        // Nothing else gives up its rebound than by Newton's and Coulomb's law alone.
+        assert_eq!(gave_up > newton.sweeps.gave_up, gain > 1e-9 && newton.sweeps.gave_up == 0, "seed {seed}: {gain:e}");
+        stopped += u64::from(gave_up > newton.sweeps.gave_up);
+    }
+    println!("in {stopped} of {rigid} corners impulses would add energy");
+    assert!(stopped * 500 > rigid && stopped * 20 < rigid, "{stopped} of {rigid}");
+}
+
+#[test]
+fn an_oblique_impact_that_would_add_energy_ends_in_rest() {
+    // Of a body with the momentum (2 ẏ + 0.9 ż, 0.9 ẏ + ż) that sticks to a flat towards y:
+    // Newton's law demands (−1, 0) m/s after (1, −0.9) m/s, 1 J after 0.595 J. Without friction it
+    // leaves with −1 m/s and the energy that it had.
+    let mass = vec![vec![2.0, 0.9], vec![0.9, 1.0]];
+    let a = Symmetric::from_entries(2, [(0, 0, 2.0), (0, 1, 0.9), (1, 1, 1.0)]);
+    let (rows, free) = ([Row::dof(0), Row::dof(1)], vec![1.0, -0.9]);
+    let rows: Vec<&Row> = rows.iter().collect();
+    let places = Places::new(2, &rows, &mut Factor::new(&a).expect("a mass"));
+    for (friction, after) in [(2.0, Some([0.0, 0.0])), (0.0, None)] {
+        let mut sweeps = Sweeps::new(a.clone(), &rows, 1);
+        sweeps.touches.push(Touch::new(&places, (0, [0, 1]), ([1.0, 0.0], -1.0), (friction, 0.0), [0.0; 2]));
+        sweeps.before.copy_from_slice(&free);
+        sweeps.free.copy_from_slice(&free);
+        assert!(sweeps.strike(&places));
+        assert_eq!((sweeps.gave_up, sweeps.wedged.len()), if after.is_some() { (1, 1) } else { (0, 0) });
+        let v: Vec<f64> = solved(&mass, sweeps.impulse.clone()).iter().zip(&free).map(|(d, v)| d + v).collect();
+        let [y, z] = after.unwrap_or([-1.0, v[1]]);
+        assert!((v[0] - y).abs() < 1e-15 && (v[1] - z).abs() < 1e-15, "{v:?}");
+    }
 }
 
 #[test]
