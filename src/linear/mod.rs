@@ -4,7 +4,7 @@
 //! | type | what it holds |
 //! |---|---|
 //! | [`Symmetric`] | a symmetric matrix, by the rows of its lower triangle |
-//! | [`MatrixPolynomial`] | M + sC + s²K for many s |
+//! | `MatrixPolynomial` | M + sC + s²K for many s |
 //! | [`Rows`] | a few sparse rows, such as those of walls |
 //! | [`Operator`] | a symmetric matrix made ready for products, by diagonals where it is a band |
 //! | [`Factor`] | L D Lᵀ of a positive definite matrix: a band's own, or a sparse one with a fill-reducing order |
