@@ -238,21 +238,22 @@ impl Sheet<'_> {
         let springs = matches!(run.scheme, crate::scheme::Scheme::Penalty { .. });
         let rigid = |c: &Contact| !springs && self.scene.walls.get(c.wall).is_some_and(|w| w.law.is_rigid());
         let here = |c: &&Contact| walls.contains(&c.wall) && self.shows(c);
+        let mut peaks = Vec::new();
         for c in t.contacts().iter().filter(here) {
             let end = c.end.unwrap_or(self.span.to);
             let sign = self.scene.walls.get(c.wall).map_or(0.0, |w| if w.side() == Side::Upper { -1.0 } else { 1.0 });
-            let Some(peak) = c.peak_force else {
-                let near = |point: &&mut (f64, f64)| (point.0 - c.start).abs() <= blur;
-                points.iter_mut().filter(near).for_each(|point| point.1 = 0.0);
-                continue;
-            };
-            if rigid(c) {
-                let start = |point: &&mut (f64, f64)| (point.0 - c.start).abs() <= blur && point.1.abs() > peak;
-                points.iter_mut().filter(start).for_each(|point| point.1 = 0.0);
-            } else if end - c.start < 3.0 * spacing {
-                points.extend([(c.start, 0.0), (0.5 * (c.start + end), sign * peak), (end, 0.0)]);
+            match c.peak_force {
+                None => near(&mut points, c.start, blur).for_each(|point| point.1 = 0.0),
+                Some(peak) if rigid(c) => near(&mut points, c.start, blur)
+                    .filter(|point| point.1.abs() > peak)
+                    .for_each(|point| point.1 = 0.0),
+                Some(peak) if end - c.start < 3.0 * spacing => {
+                    peaks.extend([(c.start, 0.0), (0.5 * (c.start + end), sign * peak), (end, 0.0)]);
+                }
+                Some(_) => {}
             }
         }
+        points.extend(peaks);
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         points
     }
@@ -263,6 +264,16 @@ fn is_impact(contact: &Contact) -> bool {
     contact.peak_force.is_none()
 }
 
+/// Those of `points`, sorted by time, that lie at most `distance` from `time`: found by bisection,
+/// since a long run has as many contacts as rows.
+fn near(points: &mut [(f64, f64)], time: f64, distance: f64) -> impl Iterator<Item = &mut (f64, f64)> {
+    // Twice the distance, so that the rounding of a bound leaves none out.
+    let from = points.partition_point(|point| point.0 < time - 2.0 * distance);
+    let upto = points.partition_point(|point| point.0 <= time + 2.0 * distance);
+    let found = points.get_mut(from..upto).unwrap_or_default();
+    found.iter_mut().filter(move |point| (point.0 - time).abs() <= distance)
+}
+
 /// True if an orbit moves by less than `limit` in displacement and velocity: it would be drawn as a
 /// point, which a line does not show.
 fn stays(orbit: &[(f64, f64)], limit: (f64, f64)) -> bool {
@@ -271,4 +282,20 @@ fn stays(orbit: &[(f64, f64)], limit: (f64, f64)) -> bool {
         ends.1 - ends.0
     };
     range(|point| point.0) <= limit.0 && range(|point| point.1) <= limit.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::near;
+
+    #[test]
+    fn points_near_an_instant_are_those_that_every_point_looked_at_would_give() {
+        let rows: Vec<(f64, f64)> = (0..500).map(|k| (1e-3 * f64::from(k / 2), 1.0)).collect();
+        for (time, distance) in [(0.0, 3e-3), (0.1, 3e-3), (0.1, 0.0), (0.10005, 1.5e-3), (0.2495, 1.0), (9.0, 1e-3)] {
+            let mut found = rows.clone();
+            near(&mut found, time, distance).for_each(|point| point.1 = 0.0);
+            let expected = rows.iter().map(|p| (p.0, if (p.0 - time).abs() <= distance { 0.0 } else { 1.0 }));
+            assert!(found.into_iter().eq(expected), "{time} ± {distance}");
+        }
+    }
 }
