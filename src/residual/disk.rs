@@ -3,7 +3,7 @@
 //! only where it is touched, towards its centre, and never pulls.
 
 use super::Judge;
-use super::pushes::terms;
+use super::hole_motion::HoleMotion;
 use super::round::HolePush;
 use super::worst::Residual;
 use crate::scene::Hole;
@@ -11,39 +11,38 @@ use crate::step::Step;
 
 impl Judge {
     /// Checks the gap of a rigid hole at the end of the step, and that it pushes only without one.
-    pub(super) fn hold_disk(&mut self, step: &Step<'_>, hole: &Hole<'_>, pressure: f64) {
-        let end = hole.offset(step.q);
-        let slack = hole.gap - end[0].hypot(end[1]);
-        self.walls.see_gap(&self.noise, hole.index, (slack, self.way(step, hole)), pressure);
+    pub(super) fn hold_disk(&mut self, hole: &Hole<'_>, motion: &HoleMotion, pressure: f64) {
+        let slack = hole.gap - motion.end[0].hypot(motion.end[1]);
+        self.walls.see_gap(&self.noise, hole.index, (slack, self.way(hole, motion)), pressure);
     }
 
     /// Checks a rigid hole that pushes only while the body stays at it, along the middle of its
     /// path.
-    pub(super) fn hold_along(&mut self, step: &Step<'_>, hole: &Hole<'_>, did: &HolePush, askew: &mut Residual) {
-        let (pressure, start, end) = (did.impulse / self.h, hole.offset(&self.q), hole.offset(step.q));
-        self.hold_disk(step, hole, pressure);
+    pub(super) fn hold_along(&mut self, hole: &Hole<'_>, motion: &HoleMotion, did: &HolePush, askew: &mut Residual) {
+        let (pressure, start, end) = (did.impulse / self.h, motion.start, motion.end);
+        self.hold_disk(hole, motion, pressure);
         if pressure != 0.0 {
             let slack = hole.gap - start[0].hypot(start[1]);
-            self.walls.see_gap(&self.noise, hole.index, (slack, self.way(step, hole)), pressure);
+            self.walls.see_gap(&self.noise, hole.index, (slack, self.way(hole, motion)), pressure);
         }
-        self.along(step, (hole, did), [start[0] + end[0], start[1] + end[1]], askew);
+        self.along((hole, motion), did, [start[0] + end[0], start[1] + end[1]], askew);
     }
 
     /// Checks that the hole pushes along w⁺, and notes the part of its force that is not in `askew`
     /// (N).
-    pub(super) fn along_end(&self, step: &Step<'_>, hole: &Hole<'_>, did: &HolePush, askew: &mut Residual) {
-        self.along(step, (hole, did), hole.offset(step.q), askew);
+    pub(super) fn along_end(&self, hole: &Hole<'_>, motion: &HoleMotion, did: &HolePush, askew: &mut Residual) {
+        self.along((hole, motion), did, motion.end, askew);
     }
 
     /// Notes the part of a hole's force that is not along `end` in `askew` (N).
-    fn along(&self, step: &Step<'_>, (hole, did): (&Hole<'_>, &HolePush), end: [f64; 2], askew: &mut Residual) {
+    fn along(&self, (hole, motion): (&Hole<'_>, &HoleMotion), did: &HolePush, end: [f64; 2], askew: &mut Residual) {
         let force = did.impulse.hypot(did.friction) / self.h;
         if force == 0.0 {
             return;
         }
         let distance = end[0].hypot(end[1]);
         let across = force * (did.normal[0] - end[0] / distance).hypot(did.normal[1] - end[1] / distance);
-        let noise = force * self.noise.of(self.way(step, hole)) / distance + self.noise.wall_force(hole.index);
+        let noise = force * self.noise.of(self.way(hole, motion)) / distance + self.noise.wall_force(hole.index);
         askew.see(across, noise, self.noise.end, Some(hole.index));
     }
 
@@ -53,15 +52,5 @@ impl Judge {
             let ([y, z], [vy, vz]) = (hole.offset(step.q), hole.seen(&self.blows.struck));
             y * vy + z * vz > 0.0
         })
-    }
-
-    /// Size of the terms that add up to a place's distance from the centre, for its rounding error,
-    /// and of its way within a step, m; with those of the other degrees of freedom, from which the
-    /// equations of the step find it.
-    pub(super) fn way(&self, step: &Step<'_>, hole: &Hole<'_>) -> f64 {
-        let speeds = terms(hole.at, step.velocity_before) + terms(hole.at, step.velocity_after);
-        let centre = hole.centre[0].abs() + hole.centre[1].abs();
-        let others = self.noise.reach(hole.index);
-        terms(hole.at, &self.q) + terms(hole.at, step.q) + centre + hole.gap + self.h * speeds + others
     }
 }

@@ -6,7 +6,8 @@
 //! The judge, which checks every step against the contract: complementarity, momentum balance,
 //! energy ledger; steps on a grid (`grid.rs`, their parts `part.rs`, the passes over what they did,
 //! `moves.rs`, in `scratch.rs`, many steps of one degree of freedom in the same passes `calm.rs`,
-//! each wall `wall_step.rs`, blows `struck.rs`, round holes `round.rs`, `disk.rs` and `ring.rs`,
+//! each wall `wall_step.rs`, blows `struck.rs`, round holes `round.rs`, `disk.rs`, `ring.rs` and
+//! `hole_motion.rs`,
 //! friction `friction.rs`), exact motion (`arc.rs`, of structures `series.rs`, round holes
 //! `circle.rs`), steps that predict and correct (`corrected.rs`), all into `residuals.rs`, and the
 //! momentum of a whole run, of every run (`whole.rs`) and of a recorded one (`recorded.rs`); what a
@@ -28,6 +29,7 @@ mod finding;
 mod friction;
 mod front;
 mod grid;
+mod hole_motion;
 mod matrices;
 mod memory;
 mod moves;

@@ -3,8 +3,9 @@
 use crate::scene::{Face, PlaneRows, Row, Scene, heading};
 use crate::step::Step;
 
-/// What a wall did in a step beside the normal impulse of a flat: its index, its place, and the
-/// impulses along the normal of a round wall and along the tangent, N s in y and z.
+/// What the walls that push did in a step beside the normal impulses of flats: the index of each,
+/// its place, and the impulses along the normal of a round wall and along the tangent, N s in y and
+/// z.
 pub(super) fn pushes<'a>(
     scene: &'a Scene,
     step: &'a Step<'_>,
@@ -12,6 +13,9 @@ pub(super) fn pushes<'a>(
     scene.walls.iter().enumerate().filter_map(move |(index, wall)| match &wall.face {
         Face::Round { at, .. } => {
             let ([y, z], p, f) = (*step.normal.get(index)?, step.impulse.get(index)?, step.friction.get(index)?);
+            if *p == 0.0 && *f == 0.0 {
+                return None;
+            }
             Some((index, at, [[-p * y, -p * z], [-f * z, f * y]]))
         }
         Face::Flat { direction, .. } => {
@@ -30,10 +34,9 @@ pub(super) fn place_of(scene: &Scene, wall: usize) -> Option<&PlaneRows> {
     }
 }
 
-/// The places of all supports, and of the round walls outside of supports.
-pub(super) fn places(scene: &Scene) -> impl Iterator<Item = &PlaneRows> {
-    let alone = scene.holes().filter(|hole| scene.support_of(hole.index).is_none());
-    scene.supports.iter().map(|support| &support.at).chain(alone.map(|hole| hole.at))
+/// The places of the supports without a round wall.
+pub(super) fn places_of_flats(scene: &Scene) -> impl Iterator<Item = &PlaneRows> {
+    scene.supports.iter().filter(|support| support.hole(&scene.walls).is_none()).map(|support| &support.at)
 }
 
 /// Sum of the magnitudes of the terms of both rows of a place.

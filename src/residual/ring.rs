@@ -3,22 +3,23 @@
 
 use super::Judge;
 use super::complementarity::mean_pressure;
+use super::hole_motion::HoleMotion;
 use super::round::HolePush;
 use super::worst::Residual;
 use crate::scene::{Hole, WallSpring};
-use crate::step::{Law, Step};
+use crate::step::Law;
 
 impl Judge {
     /// Checks a ring of this gap and law, and notes the part of its force that is not along the
     /// normal in `askew` (N). `end` is w at the step's end without what blows add.
     pub(super) fn hold_ring(
         &mut self,
-        step: &Step<'_>,
         hole: &Hole<'_>,
+        motion: &HoleMotion,
         (did, end): (&HolePush, [f64; 2]),
         askew: &mut Residual,
     ) {
-        let (start, h) = (hole.offset(&self.q), self.h);
+        let (start, h) = (motion.start, self.h);
         let (place, gap, law) = (hole.index, hole.gap, hole.law);
         let (r0, r1, c) = (start[0].hypot(start[1]), end[0].hypot(end[1]), law.damping());
         // The vector along which the ring pushes, its pressure, and how that changes with depth.
@@ -43,7 +44,7 @@ impl Judge {
         let distance = at[0].hypot(at[1]);
         let pressure = did.impulse / h;
         let error = (pressure - expected.max(0.0)).abs();
-        let noise = self.noise.place(self.way(step, hole));
+        let noise = self.noise.place(self.way(hole, motion));
         self.walls.see_law(&self.noise, place, error, slope * noise);
         if pressure != 0.0 {
             let across = pressure * (did.normal[0] - at[0] / distance).hypot(did.normal[1] - at[1] / distance);

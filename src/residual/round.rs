@@ -4,7 +4,8 @@
 
 use super::Judge;
 use super::friction::Rub;
-use super::pushes::{places, pushes, terms};
+use super::hole_motion::HoleMotion;
+use super::pushes::{places_of_flats, pushes, terms};
 use super::worst::Residual;
 use crate::scene::Hole;
 use crate::step::{Bound, Normal, Step, Turning};
@@ -18,9 +19,10 @@ impl Judge {
         let scene = std::sync::Arc::clone(&self.scene);
         for hole in scene.holes() {
             let Some(did) = HolePush::of(step, hole.index) else { continue };
-            let [y, z] = hole.offset(step.q);
-            self.walls.see_depth(hole.index, y.hypot(z) - hole.gap);
-            self.hold_hole(step, (&hole, &did), beyond, &mut supports.askew);
+            let motion = self.hole_motion(step, &hole);
+            self.walls.see_depth(hole.index, motion.end[0].hypot(motion.end[1]) - hole.gap);
+            self.extent.speed = self.extent.speed.max(motion.after.terms);
+            self.hold_hole(step, (&hole, &motion, &did), beyond, &mut supports.askew);
             let rub = Rub {
                 place: hole.index,
                 friction: hole.friction,
@@ -31,7 +33,7 @@ impl Judge {
         }
         self.rub_flats(step, &mut supports.rubs);
         supports.pushed.copy_from_slice(step.impulse);
-        for at in places(&scene) {
+        for at in places_of_flats(&scene) {
             self.extent.speed = self.extent.speed.max(terms(at, step.velocity_after));
         }
         for (index, at, [push, rub]) in pushes(&scene, step) {
@@ -53,38 +55,39 @@ impl Judge {
 
     /// Checks one hole, and notes the part of its force that is not along the normal in `askew`
     /// (N).
-    fn hold_hole(&mut self, step: &Step<'_>, (hole, did): (&Hole<'_>, &HolePush), beyond: bool, askew: &mut Residual) {
+    fn hold_hole(
+        &mut self,
+        step: &Step<'_>,
+        (hole, motion, did): (&Hole<'_>, &HoleMotion, &HolePush),
+        beyond: bool,
+        askew: &mut Residual,
+    ) {
         let (place, gap) = (hole.index, hole.gap);
         let force = did.impulse.hypot(did.friction) / self.h;
         let pressure = did.impulse / self.h;
         self.walls.see_force(&mut self.noise, place, (pressure, force), hole.law.is_rigid());
         if !hole.law.is_rigid() {
-            let end = hole.offset(if beyond { &self.blows.arrived } else { step.q });
-            return self.hold_ring(step, hole, (did, end), askew);
+            let end = if beyond { hole.offset(&self.blows.arrived) } else { motion.end };
+            return self.hold_ring(hole, motion, (did, end), askew);
         }
         match self.contract.promise.hole {
-            Some(Bound::Along) => return self.hold_along(step, hole, did, askew),
-            Some(Bound::End) => self.hold_disk(step, hole, pressure),
+            Some(Bound::Along) => return self.hold_along(hole, motion, did, askew),
+            Some(Bound::End) => self.hold_disk(hole, motion, pressure),
             _ => {}
         }
         let Some(turning) = self.contract.promise.round else {
-            return self.along_end(step, hole, did, askew);
+            return self.along_end(hole, motion, did, askew);
         };
-        let (before, given) = (hole.seen(step.velocity_before), hole.seen(&self.blows.struck));
-        let (start, after) = (hole.offset(&self.q), hole.seen(step.velocity_after));
-        let rate = [before[0] + given[0], before[1] + given[1]];
-        let end = hole.offset(step.q);
+        let (start, end, before, after) = (motion.start, motion.end, motion.before.value, motion.after.value);
+        let struck = motion.struck.value;
+        let rate = [before[0] + struck[0], before[1] + struck[1]];
         let ahead = [0, 1].map(|i: usize| match turning.normal {
             Normal::Ahead(part) => start[i] + part * self.h * rate[i],
             Normal::Middle(_) => start[i] + end[i],
         });
         let reach = ahead[0].hypot(ahead[1]);
-        let speeds = terms(hole.at, step.velocity_before)
-            + terms(hole.at, step.velocity_after)
-            + terms(hole.at, &self.blows.struck);
-        let centre = hole.centre[0].abs() + hole.centre[1].abs();
-        let size = terms(hole.at, &self.q) + terms(hole.at, step.q) + centre + gap + self.h * speeds;
-        let place_noise = self.noise.of(size);
+        let speeds = motion.before.terms + motion.after.terms + motion.struck.terms;
+        let place_noise = self.noise.of(motion.size + self.h * speeds);
         let middle = matches!(turning.normal, Normal::Middle(_));
         let far = if middle { end[0].hypot(end[1]) } else { reach };
         let way = far - gap * (1.0 - turning.touching);

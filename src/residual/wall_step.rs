@@ -95,7 +95,8 @@ impl Judge {
         };
         let hole = |hole: Hole<'_>| {
             let [y, z] = hole.offset(step.q);
-            step.impulse[hole.index] != 0.0 || at(hole.gap - y.hypot(z), self.way(step, &hole))
+            step.impulse[hole.index] != 0.0
+                || at(hole.gap - y.hypot(z), self.way(&hole, &self.hole_motion(step, &hole)))
         };
         self.sights.iter().any(|sight| sight.walls.iter().any(wall)) || self.scene.holes().any(hole)
     }
