@@ -68,7 +68,9 @@ fn main() {
     line("moreau-jean, e = 0.8", &source(0.8), &jean, 1e-4, 1.0);
     line("paoli-schatzman, e = 0.8", &source(0.8), &Scheme::PaoliSchatzman, 1e-4, 1.0);
     line("event, e = 0.8", &source(0.8), &Scheme::Event, 60.0, 60.0);
-    for (name, steps) in [("chain-20", 500.0), ("chain-200", 50.0), ("tube-loose-supports", 1000.0)] {
+    for (name, steps) in
+        [("chain-20", 500.0), ("chain-200", 50.0), ("tube-loose-supports", 1000.0), ("tube-round-supports", 1000.0)]
+    {
         let case = Case::embedded(name).expect("a built-in case");
         line(&format!("{name}, moreau-jean"), &case.scene, &jean, case.time.step, steps * case.time.step);
     }
