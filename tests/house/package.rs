@@ -1,4 +1,4 @@
-//! The packages of the two crates hold each file that their sources embed, and none of the tests.
+//! The packages of the two crates hold their sources and each file that these embed, and no tests.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -29,12 +29,12 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The files that a source embeds: the one that it names or, where a macro puts the name together
-/// from a folder and more, all of the folder.
+/// The files that a source embeds, or reads as a module of another folder: the one that it names or,
+/// where a macro puts the name together from a folder and more, all of the folder.
 fn embedded(source: &Path) -> Vec<PathBuf> {
     let text = fs::read_to_string(source).unwrap();
     let mut found = Vec::new();
-    for embed in ["include_str!(", "include_bytes!(", "include!("] {
+    for embed in ["include_str!(", "include_bytes!(", "include!(", "#[path = "] {
         for (start, _) in text.match_indices(embed) {
             let argument = text[start + embed.len()..].trim_start();
             let name = argument.split('"').nth(1).unwrap();
@@ -55,7 +55,11 @@ fn embedded(source: &Path) -> Vec<PathBuf> {
 fn missing(folder: &Path, packed: &BTreeSet<PathBuf>) -> (Vec<PathBuf>, usize) {
     let folder = folder.canonicalize().unwrap();
     let mut needed = Vec::new();
-    files(&folder.join("src"), &mut needed);
+    for sources in ["src", "examples", "benches"].map(|name| folder.join(name)) {
+        if sources.is_dir() {
+            files(&sources, &mut needed);
+        }
+    }
     needed.retain(|path| path.extension().is_some_and(|ending| ending == "rs"));
     let embedded: Vec<PathBuf> = needed.iter().flat_map(|source| embedded(source)).collect();
     let count = embedded.len();
@@ -73,7 +77,7 @@ fn the_package_holds_what_its_sources_embed_and_no_tests() {
     assert!(embedded > 80, "only {embedded} embedded files found");
     // The licence of the embedded fonts.
     assert!(packed.contains(Path::new("assets/fonts/LICENSE.txt")));
-    for folder in ["tests", "python", "benches", "figure", "docs/pictures", "target", "release", ".ci"] {
+    for folder in ["tests", "python", "figure", "benches/peers", "docs/pictures", "target", "release", ".ci"] {
         let inside: Vec<_> = packed.iter().filter(|path| path.starts_with(folder)).collect();
         assert!(inside.is_empty(), "the package holds {inside:#?}");
     }
