@@ -29,8 +29,8 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The files that a source embeds, or reads as a module of another folder: the one that it names or,
-/// where a macro puts the name together from a folder and more, all of the folder.
+/// The files that a source embeds, or reads as a module of another folder: the one that it names
+/// or, where a macro puts the name together from a folder and more, all of the folder.
 fn embedded(source: &Path) -> Vec<PathBuf> {
     let text = fs::read_to_string(source).unwrap();
     let mut found = Vec::new();
