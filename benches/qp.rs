@@ -8,7 +8,7 @@ use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, ScalarRow, Solver, clamp};
 use std::hint::black_box;
 
-#[path = "../tests/support/qp_support/beam.rs"]
+#[path = "support/beam.rs"]
 mod beam;
 mod support;
 use support::{clarabel_settings, race, time};

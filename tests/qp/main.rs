@@ -1,6 +1,6 @@
 //! Programmes of one time step, and the solvers of them.
 
-#[path = "../support/qp_support/beam.rs"]
+#[path = "../../benches/support/beam.rs"]
 mod beam;
 #[path = "../support/counting.rs"]
 mod counting;
