@@ -7,7 +7,7 @@
 //! impulse has one, and so has the force averaged over a stated time: here the impulse between two
 //! rows, 1 ms apart, divided by that time.
 
-use signorini::{Beam, BeamEnd, Damping, Load, Options, Probe, Result, Scene, Scheme, Wall, run};
+use signorini::{Beam, BeamEnd, BeamSection, Damping, Load, Options, Probe, Result, Scene, Scheme, Wall, run};
 
 /// Spacing of the rows, s, over which the force is averaged.
 const WINDOW: f64 = 1e-3;
@@ -19,8 +19,7 @@ fn main() -> Result<()> {
         length: 3.0,
         youngs_modulus: 2e11,
         density: 7850.0,
-        outer_diameter: 19.05e-3,
-        inner_diameter: 15.75e-3,
+        section: BeamSection::Tube { outer_diameter: 19.05e-3, inner_diameter: 15.75e-3 },
         added_mass: 0.565,
         elements: 30,
         left: BeamEnd::Pinned,

@@ -85,19 +85,35 @@ pub fn _bar(
 }
 
 #[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "the dimensions of a tube")]
+#[expect(clippy::too_many_arguments, reason = "the dimensions of a beam")]
 pub fn _beam(
     py: Python<'_>,
     length: f64,
     youngs_modulus: f64,
     density: f64,
-    outer_diameter: f64,
-    inner_diameter: f64,
+    diameters: (Option<f64>, Option<f64>),
+    sides: (Option<f64>, Option<f64>),
     added_mass: f64,
     elements: usize,
     left: End,
     right: End,
 ) -> PyResult<Scene> {
+    let section = match (diameters, sides) {
+        ((Some(outer_diameter), inner), (None, None)) => {
+            sg::BeamSection::Tube { outer_diameter, inner_diameter: inner.unwrap_or(0.0) }
+        }
+        ((None, None), (Some(width), Some(height))) => sg::BeamSection::Rectangle { width, height },
+        ((None, None), (Some(_), None)) => return Err(wrong("beam: height", "missing", "it beside width, in m")),
+        ((None, None), (None, Some(_))) => return Err(wrong("beam: width", "missing", "it beside height, in m")),
+        ((None, _), (None, None)) => {
+            let expected = "it, in m, or width and height of a rectangle";
+            return Err(wrong("beam: outer_diameter", "missing", expected));
+        }
+        _ => {
+            let expected = "outer_diameter and inner_diameter of a tube, or width and height of a rectangle";
+            return Err(wrong("beam: section", "that of a tube and of a rectangle", expected));
+        }
+    };
     let expected = "\"free\", \"pinned\", \"clamped\", or stiffnesses (N/m, N m/rad)";
     let end = |key: &str, end: End| match end {
         End::Named(name) if name == "free" => Ok(sg::BeamEnd::Free),
@@ -108,8 +124,7 @@ pub fn _beam(
         End::Sprung(stiffness) => Err(wrong(key, format!("{stiffness:?}"), expected)),
     };
     let (left, right) = (end("beam: left", left)?, end("beam: right", right)?);
-    let beam =
-        sg::Beam { length, youngs_modulus, density, outer_diameter, inner_diameter, added_mass, elements, left, right };
+    let beam = sg::Beam { length, youngs_modulus, density, section, added_mass, elements, left, right };
     let structure = built(py, elements, {
         let beam = beam.clone();
         move || beam.structure()

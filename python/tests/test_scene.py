@@ -52,6 +52,23 @@ def test_scenes_are_equal_by_value_and_survive_pickling(made: sg.Scene) -> None:
     assert back.replace(duration=0.2) == made.replace(duration=0.2)
 
 
+def test_a_beam_has_diameters_or_the_sides_of_a_rectangle() -> None:
+    def beam(**section: float) -> sg.Scene:
+        return sg.beam(length=1.0, youngs_modulus=2e11, density=7850.0, elements=20, **section)  # type: ignore[arg-type]
+
+    made = beam(width=0.05, height=0.02)
+    assert pickle.loads(pickle.dumps(made)) == made != beam(width=0.02, height=0.05)
+    for section, said in [
+        ({}, "outer_diameter is missing"),
+        ({"width": 0.05}, "height is missing"),
+        ({"height": 0.02}, "width is missing"),
+        ({"height": 0.02, "outer_diameter": 0.02}, "of a tube and of a rectangle"),
+        ({"width": 0.05, "height": -0.02}, "height is -0.02"),
+    ]:
+        with pytest.raises(ValueError, match=said):
+            beam(**section)
+
+
 def test_a_structure_by_matrices_is_the_same_dense_or_sparse() -> None:
     n = 6
     mass = np.diag(np.linspace(1.0, 2.0, n))

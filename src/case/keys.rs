@@ -69,7 +69,7 @@ pub(super) const KEYS: &[KeyEntry] = &[
         OTHER_WORDS]),
     entry("system.bar.left", Any, "", [REQUIRED, ENDS, OTHER_WORDS]),
     entry("system.bar.right", Any, "", [REQUIRED, ENDS, OTHER_WORDS]),
-    entry("system.beam", Table, "", ["", "a tube in bending, Euler–Bernoulli, Hermite elements; \
+    entry("system.beam", Table, "", ["", "a tube or a rectangular beam in bending, Euler–Bernoulli, Hermite elements; \
         degrees of freedom are deflection (m) and rotation (rad) of each node from left to right, \
         without those that ends hold", ""]),
     entry("system.beam.length", Number, "m", ["required unless spans are given", ABOVE_0,
@@ -78,9 +78,16 @@ pub(super) const KEYS: &[KeyEntry] = &[
         length: what lies between supports, each ends in a joint", "beside `length`"]),
     entry("system.beam.youngs_modulus", Number, "Pa", [REQUIRED, ABOVE_0, UNORDINARY]),
     entry("system.beam.density", Number, "kg_per_m3", [REQUIRED, ABOVE_0, UNORDINARY]),
-    entry("system.beam.outer_diameter", Number, "m", [REQUIRED, ABOVE_0, UNORDINARY]),
+    entry("system.beam.outer_diameter", Number, "m", ["required unless width and height are given",
+        ABOVE_0, "0, negative, nan, inf; beside `width`, `height`"]),
     entry("system.beam.inner_diameter", Number, "m", ["0, a rod", "a number, 0 (solid) or more and \
-        below outer_diameter", "negative, not below `outer_diameter`"]),
+        below outer_diameter", "negative, not below `outer_diameter`; beside `width`, `height`"]),
+    entry("system.beam.width", Number, "m", ["a tube", "a number above 0: of a solid rectangle in \
+        place of the diameters, across the vibration", "0, negative, nan, inf; without `height`; \
+        beside `planes = 2`"]),
+    entry("system.beam.height", Number, "m", ["a tube", "a number above 0: of the rectangle in the \
+        direction of the vibration, I = width height^3/12", "0, negative, nan, inf; without \
+        `width`"]),
     entry("system.beam.added_mass", Number, "kg_per_m", ["0", "a number, 0 or more: fluid inside, \
         fluid moved outside, pellets", "negative"]),
     entry("system.beam.elements", Number, "", [REQUIRED, "a whole number from 1 to 1e5", "two \

@@ -174,7 +174,8 @@ impl Builder<'_> {
         let missing = |at, what: &str, help: &str| -> Error {
             self.source.error(at, &format!("{} has {what}", owner.name), help)
         };
-        let tube = if let Model::Beam(beam) = &self.model { Some(0.5 * beam.outer_diameter) } else { None };
+        let outer = if let Model::Beam(beam) = &self.model { beam.section.outer_diameter() } else { None };
+        let tube = outer.map(|outer| 0.5 * outer);
         match (support.span_of("width"), support.span_of("radius")) {
             (None, Some(at)) => {
                 let help = "expected width beside it, in m along the tube: both make the depth of a scar";

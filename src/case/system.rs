@@ -7,7 +7,9 @@ use super::schema::accepted;
 use super::value::{Section, Value};
 use super::wording::written;
 use crate::error::{Error, Result, Subject};
-use crate::scene::{Bar, BarEnd, Beam, BeamEnd, Chain, Damping, MOST_ELEMENTS, MassMatrix, Oscillator, System};
+use crate::scene::{
+    Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, Damping, MOST_ELEMENTS, MassMatrix, Oscillator, System,
+};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -81,6 +83,12 @@ impl Builder<'_> {
             }
             "beam" => {
                 let beam = self.beam(&table)?;
+                if let (true, BeamSection::Rectangle { .. }) = (two, beam.section) {
+                    let title = "`system.planes` is 2 beside a rectangular section";
+                    let help = "expected no planes: a rectangular section bends in one plane; planes = 2 takes a \
+                                tube, outer_diameter in place of width and height";
+                    return Err(self.source.error(system.span_of("planes").unwrap_or(table.span), title, help));
+                }
                 let structure = beam.structure();
                 (Model::Beam(beam), structure)
             }
@@ -231,13 +239,48 @@ impl Builder<'_> {
         let length = self.length(beam)?;
         let mut number = |key| self.required(("beam", key), beam, key);
         let youngs_modulus = number("youngs_modulus");
-        let [density, outer_diameter] = ["density", "outer_diameter"].map(&mut number);
-        let mut or_0 = |key| self.optional(("beam", key), beam, key).unwrap_or(0.0);
-        let [inner_diameter, added_mass] = ["inner_diameter", "added_mass"].map(&mut or_0);
+        let density = number("density");
+        let section = self.cross_section(beam)?;
+        let added_mass = self.optional(("beam", "added_mass"), beam, "added_mass").unwrap_or(0.0);
         let elements = self.whole(("beam", "elements"), &beam.required("elements"), MOST_ELEMENTS)?;
-        let made =
-            Beam { length, youngs_modulus, density, outer_diameter, inner_diameter, added_mass, elements, left, right };
-        Ok(made)
+        Ok(Beam { length, youngs_modulus, density, section, added_mass, elements, left, right })
+    }
+
+    /// The section of a beam: the diameters of a tube, or the sides of a rectangle.
+    fn cross_section(&mut self, beam: &Section<'_>) -> Result<BeamSection> {
+        let missing = |key: &str, help: &str| {
+            let title = format!("`{key}` is missing in `system.beam`");
+            self.source.error(beam.span.clone(), &title, help)
+        };
+        let diameter = beam.span_of("outer_diameter").or(beam.span_of("inner_diameter"));
+        match (diameter, beam.get("width"), beam.get("height")) {
+            (Some(at), Some(_), _) | (Some(at), _, Some(_)) => {
+                let help = "expected one section: outer_diameter and inner_diameter of a tube, or width and height of \
+                            a rectangle";
+                Err(self.source.error(at, "`system.beam` has a diameter and a side of a rectangle", help))
+            }
+            (None, Some(_), None) => {
+                let help = "expected height = a number above 0, in m, in the direction of the vibration, beside width";
+                Err(missing("height", help))
+            }
+            (None, None, Some(_)) => {
+                let help = "expected width = a number above 0, in m, across the vibration, beside height";
+                Err(missing("width", help))
+            }
+            (None, Some(_), Some(_)) => {
+                let [width, height] = ["width", "height"].map(|key| self.required(("beam", key), beam, key));
+                Ok(BeamSection::Rectangle { width, height })
+            }
+            (_, None, None) if beam.get("outer_diameter").is_none() => {
+                let help = "expected outer_diameter = a number above 0, in m, or width and height of a rectangle";
+                Err(missing("outer_diameter", help))
+            }
+            (_, None, None) => {
+                let outer_diameter = self.required(("beam", "outer_diameter"), beam, "outer_diameter");
+                let inner = self.optional(("beam", "inner_diameter"), beam, "inner_diameter");
+                Ok(BeamSection::Tube { outer_diameter, inner_diameter: inner.unwrap_or(0.0) })
+            }
+        }
     }
 
     /// The length of a beam, m; where it is the sum of spans, their joints are noted.

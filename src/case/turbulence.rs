@@ -109,10 +109,16 @@ impl Builder<'_> {
                 Ok(TurbulenceSpectrum::Even(self.number_pairs(&format!("{owner}: spectrum"), spectrum, wanted)?))
             }
             (None, Some(density), Some(velocity), Some(reduced)) => {
+                let Some(diameter) = beam.section.outer_diameter() else {
+                    let title = format!("{owner} is that of a flow across a tube, and the beam is rectangular");
+                    let help = "expected spectrum = [[Hz, (N/m)^2/Hz], ..] in place of density, velocity and reduced, \
+                                which need the outer_diameter of a tube";
+                    return Err(self.source.error(density.span(), &title, help));
+                };
                 let wanted = "pairs of a reduced frequency fD/V and a reduced density";
                 Ok(TurbulenceSpectrum::Flow {
                     density: *density.get_ref(),
-                    diameter: beam.outer_diameter,
+                    diameter,
                     velocity: self.velocity(owner, velocity, ends)?,
                     reduced: self.number_pairs(&format!("{owner}: reduced"), reduced, wanted)?,
                 })

@@ -71,7 +71,8 @@ impl Builder<'_> {
     /// The depth up to which the tube may wear, m.
     fn limit(&self, wear: &Section<'_>) -> Result<Option<f64>> {
         let Some(limit) = wear.number("limit") else { return Ok(None) };
-        let Model::Beam(beam) = &self.model else {
+        let wall = if let Model::Beam(beam) = &self.model { beam.section.wall_thickness() } else { None };
+        let Some(wall) = wall else {
             let help = "expected [system.beam]: the limit is a share of the wall of a tube";
             return Err(self.source.error(limit.span(), "`wear.limit` without a tube", help));
         };
@@ -79,7 +80,7 @@ impl Builder<'_> {
             return Err(self.source.error(limit.span(), "`wear` has a limit and no service", SERVICE));
         }
         match *limit.get_ref() {
-            share if share > 0.0 && share <= 1.0 => Ok(Some(share * beam.wall_thickness())),
+            share if share > 0.0 && share <= 1.0 => Ok(Some(share * wall)),
             _ => Err(self.refuse(limit.span(), "wear: limit", "a number above 0 and at most 1, a share of the wall")),
         }
     }

@@ -222,8 +222,10 @@ pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
 #[must_use]
 pub fn warnings(case: &Case, run: &Run) -> Vec<String> {
     let Model::Beam(beam) = &case.model else { return Vec::new() };
-    let wall = beam.wall_thickness();
-    let [thick, whole] = [wall, beam.outer_diameter].map(|x| figures(1e3 * x));
+    let Some((wall, outer)) = beam.section.wall_thickness().zip(beam.section.outer_diameter()) else {
+        return Vec::new();
+    };
+    let [thick, whole] = [wall, outer].map(|x| figures(1e3 * x));
     let one = |Known { wear: support, worn, .. }: Known<'_>| {
         let worn = worn?;
         let (volume, round) = (worn.volume_m3?, worn.depth_all_round_m?);

@@ -40,7 +40,7 @@ mod system;
 mod turbulence;
 mod wall;
 
-pub use builders::{Bar, BarEnd, Beam, BeamEnd, Chain, MOST_ELEMENTS, MassMatrix, ModalData, ModalPoint};
+pub use builders::{Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, MOST_ELEMENTS, MassMatrix, ModalData, ModalPoint};
 pub(crate) use checked::Checked;
 pub use condensation::Condensation;
 pub use damping::Damping;

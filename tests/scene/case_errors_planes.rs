@@ -57,6 +57,7 @@ step = 1e-3
 const WRONG: &[Wrong] = &[
     // Planes.
     ("three planes", "planes = 2", "planes = 3", "2:10", &["system.planes", "planes = 1, or 2"]),
+    ("a rectangle in two planes", "outer_diameter = 0.02", "width = 0.05\nheight = 0.02", "2:10", &["`system.planes` is 2 beside a rectangular section", "planes = 2 takes a tube"]),
     ("half a plane", "planes = 2", "planes = 1.5", "2:10", &["system.planes", "1, or 2"]),
     ("text for planes", "planes = 2", "planes = \"two\"", "2:10", &["system.planes", "a number"]),
     ("fields of two planes in one", "planes = 2\n", "", "42:18", &["unknown key `y`", "profile"]),

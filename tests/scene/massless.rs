@@ -2,8 +2,8 @@
 use signorini::case::{Case, Place};
 use signorini::linear::{Factor, Symmetric};
 use signorini::{
-    Beam, BeamEnd, Damping, Error, Load, ModalData, ModalPoint, Modes, Options, Probe, Row, Scene, Scheme, Structure,
-    System, Wall, WallLaw, run,
+    Beam, BeamEnd, BeamSection, Damping, Error, Load, ModalData, ModalPoint, Modes, Options, Probe, Row, Scene, Scheme,
+    Structure, System, Wall, WallLaw, run,
 };
 use std::fs;
 use std::path::Path;
@@ -74,8 +74,7 @@ fn a_lumped_cantilever_keeps_its_statics_and_its_frequency() {
         length: 2.0,
         youngs_modulus: 2e11,
         density: 7850.0,
-        outer_diameter: 0.02,
-        inner_diameter: 0.0,
+        section: BeamSection::Tube { outer_diameter: 0.02, inner_diameter: 0.0 },
         added_mass: 0.0,
         elements: 40,
         left: BeamEnd::Clamped,

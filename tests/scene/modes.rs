@@ -4,8 +4,8 @@
 use signorini::State;
 use signorini::linear::{Factor, Symmetric};
 use signorini::{
-    Bar, BarEnd, Beam, BeamEnd, Chain, Damping, Load, LoadKind, MassMatrix, Modes, Probe, Row, Scene, Structure,
-    System, Wall, WallLaw,
+    Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, Damping, Load, LoadKind, MassMatrix, Modes, Probe, Row, Scene,
+    Structure, System, Wall, WallLaw,
 };
 use std::f64::consts::PI;
 
@@ -20,8 +20,7 @@ fn beam(elements: usize, left: BeamEnd, right: BeamEnd) -> Beam {
         length: 1.0,
         youngs_modulus: 2.0e11,
         density: 7850.0,
-        outer_diameter: 0.01905,
-        inner_diameter: 0.01575,
+        section: BeamSection::Tube { outer_diameter: 0.01905, inner_diameter: 0.01575 },
         added_mass: 0.3,
         elements,
         left,
@@ -114,6 +113,24 @@ fn a_sprung_bar_converges_to_the_root_of_its_frequency_equation() {
         Modes::lowest(&bar(n, BarEnd::Fixed, sprung, MassMatrix::Consistent).structure().unwrap(), 1).unwrap().omega
     };
     converges("fixed–sprung", &[low], 0, 20, 2.0, 1.0, omegas);
+}
+
+#[test]
+fn a_rectangular_beam_has_the_frequencies_of_its_section() {
+    let (width, height, l, elements) = (0.05, 0.02, 1.0, 20);
+    let section = BeamSection::Rectangle { width, height };
+    let root = (2.0e11 * height * height / (12.0 * 7850.0) as f64).sqrt();
+    for (left, right, bl) in
+        [(BeamEnd::Pinned, BeamEnd::Pinned, PI), (BeamEnd::Clamped, BeamEnd::Free, 1.875_104_068_711_961_f64)]
+    {
+        let plank = Beam { section, added_mass: 0.0, ..beam(elements, left, right) };
+        let found = Modes::lowest(&plank.structure().unwrap(), 1).unwrap().omega[0];
+        let error = found / ((bl / l).powi(2) * root) - 1.0;
+        // From above, by (βℎ)⁴/1440 in the leading order (half of that of ω²); rounding is some
+        // 50 elements⁴ units, 2e-9, and the next terms are (βℎ)² of it.
+        let leading = (bl / elements as f64).powi(4) / 1440.0;
+        assert!(error > 0.0 && error < 1.1 * leading + 2e-9, "{error:e}, of {leading:e}");
+    }
 }
 
 #[test]

@@ -2,7 +2,8 @@
 
 use serde_json::{Value, from_value, to_value};
 use signorini::{
-    Beam, BeamEnd, Damping, Load, Options, Row, Run, Scene, Scheme, Table, Trajectory, Wall, linear::Symmetric, run,
+    Beam, BeamEnd, BeamSection, Damping, Load, Options, Row, Run, Scene, Scheme, Table, Trajectory, Wall,
+    linear::Symmetric, run,
 };
 
 fn oscillator() -> Scene {
@@ -19,8 +20,7 @@ fn tube() -> Scene {
         length: 3.0,
         youngs_modulus: 2e11,
         density: 7850.0,
-        outer_diameter: 19.05e-3,
-        inner_diameter: 15.75e-3,
+        section: BeamSection::Tube { outer_diameter: 19.05e-3, inner_diameter: 15.75e-3 },
         added_mass: 0.565,
         elements: 6,
         left: BeamEnd::Pinned,
@@ -40,6 +40,17 @@ fn scenes_come_back_the_same() {
         assert_eq!(back, scene);
         back.validate().unwrap();
     }
+}
+
+#[test]
+fn sections_come_back_the_same() {
+    for section in [
+        BeamSection::Tube { outer_diameter: 19.05e-3, inner_diameter: 1.0 / 3.0 },
+        BeamSection::Rectangle { width: 0.05, height: 1.0 / 3.0 },
+    ] {
+        assert_eq!(from_value::<BeamSection>(to_value(section).unwrap()).unwrap(), section);
+    }
+    assert!(from_value::<BeamSection>(serde_json::json!({ "Rectangle": { "width": 0.05 } })).is_err());
 }
 
 #[test]

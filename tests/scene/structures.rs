@@ -3,7 +3,7 @@
 
 use signorini::linear::{Factor, Symmetric};
 use signorini::matrices::{TextError, read_csv, read_matrix_market};
-use signorini::{Bar, BarEnd, Beam, BeamEnd, Chain, Damping, Error, MassMatrix, Row, Scene, Structure};
+use signorini::{Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, Damping, Error, MassMatrix, Row, Scene, Structure};
 
 const FORCE: f64 = 100.0;
 
@@ -13,8 +13,7 @@ fn beam(elements: usize, left: BeamEnd, right: BeamEnd) -> Beam {
         length: 2.0,
         youngs_modulus: 2.0e11,
         density: 7850.0,
-        outer_diameter: 0.01905,
-        inner_diameter: 0.01575,
+        section: BeamSection::Tube { outer_diameter: 0.01905, inner_diameter: 0.01575 },
         added_mass: 0.3,
         elements,
         left,
@@ -121,6 +120,19 @@ fn a_cantilever_and_its_springs_bend_as_the_textbook_says() {
     let tip = tube.at(0.0).unwrap();
     let q = deflection(&tube.structure().unwrap(), &[(tip.clone(), FORCE)]);
     near(tip.dot(&q), FORCE * tube.length.powi(3) / (3.0 * tube.bending_stiffness()));
+}
+
+#[test]
+fn a_rectangular_cantilever_bends_by_its_width_and_the_cube_of_its_height() {
+    let (width, height, l) = (0.05, 0.02, 2.0_f64);
+    let section = BeamSection::Rectangle { width, height };
+    let plank = Beam { section, added_mass: 0.0, ..beam(6, BeamEnd::Clamped, BeamEnd::Free) };
+    let tip = plank.at(l).unwrap();
+    let q = deflection(&plank.structure().unwrap(), &[(tip.clone(), FORCE)]);
+    let i = width * height * height * height / 12.0;
+    near(tip.dot(&q), FORCE * l.powi(3) / (3.0 * 2.0e11 * i));
+    near(plank.mass_per_metre(), 7850.0 * width * height);
+    assert_eq!([section.outer_diameter(), section.wall_thickness()], [None; 2]);
 }
 
 #[test]
@@ -270,11 +282,17 @@ fn values_that_make_no_structure_are_refused_by_name() {
         refused(tube.at(0.5), key, said);
         refused(tube.spread(0.0, 1.0), key, said);
     };
+    let tube = |outer_diameter, inner_diameter| BeamSection::Tube { outer_diameter, inner_diameter };
+    let rectangle = |width, height| BeamSection::Rectangle { width, height };
+    for side in [0.0, -0.01, f64::NAN, f64::INFINITY] {
+        wrong(&|b| b.section = rectangle(side, 0.02), "beam: width", "finite number above 0");
+        wrong(&|b| b.section = rectangle(0.05, side), "beam: height", "finite number above 0");
+    }
     wrong(&|b| b.length = -1.0, "beam: length", "above 0");
     wrong(&|b| b.youngs_modulus = 0.0, "beam: youngs_modulus", "above 0");
     wrong(&|b| b.density = 0.0, "beam: density", "above 0");
-    wrong(&|b| b.outer_diameter = f64::NAN, "beam: outer_diameter", "finite");
-    wrong(&|b| b.inner_diameter = b.outer_diameter, "beam: inner_diameter", "less than the outer diameter, 0.01905 m");
+    wrong(&|b| b.section = tube(f64::NAN, 0.0), "beam: outer_diameter", "finite");
+    wrong(&|b| b.section = tube(0.01905, 0.01905), "beam: inner_diameter", "less than the outer diameter, 0.01905 m");
     wrong(&|b| b.added_mass = -0.1, "beam: added_mass", "0 or more");
     wrong(&|b| b.elements = 1_000_000_000, "beam: elements", "from 1 to 100000");
     let sprung = |stiffness, rotational| BeamEnd::Sprung { stiffness, rotational };

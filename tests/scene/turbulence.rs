@@ -202,6 +202,17 @@ fn every_wrong_field_is_refused_at_its_place() {
 }
 
 #[test]
+fn a_rectangular_beam_takes_forces_along_it_but_no_flow_across_a_tube() {
+    let plank = TUBE.replace("outer_diameter = 0.02", "width = 0.05\nheight = 0.02");
+    case(&plank);
+    let spectrum = "spectrum = [[1.0, 0.02], [40.0, 0.02]]";
+    let flow = plank.replace(spectrum, "density = 1000.0\nvelocity = 1.0\nreduced = [[0.01, 0.05], [3.0, 8.6e-7]]");
+    let said = Case::parse(&flow, "wrong.toml", "").unwrap_err().to_string();
+    let words = ["wrong.toml:18:11", "the beam is rectangular", "spectrum = [[Hz", "outer_diameter of a tube"];
+    assert!(words.iter().all(|word| said.contains(word)), "{said}");
+}
+
+#[test]
 fn what_is_no_tube_has_no_turbulence_and_no_joints() {
     let chain = "[system.chain]\nmasses = [1.0, 1.0]\nsprings = [1.0]\nleft = { stiffness = 1.0 }\nright = \"free\"\n";
     let tables =

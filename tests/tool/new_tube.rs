@@ -1,4 +1,5 @@
 //! `signorini new tube`: a case file from the data of a tube, and what is refused.
+use signorini::BeamSection;
 use signorini::case::{Case, Model};
 use std::path::Path;
 use std::process::Command;
@@ -20,7 +21,8 @@ fn the_file_has_the_tube_that_was_described_and_runs() {
     said(path, &[&["new", "tube"], &data[..]].concat(), 0);
     let case = Case::read(path.join("tube.toml")).unwrap();
     let Model::Beam(beam) = &case.model else { panic!("{:?}", case.model) };
-    assert_eq!([beam.length, beam.outer_diameter, beam.inner_diameter], [4.5, 0.02, 0.016]);
+    assert_eq!(beam.length, 4.5);
+    assert_eq!(beam.section, BeamSection::Tube { outer_diameter: 0.02, inner_diameter: 0.016 });
     let places: Vec<String> = case.written.supports.iter().map(|support| support.place.to_string()).collect();
     assert_eq!(places, ["1.125 m along it", "2.25 m along it", "3.375 m along it"]);
     assert!(case.scene.holes().all(|hole| hole.gap == 1.5e-4));
@@ -31,7 +33,8 @@ fn the_file_has_the_tube_that_was_described_and_runs() {
     assert!(err.contains("tube.toml") && err.contains("already exists"), "{err}");
     said(path, &["new", "tube", "--out", "rod.toml", "--wall", "9.525e-3"], 0);
     let rod = Case::read(path.join("rod.toml")).unwrap();
-    assert!(matches!(rod.model, Model::Beam(beam) if beam.inner_diameter == 0.0));
+    let Model::Beam(rod) = &rod.model else { panic!("{:?}", rod.model) };
+    assert!(matches!(rod.section, BeamSection::Tube { inner_diameter: 0.0, .. }));
 }
 
 #[test]

@@ -157,22 +157,26 @@ def beam(
     length: float,
     youngs_modulus: float,
     density: float,
-    outer_diameter: float,
+    outer_diameter: float | None = None,
     elements: int,
-    inner_diameter: float = 0.0,
+    inner_diameter: float | None = None,
+    width: float | None = None,
+    height: float | None = None,
     added_mass: float = 0.0,
     left: Support = "pinned",
     right: Support = "pinned",
     **scene: Unpack[StructureOptions],
 ) -> Scene:
-    """A tube or rod in bending, by Euler–Bernoulli elements of equal length.
+    """A tube, rod or rectangular beam in bending, by Euler–Bernoulli elements of equal length.
 
     Parameters
     ----------
     length, youngs_modulus, density : float
         m, Pa, kg/m³.
     outer_diameter, inner_diameter : float
-        m; a rod has no inner one.
+        Of a tube, m; a rod has no inner one.
+    width, height : float
+        Of a solid rectangle, m, in place of the diameters: across the vibration, and in its direction.
     added_mass : float
         Mass of the fluid that moves with it, kg/m.
     elements : int
@@ -201,8 +205,9 @@ def beam(
     <Scene: 20 of 60 modes, 2 walls, 1 load, 0.2 s>
     """
     made = _core._beam(
-        length, youngs_modulus, density, outer_diameter, inner_diameter, added_mass, elements, left, right
-    )
+        length, youngs_modulus, density, (outer_diameter, inner_diameter), (width, height), added_mass,
+        elements, left, right,
+    )  # fmt: skip
     return made.replace(**scene)
 
 

@@ -16,7 +16,8 @@ pub(super) fn what(case: &Case) -> Vec<String> {
         Model::Chain(_) => "a chain".to_owned(),
         Model::Bar(bar) => format!("a bar of {} m, {} elements", bar.length, bar.elements),
         Model::Beam(beam) => format!(
-            "a tube of {} m, {} elements, EI = {:.4} N m² and {:.4} kg/m",
+            "a {} of {} m, {} elements, EI = {:.4} N m² and {:.4} kg/m",
+            if beam.section.outer_diameter().is_some() { "tube" } else { "rectangular beam" },
             beam.length,
             beam.elements,
             beam.bending_stiffness(),

@@ -1,7 +1,7 @@
 //! The structure that is run, and its walls with the mass that each feels.
 
 use crate::case::{Case, Model, Place};
-use crate::scene::{BarEnd, BeamEnd, Damping, Face, Side, Support, System, Wall, WallLaw};
+use crate::scene::{BarEnd, BeamEnd, BeamSection, Damping, Face, Side, Support, System, Wall, WallLaw};
 use crate::study::choice;
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
@@ -65,18 +65,26 @@ fn system(case: &Case) -> Value {
             "elements": bar.elements,
             "ends": ([bar.left, bar.right].map(bar_end)),
         }),
-        (Model::Beam(beam), _) => json!({
-            "length_m": beam.length,
-            "youngs_modulus_pa": beam.youngs_modulus,
-            "density_kg_per_m3": beam.density,
-            "outer_diameter_m": beam.outer_diameter,
-            "inner_diameter_m": beam.inner_diameter,
-            "added_mass_kg_per_m": beam.added_mass,
-            "elements": beam.elements,
-            "bending_stiffness_n_m2": beam.bending_stiffness(),
-            "mass_kg_per_m": beam.mass_per_metre(),
-            "ends": ([beam.left, beam.right].map(beam_end)),
-        }),
+        (Model::Beam(beam), _) => {
+            let [(first, one), (second, other)] = match beam.section {
+                BeamSection::Tube { outer_diameter, inner_diameter } => {
+                    [("outer_diameter_m", outer_diameter), ("inner_diameter_m", inner_diameter)]
+                }
+                BeamSection::Rectangle { width, height } => [("width_m", width), ("height_m", height)],
+            };
+            json!({
+                "length_m": beam.length,
+                "youngs_modulus_pa": beam.youngs_modulus,
+                "density_kg_per_m3": beam.density,
+                (first): one,
+                (second): other,
+                "added_mass_kg_per_m": beam.added_mass,
+                "elements": beam.elements,
+                "bending_stiffness_n_m2": beam.bending_stiffness(),
+                "mass_kg_per_m": beam.mass_per_metre(),
+                "ends": ([beam.left, beam.right].map(beam_end)),
+            })
+        }
         (Model::Modal(modal), _) => json!({
             "modes": modal.omega.len(),
             "frequencies_hz": modal.omega.iter().map(|omega| omega / TAU).collect::<Vec<_>>(),

@@ -1,4 +1,4 @@
-//! A tube in bending.
+//! A beam in bending: a tube, a rod or a rectangular bar.
 
 use super::mesh::{Mesh, elements};
 use super::profile;
@@ -28,10 +28,67 @@ pub enum BeamEnd {
     },
 }
 
-/// A straight tube in bending, Euler–Bernoulli, m′ ẅ + (E I w″)″ = f, by Hermite elements of equal
-/// length with consistent mass. With
+/// The cross-section of a beam.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum BeamSection {
+    /// A tube or a rod: I = π (D⁴ − d⁴)/64, A = π (D² − d²)/4.
+    Tube {
+        /// Outer diameter D, m; positive.
+        outer_diameter: f64,
+        /// Inner diameter d, m; 0 (a rod) or more, less than D.
+        inner_diameter: f64,
+    },
+    /// A solid rectangle, which bends in the direction of its height: I = b h³/12, A = b h.
+    Rectangle {
+        /// Width b across the vibration, m; positive.
+        width: f64,
+        /// Height h in the direction of the vibration, m; positive.
+        height: f64,
+    },
+}
+
+impl BeamSection {
+    /// Outer diameter of a tube, m; a rectangle has none.
+    #[must_use]
+    pub fn outer_diameter(&self) -> Option<f64> {
+        match *self {
+            Self::Tube { outer_diameter, .. } => Some(outer_diameter),
+            Self::Rectangle { .. } => None,
+        }
+    }
+
+    /// Thickness of the wall of a tube, m; of a rod its radius. A rectangle has none.
+    #[must_use]
+    pub fn wall_thickness(&self) -> Option<f64> {
+        match *self {
+            Self::Tube { outer_diameter, inner_diameter } => Some(0.5 * (outer_diameter - inner_diameter)),
+            Self::Rectangle { .. } => None,
+        }
+    }
+
+    /// Checks the dimensions.
+    fn check(&self) -> Result<()> {
+        match *self {
+            Self::Tube { outer_diameter, inner_diameter: inner } => {
+                positive(("beam", "outer_diameter"), outer_diameter)?;
+                if !(0.0..outer_diameter).contains(&inner) {
+                    let expected = format!("0 or more, less than the outer diameter, {outer_diameter:?} m");
+                    return Err(Error::invalid(("beam", "inner_diameter"), format_args!("{inner:?}"), expected));
+                }
+                Ok(())
+            }
+            Self::Rectangle { width, height } => {
+                positive(("beam", "width"), width)?;
+                positive(("beam", "height"), height)
+            }
+        }
+    }
+}
+
+/// A straight beam in bending, Euler–Bernoulli, m′ ẅ + (E I w″)″ = f, by Hermite elements of equal
+/// length with consistent mass. With I and A of its [section](BeamSection),
 ///
-/// I = π (D⁴ − d⁴)/64,  m′ = ρ π (D² − d²)/4 + added mass,  ℎ the length of an element,
+/// m′ = ρ A + added mass,  ℎ the length of an element,
 ///
 /// K = EI/ℎ³ [12 6ℎ −12 6ℎ; · 4ℎ² −6ℎ 2ℎ²; · · 12 −6ℎ; · · · 4ℎ²],
 /// M = m′ℎ/420 [156 22ℎ 54 −13ℎ; · 4ℎ² 13ℎ −3ℎ²; · · 156 −22ℎ; · · · 4ℎ²].
@@ -39,18 +96,18 @@ pub enum BeamEnd {
 /// Two degrees of freedom per node from left to right, deflection (m) and rotation w′ (rad),
 /// without those that the supports hold; the half bandwidth is 3. Frequencies are too high, at
 /// fourth order; static deflections under forces and moments at nodes are exact at the nodes. Shear
-/// deformation and rotary inertia are neglected: the model holds for wavelengths of many diameters.
+/// deformation and rotary inertia are neglected: the model holds for wavelengths of many diameters
+/// or heights.
 ///
 /// ```
-/// use signorini::{Beam, BeamEnd, Damping, Scene, Wall};
+/// use signorini::{Beam, BeamEnd, BeamSection, Damping, Scene, Wall};
 ///
 /// // A steel tube of three spans between loose supports, cut to its 20 slowest modes.
 /// let tube = Beam {
 ///     length: 3.0,
 ///     youngs_modulus: 2.0e11,
 ///     density: 7850.0,
-///     outer_diameter: 0.01905,
-///     inner_diameter: 0.01575,
+///     section: BeamSection::Tube { outer_diameter: 0.01905, inner_diameter: 0.01575 },
 ///     added_mass: 0.3,
 ///     elements: 60,
 ///     left: BeamEnd::Pinned,
@@ -68,12 +125,10 @@ pub struct Beam {
     pub length: f64,
     /// Young's modulus E, Pa; positive.
     pub youngs_modulus: f64,
-    /// Density ρ of the tube, kg/m³; positive.
+    /// Density ρ of the material, kg/m³; positive.
     pub density: f64,
-    /// Outer diameter D, m; positive.
-    pub outer_diameter: f64,
-    /// Inner diameter d, m; 0 (a rod) or more, less than D.
-    pub inner_diameter: f64,
+    /// The cross-section.
+    pub section: BeamSection,
     /// Additional mass per metre (fluid inside, fluid moved outside), kg/m; 0 or more.
     pub added_mass: f64,
     /// Number of elements, from 1 to [`MOST_ELEMENTS`](super::MOST_ELEMENTS).
@@ -88,19 +143,23 @@ impl Beam {
     /// Bending stiffness E I, N m².
     #[must_use]
     pub fn bending_stiffness(&self) -> f64 {
-        self.youngs_modulus * PI / 64.0 * (self.outer_diameter.powi(4) - self.inner_diameter.powi(4))
-    }
-
-    /// Thickness of the wall, m; of a rod its radius.
-    #[must_use]
-    pub fn wall_thickness(&self) -> f64 {
-        0.5 * (self.outer_diameter - self.inner_diameter)
+        match self.section {
+            BeamSection::Tube { outer_diameter, inner_diameter } => {
+                self.youngs_modulus * PI / 64.0 * (outer_diameter.powi(4) - inner_diameter.powi(4))
+            }
+            BeamSection::Rectangle { width, height } => self.youngs_modulus * width * height.powi(3) / 12.0,
+        }
     }
 
     /// Mass per metre m′, kg/m, with the added mass.
     #[must_use]
     pub fn mass_per_metre(&self) -> f64 {
-        let area = PI / 4.0 * (self.outer_diameter.powi(2) - self.inner_diameter.powi(2));
+        let area = match self.section {
+            BeamSection::Tube { outer_diameter, inner_diameter } => {
+                PI / 4.0 * (outer_diameter.powi(2) - inner_diameter.powi(2))
+            }
+            BeamSection::Rectangle { width, height } => width * height,
+        };
         self.density * area + self.added_mass
     }
 
@@ -109,12 +168,7 @@ impl Beam {
         positive(("beam", "length"), self.length)?;
         positive(("beam", "youngs_modulus"), self.youngs_modulus)?;
         positive(("beam", "density"), self.density)?;
-        positive(("beam", "outer_diameter"), self.outer_diameter)?;
-        let inner = self.inner_diameter;
-        if !(0.0..self.outer_diameter).contains(&inner) {
-            let expected = format!("0 or more, less than the outer diameter, {:?} m", self.outer_diameter);
-            return Err(Error::invalid(("beam", "inner_diameter"), format_args!("{inner:?}"), expected));
-        }
+        self.section.check()?;
         nonnegative(("beam", "added_mass"), self.added_mass)?;
         elements(("beam", "elements"), self.elements)?;
         let mut fixed = Vec::new();

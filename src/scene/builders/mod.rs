@@ -5,7 +5,7 @@
 //! |---|---|
 //! | [`Chain`] | masses in a line, springs between them |
 //! | [`Bar`] | axial motion, linear elements |
-//! | [`Beam`] | bending of a tube, Hermite elements |
+//! | [`Beam`] | bending of a tube or a rectangular beam, Hermite elements |
 //! | [`ModalData`] | modes and shapes computed or measured elsewhere |
 
 mod bar;
@@ -16,7 +16,7 @@ mod modal;
 mod profile;
 
 pub use bar::{Bar, BarEnd, MassMatrix};
-pub use beam::{Beam, BeamEnd};
+pub use beam::{Beam, BeamEnd, BeamSection};
 pub use chain::Chain;
 pub use mesh::MOST_ELEMENTS;
 pub use modal::{ModalData, ModalPoint};
