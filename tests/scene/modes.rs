@@ -119,7 +119,7 @@ fn a_sprung_bar_converges_to_the_root_of_its_frequency_equation() {
 fn a_rectangular_beam_has_the_frequencies_of_its_section() {
     let (width, height, l, elements) = (0.05, 0.02, 1.0, 20);
     let section = BeamSection::Rectangle { width, height };
-    let root = (2.0e11 * height * height / (12.0 * 7850.0) as f64).sqrt();
+    let root = f64::sqrt(2.0e11 * height * height / (12.0 * 7850.0));
     for (left, right, bl) in
         [(BeamEnd::Pinned, BeamEnd::Pinned, PI), (BeamEnd::Clamped, BeamEnd::Free, 1.875_104_068_711_961_f64)]
     {
