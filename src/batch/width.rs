@@ -28,16 +28,12 @@ impl Width {
     /// The widths that this machine has.
     #[must_use]
     pub fn available() -> Vec<Self> {
-        [Self::Widest, Self::Avx512, Self::Avx2, Self::Plain]
-            .into_iter()
-            .filter(|width| width.check().is_ok())
-            .collect()
+        [Self::Widest, Self::Avx512, Self::Avx2, Self::Plain].into_iter().filter(|width| width.is_available()).collect()
     }
 
-    /// # Errors
-    /// [`Error::Invalid`] if this machine does not have it.
-    pub(super) fn check(self) -> Result<()> {
-        let has = match self {
+    /// True if this machine has it.
+    fn is_available(self) -> bool {
+        match self {
             Self::Widest | Self::Plain => true,
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 => pulp::x86::V4::try_new().is_some(),
@@ -45,8 +41,13 @@ impl Width {
             Self::Avx2 => pulp::x86::V3::try_new().is_some(),
             #[cfg(not(target_arch = "x86_64"))]
             Self::Avx512 | Self::Avx2 => false,
-        };
-        if has {
+        }
+    }
+
+    /// # Errors
+    /// [`Error::Invalid`] if this machine does not have it.
+    pub(super) fn check(self) -> Result<()> {
+        if self.is_available() {
             return Ok(());
         }
         Err(Error::invalid(
