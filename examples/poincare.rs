@@ -43,7 +43,7 @@ fn section(frequency: f64) -> Result<Vec<Point>, Box<dyn Error>> {
         // to rounding of the time.
         let section = f64::from(count) * period;
         while stepper.time() < section * (1.0 - 1e-12) {
-            product.see(&stepper.step()?)?;
+            product.observe(&stepper.step()?)?;
         }
         if count > TRANSIENT {
             let state = stepper.state();

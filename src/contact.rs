@@ -169,7 +169,7 @@ impl Episodes {
 
     /// Adds one step from `start` over `h` (s) with its impulses (N s) and, per wall, its
     /// velocities ẇ (m/s). `pushing` lists the walls with an impulse: only these are looked at.
-    pub(crate) fn see(
+    pub(crate) fn observe(
         &mut self,
         start: f64,
         h: f64,

@@ -137,12 +137,12 @@ impl Scene {
             scene.loads = loads.into_iter().enumerate().map(act).collect::<PyResult<_>>()?;
         }
         if let Some(probes) = probes {
-            let see = |(name, place): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+            let observe = |(name, place): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
                 let (name, place) = (name.extract::<String>()?, place.extract::<Place>()?);
                 let at = self.model.row(&format!("probe {name:?}"), &place, n)?;
                 Ok(sg::Probe { name, at })
             };
-            scene.probes = probes.iter().map(see).collect::<PyResult<_>>()?;
+            scene.probes = probes.iter().map(observe).collect::<PyResult<_>>()?;
         }
         displacement.map_or(Ok(()), |values| values.put("displacement", &mut scene.initial.q))?;
         velocity.map_or(Ok(()), |values| values.put("velocity", &mut scene.initial.v))?;

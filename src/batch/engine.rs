@@ -1,7 +1,7 @@
 //! The loop over a group of lanes: each lane computes one oscillator until it is done, and then the
 //! next.
 
-use super::seat::{Group, Guest, Results};
+use super::slots::{Group, LaneJob, Results};
 use super::state::State;
 use super::vector::{Mask, Vector};
 use pulp::{Simd, WithSimd};
@@ -15,7 +15,7 @@ const LEAST_SHARE: f64 = 1e-6;
 
 /// The oscillators to compute, with at most `W` sines each.
 pub(super) struct Engine<'a, const W: usize> {
-    pub guests: &'a [Guest<'a>],
+    pub guests: &'a [LaneJob<'a>],
     pub results: Results<'a>,
 }
 

@@ -45,18 +45,18 @@
 //!
 //! Many oscillators at once, exactly: `lane.rs` (one oscillator), `plan.rs` (durations and
 //! threads), `outcome.rs`; `series.rs` holds the constants of a lane, `state.rs` advances it,
-//! `stretch.rs` finds impacts, `rest.rs` treats contact that lasts, `seat.rs` assigns oscillators
+//! `stretch.rs` finds impacts, `rest.rs` treats contact that lasts, `slots.rs` assigns oscillators
 //! to lanes, `engine.rs` is the loop, `vector.rs` the arithmetic over pulp, `width.rs` the
-//! instruction sets; `handed.rs` runs by the exact scheme the oscillators that lanes do not cover.
+//! instruction sets; `fallback.rs` runs by the exact scheme the oscillators that lanes do not cover.
 
 mod engine;
-mod handed;
+mod fallback;
 mod lane;
 mod outcome;
 mod plan;
 mod rest;
-mod seat;
 mod series;
+mod slots;
 mod state;
 mod stretch;
 mod vector;

@@ -2,11 +2,11 @@
 //! `event`.
 
 use super::engine::Engine;
-use super::handed::follow;
+use super::fallback::follow;
 use super::lane::{Lane, Stop};
 use super::outcome::Outcome;
-use super::seat::{Guest, Results};
 use super::series::Series;
+use super::slots::{LaneJob, Results};
 use super::width::Width;
 use crate::error::Result;
 use crate::scene::Side;
@@ -27,8 +27,8 @@ pub(super) struct Work<'a> {
 impl Work<'_> {
     pub fn run(self, width: Width) {
         let Self { lanes, outcomes, strobes, settle, keep } = self;
-        let seated = |(index, lane)| Some(Guest { index, lane, series: seated(lane)? });
-        let guests: Vec<Guest> = lanes.iter().enumerate().filter_map(seated).collect();
+        let seated = |(index, lane)| Some(LaneJob { index, lane, series: seated(lane)? });
+        let guests: Vec<LaneJob> = lanes.iter().enumerate().filter_map(seated).collect();
         let mut found: Vec<Option<Outcome>> = vec![None; lanes.len()];
         let sines = guests.iter().map(|guest| guest.lane.sines.len()).max().unwrap_or(0);
         let results = Results { outcomes: &mut found, strobes: &mut *strobes, settle, keep };

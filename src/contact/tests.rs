@@ -56,12 +56,12 @@ fn the_first_two_steps_of_a_lasting_contact_are_no_force() {
     let h = 0.125;
     for (step, (impulse, speed)) in [(-10.0, 10.0), (-10.0, 0.0), (-h, 0.0), (-h, 0.0)].into_iter().enumerate() {
         let rates = Rates { before: speed, struck: speed, after: 0.0 };
-        episodes.see(step as f64 * h, h, &[impulse], &[0], |_| rates);
+        episodes.observe(step as f64 * h, h, &[impulse], &[0], |_| rates);
         let open = episodes.still_open();
         // An impact so far, without a finite force; then that of the third step.
         assert_eq!((open.len(), open[0].peak_force), (1, (step > 1).then_some(1.0)), "step {step}");
     }
-    episodes.see(4.0 * h, h, &[0.0], &[], |_| Rates { before: 0.0, struck: 0.0, after: 0.0 });
+    episodes.observe(4.0 * h, h, &[0.0], &[], |_| Rates { before: 0.0, struck: 0.0, after: 0.0 });
     let [contact] = episodes.closed() else { panic!("{:?}", episodes.closed()) };
     assert_eq!((contact.impulse, contact.peak_force, contact.approach_speed), (-20.25, Some(1.0), 10.0));
 }

@@ -14,13 +14,13 @@ const SOON: f64 = 1e-2;
 /// Halvings and secant steps that locate a root.
 const STEPS: usize = 80;
 
-/// Calls `see` with the time since the start (s), the displacement (m) and the acceleration (m/s²)
+/// Calls `observe` with the time since the start (s), the displacement (m) and the acceleration (m/s²)
 /// of each extreme of `arc` strictly inside its `span` (s), in order.
 ///
 /// The velocity is a sum of exponentials and sines; in a window of a quarter of the shortest period
 /// over 2π it has more than one root only if the acceleration has one there too; the window is then
 /// split at this root.
-pub(super) fn extremes(arc: &Arc, span: f64, mut see: impl FnMut(f64, f64, f64)) {
+pub(super) fn extremes(arc: &Arc, span: f64, mut observe: impl FnMut(f64, f64, f64)) {
     let fastest = arc.fastest_motion();
     let windows = (span * fastest / WINDOW).ceil().clamp(4.0, MOST_WINDOWS);
     let width = span / windows;
@@ -41,7 +41,7 @@ pub(super) fn extremes(arc: &Arc, span: f64, mut see: impl FnMut(f64, f64, f64))
             let tau = bisect(|tau| value(tau, 1), from, to);
             if tau > 0.0 && tau < span {
                 let jet = arc.jet(tau);
-                see(tau, jet[0], jet[2]);
+                observe(tau, jet[0], jet[2]);
             }
         };
         if before.1 * after.1 < 0.0 || (before.1.signum() != after.1.signum() && after.1 != 0.0) {

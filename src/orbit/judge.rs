@@ -105,7 +105,7 @@ impl Problem {
         while closure.is_infinite() {
             let step = stepper.step()?;
             let Path::Exact(arc) = step.path else { continue };
-            watch.see(&step);
+            watch.observe(&step);
             let last = step.end >= end;
             let until = if last { end } else { step.end };
             let instants = ((until - arc.start()) / spacing).ceil().max(1.0);

@@ -49,7 +49,7 @@ impl Problem {
         while look <= most {
             let until = f64::from(look) * period;
             while stepper.time() < until {
-                watch.see(&stepper.step()?);
+                watch.observe(&stepper.step()?);
                 progress(stepper.time() / scene.duration);
             }
             let settled = watch.passages.partition_point(|passage| passage.phase < f64::from(settle));

@@ -71,10 +71,10 @@ pub(super) fn run(scene: &Scene, period: f64, span: [f64; 2], start: &DVector<f6
     while stepper.time() < to {
         let step = stepper.step()?;
         if let Some(product) = &mut product {
-            product.see(&step).map_err(|error| Error::no_orbit(error.to_string()))?;
+            product.observe(&step).map_err(|error| Error::no_orbit(error.to_string()))?;
         }
-        watch.see(&step);
-        turns.see(&step);
+        watch.observe(&step);
+        turns.observe(&step);
         for contact in step.closed {
             if let Some(count) = contacts.get_mut(contact.wall) {
                 *count += 1;
@@ -124,7 +124,7 @@ impl<'a> Turns<'a> {
         }
     }
 
-    fn see(&mut self, step: &Step<'_>) {
+    fn observe(&mut self, step: &Step<'_>) {
         let Path::Series(series) = step.path else { return };
         if !self.wanted || series.end() <= series.start() {
             return;

@@ -57,7 +57,7 @@ impl<'a> Watch<'a> {
         -wall.side().sign() * wall.row().dot(&self.v)
     }
 
-    pub fn see(&mut self, step: &Step<'_>) {
+    pub fn observe(&mut self, step: &Step<'_>) {
         let (start, end) = match step.path {
             Path::Exact(arc) => (arc.start(), arc.end()),
             Path::Series(series) => (series.start(), series.end()),

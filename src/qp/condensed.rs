@@ -4,10 +4,10 @@ use super::active_set::ActiveSet;
 use super::clamp::meet;
 use super::clarabel::Clarabel;
 use super::counters::SolverCounters;
-use super::crowd::Crowd;
 use super::delassus::Delassus;
 use super::elimination::Elimination;
 use super::pivoting::{Pivoting, passes};
+use super::redundant_rows::RedundantRows;
 use super::side::Side;
 use super::{Failure, NOISE, Problem, Rhs, Solution};
 
@@ -22,7 +22,7 @@ pub(super) struct Condensed {
     problem: Problem,
     interior: Option<Clarabel>,
     /// Made when pivoting first gives up on a programme with more rows than degrees of freedom.
-    crowd: Option<Box<Crowd>>,
+    crowd: Option<Box<RedundantRows>>,
     /// The active set that the interior-point solver found.
     start: Vec<(usize, Side)>,
     /// True if the interior-point solver is run on every programme ([`Backend::Clarabel`]).
@@ -111,7 +111,7 @@ impl Condensed {
                 None if pivoting.rank() < r.len() && r.len() <= MOST_ROWS => {
                     counters.crowded += 1;
                     system.complete(x);
-                    let crowd = self.crowd.get_or_insert_with(|| Box::new(Crowd::new(system)));
+                    let crowd = self.crowd.get_or_insert_with(|| Box::new(RedundantRows::new(system)));
                     if let Some(pivots) = crowd.solve(system, pivoting, rhs, bounded, scale, r) {
                         counters.pivots += pivots;
                         return self.answer(rhs, solution);

@@ -2,8 +2,8 @@
 
 use super::energy::{Along, Instants, stored};
 use super::quadrature::{nodes, panels};
-use super::sight::Sight;
-use super::{Judge, PLACE_UNITS, most};
+use super::row_walls::RowWalls;
+use super::{Judge, PLACE_UNITS, running_max};
 use crate::flow::Arc;
 use crate::step::Step;
 
@@ -35,7 +35,7 @@ impl Judge {
         let balance = open / (step.end - step.start);
         self.balance.see_largest(balance);
         self.balance.see_scale(along.largest_force / weight);
-        self.balance.see(&self.noise, balance / weight, 0.0);
+        self.balance.observe(&self.noise, balance / weight, 0.0);
     }
 
     /// Computes the loads at instants inside an arc. Tables jump at their ends, where an arc ends:
@@ -58,11 +58,11 @@ impl Judge {
         self.noise.load(force * self.weights.per_root_mass.first().copied().unwrap_or(1.0));
         let (mut low, mut high, mut fastest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
         for (&q, v) in at.q[..at.count].iter().zip(&at.v) {
-            (low, high, fastest) = (-most(-low, -q), most(high, q), most(fastest, v.abs()));
+            (low, high, fastest) = (-running_max(-low, -q), running_max(high, q), running_max(fastest, v.abs()));
         }
-        self.noise.state(&[most(-low, high)], &[fastest], 0.0, &self.weights);
+        self.noise.state(&[running_max(-low, high)], &[fastest], 0.0, &self.weights);
         // In flight, most instants are in front of all walls.
-        let clear = |sight: &Sight| sight.is_clear((sight.of(&[low]), sight.of(&[high])), 0.0);
+        let clear = |sight: &RowWalls| sight.is_clear((sight.of(&[low]), sight.of(&[high])), 0.0);
         if arc.is_rest() || arc.touches() || !self.sights.iter().all(clear) {
             (0..at.count).for_each(|k| self.look_at_walls(arc, k, at, along));
         }

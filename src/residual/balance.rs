@@ -1,7 +1,7 @@
 //! What a run has shown of the momentum balance of its steps.
 
+use super::largest_residual::Residual;
 use super::noise::NoiseModel;
-use super::worst::Residual;
 
 /// Residuals of the momentum balance and of the kinematics, in the metric of the mass.
 #[derive(Debug, Default)]
@@ -18,9 +18,9 @@ pub(super) struct BalanceCheck {
 impl BalanceCheck {
     /// Notes the residuals of a step: of its momentum balance, N/√kg, and of its path, m√kg.
     #[inline(always)]
-    pub fn see(&mut self, noise: &NoiseModel, force: f64, path: f64) {
-        self.force.see(force, noise.force(), noise.end, None);
-        self.path.see(path, noise.path(), noise.end, None);
+    pub fn observe(&mut self, noise: &NoiseModel, force: f64, path: f64) {
+        self.force.observe(force, noise.force(), noise.end, None);
+        self.path.observe(path, noise.path(), noise.end, None);
     }
 
     /// Notes the largest residual of a degree of freedom, N.

@@ -46,7 +46,7 @@ impl Judge {
                 self.walls.see_gap(&self.noise, place, (gap - distance, size), pressure);
                 if force > 0.0 {
                     let noise = force * self.noise.of(size) / gap + self.noise.wall_force(place);
-                    supports.askew.see(across, noise, self.noise.end, Some(place));
+                    supports.askew.observe(across, noise, self.noise.end, Some(place));
                 }
             }
             // The impulse that the step tells, without the jump at its end, is that of this force.
@@ -56,7 +56,7 @@ impl Judge {
             let length = step.end - step.start;
             let rounding = VECTOR_UNITS * f64::EPSILON * impulse / length;
             let force = apart / length - rounding;
-            supports.askew.see(force, self.noise.wall_force(place), self.noise.end, Some(place));
+            supports.askew.observe(force, self.noise.wall_force(place), self.noise.end, Some(place));
         }
         self.supports = Some(supports);
     }
@@ -96,11 +96,11 @@ impl Judge {
             if alone && !(slow && after <= noise && after >= -e * before) {
                 missed = missed.max((after + e * before).abs());
             }
-            supports.struck.see(missed, noise, self.noise.end, Some(place));
+            supports.struck.observe(missed, noise, self.noise.end, Some(place));
             // Along the normal there: the impulse that the step tells has the direction of n.
             let normal = step.normal[place];
             let askew = (normal[0] - ny).hypot(normal[1] - nz);
-            supports.struck.excess.see(speeds * askew - noise, self.noise.end, Some(place));
+            supports.struck.excess.observe(speeds * askew - noise, self.noise.end, Some(place));
         }
         self.supports = Some(supports);
     }

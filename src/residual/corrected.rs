@@ -2,8 +2,8 @@
 
 use super::Judge;
 use super::blows::divide;
-use super::memory::{Memory, smooth};
-use super::moves::Moves;
+use super::previous_step::{PreviousStep, smooth};
+use super::step_motion::StepMotion;
 use crate::scene::Wall;
 use crate::step::{Balance, Step};
 
@@ -15,7 +15,7 @@ impl Judge {
         let h = self.h;
         self.walls_on_grid(step, false);
         let closed = self.closes(step);
-        let Memory { s, force, s_end, force_end, .. } = &mut *memory;
+        let PreviousStep { s, force, s_end, force_end, .. } = &mut *memory;
         let scratch = &mut self.scratch;
         force_end.copy_from_slice(&self.load_end);
         smooth(&self.scene, step.q, step.v, step.force, force_end);
@@ -74,9 +74,9 @@ impl Judge {
         std::mem::swap(s, s_end);
         std::mem::swap(force, force_end);
         self.memory = Some(memory);
-        let moves = Moves::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
+        let moves = StepMotion::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
         let (hs, n) = ((h, 1.0 / h), self.q.len());
         self.energy.see_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
-        self.balance.see(&self.noise, worst, path);
+        self.balance.observe(&self.noise, worst, path);
     }
 }

@@ -4,8 +4,8 @@
 
 use super::Judge;
 use super::hole_motion::HoleMotion;
+use super::largest_residual::Residual;
 use super::round::HolePush;
-use super::worst::Residual;
 use crate::scene::Hole;
 use crate::step::Step;
 
@@ -43,7 +43,7 @@ impl Judge {
         let distance = end[0].hypot(end[1]);
         let across = force * (did.normal[0] - end[0] / distance).hypot(did.normal[1] - end[1] / distance);
         let noise = force * self.noise.of(self.way(hole, motion)) / distance + self.noise.wall_force(hole.index);
-        askew.see(across, noise, self.noise.end, Some(hole.index));
+        askew.observe(across, noise, self.noise.end, Some(hole.index));
     }
 
     /// True if the velocity that the blows give drives the structure into a hole that is touched.

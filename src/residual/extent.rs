@@ -1,7 +1,7 @@
 //! How far and how fast a run has moved.
 
+use super::largest_residual::running_max;
 use super::weights::Weights;
-use super::worst::most;
 
 /// The largest displacements and velocities so far.
 #[derive(Debug, Clone, Copy, Default)]
@@ -16,13 +16,13 @@ pub(super) struct Extent {
 impl Extent {
     /// Notes displacements (m) and velocities (m/s), n of each.
     #[inline(always)]
-    pub fn see(&mut self, q: &[f64], v: &[f64], weights: &Weights, n: usize) {
+    pub fn observe(&mut self, q: &[f64], v: &[f64], weights: &Weights, n: usize) {
         let (q, v, seen, root_mass) = (&q[..n], &v[..n], &weights.seen[..n], &weights.root_mass[..n]);
         let Self { mut reach, mut normal_reach, mut speed } = *self;
         for i in 0..n {
-            speed = most(speed, (seen[i] * v[i]).abs());
-            reach = most(reach, q[i].abs());
-            normal_reach = most(normal_reach, q[i].abs() * root_mass[i]);
+            speed = running_max(speed, (seen[i] * v[i]).abs());
+            reach = running_max(reach, q[i].abs());
+            normal_reach = running_max(normal_reach, q[i].abs() * root_mass[i]);
         }
         *self = Self { reach, normal_reach, speed };
     }

@@ -1,6 +1,6 @@
 //! Pairs of a slack and a pressure that should be complementary: at least one of the two is 0.
 
-use super::worst::{Residual, Worst, over};
+use super::largest_residual::{LargestResidual, Residual, over};
 
 /// Maximum number of pairs that are kept.
 const PAIRS: usize = 64;
@@ -15,15 +15,15 @@ pub(super) struct ComplementarityFront {
     pub pull: Residual,
     pairs: Vec<(f64, f64)>,
     /// The pairs less their rounding errors, with their places.
-    excess: Vec<(f64, f64, Worst)>,
+    excess: Vec<(f64, f64, LargestResidual)>,
 }
 
 impl ComplementarityFront {
     /// Adds a pair of `slack` and `pressure`, each with its rounding error, of a wall in the step
     /// that ends at `time` (s).
     pub fn add(&mut self, (slack, gap_noise): (f64, f64), (pressure, force_noise): (f64, f64), time: f64, wall: usize) {
-        self.outside.see(-slack, gap_noise, time, Some(wall));
-        self.pull.see(-pressure, force_noise, time, Some(wall));
+        self.outside.observe(-slack, gap_noise, time, Some(wall));
+        self.pull.observe(-pressure, force_noise, time, Some(wall));
         self.add_pair(slack, pressure);
         let (slack, pressure) = (slack - gap_noise, pressure - force_noise);
         if slack <= 0.0 || pressure <= 0.0 || self.excess.iter().any(|s| s.0 >= slack && s.1 >= pressure) {
@@ -32,7 +32,7 @@ impl ComplementarityFront {
         self.excess.retain(|s| s.0 > slack || s.1 > pressure);
         // A run with more such pairs violates complementarity in any case.
         if self.excess.len() < PAIRS {
-            self.excess.push((slack, pressure, Worst { value: 0.0, time, wall: Some(wall) }));
+            self.excess.push((slack, pressure, LargestResidual { value: 0.0, time, wall: Some(wall) }));
         }
     }
 
@@ -55,10 +55,10 @@ impl ComplementarityFront {
     }
 
     /// The largest min(γ/γ₀, r/r₀) of the pairs less their rounding errors, with its place.
-    pub fn worst_excess(&self, gap_scale: f64, force_scale: f64) -> Worst {
-        let mut worst = Worst::default();
+    pub fn worst_excess(&self, gap_scale: f64, force_scale: f64) -> LargestResidual {
+        let mut worst = LargestResidual::default();
         for (slack, pressure, at) in &self.excess {
-            worst.see((slack / gap_scale).min(pressure / force_scale), at.time, at.wall);
+            worst.observe((slack / gap_scale).min(pressure / force_scale), at.time, at.wall);
         }
         worst
     }

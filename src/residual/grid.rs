@@ -1,13 +1,13 @@
 //! Checks of a step on a grid against its scheme's contract.
 
 use super::Judge;
-use super::moves::Moves;
+use super::step_motion::StepMotion;
 use crate::step::{Path, Step};
 
 /// What a step did, from the judge's own record of its start; borrows some of its fields.
 macro_rules! moves {
     ($judge:expr, $step:expr, $beyond:expr) => {
-        Moves::of(
+        StepMotion::of(
             $step,
             (&$judge.q, if $beyond { &$judge.blows.arrived } else { $step.q }),
             (&$judge.load, &$judge.load_end),
@@ -61,7 +61,7 @@ impl Judge {
             self.energy.displace(&self.scene, &self.matrices, h, step);
             self.sums.displace(&self.matrices, &self.blows.beyond, &mut self.scratch.mean_q);
         }
-        self.balance.see(&self.noise, worst, path);
+        self.balance.observe(&self.noise, worst, path);
         self.sum(step, per_h, n);
         self.go_on(step, n);
     }

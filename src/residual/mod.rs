@@ -5,20 +5,20 @@
 //!
 //! The judge, which checks every step against the contract: complementarity, momentum balance,
 //! energy ledger; steps on a grid (`grid.rs`, their parts `part.rs`, the passes over what they did,
-//! `moves.rs`, in `scratch.rs`, many steps of one degree of freedom in the same passes `calm.rs`,
-//! each wall `wall_step.rs`, blows `struck.rs`, round holes `round.rs`, `disk.rs`, `ring.rs` and
+//! `step_motion.rs`, in `scratch.rs`, many steps of one degree of freedom in the same passes `quiet_steps.rs`,
+//! each wall `wall_step.rs`, blows `blow_check.rs`, round holes `round.rs`, `disk.rs`, `ring.rs` and
 //! `hole_motion.rs`,
 //! friction `friction.rs`), exact motion (`arc.rs`, of structures `series.rs`, round holes
 //! `circle.rs`), steps that predict and correct (`corrected.rs`), all into `residuals.rs`, and the
-//! momentum of a whole run, of every run (`whole.rs`) and of a recorded one (`recorded.rs`); what a
+//! momentum of a whole run, of every run (`run_momentum.rs`) and of a recorded one (`recorded.rs`); what a
 //! run shows of its walls (`walls.rs`, `front.rs`) and of its momentum (`balance.rs`) is kept with
-//! its rounding error (`noise.rs`, `worst.rs`), and what exceeds that and its tolerance becomes a
+//! its rounding error (`noise.rs`, `residual.rs`), and what exceeds that and its tolerance becomes a
 //! finding (`verdict.rs`, `finding.rs`); imports no scheme and no QP.
 
 mod arc;
 mod balance;
+mod blow_check;
 mod blows;
-mod calm;
 mod circle;
 mod complementarity;
 mod corrected;
@@ -30,31 +30,31 @@ mod friction;
 mod front;
 mod grid;
 mod hole_motion;
+mod largest_residual;
 mod matrices;
-mod memory;
-mod moves;
+mod momentum_sums;
 mod noise;
 mod part;
+mod previous_step;
 mod pushes;
 mod quadrature;
+mod quiet_scratch;
+mod quiet_steps;
 mod recorded;
 mod residuals;
 mod ring;
-mod room;
 mod round;
+mod row_walls;
+mod run_momentum;
 mod scales;
 mod scratch;
 mod series;
-mod sight;
-mod struck;
-mod sums;
+mod step_motion;
 mod supports;
 mod verdict;
 mod wall_step;
 mod walls;
 mod weights;
-mod whole;
-mod worst;
 
 pub use energy::Energy;
 pub use finding::{Finding, Refuted};
@@ -67,19 +67,19 @@ use crate::step::{Contract, Path, Step};
 use balance::BalanceCheck;
 use blows::Blows;
 use extent::Extent;
+use largest_residual::running_max;
 use matrices::Matrices;
-use memory::Memory;
+use momentum_sums::MomentumSums;
 use noise::NoiseModel;
-use room::Room;
+use previous_step::PreviousStep;
+use quiet_scratch::QuietScratch;
+use row_walls::RowWalls;
 use scales::Scales;
 use scratch::Scratch;
-use sight::Sight;
 use std::sync::Arc;
-use sums::Sums;
 use supports::Supports;
 use walls::WallCheck;
 use weights::Weights;
-use worst::most;
 
 /// Rounding error of the position of a body along exact motion, in units in the last place of its
 /// terms and of the time.
@@ -98,7 +98,7 @@ pub struct Judge {
     matrices: Matrices,
     /// The walls by their rows, and the indices of the rows with rigid walls that reach several
     /// degrees of freedom.
-    sights: Vec<Sight>,
+    sights: Vec<RowWalls>,
     wide: Vec<usize>,
     weights: Weights,
     mass: Option<Factor>,
@@ -111,7 +111,7 @@ pub struct Judge {
     /// Impulses over a part of a step, one entry a wall, N s.
     over: Vec<f64>,
     /// Work space for several steps at once; `None` where each is to be seen alone.
-    room: Option<Box<Room>>,
+    room: Option<Box<QuietScratch>>,
     walls: WallCheck,
     balance: BalanceCheck,
     extent: Extent,
@@ -119,7 +119,7 @@ pub struct Judge {
     normal_speed: f64,
     scales: Scales,
     /// Quantities of a generalized-α run that carry over from step to step.
-    memory: Option<Box<Memory>>,
+    memory: Option<Box<PreviousStep>>,
     /// Round holes and friction; `None` in scenes without them.
     supports: Option<Box<Supports>>,
     energy: energy::Ledger,
@@ -127,7 +127,7 @@ pub struct Judge {
     /// True once a step was handed to another scheme, which may not conserve energy.
     handed: bool,
     /// The momentum of the whole run.
-    sums: Sums,
+    sums: MomentumSums,
 }
 
 impl Judge {
@@ -162,7 +162,7 @@ impl Judge {
         let (q, v) = (fit(q), fit(v));
         let walls = WallCheck::new(scene, &q, &v);
         let grid_load = scene.is_line().then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
-        let sights = Sight::all(scene);
+        let sights = RowWalls::all(scene);
         let (weights, blows) = (Weights::new(scene), loads.has_blows());
         let mut noise = NoiseModel::new(&weights, masses, scene.gap_scale());
         noise.begin(h, 0.0);
@@ -177,8 +177,8 @@ impl Judge {
             mass,
             energy: energy::Ledger::new(scene, contract, &q, &v),
             scales: Scales::new(scene, masses),
-            sums: Sums::new(scene, &q, &v),
-            memory: Memory::new(scene, contract, (&q, &v), &load, &walls.last_force),
+            sums: MomentumSums::new(scene, &q, &v),
+            memory: PreviousStep::new(scene, contract, (&q, &v), &load, &walls.last_force),
             walls,
             supports: Supports::new(scene, masses),
             q,
@@ -187,7 +187,7 @@ impl Judge {
             blows: Blows::new(n),
             scratch: Scratch::new(n),
             over: vec![0.0; scene.walls.len()],
-            room: Room::new(scene, contract, &weights, blows),
+            room: QuietScratch::new(scene, contract, &weights, blows),
             balance: BalanceCheck::default(),
             extent: Extent::default(),
             normal_speed: 0.0,
@@ -200,7 +200,7 @@ impl Judge {
 
     /// Checks one step. Steps must come in order, none left out. A step of another scene, with
     /// another number of walls or degrees of freedom than the judge was made for, is ignored.
-    pub fn see(&mut self, step: &Step<'_>) {
+    pub fn observe(&mut self, step: &Step<'_>) {
         let (n, walls) = (self.q.len(), self.scene.walls.len());
         let planar = if self.supports.is_some() { walls } else { 0 };
         let moved = [step.q, step.v, step.velocity_before, step.velocity_after, step.extra];
@@ -249,12 +249,12 @@ impl Judge {
         std::mem::swap(&mut self.load, &mut self.load_end);
     }
 
-    /// Checks a step by `see`, with its sizes noted before, and its momentum summed and the depths
+    /// Checks a step by `observe`, with its sizes noted before, and its momentum summed and the depths
     /// behind the walls updated after. [`Judge::see_grid`] does that in its own passes.
-    fn see_apart(&mut self, step: &Step<'_>, see: impl FnOnce(&mut Self)) {
+    fn see_apart(&mut self, step: &Step<'_>, observe: impl FnOnce(&mut Self)) {
         let n = self.q.len();
         self.prepare(step);
-        see(self);
+        observe(self);
         self.sum(step, 1.0 / self.h, n);
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.walls.see_depth(index, -wall.gap(wall.row().dot(step.q)));
@@ -268,7 +268,7 @@ impl Judge {
         for sight in self.wide.iter().filter_map(|&index| self.sights.get(index)) {
             self.extent.speed = self.extent.speed.max(sight.size(step.velocity_after));
         }
-        self.extent.see(step.q, step.velocity_after, &self.weights, n);
+        self.extent.observe(step.q, step.velocity_after, &self.weights, n);
         self.q[..n].copy_from_slice(&step.q[..n]);
     }
 

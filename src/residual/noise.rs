@@ -1,8 +1,8 @@
 //! The rounding errors of a step's balances, places and forces.
 
-use super::moves::Moves;
+use super::largest_residual::running_max;
+use super::step_motion::StepMotion;
 use super::weights::Weights;
-use super::worst::most;
 
 /// Rounding error of a sum in a step, in units in the last place, times √n for sums over n degrees
 /// of freedom (tests of extreme scenes allow every scheme of one degree of freedom 32).
@@ -95,24 +95,24 @@ impl NoiseModel {
     /// As [`Self::state`] for what a step on a grid of `h` seconds (and 1/h) did, and notes the
     /// sizes of its mean load `mean` (N), its load at the end, the extra force and its blows.
     #[inline(always)]
-    pub fn step(&mut self, moves: &Moves<'_>, mean: &[f64], weights: &Weights, (h, per_h): (f64, f64), n: usize) {
+    pub fn step(&mut self, moves: &StepMotion<'_>, mean: &[f64], weights: &Weights, (h, per_h): (f64, f64), n: usize) {
         let (q, before, after, roots) = (&moves.shown[..n], &moves.before[..n], &moves.after[..n], &weights.roots[..n]);
         let [mut speed, mut reach, mut strain, mut rub] = [self.speed, self.reach, self.strain, self.rub];
         for i in 0..n {
             let [mass, spring, dashpot] = roots[i];
-            let v = most(before[i].abs(), after[i].abs());
+            let v = running_max(before[i].abs(), after[i].abs());
             let q = q[i].abs() + h * v;
-            speed = most(speed, v * mass);
-            reach = most(reach, q * mass);
-            strain = most(strain, q * spring);
-            rub = most(rub, v * dashpot);
+            speed = running_max(speed, v * mass);
+            reach = running_max(reach, q * mass);
+            strain = running_max(strain, q * spring);
+            rub = running_max(rub, v * dashpot);
         }
         (self.speed, self.reach, self.strain, self.rub) = (speed, reach, strain, rub);
         let (end, extra, blow) = (&moves.load_end[..n], &moves.extra[..n], &moves.blow[..n]);
         let (mean, per_root, mut load) = (&mean[..n], &weights.per_root_mass[..n], self.load);
         for i in 0..n {
-            let force = most(most(mean[i].abs(), blow[i].abs() * per_h), extra[i].abs() + end[i].abs());
-            load = most(load, force * per_root[i]);
+            let force = running_max(running_max(mean[i].abs(), blow[i].abs() * per_h), extra[i].abs() + end[i].abs());
+            load = running_max(load, force * per_root[i]);
         }
         self.load = load;
     }

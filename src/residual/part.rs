@@ -72,7 +72,7 @@ impl Judge {
             (*seen, *size) = (*seen + p, *size + p.abs());
         }
         sums.last.copy_from_slice(step.v);
-        self.extent.see(step.q, step.v, &self.weights, step.v.len());
+        self.extent.observe(step.q, step.v, &self.weights, step.v.len());
     }
 
     /// Checks the impulses of round walls and of friction at the end of a part.
@@ -126,7 +126,7 @@ impl Judge {
         if p != 0.0 {
             let across = pressure * (step.normal[place][0] - n[0]).hypot(step.normal[place][1] - n[1]);
             let noise = pressure * self.noise.of(size) / distance + self.noise.wall_force(place);
-            supports.askew.see(across, noise, self.noise.end, Some(place));
+            supports.askew.observe(across, noise, self.noise.end, Some(place));
         }
     }
 
@@ -194,6 +194,6 @@ impl Judge {
         }
         let (largest, worst) = s.open(1.0 / self.h, &self.weights, step.v.len(), self.balance.largest);
         self.balance.largest = largest;
-        self.balance.force.see(worst, self.noise.force(), self.noise.end, None);
+        self.balance.force.observe(worst, self.noise.force(), self.noise.end, None);
     }
 }

@@ -1,6 +1,6 @@
 //! The residuals of a run.
 
-use super::worst::over;
+use super::largest_residual::over;
 use super::{Energy, Judge};
 #[cfg(doc)]
 use crate::step::Promise;

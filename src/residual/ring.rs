@@ -4,8 +4,8 @@
 use super::Judge;
 use super::complementarity::mean_pressure;
 use super::hole_motion::HoleMotion;
+use super::largest_residual::Residual;
 use super::round::HolePush;
-use super::worst::Residual;
 use crate::scene::{Hole, WallSpring};
 use crate::step::Law;
 
@@ -49,7 +49,7 @@ impl Judge {
         if pressure != 0.0 {
             let across = pressure * (did.normal[0] - at[0] / distance).hypot(did.normal[1] - at[1] / distance);
             let noise = pressure * noise / distance + self.noise.wall_force(place);
-            askew.see(across, noise, self.noise.end, Some(place));
+            askew.observe(across, noise, self.noise.end, Some(place));
         }
     }
 }

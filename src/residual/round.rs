@@ -5,8 +5,8 @@
 use super::Judge;
 use super::friction::Rub;
 use super::hole_motion::HoleMotion;
+use super::largest_residual::Residual;
 use super::pushes::{places_of_flats, pushes, terms};
-use super::worst::Residual;
 use crate::scene::Hole;
 use crate::step::{Bound, Normal, Step, Turning};
 
@@ -130,7 +130,7 @@ impl Judge {
         if force != 0.0 {
             let across = force * (did.normal[0] - normal[0]).hypot(did.normal[1] - normal[1]);
             let noise = force * place_noise / reach + self.noise.wall_force(place);
-            askew.see(across, noise, self.noise.end, Some(place));
+            askew.observe(across, noise, self.noise.end, Some(place));
         }
     }
 }

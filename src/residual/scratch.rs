@@ -1,9 +1,9 @@
 //! Work space of the judge for one step, and the terms of its momentum balance.
 
+use super::largest_residual::running_max;
 use super::matrices::{Matrices, Part};
-use super::moves::Moves;
+use super::step_motion::StepMotion;
 use super::weights::Weights;
-use super::worst::most;
 use crate::step::Balance;
 
 /// Vectors that a step needs, one entry per degree of freedom; for several steps of one degree of
@@ -41,7 +41,7 @@ impl Scratch {
     /// balance with what is given. Returns the difference of the displacement and the one that
     /// follows from the velocities, m√kg.
     #[inline(always)]
-    pub fn means(&mut self, balance: Balance, h: f64, moves: &Moves<'_>, weights: &Weights, n: usize) -> f64 {
+    pub fn means(&mut self, balance: Balance, h: f64, moves: &StepMotion<'_>, weights: &Weights, n: usize) -> f64 {
         let (q0, q1) = (&moves.from[..n], &moves.to[..n]);
         let (before, after, extra) = (&moves.before[..n], &moves.after[..n], &moves.extra[..n]);
         let (load_start, load_end, blow) = (&moves.load_start[..n], &moves.load_end[..n], &moves.blow[..n]);
@@ -56,7 +56,7 @@ impl Scratch {
                     load[i] = mean(load_start[i], load_end[i]);
                     mean_q[i] = mean(q0[i], q1[i]);
                     mean_v[i] = mean(before[i], after[i]);
-                    path = most(path, (q1[i] - q0[i] - h * mean_v[i]).abs() * root_mass[i]);
+                    path = running_max(path, (q1[i] - q0[i] - h * mean_v[i]).abs() * root_mass[i]);
                 }
             }
             Balance::Staggered(b) => {
@@ -65,7 +65,7 @@ impl Scratch {
                     load[i] = load_start[i];
                     mean_q[i] = b * back + (1.0 - 2.0 * b) * q0[i] + b * q1[i];
                     mean_v[i] = 0.5 * (before[i] + after[i]);
-                    path = most(path, (q1[i] - q0[i] - h * after[i]).abs() * root_mass[i]);
+                    path = running_max(path, (q1[i] - q0[i] - h * after[i]).abs() * root_mass[i]);
                 }
             }
             Balance::GeneralizedAlpha { .. } | Balance::Exact => {}
@@ -98,8 +98,11 @@ impl Scratch {
         let per_root_mass = &weights.per_root_mass[..n];
         for i in 0..n {
             residual[i] += inertia[i] + damper[i] + spring[i];
-            let moved = most(most(inertia[i].abs(), damper[i].abs()), most(spring[i].abs(), blow[i].abs()));
-            scale = most(scale, most(load[i].abs(), moved * per_h) * per_root_mass[i]);
+            let moved = running_max(
+                running_max(inertia[i].abs(), damper[i].abs()),
+                running_max(spring[i].abs(), blow[i].abs()),
+            );
+            scale = running_max(scale, running_max(load[i].abs(), moved * per_h) * per_root_mass[i]);
         }
         scale
     }
@@ -111,8 +114,8 @@ impl Scratch {
         let (mut balance, mut worst) = (so_far, 0.0);
         for (r, per_weight) in self.residual[..n].iter().zip(&weights.per_root_mass[..n]) {
             let open = r.abs() * per_h;
-            balance = most(balance, open);
-            worst = most(worst, open * per_weight);
+            balance = running_max(balance, open);
+            worst = running_max(worst, open * per_weight);
         }
         (balance, worst)
     }

@@ -137,6 +137,6 @@ impl Judge {
         }
         let balance = &mut self.balance.force;
         balance.value = balance.value.max(worst);
-        balance.excess.see(doubtful - self.noise.force(), self.noise.end, None);
+        balance.excess.observe(doubtful - self.noise.force(), self.noise.end, None);
     }
 }

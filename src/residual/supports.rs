@@ -1,7 +1,7 @@
 //! What the judge keeps of round holes and friction over a run.
 
 use super::front::ComplementarityFront;
-use super::worst::Residual;
+use super::largest_residual::Residual;
 use crate::scene::{Hole, Scene};
 use crate::step::Step;
 

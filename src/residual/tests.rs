@@ -1,5 +1,6 @@
 //! Steps made by hand, whose numbers can be added up on paper: what the judge notes of them.
 
+mod blow_check;
 mod circle;
 mod corrected;
 mod disk;
@@ -11,7 +12,6 @@ mod ring;
 mod round;
 mod sizes;
 mod stretch;
-mod struck;
 
 use super::*;
 use crate::linear::Symmetric;

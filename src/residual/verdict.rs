@@ -1,6 +1,6 @@
 //! Turns residuals, minus their rounding errors, into findings.
 
-use super::worst::Worst;
+use super::largest_residual::LargestResidual;
 use super::{Finding, Judge, Refuted};
 use crate::finite::first_not_finite;
 use crate::step::{Bound, Conserves, Path, Step, Tolerance};
@@ -61,8 +61,9 @@ impl Judge {
         let behind = if stands { Refuted::Penetration } else { Refuted::Complementarity };
         let energy = self.energy.report();
         let open = energy.residual_j.abs() - self.noise.energy;
-        let ledger = Worst { value: if self.keeps_ledger() { open } else { 0.0 }, time: self.noise.end, wall: None };
-        let nothing = Worst::default;
+        let ledger =
+            LargestResidual { value: if self.keeps_ledger() { open } else { 0.0 }, time: self.noise.end, wall: None };
+        let nothing = LargestResidual::default;
         let none = [nothing(), nothing(), nothing(), nothing()];
         let [askew, sliding, beyond, struck] = self.supports.as_ref().map_or(none, |supports| {
             let (askew, struck) = (supports.askew.excess.over(force), supports.struck.excess.over(speed));
@@ -98,7 +99,7 @@ impl Judge {
         findings
     }
 
-    fn finding(&self, refuted: Refuted, worst: Worst, allowed: Tolerance) -> Finding {
+    fn finding(&self, refuted: Refuted, worst: LargestResidual, allowed: Tolerance) -> Finding {
         Finding {
             refuted,
             residual: worst.value,

@@ -1,8 +1,8 @@
 //! What a run shows of its walls, against the scheme's promise.
 
 use super::front::ComplementarityFront;
+use super::largest_residual::Residual;
 use super::noise::NoiseModel;
-use super::worst::Residual;
 use crate::scene::Scene;
 
 /// What a run has shown of its walls; vectors have one entry per wall.
@@ -70,7 +70,7 @@ impl WallCheck {
     /// body's place explains `place`.
     pub fn see_law(&mut self, noise: &NoiseModel, wall: usize, error: f64, place: f64) {
         if error > 0.0 || error.is_nan() {
-            self.law.see(error, place + noise.wall_force(wall), noise.end, Some(wall));
+            self.law.observe(error, place + noise.wall_force(wall), noise.end, Some(wall));
         }
     }
 }

@@ -152,7 +152,7 @@ mod tests {
     use crate::residual::{Judge, Refuted};
     use crate::scene::{Load, Scene, Wall};
     use crate::scheme::{Scheme, Stepper};
-    use crate::step::Calm;
+    use crate::step::QuietSteps;
 
     /// The first findings of 300 steps without contact, seen together and one by one, with number
     /// `wrong` changed by `lie`: of end, displacement, velocity and the velocities in the balance.
@@ -164,7 +164,7 @@ mod tests {
         let h = 1e-3;
         let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, h).expect("a scene");
         let judge = || Judge::new(&scene, stepper.contract(), h, &[1e-3], &[0.1]);
-        let (mut together, mut alone, mut calm) = (judge(), judge(), Calm::new(1));
+        let (mut together, mut alone, mut calm) = (judge(), judge(), QuietSteps::new(1));
         for k in 0..300 {
             let step = stepper.step().expect("a step");
             let mut told = [step.end, step.q[0], step.v[0], step.velocity_before[0], step.velocity_after[0]];
@@ -176,11 +176,11 @@ mod tests {
             calm.add(end, (&[q], &[v]), (&[before], &[after]));
             if calm.is_full() || k == 299 {
                 together.see_calm(&calm);
-                (0..calm.len()).for_each(|k| alone.see(&calm.step(k)));
+                (0..calm.len()).for_each(|k| alone.observe(&calm.step(k)));
                 calm.clear();
             }
         }
-        assert!(together.gains_by_calm());
+        assert!(together.batches_quiet_steps());
         [together, alone].map(|judge| judge.findings().first().map(|found| (found.refuted, found.time_s)))
     }
 

@@ -3,7 +3,7 @@
 use super::{Judging, Recording};
 use crate::error::Result;
 use crate::scheme::Stepper;
-use crate::step::Calm;
+use crate::step::QuietSteps;
 
 /// The judge and the recorder of a run. Steps of one degree of freedom between two contacts are
 /// passed to them in groups, if that is faster.
@@ -11,14 +11,14 @@ pub(super) struct Observers<J: Judging, R: Recording> {
     pub judge: J::Judge,
     pub recorder: R::Recorder,
     /// Steps that have not been passed on yet; `None` where each step is passed on at once.
-    calm: Option<Calm>,
+    calm: Option<QuietSteps>,
 }
 
 impl<J: Judging, R: Recording> Observers<J, R> {
     /// The observers of a run by `stepper`.
     pub fn new(judge: J::Judge, recorder: R::Recorder, stepper: &Stepper) -> Self {
-        let together = J::gains_by_calm(&judge).unwrap_or(!R::ROWLESS);
-        let calm = (together && stepper.is_line()).then(|| Calm::new(stepper.scene().walls.len()));
+        let together = J::batches_quiet_steps(&judge).unwrap_or(!R::ROWLESS);
+        let calm = (together && stepper.is_line()).then(|| QuietSteps::new(stepper.scene().walls.len()));
         Self { judge, recorder, calm }
     }
 
@@ -29,12 +29,12 @@ impl<J: Judging, R: Recording> Observers<J, R> {
         let Some(calm) = &mut self.calm else {
             let index = stepper.index();
             let step = stepper.step()?;
-            J::see(&mut self.judge, &step);
-            R::see(&mut self.recorder, &step);
+            J::observe(&mut self.judge, &step);
+            R::observe(&mut self.recorder, &step);
             let end = step.end;
             return Ok((stepper.index() - index, end));
         };
-        let made = stepper.glide_into(calm, most)?;
+        let made = stepper.advance_quiet_into(calm, most)?;
         if made > 0 {
             if calm.is_full() {
                 self.catch_up();
@@ -46,8 +46,8 @@ impl<J: Judging, R: Recording> Observers<J, R> {
         let end = step.end;
         if !calm.take(&step) {
             self.catch_up();
-            J::see(&mut self.judge, &step);
-            R::see(&mut self.recorder, &step);
+            J::observe(&mut self.judge, &step);
+            R::observe(&mut self.recorder, &step);
         } else if calm.is_full() {
             self.catch_up();
         }

@@ -7,7 +7,7 @@ use crate::residual::{Finding, Judge, Residuals};
 use crate::scene::{Scene, State};
 use crate::scheme::Stepper;
 use crate::statistics::{Forces, Rubbing, Statistics};
-use crate::step::{Calm, Contact, Step};
+use crate::step::{Contact, QuietSteps, Step};
 use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
 use std::fmt::Debug;
@@ -123,12 +123,12 @@ pub trait Judging: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     fn begin(stepper: &Stepper, step: f64, start: &State) -> Self::Judge;
     #[doc(hidden)]
-    fn see(judge: &mut Self::Judge, step: &Step<'_>);
+    fn observe(judge: &mut Self::Judge, step: &Step<'_>);
     /// Whether processing many steps at once is faster; `None` if it does not look at steps.
     #[doc(hidden)]
-    fn gains_by_calm(judge: &Self::Judge) -> Option<bool>;
+    fn batches_quiet_steps(judge: &Self::Judge) -> Option<bool>;
     #[doc(hidden)]
-    fn see_calm(judge: &mut Self::Judge, calm: &Calm);
+    fn see_calm(judge: &mut Self::Judge, calm: &QuietSteps);
     #[doc(hidden)]
     fn verdict(judge: Self::Judge, recorded: Option<&Trajectory>) -> (Self::Verdict, Self::Findings);
     #[doc(hidden)]
@@ -160,15 +160,15 @@ impl Judging for Judged {
         Judge::over(scene.shared(), scene.wall_masses(), stepper.contract(), step, (&start.q, &start.v))
     }
 
-    fn see(judge: &mut Judge, step: &Step<'_>) {
-        judge.see(step);
+    fn observe(judge: &mut Judge, step: &Step<'_>) {
+        judge.observe(step);
     }
 
-    fn gains_by_calm(judge: &Judge) -> Option<bool> {
-        Some(judge.gains_by_calm())
+    fn batches_quiet_steps(judge: &Judge) -> Option<bool> {
+        Some(judge.batches_quiet_steps())
     }
 
-    fn see_calm(judge: &mut Judge, calm: &Calm) {
+    fn see_calm(judge: &mut Judge, calm: &QuietSteps) {
         judge.see_calm(calm);
     }
 
@@ -205,13 +205,13 @@ impl Judging for Unjudged {
 
     fn begin(_: &Stepper, _: f64, _: &State) {}
 
-    fn see((): &mut (), _: &Step<'_>) {}
+    fn observe((): &mut (), _: &Step<'_>) {}
 
-    fn gains_by_calm((): &()) -> Option<bool> {
+    fn batches_quiet_steps((): &()) -> Option<bool> {
         None
     }
 
-    fn see_calm((): &mut (), _: &Calm) {}
+    fn see_calm((): &mut (), _: &QuietSteps) {}
 
     fn verdict((): (), _: Option<&Trajectory>) -> ((), ()) {
         ((), ())
@@ -243,9 +243,9 @@ pub trait Recording: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     fn begin(stepper: &Stepper, rows: u64, start: &State, time: &TimeOptions) -> Self::Recorder;
     #[doc(hidden)]
-    fn see(recorder: &mut Self::Recorder, step: &Step<'_>);
+    fn observe(recorder: &mut Self::Recorder, step: &Step<'_>);
     #[doc(hidden)]
-    fn see_calm(recorder: &mut Self::Recorder, calm: &Calm);
+    fn see_calm(recorder: &mut Self::Recorder, calm: &QuietSteps);
     #[doc(hidden)]
     fn finish(
         recorder: Self::Recorder,
@@ -280,13 +280,13 @@ impl Recording for Recorded {
         (Recorder::new(stepper.scene(), rows, &start.q, &start.v), forces, rubbing)
     }
 
-    fn see((recorder, forces, rubbing): &mut Self::Recorder, step: &Step<'_>) {
-        recorder.see(step);
-        forces.see(step);
-        rubbing.see(step);
+    fn observe((recorder, forces, rubbing): &mut Self::Recorder, step: &Step<'_>) {
+        recorder.observe(step);
+        forces.observe(step);
+        rubbing.observe(step);
     }
 
-    fn see_calm((recorder, _, _): &mut Self::Recorder, calm: &Calm) {
+    fn see_calm((recorder, _, _): &mut Self::Recorder, calm: &QuietSteps) {
         // Without an impulse there is nothing to sum up.
         recorder.see_calm(calm);
     }
@@ -320,9 +320,9 @@ impl Recording for Unrecorded {
 
     fn begin(_: &Stepper, _: u64, _: &State, _: &TimeOptions) {}
 
-    fn see((): &mut (), _: &Step<'_>) {}
+    fn observe((): &mut (), _: &Step<'_>) {}
 
-    fn see_calm((): &mut (), _: &Calm) {}
+    fn see_calm((): &mut (), _: &QuietSteps) {}
 
     fn finish((): (), _: &[Contact], _: (&Scene, &[f64]), _: f64) -> ((), ()) {
         ((), ())

@@ -12,7 +12,7 @@
 use super::Counters;
 use super::body::Body;
 use super::frame::Frame;
-use super::newton::{Answer, Walls};
+use super::newton::{ForceLawSolver, LawResponse};
 use super::rule::Rule;
 use super::space::{Space, zero};
 use super::staggered::{Staggered, counted_blows};
@@ -28,7 +28,7 @@ pub(super) struct CentralDifference<S: Space> {
     /// M/h + C/2.
     factor: S::Factor,
     /// The walls' velocities after the step as functions of their forces; `None` without dashpots.
-    dashpots: Option<Walls>,
+    dashpots: Option<ForceLawSolver>,
     /// The right-hand side, then v₊ − v₋.
     b: S::Vector,
     change: S::Vector,
@@ -40,7 +40,7 @@ impl<S: Space> CentralDifference<S> {
         let m = &body.matrices;
         let mut factor = S::factor(&Symmetric::sum(&[(1.0 / h, &m.mass), (0.5, &m.damping)]))?;
         let damped = body.walls.iter().any(|wall| wall.law.damping() > 0.0);
-        let dashpots = damped.then(|| Walls::new(&mut factor, &body, 1.0));
+        let dashpots = damped.then(|| ForceLawSolver::new(&mut factor, &body, 1.0));
         let (staggered, b, change) = (Staggered::new(scene, &body)?, zero::<S>(body.n), zero::<S>(body.n));
         Ok(Self { body, staggered, factor, dashpots, b, change })
     }
@@ -65,7 +65,7 @@ impl<S: Space> CentralDifference<S> {
                 // A wall that would pull has no force.
                 let holds = depth > 0.0 && pressure > 0.0;
                 let (force, slope) = if holds { (face.sign * pressure, 0.5 * face.law.damping()) } else { (0.0, 0.0) };
-                Answer { force, slope, noise: 0.0 }
+                LawResponse { force, slope, noise: 0.0 }
             };
             let solved = dashpots.solve(law);
             solved.map_err(|residual| Error::Newton { time: frame.start, step, residual })?;

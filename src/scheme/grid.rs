@@ -10,7 +10,7 @@ use crate::contact::{Episodes, Rates};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
-use crate::step::{Calm, Contact, Contract, Step};
+use crate::step::{Contact, Contract, QuietSteps, Step};
 
 /// One scheme on one scene, with its state.
 #[derive(Debug)]
@@ -52,12 +52,12 @@ impl<S: Space> Grid<S> {
         Ok(())
     }
 
-    /// As [`Motion::glide`].
-    pub fn glide(&mut self, step: u64, until: u64, calm: Option<&mut Calm>) -> Result<u64> {
+    /// As [`Motion::advance_quiet`].
+    pub fn advance_quiet(&mut self, step: u64, until: u64, calm: Option<&mut QuietSteps>) -> Result<u64> {
         if self.forced || !self.frame.pushing.is_empty() || !self.episodes.idle() {
             return Ok(step);
         }
-        let reached = self.rule.glide(step, until, &mut self.frame, calm)?;
+        let reached = self.rule.advance_quiet(step, until, &mut self.frame, calm)?;
         if reached > step {
             self.frame.check(reached - 1)?;
         }
@@ -98,7 +98,7 @@ impl<S: Space> Grid<S> {
             struck: S::dot(rows, wall, frame.struck()),
             after: S::dot(rows, wall, &frame.after),
         };
-        episodes.see(frame.start, *h, &frame.impulse, &frame.pushing, rates);
+        episodes.observe(frame.start, *h, &frame.impulse, &frame.pushing, rates);
     }
 
     /// As [`Motion::is_divided`].
@@ -123,8 +123,8 @@ impl<S: Space> Motion for Grid<S> {
         self.advance(step, extra)
     }
 
-    fn glide(&mut self, step: u64, until: u64, calm: Option<&mut Calm>) -> Result<u64> {
-        self.glide(step, until, calm)
+    fn advance_quiet(&mut self, step: u64, until: u64, calm: Option<&mut QuietSteps>) -> Result<u64> {
+        self.advance_quiet(step, until, calm)
     }
 
     fn flush(&mut self, tiny: f64) {

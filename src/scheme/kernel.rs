@@ -22,7 +22,7 @@ use super::supports::Supports;
 use super::{Integrator, Method, Scheme};
 use crate::error::{Error, Result};
 use crate::scene::{Checked, Scene};
-use crate::step::{Calm, Step};
+use crate::step::{QuietSteps, Step};
 
 /// A motion. That of one degree of freedom on a grid is stored without a pointer, so that its steps
 /// can be inlined into a caller's loop.
@@ -104,11 +104,11 @@ impl Kernel {
         }
     }
 
-    /// As [`Motion::glide`].
-    pub fn glide(&mut self, step: u64, until: u64, calm: Option<&mut Calm>) -> Result<u64> {
+    /// As [`Motion::advance_quiet`].
+    pub fn advance_quiet(&mut self, step: u64, until: u64, calm: Option<&mut QuietSteps>) -> Result<u64> {
         match self {
-            Self::Line(grid) => grid.glide(step, until, calm),
-            Self::Other(motion) => motion.glide(step, until, calm),
+            Self::Line(grid) => grid.advance_quiet(step, until, calm),
+            Self::Other(motion) => motion.advance_quiet(step, until, calm),
         }
     }
 

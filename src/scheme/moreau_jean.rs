@@ -35,7 +35,7 @@ use super::supports::TURNING;
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
-use crate::step::{Balance, Calm, Conserves, Contract, Friction, Law, Promise, Reached, Tolerances};
+use crate::step::{Balance, Conserves, Contract, Friction, Law, Promise, QuietSteps, Reached, Tolerances};
 use std::mem::take;
 
 /// What is known of the scheme beside its rule.
@@ -230,7 +230,13 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
         Ok(())
     }
 
-    fn glide(&mut self, step: u64, until: u64, frame: &mut Frame<S>, mut calm: Option<&mut Calm>) -> Result<u64> {
+    fn advance_quiet(
+        &mut self,
+        step: u64,
+        until: u64,
+        frame: &mut Frame<S>,
+        mut calm: Option<&mut QuietSteps>,
+    ) -> Result<u64> {
         if self.body.blows.is_some() || !self.pushed.is_empty() {
             return Ok(step);
         }

@@ -4,7 +4,7 @@ use super::{Counters, Handed};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
-use crate::step::{Calm, Contact, Step};
+use crate::step::{Contact, QuietSteps, Step};
 use std::fmt::Debug;
 
 /// A motion that is computed step by step.
@@ -21,7 +21,7 @@ pub(super) trait Motion: Debug + Send {
     /// Makes the steps from number `step` on that touch no wall, up to number `until`, and adds
     /// those of one degree of freedom to `calm`; returns the number of the first step that is not
     /// made. A motion without such a loop makes none.
-    fn glide(&mut self, step: u64, _until: u64, _calm: Option<&mut Calm>) -> Result<u64> {
+    fn advance_quiet(&mut self, step: u64, _until: u64, _calm: Option<&mut QuietSteps>) -> Result<u64> {
         Ok(step)
     }
 

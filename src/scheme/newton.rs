@@ -23,7 +23,7 @@ const SEARCH: usize = 60;
 
 /// The force of a wall at its yᵢ.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Answer {
+pub(super) struct LawResponse {
     /// rᵢ, signed.
     pub force: f64,
     /// −drᵢ/dyᵢ, ≥ 0.
@@ -34,7 +34,7 @@ pub(super) struct Answer {
 
 /// The condensed problem and its work space.
 #[derive(Debug, Default)]
-pub(super) struct Walls {
+pub(super) struct ForceLawSolver {
     m: usize,
     /// S, by rows.
     s: Vec<f64>,
@@ -59,7 +59,7 @@ pub(super) struct Walls {
     pub iterations: u64,
 }
 
-impl Walls {
+impl ForceLawSolver {
     /// The walls of `body`, with the factor of A.
     pub fn new<S: Space>(a: &mut S::Factor, body: &Body<S>, scale: f64) -> Self {
         let m = body.walls.len();
@@ -103,7 +103,7 @@ impl Walls {
     ///
     /// # Errors
     /// If it does not converge: the largest difference between a force and its law.
-    pub fn solve(&mut self, law: impl Fn(usize, f64) -> Answer) -> Result<(), f64> {
+    pub fn solve(&mut self, law: impl Fn(usize, f64) -> LawResponse) -> Result<(), f64> {
         let m = self.m;
         self.guess.fill(0.0);
         let units = (4 + m) as f64 * f64::EPSILON;
@@ -191,7 +191,7 @@ impl Walls {
     }
 
     /// Line search: takes the whole step, unless the convex function would rise again along it.
-    fn search(&mut self, law: &impl Fn(usize, f64) -> Answer, beyond: f64) {
+    fn search(&mut self, law: &impl Fn(usize, f64) -> LawResponse, beyond: f64) {
         let m = self.m;
         self.shift.fill(0.0);
         for (j, &step) in self.step.iter().enumerate().filter(|(_, step)| **step != 0.0) {

@@ -26,7 +26,7 @@
 use super::body::Body;
 use super::entry::{Coverage, ONES_FOR_FRICTION, Realised, SchemeEntry, SchemeKind};
 use super::frame::Frame;
-use super::newton::{Answer, Walls};
+use super::newton::{ForceLawSolver, LawResponse};
 use super::rule::Rule;
 use super::space::{Space, zero};
 use super::{Counters, Integrator};
@@ -89,7 +89,7 @@ pub(super) struct Penalty<S: Space> {
     factor: S::Factor,
     /// A/θ of one degree of freedom.
     alone: f64,
-    walls: Walls,
+    walls: ForceLawSolver,
     b: S::Vector,
     /// (v_θ − v)/θ.
     delta: S::Vector,
@@ -105,7 +105,7 @@ impl<S: Space> Penalty<S> {
         let body = Body::<S>::new(scene, h)?;
         let a = body.theta_matrix(theta);
         let mut factor = S::factor(&a)?;
-        let walls = Walls::new(&mut factor, &body, h * theta);
+        let walls = ForceLawSolver::new(&mut factor, &body, h * theta);
         let (over, along) = (zero::<S>(body.n), vec![0.0; body.walls.len()]);
         let mut one = over.clone();
         one.as_mut()[0] = 1.0;
@@ -127,12 +127,12 @@ impl<S: Space> Penalty<S> {
 
     /// The force of a wall in a step in which the mean velocity of its row is `rate`.
     #[inline]
-    fn answer(&self, wall: usize, rate: f64) -> Answer {
+    fn answer(&self, wall: usize, rate: f64) -> LawResponse {
         let (face, h) = (self.body.walls[wall], self.body.h);
         let s0 = face.depth(self.place[wall]);
         let s1 = s0 - face.sign * h * rate;
         let (pressure, tangent) = mean_pressure(&face.law, self.mean, self.theta, h, s0, s1);
-        Answer { force: face.sign * pressure, slope: h * tangent, noise: s0.abs() / h }
+        LawResponse { force: face.sign * pressure, slope: h * tangent, noise: s0.abs() / h }
     }
 
     /// v_θ of one degree of freedom in a step that may meet a wall, whose impulses it writes: the
@@ -182,7 +182,7 @@ impl<S: Space> Penalty<S> {
         let mut size = self.alone * (mean.abs() + v.abs()) + self.b[0].abs();
         for wall in 0..self.rate.len() {
             let weight = self.rate[wall];
-            let Answer { force, slope, noise } = self.answer(wall, weight * mean);
+            let LawResponse { force, slope, noise } = self.answer(wall, weight * mean);
             (self.walls.force[wall], self.walls.slope[wall]) = (force, slope);
             // The depth itself has the rounding error of its terms.
             size += self.body.h * weight.abs() * (force.abs() + slope * (noise + (weight * mean).abs()));

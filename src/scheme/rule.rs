@@ -6,7 +6,7 @@ use super::space::Space;
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
-use crate::step::Calm;
+use crate::step::QuietSteps;
 use std::fmt::Debug;
 
 /// A rule that computes the state at one instant of the grid from that at the instant before. It
@@ -25,7 +25,13 @@ pub(super) trait Rule<S: Space>: Debug + Send {
     /// [`Rule::advance`] makes them one by one but with the state kept in registers, and adds those
     /// of one degree of freedom to `calm`; returns the number of the first step that is not made. A
     /// rule without such a loop makes none.
-    fn glide(&mut self, step: u64, _until: u64, _frame: &mut Frame<S>, _calm: Option<&mut Calm>) -> Result<u64> {
+    fn advance_quiet(
+        &mut self,
+        step: u64,
+        _until: u64,
+        _frame: &mut Frame<S>,
+        _calm: Option<&mut QuietSteps>,
+    ) -> Result<u64> {
         Ok(step)
     }
 

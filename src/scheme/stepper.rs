@@ -8,7 +8,7 @@ use crate::interrupt::Asking;
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene, State, Wall};
 use crate::scheme::Counters;
-use crate::step::{Calm, Contact, Contract, Step};
+use crate::step::{Contact, Contract, QuietSteps, Step};
 use crate::time::MOST_STEPS;
 
 /// Number of steps in a block, a power of 2: the longest loop without contact.
@@ -191,7 +191,7 @@ impl Stepper {
     ///
     /// let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop", 0.1)).with_initial(&[0.0], &[1.0]);
     /// let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3)?;
-    /// let impact = stepper.glide(1000)?;
+    /// let impact = stepper.advance_quiet(1000)?;
     /// assert!((impact.end - 0.1).abs() < 2e-3); // a step of 1 ms about 0.1 s
     /// assert_eq!(impact.impulse, [-2.0]); // N s, of 1 kg at 1 m/s
     /// # Ok::<(), signorini::Error>(())
@@ -199,14 +199,14 @@ impl Stepper {
     ///
     /// # Errors
     /// As [`Stepper::step`].
-    pub fn glide(&mut self, most: u64) -> Result<Step<'_>> {
+    pub fn advance_quiet(&mut self, most: u64) -> Result<Step<'_>> {
         let end = self.index.saturating_add(most.max(1));
         let mut last = self.index;
         loop {
             self.asking.pass(self.index)?;
             // The interrupt is asked between two loops.
             let until = end.min(self.due);
-            let reached = self.kernel.glide(self.index, until, None)?;
+            let reached = self.kernel.advance_quiet(self.index, until, None)?;
             if reached > self.index {
                 (self.index, last) = (reached, reached - 1);
             }
@@ -233,11 +233,11 @@ impl Stepper {
 
     /// Makes steps in which no wall pushes, at most as many as `calm` has room for and no more than
     /// `most`, and adds them to it. Returns how many.
-    pub(crate) fn glide_into(&mut self, calm: &mut Calm, most: u64) -> Result<u64> {
+    pub(crate) fn advance_quiet_into(&mut self, calm: &mut QuietSteps, most: u64) -> Result<u64> {
         self.asking.pass(self.index)?;
         let from = self.index;
         let until = from.saturating_add(most.min(calm.begin(from, self.kernel.motion().end()))).min(self.due);
-        self.index = self.kernel.glide(from, until, Some(calm))?;
+        self.index = self.kernel.advance_quiet(from, until, Some(calm))?;
         Ok(self.index - from)
     }
 

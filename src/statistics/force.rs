@@ -95,7 +95,7 @@ impl Forces {
 
     /// Adds one step; steps must come in order. A step of a scene with another number of walls is
     /// ignored.
-    pub fn see(&mut self, step: &Step<'_>) {
+    pub fn observe(&mut self, step: &Step<'_>) {
         let end = step.end.min(self.from + self.length);
         if step.impulse.len() != self.walls.len() || self.length <= 0.0 || step.end < self.from {
             return;
@@ -251,7 +251,7 @@ mod tests {
         let scene = Scene::oscillator(1.0, 0.0, 1.0).with_wall(Wall::upper("wall", 1.0)).with_duration(12.0);
         let mut forces = Forces::new(&scene, 2.0, 0.1);
         let mut push = |start: f64, p: f64| {
-            forces.see(&Step {
+            forces.observe(&Step {
                 index: 0,
                 start,
                 end: start + 0.01,

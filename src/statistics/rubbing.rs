@@ -147,7 +147,7 @@ impl Rubbing {
 
     /// Adds one step; steps must come in order.
     #[inline]
-    pub fn see(&mut self, step: &Step<'_>) {
+    pub fn observe(&mut self, step: &Step<'_>) {
         if !self.rubs.is_empty() && step.end >= self.from && self.length > 0.0 {
             self.add(step);
         }
@@ -177,7 +177,7 @@ impl Rubbing {
     fn add_part(&mut self, step: &Step<'_>, window: [f64; 2]) {
         let (from, length) = (self.from, self.length);
         let Self { rubs, supports, episodes, touched, .. } = self;
-        rubs.see(step, window, |rub| {
+        rubs.observe(step, window, |rub| {
             let Some(tally) = supports.get_mut(rub.support) else { return };
             let middle = if rub.manner == Manner::Instant { step.end } else { 0.5 * (window[0] + window[1]) };
             tally.add(rub, batch_of(middle - from, length));

@@ -69,8 +69,8 @@ fn a_window_without_length_has_no_rates_and_no_intervals() {
     assert_eq!(EpisodeStatistics::of(&scene, &statistics, &contacts, 0.1)[0].episodes_per_s, 0.0);
     let (mut forces, mut rubbing) = (Forces::new(&scene, 1.0, 0.1), Rubbing::new(&scene, 1.0, 4));
     let last = step(9, [0.9, 1.0], &[-1.0, 0.0], &[-1.0, 0.0]);
-    forces.see(&last);
-    rubbing.see(&last);
+    forces.observe(&last);
+    rubbing.observe(&last);
     assert_eq!(forces.statistics(0, 10), None);
     assert!(rubbing.statistics().is_empty());
 }
@@ -107,7 +107,7 @@ fn a_round_wall_has_its_own_contacts_and_the_impulse_of_its_force() {
             friction: &[0.0; 3],
             ..step(0, [start, start + 0.1], &impulse, &[0.0; 3])
         };
-        forces.see(&Step { force: &[0.0; 3], ..one });
+        forces.observe(&Step { force: &[0.0; 3], ..one });
     }
     let statistics = statistics.with_forces(&forces);
     assert_eq!(statistics.impulse(2), 0.5);
@@ -133,7 +133,7 @@ fn an_impact_at_the_beginning_of_the_window_counts_and_one_after_its_end_does_no
     let scene = between_flats(12.0);
     let total = |span: [f64; 2], jump: f64| {
         let mut forces = Forces::new(&scene, 2.0, 0.1);
-        forces.see(&step(0, span, &[-3.0, 0.0], &[jump, 0.0]));
+        forces.observe(&step(0, span, &[-3.0, 0.0], &[jump, 0.0]));
         forces.statistics(0, 0).map(|force| force.impulse_n_s)
     };
     assert_eq!(total([1.5, 2.0], -3.0), Some(-3.0));
@@ -154,7 +154,7 @@ fn a_support_at_which_nothing_slides_has_no_shares_of_nothing() {
     assert_eq!((untouched.impact_share, untouched.sliding_speed_m_per_s), (None, None));
     assert_eq!(untouched.work_rate_half_width_95_w, None);
     // An impact straight onto a flat: all of the impulse in its sector, and no work.
-    rubbing.see(&step(3, [0.3, 0.4], &[-2.0, 0.0], &[0.0, 0.0]));
+    rubbing.observe(&step(3, [0.3, 0.4], &[-2.0, 0.0], &[0.0, 0.0]));
     let struck = &rubbing.statistics()[0];
     assert_eq!(struck.sectors.iter().map(|sector| sector.impulse_share).sum::<f64>(), 1.0);
     assert_eq!((struck.impact_share, struck.sliding_speed_m_per_s), (None, None));

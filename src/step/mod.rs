@@ -4,16 +4,16 @@
 //!
 //! `Step` and `Contact`, and what a scheme promises of every step, as data: its `Contract`
 //! (`contract.rs`), with the conditions at the walls (`promise.rs`); all that the recorder and the
-//! judge know of schemes; `calm.rs` keeps steps of one degree of freedom between two contacts,
+//! judge know of schemes; `quiet_steps.rs` keeps steps of one degree of freedom between two contacts,
 //! which both look at together.
 
-mod calm;
 mod contract;
 mod promise;
+mod quiet_steps;
 
-pub(crate) use calm::Calm;
 pub use contract::{Balance, Conserves, Contract, Tolerance, Tolerances};
 pub use promise::{Bound, Circle, Elastic, Friction, Law, Normal, Promise, PromisedForce, Reached, Rigid, Turning};
+pub(crate) use quiet_steps::QuietSteps;
 
 use crate::flow::{Arc, Series};
 use serde::{Deserialize, Serialize};

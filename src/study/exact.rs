@@ -74,9 +74,9 @@ pub fn replay(scene: &Scene, run: &Run, time: &TimeOptions) -> Result<Replay> {
     let mut forces = Forces::new(scene, time.statistics_from, time.force_averaging);
     while stepper.time() < scene.duration {
         let step = stepper.step()?;
-        judge.see(&step);
-        recorder.see(&step);
-        forces.see(&step);
+        judge.observe(&step);
+        recorder.observe(&step);
+        forces.observe(&step);
     }
     let trajectory = recorder.finish(&stepper.open_contacts());
     let statistics = Statistics::new(scene, trajectory.contacts(), time.statistics_from).with_forces(&forces);

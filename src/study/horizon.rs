@@ -69,7 +69,7 @@ impl Growth {
         while stepper.time() < scene.duration {
             let step = stepper.step()?;
             // Without a derivative the change may be anything from here on.
-            let known = product.see(&step).is_ok();
+            let known = product.observe(&step).is_ok();
             speed = speed.max(step.v.first().copied().unwrap_or(0.0).abs());
             time.push(step.end);
             products.push(if known { product.matrix().clone() } else { DMatrix::from_element(2, 2, f64::NAN) });

@@ -150,7 +150,7 @@ fn record(scene: &Scene, method: &Method, step: f64, spacing: f64) -> Result<Tra
     let state = stepper.state();
     let mut recorder = Recorder::new(stepper.scene(), grid.rows, &state.q, &state.v);
     while if exact { stepper.time() < scene.duration } else { stepper.index() < grid.steps } {
-        recorder.see(&stepper.step()?);
+        recorder.observe(&stepper.step()?);
     }
     Ok(recorder.finish(&stepper.open_contacts()))
 }

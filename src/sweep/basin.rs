@@ -92,7 +92,7 @@ impl Plan {
         });
         let attractor = follow(scene, period, [settle, keep], |step| {
             if let Some(judge) = &mut judge {
-                judge.see(step);
+                judge.observe(step);
             }
         })?;
         let findings = judge.map_or_else(Vec::new, |judge| judge.findings());

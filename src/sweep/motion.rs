@@ -68,7 +68,7 @@ impl Motion {
         motion
     }
 
-    pub fn see(&mut self, step: &Step<'_>) {
+    pub fn observe(&mut self, step: &Step<'_>) {
         if step.end > self.from && step.end > step.start {
             match step.path {
                 Path::Exact(arc) if arc.is_rest() => self.see_grid(step),

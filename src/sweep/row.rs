@@ -166,9 +166,9 @@ impl Plan {
         let mut count = 0;
         loop {
             let step = stepper.step()?;
-            observer.see(&step);
+            observer.observe(&step);
             if let Some(judge) = &mut judge {
-                judge.see(&step);
+                judge.observe(&step);
             }
             count += 1;
             if let Some(diverged) = divergence.at(step.end, step.v) {

@@ -61,25 +61,25 @@ impl RowObserver {
     }
 
     #[inline]
-    pub fn see(&mut self, step: &Step<'_>) {
+    pub fn observe(&mut self, step: &Step<'_>) {
         if !step.closed.is_empty() {
             let here = |contact: &&Contact| contact.end.is_none_or(|end| end >= self.from);
             self.contacts.extend(step.closed.iter().filter(here));
         }
         if let Some(forces) = &mut self.forces {
-            forces.see(step);
+            forces.observe(step);
         }
         if let Some(rubbing) = &mut self.rubbing {
-            rubbing.see(step);
+            rubbing.observe(step);
         }
         if let Some(motion) = &mut self.motion {
-            motion.see(step);
+            motion.observe(step);
         }
         if let Some(strobe) = &mut self.strobe {
-            strobe.see(step);
+            strobe.observe(step);
         }
         if let Some(Ok(exponents)) = &mut self.growth
-            && let Err(none) = exponents.see(step)
+            && let Err(none) = exponents.observe(step)
         {
             self.growth = Some(Err(none));
         }

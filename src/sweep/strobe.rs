@@ -47,7 +47,7 @@ impl Strobe {
         self.next += 1;
     }
 
-    pub fn see(&mut self, step: &Step<'_>) {
+    pub fn observe(&mut self, step: &Step<'_>) {
         while self.next <= self.last && self.due() <= step.end {
             let due = self.due();
             // Right-continuous: at the end of a step the state is that after an impact there.

@@ -5,7 +5,7 @@ use super::columns::Columns;
 use super::rubbed::Rubbed;
 use super::worn::Worn;
 use crate::scene::{Row, Scene};
-use crate::step::{Calm, Contact, Path, Step};
+use crate::step::{Contact, Path, QuietSteps, Step};
 
 /// Rounding error of the time of a row and of the end of a step there, in units in the last place.
 const ROW_UNITS: f64 = 8.0;
@@ -95,7 +95,7 @@ impl Recorder {
 
     /// Adds one step. Steps must come in order. Steps after the last row are ignored, and so are
     /// steps of another scene, with another number of walls or degrees of freedom.
-    pub fn see(&mut self, step: &Step<'_>) {
+    pub fn observe(&mut self, step: &Step<'_>) {
         let (n, m) = (self.state[0].len(), self.pending.len());
         let moved = [step.q, step.v, step.velocity_before];
         let pushed = [step.impulse, step.jump, step.force];
@@ -110,7 +110,7 @@ impl Recorder {
             return;
         }
         if !matches!(step.path, Path::Series(_)) && planar > 0 {
-            self.rubbed.see(step);
+            self.rubbed.observe(step);
         }
         self.columns.contacts.extend_from_slice(step.closed);
         match step.path {
@@ -155,16 +155,16 @@ impl Recorder {
         }
     }
 
-    /// Adds steps in which no wall pushes and no contact ends, as [`Recorder::see`] adds each of
+    /// Adds steps in which no wall pushes and no contact ends, as [`Recorder::observe`] adds each of
     /// them.
-    pub(crate) fn see_calm(&mut self, calm: &Calm) {
+    pub(crate) fn see_calm(&mut self, calm: &QuietSteps) {
         let mut from = 0;
         // Impulses since the last row belong to the next one.
         while from < calm.len() && (!self.worn.is_empty() || self.pending.iter().any(|&sum| sum != 0.0)) {
-            self.see(&calm.step(from));
+            self.observe(&calm.step(from));
             from += 1;
         }
-        let mut rows = [0; Calm::most()];
+        let mut rows = [0; QuietSteps::capacity()];
         let mut count = 0;
         for k in from..calm.len() {
             let (start, end) = (calm.start(k), calm.end()[k]);

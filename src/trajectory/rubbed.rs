@@ -40,7 +40,7 @@ impl Rubbed {
 
     /// Adds one step on a grid.
     #[inline(never)]
-    pub fn see(&mut self, step: &Step<'_>) {
+    pub fn observe(&mut self, step: &Step<'_>) {
         let h = step.end - step.start;
         let is_part = matches!(step.path, Path::Part { .. });
         let before = if is_part && self.parts.0 == step.index { self.parts.1 } else { 0.0 };

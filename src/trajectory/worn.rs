@@ -45,7 +45,7 @@ impl Worn {
     /// Adds what slid in `step` between two times in it, s.
     pub fn add(&mut self, step: &Step<'_>, within: [f64; 2]) {
         let Self { rubs, work, open, jumps } = self;
-        rubs.see(step, within, |rub: &Rub| {
+        rubs.observe(step, within, |rub: &Rub| {
             if let Some(sum) = work.get_mut(rub.support) {
                 *sum += rub.work;
             }

@@ -108,7 +108,7 @@ impl Exponents {
     ///
     /// # Errors
     /// [`NoDerivative`]; the exponents are meaningless from then on.
-    pub fn see(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
+    pub fn observe(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
         let [from, to] = self.window;
         if step.start >= to {
             return Ok(());

@@ -96,7 +96,7 @@ impl Product {
     ///
     /// # Errors
     /// [`NoDerivative`]; the matrix is meaningless from then on.
-    pub fn see(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
+    pub fn observe(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
         self.variation.carry(step, self.matrix.as_mut_slice())
     }
 

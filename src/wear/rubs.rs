@@ -118,7 +118,7 @@ impl Rubs {
 
     /// Calls `each` with every contact that pushed in `step` between the times `from` and `to` (s);
     /// impulses at the end of the step are included where `to` reaches the end.
-    pub fn see(&self, step: &Step<'_>, [from, to]: [f64; 2], mut each: impl FnMut(&Rub)) {
+    pub fn observe(&self, step: &Step<'_>, [from, to]: [f64; 2], mut each: impl FnMut(&Rub)) {
         for (support, section) in self.sections.iter().enumerate() {
             for contact in &section.contacts {
                 let Some((index, push)) = contact.push(step) else { continue };

@@ -83,7 +83,7 @@ fn follow(scene: &Scene, most: u64) -> Result<Residuals, Error> {
         for contact in step.closed {
             assert!(contact.end.is_some_and(|end| end >= contact.start), "{contact:?}");
         }
-        judge.see(&step);
+        judge.observe(&step);
     }
     assert_eq!(judge.findings(), []);
     Ok(judge.residuals())

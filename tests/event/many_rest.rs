@@ -179,7 +179,7 @@ fn judged(scene: &Scene) -> Result<Judged, signorini::Error> {
     while stepper.time() < scene.duration && steps < 4000 {
         let step = stepper.step()?;
         reach = reach.max(largest(step.q));
-        judge.see(&step);
+        judge.observe(&step);
         steps += 1;
     }
     Ok(Judged { residuals: judge.residuals(), reach, steps, handed: stepper.handed().len() })
@@ -270,7 +270,7 @@ fn impacts_at_two_walls_in_turn_accumulate_to_rest_at_both() {
         let start = stepper.state();
         let mut judge = Judge::new(&scene, stepper.contract(), 0.1, &start.q, &start.v);
         while stepper.time() < scene.duration {
-            judge.see(&stepper.step().unwrap());
+            judge.observe(&stepper.step().unwrap());
         }
         assert!(judge.findings().is_empty() && stepper.handed().is_empty(), "{:?}", judge.findings());
         let end = stepper.state();

@@ -26,7 +26,7 @@ fn judged(scene: &Scene, told: &Scene) -> (Vec<Finding>, Residuals) {
     let state = stepper.state();
     let mut judge = Judge::new(told, stepper.contract(), 1.0, &state.q, &state.v);
     while stepper.time() < scene.duration {
-        judge.see(&stepper.step().expect("a step"));
+        judge.observe(&stepper.step().expect("a step"));
     }
     (judge.findings(), judge.residuals())
 }
@@ -104,7 +104,7 @@ fn recorded_sums_that_are_not_those_of_the_steps_are_found() {
             let mut sum = [0.0; 2];
             while stepper.time() < scene.duration - 0.5 * h.min(1e-4) {
                 let step = stepper.step().expect("a step");
-                judge.see(&step);
+                judge.observe(&step);
                 let push = step.hole_push(hole);
                 sum = [sum[0] + push[0], sum[1] + push[1]];
             }

@@ -165,8 +165,8 @@ fn along_a_diameter_the_contacts_are_those_of_two_walls() {
                 let (one, other) = (one.expect("a step"), other.expect("a step"));
                 // A judge cannot go on where a stepper starts anew.
                 if number < 4000 {
-                    judge_of_hole.see(&one);
-                    judge_of_line.see(&other);
+                    judge_of_hole.observe(&one);
+                    judge_of_line.observe(&other);
                 }
                 let near = |a: f64, b: f64, small: f64, of: &str| {
                     assert!((a - b).abs() < small, "{what}, {of} at {} s: {a}, {b}", one.end);

@@ -19,14 +19,14 @@ use signorini::{
 };
 
 /// Follows `scene` to its end under a judge, who finds nothing.
-fn follow(scene: &Scene, stride: f64, mut see: impl FnMut(&Step<'_>)) -> Stepper {
+fn follow(scene: &Scene, stride: f64, mut observe: impl FnMut(&Step<'_>)) -> Stepper {
     let mut stepper = Stepper::new(scene, &Scheme::Event, stride).unwrap_or_else(|error| panic!("{error}"));
     let state = stepper.state();
     let mut judge = Judge::new(scene, stepper.contract(), stride, &state.q, &state.v);
     while stepper.time() < scene.duration {
         let step = stepper.step().unwrap_or_else(|error| panic!("{error}"));
-        judge.see(&step);
-        see(&step);
+        judge.observe(&step);
+        observe(&step);
     }
     let findings = judge.findings();
     assert!(findings.is_empty(), "{findings:#?}");
@@ -367,7 +367,7 @@ fn random_scenes_keep_every_law() {
         let mut exact = true;
         while stepper.time() < scene.duration {
             let step = stepper.step().unwrap_or_else(|error| panic!("{case}: {error}"));
-            judge.see(&step);
+            judge.observe(&step);
             let now = energy(&scene, step.q, step.v);
             exact &= matches!(step.path, signorini::Path::Series(_));
             // Nothing but impacts changes the energy, and they never add any; steps that are handed
@@ -397,7 +397,7 @@ fn accused(scene: &Scene, told: &Scene, alter: impl Fn(&mut HoleStep)) -> Vec<Re
             pushes.alter(hole, &alter);
         }
         pushes.show(&mut step);
-        judge.see(&step);
+        judge.observe(&step);
     }
     judge.findings().into_iter().map(|finding| finding.refuted).collect()
 }
@@ -446,7 +446,7 @@ fn impacts_that_never_settle_are_handed_over_and_told() {
     while handed < 1000 {
         let step = stepper.step().unwrap();
         handed += u32::from(matches!(step.path, signorini::Path::Handed { .. }));
-        judge.see(&step);
+        judge.observe(&step);
     }
     assert_eq!(judge.findings(), []);
     // 200 steps a stretch; what is told is where they are and how long their steps.

@@ -18,7 +18,7 @@ fn a_body_pressed_round_a_hole_rubs_with_the_exact_force_and_power() {
         .with_initial(&[gap * lag.cos(), -gap * lag.sin()], &[gap * omega * lag.sin(), gap * omega * lag.cos()]);
     for (h, steps) in [(1e-3, 4000_u64), (1e-4, 40_000), (1e-5, 40_000)] {
         let mut sums = Sums::default();
-        follow(&scene, h, steps, |step| sums.see(&scene, step));
+        follow(&scene, h, steps, |step| sums.observe(&scene, step));
         let (span, share) = (h * steps as f64, (h / 1e-3).powi(2));
         let [force, work, power] = [(sums.impulse, FORCE), (sums.work, WORK_RATE), (sums.friction, POWER)]
             .map(|(sum, exact)| sum / span / exact - 1.0);
@@ -58,7 +58,7 @@ fn a_released_mass_swings_and_stops_as_coulomb_says() {
             }
             last = v;
             assert!((step.impulse[0] + 10.0 * h).abs() < 1e-13 * h * 1e3, "{:?}", step.impulse);
-            sums.see(&scene, step);
+            sums.observe(&scene, step);
             if (step.end - 0.05).abs() < 0.5 * h {
                 at = step.q[1];
             }
@@ -97,7 +97,7 @@ fn an_oblique_impact_slips_or_sticks_as_coulomb_says() {
         let h = if support == 0 { 1e-3 } else { 1e-9 };
         let mut f = 0.0;
         let stepper = follow(&scene, h, 1, |step| {
-            sums.see(&scene, step);
+            sums.observe(&scene, step);
             f = step.friction.iter().sum();
         });
         (sums, f, stepper.state().v)
@@ -169,7 +169,7 @@ fn a_turned_scene_with_friction_has_the_turned_motion() {
             // Impacts multiply roundings of 1e-19 m.
             assert!((back[0] - q[0]).hypot(back[1] - q[1]) < 1e-8 * 1e-3, "{}", step.end);
         }
-        sums.see(&scene, step);
+        sums.observe(&scene, step);
     });
     assert!(sums.arrivals > 20 && sums.friction > 0.0, "{sums:?}");
 }

@@ -34,7 +34,7 @@ fn a_body_pressed_round_a_hole_slides_with_the_exact_force() {
         follow(&scene, h, steps, |step| {
             worst = worst.max((step.impulse[0] / h / FORCE - 1.0).abs());
             out = out.max(step.q[0].hypot(step.q[1]) / 5e-3 - 1.0);
-            sums.see(&scene, step);
+            sums.observe(&scene, step);
         });
         let share = (h / 1e-3).powi(2);
         let span = h * steps as f64;
@@ -52,7 +52,7 @@ fn a_pendulum_in_a_hole_is_followed_with_order_two() {
     let scene = pendulum();
     let error = |steps: u64| {
         let mut sums = Sums::default();
-        follow(&scene, PERIOD / steps as f64, steps, |step| sums.see(&scene, step));
+        follow(&scene, PERIOD / steps as f64, steps, |step| sums.observe(&scene, step));
         [sums.work / WORK - 1.0, sums.impulse / IMPULSE - 1.0]
     };
     let [coarse, fine] = [2000, 8000].map(error);
@@ -79,7 +79,7 @@ fn infinitely_many_impacts_settle_into_sliding() {
     let error = |h: f64, steps: u64| {
         let (mut sums, mut speed) = (Sums::default(), 0.0);
         let stepper = follow(&scene, h, steps, |step| {
-            sums.see(&scene, step);
+            sums.observe(&scene, step);
             speed = step.v[0].hypot(step.v[1]);
         });
         // It slides for ever at its tangential speed; what is left of the normal one would add its
@@ -98,7 +98,7 @@ fn a_billiard_keeps_its_energy_and_its_chords() {
     let scene = free(1.0);
     let start = energy(&scene, &scene.initial.q, &scene.initial.v);
     let mut sums = Sums::default();
-    let stepper = follow(&scene, 1e-6, 500_000, |step| sums.see(&scene, step));
+    let stepper = follow(&scene, 1e-6, 500_000, |step| sums.observe(&scene, step));
     let state = stepper.state();
     // Reflections keep the speed: some hundred roundings.
     assert!((energy(&scene, &state.q, &state.v) / start - 1.0).abs() < 1e-13);
@@ -301,7 +301,7 @@ fn a_turned_scene_has_the_turned_motion() {
         let back = [c * image.q[0] + s * image.q[1], c * image.q[1] - s * image.q[0]];
         // 30 impacts multiply roundings of 1e-19 m.
         assert!((back[0] - step.q[0]).hypot(back[1] - step.q[1]) < 1e-9 * 1e-3, "{}", step.end);
-        sums.see(&scene, step);
+        sums.observe(&scene, step);
     });
     assert!(sums.arrivals > 20, "{sums:?}");
 }

@@ -23,7 +23,7 @@ fn judge(scene: &Scene, h: f64, mut alter: impl FnMut(&Step<'_>, &mut Shown)) ->
         alter(&step, &mut shown);
         shown.pushes.show(&mut step);
         step.velocity_after = &shown.after;
-        judge.see(&step);
+        judge.observe(&step);
     }
     (judge.findings(), judge.residuals())
 }

@@ -191,7 +191,7 @@ fn faults_of_a_penalised_hole_are_found() {
                 pushes.alter(0, fault);
             }
             pushes.show(&mut step);
-            judge.see(&step);
+            judge.observe(&step);
         }
         judge.findings()
     };

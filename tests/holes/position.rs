@@ -241,7 +241,7 @@ fn generalized_alpha_keeps_its_speed_round_a_hole() {
         let mut sums = Sums::default();
         follow(&scene, &ALPHA, PERIOD / steps as f64, steps, |step| {
             assert!(step.q[0].hypot(step.q[1]) <= GAP * (1.0 + 1e-13), "{}", step.end);
-            sums.see(&scene, step);
+            sums.observe(&scene, step);
         });
         [sums.work / WORK - 1.0, sums.impulse / IMPULSE - 1.0]
     };
@@ -262,7 +262,7 @@ fn generalized_alpha_settles_after_infinitely_many_impacts() {
     let error = |h: f64, steps: u64| {
         let (mut sums, mut speed) = (Sums::default(), 0.0);
         follow(&scene, &ALPHA, h, steps, |step| {
-            sums.see(&scene, step);
+            sums.observe(&scene, step);
             speed = step.v[0].hypot(step.v[1]);
         });
         assert!((speed / 0.034 - 1.0).abs() < 400.0 * h, "h = {h}: {speed}");

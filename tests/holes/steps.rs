@@ -55,11 +55,11 @@ impl Pushes {
     }
 }
 
-/// `steps` steps of `h` seconds, each shown to `see`.
-pub fn follow(scene: &Scene, scheme: &Scheme, h: f64, steps: u64, mut see: impl FnMut(&Step<'_>)) -> Stepper {
+/// `steps` steps of `h` seconds, each shown to `observe`.
+pub fn follow(scene: &Scene, scheme: &Scheme, h: f64, steps: u64, mut observe: impl FnMut(&Step<'_>)) -> Stepper {
     let mut stepper = Stepper::new(scene, scheme, h).unwrap_or_else(|error| panic!("{error}"));
     for _ in 0..steps {
-        see(&stepper.step().unwrap_or_else(|error| panic!("{error}")));
+        observe(&stepper.step().unwrap_or_else(|error| panic!("{error}")));
     }
     stepper
 }
@@ -81,7 +81,7 @@ pub fn judged(
         alter(&step, &mut pushes, &mut q);
         pushes.show(&mut step);
         step.q = &q;
-        judge.see(&step);
+        judge.observe(&step);
     }
     judge.findings()
 }

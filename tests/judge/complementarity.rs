@@ -359,7 +359,7 @@ fn judged(scene: &Scene, scheme: &Scheme, mut alter: impl FnMut(&Step<'_>, &mut 
         let mut altered = step;
         (altered.q, altered.v, altered.velocity_after) = (&q, &v, &after);
         (altered.impulse, altered.force) = (&impulse, &force);
-        judge.see(&altered);
+        judge.observe(&altered);
     }
     judge.residuals()
 }
@@ -476,7 +476,7 @@ fn a_judge_takes_no_harm_from_what_does_not_fit_its_scene() {
             let mut judge = Judge::new(&scene, stepper.contract(), 1e-3, q, v);
             let before = judge.residuals();
             // A step without walls does not fit, and is ignored.
-            judge.see(&stepper.step().expect("a step"));
+            judge.observe(&stepper.step().expect("a step"));
             assert_eq!(judge.residuals(), before);
         }
     }

@@ -48,7 +48,7 @@ fn judge(
         alter(&step, &mut shown);
         (step.q, step.v, step.velocity_after) = (&shown.q, &shown.v, &shown.after);
         (step.impulse, step.force) = (&shown.impulse, &shown.force);
-        judge.see(&step);
+        judge.observe(&step);
     }
     (judge.findings(), judge.residuals())
 }

@@ -36,7 +36,7 @@ fn judged(
         let mut seen = step;
         (seen.q, seen.v, seen.velocity_after) = (&q, &v, &after);
         (seen.impulse, seen.force) = (&impulse, &force);
-        judge.see(&seen);
+        judge.observe(&seen);
     }
     Ok(judge.findings())
 }
@@ -358,7 +358,7 @@ fn a_promise_that_no_scheme_makes_is_judged_by_its_parts() {
         for _ in 0..200 {
             let step = stepper.step().unwrap();
             pushed |= step.impulse.iter().any(|&p| p != 0.0);
-            judge.see(&step);
+            judge.observe(&step);
         }
         assert!(pushed, "no wall was met");
         kinds(&judge.findings())

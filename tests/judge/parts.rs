@@ -43,7 +43,7 @@ fn accused(scene: &Scene, lie: impl Fn(&Step<'_>, &mut Shown)) -> Vec<Refuted> {
         let mut told = step;
         (told.q, told.v) = (std::slice::from_ref(q), std::slice::from_ref(v));
         (told.impulse, told.jump, told.resting) = (impulse, jump, resting);
-        judge.see(&told);
+        judge.observe(&told);
     }
     assert!(lied);
     judge.findings().iter().map(|finding| finding.refuted).collect()

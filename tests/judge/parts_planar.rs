@@ -75,7 +75,7 @@ fn accused(part: Part, lie: impl Fn(&Step<'_>, &mut Shown)) -> Vec<Refuted> {
         let (impulse, jump, friction, normal) = ([shown.impulse], [shown.jump], [shown.friction], [shown.normal]);
         (told.impulse, told.jump, told.friction, told.normal) = (&impulse, &jump, &friction, &normal);
         told.resting = &shown.resting;
-        judge.see(&told);
+        judge.observe(&told);
     }
     assert!(lied, "{part:?}");
     judge.findings().iter().map(|finding| finding.refuted).collect()

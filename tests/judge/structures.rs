@@ -33,7 +33,7 @@ fn judge(
         let mut before = step.velocity_before.to_vec();
         alter(&step, &mut before);
         step.velocity_before = &before;
-        judge.see(&step);
+        judge.observe(&step);
     }
     (judge.findings(), judge.residuals())
 }

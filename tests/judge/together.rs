@@ -14,8 +14,8 @@ fn one_by_one(scene: &Scene, scheme: &Scheme, h: f64, (steps, rows): (u64, u64))
     let mut recorder = Recorder::new(stepper.scene(), rows, &start.q, &start.v);
     for _ in 0..steps {
         let step = stepper.step().expect("a step");
-        judge.see(&step);
-        recorder.see(&step);
+        judge.observe(&step);
+        recorder.observe(&step);
     }
     (judge, recorder.finish(&stepper.open_contacts()))
 }

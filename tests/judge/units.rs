@@ -354,7 +354,7 @@ fn accused(scene: &Scene, scheme: Scheme, (h, steps): (f64, u32), fault: Fault, 
         let [impulse, jump, force] = [step.impulse, step.jump, step.force].map(|values| times(values, push));
         (step.q, step.v, step.velocity_after) = (&q, &v, &after);
         (step.impulse, step.jump, step.force) = (&impulse, &jump, &force);
-        judge.see(&step);
+        judge.observe(&step);
     }
     Some(judge.findings())
 }

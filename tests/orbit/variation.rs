@@ -47,7 +47,7 @@ fn follow(scene: &Scene, end: f64) -> (State, DMatrix<f64>) {
     let mut product = Product::new(scene).unwrap();
     let mut stepper = Stepper::new(scene, &Scheme::Event, end).unwrap();
     while stepper.time() < end {
-        product.see(&stepper.step().unwrap()).unwrap();
+        product.observe(&stepper.step().unwrap()).unwrap();
     }
     (stepper.state(), product.matrix().clone())
 }
@@ -279,7 +279,7 @@ fn an_accumulation_of_impacts_converges_with_the_square_of_the_speed_at_which_it
         let mut stepper = Stepper::new(&scene, &Scheme::Event, 0.45).unwrap();
         loop {
             let step = stepper.step().unwrap();
-            product.see(&step).unwrap();
+            product.observe(&step).unwrap();
             // The impact after this one brings it to rest.
             if step.jump[0] != 0.0 && step.v[1].abs() < least {
                 break;
@@ -324,7 +324,7 @@ fn walls_struck_together_have_no_derivative_unless_they_are_apart() {
         let mut product = Product::new(&scene).unwrap();
         let mut stepper = Stepper::new(&scene, &Scheme::Event, 1.0).unwrap();
         let refused = loop {
-            if let Err(refused) = product.see(&stepper.step().unwrap()) {
+            if let Err(refused) = product.observe(&stepper.step().unwrap()) {
                 break refused;
             }
         };
@@ -347,7 +347,7 @@ fn walls_struck_together_have_no_derivative_unless_they_are_apart() {
 fn a_scheme_on_a_grid_has_no_derivative() {
     let scene = source(0.8, 5.0);
     let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3).unwrap();
-    let refused = Product::new(&scene).unwrap().see(&stepper.step().unwrap()).unwrap_err();
+    let refused = Product::new(&scene).unwrap().observe(&stepper.step().unwrap()).unwrap_err();
     assert!(matches!(refused, NoDerivative::Unresolved { .. }) && refused.to_string().contains("event"));
 }
 
@@ -359,7 +359,7 @@ fn exponents_of_the_symmetric_orbit_are_half_the_sum_of_drag_and_restitution() {
     let mut stepper = Stepper::new(&scene, &Scheme::Event, 0.2).unwrap();
     let mut exponents = Exponents::new(&scene, 2, [100.0, 200.0]).unwrap();
     while stepper.time() < 200.0 * (1.0 - 1e-12) {
-        exponents.see(&stepper.step().unwrap()).unwrap();
+        exponents.observe(&stepper.step().unwrap()).unwrap();
     }
     let both = exponents.all();
     let known = -2.331_435_513_142_098;
@@ -370,7 +370,7 @@ fn exponents_of_the_symmetric_orbit_are_half_the_sum_of_drag_and_restitution() {
     // And of the multipliers themselves.
     let mut product = Product::new(&scene).unwrap();
     while stepper.time() < 200.2 * (1.0 - 1e-12) {
-        product.see(&stepper.step().unwrap()).unwrap();
+        product.observe(&stepper.step().unwrap()).unwrap();
     }
     let matrix = product.matrix();
     let exponent = matrix.determinant().ln() / (2.0 * 0.2);
@@ -390,7 +390,7 @@ fn exponents_add_up_to_drag_and_restitution_on_any_attractor() {
         let (mut impacts, mut length, mut rests) = (0.0, 0.0, false);
         while stepper.time() < to * (1.0 - 1e-12) {
             let step = stepper.step().unwrap();
-            exponents.see(&step).unwrap();
+            exponents.observe(&step).unwrap();
             if step.start >= from {
                 let struck = step.jump.iter().filter(|p| **p != 0.0).count();
                 impacts += struck as f64;
@@ -418,7 +418,7 @@ fn a_run_that_rests_has_an_exponent_of_minus_infinity() {
     let mut exponents = Exponents::new(&scene, 1, [10.0, 20.0]).unwrap();
     let mut stepper = Stepper::new(&scene, &Scheme::Event, 1.0).unwrap();
     while stepper.time() < 20.0 {
-        exponents.see(&stepper.step().unwrap()).unwrap();
+        exponents.observe(&stepper.step().unwrap()).unwrap();
     }
     let largest = exponents.largest();
     assert_eq!((largest.per_s, largest.error_per_s), (f64::NEG_INFINITY, None));
@@ -441,7 +441,7 @@ fn exponents_without_walls_are_those_of_the_modes() {
     let mut exponents = Exponents::new(&scene, 4, [100.0, 400.0]).unwrap();
     let mut stepper = Stepper::new(&scene, &Scheme::Event, 1.0).unwrap();
     while stepper.time() < 400.0 {
-        exponents.see(&stepper.step().unwrap()).unwrap();
+        exponents.observe(&stepper.step().unwrap()).unwrap();
     }
     // ω² of K − ω² M.
     let (trace, product) = (150.0 + 120.0, 150.0 * 120.0 - 100.0 * 50.0);
@@ -487,7 +487,7 @@ fn a_rest_before_the_window_does_not_end_the_growth_in_it() {
         let mut rests = false;
         while stepper.time() < 200.0 * (1.0 - 1e-12) {
             let step = stepper.step().unwrap();
-            exponents.see(&step).unwrap();
+            exponents.observe(&step).unwrap();
             rests |= step.end < from && step.v == [0.0];
         }
         (exponents.all(), rests)

@@ -134,7 +134,7 @@ fn survives(extreme: &Extreme, scheme: &Scheme) {
             Ok(step) => {
                 speed = speed.max(step.velocity_before[0].abs()).max(step.velocity_after[0].abs());
                 reach = reach.max(step.q[0].abs());
-                judge.see(&step);
+                judge.observe(&step);
             }
             Err(Error::NotFinite { .. } | Error::Newton { .. } | Error::Qp { .. }) => return,
             Err(other) => panic!("{what}: {other}"),
@@ -305,7 +305,7 @@ fn a_motion_that_has_decayed_is_zero_and_needs_no_denormal_numbers() {
             let (mut least, mut denormal) = (f64::INFINITY, 0);
             for _ in 0..160_000 {
                 let step = stepper.step().unwrap();
-                judge.see(&step);
+                judge.observe(&step);
                 least = step.q.iter().map(|q| q.abs()).filter(|q| *q > 0.0).fold(least, f64::min);
                 denormal += step.q.iter().filter(|q| q.is_subnormal()).count();
             }

@@ -214,7 +214,7 @@ fn altered(scene: &Scene, at: u64, alter: impl Fn(&mut [f64; 4])) -> Residuals {
         let mut altered = step;
         (altered.q, altered.v, altered.velocity_after) = (&q, &v, &v);
         (altered.impulse, altered.force) = (&impulse, &force);
-        judge.see(&altered);
+        judge.observe(&altered);
     }
     judge.residuals()
 }

@@ -209,7 +209,7 @@ fn steps_between_contacts_in_one_loop_are_those_one_by_one() {
         let mut impacts = 0;
         for _ in 0..20 {
             let (index, end, q) = {
-                let step = together.glide(100).expect("steps");
+                let step = together.advance_quiet(100).expect("steps");
                 (step.index, step.end, step.q.to_vec())
             };
             while single.time() < end {

@@ -32,7 +32,7 @@ fn judged(scene: &Scene, scheme: &Scheme, backend: Backend, steps: u32, push: f6
     let mut extra = vec![0.0; start.q.len()];
     for i in 0..steps {
         extra[0] = push * f64::from(i % 3);
-        judge.see(&stepper.step_with(&extra)?);
+        judge.observe(&stepper.step_with(&extra)?);
     }
     assert_eq!(judge.findings(), [], "{scheme}");
     Ok(judge.residuals())

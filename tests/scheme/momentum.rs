@@ -84,7 +84,7 @@ fn heard(scene: &Scene, scheme: &Scheme, h: f64, shown: f64, share: f64) -> Vec<
         sums.iter_mut().zip(&impulse).for_each(|(sum, p)| *sum += share * p);
         let mut altered = step;
         altered.impulse = &impulse;
-        judge.see(&altered);
+        judge.observe(&altered);
     }
     judge.hear(&sums);
     judge.findings()
@@ -134,7 +134,7 @@ fn steps_whose_own_balance_closes_on_wrong_forces_are_refuted_by_the_end_states(
     let start = stepper.state();
     let mut judge = Judge::new(&scene, stepper.contract(), 1e-3, &start.q, &start.v);
     for _ in 0..10_000 {
-        judge.see(&stepper.step().expect("a step"));
+        judge.observe(&stepper.step().expect("a step"));
     }
     let findings = judge.findings();
     let open = findings.iter().find(|finding| finding.refuted == Refuted::Impulses).expect("a finding");
@@ -164,7 +164,7 @@ fn a_table_that_begins_or_ends_with_a_step_gives_its_whole_impulse() {
                 let start = stepper.state();
                 let mut judge = Judge::new(stepper.scene(), stepper.contract(), h, &start.q, &start.v);
                 for _ in 0..200 {
-                    judge.see(&stepper.step().unwrap());
+                    judge.observe(&stepper.step().unwrap());
                 }
                 // Rounding of 200 steps; generalized-α has forgotten the jump to 1e-12 by then.
                 let found = 2.0 * stepper.state().v[n - 1];
@@ -210,7 +210,7 @@ fn a_loop_over_steps_without_contact_stops_for_a_jump_of_the_load() {
     for scheme in schemes() {
         let [mut one, mut loops] = [0, 1].map(|_| Stepper::new(&scene, &scheme, 1e-3).unwrap());
         (0..500).for_each(|_| _ = one.step().unwrap());
-        (0..10).for_each(|_| _ = loops.glide(50).unwrap());
+        (0..10).for_each(|_| _ = loops.advance_quiet(50).unwrap());
         assert_eq!(loops.time(), one.time());
         // To the last bit.
         assert_eq!(loops.state(), one.state(), "{scheme}");

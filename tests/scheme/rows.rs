@@ -62,7 +62,7 @@ fn a_recorder_passes_over_a_step_of_another_scene() {
     let start = stepper.state();
     let record = |steps: &[Step<'_>]| {
         let mut recorder = Recorder::new(&scene, 10, &start.q, &start.v);
-        steps.iter().for_each(|step| recorder.see(step));
+        steps.iter().for_each(|step| recorder.observe(step));
         recorder.finish(&[])
     };
     let empty = record(&[]);

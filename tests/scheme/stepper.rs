@@ -131,7 +131,7 @@ fn a_force_given_step_by_step_does_what_a_constant_load_does() {
         let state = stepper.state();
         let mut judge = Judge::new(stepper.scene(), stepper.contract(), 1e-4, &state.q, &state.v);
         for i in 0..5000 {
-            judge.see(&stepper.step_with(&[2.0 * f64::from(i % 7)]).expect("a step"));
+            judge.observe(&stepper.step_with(&[2.0 * f64::from(i % 7)]).expect("a step"));
         }
         let r = judge.residuals();
         // Rounding of the mass times the velocity over a step of 0.1 ms, beside 1e3 N of impact.
@@ -246,7 +246,7 @@ fn blows_half_way_between_two_steps_act_once() {
             let start = stepper.state();
             let mut judge = Judge::new(&scene, stepper.contract(), step, &start.q, &start.v);
             while stepper.time() < half + 3.0 * step {
-                judge.see(&stepper.step().expect("a step"));
+                judge.observe(&stepper.step().expect("a step"));
             }
             let v = stepper.state().v[0];
             assert!((v - 1.0).abs() < 1e-12, "{scheme}: velocity {v} m/s after a blow of 1 N s at {half} s");
@@ -263,7 +263,7 @@ fn a_recorder_that_sees_steps_beyond_its_last_row_keeps_to_its_rows() {
         let start = stepper.state();
         let mut recorder = Recorder::new(&scene, 50, &start.q, &start.v);
         for _ in 0..700 {
-            recorder.see(&stepper.step().expect("a step"));
+            recorder.observe(&stepper.step().expect("a step"));
         }
         let trajectory = recorder.finish(&[]);
         assert_eq!(trajectory.time().len(), 51, "{scheme}");
@@ -342,8 +342,8 @@ fn steps_of_another_scene_change_nothing_for_recorder_and_judge() {
             let mut stepper = Stepper::new(other, &scheme, 1e-3).expect("sound");
             for _ in 0..20 {
                 let step = stepper.step().expect("a step");
-                recorder.see(&step);
-                judge.see(&step);
+                recorder.observe(&step);
+                judge.observe(&step);
             }
             assert_eq!(recorder.finish(&[]), before, "{scheme}");
             assert_eq!(judge.residuals(), verdict, "{scheme}");

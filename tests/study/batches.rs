@@ -112,7 +112,7 @@ fn steps_of_another_scene_and_impacts_after_the_end_are_no_part_of_the_force() {
             // 1 m/s: impacts at 0.1, 0.3 (the floor), and 0.5 s (after the end).
             let steps = if scheme == Scheme::Event { 35 } else { 60 };
             for _ in 0..steps {
-                forces.see(&stepper.step().expect("a step"));
+                forces.observe(&stepper.step().expect("a step"));
             }
             let statistics = Statistics::new(&one, &[], 0.0).with_forces(&forces);
             let found = statistics.walls[0].force.expect("a window").impulse_n_s;

@@ -120,7 +120,7 @@ pub struct Sums {
 
 impl Sums {
     /// Adds all contacts of a step of `scene`.
-    pub fn see(&mut self, scene: &Scene, step: &Step<'_>) {
+    pub fn observe(&mut self, scene: &Scene, step: &Step<'_>) {
         let mut pushed = false;
         for support in &scene.supports {
             let contacts = support.members(&scene.walls).map(|(index, wall)| {
@@ -147,11 +147,11 @@ impl Sums {
     }
 }
 
-/// `steps` steps of `h` seconds by moreau-jean, each shown to `see`.
-pub fn follow(scene: &Scene, h: f64, steps: u64, mut see: impl FnMut(&Step<'_>)) -> Stepper {
+/// `steps` steps of `h` seconds by moreau-jean, each shown to `observe`.
+pub fn follow(scene: &Scene, h: f64, steps: u64, mut observe: impl FnMut(&Step<'_>)) -> Stepper {
     let mut stepper = Stepper::new(scene, &MOREAU_JEAN, h).unwrap_or_else(|error| panic!("{error}"));
     for _ in 0..steps {
-        see(&stepper.step().unwrap_or_else(|error| panic!("{error}")));
+        observe(&stepper.step().unwrap_or_else(|error| panic!("{error}")));
     }
     stepper
 }

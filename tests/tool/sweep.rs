@@ -798,7 +798,7 @@ fn exponents_of_rows_are_those_of_their_runs_and_of_the_lanes() {
         let mut own = Exponents::new(&scene, 1, window).unwrap();
         let mut stepper = Stepper::new(&scene, &Scheme::Event, window[1]).unwrap();
         while stepper.time() < window[1] {
-            own.see(&stepper.step().unwrap()).unwrap();
+            own.observe(&stepper.step().unwrap()).unwrap();
         }
         let own = own.largest();
         if row.measures[2].is_some() {

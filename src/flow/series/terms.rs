@@ -244,19 +244,19 @@ impl Series {
     fn shorten(&mut self, slots: std::ops::Range<usize>) {
         let (n, top) = (self.n, self.terms - 1);
         let mut share = 1.0_f64;
-        let mut see = |size: &dyn Fn(usize) -> f64, last: usize| {
+        let mut observe = |size: &dyn Fn(usize) -> f64, last: usize| {
             let largest = (0..4).map(size).fold(0.0, f64::max);
             let end = size(last).max(size(last - 1));
             if end > ROUND_TRUNCATION * largest && largest > 0.0 {
                 share = share.min((ROUND_TRUNCATION * largest / end).powf(1.0 / (last - 1) as f64));
             }
         };
-        see(&|k| self.motion[k * n..(k + 1) * n].iter().fold(0.0, |a: f64, x| a.max(x.abs())), top);
+        observe(&|k| self.motion[k * n..(k + 1) * n].iter().fold(0.0, |a: f64, x| a.max(x.abs())), top);
         for circle in &self.circles {
-            see(&|k| circle.size(k), top);
+            observe(&|k| circle.size(k), top);
         }
         for slot in slots {
-            see(&|k| self.forces[slot * TERMS + k].abs(), top - 2);
+            observe(&|k| self.forces[slot * TERMS + k].abs(), top - 2);
         }
         self.scale(share);
         self.rate = self.rate.max(RADIANS / self.unit);

@@ -1,7 +1,7 @@
 //! The energy ledger of the exact motion of one degree of freedom: powers integrated along an arc,
 //! and the jump at its end.
 
-use super::super::worst::most;
+use super::super::largest_residual::running_max;
 use super::{Flows, Ledger, stored};
 use crate::flow::Arc;
 use crate::scene::{Scene, System};
@@ -77,7 +77,7 @@ impl Along {
         self.flows.passed += part.passed;
         self.flows.damping += part.damping;
         self.flows.dashpot += part.dashpot;
-        at.energy[..at.count].iter().fold(0.0, |largest, &energy| most(largest, energy))
+        at.energy[..at.count].iter().fold(0.0, |largest, &energy| running_max(largest, energy))
     }
 }
 
@@ -97,7 +97,7 @@ impl Ledger {
             work += weight[i] * power;
             passed += weight[i] * power.abs();
             damping += weight[i] * rub * v[i];
-            largest = most(largest, most(load[i].abs(), rub.abs()));
+            largest = running_max(largest, running_max(load[i].abs(), rub.abs()));
         }
         along.part = Flows { work, passed, damping, ..along.part };
         along.largest_force = largest;

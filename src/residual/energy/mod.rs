@@ -8,12 +8,12 @@ pub use account::Energy;
 pub(super) use arc::{Along, Instants};
 pub(super) use series::Moved;
 
+use super::largest_residual::running_max;
 use super::matrices::{Matrices, Part};
-use super::moves::Moves;
 use super::pushes::pushes;
-use super::worst::most;
+use super::step_motion::StepMotion;
 use crate::scene::{Forcing, Scene, Wall};
-use crate::step::{Balance, Calm, Contract, Step};
+use crate::step::{Balance, Contract, QuietSteps, Step};
 
 #[derive(Debug, Clone)]
 pub(super) struct Ledger {
@@ -72,7 +72,7 @@ impl Ledger {
             residual: 0.0,
             lost: 0.0,
             steepest: Forcing::on(0, &scene.loads).steepest(),
-            shift: vec![0.0; q.len().max(Calm::most())],
+            shift: vec![0.0; q.len().max(QuietSteps::capacity())],
             middle: vec![0.0; q.len()],
             springs: scene.walls.iter().any(|wall| !wall.law.is_rigid()),
         }
@@ -87,7 +87,7 @@ impl Ledger {
         scene: &Scene,
         matrices: &Matrices,
         (h, per_h): (f64, f64),
-        moves: &Moves<'_>,
+        moves: &StepMotion<'_>,
         step: &Step<'_>,
         load: &[f64],
         n: usize,
@@ -111,13 +111,20 @@ impl Ledger {
     }
 
     /// Adds n steps of one degree of freedom in which no wall touches it, after the first step.
-    pub fn see_calm(&mut self, matrices: &Matrices, (h, per_h): (f64, f64), moves: &Moves<'_>, load: &[f64], n: usize) {
+    pub fn see_calm(
+        &mut self,
+        matrices: &Matrices,
+        (h, per_h): (f64, f64),
+        moves: &StepMotion<'_>,
+        load: &[f64],
+        n: usize,
+    ) {
         let flows = self.flows(matrices, (h, per_h), moves, load, n);
         let (q0, q1, after, v) = (&moves.from[..n], &moves.to[..n], &moves.after[..n], &moves.v[..n]);
         let (mut energy, mut largest) = (self.energy, self.report.largest_j);
         for i in 0..n {
             energy = self.after(matrices, h, (&q0[i..=i], &q1[i..=i]), (&after[i..=i], &v[i..=i]), 1);
-            largest = most(largest, energy);
+            largest = running_max(largest, energy);
         }
         self.report.largest_j = largest;
         self.book(energy, flows);
@@ -157,7 +164,7 @@ impl Ledger {
         &mut self,
         matrices: &Matrices,
         (h, per_h): (f64, f64),
-        moves: &Moves<'_>,
+        moves: &StepMotion<'_>,
         load: &[f64],
         n: usize,
     ) -> Flows {

@@ -86,7 +86,7 @@ fn the_worst_pair_is_that_of_all_pairs_less_their_rounding() {
         let at = (0..40).max_by(|&a, &b| values[a].total_cmp(&values[b])).expect("pairs");
         (values[at], at as f64, Some(at))
     };
-    let shown = |worst: Worst| (worst.value, worst.time, worst.wall);
+    let shown = |worst: LargestResidual| (worst.value, worst.time, worst.wall);
     assert_eq!(shown(front.outside.excess), most(&|slack, _| -slack - 2.0 * gap_noise));
     assert_eq!(shown(front.pull.excess), most(&|_, pressure| -pressure - 2.0 * force_noise));
     for (gap, force) in [(1.0, 1.0), (0.3, 2.0), (5.0, 1.0)] {
@@ -97,11 +97,11 @@ fn the_worst_pair_is_that_of_all_pairs_less_their_rounding() {
 
 #[test]
 fn of_equal_residuals_the_first_is_shown() {
-    let mut worst = Worst::default();
-    worst.see(0.0, 1.0, Some(1));
+    let mut worst = LargestResidual::default();
+    worst.observe(0.0, 1.0, Some(1));
     assert_eq!((worst.time, worst.wall), (0.0, None));
-    worst.see(2.0, 3.0, Some(3));
-    worst.see(2.0, 4.0, Some(4));
+    worst.observe(2.0, 3.0, Some(3));
+    worst.observe(2.0, 4.0, Some(4));
     assert_eq!((worst.value, worst.time, worst.wall), (2.0, 3.0, Some(3)));
     let mut front = ComplementarityFront::default();
     front.add((1.0, 0.0), (2.0, 0.0), 3.0, 3);

@@ -17,7 +17,7 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
     let unit = UNITS * f64::EPSILON;
     // A step of 0.5 s ends at −2 m with 3 m/s, under −8 N, at its end −7 N, an extra force of
     // 2 N, and a blow of 1 N s. The largest force is that at the end with the extra one, 9 N.
-    let moves = Moves {
+    let moves = StepMotion {
         from: &[0.0],
         to: &[-2.0],
         shown: &[-2.0],
@@ -57,7 +57,7 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
     state.state(&[-2.0], &[-3.0], 0.5, &weights);
     assert_eq!((state.path(), force(&mut state, 0.25, 1.0)), (unit * 7.0, unit * (6.0 / 0.25 + spring + damper)));
     let mut struck = NoiseModel::new(&weights, &[], 0.5);
-    struck.step(&Moves { blow: &[-10.0], ..moves }, &[-8.0], &weights, (0.5, 2.0), 1);
+    struck.step(&StepMotion { blow: &[-10.0], ..moves }, &[-8.0], &weights, (0.5, 2.0), 1);
     assert_eq!(force(&mut struck, 1.0, 1.0), unit * (6.0 + spring + damper + 10.0));
     // Sums over four degrees of freedom have twice the rounding; one without springs has no rate.
     let mut four = weights.repeated(4);

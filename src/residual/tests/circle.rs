@@ -45,7 +45,7 @@ fn sliding() -> (Series, Made) {
 
 fn judged(scene: &Scene, series: &Series, made: &Made) -> Judge {
     let mut judge = start(scene, (&PLACE, &SPEED));
-    judge.see(&made.along(Path::Series(series)));
+    judge.observe(&made.along(Path::Series(series)));
     judge
 }
 
@@ -112,7 +112,7 @@ fn a_body_at_rest_in_the_centre_of_a_hole_is_not_accused() {
     let from = SeriesStart { time: 0.0, q: &[0.0; 2], v: &[0.0; 2], extra: &[0.0; 2], until: SPAN };
     series.begin(&mut body, &from, &[], &Hold::with_room(1), empty(), &mut [0.0; 4]);
     let mut judge = start(&scene, (&[], &[]));
-    judge.see(&Made::rest(&scene, SPAN).along(Path::Series(&series)));
+    judge.observe(&Made::rest(&scene, SPAN).along(Path::Series(&series)));
     assert_eq!((judge.findings(), judge.residuals().complementarity), (Vec::new(), 0.0));
 }
 

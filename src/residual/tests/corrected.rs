@@ -29,13 +29,13 @@ fn a_wrong_velocity_counts_by_its_momentum_in_the_metric_of_the_mass() {
     for (dof, mass) in [(0, 4.0), (1, 16.0_f64)] {
         let mut judge = judge(&scene, rule(), H, &[0.0, 0.0]);
         let mut made = flight(&scene);
-        judge.see(&made.step());
+        judge.observe(&made.step());
         assert_eq!((judge.balance.largest, judge.balance.force.value, judge.balance.path.value), (0.0, 0.0, 0.0));
         // The next step, which ends with 1/8 m/s more.
         made.before.copy_from_slice(&[1.0, 2.0]);
         made.q.iter_mut().for_each(|q| *q *= 2.0);
         made.after[dof] += 0.125;
-        judge.see(&Step { index: 1, start: H, end: 2.0 * H, ..made.step() });
+        judge.observe(&Step { index: 1, start: H, end: 2.0 * H, ..made.step() });
         assert_eq!((judge.balance.largest, judge.balance.path.value), (mass * 0.125 / H, 0.0));
         assert_eq!(judge.balance.force.value, mass.sqrt() * 0.125 / H);
     }
@@ -49,7 +49,7 @@ fn a_wrong_displacement_counts_in_flight_though_there_are_holes() {
             let mut judge = judge(&scene, rule(), H, &[0.0, 0.0]);
             let mut made = flight(&scene);
             made.q[dof] += 0.125;
-            judge.see(&made.step());
+            judge.observe(&made.step());
             assert_eq!((judge.balance.largest, judge.balance.path.value), (0.0, mass.sqrt() * 0.125));
             assert!(judge.findings().iter().any(|finding| finding.refuted == Refuted::Kinematics));
         }
@@ -57,7 +57,7 @@ fn a_wrong_displacement_counts_in_flight_though_there_are_holes() {
     // Where the hole is closed it may correct the displacement.
     let scene = with_hole(body([4.0, 16.0], 0.0), "hole", 1.0, RIGID);
     let mut judge = judge(&scene, rule(), H, &[0.0, 0.0]);
-    judge.see(&Made { q: vec![0.6, 0.8], ..flight(&scene) }.step());
+    judge.observe(&Made { q: vec![0.6, 0.8], ..flight(&scene) }.step());
     assert_eq!(judge.balance.path.value, 0.0);
 }
 
@@ -69,7 +69,7 @@ fn a_wall_may_correct_a_displacement_that_ends_at_it_but_for_rounding() {
     for (missed, residual) in [(1e-12, 0.0), (5e-7, 2.0)] {
         let mut judge = judge(&scene, rule(), H, &[-0.25, 0.0]);
         let made = Made { q: vec![0.25 - missed, 0.0], ..Made::rest(&scene, H) };
-        judge.see(&Step { velocity_before: &[6.0, 0.0], ..made.step() });
+        judge.observe(&Step { velocity_before: &[6.0, 0.0], ..made.step() });
         assert!((judge.balance.path.value - residual).abs() < 1e-5, "{missed}");
     }
 }
@@ -86,7 +86,7 @@ fn loads_and_extra_forces_accelerate_and_are_exchanged() {
         extra: vec![8.0, 0.0],
         ..Made::rest(&scene, H)
     };
-    judge.see(&made.step());
+    judge.observe(&made.step());
     assert_eq!((judge.balance.largest, judge.balance.path.value), (0.0, 0.0));
     let exchanged: Vec<f64> = judge.sums.forces.iter().map(|force| force.exchanged).collect();
     assert_eq!(exchanged, [10.0 * H, 4.0 * H]);
@@ -116,7 +116,7 @@ fn a_damper_that_does_not_feel_a_blow_is_accused_unless_a_closed_wall_may_have_a
         let mut judge = judge(&scene, rule(), H, &[0.0, 0.0]);
         let after = (16.0 - share * felt) / (m + 0.5 * H * c);
         let made = Made { q: vec![at, 0.0], after: vec![after, 0.0], ..Made::rest(&scene, H) };
-        judge.see(&made.step());
+        judge.observe(&made.step());
         judge.balance.largest * H
     };
     // Rounding of 16 N s.
@@ -146,6 +146,6 @@ fn the_impulse_of_a_rigid_wall_is_a_force_of_the_balance() {
         force: vec![-12.0],
         ..Made::rest(&scene, H)
     };
-    judge.see(&made.step());
+    judge.observe(&made.step());
     assert_eq!((judge.balance.largest, judge.balance.scale), (0.0, 6.0));
 }

@@ -42,7 +42,7 @@ fn a_load_that_is_another_counts_by_its_mean_force_and_works() {
     let pushed = |force: f64| Scene::oscillator(4.0, 0.0, 0.0).with_load(Load::constant(force));
     let (arc, made) = arc(&pushed(3.0), (8.0, 0.0, 2.0), 0.5, &[]);
     let mut judge = start(&pushed(3.5), 0.0, 2.0);
-    judge.see(&made.along(Path::Exact(&arc)));
+    judge.observe(&made.along(Path::Exact(&arc)));
     let near = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-12;
     assert!(
         near(judge.balance.largest, 0.5) && near(judge.balance.force.value, 0.25),
@@ -68,7 +68,7 @@ fn a_body_behind_a_rigid_wall_is_accused_though_it_comes_back_within_the_step() 
     };
     let (arc, made) = arc(&thrown(9.0), (0.0, 0.0, 2.0), 2.0, &[]);
     let mut judge = start(&thrown(0.75), 0.0, 2.0);
-    judge.see(&made.along(Path::Exact(&arc)));
+    judge.observe(&made.along(Path::Exact(&arc)));
     // The nearest instant of a panel of eight or more is within 0.25 s of the highest point: at
     // most 6 cm below it.
     let depth = judge.walls.gaps.outside.excess.value;
@@ -88,7 +88,7 @@ fn the_largest_energy_within_a_stretch_includes_that_of_springs() {
     for (scene, touching) in [(own, &[][..]), (pad, &[touch(0.0, k, c)])] {
         let (arc, made) = arc(&scene, (0.0, 0.0, 0.0), period, touching);
         let mut judge = start(&scene, 0.0, 0.0);
-        judge.see(&made.along(Path::Exact(&arc)));
+        judge.observe(&made.along(Path::Exact(&arc)));
         // The instants beside the middle are 0.3 rad from it: the depth is (1 + cos 0.3)/2 there.
         let largest = judge.energy.report().largest_j / (2.0 * f * f / k);
         assert!((0.95..1.0 + 1e-9).contains(&largest), "{largest}");
@@ -105,7 +105,7 @@ fn a_damped_oscillator_with_loads_keeps_its_balance_and_its_ledger() {
         let scene = Scene::oscillator(4.0, 2.0, 100.0).with_load(Load::constant(3.0 * s));
         let (arc, made) = arc(&scene, (8.0, 0.25 * s, -s), 1.5, &[]);
         let mut judge = start(&scene, 0.25 * s, -s);
-        judge.see(&made.along(Path::Exact(&arc)));
+        judge.observe(&made.along(Path::Exact(&arc)));
         let energy = judge.energy.report();
         // Rounding of some 30 N and 6 J.
         assert!(
@@ -139,7 +139,7 @@ fn extra_forces_are_loads_and_rounding_is_that_of_the_largest_place_speed_and_fo
             ..Made::rest(&scene, span)
         };
         let mut judge = start(&scene, 0.0, -4.0 * s);
-        judge.see(&made.along(Path::Exact(&arc)));
+        judge.observe(&made.along(Path::Exact(&arc)));
         assert!(
             judge.balance.largest < 1e-12 && judge.balance.scale == 4.0,
             "{} {}",
@@ -162,7 +162,7 @@ fn a_spring_that_pushes_far_before_its_wall_is_accused() {
     };
     let (arc, made) = arc(&scene(1.0), (0.0, 1.5, 0.0), 0.25, &[touch(1.0, 8.0, 0.0)]);
     let mut judge = start(&scene(3.0), 1.5, 0.0);
-    judge.see(&made.along(Path::Exact(&arc)));
+    judge.observe(&made.along(Path::Exact(&arc)));
     // 4 N at the start, and no more than 1 % less at the first instant.
     assert!((3.96..=4.0).contains(&judge.walls.law.value), "{}", judge.walls.law.value);
 }
@@ -195,7 +195,7 @@ fn a_dashpot_at_constant_speed_takes_its_force_times_the_way() {
             .with_load(Load::constant(s * c * v));
         let (arc, made) = arc(&scene, (1.0, s * 1.5, s * v), 2.0, &[touch(s, 0.0, c)]);
         let mut judge = start(&scene, s * 1.5, s * v);
-        judge.see(&made.along(Path::Exact(&arc)));
+        judge.observe(&made.along(Path::Exact(&arc)));
         let (energy, lost) = (judge.energy.report(), c * v * v * 2.0);
         assert!((energy.wall_damping_j - lost).abs() < 1e-12, "{energy:?}");
         assert!((energy.load_work_j - lost).abs() < 1e-12 && energy.residual_j.abs() < 1e-12, "{energy:?}");
@@ -220,7 +220,7 @@ fn a_force_off_its_law_counts_less_what_the_rounding_of_the_place_explains() {
     let (arc, made) = arc(&scene(position), (time, position + 0.5, 1.0), 1e-3, &[touch(position, 1.0, 0.0)]);
     for by in [nearer, -nearer] {
         let mut judge = start(&scene(position - by), position + 0.5, 1.0);
-        judge.see(&made.along(Path::Exact(&arc)));
+        judge.observe(&made.along(Path::Exact(&arc)));
         // Places are rounded to 2e-13 m, and the body moves on by a millimetre.
         let error = judge.walls.law.value;
         assert!((error - (nearer - rounding)).abs() < 0.01 * rounding, "{error} {nearer} {rounding}");
@@ -235,12 +235,12 @@ fn at_an_instant_blows_and_impacts_act_between_the_velocities_of_the_step() {
     let (arc, made) = arc(&scene, (0.0, 0.0, 2.0), 0.5, &[]);
     let made = Made { start: 0.5, before: vec![3.0], after: vec![-1.5], jump: vec![-18.0], ..made };
     let mut judge = start(&scene, 1.0, 3.0);
-    judge.see(&made.along(Path::Exact(&arc)));
+    judge.observe(&made.along(Path::Exact(&arc)));
     let energy = judge.energy.report();
     assert_eq!((energy.initial_j, energy.final_j, energy.impact_loss_j), (18.0, 4.5, 13.5));
     assert_eq!((energy.residual_j, judge.walls.tension, judge.balance.largest), (0.0, 0.0, 0.0));
     // A wall that pulls.
     let made = Made { jump: vec![18.0], ..made };
-    judge.see(&made.along(Path::Exact(&arc)));
+    judge.observe(&made.along(Path::Exact(&arc)));
     assert_eq!(judge.walls.tension, 18.0);
 }

@@ -3,8 +3,8 @@
 //! and expected values can be worked out by hand.
 
 mod allowances;
-mod calm;
 mod momentum;
+mod quiet_steps;
 mod sums;
 mod terms;
 mod verdict;

@@ -54,11 +54,11 @@ fn a_spring_without_a_dashpot_stores_with_or_without_a_push_and_takes_nothing() 
             let mut made = Made { q: vec![0.75, 0.0], ..Made::rest(scene, H) };
             made.impulse[0] = if scene.walls.is_empty() { push } else { -push };
             made.normal.fill([1.0, 0.0]);
-            judge.see(&made.step());
+            judge.observe(&made.step());
             assert_eq!(judge.energy.report().final_j, 2.0, "push {push}");
             // Out again: all of it comes back.
             made.q[0] = 0.25;
-            judge.see(&made.step());
+            judge.observe(&made.step());
             let energy = judge.energy.report();
             assert_eq!((energy.final_j, energy.wall_damping_j, energy.residual_j), (0.0, 0.0, 0.0), "push {push}");
         }
@@ -74,7 +74,7 @@ fn a_staggered_run_starts_half_a_step_before_its_first_instant() {
         for (b, strain) in [(0.0, 50.0 * (0.5625 - 0.0625)), (0.25, 50.0 * 0.5625)] {
             let mut judge = start(&scene, Balance::Staggered(b), &[1.0], &[2.0]);
             let made = Made { q: vec![1.5], before: vec![2.0], after: vec![2.0], ..Made::rest(&scene, H) };
-            judge.see(&made.step());
+            judge.observe(&made.step());
             assert_eq!(judge.energy.report().initial_j, 8.0 + strain + 10.0, "b = {b}, damping {damping}");
         }
     }
@@ -89,7 +89,7 @@ fn the_energy_of_a_staggered_run_after_a_blow_is_that_before_the_place_it_leads_
     for (b, strain) in [(0.0, 50.0 * (0.0625 - 0.25)), (0.25, 50.0 * 0.0625)] {
         let mut judge = start(&scene, Balance::Staggered(b), &[0.0], &[0.0]);
         let made = Made { q: vec![0.75], after: vec![4.0], ..Made::rest(&scene, H) };
-        judge.see(&made.step());
+        judge.observe(&made.step());
         let energy = judge.energy.report();
         assert_eq!((energy.initial_j, energy.final_j), (0.0, 32.0 + strain + 0.5 * 18.0), "b = {b}");
     }
@@ -136,7 +136,7 @@ fn a_damped_wall_in_touch_at_the_end_of_exact_motion_holds_its_energy() {
                 force: vec![force],
                 ..Made::rest(scene, span)
             };
-            judge.see(&made.along(path));
+            judge.observe(&made.along(path));
             assert_eq!(judge.energy.report().final_j, 2.0 + stored, "{force} N");
         }
     }

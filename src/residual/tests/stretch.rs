@@ -51,7 +51,7 @@ fn the_largest_speed_is_that_within_the_stretch_and_after_its_blows_in_the_metri
     let state = (&[-sin, 0.0][..], &[cos, 0.0][..]);
     let (series, made) = stretch(&scene, (0.0, state.0, state.1), 1.6, None);
     let mut judge = start(&scene, state);
-    judge.see(&made.along(Path::Series(&series)));
+    judge.observe(&made.along(Path::Series(&series)));
     // The rule has an instant within 0.12 rad of the middle.
     let speed = judge.normal_speed / 4.0;
     assert!((0.98..1.0 + 1e-12).contains(&speed), "{speed}");
@@ -60,7 +60,7 @@ fn the_largest_speed_is_that_within_the_stretch_and_after_its_blows_in_the_metri
     let (series, mut made) = stretch(&scene, (0.0, &[0.0; 2], &[0.0; 2]), 0.5, None);
     made.after = vec![4.0, 0.0];
     let mut judge = start(&scene, (&[], &[]));
-    judge.see(&made.along(Path::Series(&series)));
+    judge.observe(&made.along(Path::Series(&series)));
     let energy = judge.energy.report();
     assert_eq!((judge.normal_speed, energy.load_work_j, energy.final_j), (8.0, 32.0, 32.0));
     assert_eq!((energy.exchanged_j, energy.residual_j), (64.0, 0.0));
@@ -79,7 +79,7 @@ fn a_structure_behind_a_rigid_wall_counts_less_the_rounding_of_all_terms() {
     let state = (&[1000.0, -2000.0][..], &[1.0, 0.0][..]);
     let (series, made) = stretch(&scene(9999.0), (time, state.0, state.1), span, None);
     let mut judge = start(&scene(4000.0), state);
-    judge.see(&made.along(Path::Series(&series)));
+    judge.observe(&made.along(Path::Series(&series)));
     // 2 m/s, at the last instant of the rule.
     let depth = 2.0 * span * 0.5 * (1.0 + LAST);
     let noise = judge.noise.place(2000.0 + 2000.0 + 4000.0 + 2.0 * time);
@@ -96,7 +96,7 @@ fn a_rigid_wall_that_pushes_at_a_distance_is_accused() {
     let state = (&[1.0, 0.0][..], &[0.0, 0.0][..]);
     let (series, made) = stretch(&scene(1.0), (0.0, state.0, state.1), 0.5, Some((0.0, 1.0)));
     let mut judge = start(&scene(1.125), state);
-    judge.see(&made.along(Path::Series(&series)));
+    judge.observe(&made.along(Path::Series(&series)));
     let both = |gap: f64, force: f64| judge.walls.gaps.worst_excess(gap, force).value;
     assert!((both(1.0, 1.0) - 0.125).abs() < 1e-9 && (both(1e-9, 1.0) - 3.0).abs() < 1e-9);
     assert_eq!(judge.walls.tension, 0.0);
@@ -115,7 +115,7 @@ fn a_force_of_a_spring_off_its_law_counts_less_what_the_rounding_of_the_place_ex
     let rounding = 32.0 * f64::EPSILON * (1024.5 + 1024.0 + 4096.0);
     for by in [nearer, -nearer] {
         let mut judge = start(&scene(position - by), state);
-        judge.see(&made.along(Path::Series(&series)));
+        judge.observe(&made.along(Path::Series(&series)));
         // Places are rounded to 2e-13 m, and so is the force: some hundredths of the allowance.
         let error = judge.walls.law.value;
         assert!((error - (nearer - rounding)).abs() < 0.05 * rounding, "{error} {nearer} {rounding}");
@@ -134,13 +134,13 @@ fn a_stop_before_the_stretch_is_the_force_that_gives_it_within_a_radian() {
     // The last step ended with 1.125 m/s: 0.5 N s were lost, 0.125 N over four seconds.
     made.before[0] = 1.125;
     let mut judge = start(&scene(1.0), state);
-    judge.see(&made.along(Path::Series(&series)));
+    judge.observe(&made.along(Path::Series(&series)));
     let near = |found: f64, expected: f64| (found - expected).abs() < 1e-12;
     assert!(near(judge.balance.largest, 0.125) && near(judge.balance.force.value, 0.0625), "{}", judge.balance.largest);
     // Over the whole step it is 0.5 N; and 0.5 N more if the load is 1.5 N.
     for (force, open) in [(1.0, 0.5), (1.5, 1.0)] {
         let mut judge = start(&scene(force), state);
-        judge.see(&made.along(Path::Series(&series)));
+        judge.observe(&made.along(Path::Series(&series)));
         assert!(near(judge.balance.force.excess.value, open / 2.0), "{:?}", judge.balance.force.excess);
     }
 }

@@ -109,7 +109,7 @@ impl Disks {
             let ([y, z], [vy, vz]) = (frame.normal[index], pair(rows, hole, &frame.after));
             *turned = turned.max(body.h * (y * vz - z * vy).abs() / rounds[hole].gap);
         }
-        episodes.see(frame.start, body.h, &frame.impulse, &frame.pushing, |index| {
+        episodes.observe(frame.start, body.h, &frame.impulse, &frame.pushing, |index| {
             let seen = |v: &Vec<f64>| match held.hole(index) {
                 None => body.seen(index, v),
                 Some(hole) => {

@@ -54,7 +54,7 @@ pub(super) struct Springs {
 }
 
 /// Forces on the rows, and −dF/dy.
-struct Answer {
+struct LawResponse {
     force: DVector<f64>,
     slope: DMatrix<f64>,
 }
@@ -142,9 +142,9 @@ impl Springs {
     }
 
     /// The forces at these mean velocities.
-    fn answer(&self, held: &Held, y: &DVector<f64>) -> Answer {
+    fn answer(&self, held: &Held, y: &DVector<f64>) -> LawResponse {
         let (m, h) = (self.rows.count(), held.body.h);
-        let mut answer = Answer { force: DVector::zeros(m), slope: DMatrix::zeros(m, m) };
+        let mut answer = LawResponse { force: DVector::zeros(m), slope: DMatrix::zeros(m, m) };
         for (row, &wall) in held.flats.iter().enumerate() {
             let face = held.body.walls[wall];
             let s0 = face.depth(held.body.seen(wall, &held.frame.q));
@@ -226,7 +226,7 @@ impl Springs {
     /// y = y_free + θh W F(y) − `Err` of the largest difference, in m/s, where Newton's method does
     /// not converge.
     fn settle(&mut self, held: &Held, free: &DVector<f64>) -> std::result::Result<DVector<f64>, f64> {
-        let open = |y: &DVector<f64>, answer: &Answer| y - free - &self.response * &answer.force;
+        let open = |y: &DVector<f64>, answer: &LawResponse| y - free - &self.response * &answer.force;
         let (mut y, mut steps) = (free.clone(), 0);
         let mut answer = self.answer(held, &y);
         let mut residual = open(&y, &answer);

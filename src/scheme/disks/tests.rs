@@ -50,10 +50,10 @@ fn schemes() -> [(Scheme, Vec<Wall>); 5] {
     ]
 }
 
-/// `steps` steps, each shown to `see`.
-fn follow(scene: &Scene, scheme: &Scheme, h: f64, steps: u64, mut see: impl FnMut(u64, &Step<'_>)) -> Stepper {
+/// `steps` steps, each shown to `observe`.
+fn follow(scene: &Scene, scheme: &Scheme, h: f64, steps: u64, mut observe: impl FnMut(u64, &Step<'_>)) -> Stepper {
     let mut stepper = Stepper::new(scene, scheme, h).expect("a scene");
-    (1..=steps).for_each(|number| see(number, &stepper.step().expect("a step")));
+    (1..=steps).for_each(|number| observe(number, &stepper.step().expect("a step")));
     stepper
 }
 

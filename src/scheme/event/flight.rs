@@ -9,8 +9,8 @@
 //! What is not shown so (a graze, a start without speed) is left to the careful search.
 
 use super::Event;
+use super::gap_bounds::GapBounds;
 use super::hit::Hit;
-use super::room::Room;
 use crate::error::Result;
 use crate::flow::Jet;
 use crate::scheme::exact;
@@ -84,7 +84,7 @@ impl Event {
 /// True if the motion from `jet` to displacement (m) and velocity (m/s) `end` after `h` (s) is
 /// between both walls on its way; `bound` is one on |q⁗|, m/s⁴.
 #[inline]
-fn is_clear(jet: &Jet, h: f64, [q, v]: [f64; 2], bound: f64, room: &Room) -> bool {
+fn is_clear(jet: &Jet, h: f64, [q, v]: [f64; 2], bound: f64, room: &GapBounds) -> bool {
     let (third, square) = (h * (1.0 / 3.0), h * h);
     let margin = bound * (square * square) * (1.0 / 288.0);
     room.holds(jet[0] + third * jet[1], margin) && room.holds(q - third * v, margin)

@@ -2,14 +2,14 @@
 //! beginning or ending.
 
 use super::Event;
-use super::room::Room;
+use super::gap_bounds::GapBounds;
 use crate::scene::Side;
 use crate::scheme::exact::{Phase, TAIL_CHANGE, TAIL_HEIGHT, TIME_UNITS, noise};
 
 impl Event {
     /// Handles everything that happens at the present instant; `hit` is the wall of the event that
     /// ended the arc. True if the velocity jumped or a wall's phase changed.
-    pub(super) fn happen(&mut self, hit: Option<usize>, extra: f64) -> bool {
+    pub(super) fn resolve_instant(&mut self, hit: Option<usize>, extra: f64) -> bool {
         let left = self.v;
         while let Some(&(_, impulse)) = self.forcing.impulses.get(self.blow).filter(|b| b.0 <= self.time) {
             self.v += impulse / self.body.mass;
@@ -60,7 +60,7 @@ impl Event {
             self.q = b.position;
         }
         b.settle(index, time, v, &mut self.shown.closed);
-        self.room = Room::between(&self.barriers);
+        self.room = GapBounds::between(&self.barriers);
     }
 
     /// Updates the phases after a jump of velocity, which may begin or end the contact at elastic
@@ -74,7 +74,7 @@ impl Event {
             b.classify(q, v, resolution);
             b.settle(index, time, v, &mut self.shown.closed);
         }
-        self.room = Room::between(&self.barriers);
+        self.room = GapBounds::between(&self.barriers);
     }
 
     /// Handles the rigid walls that touch: Newton's law for an approach, otherwise sticking or

@@ -2,22 +2,22 @@
 //! to rounding.
 
 mod flight;
+mod gap_bounds;
 mod hit;
 mod instant;
 mod motion;
-mod room;
 mod root;
 mod search;
 mod view;
 
 pub use super::exact::{EVENTS_PER_WINDOW, EventCounters, WINDOWS};
 
-use super::exact::{CHANGES_AT_ONCE, Clock, ExactWall, Shown, barriers, known_loads, noise};
+use super::exact::{CHANGES_AT_ONCE, Clock, ExactWall, StepOutput, barriers, known_loads, noise};
 use super::line::Line;
 use crate::error::{Error, Result};
 use crate::flow::Arc;
 use crate::scene::{Forcing, Oscillator, Scene, System};
-use room::Room;
+use gap_bounds::GapBounds;
 
 /// One degree of freedom between walls, advanced from event to event:
 ///
@@ -58,7 +58,7 @@ pub struct Event {
     /// The largest distance of a wall from the origin, m.
     farthest: f64,
     /// Between the walls, while the body is in front of all of them.
-    room: Option<Room>,
+    room: Option<GapBounds>,
     clock: Clock,
     /// A typical displacement of the scene, m.
     length: f64,
@@ -85,7 +85,7 @@ pub struct Event {
     /// [`Arc::sizes`] of the present arc.
     sizes: [f64; 4],
     steps: u64,
-    shown: Shown<Line>,
+    shown: StepOutput<Line>,
     velocity_left: f64,
 }
 
@@ -125,7 +125,7 @@ impl Event {
             forcing,
             soft: scene.walls.iter().any(|wall| !wall.law.is_rigid()),
             farthest,
-            room: Room::between(&barriers),
+            room: GapBounds::between(&barriers),
             barriers,
             clock: Clock::new(scene.duration, stride),
             length: if walls > 0 { scene.gap_scale() } else { 0.0 },
@@ -143,7 +143,7 @@ impl Event {
             resolution: noise(farthest),
             sizes: [0.0; 4],
             steps: 0,
-            shown: Shown::new(&[v], (walls, false), 2 * walls + 2),
+            shown: StepOutput::new(&[v], (walls, false), 2 * walls + 2),
             velocity_left: v,
         };
         event.reclassify();
@@ -176,7 +176,7 @@ impl Event {
             self.velocity_left = self.v;
             self.arc.cut(end, hit.tau);
             self.gather_impulses();
-            let changed = self.happen(hit.wall, extra);
+            let changed = self.resolve_instant(hit.wall, extra);
             let jumped = self.shown.jumped();
             if end > self.shown.start || jumped || !changed {
                 break;

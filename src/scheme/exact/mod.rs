@@ -8,7 +8,7 @@ mod wall;
 
 pub(super) use clock::Clock;
 pub use guard::{EVENTS_PER_WINDOW, EventCounters, WINDOWS};
-pub(super) use shown::Shown;
+pub(super) use shown::StepOutput;
 pub(super) use wall::{ExactWall, Phase, barriers};
 
 use crate::error::{Error, Result, Subject};

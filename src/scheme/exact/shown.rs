@@ -6,7 +6,7 @@ use crate::step::{Contact, Path, Step};
 /// The last step. Vectors over walls have one entry per wall, then one per round hole, where an
 /// impulse or force has the sign of an upper wall's.
 #[derive(Debug, Clone)]
-pub(in crate::scheme) struct Shown<S: Space> {
+pub(in crate::scheme) struct StepOutput<S: Space> {
     pub start: f64,
     /// Velocity at the start, m/s, from the right.
     pub before: S::Vector,
@@ -26,7 +26,7 @@ pub(in crate::scheme) struct Shown<S: Space> {
     pub closed: Vec<Contact>,
 }
 
-impl<S: Space> Shown<S> {
+impl<S: Space> StepOutput<S> {
     /// Before the first step, at the velocity `v` (m/s), in a scene with so many walls, of which
     /// some are `round` or none is. A step that closes more than `contacts` episodes allocates.
     pub fn new(v: &S::Vector, (walls, round): (usize, bool), contacts: usize) -> Self {

@@ -5,7 +5,7 @@ use super::super::body::Body;
 use super::super::frame::Frame;
 use super::super::matrices::Matrices;
 use super::super::space::Space;
-use super::super::supports::{Places, Sweeps, Touch};
+use super::super::supports::{ContactRows, FrictionContact, FrictionContacts};
 use super::contacts::Place;
 use super::plane_contact::PlaneContact;
 use crate::error::Result;
@@ -14,8 +14,8 @@ use crate::scene::Row;
 /// The responses of the structure to impulses, and the solver of the contacts at an instant.
 #[derive(Debug)]
 pub(super) struct Impact {
-    pub places: Places,
-    sweeps: Sweeps,
+    pub places: ContactRows,
+    sweeps: FrictionContacts,
     /// Contacts that gave up their rebound at the last instant.
     pub wedged: Vec<usize>,
     pub instants: u64,
@@ -23,8 +23,8 @@ pub(super) struct Impact {
 
 impl Impact {
     pub fn new(body: &Body<Matrices>, rows: &[&Row], contacts: usize) -> Result<Self> {
-        let places = Places::new(body.n, rows, &mut Matrices::mass(&body.matrices)?);
-        let sweeps = Sweeps::new(body.matrices.mass.clone(), rows, contacts);
+        let places = ContactRows::new(body.n, rows, &mut Matrices::mass(&body.matrices)?);
+        let sweeps = FrictionContacts::new(body.matrices.mass.clone(), rows, contacts);
         Ok(Self { places, sweeps, wedged: Vec::new(), instants: 0 })
     }
 
@@ -60,7 +60,7 @@ impl Impact {
                 Place::Resting | Place::Struck => -e * rate,
             };
             let (laws, at) = ((contact.point.friction, 0.0), (wall, contact.point.rows));
-            sweeps.touches.push(Touch::new(places, at, (contact.normal, bound), laws, [0.0; 2]));
+            sweeps.touches.push(FrictionContact::new(places, at, (contact.normal, bound), laws, [0.0; 2]));
         }
         for (row, rate) in sweeps.free.iter_mut().enumerate() {
             *rate = places.seen(row, &frame.v);

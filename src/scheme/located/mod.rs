@@ -66,7 +66,7 @@ use super::space::{Space, zero};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
-use crate::step::{Balance, Bound, Calm, Conserves, Contract, Friction, Law, Promise, Reached, Tolerances};
+use crate::step::{Balance, Bound, Conserves, Contract, Friction, Law, Promise, QuietSteps, Reached, Tolerances};
 use contacts::{Contacts, Event};
 use division::Division;
 use part::THETA;
@@ -232,7 +232,13 @@ impl<S: Space> Rule<S> for Located<S> {
         self.make_part(step, frame)
     }
 
-    fn glide(&mut self, step: u64, until: u64, frame: &mut Frame<S>, mut calm: Option<&mut Calm>) -> Result<u64> {
+    fn advance_quiet(
+        &mut self,
+        step: u64,
+        until: u64,
+        frame: &mut Frame<S>,
+        mut calm: Option<&mut QuietSteps>,
+    ) -> Result<u64> {
         if self.division.has_breaks() || self.division.is_under_way() || !self.clear {
             return Ok(step);
         }

@@ -11,7 +11,7 @@
 use super::super::body::Body;
 use super::super::matrices::Matrices;
 use super::super::space::Space;
-use super::super::supports::{CROSSING, Places, Sweeps, Touch, dot};
+use super::super::supports::{CROSSING, ContactRows, FrictionContact, FrictionContacts, dot};
 use super::part::{Part, Push, indefinite};
 use crate::linear::{Factor, Symmetric};
 use crate::qp::Failure;
@@ -44,7 +44,7 @@ pub(super) struct PlaneHold {
     /// μ, and the compliance of an elastic wall, m/s per N s.
     pub friction: f64,
     pub compliance: f64,
-    /// As [`Touch::slides`].
+    /// As [`FrictionContact::slides`].
     pub slides: f64,
     /// The sign of the wall's impulse.
     pub sign: f64,
@@ -109,7 +109,7 @@ pub(super) struct Response {
     matrix: Symmetric,
     factor: Factor,
     /// The responses at all rows, and the solver of the contacts; only where a contact acts.
-    contacts: Option<(Places, Sweeps)>,
+    contacts: Option<(ContactRows, FrictionContacts)>,
     /// True if these are of `matrix`.
     current: bool,
 }
@@ -159,8 +159,8 @@ impl Response {
             }
             none => {
                 let rows: Vec<&Row> = rows.iter().collect();
-                let sweeps = Sweeps::new(matrix.clone(), &rows, body.walls.len());
-                let (places, sweeps) = none.insert((Places::new(body.n, &rows, factor), sweeps));
+                let sweeps = FrictionContacts::new(matrix.clone(), &rows, body.walls.len());
+                let (places, sweeps) = none.insert((ContactRows::new(body.n, &rows, factor), sweeps));
                 (places, sweeps)
             }
         };
@@ -176,8 +176,8 @@ impl Response {
         for turn in 0..MOST_TURNS {
             let touches = holds.iter().zip(ways.iter().zip(&warm)).map(|(hold, (way, warm))| {
                 let (laws, contact) = ((hold.friction, hold.compliance), (hold.wall, hold.rows));
-                let touch = Touch::new(places, contact, hold.bound(*way, length), laws, *warm);
-                Touch { slides: hold.slides, ..touch }
+                let touch = FrictionContact::new(places, contact, hold.bound(*way, length), laws, *warm);
+                FrictionContact { slides: hold.slides, ..touch }
             });
             sweeps.touches.clear();
             sweeps.touches.extend(touches);

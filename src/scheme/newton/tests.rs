@@ -30,7 +30,7 @@ fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 
 /// `m` walls behind rows of random weights on `n` coupled masses, and S computed column by column:
 /// gᵢ M⁻¹ gⱼ times `scale`.
-fn problem(stream: u64, (m, n): (usize, usize), scale: f64) -> (Walls, Vec<Vec<f64>>) {
+fn problem(stream: u64, (m, n): (usize, usize), scale: f64) -> (ForceLawSolver, Vec<Vec<f64>>) {
     let couple = |i: usize, j: usize| 0.3 * draw(stream, 100 + i * n + j);
     let mass: Vec<Vec<f64>> = (0..n)
         .map(|i| (0..n).map(|j| if i == j { 2.0 + draw(stream, i) } else { couple(i.max(j), i.min(j)) }).collect())
@@ -46,7 +46,7 @@ fn problem(stream: u64, (m, n): (usize, usize), scale: f64) -> (Walls, Vec<Vec<f
     }
     let body = Body::<Matrices>::new(&scene, 1e-3).unwrap();
     let mut factor = Matrices::factor(&body.theta_matrix(0.5)).unwrap();
-    let walls = Walls::new(&mut factor, &body, scale);
+    let walls = ForceLawSolver::new(&mut factor, &body, scale);
     let answers: Vec<Vec<f64>> = rows.iter().map(|row| solved(mass.clone(), row.clone())).collect();
     let seen = |i: usize, j: usize| scale * rows[i].iter().zip(&answers[j]).map(|(g, x)| g * x).sum::<f64>();
     let s = (0..m).map(|i| (0..m).map(|j| seen(i, j)).collect()).collect();
@@ -95,7 +95,7 @@ fn linear_laws_are_met_by_one_iteration_and_a_change_is_answered_to_first_order(
         let (slope, constant) = (slopes(stream, m, 20.0), |i: usize| draw(stream, 400 + i));
         let free: Vec<f64> = (0..m).map(|i| draw(stream, 500 + i)).collect();
         walls.free.copy_from_slice(&free);
-        let law = |i: usize, y: f64| Answer { force: constant(i) - slope[i] * y, slope: slope[i], noise: 0.0 };
+        let law = |i: usize, y: f64| LawResponse { force: constant(i) - slope[i] * y, slope: slope[i], noise: 0.0 };
         walls.solve(law).unwrap();
         // r + D S r = c − D y₀.
         let expected = solved(condensed(&s, &slope), (0..m).map(|i| constant(i) - slope[i] * free[i]).collect());
@@ -120,7 +120,7 @@ fn springs_that_only_push_carry_what_the_one_consistent_choice_of_contacts_carri
         let stiff: Vec<f64> = (0..m).map(|i| (6.0 * draw(stream, 700 + i)).exp2()).collect();
         let free: Vec<f64> = (0..m).map(|i| draw(stream, 500 + i)).collect();
         walls.free.copy_from_slice(&free);
-        let law = |i: usize, y: f64| Answer {
+        let law = |i: usize, y: f64| LawResponse {
             force: stiff[i] * (-y).max(0.0),
             slope: if y < 0.0 { stiff[i] } else { 0.0 },
             noise: 0.0,
@@ -152,7 +152,7 @@ fn a_correction_makes_no_wall_pull_and_the_others_carry_what_it_carried() {
             *free = y - row.iter().zip(&pushing).map(|(s, force)| s * force).sum::<f64>();
         }
         let free = walls.free.clone();
-        let law = |i: usize, y: f64| Answer {
+        let law = |i: usize, y: f64| LawResponse {
             force: stiff[i] * (-y).max(0.0),
             slope: if y < 0.0 { stiff[i] } else { 0.0 },
             noise: 0.0,
@@ -177,7 +177,7 @@ fn a_line_search_ends_near_the_minimum_or_takes_the_whole_step() {
         // In units of 1e-6 to 1e6 N too.
         let unit = (20.0 * draw(stream, 1)).exp2();
         let force = |i: usize, y: f64| unit * ((5.0 * draw(stream, 700 + i)).exp2() * (-y).max(0.0) - y - y.powi(3));
-        let law = |i: usize, y: f64| Answer { force: force(i, y), slope: 0.0, noise: 0.0 };
+        let law = |i: usize, y: f64| LawResponse { force: force(i, y), slope: 0.0, noise: 0.0 };
         // Forces of the size that the laws have there, and far larger ones.
         let guess: Vec<f64> =
             (0..m).map(|i| unit * draw(stream, 800 + i) * (8.0 * draw(stream, 900 + i)).max(0.0).exp2()).collect();

@@ -91,7 +91,7 @@ fn a_motion_that_becomes_infinite_in_a_glide_is_told_as_in_a_single_step() {
         let told = (0..100).find_map(|_| one.step().err()).unwrap();
         let Error::NotFinite { step, .. } = told else { panic!("{told}") };
         assert!((4..12).contains(&step), "{told}");
-        assert_eq!(many.glide(100).err(), Some(told));
+        assert_eq!(many.advance_quiet(100).err(), Some(told));
     }
 }
 
@@ -108,7 +108,7 @@ fn a_glide_in_a_hole_ends_with_each_push_and_only_there() {
     let (mut one, mut many) = (stepper(), stepper());
     let (mut made, mut met, mut long) = (0, 0, 0);
     while made < 2000 {
-        let end = many.glide(40).unwrap();
+        let end = many.advance_quiet(40).unwrap();
         let count = end.index + 1 - made;
         for k in 1..=count {
             let step = one.step().unwrap();
@@ -132,7 +132,7 @@ fn a_row_at_the_instant_of_an_impact_shows_the_state_after_it() {
     let mut stepper = Stepper::new(&scene, &Scheme::Event, 1.0).unwrap();
     let mut recorder = Recorder::new(&scene, 4, &[0.0], &[1.0]);
     while stepper.time() < 1.0 {
-        recorder.see(&stepper.step().unwrap());
+        recorder.observe(&stepper.step().unwrap());
     }
     let found = recorder.finish(&[]);
     assert_eq!(found.velocity(), [1.0, 1.0, -0.5, -0.5, -0.5]);
@@ -154,7 +154,7 @@ fn the_mean_square_of_a_force_that_swings_often_in_one_step_is_that_of_its_close
         let mut stepper = Stepper::new(&scene, &Scheme::Event, 1e9).unwrap();
         let mut forces = Forces::new(&scene, 0.0, 1e9);
         while stepper.time() < scene.duration {
-            forces.see(&stepper.step().unwrap());
+            forces.observe(&stepper.step().unwrap());
         }
         let wall = Statistics::new(&scene, &[], 0.0).with_forces(&forces).walls[0].force.unwrap();
         assert!((wall.mean_n - 3.0).abs() < 1e-9, "{wall:?}");
@@ -180,7 +180,7 @@ fn the_mean_square_of_a_single_push_is_that_of_its_closed_form() {
         let mut stepper = Stepper::new(&scene, &Scheme::Event, 1e9).unwrap();
         let mut forces = Forces::new(&scene, 0.0, 1e9);
         while stepper.time() < scene.duration {
-            forces.see(&stepper.step().unwrap());
+            forces.observe(&stepper.step().unwrap());
         }
         let wall = Statistics::new(&scene, &[], 0.0).with_forces(&forces).walls[0].force.unwrap();
         // Gauss's rule of two points over at most half a radian: 1/4320 of its fourth power times
@@ -204,7 +204,7 @@ fn an_impact_at_the_very_start_wears() {
     let mut stepper = Stepper::new(&scene, &Scheme::Event, 1e-3).unwrap();
     let mut rubbing = Rubbing::new(&scene, 0.0, 4);
     while stepper.time() < scene.duration {
-        rubbing.see(&stepper.step().unwrap());
+        rubbing.observe(&stepper.step().unwrap());
     }
     // The sliding speed times the impulse of 2 kg (0.4 + 0.2) m/s, over 1 ms.
     let found = rubbing.statistics()[0].work_rate_w;

@@ -13,7 +13,7 @@ use crate::step::Contact;
 impl StructureEvent {
     /// Handles everything that happens at the present instant; `hit` is the event that ended the
     /// stretch. True if the velocity jumped or a contact changed.
-    pub(super) fn happen(&mut self, hit: Option<Cause>) -> Result<bool> {
+    pub(super) fn resolve_instant(&mut self, hit: Option<Cause>) -> Result<bool> {
         let blown = self.blow();
         if hit.is_none() && !blown {
             return Ok(false);

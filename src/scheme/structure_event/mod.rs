@@ -31,7 +31,7 @@ mod start;
 mod stretch;
 mod view;
 
-use super::exact::{CHANGES_AT_ONCE, Clock, ExactWall, Shown};
+use super::exact::{CHANGES_AT_ONCE, Clock, ExactWall, StepOutput};
 use super::frame::all_finite;
 use super::matrices::Matrices;
 use crate::error::{Error, Result};
@@ -42,7 +42,7 @@ use crate::step::Contract;
 use closed_row::ClosedRow;
 use rows::{DERIVATIVES, Sizes, WallRow};
 use std::sync::Arc;
-use stretch::{Crowd, Stretch};
+use stretch::{ImpactBurst, Stretch};
 
 /// A structure between walls, advanced from event to event:
 ///
@@ -105,7 +105,7 @@ pub(super) struct StructureEvent {
     /// Times of the blows after the start, s, and the number given so far.
     blows: Vec<f64>,
     blow: usize,
-    crowd: Crowd,
+    crowd: ImpactBurst,
     stretch: Option<Box<Stretch>>,
     /// The contract and the step (s) of the last step, if it was handed over.
     handed: Option<(Contract, f64)>,
@@ -121,7 +121,7 @@ pub(super) struct StructureEvent {
     pushes: Vec<f64>,
     lo: Vec<f64>,
     hi: Vec<f64>,
-    shown: Shown<Matrices>,
+    shown: StepOutput<Matrices>,
 }
 
 /// Factor by which `doubt` grows with each such event, and its maximum.
@@ -182,7 +182,7 @@ impl StructureEvent {
                 self.check()?;
             }
             self.gather_impulses();
-            let changed = self.happen(hit.map(|hit| hit.cause))?;
+            let changed = self.resolve_instant(hit.map(|hit| hit.cause))?;
             let jumped = self.shown.jumped();
             self.doubt = if end > before || jumped { 1.0 } else { (DOUBT * self.doubt).min(MOST_DOUBT) };
             if end > self.shown.start || jumped || !changed {

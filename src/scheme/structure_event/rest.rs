@@ -10,7 +10,7 @@
 
 use super::StructureEvent;
 use super::closed_row::{ClosedRow, Fate, LEVELS, side_of};
-use super::rows::{SIGNS, Zeros};
+use super::rows::{LeadingZeros, SIGNS};
 use crate::error::Result;
 use crate::flow::Held;
 use crate::scheme::exact::noise;
@@ -162,19 +162,19 @@ impl StructureEvent {
             match s.fate {
                 Fate::Held(level) if in_hold => {
                     place.held = s.sign;
-                    place.force_zeros = Some(Zeros::Then(level));
+                    place.force_zeros = Some(LeadingZeros::Then(level));
                     if s.both {
-                        place.gap_zeros = [Some(Zeros::All); 2];
+                        place.gap_zeros = [Some(LeadingZeros::All); 2];
                     }
                 }
                 Fate::Held(_) | Fate::Open => {
-                    place.gap_zeros[side] = Some(Zeros::Unknown(LEVELS + 2));
+                    place.gap_zeros[side] = Some(LeadingZeros::Unknown(LEVELS + 2));
                     if s.both {
-                        place.gap_zeros = [Some(Zeros::Unknown(LEVELS + 2)); 2];
+                        place.gap_zeros = [Some(LeadingZeros::Unknown(LEVELS + 2)); 2];
                     }
                 }
-                Fate::Gone(level) => place.gap_zeros[side] = Some(Zeros::Then(level + 2)),
-                Fate::None => place.gap_zeros[side] = Some(Zeros::Then(1)),
+                Fate::Gone(level) => place.gap_zeros[side] = Some(LeadingZeros::Then(level + 2)),
+                Fate::None => place.gap_zeros[side] = Some(LeadingZeros::Then(1)),
             }
         }
         self.share_holds();

@@ -30,9 +30,9 @@ pub(super) struct WallRow {
     /// tail of an accumulation: its impacts may be the rounding error of whole stretches.
     pub drifts: bool,
     /// What has been decided at this instant about the leading coefficients of each side's gap.
-    pub gap_zeros: [Option<Zeros>; 2],
+    pub gap_zeros: [Option<LeadingZeros>; 2],
     /// The same for the force that holds the row.
-    pub force_zeros: Option<Zeros>,
+    pub force_zeros: Option<LeadingZeros>,
 }
 
 impl WallRow {
@@ -122,7 +122,7 @@ pub(super) fn size(body: &SeriesBody, row: usize, x: &[f64]) -> f64 {
 
 /// A polynomial whose first root is sought.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Watched {
+pub(super) struct RowPolynomial {
     pub c: [f64; TERMS],
     pub terms: usize,
 }
@@ -156,7 +156,7 @@ impl Rounding {
 
 /// The result of the search for a first root.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Seen {
+pub(super) enum FirstRoot {
     /// The polynomial is 0, within rounding, and goes below 0 at once.
     Now,
     /// The first root, in the stretch's x.
@@ -168,7 +168,7 @@ pub(super) enum Seen {
 
 /// What an event has decided about a row that touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Zeros {
+pub(super) enum LeadingZeros {
     /// That many leading coefficients are zero, and the next one is positive.
     Then(usize),
     /// That many are zero; which way the row goes is undecided.
@@ -177,7 +177,7 @@ pub(super) enum Zeros {
     All,
 }
 
-impl Watched {
+impl RowPolynomial {
     /// The first root up to `end`. Coefficients below their rounding error at the start count as 0;
     /// `zeros` says which are 0 because of what has been decided at this instant. A `force` below 0
     /// is an event in any case, a gap below 0 only if it goes on falling.
@@ -187,21 +187,23 @@ impl Watched {
     /// than rounding.
     pub fn first(
         &self,
-        zeros: Option<Zeros>,
+        zeros: Option<LeadingZeros>,
         rounding: impl FnOnce() -> Rounding,
         near: bool,
         force: bool,
         end: f64,
-    ) -> Seen {
+    ) -> FirstRoot {
         let c = &self.c[..self.terms];
         if zeros.is_none() && !near && c[0] > 0.0 {
             return root(c, end);
         }
         let (skip, rises_at) = match zeros {
-            Some(Zeros::All) => return Seen::Nothing,
-            Some(Zeros::Then(k)) if k >= NOISES && c.get(k).is_some_and(|c| *c > 0.0) => return root(&c[k..], end),
-            Some(Zeros::Then(k)) => (k.min(self.terms), k),
-            Some(Zeros::Unknown(k)) => (k.min(self.terms), usize::MAX),
+            Some(LeadingZeros::All) => return FirstRoot::Nothing,
+            Some(LeadingZeros::Then(k)) if k >= NOISES && c.get(k).is_some_and(|c| *c > 0.0) => {
+                return root(&c[k..], end);
+            }
+            Some(LeadingZeros::Then(k)) => (k.min(self.terms), k),
+            Some(LeadingZeros::Unknown(k)) => (k.min(self.terms), usize::MAX),
             None => (0, usize::MAX),
         };
         let (rounding, slack) = (rounding(), if zeros.is_some() { DECIDED } else { 1.0 });
@@ -210,24 +212,24 @@ impl Watched {
                 return root(&self.c[k..self.terms], end);
             }
             if c < -slack * noise && (k > 0 || force) {
-                return Seen::Now;
+                return FirstRoot::Now;
             }
         }
         if zeros.is_none() && c[0] < -rounding.depth {
-            return Seen::Now;
+            return FirstRoot::Now;
         }
         let mut below = [0.0; TERMS];
         for (below, c) in below[skip..self.terms].iter_mut().zip(&c[skip..]) {
             *below = *c;
         }
         below[0] += rounding.below();
-        let found = if below[0] > 0.0 { root(&below[..self.terms], end) } else { Seen::Nothing };
-        if let Seen::Root(x) = found { Seen::Below(x) } else { found }
+        let found = if below[0] > 0.0 { root(&below[..self.terms], end) } else { FirstRoot::Nothing };
+        if let FirstRoot::Root(x) = found { FirstRoot::Below(x) } else { found }
     }
 }
 
-fn root(c: &[f64], end: f64) -> Seen {
-    super::root::first_root(c, end).map_or(Seen::Nothing, Seen::Root)
+fn root(c: &[f64], end: f64) -> FirstRoot {
+    super::root::first_root(c, end).map_or(FirstRoot::Nothing, FirstRoot::Root)
 }
 
 /// Number of coefficients whose rounding error is known.

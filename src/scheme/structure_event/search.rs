@@ -3,7 +3,7 @@
 use super::StructureEvent;
 use super::closed_row::Cause;
 use super::root::highest;
-use super::rows::{Rounding, SIGNS, Seen, Watched, Zeros, size};
+use super::rows::{FirstRoot, LeadingZeros, Rounding, RowPolynomial, SIGNS, size};
 use crate::flow::TERMS;
 use crate::scheme::exact::{Phase, noise};
 
@@ -52,7 +52,7 @@ impl StructureEvent {
 
     fn watch_gap(&mut self, row: usize, side: usize, reach: f64, end: &mut f64, hit: &mut Option<Hit>) {
         let place = self.places[row];
-        let mut watched = Watched { c: [0.0; TERMS], terms: 0 };
+        let mut watched = RowPolynomial { c: [0.0; TERMS], terms: 0 };
         let seen = self.series.seen(row);
         watched.terms = seen.len();
         for (c, s) in watched.c.iter_mut().zip(seen) {
@@ -65,17 +65,17 @@ impl StructureEvent {
         }
         let rounding = || self.rounding(row, place.bound[side]).doubted(self.doubt);
         let found = watched.first(place.gap_zeros[side], rounding, near, false, *end);
-        self.places[row].drifts |= matches!(found, Seen::Now | Seen::Below(_));
+        self.places[row].drifts |= matches!(found, FirstRoot::Now | FirstRoot::Below(_));
         note(found, Cause::Gap(row, side), end, hit);
     }
 
     fn watch_hold(&mut self, row: usize, end: &mut f64, hit: &mut Option<Hit>) {
         let Some(k) = self.hold.rows().iter().position(|held| held.row == row) else { return };
         let place = self.places[row];
-        if place.force_zeros == Some(Zeros::All) {
+        if place.force_zeros == Some(LeadingZeros::All) {
             return;
         }
-        let mut watched = Watched { c: [0.0; TERMS], terms: 0 };
+        let mut watched = RowPolynomial { c: [0.0; TERMS], terms: 0 };
         let force = self.series.held_force(k);
         // The last two coefficients of a force are not known, and are left out.
         watched.terms = force.len() - 2;
@@ -100,13 +100,13 @@ impl StructureEvent {
             return;
         }
         let (terms, unit) = (seen.len(), self.series.unit());
-        let mut gap = Watched { c: [0.0; TERMS], terms };
+        let mut gap = RowPolynomial { c: [0.0; TERMS], terms };
         for (c, s) in gap.c.iter_mut().zip(seen) {
             *c = sign * s;
         }
         gap.c[0] = b.gap(seen[0]);
         // k_a s + c_a ṡ, without its last coefficient, which needs a term beyond the series.
-        let mut sum = Watched { c: [0.0; TERMS], terms: if damping > 0.0 { terms - 1 } else { terms } };
+        let mut sum = RowPolynomial { c: [0.0; TERMS], terms: if damping > 0.0 { terms - 1 } else { terms } };
         for k in 0..sum.terms {
             let next = if k + 1 < terms { gap.c[k + 1] } else { 0.0 };
             sum.c[k] = -stiffness * gap.c[k] - damping * (k + 1) as f64 * next / unit;
@@ -116,7 +116,7 @@ impl StructureEvent {
         let travel = self.travel(row, 1.0);
         let of_sum = of_sum(noises, travel, (stiffness, damping, unit));
         let noises = Rounding::new(noises, travel);
-        let looks: [Option<(Watched, f64, Rounding)>; 2] = match phase {
+        let looks: [Option<(RowPolynomial, f64, Rounding)>; 2] = match phase {
             Phase::Rigid(_) => [None, None],
             Phase::Outside => [Some((gap, 1.0, noises)), None],
             Phase::Touching => [Some((sum, 1.0, of_sum)), None],
@@ -216,11 +216,11 @@ fn of_sum(noises: [f64; 4], travel: f64, (stiffness, damping, unit): (f64, f64, 
     Rounding::new(of, (stiffness + damping) * travel)
 }
 
-fn note(found: Seen, cause: Cause, end: &mut f64, hit: &mut Option<Hit>) {
+fn note(found: FirstRoot, cause: Cause, end: &mut f64, hit: &mut Option<Hit>) {
     let x = match found {
-        Seen::Now => 0.0,
-        Seen::Root(x) | Seen::Below(x) => x,
-        Seen::Nothing => return,
+        FirstRoot::Now => 0.0,
+        FirstRoot::Root(x) | FirstRoot::Below(x) => x,
+        FirstRoot::Nothing => return,
     };
     if hit.is_none() || x < *end {
         *end = x;

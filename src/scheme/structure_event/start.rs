@@ -2,12 +2,12 @@
 
 use super::StructureEvent;
 use super::rows::{Sizes, WallRow};
-use super::stretch::Crowd;
+use super::stretch::ImpactBurst;
 use crate::error::{Error, Result};
 use crate::flow::{Hold, Series, SeriesBody};
 use crate::qp::{self, Backend};
 use crate::scene::{Loads, Scene};
-use crate::scheme::exact::{Clock, Shown, barriers, known_loads};
+use crate::scheme::exact::{Clock, StepOutput, barriers, known_loads};
 use std::sync::Arc;
 
 /// The programme's signs are tested relative to its own motion, so any positive length will do.
@@ -59,13 +59,13 @@ impl StructureEvent {
             length: if walls > 0 { scene.gap_scale() } else { 0.0 },
             time: 0.0,
             q: scene.initial.q.clone(),
-            shown: Shown::new(&v, (walls, round), 3 * walls + 2),
+            shown: StepOutput::new(&v, (walls, round), 3 * walls + 2),
             v,
             doubt: 1.0,
             decided: f64::NEG_INFINITY,
             blows,
             blow: 0,
-            crowd: Crowd::default(),
+            crowd: ImpactBurst::default(),
             spent: [0; 3],
             turned: false,
             stretch: None,

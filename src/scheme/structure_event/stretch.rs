@@ -19,7 +19,7 @@ pub(super) struct Stretch {
 
 /// Counts events, to detect that there are too many.
 #[derive(Debug, Default)]
-pub(super) struct Crowd {
+pub(super) struct ImpactBurst {
     pub since: f64,
     pub at_since: u64,
     /// End of the last stretch handed over, s.
@@ -29,7 +29,7 @@ pub(super) struct Crowd {
     pub steps: u64,
 }
 
-impl Crowd {
+impl ImpactBurst {
     /// Restarts the count at `time` (s), after `events` events so far.
     pub fn restart(&mut self, time: f64, events: u64) {
         (self.since, self.at_since) = (time, events);

@@ -1,7 +1,7 @@
 //! The linear system of the contacts of a step whose states are known.
 
-use super::places::Places;
-use super::touch::{State, Touch};
+use super::contact_rows::ContactRows;
+use super::friction_contact::{FrictionContact, State};
 use crate::qp::solve_dependent;
 
 /// Most states that are tried after one another between sweeps.
@@ -38,8 +38,8 @@ impl Linear {
     /// none is confirmed, all stays as it is.
     pub fn settle(
         &mut self,
-        places: &Places,
-        touches: &mut [Touch],
+        places: &ContactRows,
+        touches: &mut [FrictionContact],
         (free, y): (&[f64], &mut [f64]),
         noise: f64,
     ) -> bool {
@@ -73,7 +73,7 @@ impl Linear {
     }
 
     /// Solves for the impulses of contacts in the states that they have.
-    pub fn solve(&mut self, places: &Places, touches: &mut [Touch], (free, y): (&[f64], &mut [f64])) {
+    pub fn solve(&mut self, places: &ContactRows, touches: &mut [FrictionContact], (free, y): (&[f64], &mut [f64])) {
         renew(places, touches, free, y);
         self.set(places, touches, y);
         solve_dependent(&mut self.matrix, &mut self.order);
@@ -82,13 +82,13 @@ impl Linear {
             let change = self.matrix[k * (m + 1) + m] * self.scale[k];
             touches[index].impulse[usize::from(rubs)] += change;
         }
-        touches.iter_mut().for_each(Touch::comply);
+        touches.iter_mut().for_each(FrictionContact::comply);
         renew(places, touches, free, y);
     }
 
     /// Sets up the system for the changes of the impulses: one row for n·ẇ⁺ − κp = β of each
     /// contact that is not open, one for t·ẇ⁺ = 0 of each that sticks.
-    fn set(&mut self, places: &Places, touches: &[Touch], y: &[f64]) {
+    fn set(&mut self, places: &ContactRows, touches: &[FrictionContact], y: &[f64]) {
         self.unknowns.clear();
         self.scale.clear();
         for (index, touch) in touches.iter().enumerate().filter(|(_, touch)| touch.state != State::Open) {
@@ -120,7 +120,7 @@ impl Linear {
 }
 
 /// Computes the velocities of all rows anew from those without contacts.
-pub(super) fn renew(places: &Places, touches: &[Touch], free: &[f64], y: &mut [f64]) {
+pub(super) fn renew(places: &ContactRows, touches: &[FrictionContact], free: &[f64], y: &mut [f64]) {
     y.copy_from_slice(free);
     for touch in touches {
         places.add(touch.rows, touch.push(touch.impulse), y);

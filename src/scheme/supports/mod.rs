@@ -25,20 +25,20 @@
 //! of 200 gaps, it lost 95 % to gained 60 % at h v = γ/10), and newmark does not keep it on any
 //! wall.
 
+mod contact_rows;
+mod friction_contact;
+mod friction_contacts;
 mod linear;
-mod memory;
 mod normal;
-mod places;
 mod points;
-mod reach;
-mod sweeps;
-mod touch;
+mod walls_in_play;
+mod warm_start;
 
+pub(super) use contact_rows::ContactRows;
+pub(super) use friction_contact::FrictionContact;
+pub(super) use friction_contacts::FrictionContacts;
 pub(super) use normal::{CROSSING, TURNING, dot, meet, meet_middle};
-pub(super) use places::Places;
 pub(super) use points::{ContactPoint, contact_points};
-pub(super) use sweeps::Sweeps;
-pub(super) use touch::Touch;
 
 use super::Counters;
 use super::body::Body;
@@ -52,9 +52,9 @@ use crate::linear::Factor;
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene, Wall};
 use crate::step::{Contact, Contract, Step};
-use memory::Memory;
 use normal::Met;
-use reach::Reach;
+use walls_in_play::WallsInPlay;
+use warm_start::WarmStart;
 
 /// The motion of a scene with supports.
 #[derive(Debug)]
@@ -63,9 +63,9 @@ pub(super) struct Supports {
     theta: f64,
     frame: Frame<Matrices>,
     factor: Factor,
-    places: Places,
-    reach: Reach,
-    sweeps: Sweeps,
+    places: ContactRows,
+    reach: WallsInPlay,
+    sweeps: FrictionContacts,
     b: Vec<f64>,
     delta: Vec<f64>,
     /// v + δ without contacts.
@@ -74,7 +74,7 @@ pub(super) struct Supports {
     met: Vec<Option<Met>>,
     /// What the blows of the step give towards each hole in play, m/s, one entry a contact.
     given: Vec<f64>,
-    memory: Memory,
+    memory: WarmStart,
     episodes: Episodes,
     /// True if the extra force of the last step may not be 0.
     forced: bool,
@@ -88,7 +88,7 @@ impl Supports {
         let a = body.theta_matrix(theta);
         let mut factor = Matrices::factor(&a)?;
         let (points, rows) = contact_points(scene);
-        let places = Places::new(body.n, &rows, &mut factor);
+        let places = ContactRows::new(body.n, &rows, &mut factor);
         let contacts = points.len();
         let zero = || vec![0.0; body.n];
         let round = scene.walls.iter().map(Wall::is_round).collect();
@@ -96,17 +96,17 @@ impl Supports {
             theta,
             frame: Frame::new(scene)?,
             factor,
-            sweeps: Sweeps::new(a, &rows, contacts),
+            sweeps: FrictionContacts::new(a, &rows, contacts),
             b: zero(),
             delta: zero(),
             free: zero(),
             met: vec![None; contacts],
             given: vec![0.0; contacts],
-            memory: Memory::new(round, places.count()),
+            memory: WarmStart::new(round, places.count()),
             episodes: Episodes::new(scene, scene.wall_masses(), contract),
             forced: false,
             places,
-            reach: Reach::new(scene, theta, points),
+            reach: WallsInPlay::new(scene, theta, points),
             body,
         })
     }
@@ -209,7 +209,7 @@ impl Supports {
         if frame.pushing.is_empty() && episodes.idle() {
             return;
         }
-        episodes.see(frame.start, body.h, &frame.impulse, &frame.pushing, |index| match met[index] {
+        episodes.observe(frame.start, body.h, &frame.impulse, &frame.pushing, |index| match met[index] {
             None => {
                 let seen = |v: &Vec<f64>| body.seen(index, v);
                 Rates { before: seen(&frame.before), struck: seen(frame.struck()), after: seen(&frame.after) }

@@ -54,7 +54,7 @@ fn pass(stepper: &mut Stepper, scene: &Checked, from: &DVector<f64>, count: usiz
     let (mut strobes, mut contacts) = (vec![from.clone()], Vec::new());
     while strobes.len() <= count {
         let step = stepper.step().ok()?;
-        product.see(&step).ok()?;
+        product.observe(&step).ok()?;
         contacts.extend_from_slice(step.closed);
         if step.end >= strobes.len() as f64 * period * (1.0 - 1e-12) {
             strobes.push(vector(step.q, step.v));

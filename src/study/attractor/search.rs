@@ -92,13 +92,13 @@ pub(crate) fn exponent(scene: &Checked, period: f64, count: usize, state: &State
     Some(largest.ln() / (orbit.strobes.len() as f64 * period))
 }
 
-/// The attractor that the run of `scene` comes to within `settle` + `keep` periods (s); `see` is
+/// The attractor that the run of `scene` comes to within `settle` + `keep` periods (s); `observe` is
 /// called with every step.
 pub(crate) fn follow(
     scene: &Checked,
     period: f64,
     [settle, keep]: [u32; 2],
-    mut see: impl FnMut(&Step<'_>),
+    mut observe: impl FnMut(&Step<'_>),
 ) -> Result<Option<Attractor>> {
     let mut stepper = Stepper::by(scene, Method::new(Scheme::Event), period)?;
     let start = stepper.state();
@@ -119,11 +119,11 @@ pub(crate) fn follow(
     for count in 1..=last {
         loop {
             let step = stepper.step()?;
-            see(&step);
+            observe(&step);
             search.quiet = search.is_quiet(&step);
             if step.start >= window[0]
                 && let Ok(exponents) = &mut growth
-                && let Err(none) = exponents.see(&step)
+                && let Err(none) = exponents.observe(&step)
             {
                 growth = Err(none);
             }

@@ -1,6 +1,6 @@
 //! Classification of a run from its measurements.
 
-use super::ruler::{REST, Ruler, exchanged};
+use super::fine_reference::{FineReference, REST, exchanged};
 use super::watch::{Record, depth_bound};
 use crate::scene::{Scene, System};
 use crate::scheme::Scheme;
@@ -133,7 +133,7 @@ pub struct Measurement {
     pub speed: f64,
     /// Root-mean-square speed over the reference's.
     pub rms_speed: f64,
-    /// Number of contacts counted ([`COUNTED`](super::ruler::COUNTED)).
+    /// Number of contacts counted ([`COUNTED`](super::fine_reference::COUNTED)).
     pub contacts: usize,
     /// How many fewer than in any reference run.
     pub missed: usize,
@@ -158,7 +158,7 @@ impl Measurement {
     /// Measures the run `record` of `scene` (as the scheme sees it) by `scheme` with steps of `h`
     /// (s) against `ruler`.
     #[must_use]
-    pub fn new(record: &Record, ruler: &Ruler, scene: &Scene, scheme: &Scheme, h: f64) -> Self {
+    pub fn new(record: &Record, ruler: &FineReference, scene: &Scene, scheme: &Scheme, h: f64) -> Self {
         let contacts = ruler.contact_times(record).len();
         let touch = TOUCH * scene.gap_scale();
         let masses = scene.wall_masses();
@@ -246,7 +246,7 @@ impl Measurement {
 /// For one degree of freedom: kinetic energy with which the body leaves rigid walls beyond e² times
 /// that of its arrival, plus the energy that the scheme produced elsewhere, over the kinetic energy
 /// that arrived at all walls.
-fn growth(record: &Record, scene: &Scene, masses: &[f64], ruler: &Ruler) -> Option<f64> {
+fn growth(record: &Record, scene: &Scene, masses: &[f64], ruler: &FineReference) -> Option<f64> {
     if let System::Structure(_) = scene.system {
         let share = record.made / exchanged(record, masses, ruler.energy);
         // Walls that take less energy than those of the reference make the motion livelier but

@@ -62,7 +62,7 @@ impl Ledger {
 
     /// Adds a step; `busy` where a wall pushed in it or holds the body at its end.
     #[inline]
-    pub fn see(&mut self, step: &Step<'_>, busy: bool) {
+    pub fn observe(&mut self, step: &Step<'_>, busy: bool) {
         let (q, before, after) = (at(step.q), at(step.velocity_before), at(step.velocity_after));
         let shift = q - self.q;
         let touched = busy || self.busy;

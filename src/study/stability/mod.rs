@@ -16,12 +16,12 @@
 
 pub mod class;
 pub mod family;
+pub mod fine_reference;
 pub mod impact;
 pub mod lasting;
 mod ledger;
 pub mod plan;
 pub mod row;
-pub mod ruler;
 pub mod scale;
 pub mod theory;
 pub mod watch;

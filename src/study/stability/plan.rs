@@ -1,8 +1,8 @@
 //! The maps of a case: every scheme, step and parameter, run in parallel.
 
 use super::family::{self, Family, Parameter, Question};
+use super::fine_reference::{FineReference, Range};
 use super::row::{Cell, Safe, Subject};
-use super::ruler::{Range, Ruler};
 use super::scale::Scale;
 use super::watch::{Record, STARTS, nudged, watch};
 use crate::error::Result;
@@ -119,7 +119,7 @@ impl Plan {
         let own = reference_of(scene, None);
         let h = finest(&first, scene.duration);
         let record = watch(&own.0, &own.1, h, scene.duration, f64::INFINITY)?;
-        let ruler = Ruler::new(std::slice::from_ref(&record), scene, &first);
+        let ruler = FineReference::new(std::slice::from_ref(&record), scene, &first);
         let times = ruler.contact_times(&record);
         let horizon = times.get(grid.contacts).copied().unwrap_or(scene.duration).min(scene.duration);
         let scale = Scale::of(scene, times.first().copied());
@@ -196,28 +196,28 @@ impl Plan {
         let interrupt = Carried::here();
         let tell = |steps: u64| progress(done.fetch_add(steps, Ordering::Relaxed) + steps);
         let h = self.reference_step();
-        let reference = |(scene, scheme): &(Scene, Scheme)| -> Result<Ruler> {
+        let reference = |(scene, scheme): &(Scene, Scheme)| -> Result<FineReference> {
             let run = |start: u32| -> Result<Record> {
                 let scene = nudged(scene, start, &self.scale);
                 let record = watch(&scene, scheme, h, self.horizon, f64::INFINITY)?;
                 tell(self.cost(h));
                 Ok(record)
             };
-            Ok(Ruler::new(&(0..STARTS).map(run).collect::<Result<Vec<_>>>()?, scene, &self.scale))
+            Ok(FineReference::new(&(0..STARTS).map(run).collect::<Result<Vec<_>>>()?, scene, &self.scale))
         };
-        let rulers: Vec<Ruler> =
+        let rulers: Vec<FineReference> =
             self.references.par_iter().map(|r| interrupt.over(|| reference(r))).collect::<Result<_>>()?;
-        let ruled: Vec<(&Subject, &Ruler)> =
+        let ruled: Vec<(&Subject, &FineReference)> =
             self.subjects.iter().zip(self.rulers.iter().filter_map(|i| rulers.get(*i))).collect();
         // The most expensive tasks first, so that no thread is left with one of them at the end.
         let tasks: Vec<_> = self.steps.iter().flat_map(|h| ruled.iter().map(move |r| (*h, *r))).collect();
-        let cell = |(h, (subject, ruler)): (f64, (&Subject, &Ruler))| {
+        let cell = |(h, (subject, ruler)): (f64, (&Subject, &FineReference))| {
             let cell = interrupt.over(|| subject.cell(ruler, &self.scale, h, self.horizon));
             tell(self.cost(h));
             cell
         };
         let cells: Vec<Cell> = tasks.into_par_iter().with_max_len(1).map(cell).collect();
-        let row = |(i, (subject, ruler)): (usize, &(&Subject, &Ruler))| {
+        let row = |(i, (subject, ruler)): (usize, &(&Subject, &FineReference))| {
             let cells: Vec<Cell> = cells.iter().skip(i).step_by(ruled.len()).cloned().collect();
             let find = || Safe::find(subject, &cells, ruler, &self.scale, self.horizon);
             let safe = subject.own.then(|| interrupt.over(find));

@@ -2,7 +2,7 @@
 
 use super::class::{Class, DIVERGED, Measurement};
 use super::family::{Family, Parameter};
-use super::ruler::Ruler;
+use super::fine_reference::FineReference;
 use super::scale::Scale;
 use super::watch::{STARTS, nudged, watch};
 use crate::scene::Scene;
@@ -61,7 +61,7 @@ impl Subject {
     /// these is not astray, the scene has two possible motions, and the scheme is not to blame for
     /// following the other one.
     #[must_use]
-    pub fn cell(&self, ruler: &Ruler, scale: &Scale, h: f64, horizon: f64) -> Cell {
+    pub fn cell(&self, ruler: &FineReference, scale: &Scale, h: f64, horizon: f64) -> Cell {
         let first = self.attempt(0, ruler, scale, h, horizon);
         if first.class != Class::Astray {
             return first;
@@ -71,7 +71,7 @@ impl Subject {
         on_course.next().unwrap_or(first)
     }
 
-    fn attempt(&self, start: u32, ruler: &Ruler, scale: &Scale, h: f64, horizon: f64) -> Cell {
+    fn attempt(&self, start: u32, ruler: &FineReference, scale: &Scale, h: f64, horizon: f64) -> Cell {
         // Far above the limit of the class, so that the speed is still measured where a run
         // diverges.
         let limit = 10.0 * DIVERGED * ruler.speed.high.max(f64::MIN_POSITIVE);
@@ -99,7 +99,7 @@ pub struct Safe {
 impl Safe {
     /// Finds it from the `cells` of a row, in the order of their steps, and then by bisection.
     #[must_use]
-    pub fn find(subject: &Subject, cells: &[Cell], ruler: &Ruler, scale: &Scale, horizon: f64) -> Self {
+    pub fn find(subject: &Subject, cells: &[Cell], ruler: &FineReference, scale: &Scale, horizon: f64) -> Self {
         let stable = |cell: &Cell| cell.class == Class::Stable;
         let first_bad = cells.iter().position(|cell| !stable(cell));
         let Some(bad) = first_bad.and_then(|i| cells.get(i)) else {

@@ -54,14 +54,14 @@ pub struct Record {
 /// Errors of the scheme.
 pub fn watch(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -> Result<Record> {
     let mut stepper = Stepper::new(scene, scheme, h)?;
-    let mut books = Books::new(&stepper, h);
+    let mut books = EnergyAccount::new(&stepper, h);
     let steps = (horizon / h * (1.0 - 1e-12)).ceil().max(1.0) as u64;
     let m = scene.walls.len();
     let zero = || vec![0.0; m];
     let mut record = Record { depth: zero(), wall_speed: zero(), acceleration: zero(), ..Record::default() };
     let mut squares = 0.0;
     let beside = neighbours(scene);
-    let gauge = Gauge::new(&scene.system);
+    let gauge = EnergyNorm::new(&scene.system);
     let last = horizon * (1.0 - LAST);
     while stepper.index() < steps {
         let step = stepper.step()?;
@@ -85,7 +85,7 @@ pub fn watch(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -
             }
         }
         record.contacts.extend_from_slice(step.closed);
-        books.see(&step, pushed || inside);
+        books.observe(&step, pushed || inside);
         if speed > limit {
             record.escaped = Some(step.end);
             break;
@@ -122,14 +122,14 @@ pub fn nudged(scene: &Scene, start: u32, scale: &Scale) -> Scene {
 }
 
 /// Keeps account of the energy.
-enum Books {
+enum EnergyAccount {
     Single(Box<Ledger>),
     /// For several degrees of freedom, the judge: the energy that no load, damping or wall accounts
     /// for, less the energy that rigid walls took.
     Several(Box<Judge>),
 }
 
-impl Books {
+impl EnergyAccount {
     fn new(stepper: &Stepper, h: f64) -> Self {
         let state = stepper.state();
         match stepper.scene().system {
@@ -139,10 +139,10 @@ impl Books {
     }
 
     #[inline]
-    fn see(&mut self, step: &Step<'_>, busy: bool) {
+    fn observe(&mut self, step: &Step<'_>, busy: bool) {
         match self {
-            Self::Single(ledger) => ledger.see(step, busy),
-            Self::Several(judge) => judge.see(step),
+            Self::Single(ledger) => ledger.observe(step, busy),
+            Self::Several(judge) => judge.observe(step),
         }
     }
 
@@ -171,13 +171,13 @@ fn neighbours(scene: &Scene) -> Vec<Vec<usize>> {
 }
 
 /// How a speed is computed from a vector of velocities.
-enum Gauge<'a> {
+enum EnergyNorm<'a> {
     Single,
     /// The system, and its total mass, kg.
     Several(&'a System, f64),
 }
 
-impl<'a> Gauge<'a> {
+impl<'a> EnergyNorm<'a> {
     fn new(system: &'a System) -> Self {
         match system {
             System::Oscillator(_) => Self::Single,

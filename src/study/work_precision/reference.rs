@@ -172,8 +172,8 @@ fn cut(scene: &Scene, stride: f64, rows: u64) -> Result<Trajectory> {
     let mut judge = Judge::new(scene, stepper.contract(), stride, &state.q, &state.v);
     while stepper.time() < scene.duration {
         let step = stepper.step()?;
-        judge.see(&step);
-        recorder.see(&step);
+        judge.observe(&step);
+        recorder.observe(&step);
     }
     if let Some(finding) = judge.findings().first() {
         return Err(Error::Refuted { runs: vec![format!("{}: {finding}", Scheme::Event)] });

@@ -78,12 +78,12 @@ fn steps_seen_together_make_the_rows_of_steps_seen_one_by_one() {
                 impulse: [if k < pushed { -1.0 } else { 0.0 }],
             };
             let start = || Recorder::new(&scene, 10, &[0.0], &[1.0]);
-            let (mut one, mut many, mut calm) = (start(), start(), Calm::new(1));
+            let (mut one, mut many, mut calm) = (start(), start(), QuietSteps::new(1));
             for k in 0..20 {
                 let shown = shown(k);
-                one.see(&shown.step(k, Path::Grid));
+                one.observe(&shown.step(k, Path::Grid));
                 if k < pushed {
-                    many.see(&shown.step(k, Path::Grid));
+                    many.observe(&shown.step(k, Path::Grid));
                 } else {
                     assert!(calm.take(&shown.step(k, Path::Grid)));
                     if k % 7 == 6 || k == 19 {
@@ -102,14 +102,14 @@ fn steps_seen_together_make_the_rows_of_steps_seen_one_by_one() {
 #[test]
 fn an_impulse_waits_for_its_row_however_many_steps_come_between() {
     let start = || Recorder::new(&scene(1.0), 1, &[0.0], &[0.0]);
-    let (mut one, mut many, mut calm) = (start(), start(), Calm::new(1));
+    let (mut one, mut many, mut calm) = (start(), start(), QuietSteps::new(1));
     for k in 0..512 {
         let at = |k: u64| k as f64 / 512.0;
         let (q, impulse) = ([at(k + 1)], [if k == 0 { -1.0 } else { 0.0 }]);
         let shown = Shown { span: [at(k), at(k + 1)], q, v: [1.0], before: [1.0], impulse };
-        one.see(&shown.step(k, Path::Grid));
+        one.observe(&shown.step(k, Path::Grid));
         if k == 0 {
-            many.see(&shown.step(k, Path::Grid));
+            many.observe(&shown.step(k, Path::Grid));
         } else {
             assert!(calm.take(&shown.step(k, Path::Grid)));
         }
@@ -137,7 +137,7 @@ fn contract() -> Contract {
 fn a_row_at_which_the_first_step_handed_over_begins_has_the_velocity_there() {
     let mut recorder = Recorder::new(&scene(1.0), 4, &[0.0], &[1.0]);
     let shown = Shown { span: [0.25, 0.5], q: [1.0], v: [-3.0], before: [1.0], impulse: [-4.0] };
-    recorder.see(&shown.step(1, Path::Handed { contract: &contract(), step: 0.25 }));
+    recorder.observe(&shown.step(1, Path::Handed { contract: &contract(), step: 0.25 }));
     let found = recorder.finish(&[]);
     assert_eq!((found.time(), found.velocity()), (&[0.0, 0.25, 0.5][..], &[1.0, 1.0, -3.0][..]));
     assert_eq!(found.displacement(), [0.0, 1.25, 1.0]);
@@ -154,7 +154,7 @@ fn rows_within_steps_that_were_handed_over_lie_straight_between_their_ends() {
         let mean = 0.5 * (before + after);
         q += mean * (end - t);
         let shown = Shown { span: [t, end], q: [q], v: [after], before: [before], impulse: [-1.0] };
-        recorder.see(&shown.step(index, Path::Handed { contract: &contract, step: end - t }));
+        recorder.observe(&shown.step(index, Path::Handed { contract: &contract, step: end - t }));
         t = end;
     }
     let found = recorder.finish(&[]);
@@ -171,7 +171,7 @@ fn steps_with_friction_or_holes_that_the_scene_does_not_have_are_passed_over() {
     let shown = Shown { span: [0.0, 0.5], q: [1.0], v: [1.0], before: [1.0], impulse: [-1.0] };
     let record = |friction: &[f64]| {
         let mut recorder = Recorder::new(&scene(1.0), 2, &[0.0], &[1.0]);
-        recorder.see(&Step { friction, ..shown.step(0, Path::Grid) });
+        recorder.observe(&Step { friction, ..shown.step(0, Path::Grid) });
         recorder.finish(&[]).time().len()
     };
     assert_eq!((record(&[]), record(&[0.0])), (2, 1));

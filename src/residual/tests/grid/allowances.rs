@@ -92,8 +92,8 @@ fn what_rounding_explains_is_taken_off_each_residual() {
     // A residual of nothing is not doubted, and a small one by what is left of it.
     judge.noise.state(&[3.0], &[5.0], 0.0, &judge.weights);
     let place = 64.0 * f64::EPSILON * 3.0;
-    judge.balance.see(&judge.noise, 0.0, 0.0);
+    judge.balance.observe(&judge.noise, 0.0, 0.0);
     assert_eq!(judge.balance.path.excess.value, 0.0);
-    judge.balance.see(&judge.noise, 0.0, 1.5 * place);
+    judge.balance.observe(&judge.noise, 0.0, 1.5 * place);
     assert_eq!(judge.balance.path.excess.value, 0.5 * place);
 }

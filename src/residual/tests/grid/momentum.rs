@@ -1,7 +1,7 @@
 //! The momentum of a whole run, worked out by hand.
 
 use super::*;
-use crate::residual::sums::Forces;
+use crate::residual::momentum_sums::Forces;
 use crate::scene::{PlaneRows, Row};
 
 /// The scene with a rigid round hole around the first two degrees of freedom.
@@ -43,9 +43,9 @@ fn a_force_is_said_to_change_from_the_second_step_on() {
     let table = Table::new(vec![0.0, 2.0], vec![3.25, -4.75]).expect("a table");
     let scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::table(table));
     let mut theta = judge(&scene, contract(Balance::Theta(0.5)), 0.0, 0.0);
-    theta.see(&Claim::of(0.0, 0.0, 3.0 * H, 0).step());
+    theta.observe(&Claim::of(0.0, 0.0, 3.0 * H, 0).step());
     assert_eq!((theta.sums.forces[0].changes, theta.sums.forces[0].load), (0.0, 3.0));
-    theta.see(&Claim::of(0.0, 3.0 * H, 5.5 * H, 0).at(1).step());
+    theta.observe(&Claim::of(0.0, 3.0 * H, 5.5 * H, 0).at(1).step());
     assert_eq!((theta.sums.forces[0].changes, theta.sums.forces[0].load), (0.5, 2.5));
     // generalized-α: the whole force at the end of a step is 7 N, 3 N of it the load's.
     let alpha = Balance::GeneralizedAlpha { alpha_m: 0.0, alpha_f: 0.5, beta: 0.25, gamma: 0.5 };

@@ -1,8 +1,8 @@
 //! Sums over the steps of a run, worked out by hand.
 
 use super::*;
-use crate::residual::moves::Moves;
-use crate::residual::sums::Forces;
+use crate::residual::momentum_sums::Forces;
+use crate::residual::step_motion::StepMotion;
 
 fn entries(forces: &Forces) -> [f64; 5] {
     [forces.load, forces.own, forces.changes, forces.largest, forces.exchanged]
@@ -10,9 +10,9 @@ fn entries(forces: &Forces) -> [f64; 5] {
 
 #[test]
 fn forces_are_summed_by_size_and_by_change_except_at_the_start() {
-    let mut sums = Sums::new(&two([[1.0; 2]; 3]), &[1.0, 2.0], &[0.0; 2]);
+    let mut sums = MomentumSums::new(&two([[1.0; 2]; 3]), &[1.0, 2.0], &[0.0; 2]);
     let zeros = [0.0; 2];
-    let moves = Moves {
+    let moves = StepMotion {
         from: &[1.0, 2.0],
         to: &zeros,
         shown: &[3.0, -1.0],
@@ -41,9 +41,9 @@ fn forces_are_summed_by_size_and_by_change_except_at_the_start() {
 
 #[test]
 fn steps_of_one_degree_of_freedom_are_summed_together() {
-    let mut sums = Sums::new(&Scene::oscillator(1.0, 0.0, 0.0), &[1.0], &[5.0]);
+    let mut sums = MomentumSums::new(&Scene::oscillator(1.0, 0.0, 0.0), &[1.0], &[5.0]);
     let zeros = [0.0; 3];
-    let moves = Moves {
+    let moves = StepMotion {
         from: &[1.0, 2.0, 4.0],
         to: &zeros,
         shown: &[2.0, 4.0, 8.0],

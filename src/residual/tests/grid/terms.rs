@@ -1,10 +1,10 @@
 //! The terms of a step's momentum balance, worked out by hand.
 
 use super::*;
-use crate::residual::moves::Moves;
+use crate::residual::step_motion::StepMotion;
 
-fn moves() -> Moves<'static> {
-    Moves {
+fn moves() -> StepMotion<'static> {
+    StepMotion {
         from: &[1.0, 2.0],
         to: &[2.0, 3.0],
         shown: &[2.0, 3.0],
@@ -39,7 +39,7 @@ fn a_step_of_the_theta_rule_leaves_what_its_terms_do() {
     assert_eq!(scratch.open(2.0, &weights, 2, 0.0), (2.0 * 83.5, 2.0 * 83.5 / 4.0));
     assert_eq!(scratch.open(2.0, &weights, 2, 200.0).0, 200.0);
     // The load is the largest force where nothing moves.
-    let still = Moves { to: &[0.0; 2], from: &[0.0; 2], before: &[0.0; 2], after: &[0.0; 2], ..moves };
+    let still = StepMotion { to: &[0.0; 2], from: &[0.0; 2], before: &[0.0; 2], after: &[0.0; 2], ..moves };
     scratch.means(Balance::Theta(0.25), 0.5, &still, &weights, 2);
     assert_eq!(scratch.products(&matrices, (0.5, 2.0), &[0.0; 2], &weights, 2, 0.0), 6.0 / 2.0);
 }

@@ -7,7 +7,7 @@ use crate::scene::Oscillator;
 /// The findings after one step.
 fn found(scene: &Scene, contract: Contract, step: &Step<'_>) -> Vec<Refuted> {
     let mut judge = judge(scene, contract, 0.0, step.velocity_before[0]);
-    judge.see(step);
+    judge.observe(step);
     judge.findings().iter().map(|finding| finding.refuted).collect()
 }
 
@@ -77,7 +77,7 @@ fn residuals_are_told_with_the_scale_of_what_is_promised() {
     assert_eq!([scale(bound, None), scale(bound, law), scale(None, law), scale(None, None)], [1.0, 1.0, 0.25, 1.0]);
     // An impulse that a step does not account for, over its length.
     let mut judge = judge(&scene, rigid(None, None), 0.0, 1.0);
-    judge.see(&Claim::of(1.25 * H, 1.0, 1.5, 1).step());
+    judge.observe(&Claim::of(1.25 * H, 1.0, 1.5, 1).step());
     assert_eq!(judge.residuals().force_balance_n, 0.5 / H);
 }
 

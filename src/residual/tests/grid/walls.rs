@@ -66,7 +66,7 @@ fn a_blow_counts_to_the_velocity_that_arrives() {
     // become 5 m/s, with which half a step reaches the wall from ¾ m. −½ · 5 m/s was due.
     let scene = stop(0.5).with_load(Load::impulse(4.0, 0.5 * H));
     let mut found = judge(&scene, rigid(None, Some(Reached::Ahead(0.5))), 0.75, 1.0);
-    found.see(&Claim::of(0.875, 1.0, 0.0, 1).step());
+    found.observe(&Claim::of(0.875, 1.0, 0.0, 1).step());
     near(found.walls.rebounds.outside.excess.value, 0.5 * 5.0);
     // Under the staggered rule a blow of half a step before counts to this step's velocity: back by
     // −8 m/s · h from ¾ m, the body would have been at 1¾ m, which reflects the bound to ⅝ m.
@@ -74,13 +74,13 @@ fn a_blow_counts_to_the_velocity_that_arrives() {
     contract.promise.rigid.displacement = Some(Bound::Reflected);
     let scene = stop(0.5).with_load(Load::impulse(-8.0, 1.75 * H));
     let mut found = judge(&scene, contract, 0.75, 0.0);
-    found.see(&Claim::of(0.875, 0.0, 0.0, 1).at(2).step());
+    found.observe(&Claim::of(0.875, 0.0, 0.0, 1).at(2).step());
     near(found.walls.gaps.outside.excess.value, 0.875 - 0.625);
     // A blow in the second half of the step adds its −1 m to the displacement of the rule, which
     // is then ½ m behind the wall.
     let scene = stop(0.0).with_load(Load::impulse(-32.0, 2.75 * H));
     let mut found = judge(&scene, contract, 0.0, 0.0);
-    found.see(&Claim::of(0.5, 0.0, 12.0, 1).at(2).step());
+    found.observe(&Claim::of(0.5, 0.0, 12.0, 1).at(2).step());
     near(found.walls.gaps.outside.excess.value, 0.5);
     assert_eq!(found.balance.path.excess.value, 0.0);
 }

@@ -5,9 +5,9 @@ use crate::scene::Wall;
 use crate::scheme::event::tests::draws::Draws;
 use crate::scheme::exact::ExactWall;
 
-fn room(low: f64, high: f64) -> Room {
+fn room(low: f64, high: f64) -> GapBounds {
     let wall = |wall: Wall| ExactWall::new(&wall).unwrap();
-    Room::between(&[wall(Wall::lower("lower", low)), wall(Wall::upper("upper", high))]).unwrap()
+    GapBounds::between(&[wall(Wall::lower("lower", low)), wall(Wall::upper("upper", high))]).unwrap()
 }
 
 /// Displacement and velocity of the polynomial with the derivatives `c` at 0.

@@ -102,7 +102,7 @@ impl Units {
 
 /// Everything that a run shows, in units of one.
 #[derive(Debug, PartialEq)]
-struct Shown {
+struct StepOutput {
     state: Vec<[f64; 3]>,
     impulse: Vec<f64>,
     force: Vec<f64>,
@@ -111,7 +111,7 @@ struct Shown {
     counters: EventCounters,
 }
 
-fn follow(scene: &Scene, stride: f64, units: Units) -> Shown {
+fn follow(scene: &Scene, stride: f64, units: Units) -> StepOutput {
     let mut event = Event::new(scene, stride * units.time).unwrap();
     let (mut state, mut impulse, mut force, mut contacts) = (vec![], vec![], vec![], vec![]);
     let Units { time, .. } = units;
@@ -131,7 +131,7 @@ fn follow(scene: &Scene, stride: f64, units: Units) -> Shown {
         }));
         assert!(state.len() < 3000, "{:?}", state.last());
     }
-    Shown {
+    StepOutput {
         state,
         impulse,
         force,

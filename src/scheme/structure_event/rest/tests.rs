@@ -128,7 +128,7 @@ fn a_row_that_no_derivative_decides_is_stopped_and_left_free() {
         event.hold_seats(None);
         assert!(event.v[0].abs() < 1e-30 && event.hold.rows().is_empty(), "{:?}", event.v);
         // Its displacement, its speed, and three derivatives of that are 0.
-        let unknown = Some(Zeros::Unknown(5));
+        let unknown = Some(LeadingZeros::Unknown(5));
         assert_eq!(event.places[0].gap_zeros, [if both { unknown } else { None }, unknown]);
     }
 }

@@ -6,28 +6,28 @@ use crate::scene::Wall;
 const NOISE: f64 = 1e-15;
 
 /// The first event of a gap up to x = 1, with this rounding error of each coefficient.
-fn seen(c: &[f64], zeros: Option<Zeros>, noise: f64) -> Seen {
+fn seen(c: &[f64], zeros: Option<LeadingZeros>, noise: f64) -> FirstRoot {
     watch(c).first(zeros, || Rounding::new([noise; NOISES], 0.0), true, false, 1.0)
 }
 
-fn watch(c: &[f64]) -> Watched {
-    let mut watched = Watched { c: [0.0; TERMS], terms: c.len() };
+fn watch(c: &[f64]) -> RowPolynomial {
+    let mut watched = RowPolynomial { c: [0.0; TERMS], terms: c.len() };
     watched.c[..c.len()].copy_from_slice(c);
     watched
 }
 
 #[track_caller]
-fn assert_root(found: Seen, root: f64) {
-    assert!(matches!(found, Seen::Root(x) if (x - root).abs() <= 1e-14 * root), "{found:?} for {root:e}");
+fn assert_root(found: FirstRoot, root: f64) {
+    assert!(matches!(found, FirstRoot::Root(x) if (x - root).abs() <= 1e-14 * root), "{found:?} for {root:e}");
 }
 
 #[test]
 fn a_gap_that_is_0_to_rounding_stays_closed_until_it_is_known_to_fall() {
     // All within rounding: as it stands, the first polynomial is below 0 from x = 0.1 on.
-    assert_eq!(seen(&[1e-18, -1e-17, 1e-17, -1e-16], None, NOISE), Seen::Nothing);
-    assert_eq!(seen(&[0.0; 4], None, 0.0), Seen::Nothing);
+    assert_eq!(seen(&[1e-18, -1e-17, 1e-17, -1e-16], None, NOISE), FirstRoot::Nothing);
+    assert_eq!(seen(&[0.0; 4], None, 0.0), FirstRoot::Nothing);
     for falls in [[1e-18, -1e-3, 0.0, 0.0], [0.0, 0.0, -1e-3, 0.0], [0.0, 1e-18, 1e-18, -1e-3]] {
-        assert_eq!(seen(&falls, None, NOISE), Seen::Now, "{falls:?}");
+        assert_eq!(seen(&falls, None, NOISE), FirstRoot::Now, "{falls:?}");
     }
     assert_root(seen(&[1e-18, 1.0, -2.0, 0.0], None, NOISE), 0.5);
     assert_root(seen(&[0.25, -1.0, 0.0, 0.0], None, NOISE), 0.25);
@@ -35,28 +35,28 @@ fn a_gap_that_is_0_to_rounding_stays_closed_until_it_is_known_to_fall() {
 
 #[test]
 fn a_gap_below_0_by_more_than_rounding_is_an_event_unless_it_rises() {
-    assert_eq!(seen(&[-1e-13, 0.0, 0.0, 0.0], None, NOISE), Seen::Now);
-    assert_eq!(seen(&[-2e-15, 0.0, 0.0, 0.0], None, NOISE), Seen::Nothing);
-    assert_eq!(seen(&[-2e-15, 1.0, 0.0, 0.0], None, NOISE), Seen::Nothing);
+    assert_eq!(seen(&[-1e-13, 0.0, 0.0, 0.0], None, NOISE), FirstRoot::Now);
+    assert_eq!(seen(&[-2e-15, 0.0, 0.0, 0.0], None, NOISE), FirstRoot::Nothing);
+    assert_eq!(seen(&[-2e-15, 1.0, 0.0, 0.0], None, NOISE), FirstRoot::Nothing);
     // A force below 0 is one in any case.
     let force = watch(&[-2e-15, 1.0, 0.0, 0.0]);
-    assert_eq!(force.first(None, || Rounding::new([NOISE; NOISES], 0.0), true, true, 1.0), Seen::Now);
+    assert_eq!(force.first(None, || Rounding::new([NOISE; NOISES], 0.0), true, true, 1.0), FirstRoot::Now);
 }
 
 #[test]
 fn what_an_event_has_decided_is_not_contradicted_by_rounding() {
     // Two coefficients are 0, the third rises by little: as they stand there is a root at 0.1.
-    assert_eq!(seen(&[1e-18, -1e-17, 1e-18, 0.0], Some(Zeros::Then(2)), NOISE), Seen::Nothing);
-    assert_eq!(seen(&[0.0, 0.0, -1e-17, 1.0], Some(Zeros::Then(2)), NOISE), Seen::Nothing);
-    for zeros in [Zeros::Then(2), Zeros::Unknown(2), Zeros::All] {
-        assert_eq!(seen(&[0.0; 4], Some(zeros), 0.0), Seen::Nothing, "{zeros:?}");
+    assert_eq!(seen(&[1e-18, -1e-17, 1e-18, 0.0], Some(LeadingZeros::Then(2)), NOISE), FirstRoot::Nothing);
+    assert_eq!(seen(&[0.0, 0.0, -1e-17, 1.0], Some(LeadingZeros::Then(2)), NOISE), FirstRoot::Nothing);
+    for zeros in [LeadingZeros::Then(2), LeadingZeros::Unknown(2), LeadingZeros::All] {
+        assert_eq!(seen(&[0.0; 4], Some(zeros), 0.0), FirstRoot::Nothing, "{zeros:?}");
     }
     // A rise below rounding, which was decided, and the fall after it.
-    assert_root(seen(&[0.0, 1e-17, -1.0, 0.0], Some(Zeros::Then(1)), NOISE), 1e-17);
+    assert_root(seen(&[0.0, 1e-17, -1.0, 0.0], Some(LeadingZeros::Then(1)), NOISE), 1e-17);
     // Beyond the coefficients whose rounding is known.
-    assert_root(seen(&[0.0, 0.0, 0.0, 0.0, 1e-3, -1.0], Some(Zeros::Then(4)), NOISE), 1e-3);
+    assert_root(seen(&[0.0, 0.0, 0.0, 0.0, 1e-3, -1.0], Some(LeadingZeros::Then(4)), NOISE), 1e-3);
     for least in [-1e-20, 0.0] {
-        assert_eq!(seen(&[0.0, 0.0, 0.0, 0.0, least, 1.0], Some(Zeros::Then(4)), NOISE), Seen::Nothing);
+        assert_eq!(seen(&[0.0, 0.0, 0.0, 0.0, least, 1.0], Some(LeadingZeros::Then(4)), NOISE), FirstRoot::Nothing);
     }
 }
 
@@ -64,7 +64,7 @@ fn what_an_event_has_decided_is_not_contradicted_by_rounding() {
 fn doubt_enlarges_the_rounding_errors() {
     let c = watch(&[0.0, -2e-15, 0.0, 0.0]);
     let first = |doubt| c.first(None, || Rounding::new([NOISE; NOISES], 0.0).doubted(doubt), true, false, 1.0);
-    assert_eq!((first(1.0), first(4.0)), (Seen::Now, Seen::Nothing));
+    assert_eq!((first(1.0), first(4.0)), (FirstRoot::Now, FirstRoot::Nothing));
 }
 
 #[test]

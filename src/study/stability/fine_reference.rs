@@ -17,7 +17,7 @@ pub const REST: f64 = 1e-3;
 /// Fine runs that others are compared with: several, from slightly different starts. Where the
 /// motion is chaotic they scatter, and only a value outside their scatter is wrong.
 #[derive(Debug, Clone)]
-pub struct Ruler {
+pub struct FineReference {
     /// Range, over the runs, of the largest speed, m/s.
     pub speed: Range,
     /// Range, over the runs, of the root-mean-square speed, m/s.
@@ -71,7 +71,7 @@ impl Range {
     }
 }
 
-impl Ruler {
+impl FineReference {
     /// The ruler made of fine runs of `scene`. On a mesh, vibrations may interrupt a contact; its
     /// parts are counted as one.
     #[must_use]

@@ -72,7 +72,7 @@ fn a_shifted_matrix_is_factored_and_solved_for() {
 fn rows_touch_within_rounding_and_where_they_push() {
     for unit in [1e-9, 1.0, 1e9] {
         let system = Dense::rigid([[1.0], [1.0], [1.0], [2.0]]).system(&[0.0]);
-        let mut crowd = Crowd::new(&system);
+        let mut crowd = RedundantRows::new(&system);
         crowd.play.push(&system, 0, Side::Lower);
         // Row 0 pushes all of them up by one unit, row 3 by two.
         let lo = [1.0, 1.0 - 0.9e-12, 1.0 - 1.1e-12, -2.0].map(|x| x * unit);
@@ -92,7 +92,7 @@ fn a_wrong_guess_of_who_shares_the_force_is_corrected_and_counted() {
     // Three rows at 1 before a body at 2: the active set takes one of them. Without directions
     // nobody is said to share, and pivoting brings all three into play.
     let system = Dense::rigid([[1.0], [1.0], [1.0]]).system(&[2.0]);
-    let (mut crowd, mut pivoting) = (Crowd::new(&system), Pivoting::new(&system));
+    let (mut crowd, mut pivoting) = (RedundantRows::new(&system), Pivoting::new(&system));
     crowd.direction.fill(0.0);
     let rhs = Rhs { b: &[2.0], lo: &[f64::NEG_INFINITY; 3], hi: &[1.0; 3] };
     let mut r = [0.0; 3];

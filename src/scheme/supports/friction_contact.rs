@@ -15,8 +15,8 @@
 //! b ≠ 0 several may: the first in this order is taken. Where rounding leaves none, p is taken
 //! without friction until a pivoting method takes over.
 
+use super::contact_rows::ContactRows;
 use super::normal::dot;
-use super::places::Places;
 
 /// What a contact does.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +42,7 @@ impl State {
 
 /// A contact in play.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::scheme) struct Touch {
+pub(in crate::scheme) struct FrictionContact {
     /// Index of the wall, or number of walls plus that of the hole.
     pub index: usize,
     /// The rows of its place; twice the same for a wall by itself, whose normal is (±1, 0).
@@ -64,10 +64,10 @@ pub(in crate::scheme) struct Touch {
     pub slides: f64,
 }
 
-impl Touch {
+impl FrictionContact {
     /// The contact of this normal and bound, with the state and impulse from which sweeps begin.
     pub fn new(
-        places: &Places,
+        places: &ContactRows,
         (index, rows): (usize, [usize; 2]),
         (normal, bound): ([f64; 2], f64),
         (friction, compliance): (f64, f64),
@@ -114,7 +114,7 @@ impl Touch {
     /// Answers the contact alone: sets its state and impulse for the velocities `y` of all rows
     /// under all impulses, and changes `y` accordingly. Returns the size of the change, m/s, and
     /// whether the law has an answer.
-    pub fn answer(&mut self, places: &Places, y: &mut [f64]) -> (f64, bool) {
+    pub fn answer(&mut self, places: &ContactRows, y: &mut [f64]) -> (f64, bool) {
         let [a, b, c] = self.own;
         let [p, f] = self.impulse;
         let [n, t] = self.excess(y);
@@ -196,11 +196,11 @@ mod tests {
     use crate::scene::Row;
 
     /// The contact of a mass matrix [[2, 0.9], [0.9, 1]] with a flat in the direction of `normal`.
-    fn one(normal: [f64; 2], friction: f64) -> (Places, Touch) {
+    fn one(normal: [f64; 2], friction: f64) -> (ContactRows, FrictionContact) {
         let mass = Symmetric::from_entries(2, [(0, 0, 2.0), (0, 1, 0.9), (1, 1, 1.0)]);
         let rows = [Row::dof(0), Row::dof(1)];
-        let places = Places::new(2, &[&rows[0], &rows[1]], &mut Factor::new(&mass).unwrap());
-        let touch = Touch::new(&places, (0, [0, 1]), (normal, 0.0), (friction, 0.0), [0.0; 2]);
+        let places = ContactRows::new(2, &[&rows[0], &rows[1]], &mut Factor::new(&mass).unwrap());
+        let touch = FrictionContact::new(&places, (0, [0, 1]), (normal, 0.0), (friction, 0.0), [0.0; 2]);
         (places, touch)
     }
 
@@ -278,7 +278,7 @@ mod tests {
         // No mass has this response, whose determinant is below 0: at t = 0 the four states fail,
         // stick at p = −1/12, slip ahead at t·ẇ⁺ = −1, slip back at p = −1/4.
         let (_, touch) = one([1.0, 0.0], 1.0);
-        let touch = Touch { own: [4.0, 8.0, 4.0], ..touch };
+        let touch = FrictionContact { own: [4.0, 8.0, 4.0], ..touch };
         assert_eq!(touch.alone(1.0, 0.0), (None, [0.25, 0.0]));
     }
 
@@ -287,9 +287,10 @@ mod tests {
         for [a, c] in [[1e-3, 1e3], [1e3, 1e-3]] {
             for noise in [1e-9, 1e-3] {
                 let (_, touch) = one([1.0, 0.0], 0.5);
-                let touch = Touch { own: [a, 0.0, c], bound: 0.0, ..touch };
-                let holds =
-                    |state: State, impulse: [f64; 2], y: [f64; 2]| Touch { state, impulse, ..touch }.holds(&y, noise);
+                let touch = FrictionContact { own: [a, 0.0, c], bound: 0.0, ..touch };
+                let holds = |state: State, impulse: [f64; 2], y: [f64; 2]| {
+                    FrictionContact { state, impulse, ..touch }.holds(&y, noise)
+                };
                 let (less, more) = (0.5 * noise, 2.0 * noise);
                 let press = 1.0;
                 for state in [State::Stick, State::Ahead, State::Back] {

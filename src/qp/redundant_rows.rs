@@ -43,7 +43,7 @@ const NONE: f64 = 1e-9;
 const SHIFT: f64 = 1e-13;
 
 /// Finds the rows in play of such programmes.
-pub(super) struct Crowd {
+pub(super) struct RedundantRows {
     play: ActiveSet,
     /// pᵢ/√Wᵢᵢ, one after the other, `rank` entries each.
     direction: Vec<f64>,
@@ -64,7 +64,7 @@ pub(super) struct Crowd {
     hessian: Vec<f64>,
 }
 
-impl Crowd {
+impl RedundantRows {
     pub(super) fn new(system: &Delassus) -> Self {
         let m = system.count();
         let (direction, rank) = directions(system);

@@ -1,8 +1,8 @@
 //! Steps without contact, seen together and one by one.
 
 use super::*;
-use crate::residual::worst::Worst;
-use crate::step::Calm;
+use crate::residual::largest_residual::LargestResidual;
+use crate::step::QuietSteps;
 
 /// The end (s), displacement, velocity and velocities in the balance of each step.
 type Told = [f64; 5];
@@ -40,14 +40,14 @@ fn free(balance: Balance, count: u64, lie: impl Fn(u64, &mut f64, &mut f64)) -> 
 /// Judges that saw the steps `told` from displacement `q` eleven at a time, and one by one.
 fn both(scene: &Scene, contract: Contract, q: f64, told: &[Told]) -> [Judge; 2] {
     let mut judges = [(); 2].map(|()| judge(scene, contract, q, told[0][3]));
-    assert!(judges[0].gains_by_calm());
-    let mut calm = Calm::new(scene.walls.len());
+    assert!(judges[0].batches_quiet_steps());
+    let mut calm = QuietSteps::new(scene.walls.len());
     for (k, &[end, q, v, before, after]) in told.iter().enumerate() {
         calm.begin(k as u64, k as f64 * H);
         calm.add(end, (&[q], &[v]), (&[before], &[after]));
         if calm.len() == 11 || k + 1 == told.len() {
             judges[0].see_calm(&calm);
-            (0..calm.len()).for_each(|k| judges[1].see(&calm.step(k)));
+            (0..calm.len()).for_each(|k| judges[1].observe(&calm.step(k)));
             calm.clear();
         }
     }
@@ -71,7 +71,7 @@ fn state(judge: &Judge) -> String {
 }
 
 /// The residuals of balance and path less their rounding.
-fn excess(judge: Judge) -> (Worst, Worst) {
+fn excess(judge: Judge) -> (LargestResidual, LargestResidual) {
     (judge.balance.force.excess, judge.balance.path.excess)
 }
 
@@ -143,7 +143,7 @@ fn a_wall_that_was_passed_over_is_found_among_steps_in_the_air() {
 #[test]
 fn steps_are_seen_together_only_where_a_step_is_all_there_is_to_see() {
     let alpha = Balance::GeneralizedAlpha { alpha_m: 0.0, alpha_f: 0.5, beta: 0.25, gamma: 0.5 };
-    let gains = |scene: &Scene, balance| judge(scene, contract(balance), 0.0, 2.0).gains_by_calm();
+    let gains = |scene: &Scene, balance| judge(scene, contract(balance), 0.0, 2.0).batches_quiet_steps();
     for balance in RULES {
         assert!(gains(&scene(), balance));
         assert!(!gains(&scene().with_load(Load::impulse(1.0, 0.5)), balance));
@@ -159,7 +159,7 @@ fn a_step_of_another_scene_is_ignored() {
     let claim = Claim::of(one[1], one[3], one[4], 1);
     let seen = |step: &Step<'_>| {
         let mut judge = judge(&scene(), contract(Balance::Theta(0.5)), 0.0, 2.0);
-        judge.see(step);
+        judge.observe(step);
         judge.sums.steps
     };
     assert_eq!(seen(&claim.step()), 1);

@@ -1,5 +1,5 @@
 //! All contacts of a step together: sweeps of Gauss and Seidel over the contacts, each answered
-//! exactly ([`Touch::answer`]), until their states stay; then one linear system for these states,
+//! exactly ([`FrictionContact::answer`]), until their states stay; then one linear system for these states,
 //! so that the result is exact to rounding.
 //!
 //! Sweeps start from the impulses of the last step (Jourdan, Alart & Jean 1998,
@@ -12,12 +12,12 @@
 //! answer is its minimiser. With friction it is no minimisation: for large μ answers may be
 //! several, or, where rebounds are demanded of a body that is wedged between its contacts, none.
 //! Then those contacts give up their rebound ([`Coulomb`]), as do those whose impulses would add
-//! energy ([`Sweeps::strike`]).
+//! energy ([`FrictionContacts::strike`]).
 
+use super::contact_rows::ContactRows;
+use super::friction_contact::{FrictionContact, State};
 use super::linear::Linear;
 use super::normal::dot;
-use super::places::Places;
-use super::touch::{State, Touch};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{Backend, Coulomb, CoulombContact, Problem, Rhs, Solver};
 use crate::scene::Row;
@@ -39,8 +39,8 @@ const WEDGED: f64 = 1e5;
 
 /// The contacts of a step.
 #[derive(Debug)]
-pub(in crate::scheme) struct Sweeps {
-    pub touches: Vec<Touch>,
+pub(in crate::scheme) struct FrictionContacts {
+    pub touches: Vec<FrictionContact>,
     /// Velocity of each row before the impacts of the step, m/s; at its end without contacts, and
     /// with them.
     pub before: Vec<f64>,
@@ -61,7 +61,7 @@ pub(in crate::scheme) struct Sweeps {
     pub unsettled: u64,
 }
 
-impl Sweeps {
+impl FrictionContacts {
     /// For the matrix `a` of the step, these rows, and at most this number of contacts.
     pub fn new(a: Symmetric, rows: &[&Row], contacts: usize) -> Self {
         let places = Rows::new(a.size(), rows.iter().map(|row| row.entries()));
@@ -89,11 +89,11 @@ impl Sweeps {
 
     /// Solves for the impulses of all contacts, from the velocities `free`. Returns whether one
     /// pushes.
-    pub fn solve(&mut self, places: &Places) -> bool {
+    pub fn solve(&mut self, places: &ContactRows) -> bool {
         let Self { touches, free, y, impulse, .. } = self;
         impulse.fill(0.0);
         y.copy_from_slice(free);
-        let clear = |touch: &Touch| dot(touch.normal, touch.rows.map(|row| y[row])) <= touch.bound;
+        let clear = |touch: &FrictionContact| dot(touch.normal, touch.rows.map(|row| y[row])) <= touch.bound;
         if touches.iter().all(clear) {
             for touch in touches {
                 (touch.state, touch.impulse) = (State::Open, [0.0; 2]);
@@ -118,10 +118,10 @@ impl Sweeps {
         true
     }
 
-    /// As [`Sweeps::solve`] for impacts of a body with the velocities `before`: where the impulses
+    /// As [`FrictionContacts::solve`] for impacts of a body with the velocities `before`: where the impulses
     /// would add energy, the contacts give up their rebound, and it is solved again. What impulses
     /// P add to ½ẇ·A ẇ is P·ẇ⁺ − ½ P·W P, of which P·ẇ⁺ ≤ 0 without rebounds.
-    pub fn strike(&mut self, places: &Places) -> bool {
+    pub fn strike(&mut self, places: &ContactRows) -> bool {
         let pushes = self.solve(places);
         if pushes && self.gains(places) {
             let gave_up = self.wedged.len();
@@ -137,14 +137,16 @@ impl Sweeps {
 
     /// True if the impulses of rigid contacts, some of which rebound and some rub, add energy: to
     /// the velocities before the step as well as to those that it gives without them.
-    fn gains(&mut self, places: &Places) -> bool {
+    fn gains(&mut self, places: &ContactRows) -> bool {
         let Self { touches, before, free, y, .. } = self;
-        let pushing = |touch: &&Touch| touch.impulse[0] > 0.0;
-        if !touches.iter().filter(pushing).any(Touch::rebounds) || touches.iter().all(|touch| touch.impulse[1] == 0.0) {
+        let pushing = |touch: &&FrictionContact| touch.impulse[0] > 0.0;
+        if !touches.iter().filter(pushing).any(FrictionContact::rebounds)
+            || touches.iter().all(|touch| touch.impulse[1] == 0.0)
+        {
             return false;
         }
         let work = |rates: &[f64]| -> f64 {
-            let of = |touch: &Touch| dot(touch.push(touch.impulse), touch.rows.map(|row| rates[row]));
+            let of = |touch: &FrictionContact| dot(touch.push(touch.impulse), touch.rows.map(|row| rates[row]));
             touches.iter().filter(|touch| touch.compliance == 0.0).map(of).sum()
         };
         let push = |rigid: bool, y: &mut [f64]| {
@@ -162,7 +164,7 @@ impl Sweeps {
 
     /// Sweeps until the states stay and the linear system of these states confirms them. Returns
     /// whether that happened.
-    fn sweep(&mut self, places: &Places) -> bool {
+    fn sweep(&mut self, places: &ContactRows) -> bool {
         let Self { touches, free, y, states, linear, .. } = self;
         let size = |y: &[f64]| y.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
         let bounds = touches.iter().fold(0.0_f64, |most, touch| most.max(touch.bound.abs()));
@@ -194,7 +196,7 @@ impl Sweeps {
     }
 }
 
-impl Sweeps {
+impl FrictionContacts {
     /// Solves for the impulses of contacts without friction as a quadratic programme in the change
     /// of velocity that they cause; `None` where a contact has friction, or the programme fails. So
     /// rare that it may allocate.
@@ -206,12 +208,12 @@ impl Sweeps {
         }
         let (a, places) = &self.problem;
         let part = |row: usize, share: f64| places.row(row).iter().map(move |&(i, x)| (i, share * x));
-        let turned = |touch: &Touch| -> Vec<(usize, f64)> {
+        let turned = |touch: &FrictionContact| -> Vec<(usize, f64)> {
             let ([first, second], [y, z]) = (touch.rows, touch.normal);
             part(first, y).chain(part(second, z)).collect()
         };
         let rows: Vec<Vec<(usize, f64)>> = touches.iter().map(turned).collect();
-        let slack = |touch: &Touch| touch.bound - dot(touch.normal, touch.rows.map(|row| free[row]));
+        let slack = |touch: &FrictionContact| touch.bound - dot(touch.normal, touch.rows.map(|row| free[row]));
         let hi: Vec<f64> = touches.iter().map(slack).collect();
         let scale = hi.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let g = Rows::new(a.size(), rows.iter().map(Vec::as_slice));
@@ -229,10 +231,10 @@ impl Sweeps {
     /// Solves for the impulses of all contacts as a complementarity problem; `None` where rounding
     /// leaves no answer. So rare that it may allocate.
     #[cold]
-    fn complement(&mut self, places: &Places) -> Option<()> {
+    fn complement(&mut self, places: &ContactRows) -> Option<()> {
         let Self { touches, free, wedged, .. } = self;
-        let contact = |touch: &Touch| {
-            let [beyond, along] = Touch { impulse: [0.0; 2], ..*touch }.excess(free);
+        let contact = |touch: &FrictionContact| {
+            let [beyond, along] = FrictionContact { impulse: [0.0; 2], ..*touch }.excess(free);
             let rebound = if touch.compliance == 0.0 { (-touch.bound).max(0.0) } else { 0.0 };
             CoulombContact { free: [-beyond, along], friction: touch.friction, rebound }
         };
@@ -263,7 +265,7 @@ impl Sweeps {
 /// press against each other make larger ones than what remains of them. At most [`WEDGED`] times
 /// `rate`: impulses that grow from sweep to sweep, as of a body that wedges itself, would have any
 /// velocity count as rounding.
-fn most(rate: f64, touches: &[Touch]) -> f64 {
+fn most(rate: f64, touches: &[FrictionContact]) -> f64 {
     let largest = touches.iter().fold(rate, |most, touch| {
         let ([a, _, c], [p, f]) = (touch.own, touch.impulse);
         most.max(a * p.abs()).max(c * f.abs())

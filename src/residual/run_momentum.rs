@@ -11,10 +11,10 @@
 //! two nearly balance, as under heavy damping, their sum changes little while each may change much.
 
 use super::Judge;
-use super::moves::Moves;
+use super::largest_residual::LargestResidual;
+use super::momentum_sums::Forces;
 use super::pushes::place_of;
-use super::sums::Forces;
-use super::worst::Worst;
+use super::step_motion::StepMotion;
 use crate::step::{Balance, Path, Step};
 
 /// The weights of a scheme differ from those of the trapezoid rule by at most this many steps in
@@ -69,7 +69,7 @@ impl Judge {
             return;
         }
         let (h, first) = (self.h, sums.steps == 1);
-        let moves = Moves::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
+        let moves = StepMotion::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
         if matches!(self.contract.balance, Balance::GeneralizedAlpha { .. }) {
             // For generalized-α, the force at the end of the step, which includes dampers and the
             // walls that are springs.
@@ -87,19 +87,19 @@ impl Judge {
 
     /// The largest residual of the run's momentum, minus what a step's rule may miss and minus
     /// rounding, over the largest momentum exchanged.
-    pub(super) fn open_momentum(&self) -> Worst {
+    pub(super) fn open_momentum(&self) -> LargestResidual {
         let sums = &self.sums;
-        let mut worst = Worst::default();
+        let mut worst = LargestResidual::default();
         let impulses = sums.recorded.as_ref().unwrap_or(&sums.seen);
         for (wall, ((p, seen), size)) in impulses.iter().zip(&sums.seen).zip(&sums.sizes).enumerate() {
             let rounding = sums.steps as f64 * f64::EPSILON * size;
-            worst.see(over((p - seen).abs() - rounding, *size), self.noise.end, Some(wall));
+            worst.observe(over((p - seen).abs() - rounding, *size), self.noise.end, Some(wall));
         }
         if let Some(supports) = &self.supports {
             for (hole, told) in self.scene.holes().zip(supports.recorded.iter().flatten()) {
                 let ([y, z], size) = (supports.impulse[hole.index], supports.size[hole.index]);
                 let apart = (told[0] - y).hypot(told[1] - z) - sums.steps as f64 * f64::EPSILON * size;
-                worst.see(over(apart, size), self.noise.end, Some(hole.index));
+                worst.observe(over(apart, size), self.noise.end, Some(hole.index));
             }
         }
         if !sums.whole || sums.steps == 0 || self.contract.balance == Balance::Exact {
@@ -166,7 +166,7 @@ impl Judge {
         for i in 0..n {
             let missed = STEPS * self.h * (sums.forces[i].changes + ends[i]);
             let left = (open[i] - blows[i]).abs() - missed;
-            worst.see(over(left / roots[i] - rounding, largest), self.noise.end, None);
+            worst.observe(over(left / roots[i] - rounding, largest), self.noise.end, None);
         }
         worst
     }

@@ -5,7 +5,7 @@ use crate::step::{Balance, Contract};
 
 /// Quantities that carry over from step to step: M a and F at the step's start, N, n entries each.
 #[derive(Debug)]
-pub(super) struct Memory {
+pub(super) struct PreviousStep {
     pub s: Vec<f64>,
     pub force: Vec<f64>,
     /// s⁺ and F⁺ of the current step.
@@ -13,7 +13,7 @@ pub(super) struct Memory {
     pub force_end: Vec<f64>,
 }
 
-impl Memory {
+impl PreviousStep {
     /// Values at the start of a run, where M a = F with the forces of `load` (N) and of the walls
     /// that are springs, `walls` (N). `None` under the contract of another rule.
     pub fn new(

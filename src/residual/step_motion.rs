@@ -5,7 +5,7 @@ use crate::step::Step;
 /// What a step did, one entry per degree of freedom; or what several steps of one degree of freedom
 /// did, one entry per step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Moves<'a> {
+pub(super) struct StepMotion<'a> {
     /// Displacements at the start and at the end, the latter without what blows add to it, m.
     pub from: &'a [f64],
     pub to: &'a [f64],
@@ -23,7 +23,7 @@ pub(super) struct Moves<'a> {
     pub blow: &'a [f64],
 }
 
-impl<'a> Moves<'a> {
+impl<'a> StepMotion<'a> {
     /// Those of a step from the displacement `from` to `to`, with its loads at both ends and its
     /// blows.
     #[inline(always)]

@@ -1,9 +1,9 @@
 //! Sums over steps, for the check of a whole run's momentum.
 
+use super::largest_residual::running_max;
 use super::matrices::{Matrices, Part};
-use super::moves::Moves;
 use super::scratch::Scratch;
-use super::worst::most;
+use super::step_motion::StepMotion;
 use crate::scene::Scene;
 use crate::step::Step;
 
@@ -28,7 +28,7 @@ impl Forces {
             self.changes += (load - self.load).abs() + (own - self.own).abs();
         }
         (self.load, self.own) = (load, own);
-        self.largest = most(self.largest, load.abs() + own.abs() + damper.abs());
+        self.largest = running_max(self.largest, load.abs() + own.abs() + damper.abs());
         self.exchanged += h * (load + own + damper).abs();
     }
 }
@@ -36,7 +36,7 @@ impl Forces {
 /// Sums over the steps of a run on a grid; vectors have one entry per degree of freedom or per
 /// wall.
 #[derive(Debug)]
-pub(super) struct Sums {
+pub(super) struct MomentumSums {
     /// Displacement and velocity at the start of the run, m and m/s, and velocity at the end of the
     /// last step.
     pub start: Vec<f64>,
@@ -65,7 +65,7 @@ pub(super) struct Sums {
     pub whole: bool,
 }
 
-impl Sums {
+impl MomentumSums {
     pub fn new(scene: &Scene, q: &[f64], v: &[f64]) -> Self {
         let (n, walls) = (v.len(), scene.walls.len());
         let zero = || vec![0.0; n];
@@ -100,7 +100,7 @@ impl Sums {
 
     /// Adds a step of `h` seconds (and 1/h), whose mean forces are in `means`.
     #[inline(always)]
-    pub fn add(&mut self, moves: &Moves<'_>, means: &Scratch, (h, per_h): (f64, f64), first: bool, n: usize) {
+    pub fn add(&mut self, moves: &StepMotion<'_>, means: &Scratch, (h, per_h): (f64, f64), first: bool, n: usize) {
         let (mean, spring, damper) = (&means.load[..n], &means.spring[..n], &means.damper[..n]);
         for (i, force) in self.forces[..n].iter_mut().enumerate() {
             force.add(first, h, own([mean[i], spring[i], damper[i]], per_h));
@@ -110,7 +110,7 @@ impl Sums {
 
     /// Adds the state at the ends of a step and its loads.
     #[inline(always)]
-    pub fn add_ends(&mut self, moves: &Moves<'_>, h: f64, n: usize) {
+    pub fn add_ends(&mut self, moves: &StepMotion<'_>, h: f64, n: usize) {
         let (place, load) = (&mut self.place[..n], &mut self.load[..n]);
         let (q0, q1, extra) = (&moves.from[..n], &moves.shown[..n], &moves.extra[..n]);
         let (load_start, load_end) = (&moves.load_start[..n], &moves.load_end[..n]);
@@ -130,7 +130,7 @@ impl Sums {
 
     /// Adds n steps of one degree of freedom without extra force, after the first.
     #[inline(always)]
-    pub fn add_all(&mut self, moves: &Moves<'_>, means: &Scratch, (h, per_h): (f64, f64), n: usize) {
+    pub fn add_all(&mut self, moves: &StepMotion<'_>, means: &Scratch, (h, per_h): (f64, f64), n: usize) {
         let ([force], [place], [load]) = (&mut self.forces[..], &mut self.place[..], &mut self.load[..]) else {
             return;
         };

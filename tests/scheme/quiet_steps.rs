@@ -14,12 +14,12 @@ fn shown(step: &Step<'_>) -> (u64, Vec<u64>, Vec<[u64; 2]>) {
 }
 
 /// Goes through `count` steps one by one and, beside it, in glides of at most `most` steps; returns
-/// the largest number of steps in one glide.
+/// the largest number of steps in one call.
 fn compare(scene: &Scene, scheme: &Scheme, h: f64, (count, most): (u64, u64)) -> u64 {
     let stepper = || Stepper::new(scene, scheme, h).expect("a scene");
     let (mut one, mut many, mut made, mut longest) = (stepper(), stepper(), 0, 0);
     while made < count {
-        let step = many.glide(most).expect("steps");
+        let step = many.advance_quiet(most).expect("steps");
         let steps = step.index + 1 - made;
         assert!((1..=most).contains(&steps), "{scheme}: {steps} of {most} steps");
         for k in 1..=steps {
@@ -90,7 +90,7 @@ fn an_extra_force_ends_with_its_step() {
     for _ in 1..50 {
         one.step().expect("a step");
     }
-    assert_eq!(shown(&many.glide(50).expect("steps")), shown(&one.step().expect("a step")));
+    assert_eq!(shown(&many.advance_quiet(50).expect("steps")), shown(&one.step().expect("a step")));
 }
 
 #[test]
@@ -99,7 +99,7 @@ fn a_motion_that_becomes_infinite_is_told_at_its_step() {
     let stepper = || Stepper::new(&scene, &MOREAU_JEAN, 1.0).expect("a scene");
     let (mut one, mut many) = (stepper(), stepper());
     let alone = (0..1000).find_map(|_| one.step().err()).expect("an infinite speed");
-    assert_eq!(many.glide(1000).err().map(|error| error.to_string()), Some(alone.to_string()));
+    assert_eq!(many.advance_quiet(1000).err().map(|error| error.to_string()), Some(alone.to_string()));
 }
 
 #[test]
@@ -107,6 +107,6 @@ fn it_can_be_stopped() {
     let scene = Scene::oscillator(1.0, 0.0, 100.0).with_initial(&[0.01], &[0.0]);
     let stop = Interrupt::new(|| true);
     // Years of work if it went on.
-    let end = stop.over(|| Stepper::new(&scene, &MOREAU_JEAN, 1e-4)?.glide(u64::MAX).map(|step| step.index));
+    let end = stop.over(|| Stepper::new(&scene, &MOREAU_JEAN, 1e-4)?.advance_quiet(u64::MAX).map(|step| step.index));
     assert_eq!(end.map_err(|error| error.to_string()), Err(signorini::Error::Stopped.to_string()));
 }

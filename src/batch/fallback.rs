@@ -46,7 +46,7 @@ pub(super) fn follow(lane: &Lane, settle: u32, strobes: &mut [[f64; 2]]) -> Resu
     }
     while passed < periods {
         let step = stepper.step()?;
-        window.see(&step, &slot);
+        window.observe(&step, &slot);
         let (end, state) = (step.end, [step.q, step.v].map(|x| x.first().copied().unwrap_or(0.0)));
         // A remainder of half a unit of rounding of the time is not a period.
         if end < (passed + 1) as f64 * lane.period * (1.0 - 1e-14) {
@@ -115,7 +115,7 @@ impl Window {
         *known = known.iter().copied().chain(peak).reduce(f64::max);
     }
 
-    fn see(&mut self, step: &Step<'_>, slot: &impl Fn(usize) -> usize) {
+    fn observe(&mut self, step: &Step<'_>, slot: &impl Fn(usize) -> usize) {
         for (wall, (impulse, jump)) in step.impulse.iter().zip(step.jump).enumerate() {
             let at = &mut self.walls[slot(wall)];
             at.impulse += impulse;
@@ -136,9 +136,9 @@ impl Window {
     /// The extremes of an arc: at its ends, and at the turning points between them.
     fn reach(&mut self, arc: &Arc) {
         let (from, to) = (arc.start(), arc.end());
-        let mut see = |q: f64| self.extent = [self.extent[0].min(q), self.extent[1].max(q)];
-        see(arc.state(from).0);
-        see(arc.state(to).0);
+        let mut observe = |q: f64| self.extent = [self.extent[0].min(q), self.extent[1].max(q)];
+        observe(arc.state(from).0);
+        observe(arc.state(to).0);
         if arc.is_rest() {
             return;
         }
@@ -154,7 +154,7 @@ impl Window {
                     let same = arc.state(mid).1 * before.1 > 0.0;
                     (low, high) = if same { (mid, high) } else { (low, mid) };
                 }
-                see(arc.state(low).0);
+                observe(arc.state(low).0);
             }
             before = now;
         }

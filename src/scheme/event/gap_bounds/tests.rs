@@ -21,10 +21,10 @@ fn the_nearest_wall_on_each_side_bounds_the_room_and_of_two_at_one_place_the_fir
         [lower(-3.0), lower(-1.0), lower(-2.0), lower(-1.0), upper(5.0), upper(2.0), upper(4.0), upper(2.0)],
         [lower(-3.0), lower(-1.0), lower(-1.0), lower(-2.0), upper(3.0), upper(2.0), upper(2.0), upper(9.0)],
     ] {
-        let room = Room::between(&barriers(&walls)).unwrap();
+        let room = GapBounds::between(&barriers(&walls)).unwrap();
         assert_eq!((room.low, room.high), ((-1.0, Some(1)), (2.0, Some(5))));
     }
-    let room = Room::between(&[]).unwrap();
+    let room = GapBounds::between(&[]).unwrap();
     assert_eq!((room.low, room.high), ((f64::NEG_INFINITY, None), (f64::INFINITY, None)));
 }
 
@@ -33,13 +33,13 @@ fn behind_the_face_of_an_elastic_wall_there_is_no_room() {
     let mut walls = barriers(&[Wall::lower("hard", -1.0), Wall::upper("soft", 1.0).with_elasticity(3.0, 4.0)]);
     for (phase, room) in [(Phase::Outside, true), (Phase::Touching, false), (Phase::Detached, false)] {
         walls[1].phase = phase;
-        assert_eq!(Room::between(&walls).is_some(), room, "{phase:?}");
+        assert_eq!(GapBounds::between(&walls).is_some(), room, "{phase:?}");
     }
 }
 
 #[test]
 fn a_body_is_in_the_room_where_both_walls_are_in_front_of_it_by_more_than_asked() {
-    let room = Room::between(&barriers(&[Wall::lower("lower", -1.0), Wall::upper("upper", 2.0)])).unwrap();
+    let room = GapBounds::between(&barriers(&[Wall::lower("lower", -1.0), Wall::upper("upper", 2.0)])).unwrap();
     for (q, by, held) in [
         (1.5, 0.25, true),
         (1.5, 0.5, false),
@@ -59,7 +59,7 @@ fn a_body_is_in_the_room_where_both_walls_are_in_front_of_it_by_more_than_asked(
 
 #[test]
 fn the_wall_ahead_is_the_one_passed_or_else_the_one_that_the_body_moves_to() {
-    let room = Room::between(&barriers(&[Wall::lower("lower", -1.0), Wall::upper("upper", 2.0)])).unwrap();
+    let room = GapBounds::between(&barriers(&[Wall::lower("lower", -1.0), Wall::upper("upper", 2.0)])).unwrap();
     for (q, v, wall) in [
         (0.0, 1.0, 1),
         (0.0, -1.0, 0),

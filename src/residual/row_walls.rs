@@ -9,7 +9,7 @@ const FILL: usize = 4;
 
 /// The walls of one row.
 #[derive(Debug, Clone)]
-pub(super) struct Sight {
+pub(super) struct RowWalls {
     row: View,
     /// The open interval, m, in which no wall is touched.
     clear: (f64, f64),
@@ -72,7 +72,7 @@ impl View {
     }
 }
 
-impl Sight {
+impl RowWalls {
     /// All of a scene: each flat wall is in one of them.
     pub fn all(scene: &Scene) -> Vec<Self> {
         let flats: Vec<usize> = (0..scene.walls.len()).filter(|&wall| !scene.walls[wall].is_round()).collect();
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn rows_are_products_with_the_structure_whatever_their_form() {
         let rows = rows();
-        let sights = Sight::all(&walls(&rows));
+        let sights = RowWalls::all(&walls(&rows));
         assert_eq!(
             sights.iter().map(|sight| sight.walls.clone()).collect::<Vec<_>>(),
             [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9]]
@@ -193,7 +193,7 @@ mod tests {
     #[test]
     fn a_step_is_clear_of_its_walls_if_both_ends_and_the_way_from_the_first_are() {
         let scene = walls(&[Row::dof(0)]);
-        let (sights, touch) = (Sight::all(&scene), scene.touching_distance());
+        let (sights, touch) = (RowWalls::all(&scene), scene.touching_distance());
         let clear = |w0: f64, w1: f64, way: f64| sights[0].is_clear((w0, w1), way);
         // The walls stand at −1 and 2 m.
         assert!(clear(0.0, 0.0, 0.0) && clear(-0.5, 1.5, 0.25) && clear(1.5, -0.5, 0.25));

@@ -2,7 +2,7 @@
 //!
 //! `SIGNORINI_CASES` and `SIGNORINI_SEED` in the environment draw more and others.
 
-use super::super::super::places::Places;
+use super::super::super::contact_rows::ContactRows;
 use super::super::*;
 use super::Draws;
 use crate::linear::Factor;
@@ -19,8 +19,8 @@ struct Corner {
     bounds: Vec<f64>,
     /// Velocities at the end of the step without contacts.
     free: Vec<f64>,
-    places: Places,
-    sweeps: Sweeps,
+    places: ContactRows,
+    sweeps: FrictionContacts,
 }
 
 impl Corner {
@@ -45,7 +45,8 @@ impl Corner {
         let rows: Vec<Row> = (0..n).map(Row::dof).collect();
         let rows: Vec<&Row> = rows.iter().collect();
         let mut factor = Factor::new(&a).expect("a definite matrix");
-        let (places, mut sweeps) = (Places::new(n, &rows, &mut factor), Sweeps::new(a, &rows, 6 * bodies));
+        let (places, mut sweeps) =
+            (ContactRows::new(n, &rows, &mut factor), FrictionContacts::new(a, &rows, 6 * bodies));
         // Velocities at the start, some of them small, and what loads add to them.
         let size = |draws: &mut Draws, least: f64| 10_f64.powf(draws.between(least, 0.0));
         let speed = |draws: &mut Draws| if draws.chance(0.3) { size(draws, -8.0) } else { 1.0 };
@@ -68,7 +69,7 @@ impl Corner {
                 let bound = if approach > 0.0 { -e * approach } else { -approach };
                 for _ in 0..if draws.chance(0.1) { 2 } else { 1 } {
                     let (index, at) = (contacts.len(), [2 * body, 2 * body + 1]);
-                    let touch = Touch::new(&places, (index, at), (normal, bound), (mu, compliance), [0.0; 2]);
+                    let touch = FrictionContact::new(&places, (index, at), (normal, bound), (mu, compliance), [0.0; 2]);
                     sweeps.touches.push(touch);
                     contacts.push((body, normal, compliance));
                     bounds.push(bound);
@@ -205,10 +206,10 @@ fn an_oblique_impact_that_would_add_energy_ends_in_rest() {
     let a = Symmetric::from_entries(2, [(0, 0, 2.0), (0, 1, 0.9), (1, 1, 1.0)]);
     let (rows, free) = ([Row::dof(0), Row::dof(1)], vec![1.0, -0.9]);
     let rows: Vec<&Row> = rows.iter().collect();
-    let places = Places::new(2, &rows, &mut Factor::new(&a).expect("a mass"));
+    let places = ContactRows::new(2, &rows, &mut Factor::new(&a).expect("a mass"));
     for (friction, after) in [(2.0, Some([0.0, 0.0])), (0.0, None)] {
-        let mut sweeps = Sweeps::new(a.clone(), &rows, 1);
-        sweeps.touches.push(Touch::new(&places, (0, [0, 1]), ([1.0, 0.0], -1.0), (friction, 0.0), [0.0; 2]));
+        let mut sweeps = FrictionContacts::new(a.clone(), &rows, 1);
+        sweeps.touches.push(FrictionContact::new(&places, (0, [0, 1]), ([1.0, 0.0], -1.0), (friction, 0.0), [0.0; 2]));
         sweeps.before.copy_from_slice(&free);
         sweeps.free.copy_from_slice(&free);
         assert!(sweeps.strike(&places));
@@ -244,10 +245,11 @@ fn right_angle(e: f64, friction: f64) -> Corner {
     let a = Symmetric::diagonal(&[1.0; 2]);
     let rows = [Row::dof(0), Row::dof(1)];
     let rows: Vec<&Row> = rows.iter().collect();
-    let (places, mut sweeps) = (Places::new(2, &rows, &mut Factor::new(&a).expect("a mass")), Sweeps::new(a, &rows, 2));
+    let (places, mut sweeps) =
+        (ContactRows::new(2, &rows, &mut Factor::new(&a).expect("a mass")), FrictionContacts::new(a, &rows, 2));
     let contacts = vec![(0, [1.0, 0.0], 0.0), (0, [0.0, 1.0], 0.0)];
     for (index, &(_, normal, _)) in contacts.iter().enumerate() {
-        sweeps.touches.push(Touch::new(&places, (index, [0, 1]), (normal, -e), (friction, 0.0), [0.0; 2]));
+        sweeps.touches.push(FrictionContact::new(&places, (index, [0, 1]), (normal, -e), (friction, 0.0), [0.0; 2]));
     }
     sweeps.free.fill(1.0);
     Corner { mass, contacts, bounds: vec![-e; 2], free: vec![1.0; 2], places, sweeps }

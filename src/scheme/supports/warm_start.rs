@@ -1,14 +1,14 @@
 //! What a step of a scene with supports leaves to the next one.
 
+use super::friction_contact::FrictionContact;
 use super::normal::dot;
-use super::touch::Touch;
 
 /// Normals of flats at one place that are opposite to rounding.
 const OPPOSITE: f64 = -1.0 + 1e-9;
 
 /// What the last step left, and what is counted from step to step.
 #[derive(Debug)]
-pub(super) struct Memory {
+pub(super) struct WarmStart {
     /// True for each wall that is round.
     round: Vec<bool>,
     /// Impulses p and f of each wall and hole, N s, from which the next step starts.
@@ -21,7 +21,7 @@ pub(super) struct Memory {
     pub turned: f64,
 }
 
-impl Memory {
+impl WarmStart {
     /// For walls of which some are `round`, on `rows` rows.
     pub fn new(round: Vec<bool>, rows: usize) -> Self {
         Self { warm: vec![[0.0; 2]; round.len()], round, last: vec![None; rows], frozen: 0, turned: 0.0 }
@@ -35,7 +35,7 @@ impl Memory {
 
     /// Keeps what the next step needs of the contacts in play, and counts; `turn` gives the angle
     /// by which the normal of each turns in the step, rad.
-    pub fn keep(&mut self, touches: &[Touch], turn: impl Fn(usize) -> f64) {
+    pub fn keep(&mut self, touches: &[FrictionContact], turn: impl Fn(usize) -> f64) {
         let mut frozen = false;
         for touch in touches.iter().filter(|touch| touch.impulse[0] > 0.0) {
             if let Some(last) = self.last[touch.rows[0]] {
@@ -56,13 +56,13 @@ impl Memory {
 
 #[cfg(test)]
 mod tests {
-    use super::super::touch::State;
+    use super::super::friction_contact::State;
     use super::*;
 
     /// Contacts 0 and 1 are walls, 2 and 3 holes, each on rows of its own.
-    fn touch(index: usize, degrees: f64, impulse: [f64; 2]) -> Touch {
+    fn touch(index: usize, degrees: f64, impulse: [f64; 2]) -> FrictionContact {
         let normal = [degrees.to_radians().cos(), degrees.to_radians().sin()];
-        Touch {
+        FrictionContact {
             index,
             rows: [2 * index, 2 * index + 1],
             normal,
@@ -77,8 +77,8 @@ mod tests {
         }
     }
 
-    fn memory() -> Memory {
-        Memory::new(vec![false, false, true, true], 8)
+    fn memory() -> WarmStart {
+        WarmStart::new(vec![false, false, true, true], 8)
     }
 
     #[test]
@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn what_does_not_push_or_yields_freezes_nothing() {
         let open = touch(0, 0.0, [0.0; 2]);
-        let elastic = Touch { compliance: 0.1, ..touch(0, 0.0, [1.0, 0.0]) };
+        let elastic = FrictionContact { compliance: 0.1, ..touch(0, 0.0, [1.0, 0.0]) };
         let opposite = touch(0, 180.0, [1.0, 0.0]);
         for (first, second) in [(open, opposite), (elastic, opposite), (opposite, open)] {
             let mut memory = memory();

@@ -2,14 +2,14 @@
 
 /// The worst residual so far: its value, time (s) and wall. NaN is worse than any number.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Worst {
+pub(super) struct LargestResidual {
     pub value: f64,
     pub time: f64,
     pub wall: Option<usize>,
 }
 
-impl Worst {
-    pub fn see(&mut self, value: f64, time: f64, wall: Option<usize>) {
+impl LargestResidual {
+    pub fn observe(&mut self, value: f64, time: f64, wall: Option<usize>) {
         if !self.value.is_nan() && (value > self.value || value.is_nan()) {
             *self = Self { value, time, wall };
         }
@@ -25,14 +25,14 @@ impl Worst {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Residual {
     pub value: f64,
-    pub excess: Worst,
+    pub excess: LargestResidual,
 }
 
 impl Residual {
     /// Notes a residual with its rounding error `noise`, of the step that ends at `time` (s).
-    pub fn see(&mut self, value: f64, noise: f64, time: f64, wall: Option<usize>) {
+    pub fn observe(&mut self, value: f64, noise: f64, time: f64, wall: Option<usize>) {
         self.value = self.value.max(value);
-        self.excess.see(value - noise, time, wall);
+        self.excess.observe(value - noise, time, wall);
     }
 }
 
@@ -43,6 +43,6 @@ pub(super) fn over(x: f64, scale: f64) -> f64 {
 
 /// The larger of two numbers. A NaN is ignored, as by [`f64::max`], but in one instruction.
 #[inline(always)]
-pub(super) fn most(so_far: f64, x: f64) -> f64 {
+pub(super) fn running_max(so_far: f64, x: f64) -> f64 {
     if x > so_far { x } else { so_far }
 }

@@ -7,10 +7,10 @@
 use super::super::body::Body;
 use super::super::frame::Frame;
 use super::super::matrices::Matrices;
+use super::contact_rows::ContactRows;
+use super::friction_contact::FrictionContact;
 use super::normal::{AHEAD, Met, TURNING, dot, meet};
-use super::places::Places;
 use super::points::ContactPoint;
-use super::touch::Touch;
 use crate::scene::{Checked, Hole};
 #[cfg(doc)]
 use crate::step::Friction;
@@ -27,7 +27,7 @@ struct Round {
 
 /// All walls and holes, and what the step reaches.
 #[derive(Debug)]
-pub(super) struct Reach {
+pub(super) struct WallsInPlay {
     theta: f64,
     /// Of all walls.
     pub points: Vec<ContactPoint>,
@@ -41,7 +41,7 @@ pub(super) struct Reach {
     pub resting: Vec<usize>,
 }
 
-impl Reach {
+impl WallsInPlay {
     pub fn new(scene: &Checked, theta: f64, points: Vec<ContactPoint>) -> Self {
         let round = |hole: Hole<'_>| Round {
             centre: hole.centre,
@@ -77,9 +77,9 @@ impl Reach {
         &mut self,
         wall: usize,
         (body, frame): (&Body<Matrices>, &Frame<Matrices>),
-        places: &Places,
+        places: &ContactRows,
         warm: [f64; 2],
-    ) -> Option<Touch> {
+    ) -> Option<FrictionContact> {
         let (face, point, ht) = (body.walls[wall], self.points[wall], body.h * self.theta);
         let (bound, compliance) = match (face.law.spring(), face.law.restitution()) {
             // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
@@ -105,7 +105,7 @@ impl Reach {
             _ => return None,
         };
         let (contact, law) = ((wall, point.rows), (point.friction, compliance));
-        Some(Touch::new(places, contact, (point.normal, bound), law, warm))
+        Some(FrictionContact::new(places, contact, (point.normal, bound), law, warm))
     }
 
     /// True if the rebounds of a body that arrives at a wall with friction at this speed (m/s) end
@@ -120,9 +120,9 @@ impl Reach {
         &self,
         index: usize,
         (frame, h): (&Frame<Matrices>, f64),
-        places: &Places,
+        places: &ContactRows,
         warm: [f64; 2],
-    ) -> Option<(Touch, Met)> {
+    ) -> Option<(FrictionContact, Met)> {
         let (round, point) = (self.rounds[index]?, self.points[index]);
         let from = |q: &Vec<f64>| {
             let [y, z] = places.pair(point.rows, q);
@@ -135,6 +135,6 @@ impl Reach {
         let rate = places.pair(point.rows, frame.struck());
         let met = meet((round.gap, round.restitution), from(&frame.q), rate, h)?;
         let (contact, law) = ((index, point.rows), (point.friction, 0.0));
-        Some((Touch::new(places, contact, (met.normal, met.bound), law, warm), met))
+        Some((FrictionContact::new(places, contact, (met.normal, met.bound), law, warm), met))
     }
 }

@@ -44,7 +44,7 @@ impl Judge {
         for (impulse, weight) in self.blows.impulse.iter().zip(&self.weights.root_mass) {
             let force = impulse.abs() / span;
             self.balance.see_largest(force);
-            self.balance.force.see(force / weight, 0.0, step.end, None);
+            self.balance.force.observe(force / weight, 0.0, step.end, None);
         }
     }
 

@@ -17,7 +17,7 @@ pub(super) const SEATS: usize = 8;
 const LARGE: f64 = 1e100;
 
 /// An oscillator that the lanes support.
-pub(super) struct Guest<'a> {
+pub(super) struct LaneJob<'a> {
     /// Its number in the share of the batch.
     pub index: usize,
     pub lane: &'a Lane,
@@ -36,7 +36,7 @@ pub(super) struct Results<'a> {
 
 /// The oscillator in a lane.
 #[derive(Clone, Copy, Default)]
-struct Seat {
+struct LaneSlot {
     /// Index of the oscillator; `None` if the lane is empty.
     of: Option<usize>,
     /// Periods completed.
@@ -67,7 +67,7 @@ pub(super) struct Group<S: Simd, const W: usize> {
     /// 1 in lanes with an oscillator, 0 in the others.
     pub busy: Vector<S>,
     tally: Tally<S>,
-    seats: [Seat; SEATS],
+    seats: [LaneSlot; SEATS],
 }
 
 impl<S: Simd, const W: usize> Group<S, W> {
@@ -79,7 +79,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
             state: State::new(simd),
             busy: zero,
             tally: Tally { recent: zero, impacts: none, impulse: none, largest: none },
-            seats: [Seat::default(); SEATS],
+            seats: [LaneSlot::default(); SEATS],
         }
     }
 
@@ -108,11 +108,11 @@ impl<S: Simd, const W: usize> Group<S, W> {
 
     /// Assigns the next oscillator to a lane, or leaves the lane empty. An oscillator that starts
     /// at rest on a wall, and stays there to its end or cannot be decided, is skipped.
-    pub fn fill(&mut self, slot: usize, guests: &[Guest], next: &mut usize, results: &mut Results) {
+    pub fn fill(&mut self, slot: usize, guests: &[LaneJob], next: &mut usize, results: &mut Results) {
         loop {
             let of = Some(*next).filter(|n| *n < guests.len());
             if let Some(seat) = self.seats.get_mut(slot) {
-                *seat = Seat { of, ..Seat::default() };
+                *seat = LaneSlot { of, ..LaneSlot::default() };
             }
             self.busy.put(slot, f64::from(u8::from(of.is_some())));
             let Some(guest) = of.and_then(|n| guests.get(n)) else { return };
@@ -121,7 +121,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
             if results.settle == 0 {
                 self.begin(slot);
             }
-            let Guest { lane, .. } = guest;
+            let LaneJob { lane, .. } = guest;
             let at = |stop: Option<Stop>| stop.is_some_and(|s| s.position == lane.displacement);
             if lane.velocity != 0.0 || !(at(lane.lower) || at(lane.upper)) {
                 return;
@@ -133,7 +133,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
         }
     }
 
-    fn sit(&mut self, slot: usize, Guest { lane, series, .. }: &Guest) {
+    fn sit(&mut self, slot: usize, LaneJob { lane, series, .. }: &LaneJob) {
         let (k, a) = (&mut self.constants, &mut self.state);
         k.put(slot, lane, series);
         a.t.put(slot, 0.0);
@@ -186,8 +186,8 @@ impl<S: Simd, const W: usize> Group<S, W> {
     /// The body has reached the wall (0 lower, 1 upper) almost without speed: it leaves again, or
     /// rests until it is released. Returns true if the lane is free again, since the last period is
     /// over or the outcome is undecided.
-    pub fn arrive(&mut self, slot: usize, wall: usize, guests: &[Guest], results: &mut Results) -> bool {
-        let Some(Guest { lane, series, .. }) = self.guest(slot, guests) else { return true };
+    pub fn arrive(&mut self, slot: usize, wall: usize, guests: &[LaneJob], results: &mut Results) -> bool {
+        let Some(LaneJob { lane, series, .. }) = self.guest(slot, guests) else { return true };
         let (stop, away) = if wall == 0 { (lane.lower, 1.0) } else { (lane.upper, -1.0) };
         let Some((Stop { position, .. }, restitution)) = stop.and_then(|s| Some((s, s.law.restitution()?))) else {
             return true;
@@ -231,7 +231,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
     }
 
     /// The oscillator in a lane.
-    fn guest<'g, 'a>(&self, slot: usize, guests: &'g [Guest<'a>]) -> Option<&'g Guest<'a>> {
+    fn guest<'g, 'a>(&self, slot: usize, guests: &'g [LaneJob<'a>]) -> Option<&'g LaneJob<'a>> {
         guests.get(self.seats.get(slot)?.of?)
     }
 
@@ -254,8 +254,8 @@ impl<S: Simd, const W: usize> Group<S, W> {
 
     /// Ends a period of this lane. Returns true if it was the last, or if the state became infinite
     /// or NaN.
-    pub fn strobe(&mut self, slot: usize, guests: &[Guest], results: &mut Results) -> bool {
-        let Some(Guest { index, lane, series }) = self.guest(slot, guests) else { return true };
+    pub fn strobe(&mut self, slot: usize, guests: &[LaneJob], results: &mut Results) -> bool {
+        let Some(LaneJob { index, lane, series }) = self.guest(slot, guests) else { return true };
         let (u, w) = (self.state.u.get(slot), self.state.w.get(slot));
         if !(u.is_finite() && w.is_finite()) {
             return true;

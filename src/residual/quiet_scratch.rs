@@ -3,11 +3,11 @@
 use super::scratch::Scratch;
 use super::weights::Weights;
 use crate::scene::Scene;
-use crate::step::{Balance, Calm, Contract};
+use crate::step::{Balance, Contract, QuietSteps};
 
-/// Work space for as many steps as a [`Calm`] holds.
+/// Work space for as many steps as a [`QuietSteps`] holds.
 #[derive(Debug)]
-pub(super) struct Room {
+pub(super) struct QuietScratch {
     pub weights: Weights,
     pub scratch: Scratch,
     /// Displacements (m) and loads (N) at the start of the first step and at the end of each.
@@ -16,7 +16,7 @@ pub(super) struct Room {
     pub zeros: Vec<f64>,
 }
 
-impl Room {
+impl QuietScratch {
     /// `None` where each step is to be seen by itself, as in a scene with `blows`.
     pub fn new(scene: &Scene, contract: Contract, weights: &Weights, blows: bool) -> Option<Box<Self>> {
         let free = scene.is_line() && scene.supports.is_empty() && !blows;
@@ -24,7 +24,7 @@ impl Room {
         if !free || !one_step {
             return None;
         }
-        let most = Calm::most();
+        let most = QuietSteps::capacity();
         Some(Box::new(Self {
             weights: weights.repeated(most),
             scratch: Scratch::new(most),

@@ -7,12 +7,12 @@ use crate::scheme::exact::{ExactWall, Phase};
 /// The nearest wall on either side of the body: its position (m, infinite without a wall) and
 /// index.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Room {
+pub(super) struct GapBounds {
     low: (f64, Option<usize>),
     high: (f64, Option<usize>),
 }
 
-impl Room {
+impl GapBounds {
     /// Between `barriers`; `None` if the body is behind the face of an elastic one.
     pub fn between(barriers: &[ExactWall]) -> Option<Self> {
         let mut room = Self { low: (f64::NEG_INFINITY, None), high: (f64::INFINITY, None) };

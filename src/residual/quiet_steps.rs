@@ -5,22 +5,22 @@
 //! freedom.
 
 use super::Judge;
-use super::moves::Moves;
-use super::room::Room;
-use crate::step::Calm;
+use super::quiet_scratch::QuietScratch;
+use super::step_motion::StepMotion;
+use crate::step::QuietSteps;
 use std::ops::Range;
 
 impl Judge {
-    /// True if [`Judge::see_calm`] is faster than [`Judge::see`] step by step.
-    pub(crate) fn gains_by_calm(&self) -> bool {
+    /// True if [`Judge::see_calm`] is faster than [`Judge::observe`] step by step.
+    pub(crate) fn batches_quiet_steps(&self) -> bool {
         self.room.is_some()
     }
 
-    /// Checks the steps of `calm`, which follow the last one seen, as [`Judge::see`] checks each of
+    /// Checks the steps of `calm`, which follow the last one seen, as [`Judge::observe`] checks each of
     /// them.
-    pub(crate) fn see_calm(&mut self, calm: &Calm) {
+    pub(crate) fn see_calm(&mut self, calm: &QuietSteps) {
         let Some(mut room) = self.room.take() else {
-            return (0..calm.len()).for_each(|k| self.see(&calm.step(k)));
+            return (0..calm.len()).for_each(|k| self.observe(&calm.step(k)));
         };
         let mut k = 0;
         while k < calm.len() {
@@ -28,7 +28,7 @@ impl Judge {
             self.see_clear(&mut room, calm, k..clear);
             k = clear;
             if k < calm.len() {
-                self.see(&calm.step(k));
+                self.observe(&calm.step(k));
                 k += 1;
             }
         }
@@ -38,7 +38,7 @@ impl Judge {
     /// The number of steps from step `from` on in which no wall is in reach. The first step of a
     /// run, with which its sums begin, counts as one in which a wall is, and so does one before
     /// which a wall still pushed.
-    fn clear(&self, calm: &Calm, from: usize) -> usize {
+    fn clear(&self, calm: &QuietSteps, from: usize) -> usize {
         if self.sums.steps == 0 || self.energy.walls_store() || self.walls.last_force.iter().any(|&force| force != 0.0)
         {
             return 0;
@@ -55,7 +55,7 @@ impl Judge {
     }
 
     /// Checks steps in which no wall is in reach.
-    fn see_clear(&mut self, room: &mut Room, calm: &Calm, steps: Range<usize>) {
+    fn see_clear(&mut self, room: &mut QuietScratch, calm: &QuietSteps, steps: Range<usize>) {
         let n = steps.len();
         let (&mut [ref mut q], &mut [ref mut load], Some(forcing)) =
             (&mut self.q[..], &mut self.load[..], &mut self.grid_load)
@@ -65,7 +65,7 @@ impl Judge {
         if n == 0 {
             return;
         }
-        let Room { weights, scratch, q: places, load: loads, zeros } = room;
+        let QuietScratch { weights, scratch, q: places, load: loads, zeros } = room;
         let (h, per_h) = (self.h, 1.0 / self.h);
         places[0] = *q;
         places[1..=n].copy_from_slice(&calm.q()[steps.clone()]);
@@ -74,7 +74,7 @@ impl Judge {
             *load = forcing.at(end);
         }
         let (before, after) = calm.velocities();
-        let moves = Moves {
+        let moves = StepMotion {
             from: &places[..n],
             to: &places[1..=n],
             shown: &places[1..=n],
@@ -93,17 +93,17 @@ impl Judge {
         let (largest, worst) = scratch.open(per_h, weights, n, self.balance.largest);
         if worst > self.noise.force() || path > self.noise.path() {
             // One of the steps will be accused: see them one by one to find out when.
-            return steps.for_each(|k| self.see(&calm.step(k)));
+            return steps.for_each(|k| self.observe(&calm.step(k)));
         }
         self.noise.book(1.0, n as f64);
         self.balance.largest = largest;
-        self.balance.see(&self.noise, worst, path);
+        self.balance.observe(&self.noise, worst, path);
         self.energy.see_calm(&self.matrices, (h, per_h), &moves, &scratch.load, n);
         if self.sums.whole {
             self.sums.add_all(&moves, scratch, (h, per_h), n);
         }
         self.sums.steps += n as u64;
-        self.extent.see(&places[1..=n], moves.after, weights, n);
+        self.extent.observe(&places[1..=n], moves.after, weights, n);
         (*q, *load) = (places[n], loads[n]);
     }
 }

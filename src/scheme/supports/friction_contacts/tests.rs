@@ -22,8 +22,8 @@ impl Draws {
 
 /// Contacts of a structure.
 struct Scene {
-    places: Places,
-    sweeps: Sweeps,
+    places: ContactRows,
+    sweeps: FrictionContacts,
     factor: Factor,
     rows: Vec<Row>,
     n: usize,
@@ -48,7 +48,7 @@ impl Scene {
         let rows: Vec<Row> = (0..2 * count).map(&mut row).collect();
         let mut factor = Factor::new(&a).expect("a definite matrix");
         let all: Vec<&Row> = rows.iter().collect();
-        let (places, mut sweeps) = (Places::new(n, &all, &mut factor), Sweeps::new(a, &all, count));
+        let (places, mut sweeps) = (ContactRows::new(n, &all, &mut factor), FrictionContacts::new(a, &all, count));
         let [inside, off] = [0, 1].map(|_| (0..n).map(|_| draws.between(-1.0, 1.0)).collect::<Vec<f64>>());
         for index in 0..count {
             let (turn, at) = (draws.between(0.0, 6.3), [2 * index, 2 * index + 1]);
@@ -58,7 +58,13 @@ impl Scene {
             let mu = if draws.chance(0.5) { draws.between(0.0, friction) } else { 0.0 };
             let compliance = if draws.chance(0.3) { draws.between(0.1, 1.0) } else { 0.0 };
             let impulse = [0.0; 2];
-            sweeps.touches.push(Touch::new(&places, (index, at), (normal, bound * unit), (mu, compliance), impulse));
+            sweeps.touches.push(FrictionContact::new(
+                &places,
+                (index, at),
+                (normal, bound * unit),
+                (mu, compliance),
+                impulse,
+            ));
         }
         for (free, row) in sweeps.free.iter_mut().zip(&rows) {
             *free = unit * (row.dot(&inside) + 2.0 * row.dot(&off));
@@ -185,7 +191,7 @@ fn one_linear_system_gives_the_impulses_of_states_that_are_known() {
             continue;
         }
         let Scene { places, sweeps, .. } = &mut scene;
-        let Sweeps { touches, free, .. } = sweeps;
+        let FrictionContacts { touches, free, .. } = sweeps;
         let exact: Vec<[f64; 2]> = touches.iter().map(|touch| touch.impulse).collect();
         for touch in touches.iter_mut() {
             seen[touch.state as usize] += 1;
@@ -213,7 +219,7 @@ fn states_that_are_wrong_lead_to_those_that_hold() {
             continue;
         }
         let Scene { places, sweeps, .. } = &mut scene;
-        let Sweeps { touches, free, .. } = sweeps;
+        let FrictionContacts { touches, free, .. } = sweeps;
         let exact: Vec<f64> = touches.iter().map(|touch| touch.impulse[0]).collect();
         for start in [State::Open, State::Ahead] {
             touches.iter_mut().for_each(|touch| (touch.state, touch.impulse) = (start, [0.0; 2]));

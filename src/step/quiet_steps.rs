@@ -11,7 +11,7 @@ const MOST: usize = 128;
 ///
 /// Recorder and judge have little to do in such a step, and process many of them in one loop.
 #[derive(Debug)]
-pub struct Calm {
+pub struct QuietSteps {
     length: usize,
     /// Index of the first step and the time at its start, s.
     first: u64,
@@ -25,7 +25,7 @@ pub struct Calm {
     zeros: Vec<f64>,
 }
 
-impl Calm {
+impl QuietSteps {
     /// An empty collection for a scene with this number of walls.
     pub fn new(walls: usize) -> Self {
         let none = [0.0; MOST];
@@ -34,7 +34,7 @@ impl Calm {
     }
 
     /// The maximum number of steps.
-    pub const fn most() -> usize {
+    pub const fn capacity() -> usize {
         MOST
     }
 

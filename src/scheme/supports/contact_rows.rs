@@ -44,7 +44,7 @@ impl Run {
 /// The rows of all places, and the response of the structure to an impulse on each: A⁻¹gᵀ, and W =
 /// G A⁻¹ Gᵀ. All of it is computed once, since only the directions of the contacts change.
 #[derive(Debug)]
-pub(in crate::scheme) struct Places {
+pub(in crate::scheme) struct ContactRows {
     rows: Vec<Run>,
     /// A⁻¹gᵢᵀ.
     lift: Vec<Run>,
@@ -55,7 +55,7 @@ pub(in crate::scheme) struct Places {
     n: usize,
 }
 
-impl Places {
+impl ContactRows {
     /// For a structure of `n` degrees of freedom with the factor of A.
     pub fn new(n: usize, rows: &[&Row], factor: &mut Factor) -> Self {
         let sparse = Rows::new(n, rows.iter().map(|row| row.entries()));
