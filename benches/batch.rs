@@ -2,7 +2,7 @@
 //! measured alternately. Prints a table, checks that both sides found the same motion, and asserts
 //! nothing about time.
 
-use signorini::batch::{By, Lane, Plan, Sine, Stop, Width};
+use signorini::batch::{By, Lane, LaneWall, Plan, Sine, Width};
 use signorini::{Oscillator, Scheme, Stepper, WallLaw};
 use std::hint::black_box;
 use std::time::Instant;
@@ -21,7 +21,7 @@ const EVERY: usize = 32;
 
 /// The source oscillator at restitution `e`, under sines of 1 to 6 N.
 fn lanes(e: f64) -> Vec<Lane> {
-    let stop = |position| Some(Stop { position, law: WallLaw::Rigid { restitution: e } });
+    let stop = |position| Some(LaneWall { position, law: WallLaw::Rigid { restitution: e } });
     let lane = |i: usize| Lane {
         body: Oscillator { mass: 1.0, damping: 0.2, stiffness: 100.0 },
         lower: stop(-5e-3),

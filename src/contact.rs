@@ -259,7 +259,7 @@ impl Episodes {
     /// Adds a part of a step of `length` seconds, at whose end the impulses `jump` (N s) act; the
     /// rest of `impulse` acts over it. The velocities ẇ (m/s) are those at its end: before it,
     /// after its blows, after the jump.
-    pub(crate) fn see_part(
+    pub(crate) fn observe_part(
         &mut self,
         [start, end]: [f64; 2],
         length: f64,

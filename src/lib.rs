@@ -76,7 +76,7 @@ pub use scene::{
     Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SharedStructure,
     Side, State, Structure, Support, System, Table, TimeFunction, Turbulence, TurbulenceSpectrum, Wall, WallLaw,
 };
-pub use scheme::{Counters, Handed, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
+pub use scheme::{Counters, Handover, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{
     ContactPlace, Distribution, EpisodeStatistics, ForceStatistics, Forces, HalfWidths, PlaceKind, Rubbing,
     SectorStatistics, Spectrum, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics, WearStatistics,

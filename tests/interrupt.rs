@@ -3,7 +3,7 @@
 use signorini::case::CaseFile;
 use signorini::study::accuracy::{self, Target};
 use signorini::study::compare::compare;
-use signorini::study::stability::family::Question;
+use signorini::study::stability::family::MapRequest;
 use signorini::study::stability::plan::{Grid, Plan};
 use signorini::study::verdict::Verdict;
 use signorini::sweep::{Axis, Manner, Measure, Shard, Sweep};
@@ -59,7 +59,7 @@ fn studies_stop() {
     stops("accuracy", || {
         accuracy::reach(&long, &Target { method: Some(MOREAU_JEAN.into()), ..Target::new(1e-9, time) }, &mut |_| {})
     });
-    let question = Question { scene: &long, laws: &[] };
+    let question = MapRequest { scene: &long, laws: &[] };
     stops("stability", || {
         Plan::new(question, &Grid { most_steps: 1e9, contacts: 100_000, ..Grid::of(&long) })?.run(&|_| {})
     });

@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use signorini as sg;
 use signorini::study::compare::compare;
-use signorini::study::stability::family::Question;
+use signorini::study::stability::family::MapRequest;
 use signorini::study::stability::plan::{Grid, Plan as Maps};
 use signorini::study::work_precision::{self, Effort, Outcome, Quantity, Steps};
 use signorini::sweep::{Axis, Measure, Sample, Samples, Sweep, Window};
@@ -124,7 +124,7 @@ pub fn _stability<'py>(
     grid.coarsest = coarsest.unwrap_or(grid.coarsest);
     grid.per_decade = per_decade.unwrap_or(grid.per_decade);
     grid.contacts = contacts.unwrap_or(grid.contacts);
-    let question = Question { scene: inner, laws: &[] };
+    let question = MapRequest { scene: inner, laws: &[] };
     let maps = compute_beside(py, || Maps::new(question, &grid)?.run(&|_| {}), &mut |_| Ok(()))?;
     let (cells, safe) = (PyList::empty(py), PyList::empty(py));
     for row in &maps.rows {

@@ -9,7 +9,7 @@ const WHOLE: f64 = 1e-9;
 
 /// A wall of an oscillator.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stop {
+pub struct LaneWall {
     /// g, m.
     pub position: f64,
     /// Rigid or elastic.
@@ -51,9 +51,9 @@ pub struct Lane {
     /// m, c, k.
     pub body: Oscillator,
     /// The wall below, if there is one.
-    pub lower: Option<Stop>,
+    pub lower: Option<LaneWall>,
     /// The wall above.
-    pub upper: Option<Stop>,
+    pub upper: Option<LaneWall>,
     /// f₀, N.
     pub constant: f64,
     /// T, s: the state is recorded once per period.
@@ -101,7 +101,7 @@ impl Lane {
                 ));
             }
             let slot = if wall.side() == Side::Upper { &mut lane.upper } else { &mut lane.lower };
-            if slot.replace(Stop { position: wall.position(), law: wall.law }).is_some() {
+            if slot.replace(LaneWall { position: wall.position(), law: wall.law }).is_some() {
                 let key = format!("wall {:?}", wall.name);
                 return Err(Error::invalid(key, "a second wall on its side", "one wall a side for a lane of a batch"));
             }

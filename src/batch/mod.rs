@@ -63,7 +63,7 @@ mod vector;
 mod width;
 mod work;
 
-pub use lane::{Lane, Sine, Stop};
+pub use lane::{Lane, LaneWall, Sine};
 pub use outcome::{AtWall, Batch, By, Outcome};
 pub use plan::Plan;
 pub use width::Width;

@@ -1,7 +1,7 @@
 //! The assignment of oscillators to a group of lanes: which oscillator each lane computes ("the
 //! guest in its seat"), since when, and what has been counted for it.
 
-use super::lane::{Lane, Stop};
+use super::lane::{Lane, LaneWall};
 use super::outcome::{AtWall, By, Outcome, grown};
 use super::rest::{Arrival, Release, Rest};
 use super::series::{REACH, Series};
@@ -122,7 +122,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
                 self.begin(slot);
             }
             let LaneJob { lane, .. } = guest;
-            let at = |stop: Option<Stop>| stop.is_some_and(|s| s.position == lane.displacement);
+            let at = |stop: Option<LaneWall>| stop.is_some_and(|s| s.position == lane.displacement);
             if lane.velocity != 0.0 || !(at(lane.lower) || at(lane.upper)) {
                 return;
             }
@@ -189,7 +189,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
     pub fn arrive(&mut self, slot: usize, wall: usize, guests: &[LaneJob], results: &mut Results) -> bool {
         let Some(LaneJob { lane, series, .. }) = self.guest(slot, guests) else { return true };
         let (stop, away) = if wall == 0 { (lane.lower, 1.0) } else { (lane.upper, -1.0) };
-        let Some((Stop { position, .. }, restitution)) = stop.and_then(|s| Some((s, s.law.restitution()?))) else {
+        let Some((LaneWall { position, .. }, restitution)) = stop.and_then(|s| Some((s, s.law.restitution()?))) else {
             return true;
         };
         let rest = Rest::new(series, away, position);

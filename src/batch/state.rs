@@ -1,6 +1,6 @@
 //! A group of lanes: their constants, their states, and one step of fixed length.
 
-use super::lane::{Lane, Stop};
+use super::lane::{Lane, LaneWall};
 use super::series::{COSINE, ORDER, SINE, Series};
 use super::vector::{Mask, Vector, polynomial, series};
 use crate::scheme::TAIL_HEIGHT;
@@ -108,7 +108,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
                 put_all(&mut wave.whole[i], slot, &whole[i]);
             }
         }
-        let place = |stop: Option<Stop>, none: f64| stop.map_or(none, |s| s.position);
+        let place = |stop: Option<LaneWall>, none: f64| stop.map_or(none, |s| s.position);
         self.lower.put(slot, place(lane.lower, f64::NEG_INFINITY));
         self.upper.put(slot, place(lane.upper, f64::INFINITY));
         let far = [lane.lower, lane.upper].into_iter().flatten().fold(0.0, |far: f64, s| far.max(s.position.abs()));

@@ -108,7 +108,7 @@ impl<S: Simd> Path<S> {
     /// lanes in which it was not found. Halley's method within a bracket, starting from the
     /// parabola through both ends.
     #[inline(always)]
-    fn meet(
+    fn first_contact(
         &self,
         asked: Mask<S>,
         gap: Vector<S>,
@@ -202,7 +202,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
         if crossing.any() {
             let side = under.pick(-one, one);
             let gap = under.pick(gap_lower, gap_upper);
-            let (met, unmet) = path.meet(crossing, gap, side, z, side.taken_from(way, gap));
+            let (met, unmet) = path.first_contact(crossing, gap, side, z, side.taken_from(way, gap));
             lost = lost | unmet;
             z = crossing.pick(met, z);
             (way, w) = (crossing.pick(side * gap, way), crossing.pick(path.rate(met), w));

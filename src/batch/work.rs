@@ -3,7 +3,7 @@
 
 use super::engine::Engine;
 use super::fallback::follow;
-use super::lane::{Lane, Stop};
+use super::lane::{Lane, LaneWall};
 use super::outcome::Outcome;
 use super::series::Series;
 use super::slots::{LaneJob, Results};
@@ -52,7 +52,7 @@ impl Work<'_> {
 /// The constants of an oscillator that the lanes support: rigid walls, no start on one except on
 /// the way off, few sines, and steps not too short compared with the period.
 fn seated(lane: &Lane) -> Option<Series> {
-    let starts_free = |stop: Option<Stop>, side: Side| {
+    let starts_free = |stop: Option<LaneWall>, side: Side| {
         stop.is_none_or(|stop| {
             stop.law.is_rigid() && (lane.displacement != stop.position || side.sign() * lane.velocity >= 0.0)
         })

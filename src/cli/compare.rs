@@ -89,8 +89,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let notes: Vec<String> = run_notes(&comparison).into_iter().chain(case.notes()).collect();
     let findings = comparison.findings.iter();
     let conclusion = conclusion(&case, &comparison, &verdicts);
-    results.tell("conclusion", json!(conclusion));
-    results.tell("remarks", json!(findings.clone().chain(&notes).collect::<Vec<_>>()));
+    results.add_to_manifest("conclusion", json!(conclusion));
+    results.add_to_manifest("remarks", json!(findings.clone().chain(&notes).collect::<Vec<_>>()));
     let mut document = document(&case, &comparison, rows, &conclusion, &notes);
     if let Some(studies) = &studies {
         document["realisations"] = studies.document();
@@ -106,12 +106,12 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     if let Some(studies) = &studies {
         studies.show(&mut shown, &case);
     }
-    tell(&mut shown, args, &case, &comparison, &verdicts, &notes);
+    add_messages(&mut shown, args, &case, &comparison, &verdicts, &notes);
     Ok(shown)
 }
 
 /// Shows what failed, and in full or as a count the findings and notes.
-fn tell(
+fn add_messages(
     shown: &mut Shown,
     args: &Args,
     case: &Case,

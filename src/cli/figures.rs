@@ -8,7 +8,7 @@ use crate::case::{Case, Embedded};
 use crate::error::{Error, Result};
 use crate::output::Span;
 use crate::output::figure::{Curve, Figure, Mark, Panel};
-use crate::output::pictures::{Labelled, Sheet};
+use crate::output::pictures::{FigureSet, Labelled};
 use crate::output::results::Results;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scheme::{Method, Scheme};
@@ -111,7 +111,7 @@ impl Plate {
             })
             .collect();
         let span = Span { from: 0.0, to: case.scene.duration };
-        let sheet = Sheet { title: &title, scene: &case.scene, runs: &labelled, span };
+        let sheet = FigureSet { title: &title, scene: &case.scene, runs: &labelled, span };
         let force = self.content == Content::Force;
         Ok(sheet.figures()?.into_iter().filter(|(name, _)| (*name == "contact-force") == force).collect())
     }

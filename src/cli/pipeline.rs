@@ -45,8 +45,8 @@ impl Destination {
     pub fn open(&self, case: &Case, command: &str, request: Map<String, Value>) -> Result<Results> {
         let mut results =
             Results::open(&self.folder(&case.name, command), request, self.force, self.formats.usable()?)?;
-        results.tell("command_line", json!(command_line()));
-        results.tell("title", json!(case.title));
+        results.add_to_manifest("command_line", json!(command_line()));
+        results.add_to_manifest("title", json!(case.title));
         Ok(results)
     }
 }

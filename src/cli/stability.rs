@@ -11,7 +11,7 @@ use crate::output::safe_steps::{SafeStep, conclusion, rows, safe_steps, table};
 use crate::output::table::Table;
 use crate::output::{document, stability as output};
 use crate::scheme::{PenaltyLaw, Scheme};
-use crate::study::stability::family::{Family, Question};
+use crate::study::stability::family::{MapRequest, SchemeFamily};
 use crate::study::stability::impact;
 use crate::study::stability::lasting::{Line, MULTIPLES, Quality};
 use crate::study::stability::plan::{Grid, Maps, Plan};
@@ -66,7 +66,7 @@ pub struct Args {
 pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let case = args.case.read_with_restitution(args.restitution, ui)?;
     let mut results = args.place.open(&case, "stability", request("stability", &case, &[]))?;
-    let question = Question { scene: &case.scene, laws: &case.penalty.laws };
+    let question = MapRequest { scene: &case.scene, laws: &case.penalty.laws };
     let plan = Plan::new(question, &Grid::of(&case.scene))?;
     let e = impact::wall_restitution(&case.scene);
     let impacts = impact::maps(plan.scale.mass, case.time.step, e);
@@ -83,12 +83,12 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     }
     let quality = lasting_contacts(&case, &maps, ui)?;
     output::quality(&results.place("lasting-contact.csv")?, &quality)?;
-    results.tell("case_file", case.document.json()?);
+    results.add_to_manifest("case_file", case.document.json()?);
     let safe = safe_steps(&maps, &impacts);
-    results.tell("remarks", json!(case.notes()));
-    results.tell("conclusion", json!(conclusion(&safe)));
-    results.tell("safe_steps", rows(&safe));
-    results.tell("impacts", output::impact_groups(&impacts));
+    results.add_to_manifest("remarks", json!(case.notes()));
+    results.add_to_manifest("conclusion", json!(conclusion(&safe)));
+    results.add_to_manifest("safe_steps", rows(&safe));
+    results.add_to_manifest("impacts", output::impact_groups(&impacts));
     let mut document = document::stability(&case, &maps, &quality);
     document["conclusion"] = json!(conclusion(&safe));
     document["schemes"] = rows(&safe);
@@ -122,10 +122,10 @@ fn schemes(case: &Case) -> Vec<Scheme> {
     let own = case.penalty.laws.first().copied();
     let law = own.unwrap_or(PenaltyLaw::Linear { stiffness, damping: 0.0 });
     let scheme = |family| match family {
-        Family::Constrained(scheme) => scheme,
-        Family::Penalty(integrator) => Scheme::Penalty { law, integrator },
+        SchemeFamily::Constrained(scheme) => scheme,
+        SchemeFamily::Penalty(integrator) => Scheme::Penalty { law, integrator },
     };
-    Family::all().into_iter().map(scheme).collect()
+    SchemeFamily::all().into_iter().map(scheme).collect()
 }
 
 /// Shows what each scheme does to the energy and to the force of a lasting contact.

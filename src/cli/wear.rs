@@ -81,14 +81,14 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     output::write(&mut results, &found)?;
     results.draw("wear", &output::figure(&case, &found))?;
     let notes = case.notes();
-    results.tell("case_file", case.document.json()?);
-    results.tell("remarks", json!(notes));
+    results.add_to_manifest("case_file", case.document.json()?);
+    results.add_to_manifest("remarks", json!(notes));
     let mut answers = output::remarks(&case, &found);
     answers.extend(supports.iter().filter(|support| !support.grows).map(|support| {
         format!("the gaps of support {:?} stay as they are: flats wear, but only round supports widen", support.name)
     }));
-    results.tell("answers", json!(answers));
-    results.tell("supports", json!(found.supports));
+    results.add_to_manifest("answers", json!(answers));
+    results.add_to_manifest("supports", json!(found.supports));
     let mut shown = Shown::of(results, !args.request.place.no_report, output::document(&case, &found));
     shown.table(output::table(&found), "years.csv");
     shown.remarks(answers);

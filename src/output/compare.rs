@@ -3,7 +3,7 @@
 
 use super::Span;
 use super::csv::{self, digits};
-use super::pictures::{Labelled, Sheet};
+use super::pictures::{FigureSet, Labelled};
 use super::results::Results;
 use super::run::{self, Picture};
 use super::site::Site;
@@ -108,7 +108,7 @@ fn figures(results: &mut Results, case: &Case, comparison: &Comparison, span: Sp
         None => runs,
     };
     let title = case.title.as_deref().unwrap_or(&case.name);
-    let sheet = Sheet { title, scene: &case.scene, runs: &runs, span };
+    let sheet = FigureSet { title, scene: &case.scene, runs: &runs, span };
     for (name, svg) in sheet.figures()? {
         results.draw(name, &svg)?;
     }

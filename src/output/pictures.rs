@@ -24,7 +24,7 @@ const STILL: f64 = 1e-9;
 
 /// What is drawn: a title, the walls, the runs and the stretch of time.
 #[derive(Debug, Clone, Copy)]
-pub struct Sheet<'a> {
+pub struct FigureSet<'a> {
     /// Title of every figure.
     pub title: &'a str,
     /// The scene, for its walls.
@@ -35,7 +35,7 @@ pub struct Sheet<'a> {
     pub span: Span,
 }
 
-impl Sheet<'_> {
+impl FigureSet<'_> {
     /// The figures, each with its file name without extension: displacement, velocity, phase plot,
     /// the orbit of each place with probes NAME`-y` and NAME`-z` with the work of wear by sectors,
     /// contact force (where there are walls), force of round supports, work of wear. For a run of

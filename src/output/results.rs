@@ -172,7 +172,7 @@ impl Results {
     }
 
     /// Adds `value` to the manifest as `key`, beside the request.
-    pub fn tell(&mut self, key: &str, value: Value) {
+    pub fn add_to_manifest(&mut self, key: &str, value: Value) {
         self.told.insert(key.to_owned(), value);
     }
 

@@ -2,7 +2,7 @@
 
 use super::atomic::write_whole;
 use super::detail::Detail;
-use super::pictures::{Labelled, Sheet};
+use super::pictures::{FigureSet, Labelled};
 use super::record::TABLES;
 use super::results::Results;
 use super::summary::{self, Checks, Reasons};
@@ -56,7 +56,7 @@ pub fn write(
     let runs = [Labelled { label: &label, run, reference: false, look: picture.look }];
     let draws = checks.realisations.map_or(1, |study| study.count as u64);
     let title = &realisations::titled(case.title.as_deref().unwrap_or(&case.name), draws);
-    let sheet = Sheet { title, scene: &case.scene, runs: &runs, span: picture.span };
+    let sheet = FigureSet { title, scene: &case.scene, runs: &runs, span: picture.span };
     for (name, svg) in sheet.figures()? {
         results.draw(&named(name), &svg)?;
     }

@@ -6,7 +6,7 @@ use super::safe_steps::range_text;
 use crate::error::Result;
 use crate::scheme::Scheme;
 use crate::study::stability::class::Class;
-use crate::study::stability::family::{Family, Parameter};
+use crate::study::stability::family::{Parameter, SchemeFamily};
 use crate::study::stability::impact::{ImpactMap, KAPPAS, alike};
 use crate::study::stability::lasting::{Lasting, Line, Quality};
 use crate::study::stability::plan::{Maps, Row};
@@ -238,13 +238,13 @@ pub(crate) fn impact_groups(maps: &[ImpactMap]) -> Value {
 /// One map of classes per family: file name without extension, and SVG text.
 #[must_use]
 pub fn maps_figures(maps: &Maps, title: &str) -> Vec<(String, String)> {
-    Family::all()
+    SchemeFamily::all()
         .into_iter()
         .map(|family| (format!("stability-{}", slug(family)), map_figure(maps, family, title)))
         .collect()
 }
 
-fn map_figure(maps: &Maps, family: Family, title: &str) -> String {
+fn map_figure(maps: &Maps, family: SchemeFamily, title: &str) -> String {
     let rows: Vec<&Row> = maps.map(family).collect();
     let values: Vec<f64> = rows.iter().map(|row| row.subject.value).collect();
     let parameter = rows.first().map_or(Parameter::Restitution, |row| row.subject.parameter);
@@ -261,6 +261,6 @@ fn map_figure(maps: &Maps, family: Family, title: &str) -> String {
 }
 
 /// A family's name as part of a file name.
-fn slug(family: Family) -> String {
+fn slug(family: SchemeFamily) -> String {
     family.to_string().replace("integrator=", "").replace([':', '='], "-")
 }

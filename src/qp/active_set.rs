@@ -70,7 +70,7 @@ impl ActiveSet {
         limit: u64,
         r: &mut [f64],
     ) -> Result<u64, Failure> {
-        let bounds = |row: usize| super::clamp::meet(lo[row], hi[row]);
+        let bounds = |row: usize| super::clamp::ordered_bounds(lo[row], hi[row]);
         let mut pivots = 0;
         // A bound of the last active set may be infinite in this programme.
         self.keep(system, |row, side, _| (if side == Side::Lower { lo[row] } else { hi[row] }).is_finite());

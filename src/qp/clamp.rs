@@ -249,7 +249,7 @@ impl Clamp {
         super::finite("b", rhs.b, f64::is_finite)?;
         rhs.check(self.scale, 0..self.rows.len())?;
         for (i, (row, &g)) in self.rows.iter_mut().zip(&self.coefficient).enumerate() {
-            let (lo, hi) = meet(rhs.lo[i], rhs.hi[i]);
+            let (lo, hi) = ordered_bounds(rhs.lo[i], rhs.hi[i]);
             (row.lo, row.hi) = if g > 0.0 {
                 (lo / g, hi / g)
             } else if g < 0.0 {
@@ -272,7 +272,7 @@ impl Clamp {
 }
 
 /// A row's own bounds; where they cross by rounding, both become their midpoint.
-pub(super) fn meet(lo: f64, hi: f64) -> (f64, f64) {
+pub(super) fn ordered_bounds(lo: f64, hi: f64) -> (f64, f64) {
     if lo > hi {
         let middle = 0.5 * (lo + hi);
         (middle, middle)

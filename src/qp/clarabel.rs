@@ -11,7 +11,7 @@
 //! only `update_b` is needed between programmes. An elastic row is stated as a rigid one with one
 //! more unknown, the yield s, added to g·x at a cost of s²/(2c).
 
-use super::clamp::meet;
+use super::clamp::ordered_bounds;
 use super::delassus::Delassus;
 use super::pivoting::Pivoting;
 use super::side::Side;
@@ -98,7 +98,7 @@ impl Clarabel {
         self.learn(rhs);
         self.bound.clear();
         for &(row, side) in &self.sides {
-            let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
+            let (lo, hi) = ordered_bounds(rhs.lo[row], rhs.hi[row]);
             let gap = if side == Side::Lower { system.y[row] - lo } else { hi - system.y[row] };
             let unit = system.weight[row] * violation;
             // Bounds are also moved outwards by their rounding error: where the violation is that

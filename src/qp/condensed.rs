@@ -1,7 +1,7 @@
 //! The programme of several unknowns, condensed onto its rows.
 
 use super::active_set::ActiveSet;
-use super::clamp::meet;
+use super::clamp::ordered_bounds;
 use super::clarabel::Clarabel;
 use super::counters::SolverCounters;
 use super::delassus::Delassus;
@@ -178,7 +178,7 @@ impl Condensed {
 /// is none.
 fn violation(system: &Delassus, rhs: &Rhs, noise: f64) -> f64 {
     (0..system.y.len()).fold(0.0, |most, row| {
-        let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
+        let (lo, hi) = ordered_bounds(rhs.lo[row], rhs.hi[row]);
         let excess = (lo - system.y[row]).max(system.y[row] - hi);
         if excess > noise { f64::max(most, excess / system.weight[row]) } else { most }
     })

@@ -12,7 +12,7 @@
 //! an M-matrix, as chains and bars have, that ends in finitely many passes; for others it may
 //! cycle, and what has not settled after [`PASSES`] is left to pivoting.
 
-use super::clamp::meet;
+use super::clamp::ordered_bounds;
 use super::delassus::Delassus;
 use super::pivoting::Pivoting;
 use super::side::Side;
@@ -239,7 +239,7 @@ impl Elimination {
         let mut changes = 0;
         for row in 0..self.rows.len() {
             let state = self.side[row];
-            let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
+            let (lo, hi) = ordered_bounds(rhs.lo[row], rhs.hi[row]);
             let wanted = match state {
                 Some(side) => {
                     let force = self.force(row, rhs);

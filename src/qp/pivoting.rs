@@ -13,7 +13,7 @@
 //! rows. A singular W counts as the limit of positive definite ones (see [`super::relations`]).
 
 use super::block::Block;
-use super::clamp::meet;
+use super::clamp::ordered_bounds;
 use super::cycle::Cycle;
 use super::delassus::Delassus;
 use super::side::Side;
@@ -221,7 +221,7 @@ impl Pivoting {
                 // A force has 16 digits, so no row's motion is more accurate than ulps of the
                 // motion that the largest force causes.
                 let tolerance = f64::max(tolerance * length(row), ULPS * reach * system.weight[row]);
-                let (lo, hi) = meet(lo, hi);
+                let (lo, hi) = ordered_bounds(lo, hi);
                 let excess = (lo - y).max(y - hi);
                 if side[row].is_none() && excess > tolerance {
                     // Nearly dependent rows pass their rounding errors on to this row, amplified.

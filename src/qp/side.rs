@@ -1,7 +1,7 @@
 //! Which bound a row stands on.
 
 use super::Rhs;
-use super::clamp::meet;
+use super::clamp::ordered_bounds;
 
 /// Which bound a row stands on. Its force is sign · (a number ≥ 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +33,7 @@ impl Side {
     /// The bound of a row on this side.
     #[inline]
     pub(super) fn bound(self, rhs: &Rhs, row: usize) -> f64 {
-        let (lo, hi) = meet(rhs.lo[row], rhs.hi[row]);
+        let (lo, hi) = ordered_bounds(rhs.lo[row], rhs.hi[row]);
         if self == Self::Lower { lo } else { hi }
     }
 }

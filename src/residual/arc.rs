@@ -9,7 +9,7 @@ use crate::step::Step;
 
 impl Judge {
     /// Checks an exact step: a stretch between two events, or an instant.
-    pub(super) fn see_arc(&mut self, step: &Step<'_>, arc: &Arc) {
+    pub(super) fn observe_arc(&mut self, step: &Step<'_>, arc: &Arc) {
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.walls.tension = self.walls.tension.max(-wall.side().sign() * step.jump[index]);
         }
@@ -22,19 +22,19 @@ impl Judge {
                 let mut at = Instants::of(nodes(panel));
                 arc.states(&at.t[..at.count], &mut at.q[..at.count], &mut at.v[..at.count]);
                 self.load_at(&mut at, step.extra.first().copied().unwrap_or(0.0));
-                self.look(arc, &mut at, &mut along);
+                self.sample(arc, &mut at, &mut along);
                 let largest = along.end_panel(&at);
                 self.energy.reach(largest);
             }
         }
-        let open = self.energy.see_arc(&self.scene, step, arc, &self.blows.impulse, &along);
+        let open = self.energy.observe_arc(&self.scene, step, arc, &self.blows.impulse, &along);
         if !lasts {
             return;
         }
         let weight = self.weights.root_mass.first().copied().unwrap_or(1.0);
         let balance = open / (step.end - step.start);
-        self.balance.see_largest(balance);
-        self.balance.see_scale(along.largest_force / weight);
+        self.balance.raise_largest(balance);
+        self.balance.raise_scale(along.largest_force / weight);
         self.balance.observe(&self.noise, balance / weight, 0.0);
     }
 
@@ -53,8 +53,8 @@ impl Judge {
     }
 
     /// Adds up what acts at the instants of a panel, and checks the force laws of the walls there.
-    fn look(&mut self, arc: &Arc, at: &mut Instants, along: &mut Along) {
-        let force = self.energy.look(&self.scene, at, along);
+    fn sample(&mut self, arc: &Arc, at: &mut Instants, along: &mut Along) {
+        let force = self.energy.sample(&self.scene, at, along);
         self.noise.load(force * self.weights.per_root_mass.first().copied().unwrap_or(1.0));
         let (mut low, mut high, mut fastest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
         for (&q, v) in at.q[..at.count].iter().zip(&at.v) {
@@ -64,12 +64,12 @@ impl Judge {
         // In flight, most instants are in front of all walls.
         let clear = |sight: &RowWalls| sight.is_clear((sight.of(&[low]), sight.of(&[high])), 0.0);
         if arc.is_rest() || arc.touches() || !self.sights.iter().all(clear) {
-            (0..at.count).for_each(|k| self.look_at_walls(arc, k, at, along));
+            (0..at.count).for_each(|k| self.sample_walls(arc, k, at, along));
         }
     }
 
     /// Checks the walls at instant `k`.
-    fn look_at_walls(&mut self, arc: &Arc, k: usize, at: &mut Instants, along: &mut Along) {
+    fn sample_walls(&mut self, arc: &Arc, k: usize, at: &mut Instants, along: &mut Along) {
         let (t, q, v) = (at.t[k], at.q[k], at.v[k]);
         for index in 0..self.scene.walls.len() {
             let wall = &self.scene.walls[index];
@@ -84,18 +84,18 @@ impl Judge {
                 along.add_damped(-at.weight[k] * r * v);
             }
             let pressure = sign * r;
-            self.walls.see_force(&mut self.noise, index, (pressure, pressure.abs()), rigid);
-            self.walls.see_depth(index, -gap);
+            self.walls.observe_force(&mut self.noise, index, (pressure, pressure.abs()), rigid);
+            self.walls.observe_depth(index, -gap);
             let size = self.extent.reach.max(w.abs()) + wall.position().abs() + wdot.abs() * t;
             if rigid {
-                self.walls.see_gap(&self.noise, index, (gap, size), pressure);
+                self.walls.observe_gap(&self.noise, index, (gap, size), pressure);
             } else {
                 let rounding = PLACE_UNITS * f64::EPSILON * size;
                 let law = |s: f64| wall.law.pressure(s, -sign * wdot);
                 let (low, high) = (law(-gap - rounding), law(-gap + rounding));
                 // Any force between the two is right. They differ by the wall's stiffness times the
                 // rounding of the place, except at the face of a damped wall, where its law jumps.
-                self.walls.see_law(&self.noise, index, (low - pressure).max(pressure - high), 0.0);
+                self.walls.observe_law(&self.noise, index, (low - pressure).max(pressure - high), 0.0);
             }
         }
     }

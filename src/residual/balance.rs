@@ -25,13 +25,13 @@ impl BalanceCheck {
 
     /// Notes the largest residual of a degree of freedom, N.
     #[inline(always)]
-    pub fn see_largest(&mut self, force: f64) {
+    pub fn raise_largest(&mut self, force: f64) {
         self.largest = self.largest.max(force);
     }
 
     /// Notes the size of a force in the balance, N/√kg.
     #[inline(always)]
-    pub fn see_scale(&mut self, force: f64) {
+    pub fn raise_scale(&mut self, force: f64) {
         self.scale = self.scale.max(force);
     }
 }

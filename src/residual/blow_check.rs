@@ -43,7 +43,7 @@ impl Judge {
         let span = step.end - step.start;
         for (impulse, weight) in self.blows.impulse.iter().zip(&self.weights.root_mass) {
             let force = impulse.abs() / span;
-            self.balance.see_largest(force);
+            self.balance.raise_largest(force);
             self.balance.force.observe(force / weight, 0.0, step.end, None);
         }
     }
@@ -148,7 +148,7 @@ impl Judge {
             s.residual[i] += felt;
             self.blows.impulse[i] -= felt;
             lost += 0.5 * felt * (step.velocity_before[i] + step.velocity_after[i]);
-            self.balance.see_scale(felt.abs() / (self.h * self.weights.root_mass[i]));
+            self.balance.raise_scale(felt.abs() / (self.h * self.weights.root_mass[i]));
         }
         self.energy.damp(lost);
     }

@@ -41,9 +41,9 @@ impl Judge {
                 let centre = hole.centre[0].abs() + hole.centre[1].abs();
                 let speed = terms(hole.at, &s.mean_v);
                 let size = terms(hole.at, &s.mean_q) + centre + gap + speed * t;
-                self.walls.see_force(&mut self.noise, place, (pressure, force), true);
-                self.walls.see_depth(place, distance - gap);
-                self.walls.see_gap(&self.noise, place, (gap - distance, size), pressure);
+                self.walls.observe_force(&mut self.noise, place, (pressure, force), true);
+                self.walls.observe_depth(place, distance - gap);
+                self.walls.observe_gap(&self.noise, place, (gap - distance, size), pressure);
                 if force > 0.0 {
                     let noise = force * self.noise.of(size) / gap + self.noise.wall_force(place);
                     supports.askew.observe(across, noise, self.noise.end, Some(place));
@@ -71,7 +71,7 @@ impl Judge {
             let (place, gap, e) = (hole.index, hole.gap, hole.restitution);
             let [y, z] = hole.offset(step.q);
             let distance = y.hypot(z);
-            self.walls.see_depth(place, distance - gap);
+            self.walls.observe_depth(place, distance - gap);
             let (push, jump) = (step.hole_push(place), step.jump[place]);
             if let (Some(sum), Some(size)) = (supports.impulse.get_mut(place), supports.size.get_mut(place)) {
                 *sum = [sum[0] + push[0], sum[1] + push[1]];

@@ -9,7 +9,7 @@ use crate::step::{Balance, Step};
 
 impl Judge {
     /// Checks a step on a grid whose displacement and velocity its walls corrected.
-    pub(super) fn see_corrected(&mut self, step: &Step<'_>) {
+    pub(super) fn observe_corrected(&mut self, step: &Step<'_>) {
         let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = self.contract.balance else { return };
         let Some(mut memory) = self.memory.take() else { return };
         let h = self.h;
@@ -34,7 +34,7 @@ impl Judge {
             scratch.mean_q[i] = step.q[i] - self.q[i] - h * before[i];
             let given = pushed.abs().max(self.blows.impulse[i].abs());
             let terms = s_end[i].abs().max(force_end[i].abs()).max(given / h);
-            self.balance.see_scale(terms / self.weights.root_mass[i]);
+            self.balance.raise_scale(terms / self.weights.root_mass[i]);
         }
         let system = &self.scene.system;
         system.add_mass(1.0, &scratch.mean_v, &mut scratch.residual);
@@ -42,7 +42,7 @@ impl Judge {
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse).filter(|(wall, _)| wall.law.is_rigid()) {
             for &(i, weight) in wall.row().entries() {
                 scratch.residual[i] -= weight * p;
-                self.balance.see_scale((weight * p).abs() / (h * self.weights.root_mass[i]));
+                self.balance.raise_scale((weight * p).abs() / (h * self.weights.root_mass[i]));
             }
         }
         if self.supports.is_some() {
@@ -60,7 +60,7 @@ impl Judge {
         let (mut worst, mut path) = (0.0_f64, 0.0_f64);
         for (i, weight) in self.weights.root_mass.iter().enumerate() {
             let residual = self.scratch.residual[i].abs();
-            self.balance.see_largest(residual / h);
+            self.balance.raise_largest(residual / h);
             worst = worst.max(residual / (h * weight));
             // The balance of the displacement is checked as a length: divided by h² it would be
             // dominated by the rounding error of q.
@@ -76,7 +76,7 @@ impl Judge {
         self.memory = Some(memory);
         let moves = StepMotion::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
         let (hs, n) = ((h, 1.0 / h), self.q.len());
-        self.energy.see_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
+        self.energy.observe_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
         self.balance.observe(&self.noise, worst, path);
     }
 }

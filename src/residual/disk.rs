@@ -13,7 +13,7 @@ impl Judge {
     /// Checks the gap of a rigid hole at the end of the step, and that it pushes only without one.
     pub(super) fn hold_disk(&mut self, hole: &Hole<'_>, motion: &HoleMotion, pressure: f64) {
         let slack = hole.gap - motion.end[0].hypot(motion.end[1]);
-        self.walls.see_gap(&self.noise, hole.index, (slack, self.way(hole, motion)), pressure);
+        self.walls.observe_gap(&self.noise, hole.index, (slack, self.way(hole, motion)), pressure);
     }
 
     /// Checks a rigid hole that pushes only while the body stays at it, along the middle of its
@@ -23,7 +23,7 @@ impl Judge {
         self.hold_disk(hole, motion, pressure);
         if pressure != 0.0 {
             let slack = hole.gap - start[0].hypot(start[1]);
-            self.walls.see_gap(&self.noise, hole.index, (slack, self.way(hole, motion)), pressure);
+            self.walls.observe_gap(&self.noise, hole.index, (slack, self.way(hole, motion)), pressure);
         }
         self.along((hole, motion), did, [start[0] + end[0], start[1] + end[1]], askew);
     }

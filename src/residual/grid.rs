@@ -18,16 +18,16 @@ macro_rules! moves {
 
 impl Judge {
     /// Checks a step between two instants of a grid.
-    pub(super) fn see_grid(&mut self, step: &Step<'_>) {
+    pub(super) fn observe_grid(&mut self, step: &Step<'_>) {
         match self.q.len() {
             // With n constant the compiler removes the loops.
-            1 => self.see_grid_of(step, 1),
-            n => self.see_grid_of(step, n),
+            1 => self.observe_grid_of(step, 1),
+            n => self.observe_grid_of(step, n),
         }
     }
 
     #[inline(always)]
-    fn see_grid_of(&mut self, step: &Step<'_>, n: usize) {
+    fn observe_grid_of(&mut self, step: &Step<'_>, n: usize) {
         // A part of a step has its blows at its end.
         let within = self.loads.has_blows() && !matches!(step.path, Path::Part { .. });
         let beyond = within && self.find_beyond(step);
@@ -56,13 +56,13 @@ impl Judge {
         let worst;
         (self.balance.largest, worst) = self.scratch.open(per_h, &self.weights, n, self.balance.largest);
         let moves = moves!(self, step, beyond);
-        self.energy.see_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
+        self.energy.observe_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
         if beyond {
             self.energy.displace(&self.scene, &self.matrices, h, step);
             self.sums.displace(&self.matrices, &self.blows.beyond, &mut self.scratch.mean_q);
         }
         self.balance.observe(&self.noise, worst, path);
         self.sum(step, per_h, n);
-        self.go_on(step, n);
+        self.begin_next_step(step, n);
     }
 }

@@ -233,16 +233,16 @@ impl Judge {
             self.take_blows(step);
         }
         match step.path {
-            Path::Grid if self.memory.is_some() => self.see_apart(step, |judge| judge.see_corrected(step)),
-            Path::Grid | Path::OneRestitution => self.see_grid(step),
-            Path::Part { length } => self.see_part(step, length),
-            Path::Exact(arc) => self.see_apart(step, |judge| judge.see_arc(step, arc)),
-            Path::Series(series) => self.see_apart(step, |judge| judge.see_series(step, series)),
+            Path::Grid if self.memory.is_some() => self.observe_apart(step, |judge| judge.observe_corrected(step)),
+            Path::Grid | Path::OneRestitution => self.observe_grid(step),
+            Path::Part { length } => self.observe_part(step, length),
+            Path::Exact(arc) => self.observe_apart(step, |judge| judge.observe_arc(step, arc)),
+            Path::Series(series) => self.observe_apart(step, |judge| judge.observe_series(step, series)),
             Path::Handed { contract, step: h } => {
                 self.handed = true;
                 let own = (self.contract, self.h);
                 (self.contract, self.h) = (*contract, h);
-                self.see_grid(step);
+                self.observe_grid(step);
                 (self.contract, self.h) = own;
             }
         }
@@ -250,21 +250,21 @@ impl Judge {
     }
 
     /// Checks a step by `observe`, with its sizes noted before, and its momentum summed and the depths
-    /// behind the walls updated after. [`Judge::see_grid`] does that in its own passes.
-    fn see_apart(&mut self, step: &Step<'_>, observe: impl FnOnce(&mut Self)) {
+    /// behind the walls updated after. [`Judge::observe_grid`] does that in its own passes.
+    fn observe_apart(&mut self, step: &Step<'_>, observe: impl FnOnce(&mut Self)) {
         let n = self.q.len();
         self.prepare(step);
         observe(self);
         self.sum(step, 1.0 / self.h, n);
         for (index, wall) in self.scene.walls.iter().enumerate() {
-            self.walls.see_depth(index, -wall.gap(wall.row().dot(step.q)));
+            self.walls.observe_depth(index, -wall.gap(wall.row().dot(step.q)));
         }
-        self.go_on(step, n);
+        self.begin_next_step(step, n);
     }
 
     /// Makes the state at the end of a step that at the start of the next.
     #[inline(always)]
-    fn go_on(&mut self, step: &Step<'_>, n: usize) {
+    fn begin_next_step(&mut self, step: &Step<'_>, n: usize) {
         for sight in self.wide.iter().filter_map(|&index| self.sights.get(index)) {
             self.extent.speed = self.extent.speed.max(sight.size(step.velocity_after));
         }

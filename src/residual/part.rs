@@ -22,7 +22,7 @@ const SUM_UNITS: f64 = 4.0;
 
 impl Judge {
     /// Checks a part of `length` seconds.
-    pub(super) fn see_part(&mut self, step: &Step<'_>, length: f64) {
+    pub(super) fn observe_part(&mut self, step: &Step<'_>, length: f64) {
         let mut over = std::mem::take(&mut self.over);
         let shown = step.impulse.iter().zip(step.jump).zip(step.force);
         for (over, ((p, jump), force)) in over.iter_mut().zip(shown) {
@@ -40,7 +40,7 @@ impl Judge {
             self.h = length;
             let rubbed = self.supports.as_mut().map(|supports| supports.friction_over(step));
             let friction = rubbed.as_deref().unwrap_or(step.friction);
-            self.see_grid(&Step { v: step.velocity_after, impulse: &over, friction, ..*step });
+            self.observe_grid(&Step { v: step.velocity_after, impulse: &over, friction, ..*step });
             if let (Some(supports), Some(rubbed)) = (&mut self.supports, rubbed) {
                 supports.keep_part(rubbed, step, (length, h));
             }
@@ -50,12 +50,12 @@ impl Judge {
         self.over = over;
         let changes = step.v.iter().zip(step.velocity_after).any(|(v, after)| v != after);
         if changes || step.jump.iter().any(|&p| p != 0.0) {
-            self.see_jump(step, length);
+            self.observe_jump(step, length);
         }
     }
 
     /// Checks the jump of the velocity at the end of a part of `length` seconds.
-    fn see_jump(&mut self, step: &Step<'_>, length: f64) {
+    fn observe_jump(&mut self, step: &Step<'_>, length: f64) {
         self.noise.begin(self.h, step.end);
         self.noise.state(step.q, step.v, 0.0, &self.weights);
         for index in 0..self.scene.walls.len() {
@@ -65,7 +65,7 @@ impl Judge {
         self.jump_momentum(step);
         let mid: Vec<f64> = step.velocity_after.iter().zip(&self.blows.struck).map(|(v, struck)| v + struck).collect();
         let (blow, left) = (&self.blows.impulse, step.velocity_after);
-        self.energy.see_series(&self.scene, step, Moved::default(), blow, left, &mid);
+        self.energy.observe_series(&self.scene, step, Moved::default(), blow, left, &mid);
         let sums = &mut self.sums;
         sums.begin(step);
         for ((seen, size), &p) in sums.seen.iter_mut().zip(&mut sums.sizes).zip(step.jump) {
@@ -112,17 +112,17 @@ impl Judge {
         let struck = along(hole.seen(step.velocity_after)) + along(hole.seen(&self.blows.struck));
         let after = along(hole.seen(step.v));
         let pressure = p / self.h;
-        self.walls.see_force(&mut self.noise, place, (pressure, pressure.abs()), true);
+        self.walls.observe_force(&mut self.noise, place, (pressure, pressure.abs()), true);
         let speeds = terms(hole.at, step.velocity_after) + terms(hole.at, step.v) + terms(hole.at, &self.blows.struck);
         let size = terms(hole.at, step.q) + hole.centre[0].abs() + hole.centre[1].abs() + hole.gap;
-        self.walls.see_gap(&self.noise, place, (gap, size), pressure);
+        self.walls.observe_gap(&self.noise, place, (gap, size), pressure);
         let noise = self.noise.velocity(speeds, self.noise.span) + self.noise.of(size) / hole.gap * speeds;
         let rests = step.resting.contains(&place) && supports.ends_rebounds(hole, (n, struck), self.h, noise);
         let e = if rests || step.wedged.contains(&place) { 0.0 } else { hole.restitution };
         let slack = -after - if struck > 0.0 { e * struck } else { struck };
         // Rounding decides whether a wall that does not push is touched.
         let edge = if p == 0.0 && gap > -self.noise.of(size) { f64::INFINITY } else { 0.0 };
-        self.walls.see_rebound(&self.noise, place, (slack, noise + edge), pressure);
+        self.walls.observe_rebound(&self.noise, place, (slack, noise + edge), pressure);
         if p != 0.0 {
             let across = pressure * (step.normal[place][0] - n[0]).hypot(step.normal[place][1] - n[1]);
             let noise = pressure * self.noise.of(size) / distance + self.noise.wall_force(place);
@@ -142,11 +142,11 @@ impl Judge {
         }
         let struck = before + row.dot(&self.blows.struck);
         let pressure = sign * p / self.h;
-        self.walls.see_force(&mut self.noise, index, (pressure, pressure.abs()), true);
+        self.walls.observe_force(&mut self.noise, index, (pressure, pressure.abs()), true);
         let wall = &self.scene.walls[index];
         let noise = self.noise.velocity(self.speeds(step, wall), self.noise.span);
         let terms = row.entries().iter().map(|&(i, g)| (g * step.q[i]).abs()).sum::<f64>() + wall.position().abs();
-        self.walls.see_gap(&self.noise, index, (gap, terms), pressure);
+        self.walls.observe_gap(&self.noise, index, (gap, terms), pressure);
         // The rebounds end within a step if the acceleration of the part presses the body so; in
         // two planes, of the last one of some length.
         let rests = step.resting.contains(&index) && {
@@ -161,7 +161,7 @@ impl Judge {
         let slack = rebound(wall, e, struck, after);
         // Rounding decides whether a wall in front of the body is touched.
         let edge = if p == 0.0 && gap > 0.0 { f64::INFINITY } else { 0.0 };
-        self.walls.see_rebound(&self.noise, index, (slack, noise + edge), pressure);
+        self.walls.observe_rebound(&self.noise, index, (slack, noise + edge), pressure);
     }
 
     /// Checks the momentum that the velocity gains at the end of a part.
@@ -175,7 +175,7 @@ impl Judge {
         self.scene.system.add_mass(1.0, &s.gained, &mut s.inertia);
         for (i, root) in self.weights.root_mass.iter().enumerate() {
             s.residual[i] += s.inertia[i];
-            self.balance.see_scale(s.inertia[i].abs().max(self.blows.impulse[i].abs()) / (self.h * root));
+            self.balance.raise_scale(s.inertia[i].abs().max(self.blows.impulse[i].abs()) / (self.h * root));
         }
         for (wall, &p) in self.scene.walls.iter().zip(step.jump).filter(|(_, p)| **p != 0.0) {
             for &(i, weight) in wall.row().entries() {

@@ -11,21 +11,21 @@ use crate::step::QuietSteps;
 use std::ops::Range;
 
 impl Judge {
-    /// True if [`Judge::see_calm`] is faster than [`Judge::observe`] step by step.
+    /// True if [`Judge::observe_quiet`] is faster than [`Judge::observe`] step by step.
     pub(crate) fn batches_quiet_steps(&self) -> bool {
         self.room.is_some()
     }
 
     /// Checks the steps of `calm`, which follow the last one seen, as [`Judge::observe`] checks each of
     /// them.
-    pub(crate) fn see_calm(&mut self, calm: &QuietSteps) {
+    pub(crate) fn observe_quiet(&mut self, calm: &QuietSteps) {
         let Some(mut room) = self.room.take() else {
             return (0..calm.len()).for_each(|k| self.observe(&calm.step(k)));
         };
         let mut k = 0;
         while k < calm.len() {
             let clear = k + self.clear(calm, k);
-            self.see_clear(&mut room, calm, k..clear);
+            self.observe_clear(&mut room, calm, k..clear);
             k = clear;
             if k < calm.len() {
                 self.observe(&calm.step(k));
@@ -55,7 +55,7 @@ impl Judge {
     }
 
     /// Checks steps in which no wall is in reach.
-    fn see_clear(&mut self, room: &mut QuietScratch, calm: &QuietSteps, steps: Range<usize>) {
+    fn observe_clear(&mut self, room: &mut QuietScratch, calm: &QuietSteps, steps: Range<usize>) {
         let n = steps.len();
         let (&mut [ref mut q], &mut [ref mut load], Some(forcing)) =
             (&mut self.q[..], &mut self.load[..], &mut self.grid_load)
@@ -98,7 +98,7 @@ impl Judge {
         self.noise.book(1.0, n as f64);
         self.balance.largest = largest;
         self.balance.observe(&self.noise, worst, path);
-        self.energy.see_calm(&self.matrices, (h, per_h), &moves, &scratch.load, n);
+        self.energy.observe_quiet(&self.matrices, (h, per_h), &moves, &scratch.load, n);
         if self.sums.whole {
             self.sums.add_all(&moves, scratch, (h, per_h), n);
         }

@@ -45,7 +45,7 @@ impl Judge {
         let pressure = did.impulse / h;
         let error = (pressure - expected.max(0.0)).abs();
         let noise = self.noise.place(self.way(hole, motion));
-        self.walls.see_law(&self.noise, place, error, slope * noise);
+        self.walls.observe_law(&self.noise, place, error, slope * noise);
         if pressure != 0.0 {
             let across = pressure * (did.normal[0] - at[0] / distance).hypot(did.normal[1] - at[1] / distance);
             let noise = pressure * noise / distance + self.noise.wall_force(place);

@@ -20,7 +20,7 @@ impl Judge {
         for hole in scene.holes() {
             let Some(did) = HolePush::of(step, hole.index) else { continue };
             let motion = self.hole_motion(step, &hole);
-            self.walls.see_depth(hole.index, motion.end[0].hypot(motion.end[1]) - hole.gap);
+            self.walls.observe_depth(hole.index, motion.end[0].hypot(motion.end[1]) - hole.gap);
             self.extent.speed = self.extent.speed.max(motion.after.terms);
             self.hold_hole(step, (&hole, &motion, &did), beyond, &mut supports.askew);
             let rub = Rub {
@@ -65,7 +65,7 @@ impl Judge {
         let (place, gap) = (hole.index, hole.gap);
         let force = did.impulse.hypot(did.friction) / self.h;
         let pressure = did.impulse / self.h;
-        self.walls.see_force(&mut self.noise, place, (pressure, force), hole.law.is_rigid());
+        self.walls.observe_force(&mut self.noise, place, (pressure, force), hole.law.is_rigid());
         if !hole.law.is_rigid() {
             let end = if beyond { hole.offset(&self.blows.arrived) } else { motion.end };
             return self.hold_ring(hole, motion, (did, end), askew);
@@ -95,7 +95,7 @@ impl Judge {
         let closes = middle && did.impulse != 0.0;
         let (reached, edge) = (way >= 0.0 || closes, way.abs() <= place_noise + turning.touching * gap);
         if !reached && !edge {
-            return self.walls.see_law(&self.noise, place, force, 0.0);
+            return self.walls.observe_law(&self.noise, place, force, 0.0);
         }
         if edge && force == 0.0 {
             // Rounding decides whether the hole is in reach: either is accepted.
@@ -126,7 +126,7 @@ impl Judge {
             slack = if other.abs() < slack.abs() { other } else { slack };
         }
         let noise = self.noise.velocity(speeds, self.noise.span) + place_noise / gap * speeds;
-        self.walls.see_rebound(&self.noise, place, (slack, noise), pressure);
+        self.walls.observe_rebound(&self.noise, place, (slack, noise), pressure);
         if force != 0.0 {
             let across = force * (did.normal[0] - normal[0]).hypot(did.normal[1] - normal[1]);
             let noise = force * place_noise / reach + self.noise.wall_force(place);

@@ -15,7 +15,7 @@ use crate::step::Step;
 const MOMENTUM_UNITS: f64 = 4.0;
 
 impl Judge {
-    pub(super) fn see_series(&mut self, step: &Step<'_>, series: &Series) {
+    pub(super) fn observe_series(&mut self, step: &Step<'_>, series: &Series) {
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.walls.tension = self.walls.tension.max(-wall.sign() * step.jump[index]);
         }
@@ -37,7 +37,7 @@ impl Judge {
             self.strike_holes(step);
         }
         let s = &mut self.scratch;
-        self.energy.see_series(&self.scene, step, moved, &self.blows.impulse, &s.damper, &s.spring);
+        self.energy.observe_series(&self.scene, step, moved, &self.blows.impulse, &s.damper, &s.spring);
     }
 
     /// Integrates over the stretch, and checks the walls' laws at the nodes. Leaves ∫ of the net
@@ -62,7 +62,7 @@ impl Judge {
                 s.inertia[i] += weight * s.mean_q[i];
                 s.spring[i] += weight * s.mean_v[i];
                 let weight = self.weights.root_mass[i];
-                self.balance.see_scale(s.load[i].abs() / weight);
+                self.balance.raise_scale(s.load[i].abs() / weight);
                 self.normal_speed = self.normal_speed.max(s.mean_v[i].abs() * weight);
             }
             self.noise.state(&s.mean_q, &s.mean_v, 0.0, &self.weights);
@@ -73,15 +73,15 @@ impl Judge {
                 let (w, rate) = (wall.row().dot(&s.mean_q), wall.row().dot(&s.mean_v));
                 let pressure = sign * r;
                 let (gap, rigid) = (wall.gap(w), wall.law.is_rigid());
-                self.walls.see_force(&mut self.noise, index, (pressure, pressure.abs()), rigid);
-                self.walls.see_depth(index, -gap);
+                self.walls.observe_force(&mut self.noise, index, (pressure, pressure.abs()), rigid);
+                self.walls.observe_depth(index, -gap);
                 for &(i, g) in wall.row().entries() {
                     s.residual[i] += weight * g * r;
                 }
                 let terms: f64 = wall.row().entries().iter().map(|&(i, g)| (g * s.mean_q[i]).abs()).sum();
                 let size = terms + wall.position().abs() + rate.abs() * t;
                 if rigid {
-                    self.walls.see_gap(&self.noise, index, (gap, size), pressure);
+                    self.walls.observe_gap(&self.noise, index, (gap, size), pressure);
                     continue;
                 }
                 if wall.law.damping() > 0.0 {
@@ -90,7 +90,7 @@ impl Judge {
                 let rounding = PLACE_UNITS * f64::EPSILON * size;
                 let law = |depth: f64| wall.law.pressure(depth, -sign * rate);
                 let (low, high) = (law(-gap - rounding), law(-gap + rounding));
-                self.walls.see_law(&self.noise, index, (low - pressure).max(pressure - high), 0.0);
+                self.walls.observe_law(&self.noise, index, (low - pressure).max(pressure - high), 0.0);
             }
         }
         if self.supports.is_some() {
@@ -131,7 +131,7 @@ impl Judge {
             let (open, stopped) = (s.inertia[i] - s.residual[i], s.mean_q[i]);
             let beyond = |open: f64| (open.abs() - rounding * weight).max(0.0);
             let force = (beyond(open) / span).max(beyond(stopped) / radian);
-            self.balance.see_largest(force);
+            self.balance.raise_largest(force);
             worst = worst.max(force / weight);
             doubtful = doubtful.max(beyond(open + stopped) / (span * weight));
         }

@@ -39,14 +39,14 @@ impl Judge {
                 }
             }
             for wall in 0..sight.walls.len() {
-                self.hold(step, beyond, self.sights[place].walls[wall]);
+                self.check_wall(step, beyond, self.sights[place].walls[wall]);
             }
         }
     }
 
     /// Checks one wall.
     #[inline(never)]
-    fn hold(&mut self, step: &Step<'_>, beyond: bool, index: usize) {
+    fn check_wall(&mut self, step: &Step<'_>, beyond: bool, index: usize) {
         let promise = self.contract.promise;
         let wall = &self.scene.walls[index];
         let (sign, is_rigid) = (wall.side().sign(), wall.law.is_rigid());
@@ -59,7 +59,7 @@ impl Judge {
         };
         let pressure = sign * force;
         let largest = pressure.abs().max(mean.abs());
-        self.walls.see_force(&mut self.noise, index, (pressure.min(sign * mean), largest), is_rigid);
+        self.walls.observe_force(&mut self.noise, index, (pressure.min(sign * mean), largest), is_rigid);
         // A bound on the displacement at the end includes what the blows add to it; everything else
         // is without that.
         let bound_there = is_rigid && promise.rigid.displacement == Some(Bound::End);
@@ -73,7 +73,7 @@ impl Judge {
             struck: if is_rigid { before + wall.row().dot(&self.blows.struck) } else { before },
             after: wall.row().dot(step.velocity_after),
         };
-        self.walls.see_depth(index, -wall.gap(wall.row().dot(step.q)));
+        self.walls.observe_depth(index, -wall.gap(wall.row().dot(step.q)));
         if is_rigid {
             self.hold_rigid(step, seen);
         } else {
@@ -133,7 +133,7 @@ impl Judge {
         let size = self.size(step, seen.index);
         let depth = (-wall.gap(seen.w.0)).max(-wall.gap(seen.w.1)).max(f64::MIN_POSITIVE);
         let slope = wall.law.tangent(depth) + 2.0 * wall.law.damping() / self.h;
-        self.walls.see_law(&self.noise, seen.index, error, slope * self.noise.place(size));
+        self.walls.observe_law(&self.noise, seen.index, error, slope * self.noise.place(size));
     }
 
     fn hold_rigid(&mut self, step: &Step<'_>, seen: Seen) {
@@ -143,7 +143,7 @@ impl Judge {
         if let Some(bound) = promise.displacement {
             let slack = slack(&self.scene, index, (bound, step.path), self.h, w, struck);
             if slack < 0.0 || pressure != 0.0 {
-                self.walls.see_gap(&self.noise, index, (slack, self.size(step, index)), pressure);
+                self.walls.observe_gap(&self.noise, index, (slack, self.size(step, index)), pressure);
             }
         }
         let (reached, way) = match promise.velocity {
@@ -173,9 +173,9 @@ impl Judge {
             let accepted = if is_edge { f64::INFINITY } else { 0.0 };
             if reached {
                 let noise = self.noise.velocity(self.speeds(step, wall), self.noise.span);
-                self.walls.see_rebound(&self.noise, index, (slack, noise + accepted), pressure);
+                self.walls.observe_rebound(&self.noise, index, (slack, noise + accepted), pressure);
             } else if !closes && promise.displacement.is_none() {
-                self.walls.see_law(&self.noise, index, pressure.abs(), accepted);
+                self.walls.observe_law(&self.noise, index, pressure.abs(), accepted);
             }
         }
     }

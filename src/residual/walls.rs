@@ -37,7 +37,7 @@ impl WallCheck {
     }
 
     /// Notes the `pressure` of a wall, N, and the largest force that it had in the step.
-    pub fn see_force(&mut self, noise: &mut NoiseModel, wall: usize, (pressure, largest): (f64, f64), rigid: bool) {
+    pub fn observe_force(&mut self, noise: &mut NoiseModel, wall: usize, (pressure, largest): (f64, f64), rigid: bool) {
         self.force_scale = self.force_scale.max(largest);
         self.tension = self.tension.max(-pressure);
         noise.push(wall, largest, rigid);
@@ -45,7 +45,7 @@ impl WallCheck {
 
     /// Notes how far the body is behind a wall, m.
     #[inline(always)]
-    pub fn see_depth(&mut self, wall: usize, depth: f64) {
+    pub fn observe_depth(&mut self, wall: usize, depth: f64) {
         if let Some(deepest) = self.depth.get_mut(wall) {
             *deepest = deepest.max(depth);
         }
@@ -53,7 +53,7 @@ impl WallCheck {
 
     /// Notes the gap of a rigid wall (or the slack of a bound), whose terms are of this `size`, m,
     /// and its pressure, N.
-    pub fn see_gap(&mut self, noise: &NoiseModel, wall: usize, (gap, size): (f64, f64), pressure: f64) {
+    pub fn observe_gap(&mut self, noise: &NoiseModel, wall: usize, (gap, size): (f64, f64), pressure: f64) {
         if gap < 0.0 || pressure != 0.0 {
             let pressure = (pressure, noise.wall_force(wall));
             self.gaps.add((gap, noise.place(size)), pressure, noise.end, wall);
@@ -62,13 +62,13 @@ impl WallCheck {
 
     /// Notes the speed by which a rebound exceeds what the law demands, m/s, with its rounding
     /// error, and the wall's pressure, N.
-    pub fn see_rebound(&mut self, noise: &NoiseModel, wall: usize, slack: (f64, f64), pressure: f64) {
+    pub fn observe_rebound(&mut self, noise: &NoiseModel, wall: usize, slack: (f64, f64), pressure: f64) {
         self.rebounds.add(slack, (pressure, noise.wall_force(wall)), noise.end, wall);
     }
 
     /// Notes the `error` of a wall's force against its law, N, of which the rounding error of the
     /// body's place explains `place`.
-    pub fn see_law(&mut self, noise: &NoiseModel, wall: usize, error: f64, place: f64) {
+    pub fn observe_law(&mut self, noise: &NoiseModel, wall: usize, error: f64, place: f64) {
         if error > 0.0 || error.is_nan() {
             self.law.observe(error, place + noise.wall_force(wall), noise.end, Some(wall));
         }

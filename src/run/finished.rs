@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::residual::{Finding, Refuted, Residuals};
 use crate::scene::State;
-use crate::scheme::{Counters, Handed, Scheme};
+use crate::scheme::{Counters, Handover, Scheme};
 use crate::time::TimeGrid;
 use crate::trajectory::Trajectory;
 use serde::{Deserialize, Serialize};
@@ -44,7 +44,7 @@ pub struct Run<J: Judging = Judged, R: Recording = Recorded> {
     /// Its cost in wall-clock seconds, including recording and judging where requested.
     pub seconds: f64,
     /// Stretches that the exact scheme handed to moreau-jean; empty for other schemes.
-    pub handed: Vec<Handed>,
+    pub handed: Vec<Handover>,
     /// Notes that a reader of the results must know, in sentences.
     pub notes: Vec<String>,
     /// Those of the notes that limit the use of the results: a step that does not resolve a load or

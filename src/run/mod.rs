@@ -175,7 +175,7 @@ mod tests {
             assert!(calm.begin(step.index, step.start) > 0);
             calm.add(end, (&[q], &[v]), (&[before], &[after]));
             if calm.is_full() || k == 299 {
-                together.see_calm(&calm);
+                together.observe_quiet(&calm);
                 (0..calm.len()).for_each(|k| alone.observe(&calm.step(k)));
                 calm.clear();
             }

@@ -57,8 +57,8 @@ impl<J: Judging, R: Recording> Observers<J, R> {
     /// Passes on the steps that have not been passed on yet.
     pub fn catch_up(&mut self) {
         if let Some(calm) = self.calm.as_mut().filter(|calm| calm.len() > 0) {
-            J::see_calm(&mut self.judge, calm);
-            R::see_calm(&mut self.recorder, calm);
+            J::observe_quiet(&mut self.judge, calm);
+            R::observe_quiet(&mut self.recorder, calm);
             calm.clear();
         }
     }

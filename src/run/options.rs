@@ -128,7 +128,7 @@ pub trait Judging: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     fn batches_quiet_steps(judge: &Self::Judge) -> Option<bool>;
     #[doc(hidden)]
-    fn see_calm(judge: &mut Self::Judge, calm: &QuietSteps);
+    fn observe_quiet(judge: &mut Self::Judge, calm: &QuietSteps);
     #[doc(hidden)]
     fn verdict(judge: Self::Judge, recorded: Option<&Trajectory>) -> (Self::Verdict, Self::Findings);
     #[doc(hidden)]
@@ -168,8 +168,8 @@ impl Judging for Judged {
         Some(judge.batches_quiet_steps())
     }
 
-    fn see_calm(judge: &mut Judge, calm: &QuietSteps) {
-        judge.see_calm(calm);
+    fn observe_quiet(judge: &mut Judge, calm: &QuietSteps) {
+        judge.observe_quiet(calm);
     }
 
     fn verdict(mut judge: Judge, recorded: Option<&Trajectory>) -> (Residuals, Vec<Finding>) {
@@ -211,7 +211,7 @@ impl Judging for Unjudged {
         None
     }
 
-    fn see_calm((): &mut (), _: &QuietSteps) {}
+    fn observe_quiet((): &mut (), _: &QuietSteps) {}
 
     fn verdict((): (), _: Option<&Trajectory>) -> ((), ()) {
         ((), ())
@@ -245,7 +245,7 @@ pub trait Recording: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     fn observe(recorder: &mut Self::Recorder, step: &Step<'_>);
     #[doc(hidden)]
-    fn see_calm(recorder: &mut Self::Recorder, calm: &QuietSteps);
+    fn observe_quiet(recorder: &mut Self::Recorder, calm: &QuietSteps);
     #[doc(hidden)]
     fn finish(
         recorder: Self::Recorder,
@@ -286,9 +286,9 @@ impl Recording for Recorded {
         rubbing.observe(step);
     }
 
-    fn see_calm((recorder, _, _): &mut Self::Recorder, calm: &QuietSteps) {
+    fn observe_quiet((recorder, _, _): &mut Self::Recorder, calm: &QuietSteps) {
         // Without an impulse there is nothing to sum up.
-        recorder.see_calm(calm);
+        recorder.observe_quiet(calm);
     }
 
     fn finish(
@@ -322,7 +322,7 @@ impl Recording for Unrecorded {
 
     fn observe((): &mut (), _: &Step<'_>) {}
 
-    fn see_calm((): &mut (), _: &QuietSteps) {}
+    fn observe_quiet((): &mut (), _: &QuietSteps) {}
 
     fn finish((): (), _: &[Contact], _: (&Scene, &[f64]), _: f64) -> ((), ()) {
         ((), ())

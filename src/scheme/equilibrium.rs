@@ -48,7 +48,7 @@ pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
     let scale = Scene { initial: State { q: vec![0.0; n], v: vec![0.0; n] }, ..scene.clone() }.gap_scale();
     let pull = pull(scene, &force, scale);
     let a = Symmetric::sum(&[(1.0, &structure.stiffness), (pull, &structure.mass)]);
-    let mut held = Held::new(scene, a, scale).map_err(|failure| refused(scene, &failure))?;
+    let mut held = StaticProgramme::new(scene, a, scale).map_err(|failure| refused(scene, &failure))?;
     let mut q = vec![0.0; n];
     for _ in 0..MOST_ROUNDS {
         let mut b = force.clone();
@@ -70,14 +70,14 @@ pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
 }
 
 /// The programme of a static shape.
-enum Held {
+enum StaticProgramme {
     /// Between walls alone.
     Walls { solver: Box<Solver>, lo: Vec<f64>, hi: Vec<f64> },
     /// In holes, and between walls too.
     Holes { solver: Box<DiskSolver>, bounds: Vec<DiskBound> },
 }
 
-impl Held {
+impl StaticProgramme {
     /// With the matrix `a`, for lengths of the size `scale`.
     fn new(scene: &Scene, a: Symmetric, scale: f64) -> std::result::Result<Self, Failure> {
         let n = a.size();

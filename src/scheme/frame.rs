@@ -103,7 +103,7 @@ impl<S: Space> Frame<S> {
             kept.as_mut().copy_from_slice(v);
         }
         self.extra.as_mut().fill(0.0);
-        self.let_go();
+        self.take_back_impulses();
     }
 
     /// Sets the extra force, N, of the step; none is zero.
@@ -121,14 +121,14 @@ impl<S: Space> Frame<S> {
         self.start = step as f64 * h;
         self.end = (step + 1) as f64 * h;
         if !self.pushing.is_empty() {
-            self.let_go();
+            self.take_back_impulses();
         }
     }
 
     /// Sets the forces of all walls to zero, before a new step or before a step is solved again.
     /// Not inlined: most steps touch no wall.
     #[inline(never)]
-    pub fn let_go(&mut self) {
+    pub fn take_back_impulses(&mut self) {
         if !self.friction.is_empty() {
             self.pushing.iter().for_each(|&wall| self.friction[wall] = 0.0);
         }

@@ -47,7 +47,7 @@ impl<S: Space> Grid<S> {
         self.rule.advance(step, &mut self.frame)?;
         self.frame.check(step)?;
         if !self.frame.pushing.is_empty() || !self.episodes.idle() {
-            self.tell();
+            self.record_episodes();
         }
         Ok(())
     }
@@ -74,7 +74,7 @@ impl<S: Space> Grid<S> {
 
     /// Passes the last step to the contact episodes. Not inlined: most steps touch no wall.
     #[inline(never)]
-    fn tell(&mut self) {
+    fn record_episodes(&mut self) {
         let Self { frame, rows, episodes, h, .. } = self;
         if self.divides {
             let rates = |wall: usize| {
@@ -85,7 +85,7 @@ impl<S: Space> Grid<S> {
                 Stretch::Part(length) | Stretch::Other(length, _) => length,
                 Stretch::Grid | Stretch::OneRestitution => *h,
             };
-            return episodes.see_part(
+            return episodes.observe_part(
                 [frame.start, frame.end],
                 length,
                 (&frame.impulse, &frame.jump),

@@ -114,7 +114,7 @@ impl Solve<[f64; 1]> for Clamp {
         self.x[0] = free;
         // If the free motion is NaN, no bound is active, and the check of the state reports it.
         self.met = lo.iter().zip(hi).any(|(&lo, &hi)| free < lo || free > hi);
-        if self.met { self.meet(b[0], lo, hi) } else { Ok(()) }
+        if self.met { self.solve_bounded(b[0], lo, hi) } else { Ok(()) }
     }
 
     #[inline]
@@ -147,7 +147,7 @@ impl Solve<[f64; 1]> for Clamp {
 impl Clamp {
     /// Solves a programme whose free motion violates a bound. Not inlined: most do not.
     #[inline(never)]
-    fn meet(&mut self, b: f64, lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
+    fn solve_bounded(&mut self, b: f64, lo: &[f64], hi: &[f64]) -> std::result::Result<(), Failure> {
         self.solves += 1;
         if let Some(other) = &mut self.other {
             let solution = other.solve(&Rhs { b: &[b], lo, hi })?;

@@ -101,7 +101,7 @@ impl<S: Space> MoreauJean<S> {
     /// Solves for δ and the walls' impulses, if the walls of row `first` may be met and those of no
     /// row before it. Not inlined: most steps meet no wall.
     #[inline(never)]
-    fn meet(&mut self, first: usize, step: u64, frame: &mut Frame<S>) -> Result<()> {
+    fn solve_contacts(&mut self, first: usize, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Self { body, programme, ahead, .. } = self;
         for row in first..programme.count_rows() {
             let reach = programme.seen(row, ahead);
@@ -145,13 +145,13 @@ impl<S: Space> MoreauJean<S> {
     /// that pushes, which shows only after the first solution. Returns whether the displacement by
     /// the blows must be added.
     #[inline(never)]
-    fn carry(&mut self, step: u64, frame: &mut Frame<S>) -> Result<bool> {
+    fn solve_with_blows(&mut self, step: u64, frame: &mut Frame<S>) -> Result<bool> {
         let found = self.body.find_blows(&[(frame.start, frame.end, frame.end - self.body.h * self.theta)]);
         if !found || self.body.answers(&frame.pushing) {
             return Ok(false);
         }
         if self.body.damped {
-            frame.let_go();
+            frame.take_back_impulses();
             self.body.damp_shift(1.0, &mut self.b);
             self.settle(step, frame)?;
         }
@@ -161,7 +161,7 @@ impl<S: Space> MoreauJean<S> {
     /// Writes the forces of a step with impulses, and counts the step as frozen if a wall pushed
     /// right after one on the opposite side of the same row.
     #[inline(never)]
-    fn watch(&mut self, frame: &mut Frame<S>) {
+    fn record_forces(&mut self, frame: &mut Frame<S>) {
         let row_of = |wall: usize| self.programme.row_of(wall);
         let frozen = frame.pushing.iter().any(|&wall| self.last[row_of(wall)] * frame.impulse[wall] < 0.0);
         for row in self.pushed.drain(..) {
@@ -216,16 +216,16 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
         self.programme.free();
         match self.programme.first_near(&self.ahead) {
             None => self.programme.release(&self.b, (frame.start, step))?,
-            Some(row) => self.meet(row, step, frame)?,
+            Some(row) => self.solve_contacts(row, step, frame)?,
         }
-        let carried = self.body.blows.is_some() && self.carry(step, frame)?;
+        let carried = self.body.blows.is_some() && self.solve_with_blows(step, frame)?;
         go::<S>((h, self.theta), self.programme.x(), &mut frame.q, &mut frame.v);
         frame.after.clone_from(&frame.v);
         if carried {
             self.body.shift(&mut frame.q);
         }
         if !self.pushed.is_empty() || !frame.pushing.is_empty() {
-            self.watch(frame);
+            self.record_forces(frame);
         }
         Ok(())
     }

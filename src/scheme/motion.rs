@@ -1,6 +1,6 @@
 //! The trait of what the stepper drives: a rule on a grid, or the exact motion.
 
-use super::{Counters, Handed};
+use super::{Counters, Handover};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::Scene;
@@ -45,7 +45,7 @@ pub(super) trait Motion: Debug + Send {
     fn open_contacts(&self) -> Vec<Contact>;
 
     /// Stretches that the exact scheme has left to moreau-jean so far.
-    fn handed(&self) -> &[Handed] {
+    fn handed(&self) -> &[Handover] {
         &[]
     }
 

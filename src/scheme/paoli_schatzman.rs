@@ -159,7 +159,7 @@ impl<S: Space> PaoliSchatzman<S> {
     fn damp_blows(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let h = self.body.h;
         if self.body.find_blows(&[counted_blows(step, h)]) && self.body.damped && !self.body.answers(&frame.pushing) {
-            frame.let_go();
+            frame.take_back_impulses();
             self.body.damp_shift(1.0 / h, &mut self.b);
             self.settle(step, frame)?;
         }

@@ -127,7 +127,7 @@ impl<S: Space> Penalty<S> {
 
     /// The force of a wall in a step in which the mean velocity of its row is `rate`.
     #[inline]
-    fn answer(&self, wall: usize, rate: f64) -> LawResponse {
+    fn law_response(&self, wall: usize, rate: f64) -> LawResponse {
         let (face, h) = (self.body.walls[wall], self.body.h);
         let s0 = face.depth(self.place[wall]);
         let s1 = s0 - face.sign * h * rate;
@@ -138,17 +138,17 @@ impl<S: Space> Penalty<S> {
     /// v_θ of one degree of freedom in a step that may meet a wall, whose impulses it writes: the
     /// root of (A/θ)(v_θ − v) − b − h Gᵀ P̄, a function that increases with it.
     #[inline(never)]
-    fn meet_alone(&mut self, frame: &mut Frame<S>, step: u64) -> Result<f64> {
+    fn solve_alone(&mut self, frame: &mut Frame<S>, step: u64) -> Result<f64> {
         let v = frame.v[0];
         let (mut lo, mut hi) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut mean = v + self.theta * self.delta[0];
         for _ in 0..NEWTON_LIMIT {
             self.walls.iterations += 1;
-            let size = self.look(mean, v);
+            let size = self.evaluate_laws(mean, v);
             let (residual, slope) = self.balance(mean, v);
             // Below two units of rounding of the terms that cancel, the residual is rounding error.
             if residual.abs() <= 2.0 * f64::EPSILON * size {
-                return Ok(self.carry(mean, frame));
+                return Ok(self.balanced_velocity(mean, frame));
             }
             if residual > 0.0 {
                 hi = hi.min(mean);
@@ -161,14 +161,14 @@ impl<S: Space> Penalty<S> {
             if next == mean || next == lo || next == hi {
                 // A face may lie between both ends: the steeper side has all walls in contact.
                 let steepness = |this: &mut Self, mean: f64| {
-                    this.look(mean, v);
+                    this.evaluate_laws(mean, v);
                     this.balance(mean, v).1
                 };
                 let other = if next == mean || next == lo { hi } else { lo };
                 let steeper = other.is_finite() && steepness(self, other) > steepness(self, next);
                 let mean = if steeper { other } else { next };
-                self.look(mean, v);
-                return Ok(self.carry(mean, frame));
+                self.evaluate_laws(mean, v);
+                return Ok(self.balanced_velocity(mean, frame));
             }
             mean = next;
         }
@@ -178,11 +178,11 @@ impl<S: Space> Penalty<S> {
 
     /// Takes the forces of the walls and their slopes at v_θ = `mean`, and returns the size of the
     /// terms of [`Self::balance`].
-    fn look(&mut self, mean: f64, v: f64) -> f64 {
+    fn evaluate_laws(&mut self, mean: f64, v: f64) -> f64 {
         let mut size = self.alone * (mean.abs() + v.abs()) + self.b[0].abs();
         for wall in 0..self.rate.len() {
             let weight = self.rate[wall];
-            let LawResponse { force, slope, noise } = self.answer(wall, weight * mean);
+            let LawResponse { force, slope, noise } = self.law_response(wall, weight * mean);
             (self.walls.force[wall], self.walls.slope[wall]) = (force, slope);
             // The depth itself has the rounding error of its terms.
             size += self.body.h * weight.abs() * (force.abs() + slope * (noise + (weight * mean).abs()));
@@ -203,7 +203,7 @@ impl<S: Space> Penalty<S> {
 
     /// v_θ where the tangents of the laws at `mean` keep the balance, and writes the impulses of
     /// these forces. A wall that would pull, which is rounding error, has no force.
-    fn carry(&mut self, mean: f64, frame: &mut Frame<S>) -> f64 {
+    fn balanced_velocity(&mut self, mean: f64, frame: &mut Frame<S>) -> f64 {
         loop {
             let (residual, slope) = self.balance(mean, frame.v[0]);
             let shift = -residual / slope;
@@ -225,10 +225,10 @@ impl<S: Space> Penalty<S> {
     /// Solves for δ of a step that may meet a wall, and writes the walls' impulses. Not inlined:
     /// most steps meet no wall.
     #[inline(never)]
-    fn meet(&mut self, frame: &mut Frame<S>, step: u64) -> Result<()> {
-        // The solver is moved out, since it calls `self.answer`.
+    fn solve_contacts(&mut self, frame: &mut Frame<S>, step: u64) -> Result<()> {
+        // The solver is moved out, since it calls `self.law_response`.
         let mut walls = std::mem::take(&mut self.walls);
-        let solved = walls.solve(|wall, rate| self.answer(wall, rate));
+        let solved = walls.solve(|wall, rate| self.law_response(wall, rate));
         self.walls = walls;
         solved.map_err(|residual| Error::Newton { time: frame.start, step, residual })?;
         self.push(frame);
@@ -243,7 +243,7 @@ impl<S: Space> Penalty<S> {
             self.body.push(self.body.h, &self.walls.guess, &mut self.delta);
             S::solve(&mut self.factor, &mut self.delta);
             if correct {
-                self.see_rates(frame);
+                self.update_rates(frame);
                 self.walls.refine(&self.rate);
             }
         }
@@ -252,7 +252,7 @@ impl<S: Space> Penalty<S> {
     }
 
     /// G v_θ = G(v + θδ).
-    fn see_rates(&mut self, frame: &Frame<S>) {
+    fn update_rates(&mut self, frame: &Frame<S>) {
         let Self { body, theta, mean_velocity, delta, rate, .. } = self;
         let states = frame.v.as_ref().iter().zip(delta.as_ref());
         for (mean, (v, d)) in mean_velocity.as_mut().iter_mut().zip(states) {
@@ -292,12 +292,12 @@ impl<S: Space> Rule<S> for Penalty<S> {
             inside |= face.depth(w) > 0.0 || face.depth(w + h * free) > 0.0;
         }
         if inside && self.body.n == 1 {
-            let mean = self.meet_alone(frame, step)?;
+            let mean = self.solve_alone(frame, step)?;
             frame.q[0] += h * mean;
             frame.v[0] = (mean - (1.0 - theta) * frame.v[0]) / theta;
         } else {
             if inside {
-                self.meet(frame, step)?;
+                self.solve_contacts(frame, step)?;
             }
             for ((q, v), d) in frame.q.as_mut().iter_mut().zip(frame.v.as_mut()).zip(self.delta.as_ref()) {
                 *q += h * (*v + theta * d);

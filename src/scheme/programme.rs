@@ -191,7 +191,7 @@ impl<S: Space> Programme<S> {
         if self.bounded.is_empty() {
             return self.release(b, (time, step));
         }
-        self.meet(b, (time, step), force, pushing)
+        self.solve_bounded(b, (time, step), force, pushing)
     }
 
     /// The same if no row has a bound.
@@ -203,7 +203,7 @@ impl<S: Space> Programme<S> {
 
     /// The same if a row has a bound. Not inlined: in most steps no row has one.
     #[inline(never)]
-    fn meet(
+    fn solve_bounded(
         &mut self,
         b: &S::Vector,
         (time, step): (f64, u64),

@@ -2,7 +2,7 @@
 
 use super::jumps::Jumps;
 use super::kernel::Kernel;
-use super::{Handed, Method, Scheme};
+use super::{Handover, Method, Scheme};
 use crate::error::{Error, Result};
 use crate::interrupt::Asking;
 use crate::qp::Backend;
@@ -392,7 +392,7 @@ impl Stepper {
 
     /// Stretches that the exact scheme has left to moreau-jean so far; empty for other schemes.
     #[must_use]
-    pub fn handed(&self) -> &[Handed] {
+    pub fn handed(&self) -> &[Handover] {
         self.kernel.motion().handed()
     }
 

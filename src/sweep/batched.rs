@@ -70,7 +70,7 @@ impl Plan {
         let mut rows = Vec::with_capacity(points.len());
         for (point, lane) in points.iter().zip(lanes) {
             let mut row = self.blank(point);
-            let told = lane.and_then(|(lane, scene)| {
+            let measured_values = lane.and_then(|(lane, scene)| {
                 let batch = batch.as_ref().map_err(Clone::clone)?;
                 let missing = || Error::invalid("lane", seat, "an outcome");
                 let outcome = batch.outcomes().get(seat).cloned().unwrap_or_else(|| Err(missing()));
@@ -78,9 +78,9 @@ impl Plan {
                 seat += 1;
                 Ok((outcome?, strobes, lane, scene))
             });
-            match told {
+            match measured_values {
                 Ok((outcome, strobes, lane, scene)) => {
-                    row.measures = self.told(&outcome, strobes, &lane, &scene);
+                    row.measures = self.measured_values(&outcome, strobes, &lane, &scene);
                     if self.sweep.samples.is_some() {
                         let time = |index: usize| (f64::from(settle) + 1.0 + index as f64) * lane.period;
                         let from = strobes.len().saturating_sub(self.sweep.most_samples);
@@ -123,7 +123,7 @@ impl Plan {
         Ok((Lane::of(&case.scene, period)?, case.scene))
     }
 
-    fn told(&self, outcome: &Outcome, strobes: &[[f64; 2]], lane: &Lane, scene: &Scene) -> Vec<Option<f64>> {
+    fn measured_values(&self, outcome: &Outcome, strobes: &[[f64; 2]], lane: &Lane, scene: &Scene) -> Vec<Option<f64>> {
         let mut values = Vec::with_capacity(self.measured());
         let [low, high] = outcome.extent;
         for measure in &self.sweep.measures {

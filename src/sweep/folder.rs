@@ -192,7 +192,7 @@ impl Study {
 }
 
 /// Adds to the manifest of `results` what is recorded beside the request.
-pub(super) fn tell(results: &mut Results, study: &Study, shard: Shard) {
+pub(super) fn record_request(results: &mut Results, study: &Study, shard: Shard) {
     for (key, value) in [
         ("shard", json!(shard.to_string())),
         ("arithmetic", json!(arithmetic())),
@@ -200,7 +200,7 @@ pub(super) fn tell(results: &mut Results, study: &Study, shard: Shard) {
         ("title", json!(study.title)),
         ("picture", study.picture.document()),
     ] {
-        results.tell(key, value);
+        results.add_to_manifest(key, value);
     }
 }
 

@@ -138,7 +138,7 @@ pub(crate) fn merge_in(
         }
     }
     let mut results = Results::open(out, request.clone(), force, formats)?;
-    folder::tell(&mut results, &first.study, Shard::WHOLE);
+    folder::record_request(&mut results, &first.study, Shard::WHOLE);
     let tables = tables(&parts, &mut results, (rows, length), &names)?;
     results.finish()?;
     let differing_arithmetic = parts.iter().any(|part| part.arithmetic != first.arithmetic);

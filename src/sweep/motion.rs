@@ -71,10 +71,10 @@ impl Motion {
     pub fn observe(&mut self, step: &Step<'_>) {
         if step.end > self.from && step.end > step.start {
             match step.path {
-                Path::Exact(arc) if arc.is_rest() => self.see_grid(step),
-                Path::Exact(arc) => self.see_path(step, arc.fastest_motion()),
-                Path::Series(series) => self.see_path(step, series.rate()),
-                Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => self.see_grid(step),
+                Path::Exact(arc) if arc.is_rest() => self.observe_grid(step),
+                Path::Exact(arc) => self.observe_path(step, arc.fastest_motion()),
+                Path::Series(series) => self.observe_path(step, series.rate()),
+                Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => self.observe_grid(step),
             }
         }
         // A jump at the end of the step.
@@ -82,7 +82,7 @@ impl Motion {
         self.last.v.copy_from_slice(step.v);
     }
 
-    fn see_grid(&mut self, step: &Step<'_>) {
+    fn observe_grid(&mut self, step: &Step<'_>) {
         let span = step.end - step.start.max(self.from);
         for (probe, seen) in self.probes.iter().zip(&mut self.seen) {
             let (before, u) = (probe.dot(&self.last.q), probe.dot(step.q));
@@ -92,7 +92,7 @@ impl Motion {
     }
 
     /// A stretch of exact motion whose largest angular frequency is `rate` (rad/s).
-    fn see_path(&mut self, step: &Step<'_>, rate: f64) {
+    fn observe_path(&mut self, step: &Step<'_>, rate: f64) {
         let from = step.start.max(self.from);
         let span = step.end - from;
         let count = (span * rate / FRAC_PI_4).ceil().clamp(1.0, 1e6);

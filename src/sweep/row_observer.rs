@@ -112,7 +112,7 @@ impl RowObserver {
         let mut values = Vec::new();
         let exponent = self.exponent(scene);
         for &measure in &sweep.measures {
-            self.tell(measure, sweep, case, scene, (&statistics, exponent), &mut values);
+            self.push_values(measure, sweep, case, scene, (&statistics, exponent), &mut values);
         }
         let samples = sweep.samples.map_or_else(Vec::new, |samples| self.samples(samples, sweep.most_samples, scene));
         (values, samples)
@@ -122,7 +122,7 @@ impl RowObserver {
         self.contacts.iter().filter(|contact| contact.start >= self.from)
     }
 
-    fn tell(
+    fn push_values(
         &self,
         measure: Measure,
         sweep: &Sweep,

@@ -95,7 +95,7 @@ impl Plan {
         let folder = manner.shard.folder(folder);
         let request = folder::of_shard(self.request(), manner.shard);
         let mut results = Results::open(&folder, request, manner.force, formats)?;
-        folder::tell(&mut results, &Study::of(self)?, manner.shard);
+        folder::record_request(&mut results, &Study::of(self)?, manner.shard);
         let all = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = manner.threads.unwrap_or(all).max(1);
         let rows = manner.shard.chains(self.chains) * self.chain_rows();

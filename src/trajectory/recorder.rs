@@ -150,14 +150,14 @@ impl Recorder {
                 }
                 self.partial = force;
             }
-            Path::Exact(_) | Path::Series(_) => self.see_exact(step),
-            Path::Handed { .. } => self.see_handed(step),
+            Path::Exact(_) | Path::Series(_) => self.observe_exact(step),
+            Path::Handed { .. } => self.observe_handed(step),
         }
     }
 
     /// Adds steps in which no wall pushes and no contact ends, as [`Recorder::observe`] adds each of
     /// them.
-    pub(crate) fn see_calm(&mut self, calm: &QuietSteps) {
+    pub(crate) fn observe_quiet(&mut self, calm: &QuietSteps) {
         let mut from = 0;
         // Impulses since the last row belong to the next one.
         while from < calm.len() && (!self.worn.is_empty() || self.pending.iter().any(|&sum| sum != 0.0)) {
@@ -203,7 +203,7 @@ impl Recorder {
 
     /// Adds a step whose ends need not fall on rows: between them the displacement is interpolated
     /// linearly.
-    fn see_handed(&mut self, step: &Step<'_>) {
+    fn observe_handed(&mut self, step: &Step<'_>) {
         self.wear(step);
         for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
             *sum += p;
@@ -233,7 +233,7 @@ impl Recorder {
         }
     }
 
-    fn see_exact(&mut self, step: &Step<'_>) {
+    fn observe_exact(&mut self, step: &Step<'_>) {
         let path = step.path;
         let mut from = step.start;
         if step.start == 0.0 && step.end == 0.0 {

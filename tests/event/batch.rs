@@ -2,7 +2,7 @@
 //! forms.
 
 use crate::draws;
-use signorini::batch::{By, Lane, Outcome, Plan, Sine, Stop, Width};
+use signorini::batch::{By, Lane, LaneWall, Outcome, Plan, Sine, Width};
 use signorini::{Oscillator, Path, Scheme, Stepper, WallLaw};
 
 /// Numbers from 0 to 1 that are the same in every run.
@@ -25,7 +25,7 @@ impl Draw {
 
 /// The source oscillator, with restitution `e` under a sine of `amplitude` (N).
 fn source(amplitude: f64, e: f64) -> Lane {
-    let stop = |position| Some(Stop { position, law: WallLaw::Rigid { restitution: e } });
+    let stop = |position| Some(LaneWall { position, law: WallLaw::Rigid { restitution: e } });
     Lane {
         body: Oscillator { mass: 1.0, damping: 0.2, stiffness: 100.0 },
         lower: stop(-5e-3),
@@ -44,7 +44,7 @@ fn random(draw: &mut Draw) -> Lane {
     // From no damping to far beyond critical damping.
     let damping = draw.one_of(&[0.0, 0.02, 0.3, 2.0, 60.0]);
     let gap = draw.between(1e-3, 2e-2);
-    let stop = |draw: &mut Draw, position: f64| Stop {
+    let stop = |draw: &mut Draw, position: f64| LaneWall {
         position,
         law: WallLaw::Rigid { restitution: draw.between(-0.1, 1.05).clamp(0.0, 1.0) },
     };
@@ -279,7 +279,7 @@ fn a_free_body_under_a_sine_keeps_to_the_closed_form_and_to_its_walls() {
     let lane = |wall: f64| Lane {
         body: Oscillator { mass: 1.0, damping: 0.0, stiffness: 0.0 },
         lower: None,
-        upper: Some(Stop { position: wall, law: WallLaw::Rigid { restitution: 0.5 } }),
+        upper: Some(LaneWall { position: wall, law: WallLaw::Rigid { restitution: 0.5 } }),
         velocity: -amplitude / omega,
         period,
         ..source(amplitude, 0.5)
@@ -323,7 +323,7 @@ fn what_cannot_be_held_is_refused_by_name_or_handed_over_and_counted() {
     assert!(error.starts_with("oscillator 2: oscillator: mass is -1"), "{error}");
     assert!(Plan::new(0, 0).run(std::slice::from_ref(&good)).unwrap_err().to_string().starts_with("keep"));
     // Elastic walls go to the exact scheme.
-    let soft = Some(Stop { position: 4e-3, law: WallLaw::Elastic { stiffness: 1e4, damping: 1.0 } });
+    let soft = Some(LaneWall { position: 4e-3, law: WallLaw::Elastic { stiffness: 1e4, damping: 1.0 } });
     let batch = Plan::new(5, 5).run(&[good.clone(), Lane { upper: soft, ..good }]).unwrap();
     assert_eq!((batch.handed(), batch.failed()), (1, 0));
     let outcome = batch.outcomes()[1].clone().unwrap();
@@ -350,7 +350,7 @@ fn a_graze_is_never_passed_and_never_made_up() {
             let phase = 0.013 + std::f64::consts::TAU * f64::from(i) / 97.0;
             let angle = phase - lag;
             let law = WallLaw::Rigid { restitution: 0.5 };
-            let at = |sign: f64| Some(Stop { position: sign * size * share, law });
+            let at = |sign: f64| Some(LaneWall { position: sign * size * share, law });
             let lane = Lane {
                 lower: at(-1.0),
                 upper: at(1.0),

@@ -2,7 +2,7 @@
 //! maps must show.
 use signorini::case::Case;
 use signorini::study::stability::class::Class;
-use signorini::study::stability::family::{Family, Question};
+use signorini::study::stability::family::{MapRequest, SchemeFamily};
 use signorini::study::stability::impact::{ImpactMap, alike, impact, maps};
 use signorini::study::stability::plan::{Grid, Maps, Plan};
 use signorini::{Integrator, PenaltyLaw, Scheme};
@@ -178,7 +178,7 @@ fn an_impact_depends_on_nothing_but_phase_law_and_kappa() {
 }
 
 /// Few and coarse steps, so that a map is fast.
-fn grid(families: &[Family]) -> Grid {
+fn grid(families: &[SchemeFamily]) -> Grid {
     Grid { finest: 1e-2, coarsest: 0.9, per_decade: 4.0, families: families.to_vec(), ..Grid::default() }
 }
 
@@ -186,8 +186,8 @@ fn source() -> Case {
     Case::embedded("rigid-walls-sine").unwrap()
 }
 
-fn question(case: &Case) -> Question<'_> {
-    Question { scene: &case.scene, laws: &case.penalty.laws }
+fn question(case: &Case) -> MapRequest<'_> {
+    MapRequest { scene: &case.scene, laws: &case.penalty.laws }
 }
 
 fn run(case: &Case, grid: &Grid) -> Maps {
@@ -196,7 +196,7 @@ fn run(case: &Case, grid: &Grid) -> Maps {
 
 #[test]
 fn newmark_gains_energy_on_the_source_scene_at_every_step() {
-    let family = Family::Constrained(Scheme::Newmark);
+    let family = SchemeFamily::Constrained(Scheme::Newmark);
     let maps = run(&source(), &grid(&[family]));
     let mut cells = maps.map(family).flat_map(|row| &row.cells);
     assert!(cells.all(|c| matches!(c.class, Class::Gaining | Class::Diverged) && c.measured.is_some()));
@@ -205,7 +205,7 @@ fn newmark_gains_energy_on_the_source_scene_at_every_step() {
 
 #[test]
 fn moreau_jean_is_stable_at_small_steps_and_neither_gains_energy_nor_passes_a_wall() {
-    let family = Family::Constrained(Scheme::MoreauJean { theta: 0.5 });
+    let family = SchemeFamily::Constrained(Scheme::MoreauJean { theta: 0.5 });
     let maps = run(&source(), &grid(&[family]));
     for cell in maps.map(family).flat_map(|row| &row.cells) {
         let measured = cell.measured.unwrap();
@@ -229,7 +229,7 @@ fn moreau_jean_freezes_where_a_step_crosses_the_gap() {
         [initial]\nvelocity = 1.0
         [time]\nend = 2.0\nstep = 1e-3";
     let case = Case::parse(text, "free.toml", "").unwrap();
-    let family = Family::Constrained(Scheme::MoreauJean { theta: 0.5 });
+    let family = SchemeFamily::Constrained(Scheme::MoreauJean { theta: 0.5 });
     let wide = Grid { finest: 1e-1, coarsest: 50.0, per_decade: 5.0, ..grid(&[family]) };
     let maps = run(&case, &wide);
     let own = maps.own().next().unwrap();
@@ -244,7 +244,7 @@ fn moreau_jean_freezes_where_a_step_crosses_the_gap() {
 
 #[test]
 fn the_discrete_gradient_never_gains_and_the_trapezoid_does() {
-    let [conserving, trapezoid] = [Integrator::DiscreteGradient, Integrator::Trapezoidal].map(Family::Penalty);
+    let [conserving, trapezoid] = [Integrator::DiscreteGradient, Integrator::Trapezoidal].map(SchemeFamily::Penalty);
     let maps = run(&source(), &grid(&[conserving, trapezoid]));
     for cell in maps.map(conserving).flat_map(|row| &row.cells) {
         assert!(!matches!(cell.class, Class::Gaining | Class::Diverged), "{cell:?}");
@@ -258,7 +258,7 @@ fn the_discrete_gradient_never_gains_and_the_trapezoid_does() {
 
 #[test]
 fn a_ball_that_should_rest_rests() {
-    let family = Family::Constrained(Scheme::MoreauJean { theta: 0.5 });
+    let family = SchemeFamily::Constrained(Scheme::MoreauJean { theta: 0.5 });
     let maps = run(&Case::embedded("bouncing-ball").unwrap(), &grid(&[family]));
     let own = maps.own().next().unwrap();
     assert!(own.cells.iter().take(4).all(|c| c.class == Class::Stable), "{:?}", own.cells);
@@ -278,7 +278,8 @@ fn a_case_with_a_round_support_is_refused() {
 
 #[test]
 fn one_thread_and_two_give_the_same_maps() {
-    let families = [Family::Constrained(Scheme::PaoliSchatzman), Family::Penalty(Integrator::CentralDifference)];
+    let families =
+        [SchemeFamily::Constrained(Scheme::PaoliSchatzman), SchemeFamily::Penalty(Integrator::CentralDifference)];
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| format!("{:?}", run(&source(), &grid(&families))))
@@ -288,7 +289,7 @@ fn one_thread_and_two_give_the_same_maps() {
 
 #[test]
 fn progress_ends_at_the_work_announced() {
-    let plan = Plan::new(question(&source()), &grid(&[Family::Constrained(Scheme::ImplicitEuler)])).unwrap();
+    let plan = Plan::new(question(&source()), &grid(&[SchemeFamily::Constrained(Scheme::ImplicitEuler)])).unwrap();
     let most = std::sync::atomic::AtomicU64::new(0);
     let work = plan.work();
     plan.run(&|done| {

@@ -6,7 +6,7 @@ use signorini::study::change::Change;
 use signorini::study::compare::compare;
 use signorini::study::horizon::{Growth, Source};
 use signorini::study::stability::class::Class;
-use signorini::study::stability::family::{Family, Question};
+use signorini::study::stability::family::{MapRequest, SchemeFamily};
 use signorini::study::stability::lasting::{Quality, lasting};
 use signorini::study::stability::plan::{Grid, Plan};
 use signorini::study::stability::scale::Scale;
@@ -246,10 +246,10 @@ fn a_bar_on_a_wall_shows_what_each_scheme_does_to_energy_and_to_the_force() {
 #[test]
 fn cells_of_two_masses_have_the_classes_that_each_mass_alone_has() {
     let scene = beside(&source(0.8, 2.0), &source(0.8, 2.0));
-    let families = [MOREAU, Scheme::Newmark].map(Family::Constrained);
+    let families = [MOREAU, Scheme::Newmark].map(SchemeFamily::Constrained);
     let grid = Grid { finest: 1e-3, coarsest: 0.9, per_decade: 2.0, families: families.to_vec(), ..Grid::of(&scene) };
-    let maps = Plan::new(Question { scene: &scene, laws: &[] }, &grid).unwrap().run(&|_| {}).unwrap();
-    let own = |family: Family| maps.map(family).find(|row| (row.subject.value - 0.8).abs() < 1e-9).unwrap();
+    let maps = Plan::new(MapRequest { scene: &scene, laws: &[] }, &grid).unwrap().run(&|_| {}).unwrap();
+    let own = |family: SchemeFamily| maps.map(family).find(|row| (row.subject.value - 0.8).abs() < 1e-9).unwrap();
     for cell in own(families[0]).cells.iter().filter(|c| c.step < 5e-3) {
         assert_eq!(cell.class, Class::Stable, "{cell:?}");
     }

@@ -40,8 +40,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
         traced = loci::follow(&family, second, &found, args, ui)?;
         write_loci(&mut results, &traced, &family, second)?;
     }
-    results.tell("orbit_command", json!(args.case.command_line("orbit")));
-    results.tell("case_file", case.document.json()?);
+    results.add_to_manifest("orbit_command", json!(args.case.command_line("orbit")));
+    results.add_to_manifest("case_file", case.document.json()?);
     let mut shown = Shown::of(results, !args.place.no_report, document);
     show_branches(&mut shown, &drawn);
     show_specials(&mut shown, &drawn);

@@ -73,7 +73,7 @@ impl Args {
             "from": self.from,
         });
         let mut results = self.place.open(case, "orbit", extended(request("orbit", case, &[]), settings))?;
-        results.tell("case_file", case.document.json()?);
+        results.add_to_manifest("case_file", case.document.json()?);
         Ok(results)
     }
 

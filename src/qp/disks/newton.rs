@@ -60,7 +60,7 @@ impl Newton {
             if !miss.distance.is_finite() {
                 return false;
             }
-            let held = self.let_go(system) | enter(system);
+            let held = self.release_blocks(system) | enter(system);
             if !held {
                 let stalls = miss.distance >= 0.5 * last || step >= PATIENCE;
                 if miss.is_rounded() || (stalls && miss.distance <= ACCEPTED) {
@@ -126,7 +126,7 @@ impl Newton {
     }
 
     /// Frees the strips that would pull, and returns whether there were any.
-    fn let_go(&mut self, system: &mut System) -> bool {
+    fn release_blocks(&mut self, system: &mut System) -> bool {
         let mut freed = false;
         for (unknown, &push) in self.unknowns.iter().zip(&self.found).filter(|(unknown, _)| !unknown.bends) {
             let Unknown { block, along, .. } = *unknown;

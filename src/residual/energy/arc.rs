@@ -83,7 +83,7 @@ impl Along {
 
 impl Ledger {
     /// Starts a panel with the body and its load; returns the largest of their forces so far, N.
-    pub fn look(&self, scene: &Scene, at: &mut Instants, along: &mut Along) -> f64 {
+    pub fn sample(&self, scene: &Scene, at: &mut Instants, along: &mut Along) -> f64 {
         let [m, c, k] = numbers(scene);
         let n = at.count;
         let (weight, q, v, load) = (&at.weight[..n], &at.q[..n], &at.v[..n], &at.load[..n]);
@@ -117,7 +117,7 @@ impl Ledger {
     /// face is decided by rounding. The wall stores energy only while it touches; what it stores
     /// when contact ends counts as dissipated, since spring and dashpot then relax against each
     /// other.
-    pub fn see_arc(&mut self, scene: &Scene, step: &Step<'_>, arc: &Arc, blow: &[f64], along: &Along) -> f64 {
+    pub fn observe_arc(&mut self, scene: &Scene, step: &Step<'_>, arc: &Arc, blow: &[f64], along: &Along) -> f64 {
         let [mass, _, stiffness] = numbers(scene);
         let mut flows = along.flows;
         let mut open = 0.0;

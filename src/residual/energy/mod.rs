@@ -82,7 +82,7 @@ impl Ledger {
     /// of freedom.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
-    pub fn see_grid(
+    pub fn observe_grid(
         &mut self,
         scene: &Scene,
         matrices: &Matrices,
@@ -99,19 +99,19 @@ impl Ledger {
         let mut flows = self.flows(matrices, (h, per_h), moves, load, n);
         let (q0, q1) = (moves.from, moves.to);
         let walls = if self.springs || step.impulse.iter().any(|&p| p != 0.0) {
-            self.see_walls(scene, h, (q0, q1), step, self.staggered().is_some(), &mut flows)
+            self.observe_walls(scene, h, (q0, q1), step, self.staggered().is_some(), &mut flows)
         } else {
             0.0
         };
         if !step.friction.is_empty() {
-            see_supports(scene, step, &mut flows);
+            observe_supports(scene, step, &mut flows);
         }
         let energy = self.after(matrices, h, (q0, q1), (moves.after, moves.v), n);
         self.book(energy + walls, flows);
     }
 
     /// Adds n steps of one degree of freedom in which no wall touches it, after the first step.
-    pub fn see_calm(
+    pub fn observe_quiet(
         &mut self,
         matrices: &Matrices,
         (h, per_h): (f64, f64),
@@ -197,7 +197,7 @@ impl Ledger {
 
     /// Adds the flows at the walls; returns the energy that they store after the step, J.
     #[inline(never)]
-    fn see_walls(
+    fn observe_walls(
         &mut self,
         scene: &Scene,
         h: f64,
@@ -242,7 +242,7 @@ impl Ledger {
     }
 
     /// Adds to load work and damping, J, the part of the blows' work that the dampers take:
-    /// [`Ledger::see_grid`] is given the blows without it.
+    /// [`Ledger::observe_grid`] is given the blows without it.
     pub fn damp(&mut self, lost: f64) {
         self.report.load_work_j += lost;
         self.report.damping_j += lost;
@@ -314,7 +314,7 @@ impl Ledger {
 
 /// Adds the flows at round holes, and those of friction.
 #[inline(never)]
-fn see_supports(scene: &Scene, step: &Step<'_>, flows: &mut Flows) {
+fn observe_supports(scene: &Scene, step: &Step<'_>, flows: &mut Flows) {
     for (index, at, [push, rub]) in pushes(scene, step) {
         let (before, after) = (at.dot(step.velocity_before), at.dot(step.velocity_after));
         let work = |force: [f64; 2]| 0.5 * (force[0] * (before[0] + after[0]) + force[1] * (before[1] + after[1]));

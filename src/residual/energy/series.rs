@@ -30,7 +30,7 @@ impl Ledger {
 
     /// Adds a stretch and the jump at its end, where the velocity goes from `left` by blows (N s)
     /// to `mid` and by impacts to the step's.
-    pub fn see_series(
+    pub fn observe_series(
         &mut self,
         scene: &Scene,
         step: &Step<'_>,

@@ -9,9 +9,9 @@
 
 use super::super::chung_hulbert::ChungHulbert;
 use super::super::matrices::Matrices;
-use super::super::supports::meet_middle;
-use super::bounds::Bounds;
-use super::held::Held;
+use super::super::supports::closed_hole_state;
+use super::disk_programme::DiskProgramme;
+use super::hole_body::HoleBody;
 use crate::error::Result;
 use crate::qp::{DiskBound, DiskCounters};
 use crate::scene::Scene;
@@ -25,23 +25,23 @@ pub(super) struct Alpha {
     /// Force of each elastic wall at the step's start, N.
     held: Vec<f64>,
     /// All walls and holes, in Δ, m; the rigid ones in v⁺ − v_c, m/s.
-    place: Bounds,
-    rate: Bounds,
+    place: DiskProgramme,
+    rate: DiskProgramme,
     zero: Vec<f64>,
     /// w of each hole at the step's start, m.
     start: Vec<[f64; 2]>,
 }
 
 impl Alpha {
-    pub fn new(scene: &Scene, balance: Balance, held: &Held) -> Result<Self> {
+    pub fn new(scene: &Scene, balance: Balance, held: &HoleBody) -> Result<Self> {
         let (body, gap) = (&held.body, scene.gap_scale());
         let rule = ChungHulbert::new(body, balance)?;
         let h = body.h;
         let mut alpha = Self {
             closed: false,
             held: vec![0.0; scene.walls.len()],
-            place: Bounds::new(scene, rule.matrix(body), gap, |k, c| 1.0 / (k + c / h))?,
-            rate: Bounds::new(scene, rule.velocity_matrix(body), gap / h, |_, _| 0.0)?,
+            place: DiskProgramme::new(scene, rule.matrix(body), gap, |k, c| 1.0 / (k + c / h))?,
+            rate: DiskProgramme::new(scene, rule.velocity_matrix(body), gap / h, |_, _| 0.0)?,
             zero: vec![0.0; body.n],
             start: vec![[0.0; 2]; held.rounds.len()],
             rule,
@@ -51,7 +51,7 @@ impl Alpha {
     }
 
     /// Starts from the state of `held`.
-    pub fn restart(&mut self, held: &Held) {
+    pub fn restart(&mut self, held: &HoleBody) {
         self.held = self.rule.restart(&held.body, &held.frame.q, &held.frame.v);
         let q = &held.frame.q;
         let stands = |wall: usize| {
@@ -68,7 +68,7 @@ impl Alpha {
     }
 
     /// Makes a step.
-    pub fn advance(&mut self, step: u64, held: &mut Held) -> Result<()> {
+    pub fn advance(&mut self, step: u64, held: &mut HoleBody) -> Result<()> {
         held.frame.before.clone_from(&held.frame.v);
         for (hole, start) in self.start.iter_mut().enumerate() {
             *start = held.offset(hole, &held.frame.q);
@@ -93,7 +93,7 @@ impl Alpha {
 
     /// q⁺, v⁺ without the impulses of rigid walls and holes unless one was met, a⁺ likewise, and
     /// the forces of elastic walls. Returns whether a rigid wall or hole was met.
-    fn displace(&mut self, step: u64, held: &mut Held) -> Result<bool> {
+    fn displace(&mut self, step: u64, held: &mut HoleBody) -> Result<bool> {
         let met = if self.rule.unfelt == 0.0 {
             self.put(step, held, 0.0)?
         } else if self.closed {
@@ -108,7 +108,7 @@ impl Alpha {
 
     /// Solves for Δ, the damper not feeling a and the extra force over `unfelt` (s). Returns
     /// whether a rigid wall or hole pushes.
-    fn put(&mut self, step: u64, held: &Held, unfelt: f64) -> Result<bool> {
+    fn put(&mut self, step: u64, held: &HoleBody, unfelt: f64) -> Result<bool> {
         let (body, frame) = (&held.body, &held.frame);
         self.rule.ask(body, unfelt);
         let Self { place, rule, .. } = self;
@@ -134,7 +134,7 @@ impl Alpha {
 
     /// Writes the forces of the elastic walls, and the impulses ½h(r + r⁺) of those that push at
     /// either end of the step.
-    fn press(&mut self, held: &mut Held) {
+    fn press(&mut self, held: &mut HoleBody) {
         let (body, frame) = (&held.body, &mut held.frame);
         for &wall in held.flats.iter().filter(|&&wall| !body.walls[wall].law.is_rigid()) {
             let force = self.place.of_wall(wall);
@@ -148,7 +148,7 @@ impl Alpha {
     }
 
     /// True if a rigid wall is closed at q⁺.
-    fn closes_wall(&self, held: &Held, wall: usize) -> bool {
+    fn closes_wall(&self, held: &HoleBody, wall: usize) -> bool {
         let face = held.body.walls[wall];
         // A wall with a multiplier is closed too: q⁺ is at it to the rounding error of q.
         let presses = self.place.of_wall(wall) != 0.0;
@@ -156,7 +156,7 @@ impl Alpha {
     }
 
     /// True if a rigid hole is closed at q⁺.
-    fn closes_hole(&self, held: &Held, hole: usize) -> bool {
+    fn closes_hole(&self, held: &HoleBody, hole: usize) -> bool {
         held.rounds[hole].law.is_rigid()
             && (self.place.of_hole(held.index(hole)) != [0.0; 2] || held.touches(hole, &held.frame.q))
     }
@@ -164,7 +164,7 @@ impl Alpha {
     /// True if the blows drive the body into a rigid wall or hole that is closed at q⁺: it keeps
     /// the body from that displacement, and the momentum that they would lose to the damper goes to
     /// it.
-    fn answers(&self, held: &Held) -> bool {
+    fn answers(&self, held: &HoleBody) -> bool {
         let Some(blows) = &held.body.blows else { return false };
         let into = |hole: usize| {
             let ([y, z], [vy, vz]) = (held.offset(hole, &held.frame.q), held.seen(hole, &blows.given));
@@ -176,7 +176,7 @@ impl Alpha {
 
     /// Solves for v⁺ and the impulses of the rigid walls and holes that are closed. Returns whether
     /// one of them may push.
-    fn correct_velocity(&mut self, step: u64, held: &mut Held) -> Result<bool> {
+    fn correct_velocity(&mut self, step: u64, held: &mut HoleBody) -> Result<bool> {
         let h = held.body.h;
         self.closed = false;
         for wall in held.flats.iter().copied() {
@@ -199,7 +199,7 @@ impl Alpha {
             let (start, end) = (self.start[hole], held.offset(hole, &held.frame.q));
             let struck = held.seen(hole, held.frame.struck());
             let (gap, e) = (held.rounds[hole].gap, held.rounds[hole].law.restitution().unwrap_or(0.0));
-            let met = meet_middle((gap, e), [start, end], struck, h);
+            let met = closed_hole_state((gap, e), [start, end], struck, h);
             let normal = met.normal;
             let [vy, vz] = held.seen(hole, &held.frame.v);
             let hi = met.bound - (normal[0] * vy + normal[1] * vz);

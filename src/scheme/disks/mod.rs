@@ -14,13 +14,13 @@
 //! surface.
 
 mod alpha;
-mod bounds;
-mod held;
+mod disk_programme;
+mod hole_body;
 mod position;
 mod springs;
 mod velocity;
 
-pub(super) use bounds::Bounds;
+pub(super) use disk_programme::DiskProgramme;
 
 use super::Counters;
 use super::motion::Motion;
@@ -30,7 +30,7 @@ use crate::qp::{Backend, DiskCounters};
 use crate::scene::{Checked, Scene};
 use crate::step::{Balance, Contact, Contract, Law, Step};
 use alpha::Alpha;
-use held::{Held, pair};
+use hole_body::{HoleBody, pair};
 use position::Position;
 use springs::Springs;
 use velocity::Velocity;
@@ -45,7 +45,7 @@ enum Rule {
 }
 
 impl Rule {
-    fn advance(&mut self, step: u64, held: &mut Held) -> Result<()> {
+    fn advance(&mut self, step: u64, held: &mut HoleBody) -> Result<()> {
         match self {
             Self::Position(rule) => rule.advance(step, held),
             Self::Alpha(rule) => rule.advance(step, held),
@@ -67,7 +67,7 @@ impl Rule {
 /// The motion of a scene with round holes by a scheme whose bounds are on displacements.
 #[derive(Debug)]
 pub(super) struct Disks {
-    held: Held,
+    held: HoleBody,
     rule: Rule,
     episodes: Episodes,
     turned: f64,
@@ -79,7 +79,7 @@ impl Disks {
     /// `scene` in steps of `h` seconds that satisfy `contract`: that of implicit-euler, of
     /// generalized-alpha, of moreau-jean, or of the penalty with the discrete gradient.
     pub fn new(scene: &Checked, contract: Contract, h: f64) -> Result<Self> {
-        let held = Held::new(scene, h)?;
+        let held = HoleBody::new(scene, h)?;
         Ok(Self {
             rule: match contract.balance {
                 Balance::GeneralizedAlpha { .. } => Rule::Alpha(Box::new(Alpha::new(scene, contract.balance, &held)?)),
@@ -101,7 +101,7 @@ impl Disks {
     /// Passes the step to the contact episodes, and notes by how much normals turned.
     fn record_episodes(&mut self) {
         let Self { held, episodes, turned, .. } = self;
-        let Held { body, frame, rows, rounds, .. } = &*held;
+        let HoleBody { body, frame, rows, rounds, .. } = &*held;
         if frame.pushing.is_empty() && episodes.idle() {
             return;
         }

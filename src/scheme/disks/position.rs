@@ -4,8 +4,8 @@
 //! chords, whose ends lie on the circle: each step takes the part of its speed that the turning of
 //! the normal brings along the next one, a rate of h v²/γ².
 
-use super::bounds::Bounds;
-use super::held::Held;
+use super::disk_programme::DiskProgramme;
+use super::hole_body::HoleBody;
 use crate::error::Result;
 use crate::linear::Symmetric;
 use crate::qp::DiskCounters;
@@ -13,20 +13,20 @@ use crate::scene::Scene;
 
 #[derive(Debug)]
 pub(super) struct Position {
-    bounds: Bounds,
+    bounds: DiskProgramme,
     b: Vec<f64>,
 }
 
 impl Position {
-    pub fn new(scene: &Scene, held: &Held) -> Result<Self> {
+    pub fn new(scene: &Scene, held: &HoleBody) -> Result<Self> {
         let (h, m) = (held.body.h, &held.body.matrices);
         let a = Symmetric::sum(&[(1.0 / (h * h), &m.mass), (1.0 / h, &m.damping), (1.0, &m.stiffness)]);
-        let bounds = Bounds::new(scene, a, scene.gap_scale(), |k, c| 1.0 / (k + c / h))?;
+        let bounds = DiskProgramme::new(scene, a, scene.gap_scale(), |k, c| 1.0 / (k + c / h))?;
         Ok(Self { bounds, b: vec![0.0; held.body.n] })
     }
 
     /// Makes a step.
-    pub fn advance(&mut self, step: u64, held: &mut Held) -> Result<()> {
+    pub fn advance(&mut self, step: u64, held: &mut HoleBody) -> Result<()> {
         let (h, b) = (held.body.h, &mut self.b);
         let (body, frame) = (&mut held.body, &mut held.frame);
         body.load_at(frame.end);
@@ -62,7 +62,7 @@ impl Position {
 
     /// Sets the bounds on Δ. Those of rigid walls and holes apply to the displacement with that by
     /// the blows.
-    fn bind(&mut self, held: &Held, blown: bool) {
+    fn bind(&mut self, held: &HoleBody, blown: bool) {
         let (body, q) = (&held.body, &held.frame.q);
         let shift = body.blows.as_ref().filter(|_| blown).map(|blows| &blows.shift);
         for (wall, face) in held.flats.iter().map(|&wall| (wall, body.walls[wall])) {

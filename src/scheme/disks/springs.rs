@@ -17,7 +17,7 @@
 use super::super::matrices::Matrices;
 use super::super::penalty::{Mean, mean_pressure};
 use super::super::space::Space;
-use super::held::Held;
+use super::hole_body::HoleBody;
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Rows};
 use crate::qp::DiskCounters;
@@ -60,7 +60,7 @@ struct LawResponse {
 }
 
 impl Springs {
-    pub fn new(scene: &Scene, held: &Held) -> Result<Self> {
+    pub fn new(scene: &Scene, held: &HoleBody) -> Result<Self> {
         let a = held.body.theta_matrix(THETA);
         let mut factor = Matrices::factor(&a)?;
         let mut all: Vec<&Row> = held.flats.iter().map(|&wall| scene.walls[wall].row()).collect();
@@ -69,10 +69,10 @@ impl Springs {
         let rows = Rows::new(n, all.iter().map(|row| row.entries()));
         let mut response = DMatrix::zeros(m, m);
         for j in 0..m {
-            let mut answer = vec![0.0; n];
-            rows.add_transposed(j, THETA * held.body.h, &mut answer);
-            factor.solve(&mut answer);
-            (0..m).for_each(|i| response[(i, j)] = rows.dot(i, &answer));
+            let mut law_response = vec![0.0; n];
+            rows.add_transposed(j, THETA * held.body.h, &mut law_response);
+            factor.solve(&mut law_response);
+            (0..m).for_each(|i| response[(i, j)] = rows.dot(i, &law_response));
         }
         let response = 0.5 * (&response + response.transpose());
         let zero = || vec![0.0; n];
@@ -89,7 +89,7 @@ impl Springs {
     }
 
     /// Makes a step.
-    pub fn advance(&mut self, step: u64, held: &mut Held) -> Result<()> {
+    pub fn advance(&mut self, step: u64, held: &mut HoleBody) -> Result<()> {
         let h = held.body.h;
         let (body, frame) = (&mut held.body, &mut held.frame);
         body.theta_momentum(THETA, frame, &mut self.b);
@@ -104,7 +104,7 @@ impl Springs {
         self.factor.solve(&mut self.delta);
         let free = self.rates(held);
         if self.reaches(held, &free) {
-            self.meet(step, held, free)?;
+            self.solve_contacts(step, held, free)?;
         }
         let frame = &mut held.frame;
         for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(&self.delta) {
@@ -119,7 +119,7 @@ impl Springs {
     }
 
     /// G v_θ = G(v + θδ).
-    fn rates(&mut self, held: &Held) -> DVector<f64> {
+    fn rates(&mut self, held: &HoleBody) -> DVector<f64> {
         for (mean, (v, d)) in self.mean.iter_mut().zip(held.frame.v.iter().zip(&self.delta)) {
             *mean = v + THETA * d;
         }
@@ -128,7 +128,7 @@ impl Springs {
 
     /// True if a wall or hole is passed at the start of the step, or at its end with these mean
     /// velocities.
-    fn reaches(&self, held: &Held, y: &DVector<f64>) -> bool {
+    fn reaches(&self, held: &HoleBody, y: &DVector<f64>) -> bool {
         let h = held.body.h;
         let flat = |(row, &wall): (usize, &usize)| {
             let (face, w) = (held.body.walls[wall], held.body.seen(wall, &held.frame.q));
@@ -142,16 +142,16 @@ impl Springs {
     }
 
     /// The forces at these mean velocities.
-    fn answer(&self, held: &Held, y: &DVector<f64>) -> LawResponse {
+    fn law_response(&self, held: &HoleBody, y: &DVector<f64>) -> LawResponse {
         let (m, h) = (self.rows.count(), held.body.h);
-        let mut answer = LawResponse { force: DVector::zeros(m), slope: DMatrix::zeros(m, m) };
+        let mut law_response = LawResponse { force: DVector::zeros(m), slope: DMatrix::zeros(m, m) };
         for (row, &wall) in held.flats.iter().enumerate() {
             let face = held.body.walls[wall];
             let s0 = face.depth(held.body.seen(wall, &held.frame.q));
             let s1 = s0 - face.sign * h * y[row];
             let (pressure, tangent) = mean_pressure(&face.law, Mean::DiscreteGradient, THETA, h, s0, s1);
-            answer.force[row] = face.sign * pressure;
-            answer.slope[(row, row)] = h * tangent;
+            law_response.force[row] = face.sign * pressure;
+            law_response.slope[(row, row)] = h * tangent;
         }
         for (hole, round) in held.rounds.iter().enumerate() {
             let first = held.flats.len() + 2 * hole;
@@ -167,20 +167,20 @@ impl Springs {
             let along = [0, 1].map(|i: usize| (w0[i] + w1[i]) / both);
             let normal = w1.map(|w| if r1 > 0.0 { w / r1 } else { 0.0 });
             for (i, along) in along.into_iter().enumerate() {
-                answer.force[first + i] = -pressure * along;
+                law_response.force[first + i] = -pressure * along;
                 for (j, normal) in normal.into_iter().enumerate() {
                     let turned = if i == j { pressure / both } else { 0.0 };
                     let steeper = (tangent - pressure / both) * along * normal;
-                    answer.slope[(first + i, first + j)] = h * (turned + steeper);
+                    law_response.slope[(first + i, first + j)] = h * (turned + steeper);
                 }
             }
         }
-        answer
+        law_response
     }
 
     /// Solves for δ in a step that passes a wall or hole, and writes the impulses.
     #[inline(never)]
-    fn meet(&mut self, step: u64, held: &mut Held, free: DVector<f64>) -> Result<()> {
+    fn solve_contacts(&mut self, step: u64, held: &mut HoleBody, free: DVector<f64>) -> Result<()> {
         let y =
             self.settle(held, &free).map_err(|residual| Error::Newton { time: held.frame.start, step, residual })?;
         let h = held.body.h;
@@ -188,25 +188,25 @@ impl Springs {
             force.iter().enumerate().for_each(|(row, force)| rows.add_transposed(row, scale * force, out));
         };
         self.delta.copy_from_slice(&self.b);
-        push(&self.rows, h, &self.answer(held, &y).force, &mut self.delta);
+        push(&self.rows, h, &self.law_response(held, &y).force, &mut self.delta);
         self.factor.solve(&mut self.delta);
         for _ in 0..POLISHES {
             // A δ − b − h Gᵀ F where F is what the laws make of this very δ.
             let y = self.rates(held);
-            let answer = self.answer(held, &y);
+            let law_response = self.law_response(held, &y);
             let mut residual: Vec<f64> = self.b.iter().map(|b| -b).collect();
             Matrices::add_product(&self.a, 1.0, &self.delta, &mut residual);
-            push(&self.rows, -h, &answer.force, &mut residual);
+            push(&self.rows, -h, &law_response.force, &mut residual);
             let mut change = residual.clone();
             self.factor.solve(&mut change);
             let seen = DVector::from_fn(self.rows.count(), |row, _| self.rows.dot(row, &change));
-            let Some(change) = self.solved(&answer.slope, &seen) else { break };
-            push(&self.rows, -THETA * h, &(&answer.slope * change), &mut residual);
+            let Some(change) = self.solved(&law_response.slope, &seen) else { break };
+            push(&self.rows, -THETA * h, &(&law_response.slope * change), &mut residual);
             self.factor.solve(&mut residual);
             self.delta.iter_mut().zip(&residual).for_each(|(delta, change)| *delta -= change);
         }
         let y = self.rates(held);
-        let force = self.answer(held, &y).force;
+        let force = self.law_response(held, &y).force;
         for (&wall, force) in held.flats.iter().zip(&force) {
             held.frame.force[wall] = *force;
         }
@@ -225,28 +225,28 @@ impl Springs {
 
     /// y = y_free + θh W F(y) − `Err` of the largest difference, in m/s, where Newton's method does
     /// not converge.
-    fn settle(&mut self, held: &Held, free: &DVector<f64>) -> std::result::Result<DVector<f64>, f64> {
-        let open = |y: &DVector<f64>, answer: &LawResponse| y - free - &self.response * &answer.force;
+    fn settle(&mut self, held: &HoleBody, free: &DVector<f64>) -> std::result::Result<DVector<f64>, f64> {
+        let open = |y: &DVector<f64>, law_response: &LawResponse| y - free - &self.response * &law_response.force;
         let (mut y, mut steps) = (free.clone(), 0);
-        let mut answer = self.answer(held, &y);
-        let mut residual = open(&y, &answer);
+        let mut law_response = self.law_response(held, &y);
+        let mut residual = open(&y, &law_response);
         let found = loop {
-            let pushed = self.response.map(f64::abs) * answer.force.map(f64::abs);
+            let pushed = self.response.map(f64::abs) * law_response.force.map(f64::abs);
             let settled = (0..y.len()).all(|i| residual[i].abs() <= NEAR * (y[i].abs() + free[i].abs() + pushed[i]));
             if settled {
                 break Ok(y);
             }
             steps += 1;
-            let Some(change) = self.solved(&answer.slope, &residual).filter(|_| steps <= MOST_STEPS) else {
+            let Some(change) = self.solved(&law_response.slope, &residual).filter(|_| steps <= MOST_STEPS) else {
                 break Err(residual.amax());
             };
             let mut share = 1.0;
             for halving in 0..=HALVINGS {
                 let next = &y - share * &change;
-                let there = self.answer(held, &next);
+                let there = self.law_response(held, &next);
                 let left = open(&next, &there);
                 if left.norm() < residual.norm() || halving == HALVINGS {
-                    (y, answer, residual) = (next, there, left);
+                    (y, law_response, residual) = (next, there, left);
                     break;
                 }
                 share *= 0.5;
@@ -268,7 +268,7 @@ impl Springs {
 }
 
 /// w of a hole at the start of a step, and at its end with these mean velocities.
-fn ends(held: &Held, hole: usize, y: &DVector<f64>) -> ([f64; 2], [f64; 2]) {
+fn ends(held: &HoleBody, hole: usize, y: &DVector<f64>) -> ([f64; 2], [f64; 2]) {
     let first = held.flats.len() + 2 * hole;
     let start = held.offset(hole, &held.frame.q);
     (start, [start[0] + held.body.h * y[first], start[1] + held.body.h * y[first + 1]])

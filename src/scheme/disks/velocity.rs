@@ -5,9 +5,9 @@
 //! γ) + c_a(|w_θ| − r₊)/θh, at least 0, towards the centre from w_θ. Rigid holes and walls keep
 //! their bounds on the velocity; all together are one programme.
 
-use super::super::supports::meet;
-use super::bounds::Bounds;
-use super::held::Held;
+use super::super::supports::hole_state;
+use super::disk_programme::DiskProgramme;
+use super::hole_body::HoleBody;
 use crate::error::Result;
 use crate::qp::{DiskBound, DiskCounters};
 use crate::scene::Scene;
@@ -15,27 +15,28 @@ use crate::scene::Scene;
 #[derive(Debug)]
 pub(super) struct Velocity {
     theta: f64,
-    bounds: Bounds,
+    bounds: DiskProgramme,
     b: Vec<f64>,
 }
 
 impl Velocity {
-    pub fn new(scene: &Scene, theta: f64, held: &Held) -> Result<Self> {
+    pub fn new(scene: &Scene, theta: f64, held: &HoleBody) -> Result<Self> {
         let ht = held.body.h * theta;
         let compliance = move |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
-        let bounds = Bounds::new(scene, held.body.theta_matrix(theta), scene.gap_scale() / held.body.h, compliance)?;
+        let bounds =
+            DiskProgramme::new(scene, held.body.theta_matrix(theta), scene.gap_scale() / held.body.h, compliance)?;
         Ok(Self { theta, bounds, b: vec![0.0; held.body.n] })
     }
 
     /// Makes a step.
-    pub fn advance(&mut self, step: u64, held: &mut Held) -> Result<()> {
+    pub fn advance(&mut self, step: u64, held: &mut HoleBody) -> Result<()> {
         let (h, theta) = (held.body.h, self.theta);
         let (body, frame) = (&mut held.body, &mut held.frame);
         body.theta_momentum(theta, frame, &mut self.b);
         frame.blown = body.strike((frame.start, frame.end), 1.0, &mut self.b, frame);
         self.bind(held);
         self.solve(step, held)?;
-        let carried = held.body.blows.is_some() && self.carry(step, held)?;
+        let carried = held.body.blows.is_some() && self.solve_with_blows(step, held)?;
         let frame = &mut held.frame;
         for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(self.bounds.x()) {
             *q += h * (*v + theta * d);
@@ -49,7 +50,7 @@ impl Velocity {
     }
 
     /// Sets the bounds on δ = v⁺ − v.
-    fn bind(&mut self, held: &mut Held) {
+    fn bind(&mut self, held: &mut HoleBody) {
         let (h, ht) = (held.body.h, held.body.h * self.theta);
         for (wall, face) in held.flats.iter().map(|&wall| (wall, held.body.walls[wall])) {
             let seen = |x: &Vec<f64>| held.body.seen(wall, x);
@@ -82,7 +83,7 @@ impl Velocity {
                 None => {
                     let struck = held.seen(hole, held.frame.struck());
                     let e = round.law.restitution().unwrap_or(0.0);
-                    match meet((round.gap, e), now, struck, h) {
+                    match hole_state((round.gap, e), now, struck, h) {
                         None => DiskBound::OPEN,
                         Some(met) => {
                             let [y, z] = met.normal;
@@ -97,7 +98,7 @@ impl Velocity {
     }
 
     /// Solves for δ, and writes the impulses.
-    fn solve(&mut self, step: u64, held: &mut Held) -> Result<()> {
+    fn solve(&mut self, step: u64, held: &mut HoleBody) -> Result<()> {
         let (h, frame) = (held.body.h, &mut held.frame);
         self.bounds.solve(&self.b, (frame.start, step))?;
         for &wall in &held.flats {
@@ -116,20 +117,20 @@ impl Velocity {
     /// the rule's, unless they drive the structure into a rigid wall or hole that pushes. Returns
     /// whether that displacement must be added.
     #[inline(never)]
-    fn carry(&mut self, step: u64, held: &mut Held) -> Result<bool> {
+    fn solve_with_blows(&mut self, step: u64, held: &mut HoleBody) -> Result<bool> {
         let (start, end, h) = (held.frame.start, held.frame.end, held.body.h);
         if !held.body.find_blows(&[(start, end, end - h * self.theta)]) || self.answers(held) {
             return Ok(false);
         }
         if held.body.damped {
-            held.frame.let_go();
+            held.frame.take_back_impulses();
             held.body.damp_shift(1.0, &mut self.b);
             self.solve(step, held)?;
         }
         Ok(true)
     }
 
-    fn answers(&self, held: &Held) -> bool {
+    fn answers(&self, held: &HoleBody) -> bool {
         let Some(blows) = &held.body.blows else { return false };
         held.frame.pushing.iter().any(|&index| match held.hole(index) {
             None => held.body.drives(index),

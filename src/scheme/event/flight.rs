@@ -57,7 +57,7 @@ impl Event {
             if rest * left.abs() <= 5040.0 * noise {
                 // The series is exact to rounding up to the wall; its derivative, the speed, only
                 // where its own rest is that small.
-                let Some((left, rate)) = series.meet(left, noise) else { break };
+                let Some((left, rate)) = series.polished_root(left, noise) else { break };
                 let (way, hit) = (leap + left, next + left);
                 let v = if rest <= 720.0 * exact::noise(self.sizes[1]) { rate } else { self.arc.jet(hit)[1] };
                 if 0.0 < way && way <= window && hit < span && is_clear(&jet, way, [position, v], bound, &room) {
@@ -137,7 +137,7 @@ impl Taylor {
     /// Where it is within `noise` (m) of 0, s from now, and its derivative there, by Newton's
     /// method from `s`; `None` if that does not converge.
     #[inline]
-    fn meet(&self, mut s: f64, noise: f64) -> Option<(f64, f64)> {
+    fn polished_root(&self, mut s: f64, noise: f64) -> Option<(f64, f64)> {
         for _ in 0..NEWTON_STEPS {
             let (value, rate) = self.at(s);
             if value.abs() <= noise {

@@ -30,16 +30,16 @@ impl Event {
                 if let Some(b) = self.barriers.get_mut(index) {
                     self.shown.closed.extend(b.close(time, 0.0));
                 }
-                self.meet_rigid(None, extra, None);
+                self.resolve_rigid(None, extra, None);
             } else {
-                self.meet_rigid(hit, extra, Some(index));
+                self.resolve_rigid(hit, extra, Some(index));
             }
         } else {
             if let Some(index) = hit {
                 self.cross(index);
             }
             // After a blow the velocity is not taken for rounding.
-            self.meet_rigid(hit.filter(|_| !blown), extra, None);
+            self.resolve_rigid(hit.filter(|_| !blown), extra, None);
         }
         if self.v != left {
             self.reclassify();
@@ -83,7 +83,7 @@ impl Event {
     /// For several closed walls on one side, Newton's law reads ẇ⁺ + e ẇ⁻ ≥ 0 for each, so the
     /// largest e decides, and the first wall that has it takes the impulse. Closed walls on both
     /// sides hold the body in place.
-    fn meet_rigid(&mut self, hit: Option<usize>, extra: f64, held: Option<usize>) {
+    fn resolve_rigid(&mut self, hit: Option<usize>, extra: f64, held: Option<usize>) {
         let resolution = self.resolution;
         let side = if self.v < 0.0 { Side::Lower } else { Side::Upper };
         let (mut struck, mut restitution) = (None, -1.0);

@@ -61,7 +61,7 @@ impl Below {
 
     /// Prevents rounding alone from making g negative at once where it starts at 0 with velocity 0:
     /// the caller has decided that g grows.
-    pub fn let_go(&mut self) {
+    pub fn set_aside(&mut self) {
         let [c0, c1, c2, _] = &mut self.c;
         if *c0 <= self.noise[0] && *c2 > -LET_GO * self.noise[2] {
             (*c0, *c1, *c2) = (c0.max(0.0), c1.max(0.0), c2.max(0.0));

@@ -43,14 +43,14 @@ impl Event {
             let (mut step, mut wall, mut is_root, mut touched) = (window, None, false, false);
             for index in 0..self.barriers.len() {
                 for which in 0..2 {
-                    let Some(mut below) = self.watch(index, which, &jet, &bounds, &noise) else { break };
+                    let Some(mut below) = self.watched_function(index, which, &jet, &bounds, &noise) else { break };
                     if tau == 0.0 && self.has_changed(index) {
                         // It was 0 to the rounding of the arc before, which may be coarser than
                         // that of this arc.
                         below.c[0] = below.c[0].max(0.0);
                     }
                     if let_go && tau == 0.0 {
-                        below.let_go();
+                        below.set_aside();
                     }
                     match below.step(step) {
                         Step::Now => return Ok(Hit { tau, state: [jet[0], jet[1]], wall: Some(index) }),
@@ -104,7 +104,7 @@ impl Event {
     /// at the start of the next arc.
     fn hit_at_end(&self, jet: &Jet, noise: &[f64; 4]) -> Option<usize> {
         (0..self.barriers.len()).find(|&index| {
-            let watched = (0..2).map_while(|which| self.watch(index, which, jet, &[0.0; 2], noise));
+            let watched = (0..2).map_while(|which| self.watched_function(index, which, jet, &[0.0; 2], noise));
             let met = |b: &Below| b.c[0] <= b.noise[0] && b.c[1] < -b.noise[1];
             { watched }.any(|b| met(&b) && b.touch(0.0, f64::INFINITY).is_none())
         })
@@ -114,7 +114,14 @@ impl Event {
     /// the body is behind the face of an elastic wall that does not push, else one.
     // Always inline: passing it through memory costs more than the arithmetic.
     #[inline(always)]
-    fn watch(&self, index: usize, which: u8, jet: &Jet, bounds: &[f64; 2], noise: &[f64; 4]) -> Option<Below> {
+    fn watched_function(
+        &self,
+        index: usize,
+        which: u8,
+        jet: &Jet,
+        bounds: &[f64; 2],
+        noise: &[f64; 4],
+    ) -> Option<Below> {
         let b = self.barriers.get(index)?;
         match (b.phase, which) {
             (Phase::Rigid(_), 0) => Some(gap(b, b.sign, false, jet, bounds, noise)),

@@ -63,7 +63,7 @@ pub(super) trait Contacts<S: Space>: Debug + Send {
 
     /// Computes δ and what the walls give over a part of `length` seconds from the state of
     /// `frame`, whose momentum `part` has.
-    fn answer(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved;
+    fn solve_contacts(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved;
 
     /// Where no motion was found: whether walls along which the body slides must first stop its
     /// speed across them, by an impulse without rebound.

@@ -136,7 +136,7 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         let Some(mut progress) = self.progress else { return Ok(()) };
         let Progress { reached: from, end, .. } = progress;
         (self.parts, progress.parts) = (self.parts + 1, progress.parts + 1);
-        frame.let_go();
+        frame.take_back_impulses();
         (frame.start, frame.blown) = (from, false);
         frame.before.clone_from(&frame.v);
         frame.extra.clone_from(&self.extra);
@@ -254,7 +254,7 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
             body.force_at(end, &mut part.load_end);
         }
         part.set_momentum(body, (&frame.q, &frame.v, &frame.extra), (length, THETA));
-        contacts.answer(body, part, frame, length).map_err(|fault| refusal(&fault, end, step))
+        contacts.solve_contacts(body, part, frame, length).map_err(|fault| refusal(&fault, end, step))
     }
 
     /// Takes over the state at `end` (s) of the part of `length` seconds that was computed last.

@@ -13,7 +13,7 @@ pub(super) const THETA: f64 = 0.5;
 /// A bound on the velocity of a wall's row in a part: g·δ ≤ `bound` at an upper wall, ≥ at a lower
 /// one, exceeded by compliance times impulse.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Hold {
+pub(super) struct VelocityBound {
     pub wall: usize,
     pub upper: bool,
     pub bound: f64,
@@ -52,7 +52,7 @@ pub(super) struct Part<S: Space> {
     pub polynomial: S::Polynomial,
     factor: S::Factor,
     /// A⁻¹gᵀ of the wall that holds.
-    answer: S::Vector,
+    solve_contacts: S::Vector,
     /// The change of the velocity, m/s.
     pub delta: S::Vector,
     pub pushes: Vec<Push>,
@@ -73,7 +73,7 @@ impl<S: Space> Part<S> {
             load_end: vector(),
             mean: vector(),
             b: vector(),
-            answer: vector(),
+            solve_contacts: vector(),
             delta: vector(),
             pushes: Vec::with_capacity(scene.walls.len()),
             solves: 0,
@@ -110,7 +110,7 @@ impl<S: Space> Part<S> {
     }
 
     /// Computes δ and the impulses of the walls of `holds`, with `st` = sθ (s).
-    pub fn hold(&mut self, body: &Body<S>, st: f64, holds: &[Hold]) -> Solution {
+    pub fn solve_bounded(&mut self, body: &Body<S>, st: f64, holds: &[VelocityBound]) -> Solution {
         let asked = matches!(self.backend, Backend::Condensed | Backend::Clarabel);
         if holds.len() > 1 || asked && !holds.is_empty() {
             return self.solve(body, st, holds);
@@ -125,16 +125,16 @@ impl<S: Space> Part<S> {
     }
 
     /// Adds the impulse of the only wall of a part to δ, where δ without it exceeds its bound.
-    fn clamp(&mut self, body: &Body<S>, hold: &Hold) {
+    fn clamp(&mut self, body: &Body<S>, hold: &VelocityBound) {
         let beyond = body.seen(hold.wall, &self.delta) - hold.bound;
         if if hold.upper { beyond <= 0.0 } else { beyond >= 0.0 } {
             return;
         }
         self.solves += 1;
-        self.answer.as_mut().fill(0.0);
-        S::add_transposed(&body.rows, hold.wall, 1.0, &mut self.answer);
-        S::solve(&mut self.factor, &mut self.answer);
-        let impulse = -beyond / (body.seen(hold.wall, &self.answer) + hold.compliance);
+        self.solve_contacts.as_mut().fill(0.0);
+        S::add_transposed(&body.rows, hold.wall, 1.0, &mut self.solve_contacts);
+        S::solve(&mut self.factor, &mut self.solve_contacts);
+        let impulse = -beyond / (body.seen(hold.wall, &self.solve_contacts) + hold.compliance);
         // Solved again rather than added, so that the balance keeps its rounding where both cancel.
         S::add_transposed(&body.rows, hold.wall, impulse, &mut self.b);
         self.delta.clone_from(&self.b);
@@ -143,7 +143,7 @@ impl<S: Space> Part<S> {
     }
 
     /// Computes δ and the impulses from b as a programme.
-    fn solve(&mut self, body: &Body<S>, st: f64, holds: &[Hold]) -> Solution {
+    fn solve(&mut self, body: &Body<S>, st: f64, holds: &[VelocityBound]) -> Solution {
         self.solves += 1;
         let rows = holds.iter().filter_map(|hold| self.rows.get(hold.wall)).map(Row::entries);
         let compliance = holds.iter().map(|hold| hold.compliance).collect();
@@ -157,7 +157,12 @@ impl<S: Space> Part<S> {
         solver.solve(&self.b, (&lo, &hi), &all)?;
         self.delta.clone_from(solver.x());
         let impulses = holds.iter().zip(solver.multiplier().unwrap_or_default());
-        let push = |(hold, &impulse): (&Hold, &f64)| Push { wall: hold.wall, impulse, friction: 0.0, normal: [0.0; 2] };
+        let push = |(hold, &impulse): (&VelocityBound, &f64)| Push {
+            wall: hold.wall,
+            impulse,
+            friction: 0.0,
+            normal: [0.0; 2],
+        };
         self.pushes.extend(impulses.filter(|(_, p)| **p != 0.0).map(push));
         Ok(())
     }

@@ -84,7 +84,7 @@ impl LocatedPlanar {
             Rates { before, struck: if frame.blown { along(&frame.struck) } else { before }, after: along(&frame.v) }
         };
         let impulses = (&frame.impulse[..], &frame.jump[..]);
-        episodes.see_part([frame.start, frame.end], length, impulses, &frame.pushing, rates);
+        episodes.observe_part([frame.start, frame.end], length, impulses, &frame.pushing, rates);
     }
 }
 

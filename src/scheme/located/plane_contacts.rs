@@ -18,7 +18,7 @@ use super::crossing::GapPath;
 use super::impact::Impact;
 use super::part::{Part, THETA, size_of};
 use super::plane_contact::PlaneContact;
-use super::response::{Guide, PlaneHold, Response};
+use super::response::{Guide, PlaneBound, Response};
 use super::round_path::RoundPath;
 use crate::error::Result;
 use crate::scene::{Row, Scene};
@@ -44,7 +44,7 @@ pub(super) struct PlaneContacts {
     /// The response over a whole step, and that over the last part.
     whole: Response,
     short: Response,
-    holds: Vec<PlaneHold>,
+    holds: Vec<PlaneBound>,
     /// True if a body that strikes a wall rebounds.
     rebounds: bool,
     /// True if the contacts of the last part that was computed were settled.
@@ -141,10 +141,15 @@ impl PlaneContacts {
     }
 
     /// The contact of a wall with this guide over a part.
-    fn hold(&self, wall: usize, (body, frame): (&Body<Matrices>, &Frame<Matrices>), guide: Guide) -> PlaneHold {
+    fn velocity_bound(
+        &self,
+        wall: usize,
+        (body, frame): (&Body<Matrices>, &Frame<Matrices>),
+        guide: Guide,
+    ) -> PlaneBound {
         let contact = &self.all[wall];
         let centre = contact.round.map_or([0.0; 2], |(centre, _)| centre);
-        PlaneHold {
+        PlaneBound {
             wall,
             rows: contact.point.rows,
             guide,
@@ -158,13 +163,13 @@ impl PlaneContacts {
     }
 
     /// The contact of an elastic flat wall over a part of `length` seconds of the weight θ.
-    fn spring(&self, wall: usize, state: (&Body<Matrices>, &Frame<Matrices>), span: (f64, f64)) -> PlaneHold {
+    fn spring(&self, wall: usize, state: (&Body<Matrices>, &Frame<Matrices>), span: (f64, f64)) -> PlaneBound {
         let (body, frame) = state;
         let face = body.walls[wall];
         let (w, rate) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
         let (bound, compliance) = face.spring_bound(w, rate, span);
         let guide = Guide::Flat(self.all[wall].point.normal, -face.sign * (rate + bound));
-        PlaneHold { compliance, ..self.hold(wall, state, guide) }
+        PlaneBound { compliance, ..self.velocity_bound(wall, state, guide) }
     }
 }
 
@@ -189,7 +194,7 @@ impl Contacts<Matrices> for PlaneContacts {
         self.all.iter().any(|contact| contact.place == Place::Resting)
     }
 
-    fn answer(
+    fn solve_contacts(
         &mut self,
         body: &Body<Matrices>,
         part: &mut Part<Matrices>,
@@ -214,7 +219,7 @@ impl Contacts<Matrices> for PlaneContacts {
                 None => Guide::Flat(contact.normal, -behind),
                 Some(_) => Guide::Chord { return_rate: 2.0 * behind },
             };
-            self.holds.push(PlaneHold { slides: contact.slides(), ..self.hold(wall, (body, frame), guide) });
+            self.holds.push(PlaneBound { slides: contact.slides(), ..self.velocity_bound(wall, (body, frame), guide) });
         }
         self.solve(body, part, &frame.v, (length, THETA))
     }
@@ -235,7 +240,7 @@ impl Contacts<Matrices> for PlaneContacts {
                     None => Guide::Flat(normal, gap / length),
                     Some((_, gap)) => Guide::End { gap },
                 };
-                self.hold(wall, (body, frame), guide)
+                self.velocity_bound(wall, (body, frame), guide)
             } else {
                 self.spring(wall, (body, frame), (length, 1.0))
             };

@@ -37,7 +37,7 @@ pub(super) enum Guide {
 
 /// A contact that bounds the motion over a part.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct PlaneHold {
+pub(super) struct PlaneBound {
     pub wall: usize,
     pub rows: [usize; 2],
     pub guide: Guide,
@@ -53,7 +53,7 @@ pub(super) struct PlaneHold {
     pub rate: [f64; 2],
 }
 
-impl PlaneHold {
+impl PlaneBound {
     /// n and the bound on n·ẇ⁺ if the place moves by `way` (m) over `length` seconds; the same for
     /// a flat wall always.
     fn bound(&self, way: [f64; 2], length: f64) -> ([f64; 2], f64) {
@@ -75,7 +75,7 @@ impl PlaneHold {
     }
 }
 
-impl PlaneHold {
+impl PlaneBound {
     /// n over a part of `length` seconds of the weight θ that changes the rate of the place by
     /// `change` (m/s).
     pub fn normal_over(&self, change: &[f64; 2], length: f64, theta: f64) -> [f64; 2] {
@@ -83,7 +83,7 @@ impl PlaneHold {
     }
 }
 
-impl PlaneHold {
+impl PlaneBound {
     /// True if the end of the path lies outside of a round wall.
     fn is_passed(&self, way: [f64; 2]) -> bool {
         let end = [0, 1].map(|i: usize| self.from[i] + way[i]);
@@ -140,7 +140,7 @@ impl Response {
     pub fn solve(
         &mut self,
         body: &Body<Matrices>,
-        (rows, holds): (&[Row], &[PlaneHold]),
+        (rows, holds): (&[Row], &[PlaneBound]),
         part: &mut Part<Matrices>,
         (v, length, theta): (&[f64], f64, f64),
     ) -> bool {

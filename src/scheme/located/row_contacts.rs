@@ -9,7 +9,7 @@ use super::super::programme::Programme;
 use super::super::space::{Space, zero};
 use super::contacts::{Ahead, Contacts, Event, Place, Solved};
 use super::crossing::GapPath;
-use super::part::{Hold, Part, THETA};
+use super::part::{Part, THETA, VelocityBound};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::{Scene, Wall, WallLaw};
@@ -23,7 +23,7 @@ pub(super) struct RowContacts<S: Space> {
     /// The gap of each wall (m) and its rate (m/s) where the current step or part begins.
     gaps: Vec<(f64, f64)>,
     /// Walls that bound the velocity in the current step or part.
-    pub holds: Vec<Hold>,
+    pub holds: Vec<VelocityBound>,
     /// The walls on the other side of each wall's row.
     opposite: Vec<Vec<usize>>,
     /// The change of the rate of each wall's gap in the last part, m/s, and its length, s.
@@ -91,7 +91,7 @@ impl<S: Space> RowContacts<S> {
             } else {
                 face.spring_bound(w, rate, (length, THETA))
             };
-            self.holds.push(Hold { wall, upper: face.upper, bound, compliance });
+            self.holds.push(VelocityBound { wall, upper: face.upper, bound, compliance });
         }
     }
 
@@ -129,9 +129,9 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
         self.places.contains(&Place::Struck)
     }
 
-    fn answer(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved {
+    fn solve_contacts(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved {
         self.set_holds(body, frame, length);
-        part.hold(body, length * THETA, &self.holds).map(|()| true)
+        part.solve_bounded(body, length * THETA, &self.holds).map(|()| true)
     }
 
     fn give_up(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved {
@@ -143,9 +143,9 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
             } else {
                 face.spring_bound(w, rate, (length, 1.0))
             };
-            self.holds.push(Hold { wall, upper: face.upper, bound, compliance });
+            self.holds.push(VelocityBound { wall, upper: face.upper, bound, compliance });
         }
-        part.hold(body, length, &self.holds).map(|()| true)
+        part.solve_bounded(body, length, &self.holds).map(|()| true)
     }
 
     fn first_event(&self, body: &Body<S>, _: &Frame<S>, (delta, length): (&S::Vector, f64)) -> Option<(f64, Event)> {

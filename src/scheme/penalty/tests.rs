@@ -94,7 +94,7 @@ fn a_wall_answers_by_its_depth_at_both_ends_and_tells_how_it_yields() {
         let (place, rate) = (0.1 - sign * s0, -sign * (s1 - s0) / h);
         let mut at = |place: f64, rate: f64| {
             rule.place[0] = place;
-            rule.answer(0, rate)
+            rule.law_response(0, rate)
         };
         let answer = at(place, rate);
         let expected = sign * mean_force(&law, (theta, mean), h, [s0, s1]);

@@ -17,7 +17,7 @@ use crate::scheme::matrices::Matrices;
 use crate::scheme::moreau_jean::MoreauJean;
 use crate::scheme::motion::Motion;
 use crate::scheme::supports::Supports;
-use crate::scheme::{Handed, Scheme};
+use crate::scheme::{Handover, Scheme};
 
 /// Maximum number of events within a stretch before it is handed over …
 const CROWD: u64 = 5000;
@@ -70,10 +70,10 @@ impl StructureEvent {
         };
         grid.restart(&scene, 0.0, &self.q, &self.v)?;
         self.stretch = Some(Box::new(Stretch { grid, from: self.time, to, h, step: 0, contract }));
-        let joins = |last: &&mut Handed| self.time <= last.to + window;
+        let joins = |last: &&mut Handover| self.time <= last.to + window;
         match self.crowd.stretches.last_mut().filter(joins) {
             Some(last) => (last.to, last.step) = (to, last.step.max(h)),
-            None => self.crowd.stretches.push(Handed { from: self.time, to, step: h }),
+            None => self.crowd.stretches.push(Handover { from: self.time, to, step: h }),
         }
         Ok(())
     }

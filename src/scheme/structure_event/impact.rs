@@ -57,7 +57,7 @@ impl StructureEvent {
         // Where forces balance, the velocity has the rounding error of their terms over the last
         // stretch.
         let own = noise(size(&self.body, row, &self.v) + pull * self.series.unit()) + self.turned_speed(row);
-        if self.seats.len() < 2 {
+        if self.closed_rows.len() < 2 {
             return own;
         }
         // In a programme, rows are coupled through W: the tolerance scales with √W, so heavy rows
@@ -67,30 +67,30 @@ impl StructureEvent {
     }
 
     /// True if the structure approaches the wall of this closed row.
-    pub(super) fn is_approached(&self, seat: usize) -> bool {
-        let s = &self.seats[seat];
-        let rate = self.rate_of(seat);
+    pub(super) fn is_approached(&self, closed_row: usize) -> bool {
+        let s = &self.closed_rows[closed_row];
+        let rate = self.rate_of(closed_row);
         let quiet = self.quiet(s.row);
         if s.both { rate.abs() > quiet } else { rate < -quiet }
     }
 
     /// ẇ away from the wall, m/s.
-    pub(super) fn rate_of(&self, seat: usize) -> f64 {
-        let s = &self.seats[seat];
+    pub(super) fn rate_of(&self, closed_row: usize) -> f64 {
+        let s = &self.closed_rows[closed_row];
         s.sign * self.body.rows.dot(s.row, &self.v)
     }
 
     /// Handles the impacts of this instant, with those that end an accumulation.
     pub(super) fn impact(&mut self) -> Result<()> {
-        for seat in 0..self.seats.len() {
-            let s = self.seats[seat];
+        for closed_row in 0..self.closed_rows.len() {
+            let s = self.closed_rows[closed_row];
             let e = self.places[s.row].restitution[side_of(s.sign)];
-            self.seats[seat].restitution = if s.both { 0.0 } else { e };
+            self.closed_rows[closed_row].restitution = if s.both { 0.0 } else { e };
         }
         self.arriving.copy_from_slice(&self.v);
         self.strike()?;
         let mut stuck = false;
-        if self.seats.iter().any(|s| s.restitution > 0.0) {
+        if self.closed_rows.iter().any(|s| s.restitution > 0.0) {
             stuck = self.stick()?;
         }
         if stuck {
@@ -102,19 +102,19 @@ impl StructureEvent {
 
     /// Applies the impact law from the present velocity until no closed wall is approached.
     fn strike(&mut self) -> Result<()> {
-        self.seats.iter_mut().for_each(|s| s.push = [0.0; 2]);
-        if let [seat] = self.seats[..] {
+        self.closed_rows.iter_mut().for_each(|s| s.push = [0.0; 2]);
+        if let [closed_row] = self.closed_rows[..] {
             let rate = self.rate_of(0);
-            let push = -(1.0 + seat.restitution) * rate / self.body.delassus(seat.row, seat.row);
-            self.body.add_column(seat.row, seat.sign * push, &mut self.v);
-            self.seats[0].push[side_of(seat.sign * push)] = push.abs();
+            let push = -(1.0 + closed_row.restitution) * rate / self.body.delassus(closed_row.row, closed_row.row);
+            self.body.add_column(closed_row.row, closed_row.sign * push, &mut self.v);
+            self.closed_rows[0].push[side_of(closed_row.sign * push)] = push.abs();
             return Ok(());
         }
         if self.is_struck_in_turn() {
             return self.strike_in_turn();
         }
         for pass in 0..=PASSES {
-            if !(0..self.seats.len()).any(|seat| self.is_approached(seat)) {
+            if !(0..self.closed_rows.len()).any(|closed_row| self.is_approached(closed_row)) {
                 break;
             }
             if pass == PASSES || !self.pass(false)? {
@@ -131,7 +131,7 @@ impl StructureEvent {
         let flew = |(at, s): (usize, &ClosedRow)| {
             s.was == 0.0 && !s.both && self.places[s.row].struck >= since && !self.is_approached(at)
         };
-        self.seats.iter().enumerate().any(flew)
+        self.closed_rows.iter().enumerate().any(flew)
     }
 
     /// Strikes the closed walls in turn, each by itself, the one approached fastest first, until
@@ -140,25 +140,26 @@ impl StructureEvent {
     fn strike_in_turn(&mut self) -> Result<()> {
         // The root of the energy that stopping the row by itself would take.
         let weighed = |this: &Self, at: usize| {
-            let row = this.seats[at].row;
+            let row = this.closed_rows[at].row;
             this.rate_of(at).abs() / this.body.delassus(row, row).sqrt()
         };
-        let (count, mut first) = (self.seats.len(), 0.0_f64);
+        let (count, mut first) = (self.closed_rows.len(), 0.0_f64);
         for _ in 0..IN_TURN {
             let approached = (0..count).filter(|&at| self.is_approached(at));
             let Some(at) = approached.max_by(|&a, &b| weighed(self, a).total_cmp(&weighed(self, b))) else { break };
-            let s = self.seats[at];
+            let s = self.closed_rows[at];
             first = first.max(weighed(self, at));
             let push = -s.sign * (1.0 + s.restitution) * self.rate_of(at) / self.body.delassus(s.row, s.row);
             self.body.add_column(s.row, push, &mut self.v);
-            self.seats[at].push[side_of(push)] += push.abs();
+            self.closed_rows[at].push[side_of(push)] += push.abs();
         }
         let struck = |s: &ClosedRow| s.push != [0.0; 2];
-        let left = (0..count).filter(|&at| struck(&self.seats[at])).map(|at| weighed(self, at)).fold(0.0, f64::max);
+        let left =
+            (0..count).filter(|&at| struck(&self.closed_rows[at])).map(|at| weighed(self, at)).fold(0.0, f64::max);
         if left > ACCUMULATED * first && !(0..count).any(|at| self.is_approached(at)) {
             return Ok(());
         }
-        self.seats.iter_mut().filter(|s| struck(s)).for_each(|s| s.restitution = 0.0);
+        self.closed_rows.iter_mut().filter(|s| struck(s)).for_each(|s| s.restitution = 0.0);
         self.stop()
     }
 
@@ -171,9 +172,9 @@ impl StructureEvent {
 
     /// Treats the approached walls with e = 0 until none is left.
     fn in_turn(&mut self) -> Result<()> {
-        self.seats.iter_mut().for_each(|s| s.restitution = 0.0);
+        self.closed_rows.iter_mut().for_each(|s| s.restitution = 0.0);
         for _ in 0..TURNS {
-            if !(0..self.seats.len()).any(|seat| self.is_approached(seat)) {
+            if !(0..self.closed_rows.len()).any(|closed_row| self.is_approached(closed_row)) {
                 return Ok(());
             }
             if !self.pass(false)? {
@@ -188,8 +189,9 @@ impl StructureEvent {
     fn pass(&mut self, last: bool) -> Result<bool> {
         self.lo.fill(f64::NEG_INFINITY);
         self.hi.fill(f64::INFINITY);
-        for seat in 0..self.seats.len() {
-            let (s, rate, quiet) = (self.seats[seat], self.rate_of(seat), self.quiet(self.seats[seat].row));
+        for closed_row in 0..self.closed_rows.len() {
+            let (s, rate, quiet) =
+                (self.closed_rows[closed_row], self.rate_of(closed_row), self.quiet(self.closed_rows[closed_row].row));
             if !(last || s.both || rate <= quiet) {
                 continue;
             }
@@ -210,8 +212,8 @@ impl StructureEvent {
         if !self.solve()? {
             return Ok(false);
         }
-        let Self { solver: Some(solver), seats, body, v, .. } = self else { return Ok(true) };
-        for s in seats {
+        let Self { solver: Some(solver), closed_rows, body, v, .. } = self else { return Ok(true) };
+        for s in closed_rows {
             let p = solver.solution().multiplier.get(s.row).copied().unwrap_or(0.0);
             if p != 0.0 {
                 s.push[side_of(p)] += p.abs();
@@ -251,9 +253,9 @@ impl StructureEvent {
         self.forces(0);
         let short = TIME_UNITS * f64::EPSILON * self.time;
         let mut any = false;
-        for seat in 0..self.seats.len() {
-            let s = self.seats[seat];
-            let (rate, position) = (self.rate_of(seat), self.places[s.row].bound[side_of(s.sign)]);
+        for closed_row in 0..self.closed_rows.len() {
+            let s = self.closed_rows[closed_row];
+            let (rate, position) = (self.rate_of(closed_row), self.places[s.row].bound[side_of(s.sign)]);
             let most = self.body.answer_size(s.row, &self.rhs_size) + self.bend_size(s.row, 0);
             let resolved = self.resolution(s.row, position);
             let low = self.low(s.row) + TAIL_HEIGHT * self.places[s.row].travel + resolved;
@@ -261,10 +263,11 @@ impl StructureEvent {
             let wanted = s.push[side_of(s.sign)] > 0.0 && s.restitution > 0.0 && rate > self.quiet(s.row);
             // Reactions of other held rows press too, with the size of the forces that they
             // balance: no bound is known then.
-            let most = if self.seats.len() > 1 { f64::INFINITY } else { most };
-            self.seats[seat].candidate = wanted && (rate * rate <= 4.0 * most * low || rate <= most * short);
-            any |= self.seats[seat].candidate;
-            self.places[s.row].drifts &= !wanted || self.seats[seat].candidate;
+            let most = if self.closed_rows.len() > 1 { f64::INFINITY } else { most };
+            self.closed_rows[closed_row].candidate =
+                wanted && (rate * rate <= 4.0 * most * low || rate <= most * short);
+            any |= self.closed_rows[closed_row].candidate;
+            self.places[s.row].drifts &= !wanted || self.closed_rows[closed_row].candidate;
         }
         if !any {
             return Ok(false);
@@ -277,13 +280,13 @@ impl StructureEvent {
         self.begin_series(self.limit());
         self.measure();
         let mut found = false;
-        for seat in 0..self.seats.len() {
-            let s = self.seats[seat];
-            if s.candidate && self.is_tail(seat, short) {
-                self.seats[seat].restitution = 0.0;
+        for closed_row in 0..self.closed_rows.len() {
+            let s = self.closed_rows[closed_row];
+            if s.candidate && self.is_tail(closed_row, short) {
+                self.closed_rows[closed_row].restitution = 0.0;
                 found = true;
             }
-            self.seats[seat].candidate = false;
+            self.closed_rows[closed_row].candidate = false;
         }
         std::mem::swap(&mut self.series, &mut self.flight);
         self.v.copy_from_slice(&self.departing);
@@ -294,8 +297,8 @@ impl StructureEvent {
     ///
     /// Sticking at once removes the momentum and the energy of the whole tail: under a steady
     /// pressing force its impacts sum up to the same impulse.
-    fn is_tail(&self, seat: usize, short: f64) -> bool {
-        let s = self.seats[seat];
+    fn is_tail(&self, closed_row: usize, short: f64) -> bool {
+        let s = self.closed_rows[closed_row];
         let (c, unit) = (self.series.seen(s.row), self.series.unit());
         let rate = s.sign * c[1] / unit;
         let press = -2.0 * s.sign * c[2] / (unit * unit);

@@ -28,7 +28,7 @@ impl StructureEvent {
         if let Some(Cause::Elastic(wall)) = hit {
             self.cross(wall);
         }
-        let jumped = self.meet(hit, blown)?;
+        let jumped = self.resolve_rigid(hit, blown)?;
         if jumped || blown {
             self.reclassify();
         }
@@ -78,12 +78,12 @@ impl StructureEvent {
 
     /// Handles the rigid walls that touch: impacts where walls are approached, lasting contact or
     /// separation elsewhere. Returns whether the velocity jumped.
-    fn meet(&mut self, hit: Option<Cause>, blown: bool) -> Result<bool> {
-        self.seat(hit);
-        if self.seats.is_empty() {
+    fn resolve_rigid(&mut self, hit: Option<Cause>, blown: bool) -> Result<bool> {
+        self.close_rows(hit);
+        if self.closed_rows.is_empty() {
             return Ok(false);
         }
-        let struck = (0..self.seats.len()).any(|seat| self.is_approached(seat));
+        let struck = (0..self.closed_rows.len()).any(|closed_row| self.is_approached(closed_row));
         if struck {
             if blown {
                 self.end_rests();
@@ -94,15 +94,15 @@ impl StructureEvent {
         let released = if let (Some(Cause::Release(row)), false) = (hit, blown || struck) { Some(row) } else { None };
         self.settle(released)?;
         self.decided = self.time;
-        for seat in 0..self.seats.len() {
-            self.tell(seat);
+        for closed_row in 0..self.closed_rows.len() {
+            self.record_row(closed_row);
         }
         Ok(struck)
     }
 
     /// Finds the closed rows, and puts the structure exactly onto their surfaces.
-    fn seat(&mut self, hit: Option<Cause>) {
-        self.seats.clear();
+    fn close_rows(&mut self, hit: Option<Cause>) {
+        self.closed_rows.clear();
         (self.fastest_row, self.fastest_weighed) = (0.0, 0.0);
         self.turn();
         for row in 0..self.places.len() {
@@ -142,7 +142,7 @@ impl StructureEvent {
                     }
                 }
             };
-            self.seats.push(ClosedRow {
+            self.closed_rows.push(ClosedRow {
                 row,
                 sign,
                 both,
@@ -155,10 +155,10 @@ impl StructureEvent {
                 force: [0.0; LEVELS],
             });
         }
-        if self.seats.is_empty() {
+        if self.closed_rows.is_empty() {
             return;
         }
-        let turns = self.seats.iter().any(|s| self.body.round(s.row).is_some());
+        let turns = self.closed_rows.iter().any(|s| self.body.round(s.row).is_some());
         for _ in 0..if turns { PLACINGS } else { 1 } {
             self.place_seats();
             self.turn();
@@ -171,25 +171,25 @@ impl StructureEvent {
 
     /// Puts the structure onto the surfaces of the closed rows.
     fn place_seats(&mut self) {
-        let Self { surface, body, seats, places, q, scratch, .. } = self;
+        let Self { surface, body, closed_rows, places, q, scratch, .. } = self;
         let held = |s: &ClosedRow| Held { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
         // A row that is just leaving must not be put back: it would never leave.
         let leaves = |s: &ClosedRow| {
             let gap = places[s.row].gap(side_of(s.sign), body.rows.dot(s.row, q));
             gap >= 0.0 && s.arrived > 0.0 && s.was == 0.0 && !s.both
         };
-        surface.set(body, std::iter::empty(), seats.iter().filter(|s| !leaves(s)).map(held));
+        surface.set(body, std::iter::empty(), closed_rows.iter().filter(|s| !leaves(s)).map(held));
         surface.place(body, q, scratch);
     }
 
     /// Ends the rests that a blow disturbs: what the blow does at a wall that carried the structure
     /// is a new impact.
     fn end_rests(&mut self) {
-        for seat in 0..self.seats.len() {
-            if self.seats[seat].was != 0.0 && self.is_approached(seat) {
-                let s = self.seats[seat];
+        for closed_row in 0..self.closed_rows.len() {
+            if self.closed_rows[closed_row].was != 0.0 && self.is_approached(closed_row) {
+                let s = self.closed_rows[closed_row];
                 self.each_wall(s.row, s.was, |b, _, closed, time| closed.extend(b.close(time, 0.0)));
-                self.seats[seat].was = 0.0;
+                self.closed_rows[closed_row].was = 0.0;
             }
         }
     }
@@ -206,13 +206,13 @@ impl StructureEvent {
     }
 
     /// Records what has happened at a closed row in the step and in the episodes of its walls.
-    fn tell(&mut self, seat: usize) {
-        let s = self.seats[seat];
-        let (rate, place) = (s.sign * self.rate_of(seat), self.places[s.row]);
+    fn record_row(&mut self, closed_row: usize) {
+        let s = self.closed_rows[closed_row];
+        let (rate, place) = (s.sign * self.rate_of(closed_row), self.places[s.row]);
         for (side, sign) in SIGNS.into_iter().enumerate() {
             let stays = place.held == sign;
             if s.push[side] > 0.0 {
-                self.tell_impact(s, side, stays, rate);
+                self.record_impact(s, side, stays, rate);
             } else if s.was == sign && !stays {
                 self.each_wall(s.row, sign, |b, _, closed, time| closed.extend(b.close(time, sign * rate)));
             }
@@ -223,7 +223,7 @@ impl StructureEvent {
     }
 
     /// Records an impulse: the walls with the largest restitution share it.
-    fn tell_impact(&mut self, s: ClosedRow, side: usize, stays: bool, rate: f64) {
+    fn record_impact(&mut self, s: ClosedRow, side: usize, stays: bool, rate: f64) {
         let (place, sign) = (self.places[s.row], SIGNS[side]);
         let (e, arrived) = (place.restitution[side], s.sign * sign * s.arrived);
         let impulse = sign * s.push[side] / place.strikers[side] as f64;

@@ -84,7 +84,7 @@ pub(super) struct StructureEvent {
     /// Walls that hold rows: wall, number of the held row, share.
     carriers: Vec<(usize, usize, f64)>,
     touching: Vec<Touching>,
-    seats: Vec<ClosedRow>,
+    closed_rows: Vec<ClosedRow>,
     /// The largest speed of a row that touches at the present instant, m/s, and in the metric of
     /// the mass, √J.
     fastest_row: f64,

@@ -23,18 +23,18 @@ impl StructureEvent {
     /// Decides on the closed rows of speed 0, and holds those that are pressed. `released` is the
     /// row whose force has just vanished.
     pub(super) fn settle(&mut self, released: Option<usize>) -> Result<()> {
-        for seat in 0..self.seats.len() {
-            let s = self.seats[seat];
-            let (rate, quiet) = (self.rate_of(seat), self.quiet(s.row));
+        for closed_row in 0..self.closed_rows.len() {
+            let s = self.closed_rows[closed_row];
+            let (rate, quiet) = (self.rate_of(closed_row), self.quiet(s.row));
             // After an impact without restitution, the speed is rounding.
             let stopped = s.push != [0.0; 2] && s.restitution == 0.0 && rate.abs() <= 1e3 * quiet;
             let rests = !s.candidate && (s.both || stopped || rate.abs() <= quiet || rate < 0.0);
-            self.seats[seat].fate = if rests { Fate::Open } else { Fate::None };
+            self.closed_rows[closed_row].fate = if rests { Fate::Open } else { Fate::None };
         }
         self.derivatives[0].copy_from_slice(&self.q);
         self.derivatives[1].copy_from_slice(&self.v);
         for level in 0..LEVELS {
-            if !self.seats.iter().any(|s| s.fate == Fate::Open) {
+            if !self.closed_rows.iter().any(|s| s.fate == Fate::Open) {
                 break;
             }
             self.forces(level);
@@ -49,13 +49,14 @@ impl StructureEvent {
     /// Decides one level: one derivative of the acceleration and of the forces.
     fn decide(&mut self, level: usize, released: Option<usize>) -> Result<()> {
         let resting = |s: &&ClosedRow| matches!(s.fate, Fate::Open | Fate::Held(_));
-        if let (1, Some(at)) = (self.seats.iter().filter(resting).count(), self.seats.iter().position(|s| resting(&s)))
+        if let (1, Some(at)) =
+            (self.closed_rows.iter().filter(resting).count(), self.closed_rows.iter().position(|s| resting(&s)))
         {
             return self.decide_one(level, at, released);
         }
         self.lo.fill(f64::NEG_INFINITY);
         self.hi.fill(f64::INFINITY);
-        for s in self.seats.iter().filter(resting) {
+        for s in self.closed_rows.iter().filter(resting) {
             let held = s.both || matches!(s.fate, Fate::Held(_));
             let bound = -self.bend(s.row, level);
             if s.sign > 0.0 || held {
@@ -75,23 +76,23 @@ impl StructureEvent {
         for (&r, row) in solution.multiplier.iter().zip(0..).filter(|(r, _)| **r != 0.0) {
             self.body.rows.row(row).iter().for_each(|&(i, g)| self.rhs_size[i] += (g * r).abs());
         }
-        for at in 0..self.seats.len() {
-            let push = solution.multiplier.get(self.seats[at].row).copied().unwrap_or(0.0);
-            self.seats[at].force[level] = push;
-            let s = self.seats[at];
+        for at in 0..self.closed_rows.len() {
+            let push = solution.multiplier.get(self.closed_rows[at].row).copied().unwrap_or(0.0);
+            self.closed_rows[at].force[level] = push;
+            let s = self.closed_rows[at];
             if s.fate != Fate::Open {
                 continue;
             }
             let push = s.sign * push;
             let away = s.sign * (self.body.rows.dot(s.row, &solution.x) + self.bend(s.row, level));
-            self.seats[at] = self.judged(s, level, push * self.body.delassus(s.row, s.row), away, released);
+            self.closed_rows[at] = self.judged(s, level, push * self.body.delassus(s.row, s.row), away, released);
         }
         Ok(())
     }
 
     /// As [`Self::decide`], for a single row.
     fn decide_one(&mut self, level: usize, at: usize, released: Option<usize>) -> Result<()> {
-        let s = self.seats[at];
+        let s = self.closed_rows[at];
         let away = s.sign * (self.body.answer(s.row, &self.rhs) + self.bend(s.row, level));
         let held = s.both || away < 0.0;
         let judged = self.judged(s, level, -away, away.max(0.0), released);
@@ -103,8 +104,8 @@ impl StructureEvent {
             self.body.add_column(s.row, -s.sign * away / w, &mut self.derivatives[level + 2]);
             self.body.rows.row(s.row).iter().for_each(|&(i, g)| self.rhs_size[i] += (g * away / w).abs());
         }
-        self.seats[at] = judged;
-        self.seats[at].force[level] = if held { -s.sign * away / w } else { 0.0 };
+        self.closed_rows[at] = judged;
+        self.closed_rows[at].force[level] = if held { -s.sign * away / w } else { 0.0 };
         Ok(())
     }
 
@@ -128,7 +129,7 @@ impl StructureEvent {
 
     /// Holds the rows that are to be held, and records what has been decided.
     fn hold_seats(&mut self, released: Option<usize>) {
-        let Self { hold, body, seats, places, v, scratch, .. } = self;
+        let Self { hold, body, closed_rows, places, v, scratch, .. } = self;
         for place in places.iter_mut() {
             place.held = 0.0;
             place.forget();
@@ -137,11 +138,11 @@ impl StructureEvent {
             let position = places.get(s.row).map_or(0.0, |place| place.bound[side_of(s.sign)]);
             matches!(s.fate, Fate::Held(_)).then_some(Held { row: s.row, sign: s.sign, position })
         };
-        let of = |level: usize| seats.iter().filter(move |s| s.fate == Fate::Held(level)).filter_map(&held);
+        let of = |level: usize| closed_rows.iter().filter(move |s| s.fate == Fate::Held(level)).filter_map(&held);
         // The speed that rounding leaves after a stop is removed here, so that it does not enter
         // the motion that follows.
-        if seats.iter().any(|s| s.fate == Fate::Open) {
-            let stopped = seats.iter().filter(|s| matches!(s.fate, Fate::Open | Fate::Held(_))).map(|s| Held {
+        if closed_rows.iter().any(|s| s.fate == Fate::Open) {
+            let stopped = closed_rows.iter().filter(|s| matches!(s.fate, Fate::Open | Fate::Held(_))).map(|s| Held {
                 row: s.row,
                 sign: s.sign,
                 position: places[s.row].bound[side_of(s.sign)],
@@ -156,7 +157,7 @@ impl StructureEvent {
         let idle = |level: usize| of(level).filter(move |held| !pulled(held)).chain(of(level).filter(pulled));
         hold.set(body, of(0), (1..LEVELS).flat_map(idle));
         hold.stop(body, v, scratch);
-        for s in seats.iter() {
+        for s in closed_rows.iter() {
             let in_hold = hold.rows().iter().any(|held| held.row == s.row);
             let (side, place) = (side_of(s.sign), &mut places[s.row]);
             match s.fate {

@@ -107,11 +107,11 @@ impl StructureEvent {
         if level == 0 || self.body.rounds.is_empty() {
             return;
         }
-        let Self { body, seats, derivatives, rhs, rhs_size, .. } = self;
-        for seat in seats.iter().filter(|seat| matches!(seat.fate, Fate::Held(_))) {
-            let Some(round) = body.round(seat.row) else { continue };
+        let Self { body, closed_rows, derivatives, rhs, rhs_size, .. } = self;
+        for closed_row in closed_rows.iter().filter(|closed_row| matches!(closed_row.fate, Fate::Held(_))) {
+            let Some(round) = body.round(closed_row.row) else { continue };
             let [first, second] = [1, 2].map(|k: usize| round.pair(&derivatives[k]));
-            let [r, rate, _] = seat.force;
+            let [r, rate, _] = closed_row.force;
             let of = |axis: usize| match level {
                 1 => r * first[axis],
                 _ => 2.0 * rate * first[axis] + r * second[axis],

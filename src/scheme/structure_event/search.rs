@@ -29,7 +29,7 @@ impl StructureEvent {
             let (w, reach) = (seen[0], seen[1..].iter().map(|c| c.abs()).sum::<f64>());
             self.places[row].travel = place.travel.max(reach);
             if place.held != 0.0 {
-                self.watch_hold(row, &mut end, &mut hit);
+                self.search_hold(row, &mut end, &mut hit);
             }
             for (side, sign) in SIGNS.into_iter().enumerate() {
                 // Apart from rounding, a gap wider than all the row can move stays open.
@@ -39,18 +39,18 @@ impl StructureEvent {
                 if place.held != 0.0 && place.bound[0] == place.bound[1] {
                     continue;
                 }
-                self.watch_gap(row, side, reach, &mut end, &mut hit);
+                self.search_gap(row, side, reach, &mut end, &mut hit);
             }
         }
         for wall in 0..self.barriers.len() {
             if !matches!(self.barriers[wall].phase, Phase::Rigid(_)) {
-                self.watch_elastic(wall, &mut end, &mut hit);
+                self.search_elastic(wall, &mut end, &mut hit);
             }
         }
         hit
     }
 
-    fn watch_gap(&mut self, row: usize, side: usize, reach: f64, end: &mut f64, hit: &mut Option<Hit>) {
+    fn search_gap(&mut self, row: usize, side: usize, reach: f64, end: &mut f64, hit: &mut Option<Hit>) {
         let place = self.places[row];
         let mut watched = RowPolynomial { c: [0.0; TERMS], terms: 0 };
         let seen = self.series.seen(row);
@@ -69,7 +69,7 @@ impl StructureEvent {
         note(found, Cause::Gap(row, side), end, hit);
     }
 
-    fn watch_hold(&mut self, row: usize, end: &mut f64, hit: &mut Option<Hit>) {
+    fn search_hold(&mut self, row: usize, end: &mut f64, hit: &mut Option<Hit>) {
         let Some(k) = self.hold.rows().iter().position(|held| held.row == row) else { return };
         let place = self.places[row];
         if place.force_zeros == Some(LeadingZeros::All) {
@@ -89,7 +89,7 @@ impl StructureEvent {
         note(found, Cause::Release(row), end, hit);
     }
 
-    fn watch_elastic(&mut self, wall: usize, end: &mut f64, hit: &mut Option<Hit>) {
+    fn search_elastic(&mut self, wall: usize, end: &mut f64, hit: &mut Option<Hit>) {
         let b = &self.barriers[wall];
         let (sign, stiffness, damping, position) = (b.sign, b.stiffness, b.damping, b.position);
         let (phase, changed) = (b.phase, b.changed == self.series.start());

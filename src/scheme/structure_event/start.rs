@@ -51,7 +51,7 @@ impl StructureEvent {
             surface: Hold::with_room(rows),
             carriers: Vec::with_capacity(walls),
             touching: Vec::with_capacity(walls),
-            seats: Vec::with_capacity(rows),
+            closed_rows: Vec::with_capacity(rows),
             fastest_row: 0.0,
             fastest_weighed: 0.0,
             sizes: Sizes::new(n),

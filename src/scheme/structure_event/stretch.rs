@@ -1,6 +1,6 @@
 //! A stretch that moreau-jean steps, and the count of events that decides on it.
 
-use crate::scheme::Handed;
+use crate::scheme::Handover;
 use crate::scheme::motion::Motion;
 use crate::step::Contract;
 
@@ -25,7 +25,7 @@ pub(super) struct ImpactBurst {
     /// End of the last stretch handed over, s.
     pub handed: f64,
     /// Stretches handed over; adjacent ones are joined.
-    pub stretches: Vec<Handed>,
+    pub stretches: Vec<Handover>,
     pub steps: u64,
 }
 

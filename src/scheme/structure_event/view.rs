@@ -6,7 +6,7 @@ use crate::qp::Backend;
 use crate::scene::Scene;
 use crate::scheme::exact::ExactWall;
 use crate::scheme::motion::Motion;
-use crate::scheme::{Counters, Handed};
+use crate::scheme::{Counters, Handover};
 use crate::step::{Contact, Path, Step};
 
 impl Motion for StructureEvent {
@@ -38,7 +38,7 @@ impl Motion for StructureEvent {
         self.barriers.iter().filter_map(ExactWall::shown).collect()
     }
 
-    fn handed(&self) -> &[Handed] {
+    fn handed(&self) -> &[Handover] {
         &self.crowd.stretches
     }
 

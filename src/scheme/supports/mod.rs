@@ -37,7 +37,7 @@ mod warm_start;
 pub(super) use contact_rows::ContactRows;
 pub(super) use friction_contact::FrictionContact;
 pub(super) use friction_contacts::FrictionContacts;
-pub(super) use normal::{CROSSING, TURNING, dot, meet, meet_middle};
+pub(super) use normal::{CROSSING, TURNING, closed_hole_state, dot, hole_state};
 pub(super) use points::{ContactPoint, contact_points};
 
 use super::Counters;
@@ -52,7 +52,7 @@ use crate::linear::Factor;
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene, Wall};
 use crate::step::{Contact, Contract, Step};
-use normal::Met;
+use normal::HoleState;
 use walls_in_play::WallsInPlay;
 use warm_start::WarmStart;
 
@@ -71,7 +71,7 @@ pub(super) struct Supports {
     /// v + δ without contacts.
     free: Vec<f64>,
     /// What is known of the holes in play before the step is solved, one entry a contact.
-    met: Vec<Option<Met>>,
+    met: Vec<Option<HoleState>>,
     /// What the blows of the step give towards each hole in play, m/s, one entry a contact.
     given: Vec<f64>,
     memory: WarmStart,
@@ -170,8 +170,8 @@ impl Supports {
     }
 
     /// Takes back all impulses of the step.
-    fn let_go(&mut self) {
-        self.frame.let_go();
+    fn take_back_impulses(&mut self) {
+        self.frame.take_back_impulses();
         self.sweeps.wedged.clear();
     }
 
@@ -179,7 +179,7 @@ impl Supports {
     /// the rule's, unless they drive the structure into a rigid wall or hole that pushes. Returns
     /// whether that displacement must be added.
     #[inline(never)]
-    fn carry(&mut self) -> bool {
+    fn solve_with_blows(&mut self) -> bool {
         let Self { body, frame, theta, .. } = self;
         if !body.find_blows(&[(frame.start, frame.end, frame.end - body.h * *theta)]) {
             return false;
@@ -196,7 +196,7 @@ impl Supports {
             return false;
         }
         if self.body.damped {
-            self.let_go();
+            self.take_back_impulses();
             self.body.damp_shift(1.0, &mut self.b);
             self.settle();
         }
@@ -214,7 +214,7 @@ impl Supports {
                 let seen = |v: &Vec<f64>| body.seen(index, v);
                 Rates { before: seen(&frame.before), struck: seen(frame.struck()), after: seen(&frame.after) }
             }
-            Some(Met { normal, arriving, .. }) => {
+            Some(HoleState { normal, arriving, .. }) => {
                 let after = dot(normal, places.pair(reach.points[index].rows, &frame.after));
                 Rates { before: arriving - given[index], struck: arriving, after }
             }
@@ -229,7 +229,7 @@ impl Motion for Supports {
             self.forced = extra.is_some();
         }
         let h = self.body.h;
-        self.let_go();
+        self.take_back_impulses();
         self.frame.normal.fill([0.0; 2]);
         self.frame.begin(step, h);
         let Self { body, frame, b, .. } = self;
@@ -237,7 +237,7 @@ impl Motion for Supports {
         frame.blown = body.strike((frame.start, frame.end), 1.0, b, frame);
         self.gather();
         self.settle();
-        let carried = self.body.blows.is_some() && self.carry();
+        let carried = self.body.blows.is_some() && self.solve_with_blows();
         let Self { frame, theta, delta, .. } = self;
         for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(&*delta) {
             *q += h * (*v + *theta * d);
@@ -267,7 +267,7 @@ impl Motion for Supports {
     }
 
     fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
-        self.let_go();
+        self.take_back_impulses();
         self.frame.restart(time, q, v);
         self.body.restart(time);
         self.frame.normal.fill([0.0; 2]);

@@ -16,7 +16,7 @@ pub(in crate::scheme) const CROSSING: f64 = 0.5;
 
 /// A hole in play.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::scheme) struct Met {
+pub(in crate::scheme) struct HoleState {
     /// n.
     pub normal: [f64; 2],
     /// The part of n·ẇ that arrives at the hole, or all of it where the body separates, m/s.
@@ -30,7 +30,7 @@ pub(in crate::scheme) struct Met {
 /// The state of a hole of this gap γ (m) and restitution at the displacement `w` (m) from its
 /// centre, with the velocity `rate` (m/s) after the step's blows, in a step of `h` seconds; `None`
 /// if it is out of reach.
-pub(in crate::scheme) fn meet((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], h: f64) -> Option<Met> {
+pub(in crate::scheme) fn hole_state((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], h: f64) -> Option<HoleState> {
     let ahead = [0, 1].map(|i: usize| w[i] + AHEAD * h * rate[i]);
     let reach = norm(ahead);
     // A NaN meets nothing; the step then ends with an error.
@@ -42,7 +42,12 @@ pub(in crate::scheme) fn meet((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2],
 
 /// The state of a closed hole with the normal in the middle between `w` and `end` (m), or at `end`
 /// where the body crosses the hole.
-pub(in crate::scheme) fn meet_middle((gap, e): (f64, f64), [w, end]: [[f64; 2]; 2], rate: [f64; 2], h: f64) -> Met {
+pub(in crate::scheme) fn closed_hole_state(
+    (gap, e): (f64, f64),
+    [w, end]: [[f64; 2]; 2],
+    rate: [f64; 2],
+    h: f64,
+) -> HoleState {
     let middle = [0.5 * (w[0] + end[0]), 0.5 * (w[1] + end[1])];
     let size = norm(middle);
     if size >= CROSSING * gap {
@@ -54,17 +59,17 @@ pub(in crate::scheme) fn meet_middle((gap, e): (f64, f64), [w, end]: [[f64; 2]; 
 }
 
 /// The split of the approach along this normal.
-fn split((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], normal: [f64; 2], h: f64) -> Met {
+fn split((gap, e): (f64, f64), w: [f64; 2], rate: [f64; 2], normal: [f64; 2], h: f64) -> HoleState {
     let a = dot(normal, rate);
     let turn = h * (normal[0] * rate[1] - normal[1] * rate[0]).abs() / gap;
     if a <= 0.0 {
-        return Met { normal, arriving: a, bound: -a, turn };
+        return HoleState { normal, arriving: a, bound: -a, turn };
     }
     let distance = norm(w);
     // Nearer to the centre the direction of w says nothing.
     let sagitta = TURNING.sagitta.max((h / gap).powi(2) * dot(rate, rate) / 8.0).min(TURNING.deepest);
     let arriving = if distance < gap * (1.0 - sagitta) { a } else { (dot(w, rate) / distance).max(0.0).min(a) };
-    Met { normal, arriving, bound: -(e * arriving + (a - arriving)), turn }
+    HoleState { normal, arriving, bound: -(e * arriving + (a - arriving)), turn }
 }
 
 pub(in crate::scheme) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -82,15 +87,15 @@ mod tests {
     #[test]
     fn a_hole_out_of_reach_gives_nothing() {
         // Half a step ahead the body is at 0.9999 of the gap.
-        assert_eq!(meet((1.0, 0.5), [0.5, 0.0], [0.9998, 0.0], 1.0), None);
-        assert_eq!(meet((1.0, 0.5), [0.0, 0.0], [f64::NAN, 0.0], 1.0), None);
-        assert!(meet((1.0, 0.5), [0.5, 0.0], [1.0, 0.0], 1.0).is_some());
+        assert_eq!(hole_state((1.0, 0.5), [0.5, 0.0], [0.9998, 0.0], 1.0), None);
+        assert_eq!(hole_state((1.0, 0.5), [0.0, 0.0], [f64::NAN, 0.0], 1.0), None);
+        assert!(hole_state((1.0, 0.5), [0.5, 0.0], [1.0, 0.0], 1.0).is_some());
     }
 
     #[test]
     fn what_comes_from_inside_arrives_whole() {
         // At (0.6, 0) with (0.8, 0.6): ahead (1, 0.3), so the approach along n is 0.98/√1.09.
-        let met = meet((1.0, 0.25), [0.6, 0.0], [0.8, 0.6], 1.0).unwrap();
+        let met = hole_state((1.0, 0.25), [0.6, 0.0], [0.8, 0.6], 1.0).unwrap();
         let a = 0.98 / 1.09_f64.sqrt();
         assert!((met.arriving - a).abs() < 1e-15 && (met.bound + 0.25 * a).abs() < 1e-15, "{met:?}");
         assert!((met.normal[0] - 1.0 / 1.09_f64.sqrt()).abs() < 1e-15, "{met:?}");
@@ -100,17 +105,17 @@ mod tests {
     fn what_turns_is_reflected_and_what_separates_keeps_its_speed() {
         // On the circle with a velocity along it: nothing arrives, whatever the restitution.
         let (h, v) = (1e-2, 0.3);
-        let met = meet((1.0, 0.25), [1.0, 0.0], [0.0, v], h).unwrap();
+        let met = hole_state((1.0, 0.25), [1.0, 0.0], [0.0, v], h).unwrap();
         let a = met.normal[1] * v;
         assert!(met.arriving == 0.0 && (met.bound + a).abs() < 1e-18 && a > 0.0, "{met:?}");
         assert!((met.turn - h * v).abs() < 1e-5 * h * v, "{met:?}");
         // On the circle with a part across it: that part arrives, the rest turns.
-        let met = meet((1.0, 0.25), [1.0, 0.0], [0.1, v], h).unwrap();
+        let met = hole_state((1.0, 0.25), [1.0, 0.0], [0.1, v], h).unwrap();
         let a = met.normal[0] * 0.1 + met.normal[1] * v;
         assert!((met.arriving - 0.1).abs() < 1e-16, "{met:?}");
         assert!((met.bound + 0.25 * 0.1 + (a - 0.1)).abs() < 1e-15, "{met:?}");
         // Behind the hole on the way back.
-        let met = meet((1.0, 0.25), [1.5, 0.0], [-0.5, 0.0], h).unwrap();
+        let met = hole_state((1.0, 0.25), [1.5, 0.0], [-0.5, 0.0], h).unwrap();
         assert!(met.arriving == -0.5 && met.bound == 0.5, "{met:?}");
     }
 
@@ -121,7 +126,7 @@ mod tests {
             let (gap, h, turn, along) = (4e-3, 1e-7, 0.37 * f64::from(k), if k % 2 == 0 { 0.3 } else { -0.3 });
             let (c, s, out) = (f64::cos(turn), f64::sin(turn), 0.2);
             let rate = [out * c - along * s, out * s + along * c];
-            let met = meet((gap, 0.5), [gap * c, gap * s], rate, h).unwrap();
+            let met = hole_state((gap, 0.5), [gap * c, gap * s], rate, h).unwrap();
             // The normal is that half a step ahead, 4e-6 rad on.
             assert!((met.turn / (h * 0.3 / gap) - 1.0).abs() < 1e-5, "{met:?}");
         }

@@ -9,7 +9,7 @@ use super::super::frame::Frame;
 use super::super::matrices::Matrices;
 use super::contact_rows::ContactRows;
 use super::friction_contact::FrictionContact;
-use super::normal::{AHEAD, Met, TURNING, dot, meet};
+use super::normal::{AHEAD, HoleState, TURNING, dot, hole_state};
 use super::points::ContactPoint;
 use crate::scene::{Checked, Hole};
 #[cfg(doc)]
@@ -122,7 +122,7 @@ impl WallsInPlay {
         (frame, h): (&Frame<Matrices>, f64),
         places: &ContactRows,
         warm: [f64; 2],
-    ) -> Option<(FrictionContact, Met)> {
+    ) -> Option<(FrictionContact, HoleState)> {
         let (round, point) = (self.rounds[index]?, self.points[index]);
         let from = |q: &Vec<f64>| {
             let [y, z] = places.pair(point.rows, q);
@@ -133,7 +133,7 @@ impl WallsInPlay {
             return None;
         }
         let rate = places.pair(point.rows, frame.struck());
-        let met = meet((round.gap, round.restitution), from(&frame.q), rate, h)?;
+        let met = hole_state((round.gap, round.restitution), from(&frame.q), rate, h)?;
         let (contact, law) = ((index, point.rows), (point.friction, 0.0));
         Some((FrictionContact::new(places, contact, (met.normal, met.bound), law, warm), met))
     }

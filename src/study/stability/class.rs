@@ -1,7 +1,7 @@
 //! Classification of a run from its measurements.
 
 use super::fine_reference::{FineReference, REST, exchanged};
-use super::watch::{Record, depth_bound};
+use super::recorded_run::{Record, depth_bound};
 use crate::scene::{Scene, System};
 use crate::scheme::Scheme;
 use crate::step::Contact;

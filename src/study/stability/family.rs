@@ -7,7 +7,7 @@ use std::fmt;
 
 /// What is mapped: a scene and the penalties that replace its rigid walls.
 #[derive(Debug, Clone, Copy)]
-pub struct Question<'a> {
+pub struct MapRequest<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// The penalty laws; their values are among those of the maps.
@@ -22,14 +22,14 @@ const RESTITUTIONS: u32 = 10;
 
 /// One scheme with its second parameter left open: it gives one map.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Family {
+pub enum SchemeFamily {
     /// A scheme that treats walls as constraints.
     Constrained(Scheme),
     /// A penalty with this integrator.
     Penalty(Integrator),
 }
 
-impl Family {
+impl SchemeFamily {
     /// Every family, in the order of tables; generalized-alpha with its default ρ∞.
     #[must_use]
     pub fn all() -> Vec<Self> {
@@ -46,7 +46,7 @@ impl Family {
     }
 }
 
-impl fmt::Display for Family {
+impl fmt::Display for SchemeFamily {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Constrained(scheme) => scheme.fmt(f),
@@ -72,15 +72,15 @@ pub enum Parameter {
 impl Parameter {
     /// The parameter of a family on a case.
     #[must_use]
-    pub fn of(family: Family, case: Question<'_>) -> Self {
+    pub fn of(family: SchemeFamily, case: MapRequest<'_>) -> Self {
         let walls = &case.scene.walls;
         let quartic = PenaltyLaw::Quartic { epsilon: 1.0 };
         let linear_asked = matches!(case.laws.first(), Some(PenaltyLaw::Linear { .. }));
         match family {
             _ if !walls.iter().any(|w| w.law.is_rigid()) => Self::WallStiffness,
-            Family::Constrained(_) => Self::Restitution,
-            Family::Penalty(_) if linear_asked || quartic.validate(case.scene).is_err() => Self::PenaltyStiffness,
-            Family::Penalty(_) => Self::Epsilon,
+            SchemeFamily::Constrained(_) => Self::Restitution,
+            SchemeFamily::Penalty(_) if linear_asked || quartic.validate(case.scene).is_err() => Self::PenaltyStiffness,
+            SchemeFamily::Penalty(_) => Self::Epsilon,
         }
     }
 
@@ -108,7 +108,7 @@ impl Parameter {
 
     /// The values of the case itself, in its order.
     #[must_use]
-    pub fn own(self, case: Question<'_>) -> Vec<f64> {
+    pub fn own(self, case: MapRequest<'_>) -> Vec<f64> {
         let walls = case.scene.walls.iter().map(|w| w.law);
         let laws = case.laws.iter();
         let mut values: Vec<f64> = match self {
@@ -137,7 +137,7 @@ impl Parameter {
     /// values of their own they begin at the stiffness that the wall spring needs to vibrate the
     /// mass as `stiffness` (N/m) would, and go up to 10⁶ times that.
     #[must_use]
-    pub fn values(self, case: Question<'_>, stiffness: f64) -> Vec<f64> {
+    pub fn values(self, case: MapRequest<'_>, stiffness: f64) -> Vec<f64> {
         let own = self.own(case);
         let mut values: Vec<f64> = match self {
             Self::Restitution => (0..=RESTITUTIONS).map(|i| f64::from(i) / f64::from(RESTITUTIONS)).collect(),
@@ -170,7 +170,7 @@ impl Parameter {
     ///
     /// # Errors
     /// [`Error::Invalid`] for a value that makes no sense.
-    pub fn at(self, family: Family, value: f64, scene: &Scene) -> Result<(Scene, Scheme)> {
+    pub fn at(self, family: SchemeFamily, value: f64, scene: &Scene) -> Result<(Scene, Scheme)> {
         let mut scene = scene.clone();
         match self {
             Self::Restitution => {
@@ -189,8 +189,8 @@ impl Parameter {
             Self::Epsilon | Self::PenaltyStiffness => {}
         }
         let scheme = match family {
-            Family::Constrained(scheme) => scheme,
-            Family::Penalty(integrator) => {
+            SchemeFamily::Constrained(scheme) => scheme,
+            SchemeFamily::Penalty(integrator) => {
                 let law = match self {
                     Self::Epsilon => PenaltyLaw::Quartic { epsilon: value },
                     // In a scene with elastic walls only, there is no rigid wall to replace: the
@@ -210,7 +210,7 @@ impl Parameter {
 ///
 /// # Errors
 /// [`Error::Invalid`] for such a case.
-pub fn check(case: Question<'_>) -> Result<()> {
+pub fn check(case: MapRequest<'_>) -> Result<()> {
     if case.scene.turns_or_rubs() {
         let expected = "walls without friction: the maps compare schemes, and most of them do not step such a scene";
         return Err(Error::invalid("support", "round or with friction", expected));

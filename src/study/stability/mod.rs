@@ -6,7 +6,7 @@
 //! | [`theory`] | the same restitution in closed form |
 //! | [`scale`] | the frequency by which steps are measured |
 //! | [`family`] | the schemes of the maps and their second parameter |
-//! | [`watch`] | measurements of one run |
+//! | [`recorded_run`] | measurements of one run |
 //! | `ledger` | the energy that a scheme itself produces |
 //! | [`lasting`] | the effect of schemes on energy and on the force of a lasting contact |
 //! | [`ruler`] | the reference: fine runs from neighbouring starts |
@@ -21,7 +21,7 @@ pub mod impact;
 pub mod lasting;
 mod ledger;
 pub mod plan;
+pub mod recorded_run;
 pub mod row;
 pub mod scale;
 pub mod theory;
-pub mod watch;

@@ -1,10 +1,10 @@
 //! The maps of a case: every scheme, step and parameter, run in parallel.
 
-use super::family::{self, Family, Parameter, Question};
+use super::family::{self, MapRequest, Parameter, SchemeFamily};
 use super::fine_reference::{FineReference, Range};
+use super::recorded_run::{Record, STARTS, nudged, recorded_run};
 use super::row::{Cell, Safe, Subject};
 use super::scale::Scale;
-use super::watch::{Record, STARTS, nudged, watch};
 use crate::error::Result;
 use crate::interrupt::Carried;
 use crate::scene::{Scene, System};
@@ -32,12 +32,19 @@ pub struct Grid {
     /// starts at a coarser step.
     pub most_steps: f64,
     /// The schemes to map.
-    pub families: Vec<Family>,
+    pub families: Vec<SchemeFamily>,
 }
 
 impl Default for Grid {
     fn default() -> Self {
-        Self { finest: 1e-4, coarsest: 3.2, per_decade: 7.0, contacts: 100, most_steps: 1e6, families: Family::all() }
+        Self {
+            finest: 1e-4,
+            coarsest: 3.2,
+            per_decade: 7.0,
+            contacts: 100,
+            most_steps: 1e6,
+            families: SchemeFamily::all(),
+        }
     }
 }
 
@@ -111,14 +118,14 @@ impl Plan {
     ///
     /// # Errors
     /// [`crate::Error::Invalid`] for a case without walls, and errors of that run.
-    pub fn new(case: Question<'_>, grid: &Grid) -> Result<Self> {
+    pub fn new(case: MapRequest<'_>, grid: &Grid) -> Result<Self> {
         family::check(case)?;
         let scene = case.scene;
         let first = Scale::of(scene, None);
         let finest = |scale: &Scale, horizon: f64| (grid.finest / scale.omega).max(horizon / grid.most_steps);
         let own = reference_of(scene, None);
         let h = finest(&first, scene.duration);
-        let record = watch(&own.0, &own.1, h, scene.duration, f64::INFINITY)?;
+        let record = recorded_run(&own.0, &own.1, h, scene.duration, f64::INFINITY)?;
         let ruler = FineReference::new(std::slice::from_ref(&record), scene, &first);
         let times = ruler.contact_times(&record);
         let horizon = times.get(grid.contacts).copied().unwrap_or(scene.duration).min(scene.duration);
@@ -148,7 +155,7 @@ impl Plan {
     #[expect(clippy::too_many_arguments, reason = "the fields of a subject")]
     fn add(
         &mut self,
-        family: Family,
+        family: SchemeFamily,
         parameter: Parameter,
         value: f64,
         scheme: Scheme,
@@ -199,7 +206,7 @@ impl Plan {
         let reference = |(scene, scheme): &(Scene, Scheme)| -> Result<FineReference> {
             let run = |start: u32| -> Result<Record> {
                 let scene = nudged(scene, start, &self.scale);
-                let record = watch(&scene, scheme, h, self.horizon, f64::INFINITY)?;
+                let record = recorded_run(&scene, scheme, h, self.horizon, f64::INFINITY)?;
                 tell(self.cost(h));
                 Ok(record)
             };
@@ -241,7 +248,7 @@ fn reference_of(scene: &Scene, law: Option<PenaltyLaw>) -> (Scene, Scheme) {
 
 impl Maps {
     /// The rows of one family that are drawn, the parameter increasing.
-    pub fn map(&self, family: Family) -> impl Iterator<Item = &Row> {
+    pub fn map(&self, family: SchemeFamily) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(move |row| row.subject.family == family && row.subject.mapped)
     }
 

@@ -1,10 +1,10 @@
 //! One scheme on one scene, over all steps.
 
 use super::class::{Class, DIVERGED, Measurement};
-use super::family::{Family, Parameter};
+use super::family::{Parameter, SchemeFamily};
 use super::fine_reference::FineReference;
+use super::recorded_run::{STARTS, nudged, recorded_run};
 use super::scale::Scale;
-use super::watch::{STARTS, nudged, watch};
 use crate::scene::Scene;
 use crate::scheme::Scheme;
 
@@ -29,7 +29,7 @@ pub struct Cell {
 #[derive(Debug, Clone)]
 pub struct Subject {
     /// Which map it belongs to.
-    pub family: Family,
+    pub family: SchemeFamily,
     /// The second parameter.
     pub parameter: Parameter,
     /// Its value.
@@ -75,7 +75,7 @@ impl Subject {
         // Far above the limit of the class, so that the speed is still measured where a run
         // diverges.
         let limit = 10.0 * DIVERGED * ruler.speed.high.max(f64::MIN_POSITIVE);
-        match watch(&nudged(&self.scene, start, scale), &self.scheme, h, horizon, limit) {
+        match recorded_run(&nudged(&self.scene, start, scale), &self.scheme, h, horizon, limit) {
             Err(error) => Cell { step: h, measured: None, class: Class::Diverged, reason: error.to_string() },
             Ok(record) => {
                 let measured = Measurement::new(&record, ruler, &self.seen, &self.scheme, h);

@@ -87,7 +87,7 @@ fn steps_seen_together_make_the_rows_of_steps_seen_one_by_one() {
                 } else {
                     assert!(calm.take(&shown.step(k, Path::Grid)));
                     if k % 7 == 6 || k == 19 {
-                        many.see_calm(&calm);
+                        many.observe_quiet(&calm);
                         calm.clear();
                     }
                 }
@@ -114,7 +114,7 @@ fn an_impulse_waits_for_its_row_however_many_steps_come_between() {
             assert!(calm.take(&shown.step(k, Path::Grid)));
         }
         if calm.is_full() || k == 511 {
-            many.see_calm(&calm);
+            many.observe_quiet(&calm);
             calm.clear();
         }
     }

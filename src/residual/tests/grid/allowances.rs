@@ -53,7 +53,7 @@ fn a_speed_of_rebound_is_known_to_the_rounding_of_all_that_it_is_made_of() {
     };
     judge.blows.struck = vec![16.0, 8.0];
     let noise = judge.noise.velocity(judge.speeds(&claim.step(), &scene.walls[0]), H);
-    judge.walls.see_rebound(&judge.noise, 0, (-SMALL, noise), 0.0);
+    judge.walls.observe_rebound(&judge.noise, 0, (-SMALL, noise), 0.0);
     let size = (2.0 + 2.0) + (1.0 + 3.0) + (16.0 + 4.0);
     small_less(judge.walls.rebounds.outside.excess.value, judge.noise.of(size) + MET * scene.gap_scale() / H);
 }
@@ -85,9 +85,9 @@ fn the_law_of_a_spring_is_known_to_its_slope_times_the_rounding_of_the_place() {
 fn what_rounding_explains_is_taken_off_each_residual() {
     let mut judge = judge(&under(Wall::upper("stop", 1.0)), rigid(Some(Bound::End), None), 0.0, 0.0);
     // Nothing has moved yet: a force is exact.
-    judge.walls.see_law(&judge.noise, 0, 1.0, 0.25);
+    judge.walls.observe_law(&judge.noise, 0, 1.0, 0.25);
     assert_eq!((judge.walls.law.excess.value, judge.walls.law.excess.wall), (0.75, Some(0)));
-    judge.walls.see_gap(&judge.noise, 0, (-1.0, 0.0), 0.0);
+    judge.walls.observe_gap(&judge.noise, 0, (-1.0, 0.0), 0.0);
     assert_eq!(judge.walls.gaps.outside.excess.value, 1.0 - MET);
     // A residual of nothing is not doubted, and a small one by what is left of it.
     judge.noise.state(&[3.0], &[5.0], 0.0, &judge.weights);

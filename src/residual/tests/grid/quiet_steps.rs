@@ -46,7 +46,7 @@ fn both(scene: &Scene, contract: Contract, q: f64, told: &[Told]) -> [Judge; 2] 
         calm.begin(k as u64, k as f64 * H);
         calm.add(end, (&[q], &[v]), (&[before], &[after]));
         if calm.len() == 11 || k + 1 == told.len() {
-            judges[0].see_calm(&calm);
+            judges[0].observe_quiet(&calm);
             (0..calm.len()).for_each(|k| judges[1].observe(&calm.step(k)));
             calm.clear();
         }

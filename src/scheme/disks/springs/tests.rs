@@ -22,7 +22,7 @@ fn slopes_are_the_derivatives_of_the_forces() {
     let mut pressed = 0;
     for law in [WallLaw::Elastic { stiffness: 50.0, damping: 2.0 }, WallLaw::Quartic { epsilon: 0.1, span: 2.0 }] {
         let scene = free(gap, law);
-        let mut held = Held::new(&scene, h).expect("a scene");
+        let mut held = HoleBody::new(&scene, h).expect("a scene");
         let springs = Springs::new(&scene, &held).expect("a scene");
         for k in 0..60 {
             let turn = 0.37 * f64::from(k);
@@ -30,14 +30,14 @@ fn slopes_are_the_derivatives_of_the_forces() {
             let at = 0.9 + 0.1 * f64::from(k % 4);
             held.frame.q = vec![at * turn.cos(), at * turn.sin()];
             let y = DVector::from_vec(vec![5.0 * (1.1 * turn).cos(), 5.0 * (1.1 * turn).sin()]);
-            let answer = springs.answer(&held, &y);
+            let answer = springs.law_response(&held, &y);
             pressed += u32::from(answer.force.amax() > 0.0);
             for j in 0..2 {
                 let step = 1e-5;
                 let moved = |by: f64| {
                     let mut y = y.clone();
                     y[j] += by;
-                    springs.answer(&held, &y).force
+                    springs.law_response(&held, &y).force
                 };
                 let slope = (moved(-step) - moved(step)) / (2.0 * step);
                 for i in 0..2 {

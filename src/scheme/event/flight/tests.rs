@@ -106,10 +106,10 @@ fn newtons_method_meets_the_wall_or_says_that_it_does_not() {
     // (s − 2)(s + 3), from a hundredth beside the root.
     let jet = [-6.0, 1.0, 2.0, 0.0, 0.0, 0.0, 0.0];
     for from in [1.99, 2.0, 2.01] {
-        let (s, rate) = Taylor::of(&jet, 0.0).meet(from, 1e-14).unwrap();
+        let (s, rate) = Taylor::of(&jet, 0.0).polished_root(from, 1e-14).unwrap();
         // A noise of 1e-14 over a slope of 5.
         assert!((s - 2.0).abs() <= 4e-15 && (rate - 5.0).abs() < 1e-13, "{from}: {s} {rate}");
     }
     // s² + 1 never vanishes.
-    assert_eq!(Taylor::of(&[1.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0], 0.0).meet(0.5, 1e-14), None);
+    assert_eq!(Taylor::of(&[1.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0], 0.0).polished_root(0.5, 1e-14), None);
 }

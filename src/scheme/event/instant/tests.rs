@@ -48,7 +48,7 @@ fn a_velocity_that_is_rounding_counts_as_0_where_the_body_is_pressed_onto_the_wa
             [(-away, 0.0, true), (away, 0.0, false), (0.0, -away, true), (-away, away, true), (away, -away, false)]
         {
             let mut event = body(&[stop("wall", away)], away * 1e-18, &[Load::constant(force), ramp(rate)]);
-            event.meet_rigid(Some(0), 0.0, None);
+            event.resolve_rigid(Some(0), 0.0, None);
             let expected = if pressed { (0.0, Some(0)) } else { (away * 1e-18, None) };
             assert_eq!((event.v, event.support), expected, "{away} {force} {rate}");
             // Neither is one of velocity 0 that lifts off.
@@ -68,7 +68,7 @@ fn a_body_whose_force_has_vanished_is_let_go_whatever_rounding_says_of_its_load(
             event.barriers[0].open(0, 0.0, 0.0);
             event.barriers[0].open.as_mut().unwrap().impulse = away;
             event.time = 2.0;
-            event.meet_rigid(Some(0), 0.0, Some(0));
+            event.resolve_rigid(Some(0), 0.0, Some(0));
             assert_eq!((event.support, event.v), (next, 0.0));
             assert_eq!(event.released, if next.is_none() { 2.0 } else { f64::NEG_INFINITY });
             let [contact] = event.shown.closed[..] else { panic!("{:?}", event.shown.closed) };

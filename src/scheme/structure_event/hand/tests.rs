@@ -41,7 +41,7 @@ fn a_stretch_is_handed_over_after_5000_events_or_50_where_one_was_just_before() 
         [(0.5005, 50, false), (0.5005, 51, true), (0.6, 51, false), (0.6, 5000, false), (0.6, 5001, true)]
     {
         let mut event = started(&ball(0.5), 1.0);
-        event.crowd.stretches = vec![Handed { from: 0.499, to: 0.5, step: 5e-6 }];
+        event.crowd.stretches = vec![Handover { from: 0.499, to: 0.5, step: 5e-6 }];
         event.crowd.handed = 0.5;
         (event.time, event.crowd.since) = (time, time);
         assert_eq!(is_handed(&mut event, events), handed, "{time} {events}");

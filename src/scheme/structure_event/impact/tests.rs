@@ -54,7 +54,7 @@ fn walls_in_turn_end_at_one_velocity() {
     let scene = (0..2).fold(masses(&[1.0, 2.0, 3.0], &[], &[]), |scene, i| scene.with_wall(between(i, 0.9)));
     let mut event = started(&scene, 1.0);
     event.v = vec![1.0, 0.0, -1.0];
-    event.seats = vec![closed(0, 1.0), closed(1, 1.0)];
+    event.closed_rows = vec![closed(0, 1.0), closed(1, 1.0)];
     event.in_turn().unwrap();
     assert_near(&event.v, &[-1.0 / 3.0; 3]);
     // What is not approached is left alone.
@@ -73,7 +73,7 @@ fn a_speed_is_0_within_the_rounding_of_velocities_and_forces() {
     event.begin_series(0.25);
     event.v = vec![-0.5, 0.7];
     event.sizes.instant = vec![8.0, 30.0];
-    event.seats = vec![closed(0, 1.0)];
+    event.closed_rows = vec![closed(0, 1.0)];
     (event.fastest_row, event.fastest_weighed) = (1.5, 0.8);
     assert!(event.series.unit() == 0.25);
     // |g v| + |g f/m| · unit.
@@ -81,7 +81,7 @@ fn a_speed_is_0_within_the_rounding_of_velocities_and_forces() {
     (0..2).for_each(|row| assert!(near(event.quiet(row), own[row]), "{row}: {:e}", event.quiet(row)));
     // Among several, 4e-12 of the fastest, or in the metric of the mass if that is less: W is 9/2
     // and 1/50.
-    event.seats = vec![closed(0, 1.0), closed(1, 1.0)];
+    event.closed_rows = vec![closed(0, 1.0), closed(1, 1.0)];
     let wanted = [4e-12 * 1.5, 4e-12 * 0.8 * 0.02_f64.sqrt()];
     (0..2).for_each(|row| assert!(near(event.quiet(row), wanted[row]), "{row}: {:e}", event.quiet(row)));
 }

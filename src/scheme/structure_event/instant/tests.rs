@@ -41,8 +41,8 @@ fn the_fastest_closed_row_is_known_in_metres_and_in_the_metric_of_the_mass() {
         .with_wall(rigid(Wall::lower("c", -1.0), 0.5, &[(2, 1.0)]))
         .with_initial(&[0.0; 3], &[-0.5, 0.75, 9.0]);
     let mut event = started(&scene, 1.0);
-    event.seat(None);
-    assert_eq!(event.seats.iter().map(|s| s.row).collect::<Vec<_>>(), [0, 1]);
+    event.close_rows(None);
+    assert_eq!(event.closed_rows.iter().map(|s| s.row).collect::<Vec<_>>(), [0, 1]);
     // 1.5 m/s over √(9/2), and 0.75 m/s over √(1/50), which is more.
     assert!(event.fastest_row == 1.5 && near(event.fastest_weighed, 0.75 * f64::sqrt(50.0)));
 }

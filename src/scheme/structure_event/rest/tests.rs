@@ -26,11 +26,11 @@ fn the_speed_that_rounding_leaves_after_a_stop_is_none() {
         let mut event = started(&loaded(-8.0), 1.0);
         event.sizes.instant = vec![8.0];
         event.v = vec![speed * quiet / 3.0];
-        let mut seat = closed(0, 1.0);
-        (seat.push, seat.restitution) = (push, e);
-        event.seats = vec![seat];
+        let mut closed_row = closed(0, 1.0);
+        (closed_row.push, closed_row.restitution) = (push, e);
+        event.closed_rows = vec![closed_row];
         event.settle(None).unwrap();
-        let what = format!("{push:?} {e} {speed}: {:?}", event.seats);
+        let what = format!("{push:?} {e} {speed}: {:?}", event.closed_rows);
         assert!(event.places[0].held == if held { 1.0 } else { 0.0 }, "{what}");
         assert!(if held { event.v[0].abs() < 1e-25 } else { near(event.v[0], speed * quiet / 3.0) }, "{what}");
     }
@@ -47,12 +47,12 @@ fn a_row_is_held_with_the_force_that_presses_it() {
     ] {
         let scene = loaded(force).with_wall(rigid(Wall::upper("above", 0.0), 0.5, &[(0, 3.0)]));
         let mut event = started(&scene, 1.0);
-        let mut seat = closed(0, 1.0);
-        seat.both = both;
-        event.seats = vec![seat];
+        let mut closed_row = closed(0, 1.0);
+        closed_row.both = both;
+        event.closed_rows = vec![closed_row];
         event.settle(None).unwrap();
-        let (seat, what) = (event.seats[0], format!("{force} {both}: {:?}", event.seats));
-        assert!(seat.fate == fate && (seat.force[0] - reaction).abs() < 1e-14, "{what}");
+        let (closed_row, what) = (event.closed_rows[0], format!("{force} {both}: {:?}", event.closed_rows));
+        assert!(closed_row.fate == fate && (closed_row.force[0] - reaction).abs() < 1e-14, "{what}");
         let acceleration = if fate == Fate::Held(0) { 0.0 } else { force / 2.0 };
         assert!((event.derivatives[2][0] - acceleration).abs() < 1e-15, "{what}");
         // The terms of the acceleration: the force, and three times that of the wall.
@@ -70,9 +70,13 @@ fn the_forces_of_several_walls_are_terms_of_the_acceleration() {
         .with_load(on(Load::constant(-6.0), 0))
         .with_load(on(Load::constant(10.0), 1));
     let mut event = started(&scene, 1.0);
-    event.seats = vec![closed(0, 1.0), closed(1, -1.0)];
+    event.closed_rows = vec![closed(0, 1.0), closed(1, -1.0)];
     event.settle(None).unwrap();
-    assert!(near(event.seats[0].force[0], 2.0) && near(event.seats[1].force[0], -10.0), "{:?}", event.seats);
+    assert!(
+        near(event.closed_rows[0].force[0], 2.0) && near(event.closed_rows[1].force[0], -10.0),
+        "{:?}",
+        event.closed_rows
+    );
     assert!(near(event.rhs_size[0], 12.0) && near(event.rhs_size[1], 20.0), "{:?}", event.rhs_size);
     assert!(event.derivatives[2].iter().all(|a| a.abs() < 1e-14), "{:?}", event.derivatives[2]);
 }
@@ -93,9 +97,9 @@ fn a_force_that_has_just_vanished_may_be_more_than_rounding() {
     assert_eq!(judge(0, 0.0, 2e-6, Some(0)), Fate::Gone(0));
     // Between walls on both sides, a row that nothing presses is not in contact.
     event.rhs_size = vec![0.0];
-    let mut seat = closed(0, 1.0);
-    seat.both = true;
-    assert_eq!(event.judged(seat, 0, 0.0, 0.0, None).fate, Fate::Open);
+    let mut closed_row = closed(0, 1.0);
+    closed_row.both = true;
+    assert_eq!(event.judged(closed_row, 0, 0.0, 0.0, None).fate, Fate::Open);
 }
 
 #[test]
@@ -107,7 +111,7 @@ fn of_rows_that_depend_on_each_other_the_one_that_pulled_carries_nothing() {
     ));
     for pulled in [0, 1] {
         let mut event = started(&scene, 1.0);
-        event.seats = [0, 1].map(|row| ClosedRow { fate: Fate::Held(1), ..closed(row, 1.0) }).to_vec();
+        event.closed_rows = [0, 1].map(|row| ClosedRow { fate: Fate::Held(1), ..closed(row, 1.0) }).to_vec();
         event.hold_seats(Some(pulled));
         assert_eq!(event.hold.rows().iter().map(|held| held.row).collect::<Vec<_>>(), [1 - pulled]);
         assert!(event.places[1 - pulled].held == 1.0 && event.places[pulled].held == 0.0);
@@ -124,7 +128,7 @@ fn a_row_that_no_derivative_decides_is_stopped_and_left_free() {
             masses(&[2.0], &[], &[]).with_wall(wall(Wall::lower("a", 0.0))).with_wall(wall(Wall::upper("b", 0.0)));
         let mut event = started(&scene, 1.0);
         event.v = vec![1e-17];
-        event.seats = vec![ClosedRow { both, ..closed(0, -1.0) }];
+        event.closed_rows = vec![ClosedRow { both, ..closed(0, -1.0) }];
         event.hold_seats(None);
         assert!(event.v[0].abs() < 1e-30 && event.hold.rows().is_empty(), "{:?}", event.v);
         // Its displacement, its speed, and three derivatives of that are 0.
@@ -145,9 +149,9 @@ fn a_body_that_runs_along_a_hole_without_a_force_is_not_held_and_does_not_leave(
     for faster in [0.0, 1e-6, -1e-6] {
         let mut event = started(&scene, 1.0);
         event.v[1] *= 1.0 + faster;
-        event.seats = vec![closed(0, 1.0), closed(1, -1.0)];
+        event.closed_rows = vec![closed(0, 1.0), closed(1, -1.0)];
         event.settle(None).unwrap();
-        let [floor, hole] = [event.seats[0].fate, event.seats[1].fate];
+        let [floor, hole] = [event.closed_rows[0].fate, event.closed_rows[1].fate];
         let wanted = match faster {
             0.0 => Fate::Open,
             f if f > 0.0 => Fate::Held(0),

@@ -45,9 +45,9 @@ fn a_bend_is_what_the_gap_has_beside_its_row() {
 fn a_force_that_turns_with_its_hole_has_the_derivatives_of_a_product() {
     let mut event = body([0.5, 0.1], [0.0; 2]);
     (event.derivatives[1], event.derivatives[2]) = (vec![0.7, -0.3, 9.0], vec![-1.1, 0.4, 9.0]);
-    let mut seat = closed(ROW, -1.0);
-    (seat.fate, seat.force) = (Fate::Held(0), [-5.0, 3.0, 0.0]);
-    event.seats = vec![seat];
+    let mut closed_row = closed(ROW, -1.0);
+    (closed_row.fate, closed_row.force) = (Fate::Held(0), [-5.0, 3.0, 0.0]);
+    event.closed_rows = vec![closed_row];
     // Beside ṙ n and r̈ n: r ẇ/γ, and (2 ṙ ẇ + r ẅ)/γ.
     let wanted = [[0.0; 2], [-5.0 * 0.7, 5.0 * 0.3], [6.0 * 0.7 + 5.0 * 1.1, -6.0 * 0.3 - 5.0 * 0.4]];
     for (level, wanted) in wanted.into_iter().enumerate() {
@@ -132,7 +132,7 @@ fn programmes_in_which_a_wall_pushes_are_counted_once() {
         let scene = masses(&[1.0, 2.0], &[], &[]).with_wall(floor(0)).with_wall(floor(1));
         let scene = scene.with_load(on(Load::constant(load), 0)).with_load(on(Load::constant(load), 1));
         let mut event = started(&scene, 1.0);
-        event.seats = vec![closed(0, 1.0), closed(1, 1.0)];
+        event.closed_rows = vec![closed(0, 1.0), closed(1, 1.0)];
         event.settle(None).unwrap();
         let work = event.solver_work();
         // One on the forces at the start; where nothing is pressed it has nothing to solve.

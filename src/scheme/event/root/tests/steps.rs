@@ -157,7 +157,7 @@ fn letting_go_forgives_what_is_rounding() {
     ] {
         let c = [c0, -1e-4, c2, 1.0];
         let mut g = Below { c, fourth: 0.0, bound: 0.0, noise, passes_touch: false };
-        g.let_go();
+        g.set_aside();
         assert_eq!(g.c, if forgiven { [c0.max(0.0), 0.0, c2.max(0.0), 1.0] } else { c }, "{c0} {c2}");
         assert_ne!(g.step(0.1) == Step::Now, forgiven || c0 > 1e-3, "{c0} {c2}");
     }

@@ -26,7 +26,7 @@ pub(super) struct Round {
 
 /// What all rules share: the structure with its holes, and the results of a step.
 #[derive(Debug)]
-pub(super) struct Held {
+pub(super) struct HoleBody {
     pub body: Body<Matrices>,
     pub frame: Frame<Matrices>,
     /// The rows of the holes, two each.
@@ -36,7 +36,7 @@ pub(super) struct Held {
     pub flats: Vec<usize>,
 }
 
-impl Held {
+impl HoleBody {
     /// The structure of `scene` at its start, in steps of `h` seconds.
     pub fn new(scene: &Scene, h: f64) -> Result<Self> {
         let mut body = Body::<Matrices>::new(scene, h)?;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// computed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct Handed {
+pub struct Handover {
     /// Start, s.
     pub from: f64,
     /// End, s.

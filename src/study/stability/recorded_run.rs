@@ -52,7 +52,7 @@ pub struct Record {
 ///
 /// # Errors
 /// Errors of the scheme.
-pub fn watch(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -> Result<Record> {
+pub fn recorded_run(scene: &Scene, scheme: &Scheme, h: f64, horizon: f64, limit: f64) -> Result<Record> {
     let mut stepper = Stepper::new(scene, scheme, h)?;
     let mut books = EnergyAccount::new(&stepper, h);
     let steps = (horizon / h * (1.0 - 1e-12)).ceil().max(1.0) as u64;

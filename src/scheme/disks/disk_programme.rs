@@ -10,7 +10,7 @@ use crate::scene::{Face, Row, Scene, WallLaw};
 
 /// A programme over all walls and holes, and its bounds in a step.
 #[derive(Debug)]
-pub(in crate::scheme) struct Bounds {
+pub(in crate::scheme) struct DiskProgramme {
     solver: DiskSolver,
     bounds: Vec<DiskBound>,
     /// The first row of each wall.
@@ -18,7 +18,7 @@ pub(in crate::scheme) struct Bounds {
     names: Vec<String>,
 }
 
-impl Bounds {
+impl DiskProgramme {
     /// With the matrix `a`, a typical size `scale` of the rows' values, and the compliance of
     /// elastic walls and holes as a function of stiffness and damping.
     pub fn new(scene: &Scene, a: Symmetric, scale: f64, compliance: impl Fn(f64, f64) -> f64) -> Result<Self> {
@@ -57,7 +57,7 @@ impl Bounds {
         self.bounds[hole] = bound;
     }
 
-    /// Solves for b in a step; the minimiser is [`Bounds::x`] until the next call.
+    /// Solves for b in a step; the minimiser is [`DiskProgramme::x`] until the next call.
     pub fn solve(&mut self, b: &[f64], (time, step): (f64, u64)) -> Result<()> {
         match self.solver.solve(b, &self.bounds) {
             Ok(_) => Ok(()),
