@@ -80,7 +80,7 @@ impl Judge {
         let Some(mut supports) = self.supports.take() else { return };
         let scene = std::sync::Arc::clone(&self.scene);
         let after = Step { velocity_after: step.v, impulse: step.jump, ..*step };
-        for hole in scene.holes() {
+        for hole in scene.holes().filter(|hole| hole.law.is_rigid()) {
             self.rebound_at_hole(step, &hole, &mut supports);
             let ([y, z], place) = (step.normal[hole.index], hole.index);
             let impulse = [step.jump[place], if step.jump[place] == 0.0 { 0.0 } else { step.friction[place] }];

@@ -7,7 +7,7 @@ use super::hole_motion::HoleMotion;
 use super::largest_residual::Residual;
 use super::round::HolePush;
 use crate::scene::{Hole, WallSpring};
-use crate::step::Law;
+use crate::step::{Bound, Law};
 
 impl Judge {
     /// Checks a ring of this gap and law, and notes the part of its force that is not along the
@@ -27,7 +27,13 @@ impl Judge {
             (Some(WallSpring { stiffness, damping }), Law::Depth(theta)) => {
                 let at = [0, 1].map(|i: usize| (1.0 - theta) * start[i] + theta * end[i]);
                 let distance = at[0].hypot(at[1]);
-                let pressure = stiffness * (distance - gap) + damping * (distance - r0.max(gap)) / (theta * h);
+                // Where the dashpot's plate is at the step's start: on the body or the circle.
+                let plate = if self.contract.promise.hole == Some(Bound::Along) {
+                    (at[0] * start[0] + at[1] * start[1]) / distance + (gap - r0).max(0.0)
+                } else {
+                    r0.max(gap)
+                };
+                let pressure = stiffness * (distance - gap) + damping * (distance - plate) / (theta * h);
                 (at, pressure, stiffness + damping / (theta * h))
             }
             (_, Law::Gradient) => {

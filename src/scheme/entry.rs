@@ -90,4 +90,4 @@ pub(super) const NO_ENERGY_ON_A_CIRCLE: &str = "moreau-jean: this scheme does no
 
 /// What a scheme that cannot step through the law of an elastic round support expects instead.
 pub(super) const ONES_FOR_RINGS: &str =
-    "moreau-jean, implicit-euler or penalty, the schemes for elastic round supports";
+    "moreau-jean, located, implicit-euler or penalty, the schemes for elastic round supports";

@@ -26,8 +26,10 @@ pub struct Promise {
     /// step: under [`Bound::End`] 0 ≤ γ − |w⁺| ⟂ p ≥ 0, with w⁺ at the step's end, including the
     /// displacement that blows add; where there is no impact law [`Promise::round`] beside it, the
     /// impulse is −p n with n = w⁺/|w⁺|. Under [`Bound::Along`] p is not 0 only where the body
-    /// stays at the hole, |w| = |w⁺| = γ, and n is parallel to w + w⁺. `None` for a scheme without
-    /// such a bound.
+    /// stays at the hole, |w| = |w⁺| = γ, and n is parallel to w + w⁺; of an elastic hole
+    /// the dashpot then feels the rate along n: its plate begins where n·w is, or on the circle
+    /// beyond it, by γ − |w|. `None` for a scheme without such a
+    /// bound.
     pub hole: Option<Bound>,
     /// At supports with friction; `None` for a scheme without friction.
     pub friction: Option<Friction>,

@@ -58,7 +58,7 @@ pub(super) use planar::LocatedPlanar;
 
 use super::Counters;
 use super::body::Body;
-use super::entry::{Coverage, ONES_FOR_RINGS, Realised, SchemeEntry, SchemeKind};
+use super::entry::{Coverage, Realised, SchemeEntry, SchemeKind};
 use super::frame::{Frame, Stretch};
 use super::programme::Programme;
 use super::rule::Rule;
@@ -85,7 +85,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     fails: "a step with more than 64 parts ends without rebound (reported); an impact costs several steps; a body that \
             friction jams may have no motion at a coarse step (an error)",
     round: Coverage::Stepped("finds the instants of contact, and follows the circle while the body slides along it"),
-    elastic_round: Coverage::Refused(ONES_FOR_RINGS),
+    elastic_round: Coverage::Stepped("presses with the force of the ring in the middle of each part"),
     friction: Coverage::Stepped("finds the instants at which sliding ends"),
 };
 

@@ -18,7 +18,7 @@ use super::crossing::GapPath;
 use super::impact::Impact;
 use super::part::{Part, THETA, size_of};
 use super::plane_contact::PlaneContact;
-use super::response::{Guide, PlaneBound, Response};
+use super::response::{Guide, PlaneBound, Plate, Response, Ring};
 use super::round_path::RoundPath;
 use crate::error::Result;
 use crate::scene::{Row, Scene};
@@ -108,6 +108,12 @@ impl PlaneContacts {
     /// True if the motion of a whole step is that without walls, apart from crossings.
     pub fn is_free(&self, body: &Body<Matrices>, frame: &Frame<Matrices>, delta: &[f64]) -> bool {
         let elastic = |(wall, face): (usize, &super::super::flat_row::FlatRow)| {
+            if let Some((centre, gap)) = self.all[wall].round {
+                let (from, rate, change) =
+                    (self.offset(wall, centre, &frame.q), self.pair(wall, &frame.v), self.pair(wall, delta));
+                let end = [0, 1].map(|i: usize| from[i] + body.h * (rate[i] + THETA * change[i]));
+                return face.law.is_rigid() || dot(from, from).max(dot(end, end)) <= gap * gap;
+            }
             let (w, change) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
             let end =
                 w + body.h * (change + 0.5 * dot(self.all[wall].point.normal, self.pair(wall, delta)) * -face.sign);
@@ -162,13 +168,25 @@ impl PlaneContacts {
         }
     }
 
-    /// The contact of an elastic flat wall over a part of `length` seconds of the weight θ.
+    /// The contact of an elastic wall over a part of `length` seconds of the weight θ.
     fn spring(&self, wall: usize, state: (&Body<Matrices>, &Frame<Matrices>), span: (f64, f64)) -> PlaneBound {
         let (body, frame) = state;
-        let face = body.walls[wall];
+        let (face, contact, (length, theta)) = (body.walls[wall], &self.all[wall], span);
+        if let (Some((centre, gap)), Some(spring)) = (contact.round, face.law.spring()) {
+            let from = self.offset(wall, centre, &frame.q);
+            let distance = from[0].hypot(from[1]);
+            let plate = if theta == THETA {
+                Plate::Beyond((gap - distance).max(0.0))
+            } else {
+                Plate::Distance(distance.max(gap))
+            };
+            let ring = Ring { spring, gap, plate, theta };
+            let compliance = ring.compliance(length);
+            return PlaneBound { compliance, ..self.velocity_bound(wall, state, Guide::Ring(ring)) };
+        }
         let (w, rate) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
         let (bound, compliance) = face.spring_bound(w, rate, span);
-        let guide = Guide::Flat(self.all[wall].point.normal, -face.sign * (rate + bound));
+        let guide = Guide::Flat(contact.point.normal, -face.sign * (rate + bound));
         PlaneBound { compliance, ..self.velocity_bound(wall, state, guide) }
     }
 }
@@ -303,6 +321,7 @@ impl Contacts<Matrices> for PlaneContacts {
                     }
                     path.crossing(body.touch)
                 }
+                Some(_) if damped && self.gap(wall, body, &frame.q).0 <= body.touch => continue,
                 Some(_) => self.round_path(frame, wall, (delta, length)).and_then(|path| path.crossing(body.touch)),
             };
             if let Some(at) = crossing {

@@ -7,6 +7,11 @@
 //!
 //! so that (w⁺ + w)·(w⁺ − w) = 0: the body stays on the circle, and p does no work. n is found with
 //! w⁺, by repetition from w + ½sẇ. A step of implicit-euler takes n ∥ w⁺ and n·w⁺ ≤ γ instead.
+//!
+//! An elastic round wall pushes along n ∥ w_θ = (1 − θ)w + θw⁺ with the force of its spring and
+//! dashpot there. Since n·w_θ = |w_θ|, that force is linear in n·ẇ⁺, as at a flat elastic wall. The
+//! dashpot feels the rate along n: a difference of distances from the centre would be wrong by
+//! ¼s|ẇ|²/γ where the body slides along the ring.
 
 use super::super::body::Body;
 use super::super::matrices::Matrices;
@@ -15,7 +20,7 @@ use super::super::supports::{CROSSING, ContactRows, FrictionContact, FrictionCon
 use super::part::{Part, Push, indefinite};
 use crate::linear::{Factor, Symmetric};
 use crate::qp::Failure;
-use crate::scene::Row;
+use crate::scene::{Row, WallSpring};
 
 /// Most repetitions with the normals of the one before.
 const MOST_TURNS: u32 = 60;
@@ -33,6 +38,56 @@ pub(super) enum Guide {
     Chord { return_rate: f64 },
     /// A round wall of this gap (m) that is not passed at the end.
     End { gap: f64 },
+    /// An elastic round wall.
+    Ring(Ring),
+}
+
+/// Where the plate of a dashpot of an elastic round wall begins, m.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Plate {
+    /// At this distance from the centre.
+    Distance(f64),
+    /// That far beyond the body, along the normal.
+    Beyond(f64),
+}
+
+/// The force of an elastic round wall over a part of a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ring {
+    pub spring: WallSpring,
+    /// γ, m.
+    pub gap: f64,
+    /// Its dashpot's plate at the start.
+    pub plate: Plate,
+    /// θ of the part.
+    pub theta: f64,
+}
+
+impl Ring {
+    /// n, and the bound on n·ẇ⁺ beyond which the ring pushes, for a body that starts at `from` (m)
+    /// with `rate` (m/s) and moves by `way` (m) over `length` seconds.
+    fn bound(&self, [from, rate, way]: [[f64; 2]; 3], length: f64) -> ([f64; 2], f64) {
+        let normal = unit([0, 1].map(|i: usize| from[i] + self.theta * way[i]));
+        let (w, speed, st) = (dot(normal, from), dot(normal, rate), self.theta * length);
+        let plate = match self.plate {
+            Plate::Distance(distance) => distance,
+            Plate::Beyond(beyond) => w + beyond,
+        };
+        let force = self.spring.force(w + st * speed, self.gap, plate, st);
+        (normal, speed - length * force * self.compliance(length))
+    }
+
+    /// n·ẇ⁺ beyond the bound over the impulse, m/s per N s.
+    pub fn compliance(&self, length: f64) -> f64 {
+        let st = self.theta * length;
+        1.0 / (st * st * self.spring.over(st))
+    }
+}
+
+/// The unit vector along `x`.
+fn unit(x: [f64; 2]) -> [f64; 2] {
+    let size = dot(x, x).sqrt();
+    if size > 0.0 { x.map(|x| x / size) } else { [1.0, 0.0] }
 }
 
 /// A contact that bounds the motion over a part.
@@ -57,10 +112,6 @@ impl PlaneBound {
     /// n and the bound on n·ẇ⁺ if the place moves by `way` (m) over `length` seconds; the same for
     /// a flat wall always.
     fn bound(&self, way: [f64; 2], length: f64) -> ([f64; 2], f64) {
-        let unit = |x: [f64; 2]| {
-            let size = dot(x, x).sqrt();
-            if size > 0.0 { x.map(|x| x / size) } else { [1.0, 0.0] }
-        };
         match self.guide {
             Guide::Flat(normal, bound) => (normal, bound),
             Guide::Chord { return_rate } => {
@@ -71,28 +122,26 @@ impl PlaneBound {
                 let normal = unit([0, 1].map(|i: usize| self.from[i] + way[i]));
                 (normal, (gap - dot(normal, self.from)) / length)
             }
+            Guide::Ring(ring) => ring.bound([self.from, self.rate, way], length),
         }
     }
-}
 
-impl PlaneBound {
     /// n over a part of `length` seconds of the weight θ that changes the rate of the place by
     /// `change` (m/s).
     pub fn normal_over(&self, change: &[f64; 2], length: f64, theta: f64) -> [f64; 2] {
         self.bound([0, 1].map(|i: usize| length * (self.rate[i] + theta * change[i])), length).0
     }
-}
 
-impl PlaneBound {
-    /// True if the end of the path lies outside of a round wall.
+    /// True if the end of the path lies outside of a round wall; of an elastic one, where it pushes.
     fn is_passed(&self, way: [f64; 2]) -> bool {
-        let end = [0, 1].map(|i: usize| self.from[i] + way[i]);
-        let limit = match self.guide {
+        let after = |share: f64| [0, 1].map(|i: usize| self.from[i] + share * way[i]);
+        let (place, limit) = match self.guide {
             Guide::Flat(..) => return false,
-            Guide::Chord { .. } => dot(self.from, self.from),
-            Guide::End { gap } => gap * gap,
+            Guide::Chord { .. } => (after(1.0), dot(self.from, self.from)),
+            Guide::End { gap } => (after(1.0), gap * gap),
+            Guide::Ring(ring) => (after(ring.theta), ring.gap * ring.gap),
         };
-        dot(end, end) > limit
+        dot(place, place) > limit
     }
 
     /// True if the middle of the path along a round wall says little of its normal.
