@@ -17,6 +17,7 @@
 
 mod around;
 mod body;
+mod change;
 mod circle;
 mod hold;
 mod round;
@@ -25,6 +26,7 @@ mod wave;
 
 use crate::scene::Row;
 pub(crate) use body::SeriesBody;
+pub(crate) use change::{Change, Drive};
 use circle::Circle;
 pub(crate) use hold::{Held, Hold};
 pub(crate) use round::Round;
@@ -174,6 +176,12 @@ impl Series {
     /// Walls that act, each with the force polynomial in x of its row and its share of it.
     pub(crate) fn acting(&self) -> impl Iterator<Item = (usize, &[f64], f64)> {
         self.acting.iter().map(|a| (a.wall, self.force(a.slot), a.share))
+    }
+
+    /// Walls that act, each with the index of its force among those of touching walls and held rows,
+    /// and its share of it.
+    pub(crate) fn acting_slots(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        self.acting.iter().map(|a| (a.wall, a.slot, a.share))
     }
 
     /// Walls that act, each with whether it is one that holds a row; the others are elastic walls

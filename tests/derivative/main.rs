@@ -1,0 +1,4 @@
+//! Derivatives of exact runs with respect to keys of the scene.
+
+mod closed_forms;
+mod scenes;
