@@ -19,9 +19,7 @@ pub(crate) use contact::{Support, Touch};
 pub(crate) use propagator::{Propagator, held};
 pub(crate) use response::Jet;
 pub use series::Series;
-pub(crate) use series::{
-    Change, Drive, Held, Hold, Round, SeriesBody, Start as SeriesStart, TERMS, Touching, value,
-};
+pub(crate) use series::{Change, Drive, Held, Hold, Round, SeriesBody, Start as SeriesStart, TERMS, Touching, value};
 
 use crate::scene::{Forcing, Oscillator, Side};
 use force::LocalForce;

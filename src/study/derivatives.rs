@@ -124,7 +124,8 @@ impl Derivatives {
                 sum(&|c| (c.contact.approach_speed, &c.approach_speed), 1.0 / count),
             ),
         ];
-        let measured = |(name, words, unit, (value, derivative))| Measured { wall, name, words, unit, value, derivative };
+        let measured =
+            |(name, words, unit, (value, derivative))| Measured { wall, name, words, unit, value, derivative };
         all.into_iter().map(measured).collect()
     }
 }

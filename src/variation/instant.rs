@@ -179,8 +179,7 @@ impl StructureVariation {
         }
         self.kick(step, series);
         let Self { flow, walls, jump, q, v, a, wall_of, keys, .. } = self;
-        let at =
-            Instant { time: step.end, q, before: v, after: step.v, acceleration: a, impulse: step.jump, wall_of };
+        let at = Instant { time: step.end, q, before: v, after: step.v, acceleration: a, impulse: step.jump, wall_of };
         let fixed = blown || (step.index == 0 && step.end <= step.start);
         if fixed {
             struck.iter().try_for_each(|s| keys.check_touch(flow, s.row, &at, columns, false))?;
@@ -240,7 +239,8 @@ impl Keys {
         columns: &[f64],
     ) -> bool {
         let n = at.q.len();
-        let sum = |row: usize| walls.iter().zip(step.jump).filter(|(wall, _)| wall.row == row).map(|w| w.1).sum::<f64>();
+        let sum =
+            |row: usize| walls.iter().zip(step.jump).filter(|(wall, _)| wall.row == row).map(|w| w.1).sum::<f64>();
         let before = |wall: usize| series.contact_force(wall, series.end());
         for (number, (terms, change)) in self.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
             let (dq, dv) = change.split_at(n);
@@ -288,8 +288,7 @@ impl Keys {
         flow.body.solve(&mut blown);
         let after: Vec<f64> = v.iter().zip(&blown).map(|(v, change)| v + change).collect();
         let of = |terms: &KeyTerms, flow: &mut Propagator| {
-            let at =
-                Instant { time: 0.0, q: v, before: v, after: &after, acceleration: v, impulse: &[], wall_of: &[] };
+            let at = Instant { time: 0.0, q: v, before: v, after: &after, acceleration: v, impulse: &[], wall_of: &[] };
             let mut change = terms.tangent.v.clone();
             terms.add_blow(flow, &at, &mut change);
             [terms.tangent.q.clone(), change].concat()

@@ -182,7 +182,13 @@ impl Jump {
 
     /// By how much the impulse of each row (N s, one entry each) changes by the change (`q`, `v`)
     /// before the instant and a key, where the instant moves with them.
-    pub fn impulses(&self, flow: &mut Propagator, (q, v): (&[f64], &[f64]), key: &KeyTerms, at: &Instant<'_>) -> Vec<f64> {
+    pub fn impulses(
+        &self,
+        flow: &mut Propagator,
+        (q, v): (&[f64], &[f64]),
+        key: &KeyTerms,
+        at: &Instant<'_>,
+    ) -> Vec<f64> {
         let mut pushed = v.to_vec();
         key.add_to_velocity(flow, at, &mut pushed);
         let missing = |flow: &Propagator, row: usize| {

@@ -46,8 +46,7 @@ impl Keys {
     /// The keys of `tangents`, along a run of `scene`; displacements and velocities at `times` (s,
     /// increasing).
     pub fn new(scene: &Scene, body: &SeriesBody, tangents: &[SceneTangent], times: &[f64]) -> Self {
-        let places: Vec<(Row, f64)> =
-            scene.walls.iter().map(|wall| (wall.row().clone(), wall.position())).collect();
+        let places: Vec<(Row, f64)> = scene.walls.iter().map(|wall| (wall.row().clone(), wall.position())).collect();
         let rows = body.rows.count();
         let probes = scene.probes.iter().map(|probe| probe.at.clone()).collect();
         Self {

@@ -157,12 +157,7 @@ impl StructureVariation {
     }
 
     /// What happens at the end of `step`.
-    fn end(
-        &mut self,
-        step: &Step<'_>,
-        series: &Series,
-        columns: &mut [f64],
-    ) -> std::result::Result<(), NoDerivative> {
+    fn end(&mut self, step: &Step<'_>, series: &Series, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         series.state(series.end(), &mut self.q, &mut self.v);
         series.acceleration_at_end(&mut self.a);
         self.after.fill(false);
@@ -202,7 +197,10 @@ impl StructureVariation {
             at.during = !holds;
             if holds {
                 if self.during[at.row] && self.keys.differ(wall, self.wall_of[at.row]) {
-                    return Err(NoDerivative::Together { time: series.start(), walls: vec![self.wall_of[at.row], wall] });
+                    return Err(NoDerivative::Together {
+                        time: series.start(),
+                        walls: vec![self.wall_of[at.row], wall],
+                    });
                 }
                 self.during[at.row] = true;
                 self.wall_of[at.row] = wall;

@@ -154,7 +154,8 @@ impl Numbers {
         };
         for (w, place) in self.walls.iter().enumerate() {
             let name = format!("wall-{w}");
-            let wall = if place.lower { Wall::lower(&name, place.position) } else { Wall::upper(&name, place.position) };
+            let wall =
+                if place.lower { Wall::lower(&name, place.position) } else { Wall::upper(&name, place.position) };
             let wall = wall.at(Row::new(place.row.clone()));
             scene = scene.with_wall(if place.rigid {
                 wall.with_restitution(place.restitution)
@@ -192,7 +193,8 @@ fn expected() -> Vec<Expected> {
             contacts: contacts.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
         }
     };
-    let path = std::env::var("SCENES").unwrap_or(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/derivative/scenes.csv").to_owned());
+    let path = std::env::var("SCENES")
+        .unwrap_or(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/derivative/scenes.csv").to_owned());
     std::fs::read_to_string(path).expect("the data").lines().map(read).collect()
 }
 
@@ -238,11 +240,18 @@ fn derivatives_are_those_of_an_independent_integrator() {
     for expected in &all {
         match error(expected) {
             Some(error) if error <= 1e-8 => worst = worst.max(error),
-            Some(error) => { println!("WRONG {} {error:e}", expected.number); wrong.push((expected.number, error)) }
+            Some(error) => {
+                println!("WRONG {} {error:e}", expected.number);
+                wrong.push((expected.number, error))
+            }
             None => silent += 1,
         }
     }
-    println!("{} scenes, {silent} without a derivative, {} wrong, worst of the others {worst:e}", all.len(), wrong.len());
+    println!(
+        "{} scenes, {silent} without a derivative, {} wrong, worst of the others {worst:e}",
+        all.len(),
+        wrong.len()
+    );
     assert!(wrong.is_empty(), "{wrong:?}");
     assert!(all.len() >= 1000 && silent * 20 <= all.len(), "{silent} of {}", all.len());
 }

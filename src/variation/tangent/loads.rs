@@ -54,11 +54,9 @@ impl LoadChange {
                 LoadKind::Constant { force } => *force,
                 _ => 0.0,
             })),
-            LoadKind::Harmonic { .. } => KindChange::Harmonic([
-                of(|kind| sine(kind)[0]),
-                of(|kind| sine(kind)[1]),
-                of(|kind| sine(kind)[2]),
-            ]),
+            LoadKind::Harmonic { .. } => {
+                KindChange::Harmonic([of(|kind| sine(kind)[0]), of(|kind| sine(kind)[1]), of(|kind| sine(kind)[2])])
+            }
             LoadKind::Impulse { .. } => KindChange::Blow(of(|kind| blow(kind)[0])),
             LoadKind::Table(table) => KindChange::Table(table_change(stencil, index, table)),
             LoadKind::Function(_) => return None,
@@ -75,8 +73,7 @@ impl LoadChange {
     /// Adds the derivative of the momentum that a blow at `time` (s) gives, N s, to `out`, n
     /// entries.
     pub fn add_blow(&self, time: f64, out: &mut [f64]) {
-        let (LoadKind::Impulse { impulse, time: own }, KindChange::Blow(change)) = (&self.load.kind, &self.kind)
-        else {
+        let (LoadKind::Impulse { impulse, time: own }, KindChange::Blow(change)) = (&self.load.kind, &self.kind) else {
             return;
         };
         if *own == time {
@@ -163,7 +160,12 @@ impl LoadTerms {
 
 /// The terms of a sine and of its change. The factor t of δω is start + unit x, so that its term k
 /// is start times term k of the cosine and unit times term k − 1.
-fn fill_sine(change: [f64; 3], [amplitude, omega, phase]: [f64; 3], (start, unit): (f64, f64), values: &mut [[f64; 2]]) {
+fn fill_sine(
+    change: [f64; 3],
+    [amplitude, omega, phase]: [f64; 3],
+    (start, unit): (f64, f64),
+    values: &mut [[f64; 2]],
+) {
     let (sin, cos) = (omega * start + phase).sin_cos();
     let (sines, cosines) = ([sin, cos, -sin, -cos], [cos, -sin, -cos, sin]);
     let (mut power, mut before) = (1.0, 0.0);

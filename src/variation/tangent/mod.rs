@@ -166,9 +166,10 @@ fn row(stencil: &mut Stencil, of: impl Fn(&Scene) -> Option<&Row>) -> Row {
 /// True for scenes that differ in numbers only.
 fn is_alike(a: &Scene, b: &Scene) -> bool {
     let walls = a.walls.len() == b.walls.len()
-        && a.walls.iter().zip(&b.walls).all(|(a, b)| {
-            a.side() == b.side() && std::mem::discriminant(&a.law) == std::mem::discriminant(&b.law)
-        });
+        && a.walls
+            .iter()
+            .zip(&b.walls)
+            .all(|(a, b)| a.side() == b.side() && std::mem::discriminant(&a.law) == std::mem::discriminant(&b.law));
     let loads = a.loads.len() == b.loads.len() && a.loads.iter().zip(&b.loads).all(|(a, b)| loads::is_alike(a, b));
     let sizes = a.system.degrees_of_freedom() == b.system.degrees_of_freedom() && a.probes.len() == b.probes.len();
     walls && loads && sizes && a.duration == b.duration
