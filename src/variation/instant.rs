@@ -56,19 +56,53 @@ impl StructureVariation {
         Ok(())
     }
 
-    /// Elastic wall `w` begins to push. If the state is on its face and moves into it, the force of
-    /// its dashpot jumps; a push that begins elsewhere begins with a force of 0.
-    pub fn enter(&mut self, w: usize, columns: &mut [f64]) {
-        let Self { flow, walls, q, v, a, work, keys, began, .. } = self;
-        let (at, n) = (walls[w], q.len());
-        let (place, rate) = (flow.body.rows.dot(at.row, q), flow.body.rows.dot(at.row, v));
-        let inwards = -at.sign * rate > 0.0;
-        let on_face = inwards && (place - at.position).abs() <= ON_THE_FACE * self.length;
-        keys.contacts.begin(w);
-        if !*began {
+    /// Elastic wall `w` begins to push in the stretch of `series` or after it. If the state is on
+    /// its face and moves into it, the force of its dashpot jumps; a push that begins elsewhere
+    /// begins with a force of 0.
+    pub fn enter(&mut self, w: usize, series: &Series, columns: &mut [f64]) {
+        self.keys.contacts.begin(w);
+        if !self.began {
             return;
         }
-        let pull = flow.body.rows.dot(at.row, a);
+        let (at, n) = (self.walls[w], self.q.len());
+        let [place, rate] = [&self.q, &self.v].map(|x| self.flow.body.rows.dot(at.row, x));
+        let on_face = -at.sign * rate > 0.0 && (place - at.position).abs() <= ON_THE_FACE * self.length;
+        self.note_push((w, at), [place, rate], on_face, series, columns);
+        if at.damping == 0.0 || !on_face {
+            return;
+        }
+        let Self { flow, q, work, keys, .. } = self;
+        work.fill(0.0);
+        flow.body.add_column(at.row, -at.damping, work);
+        flow.hold.stop(&flow.body, work, &mut flow.scratch);
+        for (number, change) in columns.chunks_exact_mut(2 * n).enumerate() {
+            let (dq, dv) = change.split_at_mut(n);
+            let own = keys.terms.get(number).map_or(0.0, |terms| terms.offset(w, q));
+            let by = flow.body.rows.dot(at.row, dq) + own;
+            dv.iter_mut().zip(&*work).for_each(|(v, w)| *v += by * w);
+        }
+    }
+
+    /// Notes what the beginning of a push of wall `w`, at the displacement `place` (m) and speed
+    /// `rate` (m/s) of its row, does to the contacts of each key: the contact begins later, and
+    /// where the force jumps the reactions of held rows jump too.
+    fn note_push(
+        &mut self,
+        (w, at): (usize, At),
+        [place, rate]: [f64; 2],
+        on_face: bool,
+        series: &Series,
+        columns: &[f64],
+    ) {
+        let Self { flow, walls, q, v, a, work, keys, .. } = self;
+        let (n, pull) = (q.len(), flow.body.rows.dot(at.row, a));
+        let mut reactions = vec![0.0; flow.body.rows.count()];
+        if on_face && !keys.terms.is_empty() {
+            work.fill(0.0);
+            flow.body.rows.add_transposed(at.row, -at.damping * rate, work);
+            let held = flow.hold.rows();
+            flow.hold.balance(&flow.body, work, &mut flow.scratch, |_| 0.0, |i, p| reactions[held[i].row] += p);
+        }
         for (number, (terms, change)) in keys.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
             let (dq, dv) = change.split_at(n);
             let beyond = flow.body.rows.dot(at.row, dq) + terms.offset(w, q);
@@ -82,21 +116,15 @@ impl StructureVariation {
                 -(at.stiffness * beyond + at.damping * faster + own) / (at.stiffness * rate + at.damping * pull)
             };
             keys.contacts.set_start(w, number, [later, -at.sign * (faster + pull * later)]);
-            if on_face {
-                keys.contacts.add_impulse(w, number, at.damping * rate * later);
+            if !on_face {
+                continue;
             }
-        }
-        if at.damping == 0.0 || !on_face {
-            return;
-        }
-        work.fill(0.0);
-        flow.body.add_column(at.row, -at.damping, work);
-        flow.hold.stop(&flow.body, work, &mut flow.scratch);
-        for (number, change) in columns.chunks_exact_mut(2 * n).enumerate() {
-            let (dq, dv) = change.split_at_mut(n);
-            let own = keys.terms.get(number).map_or(0.0, |terms| terms.offset(w, q));
-            let by = flow.body.rows.dot(at.row, dq) + own;
-            dv.iter_mut().zip(&*work).for_each(|(v, w)| *v += by * w);
+            keys.contacts.add_impulse(w, number, at.damping * rate * later);
+            let holds = |wall: &(usize, f64)| walls.get(wall.0).is_some_and(|at| at.restitution.is_some());
+            for (wall, share) in series.acting_shares().filter(holds) {
+                let reaction = walls.get(wall).and_then(|at| reactions.get(at.row)).copied().unwrap_or(0.0);
+                keys.contacts.add_impulse(wall, number, -share * reaction * later);
+            }
         }
     }
 
@@ -178,12 +206,11 @@ impl StructureVariation {
             return Err(together());
         }
         self.kick(step, series);
-        let Self { flow, walls, jump, q, v, a, wall_of, keys, .. } = self;
+        let Self { flow, walls, jump, during, q, v, a, wall_of, keys, .. } = self;
         let at = Instant { time: step.end, q, before: v, after: step.v, acceleration: a, impulse: step.jump, wall_of };
         let fixed = blown || (step.index == 0 && step.end <= step.start);
-        if fixed {
-            struck.iter().try_for_each(|s| keys.check_touch(flow, s.row, &at, columns, false))?;
-        }
+        let mut free = struck.iter().filter(|s| fixed && !during[s.row]);
+        free.try_for_each(|s| keys.check_touch(flow, s.row, &at, columns, false))?;
         if !keys.note_impacts((flow, jump), (walls, &struck), (step, series), &at, columns) {
             return Err(together());
         }
@@ -216,11 +243,11 @@ impl Keys {
     /// an instant that is fixed, or at rest give it a speed.
     fn check_touch(&self, flow: &Propagator, row: usize, at: &Instant<'_>, columns: &[f64], rests: bool) -> Done {
         let (n, wall) = (at.q.len(), at.wall_of.get(row).copied().unwrap_or(0));
-        let large = |own: f64, more: f64| (own + more).abs() > ROUNDING * (own.abs() + more.abs());
-        for (terms, change) in self.terms.iter().zip(columns.chunks_exact(2 * n)) {
+        let large = |own: f64, more: f64, size: f64| (own + more).abs() > ROUNDING * (own.abs() + more.abs()).max(size);
+        for ((terms, change), sizes) in self.terms.iter().zip(columns.chunks_exact(2 * n)).zip(&self.sizes) {
             let (dq, dv) = change.split_at(n);
-            let moved = large(flow.body.rows.dot(row, dq), terms.offset(wall, at.q));
-            let sped = rests && large(flow.body.rows.dot(row, dv), terms.along(wall, at.before));
+            let moved = large(flow.body.rows.dot(row, dq), terms.offset(wall, at.q), sizes[0]);
+            let sped = rests && large(flow.body.rows.dot(row, dv), terms.along(wall, at.before), sizes[1]);
             if moved || sped {
                 return Err(NoDerivative::Touching { time: at.time, wall });
             }

@@ -13,6 +13,8 @@ pub(super) struct Keys {
     pub contacts: ContactChanges,
     pub motion: MotionChanges,
     pub loads: Loads,
+    /// The largest |δq| (m) and |δq̇| (m/s) of each key so far.
+    pub sizes: Vec<[f64; 2]>,
     change: Change,
     work: [Vec<f64>; 2],
 }
@@ -38,6 +40,7 @@ impl Keys {
             contacts: ContactChanges::new(0, 0),
             motion: MotionChanges::new(&[], Vec::new(), 0),
             loads: Loads::new(&[]),
+            sizes: Vec::new(),
             change: Change::new(body),
             work: [vec![0.0; body.n], vec![0.0; body.n]],
         }
@@ -54,6 +57,7 @@ impl Keys {
             contacts: ContactChanges::new(tangents.len(), scene.walls.len()),
             motion: MotionChanges::new(times, probes, tangents.len()),
             loads: Loads::new(&scene.loads),
+            sizes: vec![[0.0; 2]; tangents.len()],
             ..Self::none(body)
         }
     }
@@ -72,8 +76,11 @@ impl Keys {
         base: &Series,
         (q, v): (&mut [f64], &mut [f64]),
     ) -> bool {
-        let Self { terms, contacts, motion, change, work: [work_q, work_v], .. } = self;
-        let Some(terms) = terms.get_mut(column) else { return false };
+        let Self { terms, contacts, motion, change, sizes, work: [work_q, work_v], .. } = self;
+        let Some((terms, sizes)) = terms.get_mut(column).zip(sizes.get_mut(column)) else { return false };
+        for (size, change) in sizes.iter_mut().zip([&*q, &*v]) {
+            *size = change.iter().fold(*size, |most, x| most.max(x.abs()));
+        }
         terms.begin(base, wall_of);
         let Propagator { body, hold, touching, scratch, .. } = flow;
         // Rounding errors must not move a row from its wall.
@@ -84,8 +91,8 @@ impl Keys {
         change.fill(body, base, (touching, hold), (q, v), terms, scratch);
         motion.read(column, base, change, terms, (work_q, work_v));
         let end = base.span();
-        for (wall, slot, share) in base.acting_slots() {
-            contacts.add_impulse(wall, column, share * change.impulse(slot, end));
+        for (wall, share) in base.acting_shares() {
+            contacts.add_impulse(wall, column, share * change.impulse(body, (touching, hold), wall, end));
         }
         change.state_at(end, q, v);
         true

@@ -137,7 +137,7 @@ impl StructureVariation {
         self.come_to_rest(series.start(), columns)?;
         for w in 0..self.walls.len() {
             if self.walls[w].during && !self.walls[w].after {
-                self.enter(w, columns);
+                self.enter(w, series, columns);
             }
         }
         Ok(())
@@ -180,7 +180,7 @@ impl StructureVariation {
             self.check_grazes(step)?;
             for w in 0..self.walls.len() {
                 if self.walls[w].after && !self.walls[w].during {
-                    self.enter(w, columns);
+                    self.enter(w, series, columns);
                 }
             }
         }

@@ -193,8 +193,7 @@ fn expected() -> Vec<Expected> {
             contacts: contacts.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
         }
     };
-    let path = std::env::var("SCENES")
-        .unwrap_or(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/derivative/scenes.csv").to_owned());
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/derivative/scenes.csv");
     std::fs::read_to_string(path).expect("the data").lines().map(read).collect()
 }
 
@@ -225,7 +224,7 @@ fn error(expected: &Expected) -> Option<f64> {
         (0..3).for_each(|kind| kinds[2 + kind].push([own[kind], of[kind]]));
     }
     let worst = |pairs: &Vec<[f64; 2]>| {
-        let size = pairs.iter().fold(1e-9 / value.abs(), |most: f64, pair| most.max(pair[1].abs()));
+        let size = pairs.iter().fold(1e-6 / value.abs(), |most: f64, pair| most.max(pair[1].abs()));
         pairs.iter().map(|[a, b]| if a.is_nan() { f64::INFINITY } else { (a - b).abs() / size }).fold(0.0, f64::max)
     };
     Some(kinds.iter().map(worst).fold(0.0, f64::max))
@@ -240,10 +239,7 @@ fn derivatives_are_those_of_an_independent_integrator() {
     for expected in &all {
         match error(expected) {
             Some(error) if error <= 1e-8 => worst = worst.max(error),
-            Some(error) => {
-                println!("WRONG {} {error:e}", expected.number);
-                wrong.push((expected.number, error))
-            }
+            Some(error) => wrong.push((expected.number, error)),
             None => silent += 1,
         }
     }

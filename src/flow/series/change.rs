@@ -99,8 +99,12 @@ impl Change {
         v.iter_mut().for_each(|v| *v /= self.unit);
     }
 
-    /// ∫ δr over the stretch up to x, N s, of the force in this slot.
-    pub fn impulse(&self, slot: usize, x: f64) -> f64 {
+    /// ∫ δr of a wall over the stretch up to x, N s: of a wall of `touching`, or all that acts at
+    /// its row, if `hold` holds that; both are those of [`Change::fill`].
+    pub fn impulse(&self, body: &SeriesBody, (touching, hold): (&[Touching], &Hold), wall: usize, x: f64) -> f64 {
+        let row = body.row_of.get(wall);
+        let held = || hold.rows().iter().position(|held| Some(&held.row) == row).map(|held| touching.len() + held);
+        let Some(slot) = touching.iter().position(|t| t.wall == wall).or_else(held) else { return 0.0 };
         let force = self.forces.iter().skip(slot * TERMS).take(self.terms).enumerate();
         let (mut sum, mut power) = (0.0, x * self.unit);
         for (k, c) in force {

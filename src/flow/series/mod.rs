@@ -178,10 +178,9 @@ impl Series {
         self.acting.iter().map(|a| (a.wall, self.force(a.slot), a.share))
     }
 
-    /// Walls that act, each with the index of its force among those of touching walls and held rows,
-    /// and its share of it.
-    pub(crate) fn acting_slots(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        self.acting.iter().map(|a| (a.wall, a.slot, a.share))
+    /// Walls that act, each with its share of the force at its row.
+    pub(crate) fn acting_shares(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.acting.iter().map(|a| (a.wall, a.share))
     }
 
     /// Walls that act, each with whether it is one that holds a row; the others are elastic walls
