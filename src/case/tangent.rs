@@ -25,7 +25,7 @@ impl Case {
         let name = key.to_string();
         let Some(value) = self.document.get(key)?.and_then(|value| value.number()) else {
             let expected = "a key at which the case file has a number";
-            return Err(Error::invalid("derivative by", name, expected));
+            return Err(Error::invalid(format!("derivative by {name}"), "left out, or no number", expected));
         };
         SceneTangent::new(&name, value, |x| {
             let mut document = self.document.clone();

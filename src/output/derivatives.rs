@@ -5,6 +5,7 @@ use super::table::Table;
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::study::derivatives::Derivatives;
+use crate::study::horizon::LARGEST_GROWTH;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -21,6 +22,9 @@ pub struct Varied {
     pub error: f64,
 }
 
+/// The table of contacts.
+pub const FILE: &str = "derivatives.csv";
+
 /// The share of a key by which the table changes it.
 const SHARE: f64 = 0.01;
 
@@ -30,7 +34,7 @@ const SHARE: f64 = 0.01;
 /// # Errors
 /// As [`csv::table`].
 pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Result<()> {
-    let mut header = csv::CONTACT.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
+    let mut header: Vec<String> = csv::CONTACT.iter().copied().chain(["growth"]).map(str::to_owned).collect();
     for key in keys {
         let word = key.key.replace(['.', '-'], "_");
         let per = key.unit.map_or_else(String::new, |unit| format!("_per_{unit}"));
@@ -40,8 +44,9 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivati
     }
     let rows = derivatives.contacts.iter().map(|one| {
         let mut row = csv::contact_cells(name(scene, one.contact.wall), &one.contact);
+        row.push(digits(Some(one.growth)));
         for key in 0..keys.len() {
-            let lists = [&one.start, &one.approach_speed, &one.impulse];
+            let lists = [&one.start_by, &one.approach_speed_by, &one.impulse_by];
             row.extend(lists.map(|list| digits(list.get(key).copied().filter(|x| x.is_finite()))));
         }
         row
@@ -83,14 +88,15 @@ pub fn table(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Optio
 /// What a reader of the derivatives must know, a sentence each.
 #[must_use]
 pub fn remarks(keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
-    let mut remarks = vec![format!(
-        "derivatives of the exact motion: a small change of its start grows by {:.1e}, and a change of a key by this \
-         much less moves no contact by more than the gap allows",
-        derivatives.growth
-    )];
-    if let Some(reason) = &derivatives.ended {
-        remarks.push(format!("up to t = {} s: {reason}", reason.time()));
+    let mut remarks = Vec::new();
+    let (counted, all) = (derivatives.predictable().count(), derivatives.contacts.len());
+    if counted < all {
+        remarks.push(format!(
+            "the table counts the first {counted} contacts: after them a small change has grown by more than \
+             {LARGEST_GROWTH:.0}, and one of 1 % is no longer small; {FILE} has {all}"
+        ));
     }
+    remarks.extend(derivatives.ended.as_ref().map(ToString::to_string));
     let coarse = keys.iter().filter(|key| key.error > 1e-12);
     remarks.extend(coarse.map(|key| {
         format!("the derivative of the scene with respect to {} errs by {:.0e} of itself", key.key, key.error)
@@ -120,6 +126,7 @@ pub fn document(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Va
             .map(|key| json!({ "key": key.key, "value": key.value, "unit": key.unit, "error": key.error }))
             .collect::<Vec<_>>(),
         "contacts": derivatives.contacts.len(),
+        "predictable_contacts": derivatives.predictable().count(),
         "measured": measured.collect::<Vec<_>>(),
         "growth": derivatives.growth,
         "ended_s": ended.map(crate::variation::NoDerivative::time),

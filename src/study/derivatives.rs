@@ -1,9 +1,10 @@
 //! The derivatives of an exact run with respect to keys of its scene.
 
+use super::horizon::LARGEST_GROWTH;
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
-use crate::variation::{ContactDerivative, KeyVariation, NoDerivative, SceneTangent};
+use crate::variation::{ContactDerivative, KeyVariation, MotionDerivative, NoDerivative, SceneTangent};
 
 /// The derivatives of an exact run with respect to several keys.
 ///
@@ -24,9 +25,9 @@ use crate::variation::{ContactDerivative, KeyVariation, NoDerivative, SceneTange
 /// ];
 /// let derivatives = Derivatives::new(&scene(5e-3, 3.0)?, &keys, &[0.5, 1.0])?;
 /// assert!(derivatives.ended.is_none());
-/// // Without damping of the scales, more gap and more load by the same share are the same motion.
+/// // Gap and load larger by the same share make a larger motion with the same instants.
 /// let first = &derivatives.contacts[0];
-/// assert!((5e-3 * first.start[0] + 3.0 * first.start[1]).abs() < 1e-12);
+/// assert!((5e-3 * first.start_by[0] + 3.0 * first.start_by[1]).abs() < 1e-12);
 /// # Ok::<(), signorini::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -34,14 +35,9 @@ use crate::variation::{ContactDerivative, KeyVariation, NoDerivative, SceneTange
 pub struct Derivatives {
     /// The contacts that have ended, in the order of their ends; with the derivatives by each key.
     pub contacts: Vec<ContactDerivative>,
-    /// The times asked for, s.
-    pub times: Vec<f64>,
-    /// The derivatives of the displacements of the probes, m per unit of the key: for each time,
-    /// probe and key one after the other. NaN from the time of `ended` on, and at an instant at
-    /// which the velocity jumps.
-    pub displacement: Vec<f64>,
-    /// The same for the velocities, m/s per unit of the key.
-    pub velocity: Vec<f64>,
+    /// Displacements and velocities of the probes at the times asked for; NaN from the time of
+    /// `ended` on.
+    pub motion: MotionDerivative,
     /// Why there are no derivatives from a time on, if there are none.
     pub ended: Option<NoDerivative>,
     /// The largest growth of a change of the start since it was smallest.
@@ -82,26 +78,31 @@ impl Derivatives {
         }
         Ok(Self {
             contacts: variation.contacts().to_vec(),
-            times: times.to_vec(),
-            displacement: variation.displacement().to_vec(),
-            velocity: variation.velocity().to_vec(),
+            motion: variation.motion().clone(),
             ended,
             growth: variation.growth(),
         })
     }
 
-    /// What the contacts of each wall come to, with derivatives: the largest impulse, the sum of
-    /// the impulses, and the mean approach speed. Walls without a contact are left out.
+    /// The contacts that ended while no change of the start had grown by more than
+    /// [`LARGEST_GROWTH`]: those for which a change of a key by some per cent is small.
+    pub fn predictable(&self) -> impl Iterator<Item = &ContactDerivative> {
+        self.contacts.iter().filter(|one| one.growth <= LARGEST_GROWTH)
+    }
+
+    /// What the [predictable](Self::predictable) contacts of each wall come to, with derivatives:
+    /// the largest impulse, the sum of the impulses, and the mean approach speed. Walls without
+    /// such a contact are left out.
     #[must_use]
     pub fn measured(&self) -> Vec<Measured> {
-        let mut walls: Vec<usize> = self.contacts.iter().map(|c| c.contact.wall).collect();
+        let mut walls: Vec<usize> = self.predictable().map(|one| one.contact.wall).collect();
         walls.sort_unstable();
         walls.dedup();
         walls.into_iter().flat_map(|wall| self.measured_at(wall)).collect()
     }
 
     fn measured_at(&self, wall: usize) -> Vec<Measured> {
-        let own: Vec<&ContactDerivative> = self.contacts.iter().filter(|c| c.contact.wall == wall).collect();
+        let own: Vec<&ContactDerivative> = self.predictable().filter(|one| one.contact.wall == wall).collect();
         let count = own.len() as f64;
         let sum = |of: &dyn Fn(&ContactDerivative) -> (f64, &Vec<f64>), share: f64| {
             let mut total = (0.0, Vec::new());
@@ -113,15 +114,15 @@ impl Derivatives {
             total
         };
         let largest = own.iter().max_by(|a, b| a.contact.impulse.abs().total_cmp(&b.contact.impulse.abs()));
-        let largest = largest.map(|c| (c.contact.impulse, c.impulse.clone())).unwrap_or_default();
+        let largest = largest.map(|c| (c.contact.impulse, c.impulse_by.clone())).unwrap_or_default();
         let all = [
             ("largest_impulse", "the largest impulse", "N s", largest),
-            ("impulse", "the sum of the impulses", "N s", sum(&|c| (c.contact.impulse, &c.impulse), 1.0)),
+            ("impulse", "the sum of the impulses", "N s", sum(&|c| (c.contact.impulse, &c.impulse_by), 1.0)),
             (
                 "approach_speed",
                 "the mean approach speed",
                 "m/s",
-                sum(&|c| (c.contact.approach_speed, &c.approach_speed), 1.0 / count),
+                sum(&|c| (c.contact.approach_speed, &c.approach_speed_by), 1.0 / count),
             ),
         ];
         let measured =

@@ -15,11 +15,13 @@ pub struct ContactDerivative {
     /// The contact.
     pub contact: Contact,
     /// Of the time at which it begins, s per unit of the key.
-    pub start: Vec<f64>,
+    pub start_by: Vec<f64>,
     /// Of the approach speed, m/s per unit of the key.
-    pub approach_speed: Vec<f64>,
+    pub approach_speed_by: Vec<f64>,
     /// Of the impulse, N s per unit of the key, signed as the impulse.
-    pub impulse: Vec<f64>,
+    pub impulse_by: Vec<f64>,
+    /// The largest growth of a change of the start until the contact ended.
+    pub growth: f64,
 }
 
 /// The changes of the open contacts of each wall, and of those that have ended.
@@ -71,7 +73,18 @@ impl ContactChanges {
         let Some(Open { start, speed, impulse }) = self.open.get_mut(contact.wall).and_then(Option::take) else {
             return;
         };
-        self.ended.push(ContactDerivative { contact: *contact, start, approach_speed: speed, impulse });
+        self.ended.push(ContactDerivative {
+            contact: *contact,
+            start_by: start,
+            approach_speed_by: speed,
+            impulse_by: impulse,
+            growth: f64::NAN,
+        });
+    }
+
+    /// Notes the growth up to now with the contacts that have ended since it was last noted.
+    pub fn note_growth(&mut self, growth: f64) {
+        self.ended.iter_mut().rev().take_while(|one| one.growth.is_nan()).for_each(|one| one.growth = growth);
     }
 
     /// The contacts that have ended, in the order of their ends.

@@ -2,6 +2,7 @@
 
 use super::contact_changes::ContactDerivative;
 use super::exponents::direction;
+use super::keys::MotionDerivative;
 use super::no_derivative::NoDerivative;
 use super::structure::StructureVariation;
 use super::tangent::SceneTangent;
@@ -55,7 +56,7 @@ const MOST_GROWTH: f64 = 1e6;
 /// // The second impact comes 2ev/g after the first.
 /// let second = &variation.contacts()[1];
 /// let expected = 2.0 * (2.0 * 9.81_f64).sqrt() / 9.81;
-/// assert!((second.start[0] / expected - 1.0).abs() < 1e-12);
+/// assert!((second.start_by[0] / expected - 1.0).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -130,6 +131,7 @@ impl KeyVariation {
                 return Err(NoDerivative::Horizon { time: step.end, growth });
             }
         }
+        self.variation.keys.contacts.note_growth(self.growth);
         Ok(())
     }
 
@@ -139,18 +141,11 @@ impl KeyVariation {
         self.variation.keys.contacts.ended()
     }
 
-    /// The derivatives of the displacements of the probes at the times asked for, m per unit of the
-    /// key: for each time, probe and key one after the other. NaN where the time has not been
-    /// reached, and at an instant at which the velocity jumps.
+    /// The displacements and velocities of the probes at the times asked for, with their
+    /// derivatives.
     #[must_use]
-    pub fn displacement(&self) -> &[f64] {
-        &self.variation.keys.motion.displacement
-    }
-
-    /// The same for the velocities, m/s per unit of the key.
-    #[must_use]
-    pub fn velocity(&self) -> &[f64] {
-        &self.variation.keys.motion.velocity
+    pub fn motion(&self) -> &MotionDerivative {
+        &self.variation.keys.motion.found
     }
 
     /// The derivative of the state now, (δq, δq̇) for each key one after the other: m and m/s per

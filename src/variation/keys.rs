@@ -19,17 +19,31 @@ pub(super) struct Keys {
     work: [Vec<f64>; 2],
 }
 
-/// The derivatives of displacements and velocities at given times.
+/// Displacements and velocities of probes at given times, and their derivatives. NaN where the time
+/// has not been reached; derivatives also at an instant at which the velocity jumps.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct MotionDerivative {
+    /// The times, s.
+    pub time: Vec<f64>,
+    /// For each time and probe one after the other, m.
+    pub displacement: Vec<f64>,
+    /// The same, m/s.
+    pub velocity: Vec<f64>,
+    /// For each time, probe and key one after the other, m per unit of the key.
+    pub displacement_by: Vec<f64>,
+    /// The same, m/s per unit of the key.
+    pub velocity_by: Vec<f64>,
+}
+
+/// The motion that is read along a run.
 #[derive(Debug)]
 pub(super) struct MotionChanges {
-    times: Vec<f64>,
+    pub found: MotionDerivative,
     /// The number of times passed.
-    pub passed: usize,
+    passed: usize,
     probes: Vec<Row>,
     keys: usize,
-    /// For each time, probe and key: m and m/s per unit of the key.
-    pub displacement: Vec<f64>,
-    pub velocity: Vec<f64>,
 }
 
 impl Keys {
@@ -100,8 +114,8 @@ impl Keys {
 
     /// Notes that all keys have passed `time` (s).
     pub fn passed(&mut self, time: f64) {
-        let MotionChanges { times, passed, .. } = &mut self.motion;
-        while times.get(*passed).is_some_and(|&t| t <= time) {
+        let MotionChanges { found, passed, .. } = &mut self.motion;
+        while found.time.get(*passed).is_some_and(|&t| t <= time) {
             *passed += 1;
         }
     }
@@ -109,9 +123,15 @@ impl Keys {
 
 impl MotionChanges {
     fn new(times: &[f64], probes: Vec<Row>, keys: usize) -> Self {
-        let size = times.len() * probes.len() * keys;
-        let values = || vec![f64::NAN; size];
-        Self { times: times.to_vec(), passed: 0, probes, keys, displacement: values(), velocity: values() }
+        let values = |each: usize| vec![f64::NAN; times.len() * probes.len() * each];
+        let found = MotionDerivative {
+            time: times.to_vec(),
+            displacement: values(1),
+            velocity: values(1),
+            displacement_by: values(keys),
+            velocity_by: values(keys),
+        };
+        Self { found, passed: 0, probes, keys }
     }
 
     /// Reads the changes at the times that lie in the stretch of `base`.
@@ -124,18 +144,23 @@ impl MotionChanges {
         (q, v): (&mut Vec<f64>, &mut Vec<f64>),
     ) {
         let mut changes = [q.clone(), v.clone()];
-        for number in self.passed..self.times.len() {
-            let Some(&time) = self.times.get(number).filter(|&&time| time <= base.end()) else { return };
+        let Self { found, passed, probes, keys } = self;
+        for number in *passed..found.time.len() {
+            let Some(&time) = found.time.get(number).filter(|&&time| time <= base.end()) else { return };
             let [dq, dv] = &mut changes;
             change.state_at((time - base.start()) / base.unit(), dq, dv);
             base.state(time, q, v);
-            for (probe, row) in self.probes.iter().enumerate() {
+            for (probe, row) in probes.iter().enumerate() {
                 let own = terms.tangent.probes.get(probe);
                 let along = |change: &[f64], x: &[f64]| row.dot(change) + own.map_or(0.0, |own| own.dot(x));
-                let index = (number * self.probes.len() + probe) * self.keys + column;
-                if let (Some(a), Some(b)) = (self.displacement.get_mut(index), self.velocity.get_mut(index)) {
-                    (*a, *b) = (along(dq, q), along(dv, v));
-                }
+                let index = number * probes.len() + probe;
+                let set = |list: &mut Vec<f64>, index: usize, value: f64| {
+                    list.get_mut(index).into_iter().for_each(|x| *x = value);
+                };
+                set(&mut found.displacement, index, row.dot(q));
+                set(&mut found.velocity, index, row.dot(v));
+                set(&mut found.displacement_by, index * *keys + column, along(dq, q));
+                set(&mut found.velocity_by, index * *keys + column, along(dv, v));
             }
         }
     }
@@ -143,10 +168,10 @@ impl MotionChanges {
     /// Forgets what was read at `time` (s): an instant at which the velocity jumps.
     pub fn forget(&mut self, time: f64) {
         let size = self.probes.len() * self.keys;
-        let at = |number: usize| self.times.get(number) == Some(&time);
+        let at = |number: usize| self.found.time.get(number) == Some(&time);
         for number in (0..self.passed).rev().take_while(|&number| at(number)) {
             let values = number * size..(number + 1) * size;
-            for list in [&mut self.displacement, &mut self.velocity] {
+            for list in [&mut self.found.displacement_by, &mut self.found.velocity_by] {
                 list.get_mut(values.clone()).into_iter().flatten().for_each(|x| *x = f64::NAN);
             }
         }

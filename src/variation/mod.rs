@@ -62,6 +62,7 @@ mod tangent;
 pub use contact_changes::ContactDerivative;
 pub use exponents::{Exponent, Exponents};
 pub use key_variation::KeyVariation;
+pub use keys::MotionDerivative;
 pub use no_derivative::NoDerivative;
 pub use oscillator::OscillatorVariation;
 pub use product::{Product, Variation};

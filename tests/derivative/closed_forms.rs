@@ -35,13 +35,13 @@ fn a_ball_bounces_at_the_times_and_speeds_of_the_textbook() {
         let sum: f64 = (1..=k).map(|j| e.powi(j as i32)).sum();
         let rate: f64 = (1..=k).map(|j| j as f64 * e.powi(j as i32 - 1)).sum();
         let speed = G * t0;
-        near(contact.start[0], 2.0 * t0 * rate, 10.0);
-        near(contact.start[1], t0 * (1.0 + 2.0 * sum) / (2.0 * height), 10.0);
-        near(contact.start[2], 0.0, 10.0);
-        near(contact.approach_speed[0], speed * slope, 10.0);
-        near(contact.approach_speed[1], speed * power / (2.0 * height), 10.0);
-        near(contact.impulse[0], mass * speed * (power + (1.0 + e) * slope), 10.0);
-        near(contact.impulse[2], (1.0 + e) * speed * power, 10.0);
+        near(contact.start_by[0], 2.0 * t0 * rate, 10.0);
+        near(contact.start_by[1], t0 * (1.0 + 2.0 * sum) / (2.0 * height), 10.0);
+        near(contact.start_by[2], 0.0, 10.0);
+        near(contact.approach_speed_by[0], speed * slope, 10.0);
+        near(contact.approach_speed_by[1], speed * power / (2.0 * height), 10.0);
+        near(contact.impulse_by[0], mass * speed * (power + (1.0 + e) * slope), 10.0);
+        near(contact.impulse_by[2], (1.0 + e) * speed * power, 10.0);
     }
     // The largest impulse is the first, and the sum of impulses its own derivative.
     let measured = found.measured();
@@ -56,7 +56,7 @@ fn impacts_that_accumulate_end_in_a_rest_without_memory() {
     let scene = |e: f64| Ok(ball(1.0, 0.1, e).with_load(Load::constant(0.0)).with_duration(1.5));
     let key = SceneTangent::new("restitution", 0.5, scene).unwrap();
     let found = Derivatives::new(&scene(0.5).unwrap(), &[key], &[1.4]).unwrap();
-    assert_eq!((found.displacement[0], found.velocity[0], found.ended), (0.0, 0.0, None));
+    assert_eq!((found.motion.displacement_by[0], found.motion.velocity_by[0], found.ended), (0.0, 0.0, None));
 }
 
 /// A block thrown against a buffer of stiffness k and dashpot c leaves it where the force vanishes,
@@ -90,11 +90,11 @@ fn a_buffer_returns_the_share_that_its_damping_leaves() {
     // The difference above errs by 1e-10.
     let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-8 * b.abs(), "{a} {b}");
     near(contact.contact.impulse, impulse);
-    near(contact.impulse[0], -m * v * slope * (-0.5 * zeta / k));
-    near(contact.impulse[1], -m * v * slope * zeta / c);
-    near(contact.impulse[2], impulse / v);
-    near(contact.start[2], -0.1 / (v * v));
-    near(contact.approach_speed[2], 1.0);
+    near(contact.impulse_by[0], -m * v * slope * (-0.5 * zeta / k));
+    near(contact.impulse_by[1], -m * v * slope * zeta / c);
+    near(contact.impulse_by[2], impulse / v);
+    near(contact.start_by[2], -0.1 / (v * v));
+    near(contact.approach_speed_by[2], 1.0);
 }
 
 /// What a derivative cannot tell is said.

@@ -216,11 +216,11 @@ fn error(expected: &Expected) -> Option<f64> {
     // Numbers of one kind are compared as a share of the largest of them, since a small one may be
     // the difference of two large ones.
     let mut kinds: [Vec<[f64; 2]>; 5] = Default::default();
-    kinds[0].push([found.displacement[0], expected.end[0]]);
-    kinds[1].push([found.velocity[0], expected.end[1]]);
+    kinds[0].push([found.motion.displacement_by[0], expected.end[0]]);
+    kinds[1].push([found.motion.velocity_by[0], expected.end[1]]);
     assert!(found.contacts.len() >= expected.contacts.len(), "scene {}: too few contacts", expected.number);
     for (contact, of) in found.contacts.iter().zip(&expected.contacts) {
-        let own = [contact.start[0], contact.approach_speed[0], contact.impulse[0]];
+        let own = [contact.start_by[0], contact.approach_speed_by[0], contact.impulse_by[0]];
         (0..3).for_each(|kind| kinds[2 + kind].push([own[kind], of[kind]]));
     }
     let worst = |pairs: &Vec<[f64; 2]>| {

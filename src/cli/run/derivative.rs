@@ -4,15 +4,12 @@ use super::args::Args;
 use crate::case::{Case, Key};
 use crate::cli::pipeline::Shown;
 use crate::error::{Error, Result};
-use crate::output::derivatives::{self as output, Varied};
+use crate::output::derivatives::{self as output, FILE, Varied};
 use crate::output::results::Results;
 use crate::scheme::Scheme;
 use crate::study::derivatives::Derivatives;
 use crate::variation::SceneTangent;
 use serde_json::Value;
-
-/// The table of derivatives.
-const FILE: &str = "derivatives.csv";
 
 /// Keys by which a run is differentiated.
 #[derive(Debug, Clone, Default, clap::Args)]
