@@ -91,11 +91,28 @@ impl KeyVariation {
             return Err(Error::invalid("times", "a list", "finite numbers, s, each above the one before"));
         }
         let mut variation = StructureVariation::with_keys(scene, tangents, times)?;
-        let mut columns = variation.keys.start(&mut variation.flow, &scene.initial.v);
+        let columns = variation.keys.start(&mut variation.flow, &scene.initial.v);
+        Ok(Self::of(scene, variation, columns, tangents.len()))
+    }
+
+    /// The derivative of a run of `scene` from a state at any time, with `start` as the derivative
+    /// of that state: (δq, δq̇) for each key one after the other.
+    ///
+    /// # Errors
+    /// As [`KeyVariation::new`].
+    pub(crate) fn from_state(scene: &Scene, tangents: &[SceneTangent], start: &[f64]) -> Result<Self> {
+        let variation = StructureVariation::with_keys(scene, tangents, &[])?;
+        let size = 2 * variation.degrees_of_freedom() * tangents.len();
+        let mut columns = start.to_vec();
+        columns.resize(size, 0.0);
+        Ok(Self::of(scene, variation, columns, tangents.len()))
+    }
+
+    fn of(scene: &Scene, variation: StructureVariation, mut columns: Vec<f64>, keys: usize) -> Self {
         columns.resize(columns.len() + 2 * variation.degrees_of_freedom() * WITNESSES, 0.0);
         let mut this = Self {
             variation,
-            keys: tangents.len(),
+            keys,
             columns,
             witnesses: vec![Witness { size: 0.0, least: 0.0 }; WITNESSES],
             system: scene.system.clone(),
@@ -103,7 +120,7 @@ impl KeyVariation {
             growth: 1.0,
         };
         (0..WITNESSES).for_each(|which| this.renew(which));
-        Ok(this)
+        this
     }
 
     /// Propagates the derivative over `step`; steps must come in turn from the start of the run.

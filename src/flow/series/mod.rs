@@ -148,6 +148,11 @@ impl Series {
         }
     }
 
+    /// Acceleration (m/s²) of degree of freedom `dof` at the start, from the right.
+    pub(crate) fn acceleration_at_start(&self, dof: usize) -> f64 {
+        if self.terms > 2 { 2.0 * self.term(2).get(dof).copied().unwrap_or(0.0) / (self.unit * self.unit) } else { 0.0 }
+    }
+
     /// Force of wall `wall` on the structure at `t`, N, signed: 0 if it does not act.
     #[must_use]
     pub fn contact_force(&self, wall: usize, t: f64) -> f64 {

@@ -12,7 +12,8 @@ use std::f64::consts::TAU;
 /// The derivative of a load with respect to a key.
 #[derive(Debug, Clone)]
 pub(in crate::variation) struct LoadChange {
-    /// The load itself.
+    /// The load itself, and its index in the scene.
+    index: usize,
     load: Load,
     row: Row,
     kind: KindChange,
@@ -67,7 +68,15 @@ impl LoadChange {
             KindChange::Blow(x) => *x == 0.0,
             KindChange::Table(x) => x.is_none(),
         };
-        (!zero || !row.entries().is_empty()).then_some(Self { load, row, kind })
+        (!zero || !row.entries().is_empty()).then_some(Self { index, load, row, kind })
+    }
+
+    /// The derivative of ln ω of the sine that is load number `index`; 0 if this is another load.
+    pub fn hastening(&self, index: usize) -> f64 {
+        match self.kind {
+            KindChange::Harmonic([_, omega, _]) if self.index == index => omega / sine(&self.load.kind)[1],
+            _ => 0.0,
+        }
     }
 
     /// Adds the derivative of the momentum that a blow at `time` (s) gives, N s, to `out`, n

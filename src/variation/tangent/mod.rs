@@ -8,7 +8,7 @@ pub(super) use loads::{LoadChange, LoadTerms};
 
 use crate::error::{Error, Result};
 use crate::linear::Operator;
-use crate::scene::{Row, Scene};
+use crate::scene::{LoadKind, Row, Scene};
 use stencil::Stencil;
 
 /// The largest error of the derivative of a number of the scene, as a share: the results are exact
@@ -74,10 +74,25 @@ impl SceneTangent {
     /// number of walls or loads, another instant of a blow or of a row of a table, another duration;
     /// errors of `build`.
     pub fn new(name: &str, value: f64, build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
-        let refused = |expected: &str| Error::invalid(format!("derivative by {name}"), value, expected);
-        let mut stencil = Stencil::new(value, build)?;
+        let tangent = Self::of(name, value, Stencil::new(value, build)?)?;
+        if tangent.error.is_nan() || tangent.error > MOST_ERROR {
+            return Err(refused(name, value, "a key on which the scene depends smoothly"));
+        }
+        Ok(tangent)
+    }
+
+    /// The difference between the scenes at two values near that of `base`, whose error is not
+    /// known: enough for the matrix of Newton's method.
+    ///
+    /// # Errors
+    /// As [`SceneTangent::new`].
+    pub(crate) fn between(name: &str, value: f64, base: Scene, ends: [(f64, Scene); 2]) -> Result<Self> {
+        Self::of(name, value, Stencil::between(base, ends))
+    }
+
+    fn of(name: &str, value: f64, mut stencil: Stencil) -> Result<Self> {
         if !stencil.scenes().all(|scene| is_alike(&stencil.base, scene)) {
-            return Err(refused("a key that keeps walls, loads, their times and the duration"));
+            return Err(refused(name, value, "a key that keeps walls, loads, their times and the duration"));
         }
         let n = stencil.base.system.degrees_of_freedom();
         let [mass, damping, stiffness] = matrices::changes(&mut stencil);
@@ -90,15 +105,9 @@ impl SceneTangent {
         let q = (0..n).map(|i| stencil.derivative(|scene| at(&scene.initial.q, i))).collect();
         let v = (0..n).map(|i| stencil.derivative(|scene| at(&scene.initial.v, i))).collect();
         let error = stencil.error;
-        let name = name.to_owned();
-        let tangent = Self { name, value, error, mass, damping, stiffness, walls, loads, probes, q, v };
-        if tangent.is_zero() {
-            return Err(refused("a key on which the scene depends"));
-        }
-        if tangent.error.is_nan() || tangent.error > MOST_ERROR {
-            return Err(refused("a key on which the scene depends smoothly"));
-        }
-        Ok(tangent)
+        let tangent =
+            Self { name: name.to_owned(), value, error, mass, damping, stiffness, walls, loads, probes, q, v };
+        if tangent.is_zero() { Err(refused(name, value, "a key on which the scene depends")) } else { Ok(tangent) }
     }
 
     /// The name of the value.
@@ -120,11 +129,32 @@ impl SceneTangent {
         self.error
     }
 
+    /// The derivative of the common period (s) of the sines of `scene`, s per unit of the value.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] where the frequencies change by different shares, so that there is none.
+    pub(crate) fn period(&self, scene: &Scene, period: f64) -> Result<f64> {
+        let turns = |kind: &LoadKind| matches!(kind, LoadKind::Harmonic { frequency, .. } if *frequency > 0.0);
+        let sines = scene.loads.iter().enumerate().filter(|(_, load)| turns(&load.kind));
+        let shares: Vec<f64> =
+            sines.map(|(index, _)| self.loads.iter().map(|load| load.hastening(index)).sum::<f64>()).collect();
+        let (least, most) = shares.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x.abs()), b.max(x.abs())));
+        if shares.is_empty() || most - least > MOST_ERROR * most {
+            let expected = "a key that keeps the ratio of the frequencies of all sines";
+            return if most == 0.0 { Ok(0.0) } else { Err(refused(&self.name, self.value, expected)) };
+        }
+        Ok(-period * shares.first().copied().unwrap_or(0.0))
+    }
+
     fn is_zero(&self) -> bool {
         let none = [&self.mass, &self.damping, &self.stiffness].iter().all(|matrix| matrix.is_none());
         let still = self.walls.iter().all(WallTangent::is_zero) && self.loads.is_empty();
         none && still && self.q.iter().chain(&self.v).all(|&x| x == 0.0)
     }
+}
+
+fn refused(name: &str, value: f64, expected: &str) -> Error {
+    Error::invalid(format!("derivative by {name}"), value, expected)
 }
 
 impl WallTangent {

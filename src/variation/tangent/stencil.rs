@@ -87,6 +87,15 @@ impl Stencil {
         Err(refused.unwrap_or_else(|| Error::invalid("value", value, "one near which there are other valid values")))
     }
 
+    /// The scenes at two values, one on either side of that of `base` or at it; nothing tells the
+    /// error of the differences.
+    pub fn between(base: Scene, [(low, below), (high, above)]: [(f64, Scene); 2]) -> Self {
+        let weight = 1.0 / (high - low);
+        let point = |scene, weight| Point { scene, weights: [weight; 2] };
+        let points = vec![point(above, weight), point(below, -weight)];
+        Self { base, points, unit: high - low, error: 0.0 }
+    }
+
     /// The other scenes.
     pub fn scenes(&self) -> impl Iterator<Item = &Scene> {
         self.points.iter().map(|point| &point.scene)
