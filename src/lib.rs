@@ -73,8 +73,9 @@ pub use scene::{
     WallTruncation, heading, matrices,
 };
 pub use scene::{
-    Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SharedStructure,
-    Side, State, Structure, Support, System, Table, TimeFunction, Turbulence, TurbulenceSpectrum, Wall, WallLaw,
+    Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SceneKey,
+    SharedStructure, Side, State, Structure, Support, System, Table, TimeFunction, Turbulence, TurbulenceSpectrum,
+    Wall, WallLaw,
 };
 pub use scheme::{Counters, Handover, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{

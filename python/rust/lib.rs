@@ -6,6 +6,7 @@
 mod array;
 mod builders;
 mod case;
+mod derivative;
 mod error;
 mod json;
 mod load;
@@ -33,6 +34,8 @@ mod _core {
     use super::builders::{_bar, _beam, _chain, _matrices, _modal, _oscillator};
     #[pymodule_export]
     use super::case::{_case, Case, load};
+    #[pymodule_export]
+    use super::derivative::{_case_scene_at, _case_value_at, _derivative, _scene_at, _value_at};
     #[pymodule_export]
     use super::error::{
         AccuracyWarning, DivergedError, NotSolvedError, RefutedError, ResultWarning, RunError, TooManyEventsError,

@@ -367,6 +367,49 @@ impl Run {
         Self::by_python(slf, "summary")
     }
 
+    /// The derivatives of the run with respect to numbers of its scene: of its contacts, and of
+    /// displacement and velocity of its first probe. They are those of the exact motion.
+    ///
+    /// Parameters
+    /// ----------
+    /// keys : sequence of str
+    ///     Numbers of the scene: ``wall.NAME.position``, ``.restitution``, ``.stiffness``,
+    ///     ``.damping``, ``load.1.harmonic.amplitude`` and so on, as in `derivative`.
+    /// times : sequence of float, optional
+    ///     Where displacement and velocity are differentiated, s; increasing.
+    ///
+    /// Returns
+    /// -------
+    /// Derivative
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     For a run of another scheme than ``event``, and as `derivative`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import signorini as sg
+    /// >>> floor = sg.Wall.lower("floor", 0.0, restitution=0.8)
+    /// >>> ball = sg.oscillator(1.0, 0.0, 0.0, walls=[floor], loads=[sg.Load.constant(-9.81)], displacement=1.0)
+    /// >>> by = ball.run("event").derivative(["wall.floor.restitution"])
+    /// >>> by.contacts["impulse_by"]["wall.floor.restitution"].round(3)  # 4.429 is its speed
+    /// array([4.429])
+    #[pyo3(signature = (keys, *, times=None))]
+    fn derivative<'py>(
+        slf: &Bound<'py, Self>,
+        keys: Vec<String>,
+        times: Option<Vec<f64>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let run = slf.get();
+        if run.run.scheme != sg::Scheme::Event {
+            let expected = "event: derivatives are those of the exact motion";
+            return Err(crate::error::wrong("the scheme of the run", run.run.scheme, expected));
+        }
+        let given = (run.scene.clone_ref(slf.py()), keys, times.unwrap_or_default());
+        slf.py().import("signorini._derivative")?.call_method1("of_run", given)
+    }
+
     /// The rows as a pandas DataFrame.
     ///
     /// Returns

@@ -22,6 +22,7 @@
 //! case reduced to modes, `wording.rs` finds the key of each value of the scene, `written.rs` keeps
 //! what the scene itself no longer shows; `case_file.rs` is the document that a case keeps,
 //! `key.rs` the path of a value, by which it is changed before it is built (`changes.rs`),
+//! `tangent.rs` differentiates the scene by a key,
 //! `summary.rs` reads the case of a finished run (feature `case`).
 #![doc = include_str!("../../cases/README.md")]
 
@@ -60,6 +61,7 @@ mod summary;
 mod supports;
 mod system;
 mod table;
+mod tangent;
 mod template;
 mod text;
 mod truncated;

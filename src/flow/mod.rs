@@ -19,9 +19,9 @@ pub(crate) use contact::{Support, Touch};
 pub(crate) use propagator::{Propagator, held};
 pub(crate) use response::Jet;
 pub use series::Series;
-pub(crate) use series::{Held, Hold, Round, SeriesBody, Start as SeriesStart, TERMS, Touching, value};
+pub(crate) use series::{Change, Drive, Held, Hold, Round, SeriesBody, Start as SeriesStart, TERMS, Touching, value};
 
-use crate::scene::{Forcing, Oscillator};
+use crate::scene::{Forcing, Oscillator, Side};
 use force::LocalForce;
 use response::Response;
 
@@ -320,6 +320,16 @@ impl Arc {
     /// The elastic walls that touch, by their index in the scene.
     pub(crate) fn touching(&self) -> impl Iterator<Item = usize> + '_ {
         self.touching.iter().map(|wall| wall.wall)
+    }
+
+    /// The same, with their laws.
+    pub(crate) fn touching_walls(&self) -> impl Iterator<Item = &Touch> {
+        self.touching.iter()
+    }
+
+    /// The side of the wall that the body rests against; `None` in flight.
+    pub(crate) fn resting_side(&self) -> Option<Side> {
+        self.support.map(|support| support.side)
     }
 
     /// An interval that the motion does not leave during the arc, m.

@@ -15,7 +15,7 @@ pub(crate) struct Propagator {
     series: Series,
     /// The rows that are held.
     pub hold: Hold,
-    touching: Vec<Touching>,
+    pub touching: Vec<Touching>,
     zero: Vec<f64>,
     pub scratch: Vec<f64>,
 }

@@ -33,7 +33,7 @@
 //! steps, `branch/shots/moved.rs` moves the strobe, `branch/shots/change.rs` and
 //! `branch/shots/graze.rs` find where the walls that are met change, `branch/shots/switch.rs` the
 //! branches that begin there; `shooting.rs` finds orbits of structures, by `strobe.rs` and the runs
-//! of `turn.rs`; it imports no case.
+//! of `turn.rs`, and `shot_derivative.rs` differentiates them by keys; it imports no case.
 
 mod admissible;
 mod boundary;
@@ -52,6 +52,7 @@ mod periodic;
 mod problem;
 mod settled;
 mod shooting;
+mod shot_derivative;
 mod signature;
 pub(crate) mod strobe;
 mod symmetry;
@@ -70,5 +71,6 @@ pub use periodic::Orbit;
 pub use problem::Problem;
 pub use settled::SETTLE;
 pub use shooting::{Shot, shoot};
+pub use shot_derivative::ShotDerivative;
 pub use signature::{Event, Kind, MOST_EVENTS, MOST_PERIODS, Signature};
 pub use strobe::Strobe;

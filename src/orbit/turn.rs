@@ -9,7 +9,7 @@ use crate::flow::Series;
 use crate::scene::{Scene, Wall};
 use crate::scheme::{Scheme, Stepper};
 use crate::step::{Path, Step};
-use crate::variation::Product;
+use crate::variation::{KeyVariation, Product, SceneTangent};
 use nalgebra::{DMatrix, DVector};
 
 /// Number of samples of a series, which covers at most two radians of the fastest motion. Between
@@ -37,12 +37,23 @@ pub(super) enum Look {
     All,
 }
 
+/// A key by which a run is differentiated, and the derivatives of the instants between which it
+/// runs, s per unit of the key.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ByKey<'a> {
+    pub tangent: &'a SceneTangent,
+    pub later: [f64; 2],
+}
+
 /// A run.
 #[derive(Debug, Clone)]
 pub(super) struct Turn {
     pub end: DVector<f64>,
     /// The derivative of the end with respect to the start; empty unless asked for.
     pub derivative: DMatrix<f64>,
+    /// The derivative of the end with respect to a key, from a start that stays; `None` unless
+    /// asked for, or where it is not known.
+    pub by_key: Option<DVector<f64>>,
     pub passages: Vec<Passage>,
     pub touches: Vec<Touch>,
     /// The largest |displacement| at the place of a wall, m; 0 unless asked for.
@@ -58,12 +69,28 @@ pub(super) struct Turn {
 /// # Errors
 /// Those of a run; [`Error::NoOrbit`] where its derivative does not exist.
 pub(super) fn run(scene: &Scene, period: f64, span: [f64; 2], start: &DVector<f64>, look: Look) -> Result<Turn> {
+    run_by_key(scene, period, span, start, look, None)
+}
+
+/// As [`run`], with the derivative by a key.
+///
+/// # Errors
+/// As [`run`].
+pub(super) fn run_by_key(
+    scene: &Scene,
+    period: f64,
+    span: [f64; 2],
+    start: &DVector<f64>,
+    look: Look,
+    key: Option<ByKey<'_>>,
+) -> Result<Turn> {
     let [from, to] = span;
     let mut timed = scene.clone();
     timed.duration = to;
     let mut stepper = Stepper::new(&timed, &Scheme::Event, to)?;
     stepper.set_state(from, &state(start))?;
     let mut product = if look == Look::All { Some(Product::new(scene)?) } else { None };
+    let mut column = key.map(|key| Column::new(scene, key));
     let mut watch = Watch::new(scene, period);
     let mut turns = Turns::new(scene, period, look != Look::Events);
     let walls = scene.walls.len();
@@ -72,6 +99,9 @@ pub(super) fn run(scene: &Scene, period: f64, span: [f64; 2], start: &DVector<f6
         let step = stepper.step()?;
         if let Some(product) = &mut product {
             product.observe(&step).map_err(|error| Error::no_orbit(error.to_string()))?;
+        }
+        if let Some(column) = &mut column {
+            column.carry(&step);
         }
         watch.observe(&step);
         turns.observe(&step);
@@ -85,6 +115,7 @@ pub(super) fn run(scene: &Scene, period: f64, span: [f64; 2], start: &DVector<f6
     let end = stepper.state();
     Ok(Turn {
         end: vector(&end.q, &end.v),
+        by_key: column.and_then(|column| column.end(&end.v)),
         derivative: product.map_or_else(|| DMatrix::zeros(0, 0), |product| product.matrix().clone()),
         passages: gathered(watch.passages, scene),
         touches: turns.touches,
@@ -92,6 +123,49 @@ pub(super) fn run(scene: &Scene, period: f64, span: [f64; 2], start: &DVector<f6
         contacts,
         impulses,
     })
+}
+
+/// The derivative by a key along a run.
+struct Column<'a> {
+    scene: &'a Scene,
+    key: ByKey<'a>,
+    variation: Option<KeyVariation>,
+    known: bool,
+    /// The acceleration at the end of the last step, m/s².
+    acceleration: Vec<f64>,
+}
+
+impl<'a> Column<'a> {
+    fn new(scene: &'a Scene, key: ByKey<'a>) -> Self {
+        Self { scene, key, variation: None, known: true, acceleration: vec![0.0; scene.system.degrees_of_freedom()] }
+    }
+
+    /// Propagates the derivative over `step`. At the first one the state of the moved start, as it
+    /// was at the fixed instant, is (q, q̇) less its rate times δt.
+    fn carry(&mut self, step: &Step<'_>) {
+        if !self.known {
+            return;
+        }
+        let mut begin = self.acceleration.clone();
+        step.path.accelerations(&mut begin, &mut self.acceleration);
+        let variation = match self.variation.take() {
+            Some(variation) => Ok(variation),
+            None => {
+                let rate = step.velocity_before.iter().chain(&begin);
+                let start: Vec<f64> = rate.map(|x| -x * self.key.later[0]).collect();
+                KeyVariation::from_state(self.scene, std::slice::from_ref(self.key.tangent), &start)
+            }
+        };
+        self.variation = variation.ok().and_then(|mut one| one.carry(step).is_ok().then_some(one));
+        self.known = self.variation.is_some();
+    }
+
+    /// The derivative of the end, at which the velocity is `v`.
+    fn end(self, v: &[f64]) -> Option<DVector<f64>> {
+        let variation = self.variation.filter(|_| self.known)?;
+        let rate = v.iter().chain(&self.acceleration).map(|x| x * self.key.later[1]);
+        Some(DVector::from_vec(variation.state().iter().zip(rate).map(|(x, later)| x + later).collect()))
+    }
 }
 
 /// Watches where the motion turns back at the places of walls.

@@ -9,6 +9,7 @@
 //! | `lock` | one writer in a folder at a time |
 //! | [`request`] | the request, as recorded beside its results |
 //! | [`csv`] | `trajectory.csv` and `contacts.csv` |
+//! | [`derivatives`] | `derivatives.csv`, and the table of what 1 % more of a key changes |
 //! | [`supports`] | `supports.csv`, `sectors.csv`, the table of supports and their part of the summary |
 //! | [`summary`] | `summary.json` |
 //! | [`run`] | all files of one run, and its table |
@@ -43,7 +44,7 @@
 //! all files and tables of a run and of a comparison, `periodic.rs` and `branches.rs` those of
 //! periodic orbits, `orbits.rs` the motion of those along branches and `overlay.rs` points of other
 //! results under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
-//! `table.rs`, `document.rs`, `detail.rs` (what `[statistics]` asks for: `episodes.rs`,
+//! `derivatives.rs`, `table.rs`, `document.rs`, `detail.rs` (what `[statistics]` asks for: `episodes.rs`,
 //! `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart), `floors.rs` (why
 //! its penalties have floors), `safe_steps.rs` (the conclusion of a stability study), figures
 //! (`colours.rs` has the colour of every wall and support, `part.rs` the walls that are drawn
@@ -57,6 +58,7 @@ pub(crate) mod colours;
 pub mod compare;
 pub(crate) mod compare_table;
 pub mod csv;
+pub mod derivatives;
 mod detail;
 pub mod document;
 pub mod episodes;

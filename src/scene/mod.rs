@@ -9,7 +9,7 @@
 //! elastic and penalised walls), `planes.rs` (a structure doubled into two planes, and directions
 //! there), `support.rs` (walls around a place), `load.rs`, `random/` (random forces as tables),
 //! `turbulence/` (random forces along a line, on modes), `clear.rs` (a start moved out of walls),
-//! `function.rs`, `forcing.rs`, `row.rs` (a location on a structure, as weights of degrees of
+//! `function.rs`, `forcing.rs`, `scene_key.rs` (the path of a number of a scene), `row.rs` (a location on a structure, as weights of degrees of
 //! freedom), `builders/` (chains, bars, tubes, modal data),
 //! `matrices/` (read from text), `condensation/` (degrees of freedom without mass), `damping.rs`,
 //! `modal/` (modes, and scenes reduced to them); `Scene::validate` is the only place that decides
@@ -33,6 +33,7 @@ mod planes;
 mod random;
 mod row;
 mod scales;
+mod scene_key;
 mod shared;
 mod structure;
 mod support;
@@ -56,6 +57,7 @@ pub use planes::{PlaneRows, heading};
 pub use random::{Density, RandomForce};
 pub(crate) use row::distinct;
 pub use row::{Probe, Row};
+pub use scene_key::SceneKey;
 pub use shared::SharedStructure;
 pub use structure::Structure;
 pub use support::{Hole, Support};

@@ -46,6 +46,16 @@ impl Row {
     pub fn dot(&self, q: &[f64]) -> f64 {
         self.entries.iter().map(|&(i, weight)| weight * q.get(i).copied().unwrap_or(0.0)).sum()
     }
+
+    /// Adds gᵀ `force` to `out`; entries beyond its length are left out.
+    #[inline]
+    pub(crate) fn add_transposed(&self, force: f64, out: &mut [f64]) {
+        for &(i, weight) in &self.entries {
+            if let Some(out) = out.get_mut(i) {
+                *out += weight * force;
+            }
+        }
+    }
 }
 
 /// The distinct rows of a list.

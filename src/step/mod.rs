@@ -109,6 +109,23 @@ impl Path<'_> {
         }
     }
 
+    /// Acceleration (m/s²) at the start and at the end of the step, into slices over degrees of
+    /// freedom. Nothing is written for a step on a grid.
+    pub(crate) fn accelerations(&self, start: &mut [f64], end: &mut [f64]) {
+        match self {
+            Self::Grid | Self::OneRestitution | Self::Part { .. } | Self::Handed { .. } => {}
+            Self::Exact(arc) => {
+                if let (Some(start), Some(end)) = (start.first_mut(), end.first_mut()) {
+                    (*start, *end) = (arc.acceleration(arc.start()), arc.acceleration(arc.end()));
+                }
+            }
+            Self::Series(series) => {
+                start.iter_mut().enumerate().for_each(|(dof, a)| *a = series.acceleration_at_start(dof));
+                series.acceleration_at_end(end);
+            }
+        }
+    }
+
     /// Force of wall `wall` at `t` within the step, N, signed; 0 on a grid.
     pub(crate) fn contact_force(&self, wall: usize, t: f64) -> f64 {
         match self {

@@ -6,7 +6,7 @@
 //! `perturbation.rs` (growth of a small change), `attractor/` (which motion a start leads to),
 //! `difference.rs` and `change.rs` (between two runs), `verdict.rs` (half the step),
 //! `realisations/` (means over random loads with their intervals), `wear_history.rs` (gaps that
-//! grow by wear), `truncation/`, `accuracy/`, `work_precision/`, `stability/` (runs in parallel:
+//! grow by wear), `derivatives.rs` (what a key changes), `truncation/`, `accuracy/`, `work_precision/`, `stability/` (runs in parallel:
 //! feature `cli`).
 
 pub mod accuracy;
@@ -14,6 +14,7 @@ pub mod attractor;
 pub mod change;
 pub mod choice;
 pub mod compare;
+pub mod derivatives;
 pub(crate) mod difference;
 mod exact;
 mod growth;

@@ -181,7 +181,7 @@ impl Exponents {
 
 /// Entry `i` of all changes one after the other, at the start: linearly independent directions with
 /// a component along every entry of the state.
-fn direction(i: usize) -> f64 {
+pub(super) fn direction(i: usize) -> f64 {
     (1.0 + 0.618_033_988_75 * i as f64).fract() - 0.3
 }
 

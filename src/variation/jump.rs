@@ -17,6 +17,7 @@
 //! of coming to rest does not contain the speed, and that of an impact acts on a change by a few
 //! products of vectors.
 
+use super::key_terms::{Instant, KeyTerms};
 use crate::flow::{Hold, Propagator, held};
 
 /// A row struck in flight.
@@ -25,8 +26,12 @@ pub(super) struct Struck {
     pub row: usize,
     /// e, 0 where the row comes to rest.
     pub restitution: f64,
+    /// True where it comes to rest, whatever e is.
+    pub rests: bool,
     /// v = G q̇⁻, m/s, signed.
     pub speed: f64,
+    /// True for a row that touched before, and is struck by a blow.
+    pub held: bool,
     /// G a⁻/v, 1/s; 0 where the row comes to rest.
     pub pull: f64,
 }
@@ -128,28 +133,92 @@ impl Jump {
         }
     }
 
-    /// Applies the matrix to each of `columns`, changes of 2n entries.
-    pub fn apply_to(&mut self, flow: &mut Propagator, columns: &mut [f64]) {
+    /// Applies the matrix to each of `columns`, changes of 2n entries. The first columns are those
+    /// of `keys`, whose own terms at the instant `at` are added.
+    pub fn apply_to(&mut self, flow: &mut Propagator, columns: &mut [f64], keys: &[KeyTerms], at: &Instant<'_>) {
         let n = self.zero.len();
-        for change in columns.chunks_exact_mut(2 * n) {
+        for (column, change) in columns.chunks_exact_mut(2 * n).enumerate() {
             let (q, v) = change.split_at_mut(n);
-            self.apply(flow, q, v);
+            self.apply(flow, (q, v), keys.get(column), at);
         }
     }
 
-    fn apply(&mut self, flow: &mut Propagator, q: &mut [f64], v: &mut [f64]) {
-        let Self { struck, rows, shifts, kicks, seen, wanted, .. } = self;
+    /// With the terms of a key: Gδq + δG q − δg takes the place of Gδq, and the velocities are those
+    /// for which M(δq̇⁺ − δq̇⁻) = Gᵀδp + δGᵀp − δM(q̇⁺ − q̇⁻) and G δq̇⁺ = −δG q̇⁺ − e(G δq̇⁻ + δG q̇⁻)
+    /// − δe G q̇⁻.
+    fn apply(
+        &mut self,
+        flow: &mut Propagator,
+        (q, v): (&mut [f64], &mut [f64]),
+        key: Option<&KeyTerms>,
+        at: &Instant<'_>,
+    ) {
         let n = q.len();
-        for s in &*struck {
-            seen[s.row] = flow.body.rows.dot(s.row, q);
-            wanted[s.row] = -s.restitution * flow.body.rows.dot(s.row, v);
+        for at_row in 0..self.rows.rows().len() {
+            let Some(row) = self.rows.rows().get(at_row).map(|held| held.row) else { continue };
+            self.seen[row] = beyond(flow, row, q, key, at);
+            self.wanted[row] = self.wanted(flow, row, v, key, at);
         }
-        let restituted = |row: usize| struck.iter().any(|s| s.row == row);
-        rows.change(&flow.body, v, &mut flow.scratch, |h| if restituted(h.row) { wanted[h.row] } else { 0.0 });
+        if let Some(key) = key {
+            key.add_to_velocity(flow, at, v);
+        }
+        let Self { struck, rows, shifts, kicks, seen, wanted, .. } = self;
+        rows.change(&flow.body, v, &mut flow.scratch, |held| wanted[held.row]);
         for (s, (shift, kick)) in struck.iter().zip(shifts.chunks_exact(n).zip(kicks.chunks_exact(n))) {
             let by = seen[s.row];
             q.iter_mut().zip(shift).for_each(|(q, d)| *q -= by * d);
             v.iter_mut().zip(kick).for_each(|(v, w)| *v += by * w);
         }
     }
+
+    /// G δq̇⁺ of a row, given δq̇⁻.
+    fn wanted(&self, flow: &Propagator, row: usize, v: &[f64], key: Option<&KeyTerms>, at: &Instant<'_>) -> f64 {
+        let wall = at.wall_of.get(row).copied().unwrap_or(0);
+        let (before, after) = key.map_or((0.0, 0.0), |key| (key.along(wall, at.before), key.along(wall, at.after)));
+        let Some(s) = self.struck.iter().find(|s| s.row == row) else { return -after };
+        let own = if s.rests { 0.0 } else { key.map_or(0.0, |key| key.restitution(wall)) };
+        -s.restitution * (flow.body.rows.dot(row, v) + before) - own * flow.body.rows.dot(row, at.before) - after
+    }
+
+    /// By how much the impulse of each row (N s, one entry each) changes by the change (`q`, `v`)
+    /// before the instant and a key, where the instant moves with them.
+    pub fn impulses(
+        &self,
+        flow: &mut Propagator,
+        (q, v): (&[f64], &[f64]),
+        key: &KeyTerms,
+        at: &Instant<'_>,
+    ) -> Vec<f64> {
+        let mut pushed = v.to_vec();
+        key.add_to_velocity(flow, at, &mut pushed);
+        let missing = |flow: &Propagator, row: usize| {
+            // The instant is that of the row itself, or of the one that is struck.
+            let s = self.struck.iter().find(|s| s.row == row).or(self.struck.first());
+            let later = s.map_or(0.0, |s| s.moves_by(beyond(flow, s.row, q, Some(key), at)));
+            let moved = |x: &[f64]| x.iter().zip(at.acceleration).map(|(x, a)| x + later * a).collect::<Vec<f64>>();
+            self.wanted(flow, row, &moved(v), Some(key), at) - flow.body.rows.dot(row, &moved(&pushed))
+        };
+        let independent: Vec<f64> = self.rows.independent().iter().map(|held| missing(flow, held.row)).collect();
+        let mut changes = vec![0.0; self.seen.len()];
+        for (i, held) in self.rows.rows().iter().enumerate() {
+            if let Some(change) = changes.get_mut(held.row) {
+                *change = self.rows.inverse(i).iter().zip(&independent).map(|(w, b)| w * b).sum();
+            }
+        }
+        changes
+    }
+}
+
+impl Struck {
+    /// δt, s, of the impact: `beyond` is G δq + δG q − δg. A row without speed is struck by a blow,
+    /// whose instant does not move.
+    pub fn moves_by(&self, beyond: f64) -> f64 {
+        if self.speed == 0.0 || self.held { 0.0 } else { -beyond / self.speed }
+    }
+}
+
+/// G δq + δG q − δg of a row, m.
+fn beyond(flow: &Propagator, row: usize, q: &[f64], key: Option<&KeyTerms>, at: &Instant<'_>) -> f64 {
+    let wall = at.wall_of.get(row).copied().unwrap_or(0);
+    flow.body.rows.dot(row, q) + key.map_or(0.0, |key| key.offset(wall, at.q))
 }

@@ -44,15 +44,26 @@
 //! `structure.rs` (with `jump.rs`) read it from the steps, `product.rs` multiplies along a run,
 //! `exponents.rs` holds Lyapunov exponents; knows no scheme.
 
+mod arc_series;
+mod contact_changes;
 mod exponents;
+mod instant;
 mod jump;
+mod key_terms;
+mod key_variation;
+mod keys;
 mod no_derivative;
 mod oscillator;
 mod product;
 pub mod saltation;
 mod structure;
+mod tangent;
 
+pub use contact_changes::ContactDerivative;
 pub use exponents::{Exponent, Exponents};
+pub use key_variation::KeyVariation;
+pub use keys::MotionDerivative;
 pub use no_derivative::NoDerivative;
 pub use oscillator::OscillatorVariation;
 pub use product::{Product, Variation};
+pub use tangent::SceneTangent;

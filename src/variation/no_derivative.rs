@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Why a motion has no derivative with respect to its start, or why it is not known.
+/// Why a motion has no derivative with respect to its start or to a key, or why it is not known.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum NoDerivative {
@@ -21,6 +21,54 @@ pub enum NoDerivative {
         /// End of the step, s.
         time: f64,
     },
+    /// The body reaches a rigid wall without speed: a small change lets it pass or be struck, and
+    /// the derivative is infinite on one side. An impact that multiplies a change by more than 1e4
+    /// counts as one.
+    Graze {
+        /// Time, s.
+        time: f64,
+        /// The wall, by its index in the scene.
+        wall: usize,
+    },
+    /// Changes of the start have grown by more than 1e6: past this horizon the motion that is known
+    /// to rounding does not determine its derivative to eight digits.
+    Horizon {
+        /// Time, s.
+        time: f64,
+        /// By what a change of the start has grown since it was smallest.
+        growth: f64,
+    },
+    /// The body touches a wall already, and the key moves one of them only: what follows differs
+    /// from one direction of the change to the other.
+    Touching {
+        /// Time, s.
+        time: f64,
+        /// The wall, by its index in the scene.
+        wall: usize,
+    },
+    /// A body comes to rest on a wall with restitution 0, which the key raises: in place of one
+    /// contact there would be many impacts.
+    Rebounds {
+        /// Time, s.
+        time: f64,
+        /// The wall, by its index in the scene.
+        wall: usize,
+    },
+}
+
+impl NoDerivative {
+    /// The time at which the reason arises, s: up to there the derivative is known.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        match self {
+            Self::Together { time, .. }
+            | Self::Unresolved { time }
+            | Self::Graze { time, .. }
+            | Self::Horizon { time, .. }
+            | Self::Touching { time, .. }
+            | Self::Rebounds { time, .. } => *time,
+        }
+    }
 }
 
 impl fmt::Display for NoDerivative {
@@ -33,6 +81,26 @@ impl fmt::Display for NoDerivative {
                 f,
                 "no derivative: the step up to t = {time} s is of a scheme on a grid and does not resolve its events; \
                  the scheme event does"
+            ),
+            Self::Graze { time, wall } => {
+                write!(f, "no derivative: wall {} is grazed at t = {time} s, where it is infinite", wall + 1)
+            }
+            Self::Horizon { time, growth } => write!(
+                f,
+                "no derivative: at t = {time} s a small change has grown by a factor of {growth:.1e}, and the motion is \
+                 no longer predictable"
+            ),
+            Self::Touching { time, wall } => write!(
+                f,
+                "no derivative: at t = {time} s wall {} is touched, and the key moves wall or body away from the \
+                 other, or into it",
+                wall + 1
+            ),
+            Self::Rebounds { time, wall } => write!(
+                f,
+                "no derivative: the body comes to rest on wall {} at t = {time} s with a restitution of 0, and above \
+                 0 one contact becomes many impacts",
+                wall + 1
             ),
         }
     }

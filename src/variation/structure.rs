@@ -1,57 +1,57 @@
 //! Several degrees of freedom: changes of the state propagated over each step.
 
-use super::jump::{Jump, Struck};
+use super::arc_series::ArcSeries;
+use super::jump::Jump;
+use super::keys::Keys;
 use super::no_derivative::NoDerivative;
-use super::oscillator::ON_THE_FACE;
+use super::tangent::SceneTangent;
 use crate::error::{Error, Result};
-use crate::flow::{Hold, Propagator, Series, held};
+use crate::flow::{Hold, Propagator, Series};
 use crate::scene::Scene;
-use crate::step::{Path, Step};
+use crate::step::{Contact, Path, Step};
 
 /// The data of a wall for the propagation of changes.
 #[derive(Debug, Clone, Copy)]
-struct At {
-    row: usize,
-    sign: f64,
-    position: f64,
+pub(super) struct At {
+    pub row: usize,
+    pub sign: f64,
+    pub position: f64,
     /// e of a rigid wall; `None` for an elastic one.
-    restitution: Option<f64>,
-    stiffness: f64,
-    damping: f64,
+    pub restitution: Option<f64>,
+    pub stiffness: f64,
+    pub damping: f64,
     /// For an elastic wall: true if it pushes during the present stretch, and after the last event.
-    during: bool,
-    after: bool,
+    pub during: bool,
+    pub after: bool,
 }
 
 /// Propagates changes of the start over the steps of a structure.
 #[derive(Debug)]
 pub(super) struct StructureVariation {
-    flow: Propagator,
-    walls: Vec<At>,
-    jump: Jump,
+    pub flow: Propagator,
+    pub walls: Vec<At>,
+    pub jump: Jump,
     /// Rows held during the present stretch, and after the last event.
-    during: Vec<bool>,
-    after: Vec<bool>,
+    pub during: Vec<bool>,
+    pub after: Vec<bool>,
     /// The latter as constraints.
-    hold: Hold,
+    pub hold: Hold,
+    /// For each row the wall that acts there, if one does.
+    pub wall_of: Vec<usize>,
     /// A typical displacement, m.
-    length: f64,
+    pub length: f64,
     /// True once a step has been seen.
-    began: bool,
+    pub began: bool,
     /// The state and the acceleration just before an event, and work space.
-    q: Vec<f64>,
-    v: Vec<f64>,
-    a: Vec<f64>,
-    work: Vec<f64>,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub a: Vec<f64>,
+    pub work: Vec<f64>,
+    /// The keys by which the first columns are derivatives.
+    pub keys: Keys,
+    /// The series of closed-form motion; only beside keys.
+    arcs: Option<ArcSeries>,
 }
-
-/// A row that leaves an impact with less than this share of e times its approach speed has come to
-/// rest: the scheme has skipped the remaining impacts of an accumulation.
-const STUCK: f64 = 0.5;
-
-/// A row whose departure speed differs from e times its approach speed by more than this share was
-/// struck more than once.
-const ONCE: f64 = 1e-6;
 
 impl StructureVariation {
     pub fn new(scene: &Scene) -> Result<Self> {
@@ -74,14 +74,26 @@ impl StructureVariation {
             during: vec![false; rows],
             after: vec![false; rows],
             hold: Hold::with_room(rows),
+            wall_of: vec![0; rows],
             length: scene.gap_scale(),
             began: false,
             q: vec![0.0; n],
             v: vec![0.0; n],
             a: vec![0.0; n],
             work: vec![0.0; n],
+            keys: Keys::none(&flow.body),
+            arcs: None,
             flow,
         })
+    }
+
+    /// The same, where the first columns are the derivatives with respect to the keys of
+    /// `tangents`.
+    pub fn with_keys(scene: &Scene, tangents: &[SceneTangent], times: &[f64]) -> Result<Self> {
+        let mut variation = Self::new(scene)?;
+        variation.keys = Keys::new(scene, &variation.flow.body, tangents, times);
+        variation.arcs = if scene.is_line() { ArcSeries::new(scene) } else { None };
+        Ok(variation)
     }
 
     /// n.
@@ -93,149 +105,110 @@ impl StructureVariation {
     /// must not be used after an error.
     pub fn carry(&mut self, step: &Step<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         let n = self.degrees_of_freedom();
-        let series = match step.path {
-            Path::Series(series) if step.q.len() == n && step.force.len() == self.walls.len() => series,
-            _ => return Err(NoDerivative::Unresolved { time: step.end }),
-        };
-        self.look(series);
-        self.come_to_rest(columns);
-        if self.began {
-            series.state(series.start(), &mut self.q, &mut self.v);
-            for w in 0..self.walls.len() {
-                if self.walls[w].during && !self.walls[w].after {
-                    self.enter(w, columns);
+        let fits = step.q.len() == n && step.force.len() == self.walls.len();
+        match (step.path, self.arcs.take()) {
+            (Path::Series(series), _) if fits => {
+                self.begin(series, columns)?;
+                self.pass(series, columns);
+                self.end(step, series, columns)
+            }
+            (Path::Exact(arc), Some(mut arcs)) if fits => {
+                arcs.begin(arc, arc.start());
+                let begun = self.begin(&arcs.series, columns);
+                while begun.is_ok() && arc.end() > arc.start() {
+                    self.pass(&arcs.series, columns);
+                    if arcs.series.end() >= arc.end() {
+                        break;
+                    }
+                    arcs.begin(arc, arcs.series.end());
                 }
+                let ended = begun.and_then(|()| self.end(step, &arcs.series, columns));
+                self.arcs = Some(arcs);
+                ended
+            }
+            _ => Err(NoDerivative::Unresolved { time: step.end }),
+        }
+    }
+
+    /// What happens at the beginning of a stretch, or has happened just before it.
+    fn begin(&mut self, series: &Series, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
+        series.state(series.start(), &mut self.q, &mut self.v);
+        self.read(series)?;
+        self.come_to_rest(series.start(), columns)?;
+        for w in 0..self.walls.len() {
+            if self.walls[w].during && !self.walls[w].after {
+                self.enter(w, series, columns);
             }
         }
-        for change in columns.chunks_exact_mut(2 * n) {
+        Ok(())
+    }
+
+    /// Propagates the columns over a stretch without events.
+    fn pass(&mut self, series: &Series, columns: &mut [f64]) {
+        let Self { flow, keys, wall_of, .. } = self;
+        let n = flow.body.n;
+        for (column, change) in columns.chunks_exact_mut(2 * n).enumerate() {
             let (q, v) = change.split_at_mut(n);
-            self.flow.flow(series.end() - series.start(), q, v);
+            if !keys.pass(column, (flow, wall_of), series, (q, v)) {
+                flow.flow(series.end() - series.start(), q, v);
+            }
         }
+        keys.passed(series.end());
+    }
+
+    /// What happens at the end of `step`.
+    fn end(&mut self, step: &Step<'_>, series: &Series, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         series.state(series.end(), &mut self.q, &mut self.v);
+        series.acceleration_at_end(&mut self.a);
         self.after.fill(false);
         for (at, &force) in self.walls.iter_mut().zip(step.force) {
             at.after = force != 0.0 && at.restitution.is_none();
             self.after[at.row] |= force != 0.0 && at.restitution.is_some();
         }
         self.began = true;
-        if step.jump.iter().any(|&p| p != 0.0) {
-            return self.impact(step, series, columns);
+        let blown = self.take_blow(step, columns);
+        // A blow ends the contact that it disturbs, and begins another.
+        let (ended, others): (Vec<&Contact>, Vec<&Contact>) =
+            step.closed.iter().partition(|contact| blown && contact.start < step.end);
+        ended.into_iter().for_each(|contact| self.keys.contacts.end(contact));
+        if blown || step.jump.iter().any(|&p| p != 0.0) {
+            self.keys.motion.forget(step.end);
         }
-        for w in 0..self.walls.len() {
-            if self.walls[w].after && !self.walls[w].during {
-                self.enter(w, columns);
+        if step.jump.iter().any(|&p| p != 0.0) {
+            self.impact(step, series, blown, columns)?;
+        } else {
+            self.check_grazes(step)?;
+            for w in 0..self.walls.len() {
+                if self.walls[w].after && !self.walls[w].during {
+                    self.enter(w, series, columns);
+                }
             }
         }
+        others.into_iter().for_each(|contact| self.keys.contacts.end(contact));
         Ok(())
     }
 
     /// Records which rows are held and which elastic walls push during `series`.
-    fn look(&mut self, series: &Series) {
+    fn read(&mut self, series: &Series) -> std::result::Result<(), NoDerivative> {
         self.during.fill(false);
         self.walls.iter_mut().for_each(|at| at.during = false);
         for (wall, holds) in series.acting_walls() {
             let Some(at) = self.walls.get_mut(wall) else { continue };
             at.during = !holds;
-            self.during[at.row] |= holds;
+            if holds {
+                if self.during[at.row] && self.keys.differ(wall, self.wall_of[at.row]) {
+                    return Err(NoDerivative::Together {
+                        time: series.start(),
+                        walls: vec![self.wall_of[at.row], wall],
+                    });
+                }
+                self.during[at.row] = true;
+                self.wall_of[at.row] = wall;
+            }
         }
         let pushing = self.walls.iter().enumerate().filter(|(_, at)| at.during);
         let rows = (0..self.during.len()).filter(|&row| self.during[row]);
         self.flow.set(rows, pushing.map(|(wall, at)| (wall, at.stiffness, at.damping)));
-    }
-
-    /// Applies the matrix of coming to rest for rows that are held from here on without an impact:
-    /// they were at rest already, to rounding.
-    fn come_to_rest(&mut self, columns: &mut [f64]) {
-        let Self { flow, walls, jump, during, after, hold, .. } = self;
-        let rows = 0..during.len();
-        let rests = |row| Struck { row, restitution: 0.0, speed: 0.0, pull: 0.0 };
-        let fresh: Vec<Struck> = rows.clone().filter(|&row| during[row] && !after[row]).map(rests).collect();
-        if fresh.is_empty() {
-            return;
-        }
-        let held_rows = rows.filter(|&row| during[row]);
-        hold.set(&flow.body, held_rows.clone().map(held), std::iter::empty());
-        jump.begin(flow, &fresh, held_rows.filter(|&row| after[row]));
-        jump.kick(flow, hold, |flow, _, shift, force| {
-            for at in walls.iter().filter(|at| at.during) {
-                let rate = flow.body.rows.dot(at.row, shift);
-                flow.body.rows.add_transposed(at.row, at.damping * rate, force);
-            }
-        });
-        jump.apply_to(flow, columns);
-    }
-
-    /// Enters elastic wall `w`, if the state is on its face and moves into it: a push that begins
-    /// elsewhere begins with a force of 0.
-    fn enter(&mut self, w: usize, columns: &mut [f64]) {
-        let Self { flow, walls, q, v, work, .. } = self;
-        let (at, n) = (walls[w], q.len());
-        let (place, rate) = (flow.body.rows.dot(at.row, q), flow.body.rows.dot(at.row, v));
-        let inwards = -at.sign * rate > 0.0;
-        if at.damping == 0.0 || !inwards || (place - at.position).abs() > ON_THE_FACE * self.length {
-            return;
-        }
-        work.fill(0.0);
-        flow.body.add_column(at.row, -at.damping, work);
-        flow.hold.stop(&flow.body, work, &mut flow.scratch);
-        for change in columns.chunks_exact_mut(2 * n) {
-            let (q, v) = change.split_at_mut(n);
-            let by = flow.body.rows.dot(at.row, q);
-            v.iter_mut().zip(&*work).for_each(|(v, w)| *v += by * w);
-        }
-    }
-
-    /// The impacts at the end of `step`.
-    fn impact(
-        &mut self,
-        step: &Step<'_>,
-        series: &Series,
-        columns: &mut [f64],
-    ) -> std::result::Result<(), NoDerivative> {
-        series.acceleration_at_end(&mut self.a);
-        let together = || NoDerivative::Together {
-            time: step.end,
-            walls: step.jump.iter().enumerate().filter(|(_, p)| **p != 0.0).map(|(wall, _)| wall).collect(),
-        };
-        let Self { flow, walls, jump, during, after, hold, v, a, .. } = self;
-        let (mut struck, mut passing): (Vec<Struck>, Vec<usize>) = (Vec::new(), Vec::new());
-        for row in 0..during.len() {
-            let here = walls.iter().zip(step.jump).filter(|(at, p)| at.row == row && **p != 0.0);
-            let Some(e) = here.filter_map(|(at, _)| at.restitution).reduce(f64::max) else { continue };
-            let [speed, left, acceleration] = [&v[..], step.v, &a[..]].map(|x| flow.body.rows.dot(row, x));
-            if during[row] || speed == 0.0 {
-                passing.push(row);
-                continue;
-            }
-            let rests = after[row] || (e > 0.0 && left.abs() < STUCK * e * speed.abs());
-            if !rests && (left + e * speed).abs() > ONCE * speed.abs() {
-                return Err(together());
-            }
-            after[row] |= rests;
-            let (restitution, pull) = if rests { (0.0, 0.0) } else { (e, acceleration / speed) };
-            struck.push(Struck { row, restitution, speed, pull });
-        }
-        jump.begin(flow, &struck, passing.into_iter());
-        let turned = walls.iter().any(|at| at.during != at.after && at.damping > 0.0);
-        let released = (0..during.len()).any(|row| during[row] && !after[row]);
-        if struck.len() > 1 && (turned || released || jump.is_coupled(flow)) {
-            return Err(together());
-        }
-        hold.set(&flow.body, (0..after.len()).filter(|&row| after[row]).map(held), std::iter::empty());
-        let before = |wall: usize| series.contact_force(wall, series.end());
-        jump.kick(flow, hold, |flow, s, shift, force| {
-            for (wall, at) in walls.iter().enumerate() {
-                let push = match (at.restitution, at.during, at.after) {
-                    // A reaction that ends with the impact.
-                    (Some(_), ..) if during[at.row] && !after[at.row] => -before(wall) / s.speed,
-                    (None, true, true) => at.damping * flow.body.rows.dot(at.row, shift),
-                    (None, true, false) | (None, false, true) => (step.force[wall] - before(wall)) / s.speed,
-                    _ => continue,
-                };
-                flow.body.rows.add_transposed(at.row, push, force);
-            }
-        });
-        jump.apply_to(flow, columns);
         Ok(())
     }
 }

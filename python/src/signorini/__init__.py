@@ -37,7 +37,9 @@ from ._core import (
     __version__,
     load,
 )
+from ._derivative import Derivative, derivative
 from ._document import case
+from ._fit import Fit, fit
 from ._orbit import Orbit, orbit
 from ._studies import Chart, Comparison, Stability, chart, compare, stability
 from ._supports import Estimate, SupportStatistics, Wear
@@ -52,8 +54,10 @@ __all__ = [
     "Case",
     "Chart",
     "Comparison",
+    "Derivative",
     "DivergedError",
     "Estimate",
+    "Fit",
     "Load",
     "NotSolvedError",
     "Orbit",
@@ -82,6 +86,8 @@ __all__ = [
     "chain",
     "chart",
     "compare",
+    "derivative",
+    "fit",
     "flats",
     "grid",
     "hole",

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
+from ._derivative import Derivative
 from ._supports import SupportStatistics, Wear
 from ._types import Array, Place, Support
 
@@ -30,18 +31,23 @@ __all__ = [
     "_beam",
     "_bifurcation",
     "_case",
+    "_case_scene_at",
+    "_case_value_at",
     "_chain",
     "_chart",
     "_columns",
     "_compare",
+    "_derivative",
     "_matrices",
     "_modal",
     "_orbit",
     "_oscillator",
     "_run_many",
+    "_scene_at",
     "_stability",
     "_sweep",
     "_unit",
+    "_value_at",
     "load",
 ]
 __version__: Final[str]
@@ -279,6 +285,7 @@ class Run:
     def to_pandas(self) -> pd.DataFrame: ...
     def plot(self, axes: Any = None) -> Any: ...
     def verdict(self) -> dict[str, Any]: ...
+    def derivative(self, keys: Sequence[str], *, times: Sequence[float] | None = None) -> Derivative: ...
     def _contacts(self) -> dict[str, npt.NDArray[Any]]: ...
     def _summary(self) -> dict[str, Any]: ...
     def _supports(self) -> list[dict[str, Any]]: ...
@@ -306,6 +313,13 @@ class Stepper:
 
 def load(case: str | PathLike[str], *, set: Mapping[str, Any] | None = None) -> Case: ...
 def _case(text: str, name: str) -> Case: ...
+def _case_scene_at(case: Case, values: Sequence[tuple[str, float]]) -> Scene: ...
+def _case_value_at(case: Case, key: str) -> float: ...
+def _scene_at(scene: Scene, values: Sequence[tuple[str, float]]) -> Scene: ...
+def _value_at(scene: Scene, key: str) -> float: ...
+def _derivative(
+    scene: Scene, keys: Sequence[tuple[str, float, Callable[[float], Scene]]], times: Sequence[float]
+) -> dict[str, Any]: ...
 def _oscillator(mass: float, damping: float, stiffness: float) -> Scene: ...
 def _chain(
     masses: Sequence[float] | Array, springs: Sequence[float] | Array, grounds: tuple[float, float]

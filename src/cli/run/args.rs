@@ -1,5 +1,6 @@
 //! The arguments of `signorini run`.
 
+use super::derivative::DerivativeKeys;
 use super::seeds::Seeds;
 use crate::case::Case;
 use crate::cli::drawing::PlotSpan;
@@ -22,6 +23,7 @@ Examples:
   signorini run tube-loose-supports --modes 40
   signorini run rigid-walls-sine --from 4 --to 6   pictures of these two seconds
   signorini run tube-lattice-bars --seeds 6        means over six realisations of the random loads
+  signorini run elastic-wall --derivative wall.stop.stiffness,load.1.harmonic.amplitude
   signorini run tube-in-cross-flow --until-interval 5%   as many as that takes
 
 Schemes: implicit-euler, paoli-schatzman, moreau-jean, located, generalized-alpha, newmark (for
@@ -47,6 +49,8 @@ pub struct Args {
     #[command(flatten)]
     pub(super) seeds: Seeds,
     #[command(flatten)]
+    pub(super) derivatives: DerivativeKeys,
+    #[command(flatten)]
     pub(super) span: PlotSpan,
 }
 
@@ -60,6 +64,9 @@ impl Args {
         if let Some(share) = &self.seeds.until_interval {
             asked.insert("until_interval".to_owned(), json!(share));
             asked.insert("most_seeds".to_owned(), json!(self.seeds.most_seeds));
+        }
+        if let Some(keys) = self.derivatives.asked() {
+            asked.insert("derivative".to_owned(), json!(keys));
         }
         self.request.place.open(case, "run", asked)
     }

@@ -37,9 +37,12 @@ pub(super) struct CheckedRun {
 /// that is not wanted.
 pub(super) fn checked(args: &Args, case: Case, ui: &Ui) -> Result<CheckedRun> {
     let choice = choice::choose(&case.scene);
-    let (method, reason) = match &args.scheme {
-        Some(name) => (args.request.method(name, &case)?, "asked for".into()),
-        None => (args.request.method(&choice.method.to_string(), &case)?, choice.reason),
+    let (method, reason) = match (&args.scheme, args.derivatives.scheme()) {
+        (None, Some(exact)) => {
+            (args.request.method(&exact, &case)?, "derivatives are those of the exact motion".into())
+        }
+        (Some(name), _) => (args.request.method(name, &case)?, "asked for".into()),
+        (None, None) => (args.request.method(&choice.method.to_string(), &case)?, choice.reason),
     };
     args.request.check_use(&[method])?;
     let mut results = args.open(&case, &[method], json!({ "verdict": !args.no_verdict }))?;

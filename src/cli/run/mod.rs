@@ -3,6 +3,7 @@
 mod accurate;
 mod args;
 mod checked;
+mod derivative;
 mod seeds;
 
 pub use args::Args;
@@ -28,6 +29,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     // A stretch outside the run is refused before anything runs.
     let span = args.span.within(&case, case.scene.duration)?;
     let wanted = args.seeds.check(&case)?;
+    let derivatives = args.derivatives.wanted(args, &case)?;
     let CheckedRun { case, mut results, method, reason, run, refinement, truncation, modes, accuracy, shortfall } =
         match args.accuracy {
             Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
@@ -39,6 +41,10 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     if let Some(study) = &study {
         seeds::write(study, &mut results)?;
     }
+    let derivatives = match derivatives {
+        Some(wanted) => wanted.write(&case, &mut results).map(|found| Some((wanted, found)))?,
+        None => None,
+    };
     let first = format!("{method}: {reason}");
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
     let checks = Checks {
@@ -52,12 +58,18 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     // Last, since the summary records the tables beside it.
     let mut document =
         output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
+    if let Some((wanted, found)) = &derivatives {
+        document["derivatives"] = wanted.document(&case, found);
+    }
     if let Some(error) = &shortfall {
         document["error"] = json!(error.to_string());
     }
     let mut shown = Shown::of(results, !args.request.place.no_report, document);
     shown.messages([first]);
     show(&mut shown, &case, &run, &method)?;
+    if let Some((wanted, found)) = &derivatives {
+        wanted.show(&mut shown, &case, found);
+    }
     if let Some(study) = &study {
         seeds::show(&mut shown, study, &case);
     }

@@ -17,6 +17,7 @@
 
 mod around;
 mod body;
+mod change;
 mod circle;
 mod hold;
 mod round;
@@ -25,6 +26,7 @@ mod wave;
 
 use crate::scene::Row;
 pub(crate) use body::SeriesBody;
+pub(crate) use change::{Change, Drive};
 use circle::Circle;
 pub(crate) use hold::{Held, Hold};
 pub(crate) use round::Round;
@@ -146,6 +148,11 @@ impl Series {
         }
     }
 
+    /// Acceleration (m/s²) of degree of freedom `dof` at the start, from the right.
+    pub(crate) fn acceleration_at_start(&self, dof: usize) -> f64 {
+        if self.terms > 2 { 2.0 * self.term(2).get(dof).copied().unwrap_or(0.0) / (self.unit * self.unit) } else { 0.0 }
+    }
+
     /// Force of wall `wall` on the structure at `t`, N, signed: 0 if it does not act.
     #[must_use]
     pub fn contact_force(&self, wall: usize, t: f64) -> f64 {
@@ -174,6 +181,11 @@ impl Series {
     /// Walls that act, each with the force polynomial in x of its row and its share of it.
     pub(crate) fn acting(&self) -> impl Iterator<Item = (usize, &[f64], f64)> {
         self.acting.iter().map(|a| (a.wall, self.force(a.slot), a.share))
+    }
+
+    /// Walls that act, each with its share of the force at its row.
+    pub(crate) fn acting_shares(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.acting.iter().map(|a| (a.wall, a.share))
     }
 
     /// Walls that act, each with whether it is one that holds a row; the others are elastic walls

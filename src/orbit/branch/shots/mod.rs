@@ -22,8 +22,9 @@ use crate::orbit::forcing::forcing_period;
 use crate::orbit::shooting::{Shot, posed};
 use crate::orbit::strobe::{Scales, vector};
 use crate::orbit::symmetry;
-use crate::orbit::turn::{Look, Turn, run};
+use crate::orbit::turn::{ByKey, Look, Turn, run_by_key};
 use crate::scene::Scene;
+use crate::variation::SceneTangent;
 use nalgebra::DMatrix;
 
 /// Relative step of the finite difference that gives the derivative with respect to the key …
@@ -125,21 +126,45 @@ impl<'a> Shots<'a> {
     }
 
     fn turn(&self, posed: &Posed, x: &Vector, look: Look) -> Result<Turn> {
+        self.turn_by_key(posed, x, look, None)
+    }
+
+    fn turn_by_key(&self, posed: &Posed, x: &Vector, look: Look, key: Option<ByKey<'_>>) -> Result<Turn> {
         let Posed { scene, period } = posed;
-        run(scene, *period, [self.strobe * period, (self.strobe + self.cycles()) * period], x, look)
+        run_by_key(scene, *period, [self.strobe * period, (self.strobe + self.cycles()) * period], x, look, key)
+    }
+
+    /// The derivative of the scene at the key's value, and those of the instants between which the
+    /// map runs; `None` where the scenes beside it do not tell.
+    fn tangent(&self, value: f64, posed: &Posed) -> Option<(SceneTangent, [f64; 2])> {
+        let step = DIFFERENCE * value.abs().max(1e-3 * self.width);
+        let end = |value: f64| Some((value, (self.family)(value).ok()?));
+        let here = || Some((value, posed.scene.clone()));
+        let ends = [end(value - step).or_else(here)?, end(value + step).or_else(here)?];
+        let tangent = SceneTangent::between("key", value, posed.scene.clone(), ends).ok()?;
+        let longer = tangent.period(&posed.scene, posed.period).ok()?;
+        Some((tangent, [self.strobe, self.strobe + self.cycles()].map(|cycles| cycles * longer)))
     }
 
     /// Residual and derivatives at `y`. The derivative with respect to the key is taken from
     /// `column`; if it is `None` there, it is computed and stored.
     fn linear(&self, y: &Vector, column: &mut Option<Vector>) -> Result<Linear> {
         let (posed, x) = (self.posed(self.value(y))?, self.state(y));
-        let turn = self.turn(&posed, &x, Look::All)?;
+        let tangent = if column.is_none() { self.tangent(self.value(y), &posed) } else { None };
+        let key = tangent.as_ref().map(|(tangent, later)| ByKey { tangent, later: *later });
+        let turn = self.turn_by_key(&posed, &x, Look::All, key)?;
         let (n, sign) = (x.len(), self.sign());
         let residual = self.scales.scaled(&(&turn.end * sign - &x));
         let own = self.scales.similar(&turn.derivative) * sign - DMatrix::identity(n, n);
         let column = match column {
             Some(known) => known.clone(),
-            None => column.insert(self.column(y, |posed| self.same(&turn, posed, &x))?).clone(),
+            None => {
+                let own = match &turn.by_key {
+                    Some(own) => self.scales.scaled(own) * (sign * self.width),
+                    None => self.column(y, |posed| self.same(&turn, posed, &x))?,
+                };
+                column.insert(own).clone()
+            }
         };
         let matrix = DMatrix::from_fn(n, n + 1, |i, j| if j < n { own[(i, j)] } else { column[i] });
         Ok(Linear { posed, turn, residual, matrix })

@@ -1,0 +1,104 @@
+//! Derivatives of exact runs.
+
+use crate::case::Case;
+use crate::error::{raise, wrong};
+use crate::scene::Scene;
+use crate::work::compute_beside;
+use numpy::IntoPyArray;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use signorini as sg;
+use signorini::study::derivatives::Derivatives;
+use signorini::variation::{ContactDerivative, SceneTangent};
+
+/// A key: its name, its value, and a function that returns the scene at another value.
+type Key = (String, f64, Py<PyAny>);
+
+/// The derivatives of the exact run of a scene by keys, with displacements and velocities of its
+/// probes at these times.
+#[pyfunction]
+pub fn _derivative<'py>(scene: &Bound<'py, Scene>, keys: Vec<Key>, times: Vec<f64>) -> PyResult<Bound<'py, PyDict>> {
+    let py = scene.py();
+    let inner = &scene.get().scene;
+    let tangents = keys.iter().map(|key| tangent(py, key)).collect::<PyResult<Vec<_>>>()?;
+    let found = compute_beside(py, || Derivatives::new(inner, &tangents, &times), &mut |_| Ok(()))?;
+    let dict = PyDict::new(py);
+    let of =
+        |part: fn(&ContactDerivative) -> f64| found.contacts.iter().map(part).collect::<Vec<f64>>().into_pyarray(py);
+    let by = |part: fn(&ContactDerivative) -> &Vec<f64>| {
+        found.contacts.iter().flat_map(part).copied().collect::<Vec<f64>>().into_pyarray(py)
+    };
+    dict.set_item("wall", found.contacts.iter().map(|one| inner.wall_name(one.contact.wall)).collect::<Vec<_>>())?;
+    dict.set_item("start", of(|one| one.contact.start))?;
+    dict.set_item("approach_speed", of(|one| one.contact.approach_speed))?;
+    dict.set_item("impulse", of(|one| one.contact.impulse))?;
+    dict.set_item("contact_growth", of(|one| one.growth))?;
+    dict.set_item("start_by", by(|one| &one.start_by))?;
+    dict.set_item("approach_speed_by", by(|one| &one.approach_speed_by))?;
+    dict.set_item("impulse_by", by(|one| &one.impulse_by))?;
+    let motion = found.motion;
+    for (name, values) in [
+        ("displacement", motion.displacement),
+        ("velocity", motion.velocity),
+        ("displacement_by", motion.displacement_by),
+        ("velocity_by", motion.velocity_by),
+    ] {
+        dict.set_item(name, values.into_pyarray(py))?;
+    }
+    dict.set_item("growth", found.growth)?;
+    dict.set_item("ended", found.ended.as_ref().map(ToString::to_string))?;
+    dict.set_item("until", found.ended.as_ref().map_or(inner.duration, |reason| reason.time()))?;
+    Ok(dict)
+}
+
+/// The derivative of the scenes that a function returns.
+fn tangent(py: Python<'_>, (name, value, build): &Key) -> PyResult<SceneTangent> {
+    let mut raised = None;
+    let found = SceneTangent::new(name, *value, |x| {
+        let scene = build.bind(py).call1((x,)).and_then(|made| Ok(made.extract::<Scene>()?.scene));
+        scene.map_err(|error| {
+            raised = Some(error);
+            sg::Error::Unknown { kind: "scene", name: name.clone(), known: Vec::new() }
+        })
+    });
+    found.map_err(|error| match (&error, raised) {
+        (sg::Error::Unknown { kind: "scene", .. }, Some(own)) => own,
+        _ => raise(error),
+    })
+}
+
+/// The number at a key of a scene.
+#[pyfunction]
+pub fn _value_at(scene: &Scene, key: &str) -> PyResult<f64> {
+    key.parse::<sg::SceneKey>().and_then(|key| key.value(&scene.scene)).map_err(raise)
+}
+
+/// The scene with other numbers at keys.
+#[pyfunction]
+pub fn _scene_at(scene: &Scene, values: Vec<(String, f64)>) -> PyResult<Scene> {
+    let mut changed = scene.scene.clone();
+    for (key, value) in values {
+        changed = key.parse::<sg::SceneKey>().and_then(|key| key.with(&changed, value)).map_err(raise)?;
+    }
+    Ok(Scene { scene: changed, origin: None, ..scene.clone() })
+}
+
+/// The number at a key of a case file.
+#[pyfunction]
+pub fn _case_value_at(case: &Case, key: &str) -> PyResult<f64> {
+    let value = key.parse().and_then(|key| case.file.get(&key)).map_err(raise)?;
+    value
+        .and_then(|value| value.number())
+        .ok_or_else(|| wrong(key, "left out, or no number", "a key at which the case file has a number"))
+}
+
+/// The scene of a case file with other numbers at keys.
+#[pyfunction]
+pub fn _case_scene_at(case: &Case, values: Vec<(String, f64)>) -> PyResult<Scene> {
+    let mut file = case.file.clone();
+    for (key, value) in values {
+        file.set(&key.parse().map_err(raise)?, &value.into()).map_err(raise)?;
+    }
+    let scene = file.case().map_err(raise)?.scene;
+    Ok(Scene::new(scene, crate::place::Model::Numbered))
+}

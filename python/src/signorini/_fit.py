@@ -1,0 +1,319 @@
+"""Numbers of a scene from measured contacts or displacements."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._core import RunError, Scene
+from ._derivative import Derivative, Keys, Source, found, resolved
+from ._types import Array
+
+_OF_CONTACTS = ("start", "approach_speed", "impulse")
+
+_MOST_GROWTH = 1e2
+"""A small change may grow by this much: beyond, a record tells of the start more than of the keys."""
+
+
+@dataclass(frozen=True, repr=False)
+class Fit:
+    """Numbers of a scene that fit data: see `fit`."""
+
+    values: dict[str, float]
+    """The fitted values of the keys."""
+    intervals: dict[str, tuple[float, float]]
+    """The interval of each at the confidence asked for."""
+    covariance: Array
+    """Of the values; shape (keys, keys)."""
+    residuals: Array
+    """Model less data, in units of the standard errors of the data; shape (data,)."""
+    scale: float
+    """The root mean square of the residuals, by the degrees of freedom: 1 where the standard errors
+    given are those of the data."""
+    until: float
+    """The time of the last datum used, s."""
+    runs: int
+    """Number of exact runs."""
+    scene: Scene
+    """The scene with the fitted values."""
+
+    def __repr__(self) -> str:
+        of = [f"{key} = {value:.6g} ({low:.6g} to {high:.6g})" for (key, value), (low, high) in self._rows()]
+        return f"<Fit: {', '.join(of)}>"
+
+    def _rows(self) -> list[tuple[tuple[str, float], tuple[float, float]]]:
+        return list(zip(self.values.items(), self.intervals.values(), strict=True))
+
+
+@dataclass(frozen=True)
+class _Column:
+    """Values of one kind, with their standard errors, and how they are read from derivatives."""
+
+    values: Array
+    errors: Array
+    read: Callable[[Derivative], tuple[Array, npt.NDArray[np.void]]]
+
+
+def _numbers(name: str, values: Any) -> Array:
+    column = np.atleast_1d(np.asarray(values, np.float64))
+    if column.ndim != 1 or not np.isfinite(column).all():
+        raise ValueError(f"{name} has the shape {column.shape}; expected a column of finite numbers")
+    return column
+
+
+def _errors(name: str, values: Array, error: Mapping[str, Any] | None, several: bool) -> Array:
+    if error is None or name not in error:
+        if several:
+            raise ValueError(f"error has no {name}; expected a standard error for each kind of data")
+        return np.ones_like(values)
+    errors = np.broadcast_to(np.asarray(error[name], np.float64), values.shape)
+    if not (errors > 0.0).all() or not np.isfinite(errors).all():
+        raise ValueError(f"error of {name} is {error[name]!r}; expected finite numbers above 0")
+    return np.array(errors)
+
+
+def _contact_columns(data: Mapping[str, Any], error: Mapping[str, Any] | None, walls: Sequence[str]) -> list[_Column]:
+    """The columns of contact data: number i at a wall is its contact i in the run."""
+    names = [name for name in _OF_CONTACTS if name in data]
+    columns = {name: _numbers(name, data[name]) for name in names}
+    sizes = {len(column) for column in columns.values()}
+    if len(sizes) != 1:
+        raise ValueError(f"data has columns of {sorted(sizes)} values; expected one for each contact")
+    count = sizes.pop()
+    given = data.get("wall", walls[0] if len(walls) == 1 else None)
+    if given is None:
+        raise ValueError(f"data has no wall; expected one of {', '.join(walls)}, or one for each contact")
+    wall = [given] * count if isinstance(given, str) else [str(name) for name in given]
+    if len(wall) != count or not set(wall) <= set(walls):
+        raise ValueError(f"data: wall is {given!r}; expected {count} of {', '.join(walls)}")
+    number = [wall[:i].count(name) for i, name in enumerate(wall)]
+
+    def rows(by: Derivative) -> npt.NDArray[np.int64] | None:
+        own = {name: np.flatnonzero(by.contacts["wall"] == name) for name in set(wall)}
+        for name, places in own.items():
+            own[name] = places[np.argsort(by.contacts["start"][places], kind="stable")]
+        if any(i >= len(own[name]) for name, i in zip(wall, number, strict=True)):
+            return None
+        return np.array([own[name][i] for name, i in zip(wall, number, strict=True)], np.int64)
+
+    def reader(name: str) -> Callable[[Derivative], tuple[Array, npt.NDArray[np.void]]]:
+        def read(by: Derivative) -> tuple[Array, npt.NDArray[np.void]]:
+            at = rows(by)
+            if at is None:
+                return np.full(count, np.nan), np.full((count, len(by.keys)), np.nan).view(
+                    by.contacts[f"{name}_by"].dtype
+                ).reshape(count)
+            return by.contacts[name][at], by.contacts[f"{name}_by"][at]
+
+        return read
+
+    several = len(names) > 1
+    return [_Column(columns[name], _errors(name, columns[name], error, several), reader(name)) for name in names]
+
+
+def fit(
+    source: Source,
+    keys: Keys,
+    data: Mapping[str, Any],
+    *,
+    error: Mapping[str, Any] | None = None,
+    probe: str | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    confidence: float = 0.95,
+) -> Fit:
+    """The values of keys with which the exact motion of a scene fits data best, in the sense of
+    least squares, with their intervals.
+
+    SciPy's ``least_squares`` does the search; residuals and their derivatives are exact
+    (`derivative`). The intervals are those of the linearised model: by Student's t from the scatter
+    of the residuals, whatever the size of the standard errors given.
+
+    Parameters
+    ----------
+    source : Scene, Case or callable
+        As in `derivative`; its duration has to reach beyond the data.
+    keys : sequence of str or mapping of str to float
+        The keys, or the values from which the search starts; else those of the source.
+    data : mapping
+        Contacts: one or several of ``start`` (s), ``approach_speed`` (m/s) and ``impulse`` (N s),
+        and ``wall``, a name or one for each, where there are several walls; number i at a wall is
+        its contact i in the motion. Or a record: ``time`` (s, increasing) and ``displacement`` (m).
+        Of a record the rows are left out beyond which a small change has grown by 100 in the
+        motion from which the search starts: those tell nothing of the keys.
+    error : mapping of str to float or array, optional
+        The standard error of each kind of data; needed where there is more than one kind.
+    probe : str, optional
+        That of the record; the first if left out.
+    bounds : mapping of str to (low, high), optional
+        Bounds of keys.
+    confidence : float
+        Of the intervals.
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    ValueError
+        For data that do not fit the scene, as fewer contacts in its motion than in the data, and as
+        `derivative`.
+    RunError
+        Where the search does not converge.
+    ImportError
+        Without SciPy.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> def ball(height, restitution):
+    ...     floor = sg.Wall.lower("floor", 0.0, restitution=restitution)
+    ...     weight = sg.Load.constant(-9.81)
+    ...     return sg.oscillator(1.0, 0.0, 0.0, walls=[floor], loads=[weight], displacement=height, duration=3.0)
+    >>> start = [0.3193, 0.8301, 1.2384, 1.5648]  # heard, s
+    >>> found = sg.fit(ball, {"height": 0.4, "restitution": 0.7}, {"start": start})
+    >>> round(found.values["height"], 2), round(found.values["restitution"], 2)
+    (0.5, 0.8)
+    """
+    try:
+        from scipy.optimize import least_squares
+        from scipy.stats import t as student
+    except ImportError as missing:
+        raise ImportError("sg.fit needs SciPy: pip install 'signorini[fit]'") from missing
+    scene_of, values = resolved(source, keys)
+    names, x0 = list(values), np.array(list(values.values()), np.float64)
+    if not 0.0 < confidence < 1.0:
+        raise ValueError(f"confidence is {confidence!r}; expected a number between 0 and 1")
+    first = scene_of(values)
+    times: Array = np.empty(0)
+    if "displacement" in data:
+        record = _record(scene_of, values, data, error, probe)
+        times, columns = record.times, [record.column]
+    elif any(name in data for name in _OF_CONTACTS):
+        columns = _contact_columns(data, error, list(first._wall_names))
+    else:
+        raise ValueError(f"data has {', '.join(data)}; expected displacement over time, or start, approach_speed, impulse")
+    count = sum(len(column.values) for column in columns)
+    if count <= len(names):
+        raise ValueError(f"data has {count} usable values; expected more than the {len(names)} keys")
+    model = _Model(scene_of, names, columns, times, probe)
+    began = model.at(x0)
+    if not np.isfinite(began[0]).all():
+        raise ValueError(f"the data do not fit the motion from which the search starts: {model.reason}")
+    low = [(bounds or {}).get(name, (-np.inf, np.inf))[0] for name in names]
+    high = [(bounds or {}).get(name, (-np.inf, np.inf))[1] for name in names]
+    scale = np.where(x0 == 0.0, 1.0, np.abs(x0))
+    made = least_squares(
+        lambda x: model.at(x)[0], x0, jac=lambda x: model.at(x)[1], bounds=(low, high), x_scale=scale,
+        xtol=1e-12, ftol=1e-12, gtol=1e-12,
+    )  # fmt: skip
+    if not made.success:
+        raise RunError(f"the search did not converge: {made.message}")
+    residuals, jacobian = model.at(made.x)
+    return _summary(made.x, names, residuals, jacobian, (model, scene_of), float(student.ppf(0.5 + confidence / 2, count - len(names))))
+
+
+def _summary(
+    x: Array,
+    names: list[str],
+    residuals: Array,
+    jacobian: Array,
+    origin: tuple[_Model, Callable[[Mapping[str, float]], Scene]],
+    quantile: float,
+) -> Fit:
+    model, scene_of = origin
+    variance = float(residuals @ residuals) / (len(residuals) - len(names))
+    # The pseudo-inverse of the Jacobian in units of its columns, which may differ by far.
+    size = np.linalg.norm(jacobian, axis=0)
+    size[size == 0.0] = 1.0
+    inverse = np.linalg.pinv(jacobian / size) / size[:, None]
+    covariance = variance * (inverse @ inverse.T)
+    half = quantile * np.sqrt(np.diag(covariance))
+    values = {name: float(value) for name, value in zip(names, x, strict=True)}
+    return Fit(
+        values=values,
+        intervals={name: (float(a - h), float(a + h)) for name, a, h in zip(names, x, half, strict=True)},
+        covariance=covariance,
+        residuals=residuals,
+        scale=float(np.sqrt(variance)),
+        until=model.until,
+        runs=model.runs,
+        scene=scene_of(values),
+    )
+
+
+@dataclass(frozen=True)
+class _Record:
+    times: Array
+    column: _Column
+
+
+def _record(
+    scene_of: Callable[[Mapping[str, float]], Scene],
+    values: Mapping[str, float],
+    data: Mapping[str, Any],
+    error: Mapping[str, Any] | None,
+    probe: str | None,
+) -> _Record:
+    """A record of displacements, up to the horizon of the motion from which the search starts."""
+    if "time" not in data:
+        raise ValueError("data has no time; expected the times of the displacements, s")
+    times, measured = _numbers("time", data["time"]), _numbers("displacement", data["displacement"])
+    if times.shape != measured.shape:
+        raise ValueError(f"data has {len(times)} times and {len(measured)} displacements; expected as many")
+    errors = _errors("displacement", measured, error, several=False)
+    by = found(scene_of, values, (), None)
+    late = by.contacts["start"][by.contacts["growth"] > _MOST_GROWTH]
+    until = min([by.until, *late.tolist()])
+    kept = times < until if until < float(times[-1]) else np.ones(len(times), bool)
+
+    def read(by: Derivative) -> tuple[Array, npt.NDArray[np.void]]:
+        return by.displacement, by.displacement_by
+
+    return _Record(times[kept], _Column(measured[kept], errors[kept], read))
+
+
+class _Model:
+    """Residuals and Jacobian at values of the keys, the last ones kept."""
+
+    def __init__(
+        self,
+        scene_of: Callable[[Mapping[str, float]], Scene],
+        names: list[str],
+        columns: list[_Column],
+        times: Array,
+        probe: str | None,
+    ) -> None:
+        self._scene_of, self._names, self._columns = scene_of, names, columns
+        self._times, self._probe = times, probe
+        self._last: tuple[Array, Array, Array] | None = None
+        self.reason, self.until, self.runs = "", 0.0, 0
+
+    def at(self, x: Array) -> tuple[Array, Array]:
+        """Residuals and Jacobian; NaN where the motion does not reach the data, a step that
+        ``least_squares`` then shortens."""
+        if self._last is None or not np.array_equal(self._last[0], x):
+            self._last = (np.array(x), *self._computed(x))
+        return self._last[1], self._last[2]
+
+    def _computed(self, x: Array) -> tuple[Array, Array]:
+        count = sum(len(column.values) for column in self._columns)
+        values = dict(zip(self._names, x.tolist(), strict=True))
+        self.runs += 1
+        try:
+            by = found(self._scene_of, values, self._times, self._probe)
+        except (ValueError, RunError) as refused:
+            self.reason = str(refused)
+            return np.full(count, np.nan), np.full((count, len(x)), np.nan)
+        residuals, jacobian = [], []
+        for column in self._columns:
+            model, derived = column.read(by)
+            residuals.append((model - column.values) / column.errors)
+            jacobian.append(np.column_stack([derived[name] for name in self._names]) / column.errors[:, None])
+        self.reason = by.ended or "it has fewer contacts than the data"
+        self.until = float(self._times[-1]) if len(self._times) else by.until
+        return np.concatenate(residuals), np.concatenate(jacobian)

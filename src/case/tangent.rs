@@ -1,0 +1,36 @@
+//! The derivative of the scene of a case with respect to a key.
+
+use super::{Case, Key};
+use crate::error::{Error, Result};
+use crate::variation::SceneTangent;
+
+impl Case {
+    /// The derivative of the scene with respect to the number at `key` in the case file, through
+    /// all that follows from it there: the matrices of a beam from its dimensions, the modes of a
+    /// reduced structure, the forces of a random load with the same seed.
+    ///
+    /// ```
+    /// use signorini::case::Case;
+    ///
+    /// let case = Case::embedded("rigid-walls-sine")?;
+    /// let tangent = case.tangent(&"load.1.harmonic.amplitude".parse()?)?;
+    /// assert!(tangent.error() < 1e-10);
+    /// # Ok::<(), signorini::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a key whose value is no number, or that the file leaves out; else as
+    /// [`SceneTangent::new`].
+    pub fn tangent(&self, key: &Key) -> Result<SceneTangent> {
+        let name = key.to_string();
+        let Some(value) = self.document.get(key)?.and_then(|value| value.number()) else {
+            let expected = "a key at which the case file has a number";
+            return Err(Error::invalid(format!("derivative by {name}"), "left out, or no number", expected));
+        };
+        SceneTangent::new(&name, value, |x| {
+            let mut document = self.document.clone();
+            document.set(key, &x.into())?;
+            Ok(document.case()?.scene)
+        })
+    }
+}

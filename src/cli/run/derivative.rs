@@ -1,0 +1,96 @@
+//! `run --derivative`: what the keys of the case change.
+
+use super::args::Args;
+use crate::case::{Case, Key};
+use crate::cli::pipeline::Shown;
+use crate::error::{Error, Result};
+use crate::output::derivatives::{self as output, FILE, Varied};
+use crate::output::results::Results;
+use crate::scheme::Scheme;
+use crate::study::derivatives::Derivatives;
+use crate::variation::SceneTangent;
+use serde_json::Value;
+
+/// Keys by which a run is differentiated.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct DerivativeKeys {
+    /// Derivatives of the contacts by these keys of the case, in derivatives.csv and a table of what
+    /// 1 % more of each changes; of the exact motion, so that the scheme is event
+    #[arg(
+        long,
+        value_name = "KEY,...",
+        value_delimiter = ',',
+        conflicts_with_all = ["accuracy", "count", "until_interval"]
+    )]
+    derivative: Vec<String>,
+}
+
+/// The derivatives of the scene of a case with respect to the keys asked for.
+pub(super) struct Wanted {
+    keys: Vec<Varied>,
+    tangents: Vec<SceneTangent>,
+}
+
+impl DerivativeKeys {
+    /// The keys, where any are asked for.
+    pub(super) fn asked(&self) -> Option<&[String]> {
+        (!self.derivative.is_empty()).then_some(&self.derivative)
+    }
+
+    /// The scheme that the derivatives need, where any are asked for.
+    pub(super) fn scheme(&self) -> Option<String> {
+        (!self.derivative.is_empty()).then(|| Scheme::Event.to_string())
+    }
+
+    /// The derivatives of the scene of `case`; `None` where none are asked for.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for another scheme than event; as [`Case::tangent`].
+    pub(super) fn wanted(&self, args: &Args, case: &Case) -> Result<Option<Wanted>> {
+        let Some(scheme) = self.scheme() else { return Ok(None) };
+        if let Some(other) = args.scheme.as_ref().filter(|name| name.trim() != scheme) {
+            let expected = "event: derivatives are those of the exact motion";
+            return Err(Error::invalid("--scheme beside --derivative", other, expected));
+        }
+        let mut wanted = Wanted { keys: Vec::new(), tangents: Vec::new() };
+        for name in &self.derivative {
+            let key: Key = name.parse()?;
+            let tangent = case.tangent(&key)?;
+            wanted.keys.push(Varied {
+                key: key.to_string(),
+                value: tangent.value(),
+                unit: key.unit(),
+                error: tangent.error(),
+            });
+            wanted.tangents.push(tangent);
+        }
+        // What the derivative cannot follow is refused before anything runs.
+        crate::variation::KeyVariation::new(&case.scene, &wanted.tangents, &[])?;
+        Ok(Some(wanted))
+    }
+}
+
+impl Wanted {
+    /// Computes the derivatives and writes their table.
+    ///
+    /// # Errors
+    /// As [`Derivatives::new`] and [`output::write`].
+    pub fn write(&self, case: &Case, results: &mut Results) -> Result<Derivatives> {
+        let found = Derivatives::new(&case.scene, &self.tangents, &[])?;
+        output::write(&results.place(FILE)?, &case.scene, &self.keys, &found)?;
+        Ok(found)
+    }
+
+    /// The derivatives as JSON.
+    pub fn document(&self, case: &Case, found: &Derivatives) -> Value {
+        output::document(&case.scene, &self.keys, found)
+    }
+
+    /// Shows the table of what 1 % more of each key changes.
+    pub fn show(&self, shown: &mut Shown, case: &Case, found: &Derivatives) {
+        if let Some(table) = output::table(&case.scene, &self.keys, found) {
+            shown.table(table, FILE);
+        }
+        shown.remarks(output::remarks(&self.keys, found));
+    }
+}

@@ -1,0 +1,135 @@
+//! `derivatives.csv`, and the table of what one per cent more of a key changes.
+
+use super::csv::{self, digits};
+use super::table::Table;
+use crate::error::Result;
+use crate::scene::Scene;
+use crate::study::derivatives::Derivatives;
+use crate::study::horizon::LARGEST_GROWTH;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// A key by which a run is differentiated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Varied {
+    /// Its path in the case file.
+    pub key: String,
+    /// Its value.
+    pub value: f64,
+    /// Its unit as in column names; `None` for a number without one.
+    pub unit: Option<&'static str>,
+    /// The error of the derivative of the scene, as a share.
+    pub error: f64,
+}
+
+/// The table of contacts.
+pub const FILE: &str = "derivatives.csv";
+
+/// The share of a key by which the table changes it.
+const SHARE: f64 = 0.01;
+
+/// Writes the contacts, one per row, with the derivatives of start, approach speed and impulse by
+/// each key: `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what is not known are empty.
+///
+/// # Errors
+/// As [`csv::table`].
+pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Result<()> {
+    let mut header: Vec<String> = csv::CONTACT.iter().copied().chain(["growth"]).map(str::to_owned).collect();
+    for key in keys {
+        let word = key.key.replace(['.', '-'], "_");
+        let per = key.unit.map_or_else(String::new, |unit| format!("_per_{unit}"));
+        for (what, unit) in [("start", "s"), ("approach_speed", "m_per_s"), ("impulse", "N_s")] {
+            header.push(format!("{what}_by_{word}_{unit}{per}"));
+        }
+    }
+    let rows = derivatives.contacts.iter().map(|one| {
+        let mut row = csv::contact_cells(name(scene, one.contact.wall), &one.contact);
+        row.push(digits(Some(one.growth)));
+        for key in 0..keys.len() {
+            let lists = [&one.start_by, &one.approach_speed_by, &one.impulse_by];
+            row.extend(lists.map(|list| digits(list.get(key).copied().filter(|x| x.is_finite()))));
+        }
+        row
+    });
+    csv::table(path, &header, rows)
+}
+
+fn name(scene: &Scene, wall: usize) -> String {
+    scene.wall_name(wall).unwrap_or_default().to_owned()
+}
+
+/// What 1 % more of each key changes; `None` without contacts.
+#[must_use]
+pub fn table(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Option<Table> {
+    let mut header = vec!["wall".to_owned(), "number".to_owned(), "value".to_owned()];
+    header.extend(keys.iter().map(|key| match key.value == 0.0 {
+        true => format!("per unit of {}", key.key),
+        false => format!("1 % more of {}", key.key),
+    }));
+    let rows: Vec<Vec<String>> = derivatives
+        .measured()
+        .iter()
+        .map(|one| {
+            let mut row = vec![name(scene, one.wall), one.words.to_owned()];
+            row.push(format!("{:.4e} {}", one.value, one.unit));
+            row.extend(keys.iter().zip(&one.derivative).map(|(key, derivative)| {
+                if key.value == 0.0 {
+                    return format!("{derivative:+.3e} {}", one.unit);
+                }
+                format!("{:+.3} %", 100.0 * SHARE * key.value * derivative / one.value)
+            }));
+            row
+        })
+        .collect();
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    (!rows.is_empty()).then(|| Table::new(&header, rows).in_blocks())
+}
+
+/// What a reader of the derivatives must know, a sentence each.
+#[must_use]
+pub fn remarks(keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let (counted, all) = (derivatives.predictable().count(), derivatives.contacts.len());
+    if counted < all {
+        remarks.push(format!(
+            "the table counts the first {counted} contacts: after them a small change has grown by more than \
+             {LARGEST_GROWTH:.0}, and one of 1 % is no longer small; {FILE} has {all}"
+        ));
+    }
+    remarks.extend(derivatives.ended.as_ref().map(ToString::to_string));
+    let coarse = keys.iter().filter(|key| key.error > 1e-12);
+    remarks.extend(coarse.map(|key| {
+        format!("the derivative of the scene with respect to {} errs by {:.0e} of itself", key.key, key.error)
+    }));
+    remarks
+}
+
+/// The same as JSON.
+#[must_use]
+pub fn document(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Value {
+    let all = derivatives.measured();
+    let measured = all.iter().map(|one| {
+        let by: Vec<Value> =
+            one.derivative.iter().map(|x| if x.is_finite() { json!(x) } else { Value::Null }).collect();
+        json!({
+            "wall": name(scene, one.wall),
+            "name": one.name,
+            "unit": one.unit,
+            "value": one.value,
+            "derivative": by,
+        })
+    });
+    let ended = derivatives.ended.as_ref();
+    json!({
+        "keys": keys
+            .iter()
+            .map(|key| json!({ "key": key.key, "value": key.value, "unit": key.unit, "error": key.error }))
+            .collect::<Vec<_>>(),
+        "contacts": derivatives.contacts.len(),
+        "predictable_contacts": derivatives.predictable().count(),
+        "measured": measured.collect::<Vec<_>>(),
+        "growth": derivatives.growth,
+        "ended_s": ended.map(crate::variation::NoDerivative::time),
+        "ended": ended.map(ToString::to_string),
+    })
+}

@@ -1,0 +1,132 @@
+//! The derivatives of an exact run with respect to keys of its scene.
+
+use super::horizon::LARGEST_GROWTH;
+use crate::error::Result;
+use crate::scene::Scene;
+use crate::scheme::{Scheme, Stepper};
+use crate::variation::{ContactDerivative, KeyVariation, MotionDerivative, NoDerivative, SceneTangent};
+
+/// The derivatives of an exact run with respect to several keys.
+///
+/// ```
+/// use signorini::study::derivatives::Derivatives;
+/// use signorini::variation::SceneTangent;
+/// use signorini::{Load, Scene, Wall};
+///
+/// let scene = |gap: f64, amplitude: f64| {
+///     Ok(Scene::oscillator(1.0, 0.2, 100.0)
+///         .with_wall(Wall::upper("stop", gap).with_restitution(0.6))
+///         .with_load(Load::harmonic(amplitude, 2.5, 0.0))
+///         .with_duration(1.0))
+/// };
+/// let keys = [
+///     SceneTangent::new("gap", 5e-3, |gap| scene(gap, 3.0))?,
+///     SceneTangent::new("amplitude", 3.0, |amplitude| scene(5e-3, amplitude))?,
+/// ];
+/// let derivatives = Derivatives::new(&scene(5e-3, 3.0)?, &keys, &[0.5, 1.0])?;
+/// assert!(derivatives.ended.is_none());
+/// // Gap and load larger by the same share make a larger motion with the same instants.
+/// let first = &derivatives.contacts[0];
+/// assert!((5e-3 * first.start_by[0] + 3.0 * first.start_by[1]).abs() < 1e-12);
+/// # Ok::<(), signorini::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Derivatives {
+    /// The contacts that have ended, in the order of their ends; with the derivatives by each key.
+    pub contacts: Vec<ContactDerivative>,
+    /// Displacements and velocities of the probes at the times asked for; NaN from the time of
+    /// `ended` on.
+    pub motion: MotionDerivative,
+    /// Why there are no derivatives from a time on, if there are none.
+    pub ended: Option<NoDerivative>,
+    /// The largest growth of a change of the start since it was smallest.
+    pub growth: f64,
+}
+
+/// A number that a run has for a wall, and its derivatives.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Measured {
+    /// The wall, by its index in the scene.
+    pub wall: usize,
+    /// What it is, as in the header of a table: `largest_impulse`, `impulse`, `approach_speed`.
+    pub name: &'static str,
+    /// In words.
+    pub words: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// The number.
+    pub value: f64,
+    /// Its derivatives with respect to each key, per unit of the key.
+    pub derivative: Vec<f64>,
+}
+
+impl Derivatives {
+    /// The derivatives of the exact run of `scene` with respect to the keys of `tangents`, with
+    /// displacements and velocities of the probes at `times` (s, increasing).
+    ///
+    /// # Errors
+    /// As [`KeyVariation::new`], and errors of the exact scheme. A run that has no derivative from
+    /// a time on is none: see [`Derivatives::ended`].
+    pub fn new(scene: &Scene, tangents: &[SceneTangent], times: &[f64]) -> Result<Self> {
+        let mut variation = KeyVariation::new(scene, tangents, times)?;
+        let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
+        let mut ended = None;
+        while stepper.time() < scene.duration && ended.is_none() {
+            ended = variation.carry(&stepper.step()?).err();
+        }
+        Ok(Self {
+            contacts: variation.contacts().to_vec(),
+            motion: variation.motion().clone(),
+            ended,
+            growth: variation.growth(),
+        })
+    }
+
+    /// The contacts that ended while no change of the start had grown by more than
+    /// [`LARGEST_GROWTH`]: those for which a change of a key by some per cent is small.
+    pub fn predictable(&self) -> impl Iterator<Item = &ContactDerivative> {
+        self.contacts.iter().filter(|one| one.growth <= LARGEST_GROWTH)
+    }
+
+    /// What the [predictable](Self::predictable) contacts of each wall come to, with derivatives:
+    /// the largest impulse, the sum of the impulses, and the mean approach speed. Walls without
+    /// such a contact are left out.
+    #[must_use]
+    pub fn measured(&self) -> Vec<Measured> {
+        let mut walls: Vec<usize> = self.predictable().map(|one| one.contact.wall).collect();
+        walls.sort_unstable();
+        walls.dedup();
+        walls.into_iter().flat_map(|wall| self.measured_at(wall)).collect()
+    }
+
+    fn measured_at(&self, wall: usize) -> Vec<Measured> {
+        let own: Vec<&ContactDerivative> = self.predictable().filter(|one| one.contact.wall == wall).collect();
+        let count = own.len() as f64;
+        let sum = |of: &dyn Fn(&ContactDerivative) -> (f64, &Vec<f64>), share: f64| {
+            let mut total = (0.0, Vec::new());
+            for (value, derivative) in own.iter().map(|contact| of(contact)) {
+                total.0 += share * value;
+                total.1.resize(derivative.len(), 0.0);
+                total.1.iter_mut().zip(derivative).for_each(|(sum, x): (&mut f64, _)| *sum += share * x);
+            }
+            total
+        };
+        let largest = own.iter().max_by(|a, b| a.contact.impulse.abs().total_cmp(&b.contact.impulse.abs()));
+        let largest = largest.map(|c| (c.contact.impulse, c.impulse_by.clone())).unwrap_or_default();
+        let all = [
+            ("largest_impulse", "the largest impulse", "N s", largest),
+            ("impulse", "the sum of the impulses", "N s", sum(&|c| (c.contact.impulse, &c.impulse_by), 1.0)),
+            (
+                "approach_speed",
+                "the mean approach speed",
+                "m/s",
+                sum(&|c| (c.contact.approach_speed, &c.approach_speed_by), 1.0 / count),
+            ),
+        ];
+        let measured =
+            |(name, words, unit, (value, derivative))| Measured { wall, name, words, unit, value, derivative };
+        all.into_iter().map(measured).collect()
+    }
+}

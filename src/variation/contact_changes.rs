@@ -1,0 +1,94 @@
+//! The derivatives of contacts.
+//!
+//! An event at the zero of a function of state, time and key moves by δt: that which δt removes
+//! from the function is what the change at a fixed instant adds to it. So an impact moves by
+//! δt = −(G δq + δG q − δg)/G q̇⁻, its approach speed changes as G q̇⁻ does at the moved instant,
+//! and its impulse p as in Newton's law there. The impulse ∫r dt of a lasting contact changes by ∫δr
+//! dt and, at each event within it at which its force jumps from r⁻ to r⁺, by (r⁻ − r⁺) δt.
+
+use crate::step::Contact;
+
+/// A contact, and its derivatives with respect to each key.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ContactDerivative {
+    /// The contact.
+    pub contact: Contact,
+    /// Of the time at which it begins, s per unit of the key.
+    pub start_by: Vec<f64>,
+    /// Of the approach speed, m/s per unit of the key.
+    pub approach_speed_by: Vec<f64>,
+    /// Of the impulse, N s per unit of the key, signed as the impulse.
+    pub impulse_by: Vec<f64>,
+    /// The largest growth of a change of the start until the contact ended.
+    pub growth: f64,
+}
+
+/// The changes of the open contacts of each wall, and of those that have ended.
+#[derive(Debug)]
+pub(super) struct ContactChanges {
+    keys: usize,
+    open: Vec<Option<Open>>,
+    ended: Vec<ContactDerivative>,
+}
+
+#[derive(Debug)]
+struct Open {
+    start: Vec<f64>,
+    speed: Vec<f64>,
+    impulse: Vec<f64>,
+}
+
+impl ContactChanges {
+    pub fn new(keys: usize, walls: usize) -> Self {
+        Self { keys, open: (0..walls).map(|_| None).collect(), ended: Vec::new() }
+    }
+
+    /// Begins a contact of `wall`, unless one is open.
+    pub fn begin(&mut self, wall: usize) {
+        let zero = || vec![0.0; self.keys];
+        if let Some(open) = self.open.get_mut(wall).filter(|open| open.is_none()) {
+            *open = Some(Open { start: zero(), speed: zero(), impulse: zero() });
+        }
+    }
+
+    /// Sets the changes of beginning (s) and approach speed (m/s) of the open contact of `wall`.
+    pub fn set_start(&mut self, wall: usize, key: usize, [start, speed]: [f64; 2]) {
+        let Some(open) = self.open.get_mut(wall).and_then(Option::as_mut) else { return };
+        if let (Some(a), Some(b)) = (open.start.get_mut(key), open.speed.get_mut(key)) {
+            (*a, *b) = (start, speed);
+        }
+    }
+
+    /// Adds a change of the impulse (N s) of the open contact of `wall`.
+    pub fn add_impulse(&mut self, wall: usize, key: usize, change: f64) {
+        let open = self.open.get_mut(wall).and_then(Option::as_mut);
+        if let Some(impulse) = open.and_then(|open| open.impulse.get_mut(key)) {
+            *impulse += change;
+        }
+    }
+
+    /// Ends the contact of a wall.
+    pub fn end(&mut self, contact: &Contact) {
+        let Some(Open { start, speed, impulse }) = self.open.get_mut(contact.wall).and_then(Option::take) else {
+            return;
+        };
+        self.ended.push(ContactDerivative {
+            contact: *contact,
+            start_by: start,
+            approach_speed_by: speed,
+            impulse_by: impulse,
+            growth: f64::NAN,
+        });
+    }
+
+    /// Notes the growth up to now with the contacts that have ended since it was last noted.
+    pub fn note_growth(&mut self, growth: f64) {
+        self.ended.iter_mut().rev().take_while(|one| one.growth.is_nan()).for_each(|one| one.growth = growth);
+    }
+
+    /// The contacts that have ended, in the order of their ends.
+    pub fn ended(&self) -> &[ContactDerivative] {
+        &self.ended
+    }
+}

@@ -1,0 +1,325 @@
+//! What the events of a structure make of changes.
+
+use super::jump::{Jump, Struck};
+use super::key_terms::{Instant, KeyTerms};
+use super::keys::Keys;
+use super::no_derivative::NoDerivative;
+use super::oscillator::ON_THE_FACE;
+use super::structure::{At, StructureVariation};
+use crate::flow::{Propagator, Series, held};
+use crate::step::Step;
+
+/// A row that leaves an impact with less than this share of e times its approach speed has come to
+/// rest: the scheme has skipped the remaining impacts of an accumulation.
+const STUCK: f64 = 0.5;
+
+/// A row whose departure speed differs from e times its approach speed by more than this share was
+/// struck more than once.
+const ONCE: f64 = 1e-6;
+
+/// A change that is this small a share of its terms is rounding: where a body touches, it keeps the
+/// body on the wall.
+const ROUNDING: f64 = 1e-9;
+
+/// A body grazes a wall where it is this near, as a share of the scene's gap scale, and no faster
+/// than a fall from a hundred times that height makes it.
+const GRAZING: f64 = 1e-10;
+
+type Done = std::result::Result<(), NoDerivative>;
+
+impl StructureVariation {
+    /// Applies the matrix of coming to rest for rows that are held from here on without an impact:
+    /// they were at rest already, to rounding.
+    pub fn come_to_rest(&mut self, time: f64, columns: &mut [f64]) -> Done {
+        let Self { flow, walls, jump, during, after, hold, q, v, a, wall_of, keys, .. } = self;
+        let rows = 0..during.len();
+        let rests = |row| Struck { row, restitution: 0.0, rests: true, held: true, speed: 0.0, pull: 0.0 };
+        let fresh: Vec<Struck> = rows.clone().filter(|&row| during[row] && !after[row]).map(rests).collect();
+        if fresh.is_empty() {
+            return Ok(());
+        }
+        let at = Instant { time, q, before: v, after: v, acceleration: a, impulse: &[], wall_of };
+        for s in &fresh {
+            keys.contacts.begin(wall_of[s.row]);
+            keys.check_touch(flow, s.row, &at, columns, true)?;
+        }
+        let held_rows = rows.filter(|&row| during[row]);
+        hold.set(&flow.body, held_rows.clone().map(held), std::iter::empty());
+        jump.begin(flow, &fresh, held_rows.filter(|&row| after[row]));
+        jump.kick(flow, hold, |flow, _, shift, force| {
+            for at in walls.iter().filter(|at| at.during) {
+                let rate = flow.body.rows.dot(at.row, shift);
+                flow.body.rows.add_transposed(at.row, at.damping * rate, force);
+            }
+        });
+        jump.apply_to(flow, columns, &keys.terms, &at);
+        Ok(())
+    }
+
+    /// Elastic wall `w` begins to push in the stretch of `series` or after it. If the state is on
+    /// its face and moves into it, the force of its dashpot jumps; a push that begins elsewhere
+    /// begins with a force of 0.
+    pub fn enter(&mut self, w: usize, series: &Series, columns: &mut [f64]) {
+        self.keys.contacts.begin(w);
+        if !self.began {
+            return;
+        }
+        let (at, n) = (self.walls[w], self.q.len());
+        let [place, rate] = [&self.q, &self.v].map(|x| self.flow.body.rows.dot(at.row, x));
+        let on_face = -at.sign * rate > 0.0 && (place - at.position).abs() <= ON_THE_FACE * self.length;
+        self.note_push((w, at), [place, rate], on_face, series, columns);
+        if at.damping == 0.0 || !on_face {
+            return;
+        }
+        let Self { flow, q, work, keys, .. } = self;
+        work.fill(0.0);
+        flow.body.add_column(at.row, -at.damping, work);
+        flow.hold.stop(&flow.body, work, &mut flow.scratch);
+        for (number, change) in columns.chunks_exact_mut(2 * n).enumerate() {
+            let (dq, dv) = change.split_at_mut(n);
+            let own = keys.terms.get(number).map_or(0.0, |terms| terms.offset(w, q));
+            let by = flow.body.rows.dot(at.row, dq) + own;
+            dv.iter_mut().zip(&*work).for_each(|(v, w)| *v += by * w);
+        }
+    }
+
+    /// Notes what the beginning of a push of wall `w`, at the displacement `place` (m) and speed
+    /// `rate` (m/s) of its row, does to the contacts of each key: the contact begins later, and
+    /// where the force jumps the reactions of held rows jump too.
+    fn note_push(
+        &mut self,
+        (w, at): (usize, At),
+        [place, rate]: [f64; 2],
+        on_face: bool,
+        series: &Series,
+        columns: &[f64],
+    ) {
+        let Self { flow, walls, q, v, a, work, keys, .. } = self;
+        let (n, pull) = (q.len(), flow.body.rows.dot(at.row, a));
+        let mut reactions = vec![0.0; flow.body.rows.count()];
+        if on_face && !keys.terms.is_empty() {
+            work.fill(0.0);
+            flow.body.rows.add_transposed(at.row, -at.damping * rate, work);
+            let held = flow.hold.rows();
+            flow.hold.balance(&flow.body, work, &mut flow.scratch, |_| 0.0, |i, p| reactions[held[i].row] += p);
+        }
+        for (number, (terms, change)) in keys.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
+            let (dq, dv) = change.split_at(n);
+            let beyond = flow.body.rows.dot(at.row, dq) + terms.offset(w, q);
+            let faster = flow.body.rows.dot(at.row, dv) + terms.along(w, v);
+            // The instant is where the body reaches the face, or where the force leaves 0.
+            let later = if on_face {
+                -beyond / rate
+            } else {
+                let of_wall = terms.tangent.walls.get(w);
+                let own = of_wall.map_or(0.0, |wall| wall.stiffness * (place - at.position) + wall.damping * rate);
+                -(at.stiffness * beyond + at.damping * faster + own) / (at.stiffness * rate + at.damping * pull)
+            };
+            keys.contacts.set_start(w, number, [later, -at.sign * (faster + pull * later)]);
+            if !on_face {
+                continue;
+            }
+            keys.contacts.add_impulse(w, number, at.damping * rate * later);
+            let holds = |wall: &(usize, f64)| walls.get(wall.0).is_some_and(|at| at.restitution.is_some());
+            for (wall, share) in series.acting_shares().filter(holds) {
+                let reaction = walls.get(wall).and_then(|at| reactions.get(at.row)).copied().unwrap_or(0.0);
+                keys.contacts.add_impulse(wall, number, -share * reaction * later);
+            }
+        }
+    }
+
+    /// Gives the blows at the end of `step` to the state and to the columns of keys; false if there
+    /// are none, or no keys.
+    pub fn take_blow(&mut self, step: &Step<'_>, columns: &mut [f64]) -> bool {
+        let Self { flow, q, v, a, wall_of, keys, .. } = self;
+        let n = q.len();
+        let mut after = vec![0.0; n];
+        let time = step.end;
+        if time <= 0.0 || !keys.loads.blow(time.next_down(), time, &mut after) {
+            return false;
+        }
+        flow.body.solve(&mut after);
+        after.iter_mut().zip(&*v).for_each(|(after, v)| *after += v);
+        let at = Instant { time, q, before: v, after: &after, acceleration: a, impulse: &[], wall_of };
+        for (terms, change) in keys.terms.iter().zip(columns.chunks_exact_mut(2 * n)) {
+            terms.add_blow(flow, &at, &mut change[n..]);
+        }
+        v.copy_from_slice(&after);
+        true
+    }
+
+    /// An error where a rigid wall is touched at the end of `step` without speed.
+    pub fn check_grazes(&self, step: &Step<'_>) -> Done {
+        if self.keys.terms.is_empty() {
+            return Ok(());
+        }
+        let Self { flow, walls, during, after, a, length, .. } = self;
+        let grazed = |at: &At| {
+            let [place, rate, pull] = [step.q, step.v, a].map(|x| flow.body.rows.dot(at.row, x));
+            let free = at.restitution.is_some() && !during[at.row] && !after[at.row];
+            let near = GRAZING * length;
+            free && (place - at.position).abs() <= near && rate * rate <= 200.0 * near * pull.abs()
+        };
+        match walls.iter().position(grazed) {
+            Some(wall) => Err(NoDerivative::Graze { time: step.end, wall }),
+            None => Ok(()),
+        }
+    }
+
+    /// The impacts at the end of `step`, after its blows if it is `blown`.
+    pub fn impact(&mut self, step: &Step<'_>, series: &Series, blown: bool, columns: &mut [f64]) -> Done {
+        let together = || NoDerivative::Together {
+            time: step.end,
+            walls: step.jump.iter().enumerate().filter(|(_, p)| **p != 0.0).map(|(wall, _)| wall).collect(),
+        };
+        let Self { flow, walls, jump, during, after, wall_of, v, a, keys, .. } = self;
+        let (mut struck, mut passing): (Vec<Struck>, Vec<usize>) = (Vec::new(), Vec::new());
+        for row in 0..during.len() {
+            let mut here = walls.iter().enumerate().filter(|(wall, at)| at.row == row && step.jump[*wall] != 0.0);
+            let Some((wall, first)) = here.next() else { continue };
+            let others: Vec<(usize, &At)> = here.collect();
+            if others.iter().any(|other| keys.differ(wall, other.0)) {
+                return Err(together());
+            }
+            wall_of[row] = wall;
+            let e = others.iter().filter_map(|(_, at)| at.restitution).chain(first.restitution).fold(0.0, f64::max);
+            let [speed, left, acceleration] = [&v[..], step.v, &a[..]].map(|x| flow.body.rows.dot(row, x));
+            if (during[row] && !blown) || speed == 0.0 {
+                passing.push(row);
+                continue;
+            }
+            let rests = after[row] || (e > 0.0 && left.abs() < STUCK * e * speed.abs());
+            if !rests && (left + e * speed).abs() > ONCE * speed.abs() {
+                return Err(together());
+            }
+            if rests && e == 0.0 && keys.terms.iter().any(|terms| terms.restitution(wall) != 0.0) {
+                return Err(NoDerivative::Rebounds { time: step.end, wall });
+            }
+            after[row] |= rests;
+            let (restitution, pull) = if rests { (0.0, 0.0) } else { (e, acceleration / speed) };
+            struck.push(Struck { row, restitution, rests, held: blown, speed, pull });
+        }
+        jump.begin(flow, &struck, passing.into_iter());
+        let turned = walls.iter().any(|at| at.during != at.after && at.damping > 0.0);
+        let released = (0..during.len()).any(|row| during[row] && !after[row]);
+        if struck.len() > 1 && (turned || released || jump.is_coupled(flow)) {
+            return Err(together());
+        }
+        self.kick(step, series);
+        let Self { flow, walls, jump, during, q, v, a, wall_of, keys, .. } = self;
+        let at = Instant { time: step.end, q, before: v, after: step.v, acceleration: a, impulse: step.jump, wall_of };
+        let fixed = blown || (step.index == 0 && step.end <= step.start);
+        let mut free = struck.iter().filter(|s| fixed && !during[s.row]);
+        free.try_for_each(|s| keys.check_touch(flow, s.row, &at, columns, false))?;
+        if !keys.note_impacts((flow, jump), (walls, &struck), (step, series), &at, columns) {
+            return Err(together());
+        }
+        jump.apply_to(flow, columns, &keys.terms, &at);
+        Ok(())
+    }
+
+    /// Computes the vectors wᵢ of the impacts that `jump` has begun.
+    fn kick(&mut self, step: &Step<'_>, series: &Series) {
+        let Self { flow, walls, jump, during, after, hold, .. } = self;
+        hold.set(&flow.body, (0..after.len()).filter(|&row| after[row]).map(held), std::iter::empty());
+        let before = |wall: usize| series.contact_force(wall, series.end());
+        jump.kick(flow, hold, |flow, s, shift, force| {
+            for (wall, at) in walls.iter().enumerate() {
+                let push = match (at.restitution, at.during, at.after) {
+                    // A reaction that ends with the impact.
+                    (Some(_), ..) if during[at.row] && !after[at.row] => -before(wall) / s.speed,
+                    (None, true, true) => at.damping * flow.body.rows.dot(at.row, shift),
+                    (None, true, false) | (None, false, true) => (step.force[wall] - before(wall)) / s.speed,
+                    _ => continue,
+                };
+                flow.body.rows.add_transposed(at.row, push, force);
+            }
+        });
+    }
+}
+
+impl Keys {
+    /// An error where a key or the change so far would move a row from the wall that it touches at
+    /// an instant that is fixed, or at rest give it a speed.
+    fn check_touch(&self, flow: &Propagator, row: usize, at: &Instant<'_>, columns: &[f64], rests: bool) -> Done {
+        let (n, wall) = (at.q.len(), at.wall_of.get(row).copied().unwrap_or(0));
+        let large = |own: f64, more: f64, size: f64| (own + more).abs() > ROUNDING * (own.abs() + more.abs()).max(size);
+        for ((terms, change), sizes) in self.terms.iter().zip(columns.chunks_exact(2 * n)).zip(&self.sizes) {
+            let (dq, dv) = change.split_at(n);
+            let moved = large(flow.body.rows.dot(row, dq), terms.offset(wall, at.q), sizes[0]);
+            let sped = rests && large(flow.body.rows.dot(row, dv), terms.along(wall, at.before), sizes[1]);
+            if moved || sped {
+                return Err(NoDerivative::Touching { time: at.time, wall });
+            }
+        }
+        Ok(())
+    }
+
+    /// Notes what the impacts of an instant do to the contacts of each key. False where several
+    /// impacts at once change the force of another wall, whose change of impulse is not known.
+    fn note_impacts(
+        &mut self,
+        (flow, jump): (&mut Propagator, &Jump),
+        (walls, struck): (&[At], &[Struck]),
+        (step, series): (&Step<'_>, &Series),
+        at: &Instant<'_>,
+        columns: &[f64],
+    ) -> bool {
+        let n = at.q.len();
+        let sum =
+            |row: usize| walls.iter().zip(step.jump).filter(|(wall, _)| wall.row == row).map(|w| w.1).sum::<f64>();
+        let before = |wall: usize| series.contact_force(wall, series.end());
+        for (number, (terms, change)) in self.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
+            let (dq, dv) = change.split_at(n);
+            let later = |s: &Struck, wall: usize| s.moves_by(flow.body.rows.dot(s.row, dq) + terms.offset(wall, at.q));
+            let moves: Vec<f64> =
+                struck.iter().map(|s| later(s, at.wall_of.get(s.row).copied().unwrap_or(0))).collect();
+            for (wall, of) in walls.iter().enumerate() {
+                let own = struck.iter().position(|s| s.row == of.row).filter(|_| at.impulse[wall] != 0.0);
+                if let Some((s, &moved)) = own.and_then(|own| struck.get(own).zip(moves.get(own))) {
+                    self.contacts.begin(wall);
+                    let pull = flow.body.rows.dot(s.row, at.acceleration);
+                    let faster = flow.body.rows.dot(s.row, dv) + terms.along(wall, at.before) + pull * moved;
+                    self.contacts.set_start(wall, number, [moved, -of.sign * faster]);
+                }
+                let jumped = before(wall) - step.force[wall];
+                if jumped == 0.0 {
+                    continue;
+                }
+                let moved = match (own, struck) {
+                    (Some(own), _) => moves.get(own).copied().unwrap_or(0.0),
+                    (None, [_]) => moves.first().copied().unwrap_or(0.0),
+                    _ if moves.iter().all(|&moved| moved == 0.0) => 0.0,
+                    _ => return false,
+                };
+                if of.after && !of.during {
+                    self.contacts.begin(wall);
+                    self.contacts.set_start(wall, number, [moved, f64::NAN]);
+                }
+                self.contacts.add_impulse(wall, number, jumped * moved);
+            }
+            let impulses = jump.impulses(flow, (dq, dv), terms, at);
+            for (wall, of) in walls.iter().enumerate().filter(|(wall, _)| at.impulse[*wall] != 0.0) {
+                let share = at.impulse[wall] / sum(of.row);
+                self.contacts.add_impulse(wall, number, share * impulses.get(of.row).copied().unwrap_or(0.0));
+            }
+        }
+        true
+    }
+
+    /// The column of each key at the start, 2n entries each: δq, then δq̇ with the blows at t = 0.
+    pub fn start(&self, flow: &mut Propagator, v: &[f64]) -> Vec<f64> {
+        let n = v.len();
+        let mut blown = vec![0.0; n];
+        self.loads.initial_blow(&mut blown);
+        flow.body.solve(&mut blown);
+        let after: Vec<f64> = v.iter().zip(&blown).map(|(v, change)| v + change).collect();
+        let of = |terms: &KeyTerms, flow: &mut Propagator| {
+            let at = Instant { time: 0.0, q: v, before: v, after: &after, acceleration: v, impulse: &[], wall_of: &[] };
+            let mut change = terms.tangent.v.clone();
+            terms.add_blow(flow, &at, &mut change);
+            [terms.tangent.q.clone(), change].concat()
+        };
+        self.terms.iter().flat_map(|terms| of(terms, flow)).collect()
+    }
+}

@@ -1,0 +1,212 @@
+//! The derivative of a run with respect to keys.
+
+use super::contact_changes::ContactDerivative;
+use super::exponents::direction;
+use super::keys::MotionDerivative;
+use super::no_derivative::NoDerivative;
+use super::structure::StructureVariation;
+use super::tangent::SceneTangent;
+use crate::error::{Error, Result};
+use crate::scene::{Scene, System};
+use crate::step::Step;
+
+/// Number of changes of the start that are carried along to tell how fast changes grow.
+const WITNESSES: usize = 2;
+
+/// An impact that multiplies such a change by more than this counts as a graze: the approach is
+/// then known to less than half of its digits.
+const STEEPEST: f64 = 1e4;
+
+/// The growth up to which derivatives are exact to 1e-8: the state is exact to about 1e-15 of
+/// itself, and its error reaches the derivative with one power of the growth more.
+const MOST_GROWTH: f64 = 1e6;
+
+/// The derivative of a run of the scheme `event` with respect to several keys at once.
+///
+/// Each key has a column (δq, δq̇) that starts from the derivative of the initial state. Along a
+/// flight it obeys
+///
+/// M δq̈ + C δq̇ + K δq = δf − δM q̈ − δC q̇ − δK q,
+///
+/// whose series follows from that of the motion; at an event the saltation matrix
+/// ([`saltation`](super::saltation)) is applied, with the displacement of the wall in place of that
+/// of the body where the key moves the wall, and with −δe G q̇⁻ added to the departure speed where
+/// it changes the restitution. Two further columns without a key tell how fast changes grow: the
+/// derivative is given up where it is known to be worth nothing ([`NoDerivative`]).
+///
+/// ```
+/// use signorini::variation::{KeyVariation, SceneTangent};
+/// use signorini::{Load, Scene, Scheme, Stepper, Wall};
+///
+/// // A ball that falls from 1 m onto a floor with e = 0.8.
+/// let scene = |e: f64| {
+///     Ok(Scene::oscillator(1.0, 0.0, 0.0)
+///         .with_wall(Wall::lower("floor", 0.0).with_restitution(e))
+///         .with_load(Load::constant(-9.81))
+///         .with_initial(&[1.0], &[0.0])
+///         .with_duration(2.0))
+/// };
+/// let tangent = SceneTangent::new("restitution", 0.8, scene)?;
+/// let scene = scene(0.8)?;
+/// let mut stepper = Stepper::new(&scene, &Scheme::Event, scene.duration)?;
+/// let mut variation = KeyVariation::new(&scene, &[tangent], &[])?;
+/// while stepper.time() < scene.duration {
+///     variation.carry(&stepper.step()?)?;
+/// }
+/// // The second impact comes 2ev/g after the first.
+/// let second = &variation.contacts()[1];
+/// let expected = 2.0 * (2.0 * 9.81_f64).sqrt() / 9.81;
+/// assert!((second.start_by[0] / expected - 1.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct KeyVariation {
+    variation: StructureVariation,
+    keys: usize,
+    columns: Vec<f64>,
+    witnesses: Vec<Witness>,
+    system: System,
+    /// 1/s: a displacement times it counts as a velocity, besides the energy of its springs.
+    rate: f64,
+    growth: f64,
+}
+
+/// The size of a change of the start, and the least that it has had.
+#[derive(Debug, Clone, Copy)]
+struct Witness {
+    size: f64,
+    least: f64,
+}
+
+impl KeyVariation {
+    /// The derivative of runs of `scene` from their start with respect to the keys of `tangents`,
+    /// with displacements and velocities of the scene's probes at `times` (s, increasing).
+    ///
+    /// # Errors
+    /// As [`Scene::validate`]; [`Error::Invalid`] for a scene with round supports, or for times
+    /// that are not finite and increasing.
+    pub fn new(scene: &Scene, tangents: &[SceneTangent], times: &[f64]) -> Result<Self> {
+        scene.validate()?;
+        if times.iter().any(|t| !t.is_finite()) || times.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Err(Error::invalid("times", "a list", "finite numbers, s, each above the one before"));
+        }
+        let mut variation = StructureVariation::with_keys(scene, tangents, times)?;
+        let columns = variation.keys.start(&mut variation.flow, &scene.initial.v);
+        Ok(Self::of(scene, variation, columns, tangents.len()))
+    }
+
+    /// The derivative of a run of `scene` from a state at any time, with `start` as the derivative
+    /// of that state: (δq, δq̇) for each key one after the other.
+    ///
+    /// # Errors
+    /// As [`KeyVariation::new`].
+    pub(crate) fn from_state(scene: &Scene, tangents: &[SceneTangent], start: &[f64]) -> Result<Self> {
+        let variation = StructureVariation::with_keys(scene, tangents, &[])?;
+        let size = 2 * variation.degrees_of_freedom() * tangents.len();
+        let mut columns = start.to_vec();
+        columns.resize(size, 0.0);
+        Ok(Self::of(scene, variation, columns, tangents.len()))
+    }
+
+    fn of(scene: &Scene, variation: StructureVariation, mut columns: Vec<f64>, keys: usize) -> Self {
+        columns.resize(columns.len() + 2 * variation.degrees_of_freedom() * WITNESSES, 0.0);
+        let mut this = Self {
+            variation,
+            keys,
+            columns,
+            witnesses: vec![Witness { size: 0.0, least: 0.0 }; WITNESSES],
+            system: scene.system.clone(),
+            rate: 1.0 / scene.duration,
+            growth: 1.0,
+        };
+        (0..WITNESSES).for_each(|which| this.renew(which));
+        this
+    }
+
+    /// Propagates the derivative over `step`; steps must come in turn from the start of the run.
+    ///
+    /// # Errors
+    /// [`NoDerivative`]: what has been read so far holds, and there is nothing more from then on.
+    pub fn carry(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
+        self.variation.carry(step, &mut self.columns)?;
+        let struck = step.jump.iter().position(|&p| p != 0.0);
+        for which in 0..self.witnesses.len() {
+            let size = self.size_of(which);
+            let Some(witness) = self.witnesses.get_mut(which) else { break };
+            let before = std::mem::replace(&mut witness.size, size);
+            witness.least = witness.least.min(size);
+            if size == 0.0 {
+                self.renew(which);
+                continue;
+            }
+            if let Some(wall) = struck.filter(|_| size > STEEPEST * before) {
+                return Err(NoDerivative::Graze { time: step.end, wall });
+            }
+            let growth = size / witness.least;
+            self.growth = self.growth.max(growth);
+            if growth > MOST_GROWTH || growth.is_nan() {
+                return Err(NoDerivative::Horizon { time: step.end, growth });
+            }
+        }
+        self.variation.keys.contacts.note_growth(self.growth);
+        Ok(())
+    }
+
+    /// The contacts that have ended so far, with their derivatives.
+    #[must_use]
+    pub fn contacts(&self) -> &[ContactDerivative] {
+        self.variation.keys.contacts.ended()
+    }
+
+    /// The displacements and velocities of the probes at the times asked for, with their
+    /// derivatives.
+    #[must_use]
+    pub fn motion(&self) -> &MotionDerivative {
+        &self.variation.keys.motion.found
+    }
+
+    /// The derivative of the state now, (δq, δq̇) for each key one after the other: m and m/s per
+    /// unit of the key.
+    #[must_use]
+    pub fn state(&self) -> &[f64] {
+        let size = 2 * self.variation.degrees_of_freedom();
+        self.columns.get(..size * self.keys).unwrap_or_default()
+    }
+
+    /// The largest growth of a change of the start so far, since it was smallest.
+    #[must_use]
+    pub fn growth(&self) -> f64 {
+        self.growth
+    }
+
+    /// √(δq̇ᵀMδq̇ + δqᵀKδq + δqᵀMδq/T²) of a witness, √J, with T the duration: it does not grow by
+    /// the exchange between springs and masses.
+    fn size_of(&self, which: usize) -> f64 {
+        let n = self.variation.degrees_of_freedom();
+        let from = 2 * n * (self.keys + which);
+        let Some((q, v)) = self.columns.get(from..from + 2 * n).map(|change| change.split_at(n)) else { return 0.0 };
+        let slow = self.rate * self.rate * self.system.mass_form(q, q);
+        (self.system.mass_form(v, v) + self.system.stiffness_form(q, q) + slow).sqrt()
+    }
+
+    /// Begins a witness, or begins it anew once a rest has made it 0: with the velocities, or the
+    /// displacements, that impulses at the walls give.
+    fn renew(&mut self, which: usize) {
+        let (n, body) = (self.variation.degrees_of_freedom(), &self.variation.flow.body);
+        let mut change = vec![0.0; n];
+        for row in 0..body.rows.count() {
+            body.add_column(row, direction(row), &mut change);
+        }
+        if body.rows.count() == 0 {
+            change.iter_mut().enumerate().for_each(|(i, x)| *x = direction(i));
+        }
+        let zero = vec![0.0; n];
+        let whole = if which == 0 { [zero, change] } else { [change, zero] };
+        let from = 2 * n * (self.keys + which);
+        self.columns.iter_mut().skip(from).zip(whole.iter().flatten()).for_each(|(x, new)| *x = *new);
+        let size = self.size_of(which);
+        if let Some(witness) = self.witnesses.get_mut(which) {
+            *witness = Witness { size, least: size };
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! The keys by which a motion is differentiated, along the run.
+
+use super::contact_changes::ContactChanges;
+use super::key_terms::KeyTerms;
+use super::tangent::SceneTangent;
+use crate::flow::{Change, Propagator, Series, SeriesBody};
+use crate::scene::{Loads, Row, Scene};
+
+/// The terms of the keys, and the derivatives read along the run.
+#[derive(Debug)]
+pub(super) struct Keys {
+    pub terms: Vec<KeyTerms>,
+    pub contacts: ContactChanges,
+    pub motion: MotionChanges,
+    pub loads: Loads,
+    /// The largest |δq| (m) and |δq̇| (m/s) of each key so far.
+    pub sizes: Vec<[f64; 2]>,
+    change: Change,
+    work: [Vec<f64>; 2],
+}
+
+/// Displacements and velocities of probes at given times, and their derivatives. NaN where the time
+/// has not been reached; derivatives also at an instant at which the velocity jumps.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct MotionDerivative {
+    /// The times, s.
+    pub time: Vec<f64>,
+    /// For each time and probe one after the other, m.
+    pub displacement: Vec<f64>,
+    /// The same, m/s.
+    pub velocity: Vec<f64>,
+    /// For each time, probe and key one after the other, m per unit of the key.
+    pub displacement_by: Vec<f64>,
+    /// The same, m/s per unit of the key.
+    pub velocity_by: Vec<f64>,
+}
+
+/// The motion that is read along a run.
+#[derive(Debug)]
+pub(super) struct MotionChanges {
+    pub found: MotionDerivative,
+    /// The number of times passed.
+    passed: usize,
+    probes: Vec<Row>,
+    keys: usize,
+}
+
+impl Keys {
+    /// No keys.
+    pub fn none(body: &SeriesBody) -> Self {
+        Self {
+            terms: Vec::new(),
+            contacts: ContactChanges::new(0, 0),
+            motion: MotionChanges::new(&[], Vec::new(), 0),
+            loads: Loads::new(&[]),
+            sizes: Vec::new(),
+            change: Change::new(body),
+            work: [vec![0.0; body.n], vec![0.0; body.n]],
+        }
+    }
+
+    /// The keys of `tangents`, along a run of `scene`; displacements and velocities at `times` (s,
+    /// increasing).
+    pub fn new(scene: &Scene, body: &SeriesBody, tangents: &[SceneTangent], times: &[f64]) -> Self {
+        let places: Vec<(Row, f64)> = scene.walls.iter().map(|wall| (wall.row().clone(), wall.position())).collect();
+        let rows = body.rows.count();
+        let probes = scene.probes.iter().map(|probe| probe.at.clone()).collect();
+        Self {
+            terms: tangents.iter().map(|tangent| KeyTerms::new(tangent.clone(), &places, rows)).collect(),
+            contacts: ContactChanges::new(tangents.len(), scene.walls.len()),
+            motion: MotionChanges::new(times, probes, tangents.len()),
+            loads: Loads::new(&scene.loads),
+            sizes: vec![[0.0; 2]; tangents.len()],
+            ..Self::none(body)
+        }
+    }
+
+    /// True where a key changes the two walls in different ways.
+    pub fn differ(&self, a: usize, b: usize) -> bool {
+        a != b && self.terms.iter().any(|terms| terms.differ(a, b))
+    }
+
+    /// Propagates the column of key number `column` over a stretch without events; false if there
+    /// is no such key.
+    pub fn pass(
+        &mut self,
+        column: usize,
+        (flow, wall_of): (&mut Propagator, &[usize]),
+        base: &Series,
+        (q, v): (&mut [f64], &mut [f64]),
+    ) -> bool {
+        let Self { terms, contacts, motion, change, sizes, work: [work_q, work_v], .. } = self;
+        let Some((terms, sizes)) = terms.get_mut(column).zip(sizes.get_mut(column)) else { return false };
+        for (size, change) in sizes.iter_mut().zip([&*q, &*v]) {
+            *size = change.iter().fold(*size, |most, x| most.max(x.abs()));
+        }
+        terms.begin(base, wall_of);
+        let Propagator { body, hold, touching, scratch, .. } = flow;
+        // Rounding errors must not move a row from its wall.
+        let wall = |row: usize| wall_of.get(row).copied().unwrap_or(0);
+        base.state(base.start(), work_q, work_v);
+        hold.change(body, q, scratch, |held| -terms.offset(wall(held.row), work_q));
+        hold.change(body, v, scratch, |held| -terms.along(wall(held.row), work_v));
+        change.fill(body, base, (touching, hold), (q, v), terms, scratch);
+        motion.read(column, base, change, terms, (work_q, work_v));
+        let end = base.span();
+        for (wall, share) in base.acting_shares() {
+            contacts.add_impulse(wall, column, share * change.impulse(body, (touching, hold), wall, end));
+        }
+        change.state_at(end, q, v);
+        true
+    }
+
+    /// Notes that all keys have passed `time` (s).
+    pub fn passed(&mut self, time: f64) {
+        let MotionChanges { found, passed, .. } = &mut self.motion;
+        while found.time.get(*passed).is_some_and(|&t| t <= time) {
+            *passed += 1;
+        }
+    }
+}
+
+impl MotionChanges {
+    fn new(times: &[f64], probes: Vec<Row>, keys: usize) -> Self {
+        let values = |each: usize| vec![f64::NAN; times.len() * probes.len() * each];
+        let found = MotionDerivative {
+            time: times.to_vec(),
+            displacement: values(1),
+            velocity: values(1),
+            displacement_by: values(keys),
+            velocity_by: values(keys),
+        };
+        Self { found, passed: 0, probes, keys }
+    }
+
+    /// Reads the changes at the times that lie in the stretch of `base`.
+    fn read(
+        &mut self,
+        column: usize,
+        base: &Series,
+        change: &Change,
+        terms: &KeyTerms,
+        (q, v): (&mut Vec<f64>, &mut Vec<f64>),
+    ) {
+        let mut changes = [q.clone(), v.clone()];
+        let Self { found, passed, probes, keys } = self;
+        for number in *passed..found.time.len() {
+            let Some(&time) = found.time.get(number).filter(|&&time| time <= base.end()) else { return };
+            let [dq, dv] = &mut changes;
+            change.state_at((time - base.start()) / base.unit(), dq, dv);
+            base.state(time, q, v);
+            for (probe, row) in probes.iter().enumerate() {
+                let own = terms.tangent.probes.get(probe);
+                let along = |change: &[f64], x: &[f64]| row.dot(change) + own.map_or(0.0, |own| own.dot(x));
+                let index = number * probes.len() + probe;
+                let set = |list: &mut Vec<f64>, index: usize, value: f64| {
+                    list.get_mut(index).into_iter().for_each(|x| *x = value);
+                };
+                set(&mut found.displacement, index, row.dot(q));
+                set(&mut found.velocity, index, row.dot(v));
+                set(&mut found.displacement_by, index * *keys + column, along(dq, q));
+                set(&mut found.velocity_by, index * *keys + column, along(dv, v));
+            }
+        }
+    }
+
+    /// Forgets what was read at `time` (s): an instant at which the velocity jumps.
+    pub fn forget(&mut self, time: f64) {
+        let size = self.probes.len() * self.keys;
+        let at = |number: usize| self.found.time.get(number) == Some(&time);
+        for number in (0..self.passed).rev().take_while(|&number| at(number)) {
+            let values = number * size..(number + 1) * size;
+            for list in [&mut self.found.displacement_by, &mut self.found.velocity_by] {
+                list.get_mut(values.clone()).into_iter().flatten().for_each(|x| *x = f64::NAN);
+            }
+        }
+    }
+}

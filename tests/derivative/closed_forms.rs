@@ -1,0 +1,144 @@
+//! Closed forms.
+
+use signorini::study::derivatives::Derivatives;
+use signorini::variation::{NoDerivative, SceneTangent};
+use signorini::{Load, Scene, Wall};
+
+const G: f64 = 9.81;
+
+/// A ball of `mass` (kg) that falls from `height` (m) onto a floor at 0.
+fn ball(mass: f64, height: f64, e: f64) -> Scene {
+    Scene::oscillator(mass, 0.0, 0.0)
+        .with_wall(Wall::lower("floor", 0.0).with_restitution(e))
+        .with_load(Load::constant(-mass * G))
+        .with_initial(&[height], &[0.0])
+        .with_duration(4.0)
+}
+
+/// The time of impact k is t₀ (1 + 2 Σ eʲ), j = 1 … k, with t₀ = √(2h/g); its speed is g t₀ eᵏ and
+/// its impulse m (1 + e) times that.
+#[test]
+fn a_ball_bounces_at_the_times_and_speeds_of_the_textbook() {
+    let (mass, height, e) = (0.7, 1.3, 0.8_f64);
+    let keys = [
+        SceneTangent::new("restitution", e, |e| Ok(ball(mass, height, e))).unwrap(),
+        SceneTangent::new("height", height, |height| Ok(ball(mass, height, e))).unwrap(),
+        SceneTangent::new("mass", mass, |mass| Ok(ball(mass, height, e))).unwrap(),
+    ];
+    let found = Derivatives::new(&ball(mass, height, e), &keys, &[]).unwrap();
+    let t0 = (2.0 * height / G).sqrt();
+    assert!(found.contacts.len() > 3 && found.ended.is_none());
+    // Rounding of a few products, relative to the largest number of its kind.
+    let near = |a: f64, b: f64, size: f64| assert!((a - b).abs() <= 1e-12 * size, "{a} {b}");
+    for (k, contact) in found.contacts.iter().enumerate() {
+        let (power, slope) = (e.powi(k as i32), k as f64 * e.powi(k as i32 - 1));
+        let sum: f64 = (1..=k).map(|j| e.powi(j as i32)).sum();
+        let rate: f64 = (1..=k).map(|j| j as f64 * e.powi(j as i32 - 1)).sum();
+        let speed = G * t0;
+        near(contact.start_by[0], 2.0 * t0 * rate, 10.0);
+        near(contact.start_by[1], t0 * (1.0 + 2.0 * sum) / (2.0 * height), 10.0);
+        near(contact.start_by[2], 0.0, 10.0);
+        near(contact.approach_speed_by[0], speed * slope, 10.0);
+        near(contact.approach_speed_by[1], speed * power / (2.0 * height), 10.0);
+        near(contact.impulse_by[0], mass * speed * (power + (1.0 + e) * slope), 10.0);
+        near(contact.impulse_by[2], (1.0 + e) * speed * power, 10.0);
+    }
+    // The largest impulse is the first, and the sum of impulses its own derivative.
+    let measured = found.measured();
+    assert_eq!(measured[0].name, "largest_impulse");
+    near(measured[0].derivative[0], mass * G * t0, 10.0);
+}
+
+/// After rest on the floor nothing depends on what was before; the sum of the impulses is the
+/// change of momentum, which the restitution does not change.
+#[test]
+fn impacts_that_accumulate_end_in_a_rest_without_memory() {
+    let scene = |e: f64| Ok(ball(1.0, 0.1, e).with_load(Load::constant(0.0)).with_duration(1.5));
+    let key = SceneTangent::new("restitution", 0.5, scene).unwrap();
+    let found = Derivatives::new(&scene(0.5).unwrap(), &[key], &[1.4]).unwrap();
+    assert_eq!((found.motion.displacement_by[0], found.motion.velocity_by[0], found.ended), (0.0, 0.0, None));
+}
+
+/// A block thrown against a buffer of stiffness k and dashpot c leaves it where the force vanishes,
+/// at e = exp(−ζ (π − 2 asin ζ)/√(1 − ζ²)) … for ζ < 1 by the phase at which k s + c ṡ = 0.
+#[test]
+fn a_buffer_returns_the_share_that_its_damping_leaves() {
+    let (m, k, c, v) = (2.0, 900.0, 12.0, 0.4);
+    let scene = |k: f64, c: f64, v: f64| {
+        Ok(Scene::oscillator(m, 0.0, 0.0)
+            .with_wall(Wall::upper("buffer", 0.1).with_elasticity(k, c))
+            .with_initial(&[0.0], &[v])
+            .with_duration(1.0))
+    };
+    let keys = [
+        SceneTangent::new("stiffness", k, |k| scene(k, c, v)).unwrap(),
+        SceneTangent::new("damping", c, |c| scene(k, c, v)).unwrap(),
+        SceneTangent::new("speed", v, |v| scene(k, c, v)).unwrap(),
+    ];
+    let found = Derivatives::new(&scene(k, c, v).unwrap(), &keys, &[]).unwrap();
+    // ε(ζ) = exp(−ζ φ/√(1 − ζ²)) with φ = π − 2 atan(√(1 − ζ²)/… ), where s̈ = 0: tan(ω_d t) =
+    // 2ζ√(1 − ζ²)/(2ζ² − 1).
+    let returned = |zeta: f64| {
+        let root = (1.0 - zeta * zeta).sqrt();
+        let phase = (2.0 * zeta * root).atan2(2.0 * zeta * zeta - 1.0);
+        (-zeta / root * phase).exp()
+    };
+    let zeta = c / (2.0 * (k * m).sqrt());
+    let slope = (returned(zeta + 1e-5) - returned(zeta - 1e-5)) / 2e-5;
+    let contact = &found.contacts[0];
+    let impulse = -m * v * (1.0 + returned(zeta));
+    // The difference above errs by 1e-10.
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-8 * b.abs(), "{a} {b}");
+    near(contact.contact.impulse, impulse);
+    near(contact.impulse_by[0], -m * v * slope * (-0.5 * zeta / k));
+    near(contact.impulse_by[1], -m * v * slope * zeta / c);
+    near(contact.impulse_by[2], impulse / v);
+    near(contact.start_by[2], -0.1 / (v * v));
+    near(contact.approach_speed_by[2], 1.0);
+}
+
+/// What a derivative cannot tell is said.
+#[test]
+fn a_graze_a_horizon_and_a_touched_start_are_named() {
+    // A swing that just reaches its stop, at rest there to rounding.
+    let swing = |amplitude: f64| {
+        Ok(Scene::oscillator(1.0, 0.0, 100.0)
+            .with_wall(Wall::upper("stop", 0.01))
+            .with_initial(&[-amplitude], &[0.0])
+            .with_duration(2.0))
+    };
+    let reason = |scene: &Scene, key: SceneTangent| Derivatives::new(scene, &[key], &[]).unwrap().ended;
+    let key = SceneTangent::new("start", 9.9e-3, swing).unwrap();
+    assert!(reason(&swing(9.9e-3).unwrap(), key).is_none());
+    let key = SceneTangent::new("start", 0.01, swing).unwrap();
+    assert!(matches!(reason(&swing(0.01).unwrap(), key), Some(NoDerivative::Graze { wall: 0, .. })));
+    // A chaotic motion between two walls.
+    let chaotic = |amplitude: f64| {
+        Ok(Scene::oscillator(1.0, 0.0, 0.0)
+            .with_wall(Wall::upper("upper", 0.01).with_restitution(0.95))
+            .with_wall(Wall::lower("lower", -0.01).with_restitution(0.95))
+            .with_load(Load::harmonic(amplitude, 2.0, 0.3))
+            .with_initial(&[0.0], &[0.3])
+            .with_duration(200.0))
+    };
+    let key = SceneTangent::new("amplitude", 3.0, chaotic).unwrap();
+    let ended = reason(&chaotic(3.0).unwrap(), key);
+    assert!(
+        matches!(ended, Some(NoDerivative::Horizon { growth, .. } | NoDerivative::Horizon { growth, .. }) if growth > 1e6)
+            || matches!(ended, Some(NoDerivative::Graze { .. })),
+        "{ended:?}"
+    );
+    // A block that stands on the floor, which the key lowers.
+    let stands = |floor: f64| {
+        Ok(Scene::oscillator(1.0, 0.0, 0.0)
+            .with_wall(Wall::lower("floor", floor))
+            .with_load(Load::constant(-G))
+            .with_initial(&[0.1], &[0.0]))
+    };
+    let key = SceneTangent::new("floor", 0.1, stands).unwrap();
+    assert!(matches!(reason(&stands(0.1).unwrap(), key), Some(NoDerivative::Touching { .. })));
+    // A floor from which nothing rebounds.
+    let dead = |e: f64| Ok(ball(1.0, 0.3, e));
+    let key = SceneTangent::new("restitution", 0.0, dead).unwrap();
+    assert!(matches!(reason(&dead(0.0).unwrap(), key), Some(NoDerivative::Rebounds { .. })));
+}
