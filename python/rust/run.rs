@@ -391,7 +391,8 @@ impl Run {
     /// --------
     /// >>> import signorini as sg
     /// >>> floor = sg.Wall.lower("floor", 0.0, restitution=0.8)
-    /// >>> ball = sg.oscillator(1.0, 0.0, 0.0, walls=[floor], loads=[sg.Load.constant(-9.81)], displacement=1.0)
+    /// >>> weight = sg.Load.constant(-9.81)
+    /// >>> ball = sg.oscillator(1.0, 0.0, 0.0, walls=[floor], loads=[weight], displacement=1.0)
     /// >>> by = ball.run("event").derivative(["wall.floor.restitution"])
     /// >>> by.contacts["impulse_by"]["wall.floor.restitution"].round(3)  # 4.429 is its speed
     /// array([4.429])

@@ -14,8 +14,8 @@ const SOON: f64 = 1e-2;
 /// Halvings and secant steps that locate a root.
 const STEPS: usize = 80;
 
-/// Calls `observe` with the time since the start (s), the displacement (m) and the acceleration (m/s²)
-/// of each extreme of `arc` strictly inside its `span` (s), in order.
+/// Calls `observe` with the time since the start (s), the displacement (m) and the acceleration
+/// (m/s²) of each extreme of `arc` strictly inside its `span` (s), in order.
 ///
 /// The velocity is a sum of exponentials and sines; in a window of a quarter of the shortest period
 /// over 2π it has more than one root only if the acceleration has one there too; the window is then

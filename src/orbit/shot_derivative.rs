@@ -4,8 +4,8 @@
 //!
 //! (1 − P′) δx = ∂P − P′ f δt₀ + f δt₁,
 //!
-//! where f = (q̇, q̈) at that instant, and δt₀, δt₁ are 0 unless the key changes the forcing period.
-//! A second run from δx gives the changes of the contacts.
+//! where f = (q̇, q̈) at that instant, and δt₀, δt₁ are 0 unless the key changes the forcing
+//! period. A second run from δx gives the changes of the contacts.
 
 use super::forcing::forcing_period;
 use super::shooting::{Shot, posed};

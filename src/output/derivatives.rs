@@ -29,7 +29,8 @@ pub const FILE: &str = "derivatives.csv";
 const SHARE: f64 = 0.01;
 
 /// Writes the contacts, one per row, with the derivatives of start, approach speed and impulse by
-/// each key: `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what is not known are empty.
+/// each key: `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what is not known are
+/// empty.
 ///
 /// # Errors
 /// As [`csv::table`].

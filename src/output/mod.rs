@@ -44,11 +44,11 @@
 //! all files and tables of a run and of a comparison, `periodic.rs` and `branches.rs` those of
 //! periodic orbits, `orbits.rs` the motion of those along branches and `overlay.rs` points of other
 //! results under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
-//! `derivatives.rs`, `table.rs`, `document.rs`, `detail.rs` (what `[statistics]` asks for: `episodes.rs`,
-//! `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart), `floors.rs` (why
-//! its penalties have floors), `safe_steps.rs` (the conclusion of a stability study), figures
-//! (`colours.rs` has the colour of every wall and support, `part.rs` the walls that are drawn
-//! together), `format.rs` (figures as SVG, PDF or PNG; feature `cli`).
+//! `derivatives.rs`, `table.rs`, `document.rs`, `detail.rs` (what `[statistics]` asks for:
+//! `episodes.rs`, `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart),
+//! `floors.rs` (why its penalties have floors), `safe_steps.rs` (the conclusion of a stability
+//! study), figures (`colours.rs` has the colour of every wall and support, `part.rs` the walls that
+//! are drawn together), `format.rs` (figures as SVG, PDF or PNG; feature `cli`).
 
 pub(crate) mod animation;
 pub mod atomic;

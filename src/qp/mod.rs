@@ -41,11 +41,11 @@
 //! `condensed.rs` (several, by the methods that follow), `clarabel.rs` (the only file that names
 //! clarabel), `delassus.rs`, `pivoting.rs` with `block.rs`, `envelope.rs` and `relations.rs`
 //! (several unknowns, by exchanging the active set), `elimination.rs` (many rows in contact on a
-//! narrow band), `redundant_rows.rs` (many more rows than degrees of freedom), `active_set.rs` (the dual
-//! active-set method that `redundant_rows.rs` uses, and the last resort), `coulomb.rs` (contacts with
-//! friction, which are no programme, by `lemke.rs` and `dependent.rs`), `disks/` (disks beside
-//! bounds: `disks/one.rs` in closed form, `disks/newton.rs` several, `disks/cones.rs` by Clarabel),
-//! `sums.rs` (sums over slices).
+//! narrow band), `redundant_rows.rs` (many more rows than degrees of freedom), `active_set.rs` (the
+//! dual active-set method that `redundant_rows.rs` uses, and the last resort), `coulomb.rs`
+//! (contacts with friction, which are no programme, by `lemke.rs` and `dependent.rs`), `disks/`
+//! (disks beside bounds: `disks/one.rs` in closed form, `disks/newton.rs` several, `disks/cones.rs`
+//! by Clarabel), `sums.rs` (sums over slices).
 
 use crate::linear::{Rows, Symmetric};
 

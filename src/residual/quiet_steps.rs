@@ -16,8 +16,8 @@ impl Judge {
         self.room.is_some()
     }
 
-    /// Checks the steps of `calm`, which follow the last one seen, as [`Judge::observe`] checks each of
-    /// them.
+    /// Checks the steps of `calm`, which follow the last one seen, as [`Judge::observe`] checks
+    /// each of them.
     pub(crate) fn observe_quiet(&mut self, calm: &QuietSteps) {
         let Some(mut room) = self.room.take() else {
             return (0..calm.len()).for_each(|k| self.observe(&calm.step(k)));

@@ -9,11 +9,11 @@
 //! elastic and penalised walls), `planes.rs` (a structure doubled into two planes, and directions
 //! there), `support.rs` (walls around a place), `load.rs`, `random/` (random forces as tables),
 //! `turbulence/` (random forces along a line, on modes), `clear.rs` (a start moved out of walls),
-//! `function.rs`, `forcing.rs`, `scene_key.rs` (the path of a number of a scene), `row.rs` (a location on a structure, as weights of degrees of
-//! freedom), `builders/` (chains, bars, tubes, modal data),
-//! `matrices/` (read from text), `condensation/` (degrees of freedom without mass), `damping.rs`,
-//! `modal/` (modes, and scenes reduced to them); `Scene::validate` is the only place that decides
-//! which values are valid.
+//! `function.rs`, `forcing.rs`, `scene_key.rs` (the path of a number of a scene), `row.rs` (a
+//! location on a structure, as weights of degrees of freedom), `builders/` (chains, bars, tubes,
+//! modal data), `matrices/` (read from text), `condensation/` (degrees of freedom without mass),
+//! `damping.rs`, `modal/` (modes, and scenes reduced to them); `Scene::validate` is the only place
+//! that decides which values are valid.
 
 mod builders;
 mod checked;

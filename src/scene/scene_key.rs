@@ -7,8 +7,8 @@ use std::str::FromStr;
 
 /// The path of a number of a scene, with the words of case files: `wall.NAME.position`,
 /// `.restitution`, `.stiffness` and `.damping` of flat walls, `load.N.constant.force`,
-/// `load.N.harmonic.amplitude`, `.frequency` and `.phase`, `load.N.impulse.impulse` and `.time` with
-/// N counting loads from 1, `initial.displacement.I` and `initial.velocity.I` with I counting
+/// `load.N.harmonic.amplitude`, `.frequency` and `.phase`, `load.N.impulse.impulse` and `.time`
+/// with N counting loads from 1, `initial.displacement.I` and `initial.velocity.I` with I counting
 /// degrees of freedom from 0, and `system.oscillator.mass`, `.damping` and `.stiffness`.
 ///
 /// ```

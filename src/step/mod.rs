@@ -4,8 +4,8 @@
 //!
 //! `Step` and `Contact`, and what a scheme promises of every step, as data: its `Contract`
 //! (`contract.rs`), with the conditions at the walls (`promise.rs`); all that the recorder and the
-//! judge know of schemes; `quiet_steps.rs` keeps steps of one degree of freedom between two contacts,
-//! which both look at together.
+//! judge know of schemes; `quiet_steps.rs` keeps steps of one degree of freedom between two
+//! contacts, which both look at together.
 
 mod contract;
 mod promise;

@@ -6,8 +6,8 @@
 //! `perturbation.rs` (growth of a small change), `attractor/` (which motion a start leads to),
 //! `difference.rs` and `change.rs` (between two runs), `verdict.rs` (half the step),
 //! `realisations/` (means over random loads with their intervals), `wear_history.rs` (gaps that
-//! grow by wear), `derivatives.rs` (what a key changes), `truncation/`, `accuracy/`, `work_precision/`, `stability/` (runs in parallel:
-//! feature `cli`).
+//! grow by wear), `derivatives.rs` (what a key changes), `truncation/`, `accuracy/`,
+//! `work_precision/`, `stability/` (runs in parallel: feature `cli`).
 
 pub mod accuracy;
 pub mod attractor;

@@ -155,8 +155,8 @@ impl Recorder {
         }
     }
 
-    /// Adds steps in which no wall pushes and no contact ends, as [`Recorder::observe`] adds each of
-    /// them.
+    /// Adds steps in which no wall pushes and no contact ends, as [`Recorder::observe`] adds each
+    /// of them.
     pub(crate) fn observe_quiet(&mut self, calm: &QuietSteps) {
         let mut from = 0;
         // Impulses since the last row belong to the next one.

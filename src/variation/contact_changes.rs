@@ -3,8 +3,8 @@
 //! An event at the zero of a function of state, time and key moves by δt: that which δt removes
 //! from the function is what the change at a fixed instant adds to it. So an impact moves by
 //! δt = −(G δq + δG q − δg)/G q̇⁻, its approach speed changes as G q̇⁻ does at the moved instant,
-//! and its impulse p as in Newton's law there. The impulse ∫r dt of a lasting contact changes by ∫δr
-//! dt and, at each event within it at which its force jumps from r⁻ to r⁺, by (r⁻ − r⁺) δt.
+//! and its impulse p as in Newton's law there. The impulse ∫r dt of a lasting contact changes by
+//! ∫δr dt and, at each event within it at which its force jumps from r⁻ to r⁺, by (r⁻ − r⁺) δt.
 
 use crate::step::Contact;
 

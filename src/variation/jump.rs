@@ -143,9 +143,9 @@ impl Jump {
         }
     }
 
-    /// With the terms of a key: Gδq + δG q − δg takes the place of Gδq, and the velocities are those
-    /// for which M(δq̇⁺ − δq̇⁻) = Gᵀδp + δGᵀp − δM(q̇⁺ − q̇⁻) and G δq̇⁺ = −δG q̇⁺ − e(G δq̇⁻ + δG q̇⁻)
-    /// − δe G q̇⁻.
+    /// With the terms of a key: Gδq + δG q − δg takes the place of Gδq, and the velocities are
+    /// those for which M(δq̇⁺ − δq̇⁻) = Gᵀδp + δGᵀp − δM(q̇⁺ − q̇⁻) and G δq̇⁺ = −δG q̇⁺ − e(G δq̇⁻
+    /// + δG q̇⁻) − δe G q̇⁻.
     fn apply(
         &mut self,
         flow: &mut Propagator,

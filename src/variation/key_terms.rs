@@ -43,7 +43,8 @@ impl KeyTerms {
         self.loads.fill(&self.tangent.loads, base.terms(), base.start(), base.unit());
     }
 
-    /// δG q − δg, m: by how much the change of the wall alone brings the displacement `q` beyond it.
+    /// δG q − δg, m: by how much the change of the wall alone brings the displacement `q` beyond
+    /// it.
     pub fn offset(&self, wall: usize, q: &[f64]) -> f64 {
         self.tangent.walls.get(wall).map_or(0.0, |wall| wall.row.dot(q) - wall.position)
     }

@@ -87,8 +87,8 @@ impl fmt::Display for NoDerivative {
             }
             Self::Horizon { time, growth } => write!(
                 f,
-                "no derivative: at t = {time} s a small change has grown by a factor of {growth:.1e}, and the motion is \
-                 no longer predictable"
+                "no derivative: at t = {time} s a small change has grown by a factor of {growth:.1e}, and the \
+                 motion is no longer predictable"
             ),
             Self::Touching { time, wall } => write!(
                 f,

@@ -124,7 +124,7 @@ fn a_graze_a_horizon_and_a_touched_start_are_named() {
     let key = SceneTangent::new("amplitude", 3.0, chaotic).unwrap();
     let ended = reason(&chaotic(3.0).unwrap(), key);
     assert!(
-        matches!(ended, Some(NoDerivative::Horizon { growth, .. } | NoDerivative::Horizon { growth, .. }) if growth > 1e6)
+        matches!(ended, Some(NoDerivative::Horizon { growth, .. }) if growth > 1e6)
             || matches!(ended, Some(NoDerivative::Graze { .. })),
         "{ended:?}"
     );

@@ -1,6 +1,5 @@
 //! `run --derivative`: what the keys of the case change.
 
-use super::args::Args;
 use crate::case::{Case, Key};
 use crate::cli::pipeline::Shown;
 use crate::error::{Error, Result};
@@ -14,8 +13,8 @@ use serde_json::Value;
 /// Keys by which a run is differentiated.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct DerivativeKeys {
-    /// Derivatives of the contacts by these keys of the case, in derivatives.csv and a table of what
-    /// 1 % more of each changes; of the exact motion, so that the scheme is event
+    /// Derivatives of the contacts by these keys of the case, in derivatives.csv and a table of
+    /// what 1 % more of each changes; of the exact motion, so that the scheme is event
     #[arg(
         long,
         value_name = "KEY,...",
@@ -42,13 +41,14 @@ impl DerivativeKeys {
         (!self.derivative.is_empty()).then(|| Scheme::Event.to_string())
     }
 
-    /// The derivatives of the scene of `case`; `None` where none are asked for.
+    /// The derivatives of the scene of `case`, whose run is `asked` for by this scheme; `None`
+    /// where none are asked for.
     ///
     /// # Errors
     /// [`Error::Invalid`] for another scheme than event; as [`Case::tangent`].
-    pub(super) fn wanted(&self, args: &Args, case: &Case) -> Result<Option<Wanted>> {
+    pub(super) fn wanted(&self, asked: Option<&str>, case: &Case) -> Result<Option<Wanted>> {
         let Some(scheme) = self.scheme() else { return Ok(None) };
-        if let Some(other) = args.scheme.as_ref().filter(|name| name.trim() != scheme) {
+        if let Some(other) = asked.filter(|name| name.trim() != scheme) {
             let expected = "event: derivatives are those of the exact motion";
             return Err(Error::invalid("--scheme beside --derivative", other, expected));
         }

@@ -29,7 +29,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     // A stretch outside the run is refused before anything runs.
     let span = args.span.within(&case, case.scene.duration)?;
     let wanted = args.seeds.check(&case)?;
-    let derivatives = args.derivatives.wanted(args, &case)?;
+    let derivatives = args.derivatives.wanted(args.scheme.as_deref(), &case)?;
     let CheckedRun { case, mut results, method, reason, run, refinement, truncation, modes, accuracy, shortfall } =
         match args.accuracy {
             Some(tolerance) => accurate::search(args, case, tolerance, ui)?,

@@ -132,7 +132,8 @@ impl PlaneBound {
         self.bound([0, 1].map(|i: usize| length * (self.rate[i] + theta * change[i])), length).0
     }
 
-    /// True if the end of the path lies outside of a round wall; of an elastic one, where it pushes.
+    /// True if the end of the path lies outside of a round wall; of an elastic one, where it
+    /// pushes.
     fn is_passed(&self, way: [f64; 2]) -> bool {
         let after = |share: f64| [0, 1].map(|i: usize| self.from[i] + share * way[i]);
         let (place, limit) = match self.guide {

@@ -1,6 +1,6 @@
 //! All contacts of a step together: sweeps of Gauss and Seidel over the contacts, each answered
-//! exactly ([`FrictionContact::answer`]), until their states stay; then one linear system for these states,
-//! so that the result is exact to rounding.
+//! exactly ([`FrictionContact::answer`]), until their states stay; then one linear system for these
+//! states, so that the result is exact to rounding.
 //!
 //! Sweeps start from the impulses of the last step (Jourdan, Alart & Jean 1998,
 //! doi:10.1016/S0045-7825(97)00137-0). Where the linear system does not confirm the states, those
@@ -118,9 +118,9 @@ impl FrictionContacts {
         true
     }
 
-    /// As [`FrictionContacts::solve`] for impacts of a body with the velocities `before`: where the impulses
-    /// would add energy, the contacts give up their rebound, and it is solved again. What impulses
-    /// P add to ½ẇ·A ẇ is P·ẇ⁺ − ½ P·W P, of which P·ẇ⁺ ≤ 0 without rebounds.
+    /// As [`FrictionContacts::solve`] for impacts of a body with the velocities `before`: where the
+    /// impulses would add energy, the contacts give up their rebound, and it is solved again. What
+    /// impulses P add to ½ẇ·A ẇ is P·ẇ⁺ − ½ P·W P, of which P·ẇ⁺ ≤ 0 without rebounds.
     pub fn strike(&mut self, places: &ContactRows) -> bool {
         let pushes = self.solve(places);
         if pushes && self.gains(places) {

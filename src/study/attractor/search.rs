@@ -92,8 +92,8 @@ pub(crate) fn exponent(scene: &Checked, period: f64, count: usize, state: &State
     Some(largest.ln() / (orbit.strobes.len() as f64 * period))
 }
 
-/// The attractor that the run of `scene` comes to within `settle` + `keep` periods (s); `observe` is
-/// called with every step.
+/// The attractor that the run of `scene` comes to within `settle` + `keep` periods (s); `observe`
+/// is called with every step.
 pub(crate) fn follow(
     scene: &Checked,
     period: f64,

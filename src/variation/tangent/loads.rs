@@ -4,7 +4,6 @@
 //!
 //! δψ = δA sin θ + A (t δω + δφ) cos θ.
 
-use super::row;
 use super::stencil::Stencil;
 use crate::scene::{Load, LoadKind, Row, Scene, Table};
 use std::f64::consts::TAU;
@@ -46,7 +45,7 @@ impl LoadChange {
     /// The derivative of load number `index`; `None` where it is 0.
     pub(super) fn new(stencil: &mut Stencil, index: usize) -> Option<Self> {
         let load = stencil.base.loads.get(index)?.clone();
-        let row = row(stencil, |scene| scene.loads.get(index).map(|load| &load.at));
+        let row = stencil.row(|scene| scene.loads.get(index).map(|load| &load.at));
         let mut of = |part: fn(&LoadKind) -> f64| {
             stencil.derivative(|scene| scene.loads.get(index).map_or(0.0, |load| part(&load.kind)))
         };

@@ -71,8 +71,8 @@ impl SceneTangent {
     ///
     /// # Errors
     /// [`Error::Invalid`] where the scenes do not depend on the value, or not smoothly: another
-    /// number of walls or loads, another instant of a blow or of a row of a table, another duration;
-    /// errors of `build`.
+    /// number of walls or loads, another instant of a blow or of a row of a table, another
+    /// duration; errors of `build`.
     pub fn new(name: &str, value: f64, build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
         let tangent = Self::of(name, value, Stencil::new(value, build)?)?;
         if tangent.error.is_nan() || tangent.error > MOST_ERROR {
@@ -99,7 +99,7 @@ impl SceneTangent {
         let walls = (0..stencil.base.walls.len()).map(|wall| WallTangent::new(&mut stencil, wall)).collect();
         let loads = (0..stencil.base.loads.len()).filter_map(|load| LoadChange::new(&mut stencil, load)).collect();
         let probes = (0..stencil.base.probes.len())
-            .map(|probe| row(&mut stencil, |scene| scene.probes.get(probe).map(|probe| &probe.at)))
+            .map(|probe| stencil.row(|scene| scene.probes.get(probe).map(|probe| &probe.at)))
             .collect();
         let at = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(0.0);
         let q = (0..n).map(|i| stencil.derivative(|scene| at(&scene.initial.q, i))).collect();
@@ -166,7 +166,7 @@ impl WallTangent {
                 .derivative(|scene| scene.walls.get(wall).and_then(|wall| wall.law.restitution()).unwrap_or(0.0)),
             stiffness: stencil.derivative(|scene| spring(scene).map_or(0.0, |spring| spring.stiffness)),
             damping: stencil.derivative(|scene| spring(scene).map_or(0.0, |spring| spring.damping)),
-            row: row(stencil, |scene| scene.walls.get(wall).map(|wall| wall.row())),
+            row: stencil.row(|scene| scene.walls.get(wall).map(|wall| wall.row())),
         }
     }
 
@@ -174,23 +174,6 @@ impl WallTangent {
         let numbers = [self.position, self.restitution, self.stiffness, self.damping];
         numbers.iter().all(|&x| x == 0.0) && self.row.entries().is_empty()
     }
-}
-
-/// The derivative of the row that `of` gives for a scene, without entries where it is 0.
-fn row(stencil: &mut Stencil, of: impl Fn(&Scene) -> Option<&Row>) -> Row {
-    let entries = |scene: &Scene| of(scene).map_or(&[][..], Row::entries).to_vec();
-    let mut dofs: Vec<usize> = entries(&stencil.base).iter().map(|entry| entry.0).collect();
-    stencil.scenes().for_each(|scene| dofs.extend(entries(scene).iter().map(|entry| entry.0)));
-    dofs.sort_unstable();
-    dofs.dedup();
-    let weight = |scene: &Scene, dof: usize| {
-        let all = of(scene).map_or(&[][..], Row::entries);
-        all.iter().filter(|entry| entry.0 == dof).map(|entry| entry.1).sum::<f64>()
-    };
-    let size = entries(&stencil.base).iter().fold(0.0, |most: f64, entry| most.max(entry.1.abs()));
-    let mut change = |dof: usize| stencil.derivative_among(size, |scene| weight(scene, dof));
-    let changes: Vec<(usize, f64)> = dofs.into_iter().map(|dof| (dof, change(dof))).collect();
-    Row::new(changes.into_iter().filter(|entry| entry.1 != 0.0).collect())
 }
 
 /// True for scenes that differ in numbers only.

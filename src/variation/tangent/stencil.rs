@@ -9,7 +9,7 @@
 //! that their difference bounds the error of the former.
 
 use crate::error::{Error, Result};
-use crate::scene::Scene;
+use crate::scene::{Row, Scene};
 
 /// Distance of two neighbouring values as a share of the value: as large as keeps the error of the
 /// formula below that of rounding, ε over this.
@@ -121,6 +121,23 @@ impl Stencil {
             self.error = self.error.max((derivative - coarser).abs() / size);
         }
         derivative
+    }
+
+    /// The derivative of the row that `of` gives for a scene, without entries where it is 0.
+    pub fn row(&mut self, of: impl Fn(&Scene) -> Option<&Row>) -> Row {
+        let entries = |scene: &Scene| of(scene).map_or(&[][..], Row::entries).to_vec();
+        let mut dofs: Vec<usize> = entries(&self.base).iter().map(|entry| entry.0).collect();
+        self.scenes().for_each(|scene| dofs.extend(entries(scene).iter().map(|entry| entry.0)));
+        dofs.sort_unstable();
+        dofs.dedup();
+        let weight = |scene: &Scene, dof: usize| {
+            let all = of(scene).map_or(&[][..], Row::entries);
+            all.iter().filter(|entry| entry.0 == dof).map(|entry| entry.1).sum::<f64>()
+        };
+        let size = entries(&self.base).iter().fold(0.0, |most: f64, entry| most.max(entry.1.abs()));
+        let mut change = |dof: usize| self.derivative_among(size, |scene| weight(scene, dof));
+        let changes: Vec<(usize, f64)> = dofs.into_iter().map(|dof| (dof, change(dof))).collect();
+        Row::new(changes.into_iter().filter(|entry| entry.1 != 0.0).collect())
     }
 }
 
