@@ -89,6 +89,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     }));
     results.tell("answers", json!(answers));
     results.tell("supports", json!(found.supports));
+    results.tell("fluid_elastic", json!(case.fluid_elastic));
     let mut shown = Shown::of(results, !args.request.place.no_report, output::document(&case, &found));
     shown.table(output::table(&found), "years.csv");
     shown.remarks(answers);

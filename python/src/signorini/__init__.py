@@ -38,6 +38,7 @@ from ._core import (
     load,
 )
 from ._document import case
+from ._flow import FlowMargin, FluidElastic
 from ._orbit import Orbit, orbit
 from ._studies import Chart, Comparison, Stability, chart, compare, stability
 from ._supports import Estimate, SupportStatistics, Wear
@@ -54,6 +55,8 @@ __all__ = [
     "Comparison",
     "DivergedError",
     "Estimate",
+    "FlowMargin",
+    "FluidElastic",
     "Load",
     "NotSolvedError",
     "Orbit",
