@@ -68,9 +68,9 @@ pub use interrupt::Interrupt;
 pub use residual::{Finding, Refuted};
 pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{
-    Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, Condensation, Damping, Face, Flat, Flats, Hole, MOST_DENSE,
-    MOST_ELEMENTS, MOST_FLATS, MOST_MODES, MassMatrix, ModalData, ModalPoint, Modes, PlaneRows, Reduction,
-    WallTruncation, heading, matrices,
+    Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, Condensation, Connors, Damping, Face, Flat, Flats, FlowMargin,
+    FlowPiece, FluidElastic, Hole, MOST_DENSE, MOST_ELEMENTS, MOST_FLATS, MOST_MODES, MassMatrix, ModalData,
+    ModalPoint, Modes, PlaneRows, Reduction, WallTruncation, heading, matrices,
 };
 pub use scene::{
     Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SceneKey,

@@ -1,6 +1,7 @@
 //! Case files.
 
-use crate::error::{raise, wrong};
+use crate::error::{ResultWarning, raise, wrong};
+use crate::json::loads;
 use crate::origin::Origin;
 use crate::place::Model;
 use crate::plan::Plan;
@@ -188,7 +189,8 @@ impl Case {
     /// Warns
     /// -----
     /// AccuracyWarning, ResultWarning
-    ///     As `Scene.run`.
+    ///     As `Scene.run`; and a ResultWarning where the flow of the case makes the tube unstable
+    ///     with all supports active.
     ///
     /// Examples
     /// --------
@@ -208,7 +210,31 @@ impl Case {
             plan.method = self.case.method(name).map_err(raise)?;
         }
         plan.check_step(step)?;
-        Run::make(scene, plan)
+        let run = Run::make(scene, plan)?;
+        if let Some(instability) = self.case.instability() {
+            // Written here, without NUL.
+            let text = std::ffi::CString::new(instability).unwrap_or_default();
+            PyErr::warn(py, &py.get_type::<ResultWarning>(), &text, 1)?;
+        }
+        Ok(run)
+    }
+
+    /// The notes of the case, without a run: what reduction, flow and start change.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.case.notes()
+    }
+
+    /// The margins of a tube in a cross flow by Connors' criterion: a `FluidElastic`, or None where
+    /// the case has no table ``flow``.
+    #[getter]
+    fn fluid_elastic<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("signorini._flow")?.call_method1("fluid_elastic", (slf,))
+    }
+
+    /// The same as a mapping.
+    fn _fluid_elastic<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        loads(py, &serde_json::json!(self.case.fluid_elastic).to_string())
     }
 
     fn __repr__(&self) -> String {

@@ -214,6 +214,33 @@ def test_a_tube_in_a_turbulent_flow_is_the_case_of_the_file() -> None:
         tube(loads=[sg.turbulence(spectrum=[(1.0, 1.0), (2.0, 1.0)], band=(1.0, 2.0), correlation_length=0.0)])
 
 
+def test_margins_of_a_tube_in_a_flow_are_those_of_the_case_and_warn() -> None:
+    plates = [sg.hole(f"plate-{i}", 0.2e-3, at=float(i), restitution=0.5) for i in (1, 2)]
+
+    def flow(velocity: float) -> sg.Turbulence:
+        return sg.turbulence(
+            density=740.0, velocity=velocity, reduced=[(0.01, 0.05), (0.2, 0.0112), (3.0, 8.6e-7)],
+            band=(5.0, 50.0), correlation_length=0.06,
+        )  # fmt: skip
+
+    own = {"supports": plates, "connors": 3.0, "modes": 3, "duration": 0.3, "statistics_from": 0.1}
+    slow = tube(loads=[flow(0.5)], **own)
+    found = slow.fluid_elastic
+    assert found is not None and found.connors == 3.0 and len(found.inactive) == len(found.active) == 3
+    # Closed forms: modes of 4.05987 Hz free and of 36.53886 Hz held at 1 and 2 m.
+    assert found.inactive[0].critical_velocity == pytest.approx(0.126627, rel=1e-5)
+    assert found.active[0].critical_velocity == pytest.approx(1.139646, rel=1e-4)
+    assert found.active[0].margin == pytest.approx(1.139646 / 0.5, rel=1e-4)
+    assert any("no support active" in note for note in slow.notes)
+    with pytest.warns(sg.ResultWarning, match="work rates mean nothing"):
+        tube(loads=[flow(1.5)], **own).run()
+    still = tube(loads=[flow(0.0)], **own).fluid_elastic
+    assert still is not None and still.active[0].margin == float("inf")
+    assert tube(supports=plates, loads=LOADS).fluid_elastic is None
+    with pytest.raises(ValueError, match="connors is 0.0"):
+        tube(loads=[flow(0.5)], **{**own, "connors": 0.0})
+
+
 def test_a_shaken_tube_under_its_weight_is_the_case_of_these_keys() -> None:
     loads = [sg.Load.base(amplitude=2.0, frequency=5.0, phase=0.1, direction=0.0), sg.Load.gravity(9.81, direction=270.0)]
     made = tube(loads=loads, duration=0.1, statistics_from=0.0)

@@ -137,6 +137,7 @@ impl Builder<'_> {
             scene,
             condensation,
             truncated: None,
+            fluid_elastic: None,
             time,
             statistics,
             penalty,
@@ -147,6 +148,10 @@ impl Builder<'_> {
             start::carry_on(&mut case.scene, start);
         }
         case.check().map_err(|error| self.locate(error, &case.scene))?;
+        let flow = file.section("flow");
+        if let (Some(flow), None) = (&flow, modes) {
+            return Err(self.without_flow(flow));
+        }
         if let Some(modes) = modes {
             let ratios = built.pending.filter(|damping| matches!(damping, Damping::Modal(_)));
             let whole = Whole {
@@ -159,6 +164,9 @@ impl Builder<'_> {
             };
             let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
             case.scene = reduction.scene.clone();
+            if let Some(flow) = &flow {
+                case.fluid_elastic = Some(self.flow(flow, &whole, &reduction.modes)?);
+            }
             if let Some(start) = start {
                 start::carry_on(&mut case.scene, start);
             }

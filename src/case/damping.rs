@@ -70,6 +70,7 @@ impl Builder<'_> {
                 return Err(self.refuse(ratios.span(), "system.damping.ratios", "one ratio or more"));
             }
             let subject = Subject::from(("damping", "ratios"));
+            self.places.push((subject.clone(), ratios.span()));
             let mut all = Vec::with_capacity(ratios.get_ref().len());
             for (i, ratio) in ratios.get_ref().iter().enumerate() {
                 self.places.push((subject.clone().value(i), ratio.span()));

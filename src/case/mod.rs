@@ -38,6 +38,7 @@ mod digest;
 mod direction;
 mod embedded;
 mod flats;
+mod flow;
 mod initial;
 mod key;
 mod key_entry;
@@ -103,7 +104,7 @@ pub use wear::WearOptions;
 pub use written::{FileRead, Origin, Scarred, Support, Written};
 
 use crate::error::{Error, Result};
-use crate::scene::{Condensation, Scene};
+use crate::scene::{Condensation, FluidElastic, Scene};
 use crate::time::TimeOptions;
 
 /// The contents of a case file. Another value makes another case: [`Case::with`].
@@ -132,6 +133,8 @@ pub struct Case {
     /// The scene before the reduction to modes, and the errors of the reduction; `None` for a case
     /// that is not reduced.
     pub truncated: Option<Truncated>,
+    /// The margins of a tube in a cross flow; `None` where the file has no table `flow`.
+    pub fluid_elastic: Option<FluidElastic>,
     /// Step, recording and statistics.
     pub time: TimeOptions,
     /// Further statistics; `None` where the file has no such table.

@@ -21,6 +21,7 @@ impl Case {
         notes.extend(self.odd_coefficients());
         notes.extend(self.start_note());
         notes.extend(self.turbulence_notes());
+        notes.extend(self.flow_note());
         notes
     }
 

@@ -89,6 +89,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     }));
     results.add_to_manifest("answers", json!(answers));
     results.add_to_manifest("supports", json!(found.supports));
+    results.add_to_manifest("fluid_elastic", json!(case.fluid_elastic));
     let mut shown = Shown::of(results, !args.request.place.no_report, output::document(&case, &found));
     shown.table(output::table(&found), "years.csv");
     shown.remarks(answers);

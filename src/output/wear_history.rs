@@ -211,6 +211,7 @@ pub fn document(case: &Case, found: &WearHistories) -> Value {
         "case": case.name,
         "histories": found,
         "limits": limits.collect::<Vec<_>>(),
+        "fluid_elastic": case.fluid_elastic,
         "remarks": remarks(case, found),
     })
 }

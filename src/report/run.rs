@@ -17,6 +17,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let mut page = of_scene(&summary);
     page["facts"] = facts(&summary);
     page["notes"] = notes(&summary, &run);
+    page["margins"] = summary["scene"]["fluid_elastic"].clone();
     let draws = summary["realisations"]["count"].as_u64().filter(|count| *count > 1);
     if let (Some(count), Some(title)) = (draws, page["title"].as_str().or(folder.manifest["request"]["case"].as_str()))
     {

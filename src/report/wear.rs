@@ -18,6 +18,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "supports": names(&folder.manifest["supports"]),
             "seeds": folder.manifest["request"]["histories"],
         },
+        "margins": folder.manifest["fluid_elastic"],
         "case": case_text(&folder.manifest["case_file"]),
         "notes": folder.manifest["remarks"],
     }))

@@ -8,9 +8,10 @@
 //! users), `checked.rs` (a validated scene), `wall.rs`, `law.rs` (all that differs between rigid,
 //! elastic and penalised walls), `planes.rs` (a structure doubled into two planes, and directions
 //! there), `support.rs` (walls around a place), `load.rs`, `random/` (random forces as tables),
-//! `turbulence/` (random forces along a line, on modes), `clear.rs` (a start moved out of walls),
-//! `function.rs`, `forcing.rs`, `scene_key.rs` (the path of a number of a scene), `row.rs` (a
-//! location on a structure, as weights of degrees of freedom), `builders/` (chains, bars, tubes,
+//! `turbulence/` (random forces along a line, on modes), `fluid_elastic.rs` (the stability of a
+//! tube in that flow), `held.rs` (a structure held at places), `clear.rs` (a start moved out of
+//! walls), `function.rs`, `forcing.rs`, `scene_key.rs` (the path of a number of a scene), `row.rs`
+//! (a location on a structure, as weights of degrees of freedom), `builders/` (chains, bars, tubes,
 //! modal data), `matrices/` (read from text), `condensation/` (degrees of freedom without mass),
 //! `damping.rs`, `modal/` (modes, and scenes reduced to them); `Scene::validate` is the only place
 //! that decides which values are valid.
@@ -21,9 +22,11 @@ mod clear;
 mod condensation;
 mod damping;
 mod flats;
+mod fluid_elastic;
 mod forcing;
 mod function;
 mod grid_forcing;
+mod held;
 mod law;
 mod load;
 mod loads;
@@ -46,6 +49,7 @@ pub(crate) use checked::Checked;
 pub use condensation::Condensation;
 pub use damping::Damping;
 pub use flats::{Flat, Flats, MOST_FLATS};
+pub use fluid_elastic::{Connors, FlowMargin, FlowPiece, FluidElastic};
 pub use forcing::{Forcing, Harmonic};
 pub use function::TimeFunction;
 pub(crate) use grid_forcing::GridForcing;

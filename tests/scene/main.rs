@@ -16,6 +16,7 @@ mod case_files;
 #[cfg(feature = "cli")]
 mod case_mutations;
 mod error_subjects;
+mod fluid_elastic;
 #[cfg(feature = "cli")]
 mod massless;
 mod modes;

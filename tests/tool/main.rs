@@ -7,6 +7,7 @@ mod documents;
 mod folders;
 mod formats;
 mod hazards;
+mod margins;
 mod new_tube;
 mod notes;
 mod one_at_a_time;

@@ -40,6 +40,7 @@ from ._core import (
 from ._derivative import Derivative, derivative
 from ._document import case
 from ._fit import Fit, fit
+from ._flow import FlowMargin, FluidElastic
 from ._orbit import Orbit, orbit
 from ._studies import Chart, Comparison, Stability, chart, compare, stability
 from ._supports import Estimate, SupportStatistics, Wear
@@ -58,6 +59,8 @@ __all__ = [
     "DivergedError",
     "Estimate",
     "Fit",
+    "FlowMargin",
+    "FluidElastic",
     "Load",
     "NotSolvedError",
     "Orbit",

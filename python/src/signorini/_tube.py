@@ -221,6 +221,7 @@ def tube(
     supports: Sequence[Support] = (),
     loads: Sequence[Load | Turbulence] = (),
     wear: Archard | None = None,
+    connors: float | None = None,
     duration: float,
     step: float,
     sample: float | None = None,
@@ -258,6 +259,9 @@ def tube(
         Each with a ``direction``; at positions in m, or along the tube.
     wear : Archard, optional
         Wear coefficients and the time in service.
+    connors : float, optional
+        Connors' constant of the bundle, about 3: `Case.fluid_elastic` are the margins in the flow
+        of the turbulence among the loads.
     duration, step : float
         s.
     sample : float, optional
@@ -298,4 +302,5 @@ def tube(
     flows = [load for load in loads if isinstance(load, Turbulence)]
     forces = [load for load in loads if not isinstance(load, Turbulence)]
     lists = {"support": list(supports) or None, "load": forces or None, "turbulence": flows or None}
-    return case({"system": system, **lists, "wear": wear, "time": time}, name=name)
+    flow = None if connors is None else {"connors": connors}
+    return case({"system": system, **lists, "flow": flow, "wear": wear, "time": time}, name=name)

@@ -1,6 +1,7 @@
 //! `signorini explain`: which model, scheme and solver would be chosen, and why, without running
 //! the case.
 
+mod flow;
 mod model;
 mod penalty;
 
@@ -76,6 +77,7 @@ fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
     model.extend(excitations(case));
     model.extend(case.notes().iter().map(|note| format!("note: {note}")));
     tell("model", model);
+    tell("fluid-elastic margins", flow::margins(case));
     let mut schemes = vec![format!("{}: {}", choice.method, choice.reason)];
     if choice::takes(&case.scene, &Scheme::Event, case.time.step) {
         schemes.push("event: exact, from impact to impact without a step; the reference of `compare`".to_owned());

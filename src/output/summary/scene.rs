@@ -42,6 +42,9 @@ pub(super) fn scene(case: &Case) -> Value {
         json!({ "name": probe.name, "at": place.map(at) })
     });
     out.insert("probes".to_owned(), probes.collect());
+    if let Some(margins) = &case.fluid_elastic {
+        out.insert("fluid_elastic".to_owned(), json!(margins));
+    }
     out.insert("duration_s".to_owned(), json!(case.scene.duration));
     Value::Object(out)
 }

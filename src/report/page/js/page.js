@@ -138,6 +138,7 @@ if (DATA.orbit) orbitSections();
 if (lead && lead.probes.length) phaseSection();
 if (DATA.kind === "run" && (DATA.summary.supports || []).length) supportSection();
 if (lead && runs.some((run) => run.contacts.count)) contactSection();
+if (DATA.margins) marginSection();
 if (DATA.kind === "run" && DATA.summary.statistics && DATA.summary.statistics.walls.length)
   statisticsSection();
 textSection();

@@ -1,0 +1,254 @@
+//! Fluid-elastic stability of a tube in a cross flow, by Connors' criterion.
+//!
+//! A flow of the density ρ and the velocity V in the gaps between the tubes feeds energy into a
+//! mode φ of the frequency f and the damping ratio ζ, once its effective velocity V_e exceeds the
+//! critical one V_c:
+//!
+//! V_e² = ∫ ρV²φ²/ρ₀ dx ÷ ∫ mφ²/m₀ dx,   V_c = K f D √(2πζ m₀/(ρ₀D²)),
+//!
+//! with the mass per metre m, the outer diameter D and the constant K of the bundle; the ratio of
+//! the two depends on neither of the references ρ₀ and m₀ (Connors 1970, "Fluidelastic vibration of
+//! tube arrays excited by cross flow", ASME Symposium on Flow-Induced Vibration in Heat Exchangers;
+//! the weights by the shape of the mode as in Pettigrew & Taylor 1991, doi:10.1115/1.2928755). The
+//! margin is V_c/V_e, below 1 the mode is unstable.
+//!
+//! A margin is a warning, and no force: what a flow feeds into a rattling tube depends on its
+//! frequency, which moves between those of free and of held modes, so that no damping matrix of the
+//! free modes has it.
+
+use super::modal::Modes;
+use super::row::Row;
+use super::system::positive;
+use super::{Damping, Scene, System, Turbulence, TurbulenceSpectrum};
+use crate::error::{Error, Result};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// Margins of neighbours within this share of each other are those of one motion in two planes.
+const SAME: f64 = 1e-9;
+
+/// Edges within this share of the length of each other are one.
+const ON_EDGE: f64 = 1e-9;
+
+/// Points and weights of Gauss' rule on [−1, 1], exact up to degree 5.
+const GAUSS: [(f64, f64); 3] =
+    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
+
+/// A tube in a cross flow, for Connors' criterion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Connors {
+    /// K; above 0.
+    pub constant: f64,
+    /// Outer diameter D of the tube, m.
+    pub diameter: f64,
+    /// Mass per metre m of the tube with the fluid that moves with it, kg/m: also m₀.
+    pub mass_per_metre: f64,
+    /// ρ₀, kg/m³.
+    pub density: f64,
+    /// The flow: pieces of the tube.
+    pub pieces: Vec<FlowPiece>,
+}
+
+/// A piece of a tube in a flow.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FlowPiece {
+    /// The displacement across the tube there: a row for each plane in which it moves.
+    pub at: Vec<Row>,
+    /// ρV² times the length of the piece, kg/s².
+    pub pressure: f64,
+}
+
+/// A mode in a flow.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct FlowMargin {
+    /// Its frequency f, Hz.
+    pub frequency_hz: f64,
+    /// Its damping ratio ζ.
+    pub damping_ratio: f64,
+    /// V_e, m/s.
+    pub effective_velocity_m_per_s: f64,
+    /// V_c, m/s.
+    pub critical_velocity_m_per_s: f64,
+    /// V_c/V_e: below 1 the mode is unstable. `None` where no flow reaches it.
+    pub margin: Option<f64>,
+}
+
+/// The margins of a tube in a flow, slowest modes first. A mode that is the same in two planes is
+/// listed once; rigid-body motions are left out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct FluidElastic {
+    /// K.
+    pub connors: f64,
+    /// Of the modes that no support holds.
+    pub inactive: Vec<FlowMargin>,
+    /// Of the modes with all supports active; empty without supports.
+    pub active: Vec<FlowMargin>,
+}
+
+impl FluidElastic {
+    /// The least margin of a list; `None` where no flow reaches a mode.
+    #[must_use]
+    pub fn least(margins: &[FlowMargin]) -> Option<&FlowMargin> {
+        let known = margins.iter().filter_map(|one| Some((one, one.margin?)));
+        known.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(one, _)| one)
+    }
+}
+
+/// The damping ratio of any mode of a structure whose own modes have known ones.
+struct Ratios<'a> {
+    scene: &'a Scene,
+    /// ω (rad/s, increasing) and ζ of the own modes; empty where the matrix C is known.
+    known: Vec<(f64, f64)>,
+}
+
+impl<'a> Ratios<'a> {
+    /// Of `scene` with its own C, or with `damping` given to its modes `own`.
+    fn new(scene: &'a Scene, damping: Option<&Damping>, own: &Modes) -> Result<Self> {
+        let Some(Damping::Modal(ratios)) = damping else { return Ok(Self { scene, known: Vec::new() }) };
+        if let Some(ratio) = ratios.iter().find(|ratio| **ratio < 0.0) {
+            let expected = "0 or more beside connors: a negative ratio is what the flow feeds into a mode already";
+            return Err(Error::invalid(("damping", "ratios"), format!("a list with {ratio:?}"), expected));
+        }
+        let last = ratios.last().copied().unwrap_or(0.0);
+        let ratio = |i: usize| ratios.get(i).copied().unwrap_or(last);
+        Ok(Self { scene, known: own.omega.iter().enumerate().map(|(i, omega)| (*omega, ratio(i))).collect() })
+    }
+
+    /// ζ of a mode with φᵀMφ = 1: φᵀCφ/2ω; or, where ratios are given to the own modes, straight in
+    /// ω between these, and beyond them that of the nearest.
+    fn of(&self, omega: f64, shape: &[f64]) -> f64 {
+        match (&self.scene.system, self.known.first(), self.known.last()) {
+            (System::Structure(structure), None, _) => structure.damping.form(shape, shape) / (2.0 * omega),
+            (_, Some(first), _) if omega <= first.0 => first.1,
+            (_, _, Some(last)) if omega >= last.0 => last.1,
+            _ => {
+                let around = self.known.windows(2).find(|pair| omega <= pair[1].0);
+                around.map_or(0.0, |pair| {
+                    let [(below, low), (above, high)] = [pair[0], pair[1]];
+                    low + (high - low) * (omega - below) / (above - below)
+                })
+            }
+        }
+    }
+}
+
+impl Connors {
+    /// The criterion for a tube of the outer diameter `diameter` (m) and the mass per metre
+    /// `mass_per_metre` (kg/m) in the flows of `fields`, whose spectra state one; `row` makes the
+    /// rows of a position (m). Where several flows reach, that with the largest ρV² counts: fields
+    /// of lift and drag are those of one flow. `None` where no field states a flow.
+    pub(crate) fn in_flow(
+        constant: f64,
+        diameter: f64,
+        mass_per_metre: f64,
+        fields: &[Turbulence],
+        row: impl Fn(f64) -> Result<Vec<Row>>,
+    ) -> Result<Option<Self>> {
+        let flows: Vec<Flow<'_>> = fields.iter().filter_map(Flow::of).collect();
+        let Some(first) = flows.first() else { return Ok(None) };
+        let mut edges: Vec<f64> = flows.iter().flat_map(Flow::edges).collect();
+        edges.sort_by(f64::total_cmp);
+        let near = ON_EDGE * (edges.last().unwrap_or(&0.0) - edges.first().unwrap_or(&0.0));
+        edges.dedup_by(|b, a| *b - *a <= near);
+        let mut pieces = Vec::new();
+        for (from, to) in edges.iter().zip(edges.iter().skip(1)) {
+            let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+            let pressure = flows.iter().map(|flow| flow.pressure(middle)).fold(0.0, f64::max);
+            for (point, weight) in GAUSS.iter().filter(|_| pressure > 0.0) {
+                pieces.push(FlowPiece { at: row(middle + half * point)?, pressure: pressure * half * weight });
+            }
+        }
+        Ok(Some(Self { constant, diameter, mass_per_metre, density: first.density, pieces }))
+    }
+
+    /// The margins of the modes of `scene`, with supports inactive and active: as many modes as
+    /// `own`, the modes of the scene's structure, has. `damping` is that of the modes where it is
+    /// not the scene's own.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] under `flow` for a constant, diameter, mass or density that is not above
+    /// 0; under `damping` for a negative ratio; errors of [`Modes::lowest`] for the modes that the
+    /// supports hold.
+    pub fn margins(&self, scene: &Scene, damping: Option<&Damping>, own: &Modes) -> Result<FluidElastic> {
+        positive(("flow", "connors"), self.constant)?;
+        positive(("flow", "diameter"), self.diameter)?;
+        positive(("flow", "mass"), self.mass_per_metre)?;
+        positive(("flow", "density"), self.density)?;
+        let ratios = Ratios::new(scene, damping, own)?;
+        let margin = |omega: f64, shape: &[f64]| self.margin(omega, ratios.of(omega, shape), shape);
+        let inactive = own.omega.iter().zip(&own.shapes).map(|(omega, shape)| margin(*omega, shape)).collect();
+        let mut active = Vec::new();
+        if let Some(held) = scene.all_active() {
+            let count = own.count().min(held.structure.mass.size());
+            if count > 0 {
+                let modes = Modes::lowest(&held.structure, count)?;
+                let expanded = modes.omega.iter().zip(&modes.shapes);
+                active = expanded.map(|(omega, shape)| margin(*omega, &held.expand(shape))).collect();
+            }
+        }
+        Ok(FluidElastic { connors: self.constant, inactive: each_once(inactive), active: each_once(active) })
+    }
+
+    /// The margin of a mode with φᵀMφ = 1 and ω (rad/s).
+    fn margin(&self, omega: f64, ratio: f64, shape: &[f64]) -> FlowMargin {
+        let square = |piece: &FlowPiece| piece.at.iter().map(|row| row.dot(shape).powi(2)).sum::<f64>();
+        let fed: f64 = self.pieces.iter().map(|piece| piece.pressure * square(piece)).sum();
+        let effective = (self.mass_per_metre / self.density * fed).sqrt();
+        let reduced = TAU * ratio * self.mass_per_metre / (self.density * self.diameter * self.diameter);
+        let critical = self.constant * (omega / TAU) * self.diameter * reduced.max(0.0).sqrt();
+        FlowMargin {
+            frequency_hz: omega / TAU,
+            damping_ratio: ratio,
+            effective_velocity_m_per_s: effective,
+            critical_velocity_m_per_s: critical,
+            margin: Some(critical / effective).filter(|margin| margin.is_finite()),
+        }
+    }
+}
+
+/// The margins without those of rigid-body motions, and those of two planes once.
+fn each_once(margins: Vec<FlowMargin>) -> Vec<FlowMargin> {
+    let mut all: Vec<FlowMargin> = margins.into_iter().filter(|one| one.frequency_hz > 0.0).collect();
+    let same = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+    all.dedup_by(|b, a| {
+        same(a.frequency_hz, b.frequency_hz)
+            && same(a.damping_ratio, b.damping_ratio)
+            && same(a.effective_velocity_m_per_s, b.effective_velocity_m_per_s)
+    });
+    all
+}
+
+/// The flow of a field.
+struct Flow<'a> {
+    along: [f64; 2],
+    density: f64,
+    velocity: &'a [f64],
+}
+
+impl<'a> Flow<'a> {
+    /// The flow that the spectrum of `field` states.
+    fn of(field: &'a Turbulence) -> Option<Self> {
+        match &field.spectrum {
+            TurbulenceSpectrum::Flow { density, velocity, .. } if !velocity.is_empty() => {
+                Some(Self { along: field.along, density: *density, velocity })
+            }
+            _ => None,
+        }
+    }
+
+    /// Where its cells end, m.
+    fn edges(&self) -> impl Iterator<Item = f64> {
+        let ([from, to], count) = (self.along, self.velocity.len());
+        (0..=count).map(move |cell| from + (to - from) * (cell as f64 / count as f64))
+    }
+
+    /// ρV² at `x` (m), Pa.
+    fn pressure(&self, x: f64) -> f64 {
+        let [from, to] = self.along;
+        let cell = (x - from) / (to - from) * self.velocity.len() as f64;
+        let velocity = if cell >= 0.0 { self.velocity.get(cell as usize) } else { None };
+        velocity.map_or(0.0, |v| self.density * v * v)
+    }
+}
