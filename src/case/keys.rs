@@ -180,6 +180,9 @@ pub(super) const KEYS: &[KeyEntry] = &[
         [wear] for this support", "without `service` in `[wear]`"]),
     entry("support.support_coefficient", Number, "per_Pa", ["that of `[wear]`", "a number above 0: \
         that of [wear] for this support", "without `service` in `[wear]`"]),
+    entry("support.growth", Word, "", ["`\"even\"` of a hole; gaps of flats stay", "\"even\" or \
+        \"shifted\" of a hole, \"flats\" of flats: what `signorini wear` does to the gaps",
+        OTHER_WORDS]),
     entry("wear", Table, "", ["no worn volumes", "see below", "without `[[support]]`"]),
     entry("wear.coefficient", Number, "per_Pa", ["no volume of the tube", "a number above 0: the \
         wear coefficient of the tube, 1/Pa = m^2/N", "without `service`"]),

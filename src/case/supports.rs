@@ -8,6 +8,7 @@ use super::walls::NewWall;
 use super::written::{Scarred, Support};
 use crate::error::{Error, Result, Subject};
 use crate::scene::{self, Face, Flat, Flats, PlaneRows, Wall, WallLaw};
+use crate::wear::Growth;
 use std::ops::Range;
 use toml::Spanned;
 
@@ -64,7 +65,8 @@ impl Builder<'_> {
                 return Err(self.refuse(shape.span(), &key, "\"flats\" or \"round\""));
             }
         };
-        self.written.supports.push(Support { name, place, flats, scarred });
+        let growth = self.growth(&owner, support, flats.is_some())?;
+        self.written.supports.push(Support { name, place, flats, scarred, growth });
         Ok((made, walls))
     }
 
@@ -200,6 +202,18 @@ impl Builder<'_> {
         let first = support.span_of("coefficient").or(support.span_of("support_coefficient"));
         self.note(owner.subject.clone().part("coefficient"), first);
         Ok(scarred)
+    }
+
+    /// What wear does to the gaps of a support, of flats or round.
+    fn growth(&self, owner: &Owner, support: &Section<'_>, flats: bool) -> Result<Growth> {
+        let Some(word) = support.word("growth") else { return Ok(if flats { Growth::Kept } else { Growth::Even }) };
+        let (fitting, expected): (&[Growth], _) = if flats {
+            (&[Growth::Flats], "\"flats\", of flats each by its scar; or none of it: their gaps stay")
+        } else {
+            (&[Growth::Even, Growth::Shifted], "\"even\" or \"shifted\", of a round support")
+        };
+        let found = fitting.iter().find(|growth| growth.name() == *word.get_ref());
+        found.copied().ok_or_else(|| self.refuse(word.span(), &format!("{}: growth", owner.name), expected))
     }
 
     /// A number above 0 at `key` of the table of `owner`.

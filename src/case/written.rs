@@ -8,6 +8,7 @@ use super::digest::sha256;
 use crate::scene::Row;
 use crate::scene::{Flats, Load, RandomForce};
 use crate::study::truncation::Start;
+use crate::wear::Growth;
 use serde::Serialize;
 
 /// Contents of the file, in the order of the scene.
@@ -71,6 +72,8 @@ pub struct Support {
     pub flats: Option<(Flats, usize)>,
     /// The values on which the depth of a scar there depends.
     pub scarred: Scarred,
+    /// What wear does to its gaps over the years.
+    pub growth: Growth,
 }
 
 /// The values on which the depth of a scar at a support depends.

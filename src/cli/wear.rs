@@ -1,4 +1,4 @@
-//! `signorini wear`: depth over the years at round supports whose gaps grow by wear.
+//! `signorini wear`: depth over the years at supports whose gaps grow by wear.
 
 use super::estimate::DurationEstimate;
 use super::pipeline::Shown;
@@ -10,10 +10,12 @@ use crate::error::{Error, Result};
 use crate::output::request::{extended, request};
 use crate::output::wear_history as output;
 use crate::output::wear_history::YEAR;
+use crate::output::wear_journal::WindowJournal;
 use crate::run::Options;
 use crate::scene::Scene;
 use crate::study::choice;
 use crate::study::wear_history::{WearPlan, WearingSupport};
+use crate::wear::{Growth, Opening};
 use serde_json::json;
 use std::num::NonZero;
 
@@ -24,10 +26,12 @@ Examples:
   signorini wear my-tube.toml --set wear.coefficient=2e-14
 
 The gap of a round support grows by the wear of tube and support, evenly all round: dγ/dt = k
-W(γ)/(2πRw); gaps of flats stay. The work rate W is that of a run with the gap of that time; its statistics begin at
-statistics_from. Under random loads several histories are followed, each run with seeds of its own.
+W(γ)/(2πRw). With growth = \"shifted\" of the support its centre moves towards the deeper side as
+well; gaps of flats stay, or with growth = \"flats\" each flat recedes by its scar. The work rate W is
+that of a run with the gap of that time; its statistics begin at statistics_from. Under random loads
+several histories are followed, each run with seeds of its own.
 Writes history.csv (every history), years.csv (means with their 95 % intervals) and wear.svg;
-report.html shows them.";
+report.html shows them. After an interruption the same command goes on.";
 
 /// Histories under random loads.
 const HISTORIES: usize = 6;
@@ -68,13 +72,19 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     args.request.check_use(&[method])?;
     let asked = extended(request("wear", &case, &[method]), json!({ "service_s": service, "histories": histories }));
     let mut results = args.request.place.open(&case, "wear", asked)?;
-    let scene = |number: u64, gaps: &[f64]| with_gaps(case.realisation(number)?.scene, &supports, gaps);
+    let scene = |number: u64, openings: &[Opening]| {
+        let mut scene = case.realisation(number)?.scene;
+        supports.iter().zip(openings).for_each(|(support, opening)| open(&mut scene, &support.name, opening));
+        Ok(scene)
+    };
     let options = Options::new(case.time);
     let plan = WearPlan { supports: &supports, scene: &scene, method: &method, options: &options, histories, service };
     let cores = std::thread::available_parallelism().map_or(1, NonZero::get).min(histories) as f64;
     let runs = WINDOWS * histories as f64 / cores;
     let estimate = DurationEstimate::of_run(&case.scene, &method, case.time.step).times(runs);
-    let found = ui.with_estimate("wear", estimate, |bar| plan.follow(&mut |share| bar.set_share(share)))?;
+    let mut journal = WindowJournal::open(&mut results, histories, args.request.place.force)?;
+    let found =
+        ui.with_estimate("wear", estimate, |bar| plan.follow(&mut journal, &mut |share| bar.set_share(share)))?;
     for (number, findings) in &found.refuted {
         ui.refute(&format!("window {number}"), findings);
     }
@@ -83,17 +93,19 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let notes = case.notes();
     results.add_to_manifest("case_file", case.document.json()?);
     results.add_to_manifest("remarks", json!(notes));
-    let mut answers = output::remarks(&case, &found);
-    answers.extend(supports.iter().filter(|support| !support.grows).map(|support| {
-        format!("the gaps of support {:?} stay as they are: flats wear, but only round supports widen", support.name)
-    }));
+    let answers = output::remarks(&case, &found);
     results.add_to_manifest("answers", json!(answers));
     results.add_to_manifest("supports", json!(found.supports));
     results.add_to_manifest("fluid_elastic", json!(case.fluid_elastic));
     let mut shown = Shown::of(results, !args.request.place.no_report, output::document(&case, &found));
     shown.table(output::table(&found), "years.csv");
     shown.remarks(answers);
-    shown.messages([format!("{} by {method}: {} runs of {:?} s", case.name, found.windows, case.scene.duration)]);
+    let there = match journal.found() {
+        0 => String::new(),
+        count => format!(", {count} of them there already"),
+    };
+    shown
+        .messages([format!("{} by {method}: {} runs of {:?} s{there}", case.name, found.windows, case.scene.duration)]);
     shown.messages(notes.iter().map(|note| format!("note: {note}")));
     Ok(shown)
 }
@@ -131,9 +143,8 @@ fn wearing(case: &Case) -> Result<Vec<WearingSupport>> {
         if law.scar.is_none() {
             return refuse(&support.name, "a support with a width: its depth is the worn volume over 2πRw");
         }
-        let gap = support.gaps(&case.scene.walls).into_iter().fold(f64::INFINITY, f64::min);
-        let grows = support.hole(&case.scene.walls).is_some();
-        wearing.push(WearingSupport { name: support.name.clone(), gap, grows, law });
+        let growth = case.written.supports.get(index).map_or_else(Growth::default, |written| written.growth);
+        wearing.push(WearingSupport { name: support.name.clone(), gaps: support.gaps(&case.scene.walls), growth, law });
     }
     if wearing.is_empty() {
         let expected = "a case with supports, and coefficient and service in [wear]: depths follow from these";
@@ -142,15 +153,17 @@ fn wearing(case: &Case) -> Result<Vec<WearingSupport>> {
     Ok(wearing)
 }
 
-/// `scene` with the gaps of the supports that wear.
-fn with_gaps(mut scene: Scene, supports: &[WearingSupport], gaps: &[f64]) -> Result<Scene> {
-    for (support, gap) in supports.iter().zip(gaps) {
-        let walls = scene.supports.iter().find(|own| own.name == support.name).map(|own| own.walls.clone());
-        for wall in walls.into_iter().flatten() {
-            if let Some(wall) = scene.walls.get_mut(wall) {
-                wall.set_round_gap(*gap);
-            }
+/// Opens the support `name` of `scene` by its wear.
+fn open(scene: &mut Scene, name: &str, opening: &Opening) {
+    let Some(support) = scene.supports.iter_mut().find(|support| support.name == name) else { return };
+    let round = support.hole(&scene.walls).is_some();
+    let walls = support.walls.clone();
+    for (wall, by) in walls.zip(&opening.recession) {
+        if let Some(wall) = scene.walls.get_mut(wall) {
+            wall.open(*by, opening.shift);
         }
     }
-    Ok(scene)
+    if round {
+        support.centre.iter_mut().zip(opening.shift).for_each(|(centre, shift)| *centre += shift);
+    }
 }

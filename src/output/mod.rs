@@ -6,6 +6,7 @@
 //! | [`results`] | the folder of a request's results, and what it may replace |
 //! | `manifest` | `request.json`: the contents of a folder of results |
 //! | `record` | rows, length and digest of a table, and whether it still has them |
+//! | `journal` | what a long computation has done, so that it goes on after an interruption |
 //! | `lock` | one writer in a folder at a time |
 //! | [`request`] | the request, as recorded beside its results |
 //! | [`csv`] | `trajectory.csv` and `contacts.csv` |
@@ -29,6 +30,7 @@
 //! | `cheapest` | the cheapest methods of a chart, and its conclusion |
 //! | `floors` | how near penalties come to rigid walls, and why no nearer |
 //! | [`wear_history`] | `history.csv` and `years.csv` of wear over the years, and their picture |
+//! | [`wear_journal`] | `windows.journal`: what an interrupted study of wear has run |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
 //! | [`shape`] | `shape.csv`: the displacement of the whole structure, for a drawing |
@@ -39,16 +41,17 @@
 //!
 //! The files of a request, each written whole or not at all: `results.rs` is the folder, which one
 //! writer at a time (`lock.rs`) fills, `manifest.rs` says what it may replace and what belongs to
-//! it, `record.rs` whether a table is still as it was written, `atomic.rs` writes a file onto the
-//! disk before it gets its name, `request.rs` records the request, `run.rs` and `compare.rs` write
-//! all files and tables of a run and of a comparison, `periodic.rs` and `branches.rs` those of
-//! periodic orbits, `orbits.rs` the motion of those along branches and `overlay.rs` points of other
-//! results under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
-//! `derivatives.rs`, `table.rs`, `document.rs`, `detail.rs` (what `[statistics]` asks for:
-//! `episodes.rs`, `spectra.rs`), `realisations.rs`, `cheapest.rs` (the conclusion of a chart),
-//! `floors.rs` (why its penalties have floors), `safe_steps.rs` (the conclusion of a stability
-//! study), figures (`colours.rs` has the colour of every wall and support, `part.rs` the walls that
-//! are drawn together), `format.rs` (figures as SVG, PDF or PNG; feature `cli`).
+//! it, `record.rs` whether a table is still as it was written, `journal.rs` keeps what an
+//! interrupted request has done, `atomic.rs` writes a file onto the disk before it gets its name,
+//! `request.rs` records the request, `run.rs` and `compare.rs` write all files and tables of a run
+//! and of a comparison, `periodic.rs` and `branches.rs` those of periodic orbits, `orbits.rs` the
+//! motion of those along branches and `overlay.rs` points of other results under them, `shape.rs`
+//! the shape of a structure over time; `summary/`, `csv.rs`, `derivatives.rs`, `table.rs`,
+//! `document.rs`, `detail.rs` (what `[statistics]` asks for: `episodes.rs`, `spectra.rs`),
+//! `realisations.rs`, `cheapest.rs` (the conclusion of a chart), `floors.rs` (why its penalties
+//! have floors), `safe_steps.rs` (the conclusion of a stability study), figures (`colours.rs` has
+//! the colour of every wall and support, `part.rs` the walls that are drawn together), `format.rs`
+//! (figures as SVG, PDF or PNG; feature `cli`).
 
 pub(crate) mod animation;
 pub mod atomic;
@@ -65,6 +68,7 @@ pub mod episodes;
 pub use signorini_figure as figure;
 pub(crate) mod floors;
 pub mod format;
+pub(crate) mod journal;
 pub(crate) mod json;
 mod labelled;
 pub mod loci;
@@ -97,6 +101,7 @@ pub mod table;
 mod values;
 pub(crate) mod verification;
 pub mod wear_history;
+pub mod wear_journal;
 mod window;
 pub mod work_precision;
 

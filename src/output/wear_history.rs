@@ -9,13 +9,14 @@ use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
 use crate::study::wear_history::{WearHistories, WearState, mean};
+use crate::wear::Growth;
 use serde_json::{Value, json};
 
 /// A year of 365.25 days, s.
 pub const YEAR: f64 = 31_557_600.0;
 
 /// A quantity of a support that changes over the years: its column, its words with the unit of
-/// tables, what one of these is in SI units, and its value.
+/// tables (none where it is in the files alone), what one of these is in SI units, and its value.
 struct Quantity {
     column: &'static str,
     words: &'static str,
@@ -23,17 +24,18 @@ struct Quantity {
     value: fn(&WearState) -> f64,
 }
 
-const QUANTITIES: [Quantity; 4] = [
+const QUANTITIES: [Quantity; 5] = [
     Quantity { column: "gap", words: "gap (mm)", unit: 1e-3, value: |state| state.gap_m },
-    Quantity {
-        column: "depth_all_round",
-        words: "depth all round (mm)",
-        unit: 1e-3,
-        value: |state| state.depth_all_round_m,
-    },
-    Quantity { column: "depth_one_scar", words: "or one scar (mm)", unit: 1e-3, value: |state| state.depth_one_scar_m },
+    Quantity { column: "depth_deepest", words: "deepest (mm)", unit: 1e-3, value: |state| state.depth_deepest_m },
+    Quantity { column: "depth_all_round", words: "all round (mm)", unit: 1e-3, value: |state| state.depth_all_round_m },
+    Quantity { column: "depth_one_scar", words: "", unit: 1e-3, value: |state| state.depth_one_scar_m },
     Quantity { column: "work_rate", words: "work rate (W)", unit: 1.0, value: |state| state.work_rate_w },
 ];
+
+/// The quantities of the table for people: the others are in the files alone.
+fn shown() -> impl Iterator<Item = &'static Quantity> {
+    QUANTITIES.iter().filter(|quantity| !quantity.words.is_empty())
+}
 
 impl Quantity {
     fn unit(&self) -> &'static str {
@@ -49,14 +51,15 @@ impl Quantity {
 pub fn write(results: &mut Results, found: &WearHistories) -> Result<()> {
     let mut header: Vec<String> = ["history", "year", "place"].map(str::to_owned).to_vec();
     header.extend(QUANTITIES.map(|quantity| format!("{}_{}", quantity.column, quantity.unit())));
-    header.push("work_J".to_owned());
+    header.extend(["shift_y_m", "shift_z_m", "work_J"].map(str::to_owned));
     let mut rows = Vec::new();
     for point in &found.points {
         for (history, states) in point.histories.iter().enumerate() {
             for (name, state) in found.supports.iter().zip(states) {
                 let mut row = vec![(history + 1).to_string(), csv::digits(Some(point.time_s / YEAR)), name.clone()];
                 row.extend(QUANTITIES.map(|quantity| csv::digits(Some((quantity.value)(state)).filter(finite))));
-                row.push(csv::digits(Some(state.work_j)));
+                let [y, z] = state.shift_m;
+                row.extend([y, z, state.work_j].map(|x| csv::digits(Some(x))));
                 rows.push(row);
             }
         }
@@ -90,7 +93,7 @@ fn finite(x: &f64) -> bool {
 #[must_use]
 pub fn table(found: &WearHistories) -> Table {
     let mut header = vec!["support", "year"];
-    header.extend(QUANTITIES.map(|quantity| quantity.words));
+    header.extend(shown().map(|quantity| quantity.words));
     let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
     // Four figures of the last year.
     let decimals = (3.0 - end.log10().floor()).clamp(0.0, 12.0) as usize;
@@ -98,7 +101,7 @@ pub fn table(found: &WearHistories) -> Table {
     for (support, name) in found.supports.iter().enumerate() {
         for point in &found.points {
             let mut row = vec![name.clone(), format!("{:.decimals$}", point.time_s / YEAR)];
-            row.extend(QUANTITIES.map(|quantity| {
+            row.extend(shown().map(|quantity| {
                 let (mean, half) = mean(point, support, quantity.value);
                 let of = |x: f64| x / quantity.unit;
                 if mean.is_finite() { with_interval(of(mean), half.map(of)) } else { "through".to_owned() }
@@ -122,9 +125,10 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
             })
         };
         remarks.push(format!(
-            "the tube reaches the limit of {:.3} mm at support {name:?} {} if all of its wear comes off one scar, {} \
-             if it comes off evenly all round",
+            "the tube reaches the limit of {:.3} mm at support {name:?} {} where it is deepest, {} if all of its wear \
+             comes off one scar, {} if it comes off evenly all round",
             1e3 * limit,
+            after(|state| state.depth_deepest_m),
             after(|state| state.depth_one_scar_m),
             after(|state| state.depth_all_round_m)
         ));
@@ -136,14 +140,11 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
              window of a history has random loads of its own"
         ));
     }
-    remarks.push(
-        "gaps grow by the wear of tube and support, evenly all round, and the work rate is that of the gap; the depth \
-         of one scar is the other extreme"
-            .to_owned(),
-    );
+    remarks.extend(growths(case, found));
     let widened = found.supports.iter().enumerate().filter(|(support, _)| {
         let gap = |point| mean(point, *support, |state| state.gap_m).0;
-        found.points.first().zip(found.points.last()).is_some_and(|(first, last)| gap(last) > MUCH * gap(first))
+        let ends = found.points.first().zip(found.points.last()).map(|(first, last)| [gap(first), gap(last)]);
+        ends.is_some_and(|[first, last]| first > 0.0 && last > MUCH * first)
     });
     remarks.extend(widened.map(|(_, name)| {
         format!(
@@ -151,6 +152,27 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
         )
     }));
     remarks
+}
+
+/// What wear does to the gaps, a sentence for each way.
+fn growths(case: &Case, found: &WearHistories) -> impl Iterator<Item = String> {
+    let ways = [
+        (Growth::Even, "the gap grows by the wear of tube and support, evenly all round"),
+        (
+            Growth::Shifted,
+            "the gap grows by the mean wear of tube and support, and its centre moves to the deeper side",
+        ),
+        (Growth::Flats, "each flat recedes by its scar, of tube and flat together"),
+        (Growth::Kept, "the gaps stay as they are: flats wear, and growth = \"flats\" of the support lets them recede"),
+    ];
+    ways.into_iter().filter_map(|(way, words)| {
+        let own = case.written.supports.iter().filter(|support| support.growth == way);
+        let names: Vec<String> = own
+            .filter(|support| found.supports.contains(&support.name))
+            .map(|support| format!("{:?}", support.name))
+            .collect();
+        (!names.is_empty()).then(|| format!("at {} {words}; the work rate is that of the gap", names.join(", ")))
+    })
 }
 
 /// Years to three decimals, without zeros at the end.
@@ -175,10 +197,10 @@ pub fn figure(case: &Case, found: &WearHistories) -> String {
         }
         panel
     };
-    let mut depth = panel("depth of the tube all round (mm)", |state| state.depth_all_round_m);
+    let mut depth = panel("deepest wear of the tube (mm)", |state| state.depth_deepest_m);
     let deepest = found.points.last().map_or(0.0, |point| {
         (0..found.supports.len())
-            .map(|support| mean(point, support, |state| state.depth_all_round_m).0)
+            .map(|support| mean(point, support, |state| state.depth_deepest_m).0)
             .fold(0.0, f64::max)
     });
     if let Some(limit) = case.wear.limit.filter(|limit| *limit < NEAR * deepest) {
@@ -186,7 +208,7 @@ pub fn figure(case: &Case, found: &WearHistories) -> String {
     }
     let title = case.title.as_deref().unwrap_or(&case.name);
     let figure = Figure::new(title, "time in service (years)");
-    figure.panel(panel("radial gap (mm)", |state| state.gap_m)).panel(depth).to_svg()
+    figure.panel(panel("gap (mm)", |state| state.gap_m)).panel(depth).to_svg()
 }
 
 /// A limit further away than this multiple of the depth is not drawn.
@@ -202,6 +224,7 @@ pub fn document(case: &Case, found: &WearHistories) -> Value {
         json!({
             "place": name,
             "limit_m": limit,
+            "limit_deepest_years": years(|state| state.depth_deepest_m),
             "limit_all_round_years": years(|state| state.depth_all_round_m),
             "limit_one_scar_years": years(|state| state.depth_one_scar_m),
         })

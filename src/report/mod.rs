@@ -97,7 +97,7 @@ fn page_of(folder: &Folder<'_>, other: Option<&Folder<'_>>) -> Result<String> {
     for folder in [Some(folder), other].into_iter().flatten() {
         if !manifest::is_finished(folder.manifest) {
             let reason = "its results are not finished: a run was interrupted, or is still at work\n\
-                          help: the same command writes them again, a sweep goes on";
+                          help: the same command writes them again, a sweep and wear go on";
             return Err(Error::io(folder.path.display(), reason, true));
         }
     }

@@ -113,11 +113,16 @@ impl Wall {
         Self { name: name.to_owned(), face, law: WallLaw::Rigid { restitution: 1.0 }, friction: 0.0 }
     }
 
-    /// Sets the radial gap (m) of a round wall; a flat one has none.
+    /// Opens the wall by `by` (m): a flat one recedes, a round one grows in radius, about a centre
+    /// that moves by `shift` (m).
     #[cfg(feature = "cli")]
-    pub(crate) fn set_round_gap(&mut self, new: f64) {
-        if let Face::Round { gap, .. } = &mut self.face {
-            *gap = new;
+    pub(crate) fn open(&mut self, by: f64, shift: [f64; 2]) {
+        match &mut self.face {
+            Face::Flat { side, position, .. } => *position -= side.sign() * by,
+            Face::Round { gap, centre, .. } => {
+                *gap += by;
+                centre.iter_mut().zip(shift).for_each(|(centre, shift)| *centre += shift);
+            }
         }
     }
 

@@ -38,6 +38,9 @@ pub struct WearStatistics {
     pub contact_time_ratio: f64,
     /// The sectors, from +y towards +z.
     pub sectors: Vec<SectorStatistics>,
+    /// Work rate of each of its walls, W, in their order.
+    #[serde(default)]
+    pub wall_work_rates_w: Vec<f64>,
 }
 
 /// A sector of a support.
@@ -70,6 +73,9 @@ struct Tally {
     dissipated: f64,
     /// Work, J, and Σ|p|, N s, by sectors.
     sectors: Vec<[f64; 2]>,
+    /// The index of its first wall, and the work at each, J.
+    first: usize,
+    walls: Vec<f64>,
     /// The steps in which any of its contacts pushed.
     episode: Episode,
 }
@@ -132,6 +138,8 @@ impl Rubbing {
             time: 0.0,
             dissipated: 0.0,
             sectors: vec![[0.0; 2]; sectors],
+            first: support.walls.start,
+            walls: vec![0.0; support.walls.len()],
             episode: Episode::default(),
         };
         let rubs = Rubs::new(scene);
@@ -223,6 +231,8 @@ impl Tally {
             *work += rub.work;
             *pushed += rub.impulse;
         }
+        let wall = rub.contact.checked_sub(self.first).and_then(|wall| self.walls.get_mut(wall));
+        wall.into_iter().for_each(|work| *work += rub.work);
     }
 
     fn statistics(&self, length: f64) -> WearStatistics {
@@ -250,6 +260,7 @@ impl Tally {
             friction_power_w: self.dissipated / length,
             contact_time_ratio: self.time / length,
             sectors: sectors.collect(),
+            wall_work_rates_w: self.walls.iter().map(|work| work / length).collect(),
         }
     }
 }

@@ -1,14 +1,15 @@
 //! The tables of a sweep, in the order of their rows.
 
 use super::attractors::{self, ATTRACTORS, Attractors};
+use super::block::Block;
 use super::fold::Fold;
-use super::journal::{Block, Journal};
 use super::plan::Plan;
 use super::status::Status;
 use super::table::{REALISATIONS, SAMPLES, TABLE, cells_of, line_of, with_number};
 use crate::case::open_regular;
 use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
+use crate::output::journal::Journal;
 use crate::output::results::Results;
 use std::io::Write;
 use std::path::Path;
@@ -176,7 +177,7 @@ pub(super) fn write_tables(plan: &Plan, results: &mut Results, journal: &mut Jou
     let count = plan.runs_of_row();
     for row in 0..rows {
         let runs = (row * count..(row + 1) * count)
-            .map(|place| journal.read(place as usize)?.ok_or_else(|| missing(results.folder())))
+            .map(|place| Block::read(journal, place as usize)?.ok_or_else(|| missing(results.folder())))
             .collect::<Result<Vec<_>>>()?;
         files.add(&runs)?;
     }

@@ -3,8 +3,8 @@
 
 use super::attractors::ATTRACTORS;
 use super::axis::Axis;
+use super::block::JOURNAL;
 use super::finish::Tables;
-use super::journal::JOURNAL;
 use super::layout::Layout;
 use super::picture::Picture;
 use super::plan::Plan;

@@ -1,9 +1,10 @@
 //! The rows of a sweep that earlier processes have computed.
 
-use super::journal::Journal;
+use super::block::Block;
 use super::plan::Plan;
 use super::shard::Shard;
 use crate::error::Result;
+use crate::output::journal::Journal;
 use crate::scene::State;
 use std::collections::BTreeMap;
 
@@ -27,7 +28,7 @@ impl RowsFound {
             let place = |along: u64| ((own / runs * length + along) * runs + own % runs) as usize;
             let done = (0..length).find(|&along| !journal.has(place(along))).unwrap_or(length);
             if plan.sweep.followed().is_some() && done > 0 && done < length {
-                let last = journal.read(place(done - 1))?.and_then(|block| block.end);
+                let last = Block::read(journal, place(done - 1))?.and_then(|block| block.end);
                 found.states.extend(last.map(|state| (own, state)));
             }
             found.done.push(done as u32);

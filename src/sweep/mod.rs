@@ -22,7 +22,7 @@
 //! | `chains` | computes rows on several threads |
 //! | `found` | the rows that earlier processes have computed |
 //! | `estimate` | time and size of a sweep, from its first rows |
-//! | `journal`, `folder` | the files of an unfinished sweep, and the check whether it may be continued |
+//! | `block`, `folder` | the files of an unfinished sweep, and the check whether it may be continued |
 //! | `finish`, `finished`, `record` | the tables |
 //! | `picture`, `curves`, `maps`, `instants`, `tornado` | the pictures |
 //! | `table`, `columns` | reading the tables |
@@ -44,7 +44,7 @@
 //! oscillators side by side, `realisations.rs` numbers the runs of rows with several realisations
 //! of their random loads and `fold.rs` makes a row of them, `basin.rs` finds the attractor of each
 //! row and `attractors.rs` numbers them, `chains.rs` computes rows on threads, `run.rs` runs a
-//! sweep into a folder, `journal.rs`, `found.rs` and `folder.rs` keep unfinished sweeps on disk,
+//! sweep into a folder, `block.rs`, `found.rs` and `folder.rs` keep unfinished sweeps on disk,
 //! `estimate.rs` and `finished.rs` say how long a sweep takes and took, `merge.rs` joins shards,
 //! `picture.rs` draws (feature `cli`).
 #![doc = include_str!("../../docs/sweep.md")]
@@ -53,6 +53,7 @@ mod attractors;
 mod axis;
 mod basin;
 mod batched;
+mod block;
 mod chains;
 mod check;
 mod columns;
@@ -69,7 +70,6 @@ mod forcing;
 mod found;
 mod headers;
 mod instants;
-mod journal;
 mod keys;
 mod layout;
 mod maps;

@@ -1,18 +1,19 @@
 //! Computes the rows on several threads, into memory, or into a folder, where an interrupted sweep
 //! can be continued.
 
+use super::block::{Block, JOURNAL};
 use super::effects::{effects, write_effects};
 use super::finish::write_tables;
 use super::finished::Finished;
 use super::folder::{self, State, Study};
 use super::found::RowsFound;
-use super::journal::{Block, JOURNAL, Journal};
 use super::plan::Plan;
 use super::row::Row;
 use super::shard::Shard;
 use super::table::EFFECTS;
 use crate::error::Result;
 use crate::output::format::Format;
+use crate::output::journal::Journal;
 use crate::output::results::Results;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -118,7 +119,7 @@ impl Plan {
             State::Empty | State::Begun => {}
         }
         let place = |run: u64| manner.shard.place(self, run);
-        let journal = Journal::open(&folder, runs, anew, place)?;
+        let journal = Journal::open(&folder, JOURNAL, runs, anew, place)?;
         results.begin(JOURNAL)?;
         let found = journal.done();
         let mut journal = self.fill(journal, manner.shard, threads, &|done| {
@@ -139,7 +140,7 @@ impl Plan {
         let outcome =
             self.compute(shard, threads, &found, &|row| (self.run_number(&row), self.block(row)), &mut |finished| {
                 if let Some((run, block)) = finished {
-                    journal.add(run, shard.place(self, run).unwrap_or(usize::MAX), &block)?;
+                    journal.add(run, shard.place(self, run).unwrap_or(usize::MAX), &block.bytes())?;
                 }
                 if told.elapsed() > TELL {
                     told = Instant::now();

@@ -9,11 +9,13 @@
 //!
 //! Wear at supports: `rubs.rs` finds what slides in a step, `stretch.rs` integrates over exact
 //! motion, `work.rs` is the work of wear of an impulse, `sectors.rs` the part of the circle in
-//! which a contact lies, `depth.rs` the depth of a scar of given volume.
+//! which a contact lies, `depth.rs` the depth of a scar of given volume, `growth.rs` what that
+//! does to the gaps of a support.
 
 mod archard;
 mod blows;
 mod depth;
+mod growth;
 mod rubs;
 mod sectors;
 mod stretch;
@@ -21,6 +23,7 @@ mod work;
 
 pub use archard::{Archard, Bearing, Scar, Worn};
 pub use depth::{all_round, flat_area, flat_depth, moon_area, moon_depth};
+pub use growth::{Growth, Opening, WearWork};
 pub(crate) use rubs::{Manner, Rub, Rubs};
 pub use sectors::sector_of;
 pub use work::{sliding_distance, work_of_impulse};

@@ -106,6 +106,9 @@ const WRONG: &[Wrong] = &[
     ("a wall with the name of a flat", "name = \"stop\"", "name = \"bars-flat-1\"", "25:8", &["name", "another wall has"]),
     ("an unknown key of a support", "shape = \"flats\"", "shape = \"flats\"\nfriktion = 0.2", "28:1", &["unknown key `friktion`"]),
     // Friction and wear.
+    ("growth of a hole at flats", "restitution = 0.5", "restitution = 0.5\ngrowth = \"shifted\"", "32:10", &["support \"bars\": growth", "\"flats\"", "their gaps stay"]),
+    ("growth by sectors", "restitution = 0.5", "restitution = 0.5\ngrowth = \"sectors\"", "32:10", &["support \"bars\": growth is \"sectors\""]),
+    ("growth by a number", "restitution = 0.5", "restitution = 0.5\ngrowth = 1", "32:10", &["support.growth", "\"shifted\""]),
     ("friction that pushes", "restitution = 0.5", "restitution = 0.5\nfriction = -0.1", "32:12", &["support \"bars\": friction is -0.1", "0 or more"]),
     ("friction of no size", "restitution = 0.5", "restitution = 0.5\nfriction = nan", "32:12", &["support \"bars\": friction is NaN", "0 or more"]),
     ("friction beyond all bodies", "restitution = 0.5", "restitution = 0.5\nfriction = 11.0", "32:12", &["support \"bars\": friction is 11.0", "from 0 to 10"]),
@@ -148,6 +151,7 @@ const WRONG_HOLES: &[WrongHole] = &[
     ("sides of a hole", "shape = \"round\"\ngap = 1e-3\nsides = 4", "restitution = 0.5", "29:9", &["is round and has sides", "\"flats\""]),
     ("directions of a hole", "shape = \"round\"\ngap = 1e-3\ndirections = [0]", "restitution = 0.5", "29:14", &["is round and has directions", "\"flats\""]),
     ("a turn of a hole", "shape = \"round\"\ngap = 1e-3\nturn = 4", "restitution = 0.5", "29:8", &["is round and has turn", "\"flats\""]),
+    ("growth of flats at a hole", "shape = \"round\"\ngap = 1e-3", "growth = \"flats\"", "30:10", &["support \"bars\": growth", "\"even\" or \"shifted\""]),
     ("a hole of no stiffness", "shape = \"round\"\ngap = 1e-3", "stiffness = 0.0", "30:13", &["support \"bars\": stiffness is 0.0"]),
     ("a damped hole", "shape = \"round\"\ngap = 1e-3", "damping = 3.0", "30:11", &["has damping without stiffness"]),
     ("too much restitution", "shape = \"round\"\ngap = 1e-3", "restitution = 1.5", "30:15", &["support \"bars\": restitution is 1.5", "from 0 to 1"]),

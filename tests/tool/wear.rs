@@ -4,7 +4,8 @@ use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
 /// Runs the tool and expects the exit code; gives stdout and stderr.
 fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
@@ -122,7 +123,7 @@ fn histories_are_those_of_their_windows_and_years_their_means() {
         let own: Vec<_> =
             history.iter().filter(|row| row["year"] == year["year"] && row["place"] == year["place"]).collect();
         assert_eq!(own.len(), 4);
-        for column in ["gap_m", "depth_all_round_m", "depth_one_scar_m", "work_rate_W"] {
+        for column in ["gap_m", "depth_deepest_m", "depth_all_round_m", "depth_one_scar_m", "work_rate_W"] {
             let values: Vec<f64> = own.iter().map(|row| number(row, column)).collect();
             let mean = values.iter().sum::<f64>() / 4.0;
             let square = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 3.0;
@@ -138,8 +139,8 @@ fn histories_are_those_of_their_windows_and_years_their_means() {
     for row in &history {
         let depth = number(row, "depth_all_round_m");
         assert!((number(row, "gap_m") - 0.2e-3 - 1.1 * depth).abs() < 1e-15);
-        let scar = number(row, "depth_one_scar_m");
-        assert!(scar > depth || depth == 0.0);
+        let [scar, deepest] = ["depth_one_scar_m", "depth_deepest_m"].map(|column| number(row, column));
+        assert!(depth == 0.0 || (scar > depth && deepest > depth));
         assert!((depth - 1e-13 * number(row, "work_J") / (TAU * 9.525e-3 * 25e-3)).abs() < 1e-15);
     }
     // The same request gives the same bytes.
@@ -198,6 +199,149 @@ fn gaps_of_flats_stay_and_their_wear_is_counted() {
         assert!((number(row, "depth_all_round_m") - depth).abs() < 1e-15);
     }
     assert!(number(first, "work_J") == 0.0 && number(last, "work_J") > 0.0);
+}
+
+/// A mass of 1 kg that is pressed on a flat by 10 N and slides along it, steadily from the start.
+const SLIDER: &str = r#"[system]
+planes = 2
+
+[system.oscillator]
+mass = 1.0
+damping = 2.0
+stiffness = 0.0
+
+[[support]]
+name = "bar"
+shape = "flats"
+directions = [0]
+gap = 5e-5
+restitution = 0.0
+width = 25e-3
+radius = 9.525e-3
+growth = "flats"
+
+[[load]]
+direction = 0
+constant = { force = 10.0 }
+
+[[load]]
+direction = 90
+harmonic = { amplitude = 20.0, frequency = 20.0 }
+
+[initial]
+velocity = [0.0, -0.1591146447]   # -F m W/(m^2 W^2 + c^2)
+
+[wear]
+coefficient = 4e-13
+support_coefficient = 6e-13
+service = 3e4
+
+[time]
+end = 0.6
+step = 1e-4
+statistics_from = 0.1
+"#;
+
+#[test]
+fn a_flat_that_slides_steadily_recedes_as_its_volume_grows_evenly() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("slider.toml"), SLIDER).unwrap();
+    let (_, err) = said(dir.path(), &["wear", "slider.toml", "--out", "w"], 0);
+    assert!(err.contains("each flat recedes by its scar"), "{err}");
+    // 10 N times the mean of |V sin|, 2V/π.
+    let (mass, damping, omega) = (1.0_f64, 2.0_f64, TAU * 20.0);
+    let rate = 10.0 * 4.0 / TAU * 20.0 / (mass * mass * omega * omega + damping * damping).sqrt();
+    // The area of the segment that a chord at depth d cuts off the tube.
+    let segment = |depth: f64| {
+        let radius: f64 = 9.525e-3;
+        let below = radius - depth;
+        radius * radius * (below / radius).acos() - below * (radius * radius - below * below).sqrt()
+    };
+    let history = rows(&dir.path().join("w/history.csv"));
+    assert!(history.len() >= 3);
+    for row in &history {
+        // Steps of 0.1 ms under |v|, whose corners they cut: h²W²/12, 1.3e-5.
+        let found = number(row, "work_rate_W");
+        assert!((found / rate - 1.0).abs() < 1e-4, "{found} for {rate}");
+        let (work, time) = (number(row, "work_J"), 31_557_600.0 * number(row, "year"));
+        assert!((work - rate * time).abs() <= 1e-4 * rate * time, "{work} J after {time} s");
+        let (depth, deepest) = (number(row, "gap_m") - 5e-5, number(row, "depth_deepest_m"));
+        // The cosine of a small angle loses digits of small areas.
+        assert!((segment(depth) * 0.025 - 1e-12 * work).abs() < 1e-14 * 0.025 + 1e-9 * 1e-12 * work, "{depth}");
+        assert!((segment(deepest) * 0.025 - 4e-13 * work).abs() < 1e-14 * 0.025 + 1e-9 * 1e-12 * work);
+        assert_eq!((number(row, "shift_y_m"), number(row, "shift_z_m")), (0.0, 0.0));
+    }
+    let last = history.last().unwrap();
+    // 3e-8 m³ times the ratio of rate and 1 W; with 1 W it is 0.350324 mm.
+    assert!(((number(last, "gap_m") - 5e-5) / 0.350_324e-3 - rate.powf(2.0 / 3.0)).abs() < 1e-3, "{last:?}");
+}
+
+#[test]
+fn a_shifted_hole_is_the_hole_of_its_gap_and_centre() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    // The whirl, pressed to one side, so that it works there more.
+    said(path, &["new", "whirl-in-a-hole", "--out", "whirl.toml"], 0);
+    let text = fs::read_to_string(path.join("whirl.toml")).unwrap();
+    let own = "growth = \"shifted\"\nwidth = 25e-3\nradius = 9.525e-3\n\n\
+               [[load]]\ndirection = 0\nconstant = { force = 2.0 }\n";
+    let text = text.replacen("friction = 0.2\n", &format!("friction = 0.2\n{own}"), 1);
+    fs::write(
+        path.join("whirl.toml"),
+        text + "statistics_from = 0.5\n\n[wear]\nsupport_coefficient = 1e-12\nservice = 1e6\n",
+    )
+    .unwrap();
+    let (_, err) = said(path, &["wear", "whirl.toml", "--out", "w"], 0);
+    assert!(err.contains("its centre moves to the deeper side"), "{err}");
+    let history = rows(&path.join("w/history.csv"));
+    assert!(history.len() >= 2);
+    for row in &history {
+        let grown = 1e-12 * number(row, "work_J") / (TAU * 9.525e-3 * 25e-3);
+        assert!((number(row, "gap_m") - 5e-3 - grown).abs() < 1e-15);
+        let moved = number(row, "shift_y_m").hypot(number(row, "shift_z_m"));
+        assert!(moved <= grown * (1.0 + 1e-12) && (moved > 0.05 * grown || grown == 0.0), "{moved} of {grown}");
+    }
+    let last = history.last().unwrap();
+    let gap = format!("support.hole.gap={}", last["gap_m"]);
+    let centre = format!("support.hole.centre=[{}, {}]", last["shift_y_m"], last["shift_z_m"]);
+    said(path, &["run", "whirl.toml", "--no-verdict", "--set", &gap, "--set", &centre, "--out", "r"], 0);
+    let run = rows(&path.join("r/supports.csv"));
+    assert_eq!(run[0]["work_rate_W"], last["work_rate_W"]);
+}
+
+#[test]
+fn an_interrupted_study_goes_on_with_the_same_bytes() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let args = |out: &'static str| [&["wear"], &WHIRL[..], &["--out", out]].concat();
+    let journal = path.join("killed/windows.journal");
+    let blocks = |text: &[u8]| text.split(|byte| *byte == b'\n').filter(|line| line.starts_with(b"@")).count();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_signorini"))
+        .args(args("killed"))
+        .current_dir(path)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    while child.try_wait().unwrap().is_none() && blocks(&fs::read(&journal).unwrap_or_default()) < 2 {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let found = blocks(&fs::read(&journal).unwrap());
+    assert!(found >= 2 && !path.join("killed/history.csv").exists());
+    // What a kill leaves that comes amidst a window.
+    let mut torn = fs::read(&journal).unwrap();
+    torn.extend(b"@3 900 00000000\n{");
+    fs::write(&journal, torn).unwrap();
+    let (_, err) = said(path, &args("killed"), 0);
+    assert!(err.contains(&format!(", {found} of them there already")), "{err}");
+    let (_, err) = said(path, &args("whole"), 0);
+    assert!(!err.contains("there already"), "{err}");
+    for file in ["history.csv", "years.csv", "wear.svg"] {
+        assert!(fs::read(path.join("killed").join(file)).unwrap() == fs::read(path.join("whole").join(file)).unwrap());
+    }
+    assert!(!journal.exists());
 }
 
 #[test]

@@ -47,6 +47,7 @@ def hole(
     width: float | None = None,
     coefficient: float | None = None,
     support_coefficient: float | None = None,
+    growth: str | None = None,
 ) -> Support:
     """A round hole around a place, as in the plates of a steam generator.
 
@@ -71,6 +72,9 @@ def hole(
         Along the tube, m, for the depth of wear.
     coefficient, support_coefficient : float, optional
         Wear coefficients of tube and support here, 1/Pa, in place of those of `Archard`.
+    growth : str, optional
+        What ``signorini wear`` does to the gap over the years: ``"even"`` unless given, or
+        ``"shifted"``.
 
     Returns
     -------
@@ -91,7 +95,7 @@ def hole(
     values = {
         "at": _at(at), "shape": "round", "gap": gap, "centre": centre, "restitution": restitution,
         "stiffness": stiffness, "damping": damping, "friction": friction, "width": width,
-        "coefficient": coefficient, "support_coefficient": support_coefficient,
+        "coefficient": coefficient, "support_coefficient": support_coefficient, "growth": growth,
     }  # fmt: skip
     return Support(name, values)
 
@@ -112,6 +116,7 @@ def flats(
     width: float | None = None,
     coefficient: float | None = None,
     support_coefficient: float | None = None,
+    growth: str | None = None,
 ) -> Support:
     """Flats around a place, as the bars of a lattice.
 
@@ -129,6 +134,8 @@ def flats(
         Beside ``sides``: where the first flat stands, degrees.
     at, centre, restitution, stiffness, damping, friction, width, coefficient, support_coefficient
         As in `hole`, of each flat.
+    growth : str, optional
+        ``"flats"`` for flats that recede by their scars over the years; they stay unless given.
 
     Returns
     -------
@@ -149,6 +156,7 @@ def flats(
     same = hole(
         name, 0.0, at=at, centre=centre, restitution=restitution, stiffness=stiffness, damping=damping,
         friction=friction, width=width, coefficient=coefficient, support_coefficient=support_coefficient,
+        growth=growth,
     )  # fmt: skip
     own = {"shape": "flats", "gap": gap, "directions": directions, "sides": sides, "turn": turn}
     return Support(name, {**same.values, **own})

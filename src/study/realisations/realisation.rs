@@ -3,7 +3,7 @@
 use super::measure::{self, Figure, Measure};
 use crate::residual::Finding;
 use crate::run::Run;
-use crate::statistics::ContactPlace;
+use crate::statistics::{ContactPlace, WearStatistics};
 
 /// The figures of one realisation.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,6 +13,8 @@ pub struct Realisation {
     pub number: u64,
     /// Every measure of every place.
     pub figures: Vec<Figure>,
+    /// The wear at each support.
+    pub wear: Vec<WearStatistics>,
     /// What the judge refutes in its run.
     pub findings: Vec<Finding>,
 }
@@ -21,7 +23,12 @@ impl Realisation {
     /// The figures of `run`, which is realisation `number`.
     #[must_use]
     pub fn of(number: u64, run: &Run) -> Self {
-        Self { number, figures: measure::figures(&run.statistics), findings: run.findings.clone() }
+        Self {
+            number,
+            figures: measure::figures(&run.statistics),
+            wear: run.statistics.wear.clone(),
+            findings: run.findings.clone(),
+        }
     }
 
     /// The value of `measure` at `place`.

@@ -86,6 +86,7 @@ mod tests {
                 figure("plate", PlaceKind::Support, Measure::WorkRate, rate),
                 figure("stop", PlaceKind::Wall, Measure::MeanForce, force),
             ],
+            wear: Vec::new(),
             findings: Vec::new(),
         };
         values.iter().enumerate().map(member).collect()

@@ -3,6 +3,7 @@
 /** The quantities of years.csv that are drawn, their unit on the page and what it is in theirs. */
 const WEAR_QUANTITIES = [
   ["gap", "m", "mm", 1e3],
+  ["depth_deepest", "m", "mm", 1e3],
   ["depth_all_round", "m", "mm", 1e3],
   ["depth_one_scar", "m", "mm", 1e3],
   ["work_rate", "W", "W", 1],

@@ -1,29 +1,25 @@
-//! `rows.journal`: the rows that are done, in the order in which they were finished, each complete
-//! or not at all.
+//! Journals: what a long computation has done, part by part, in the order in which parts were
+//! finished, each complete or not at all, so that an interrupted computation goes on.
 //!
-//! A block is a line `@ROW LENGTH CRC` and LENGTH bytes: the state at the end of the row, in
-//! hexadecimal, on a line of its own (empty if no row starts from it), the row's line of
-//! `sweep.csv`, its lines of `samples.csv`. The journal ends at the first block that is incomplete
-//! or damaged, for example after a power failure or on a full disk; later rows are computed again.
+//! A block is a line `@PART LENGTH CRC` and LENGTH bytes, which are the caller's. The journal ends
+//! at the first block that is incomplete or damaged, for example after a power failure or on a full
+//! disk; later parts are computed again.
 
+use super::manifest;
 use crate::error::{Error, Result};
-use crate::scene::State;
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Name of the file.
-pub(super) const JOURNAL: &str = "rows.journal";
-
-/// Intervals at which rows are passed to the operating system, and written to the disk.
+/// Intervals at which blocks are passed to the operating system, and written to the disk.
 const FLUSH: Duration = Duration::from_secs(1);
 const SYNC: Duration = Duration::from_secs(10);
 
 /// Maximum length of a block, bytes: an upper limit for damaged lengths.
 const MOST_BYTES: u64 = 1 << 32;
 
-/// The extent of a block's body in the file; length 0 for a row that is not done.
+/// The extent of a block's body in the file; length 0 for a part that is not done.
 #[derive(Debug, Clone, Copy, Default)]
 struct Extent {
     offset: u64,
@@ -32,10 +28,10 @@ struct Extent {
 
 /// An open journal, in a folder that is locked against other processes.
 #[derive(Debug)]
-pub(super) struct Journal {
+pub(crate) struct Journal {
     path: PathBuf,
     file: BufWriter<File>,
-    /// One entry for each row of this journal, in their order.
+    /// One entry for each part of this journal, in their order.
     extents: Vec<Extent>,
     done: u64,
     end: u64,
@@ -43,54 +39,28 @@ pub(super) struct Journal {
     synced: Instant,
 }
 
-/// One row of the journal.
-#[derive(Debug)]
-pub(super) struct Block {
-    /// The state at its end.
-    pub end: Option<State>,
-    /// Its line of `sweep.csv`.
-    pub line: Vec<u8>,
-    /// Its lines of `samples.csv`.
-    pub samples: Vec<u8>,
-}
-
-impl Block {
-    fn bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        if let Some(state) = &self.end {
-            for x in state.q.iter().chain(&state.v) {
-                bytes.extend(format!("{:016x}", x.to_bits()).into_bytes());
-            }
-        }
-        bytes.push(b'\n');
-        bytes.extend_from_slice(&self.line);
-        bytes.extend_from_slice(&self.samples);
-        bytes
-    }
-
-    fn read(bytes: &[u8]) -> Option<Self> {
-        let mut lines = bytes.splitn(3, |&b| b == b'\n');
-        let (state, line, samples) = (lines.next()?, lines.next()?, lines.next()?);
-        let hex = std::str::from_utf8(state).ok()?;
-        let number = |chunk: &[u8]| {
-            let text = std::str::from_utf8(chunk).ok()?;
-            u64::from_str_radix(text, 16).ok().map(f64::from_bits)
-        };
-        let numbers: Vec<f64> = hex.as_bytes().chunks(16).map(number).collect::<Option<_>>()?;
-        let (q, v) = numbers.split_at(numbers.len() / 2);
-        let end = (!numbers.is_empty()).then(|| State { q: q.to_vec(), v: v.to_vec() });
-        Some(Self { end, line: [line, b"\n"].concat(), samples: samples.to_vec() })
-    }
+/// True if `folder` has unfinished results that go on from the journal `name`.
+pub(crate) fn is_begun(folder: &Path, name: &str) -> bool {
+    let unfinished = |manifest: &serde_json::Value| {
+        !manifest::is_finished(manifest) && manifest::files(manifest).any(|file| file == name)
+    };
+    manifest::read(folder).is_some_and(|manifest| unfinished(&manifest))
 }
 
 impl Journal {
-    /// Opens the journal in `folder` for `rows` rows, and reads it, or with `anew` empties it.
-    /// `position` gives the position of a row in this journal from its number.
+    /// Opens the journal `name` in `folder` for `parts` parts, and reads it, or with `anew` empties
+    /// it. `position` gives the position of a part in this journal from its number.
     ///
     /// # Errors
     /// [`Error::Io`] if it cannot be opened.
-    pub fn open(folder: &Path, rows: u64, anew: bool, position: impl Fn(u64) -> Option<usize>) -> Result<Self> {
-        let path = folder.join(JOURNAL);
+    pub fn open(
+        folder: &Path,
+        name: &str,
+        parts: u64,
+        anew: bool,
+        position: impl Fn(u64) -> Option<usize>,
+    ) -> Result<Self> {
+        let path = folder.join(name);
         let failed = |error: &std::io::Error| failure(&path, error, true);
         let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
         let mut file = opened.map_err(|error| failed(&error))?;
@@ -98,20 +68,20 @@ impl Journal {
             return Err(Error::io(path.display(), "not a regular file", true));
         }
         if anew {
-            // On the disk before the folder says whose rows these are.
+            // On the disk before the folder says whose parts these are.
             file.set_len(0).and_then(|()| file.sync_all()).map_err(|error| failed(&error))?;
         }
-        let mut extents = vec![Extent::default(); usize::try_from(rows).unwrap_or(usize::MAX)];
+        let mut extents = vec![Extent::default(); usize::try_from(parts).unwrap_or(usize::MAX)];
         let (mut done, mut end) = (0, 0);
         let mut reader = BufReader::new(&file);
-        while let Some((row, length)) = header(&mut reader) {
+        while let Some((part, length)) = header(&mut reader) {
             let offset = end + length.header;
             let mut body = Vec::new();
             let read = reader.by_ref().take(length.body).read_to_end(&mut body);
-            if read.is_err() || body.len() as u64 != length.body || crc32(&[&row.to_le_bytes(), &body]) != length.crc {
+            if read.is_err() || body.len() as u64 != length.body || crc32(&[&part.to_le_bytes(), &body]) != length.crc {
                 break;
             }
-            let Some(slot) = position(row).and_then(|index| extents.get_mut(index)) else { break };
+            let Some(slot) = position(part).and_then(|index| extents.get_mut(index)) else { break };
             done += u64::from(slot.length == 0);
             *slot = Extent { offset, length: length.body as u32 };
             end = offset + length.body;
@@ -121,24 +91,23 @@ impl Journal {
         Ok(Self { path, file: BufWriter::with_capacity(1 << 16, file), extents, done, end, flushed: now, synced: now })
     }
 
-    /// Number of rows done.
+    /// Number of parts done.
     pub fn done(&self) -> u64 {
         self.done
     }
 
-    /// True if the row at that position is done.
+    /// True if the part at that position is done.
     pub fn has(&self, position: usize) -> bool {
         self.extents.get(position).is_some_and(|extent| extent.length > 0)
     }
 
-    /// Adds a row.
+    /// Adds the part number `part` at that position; its `body` has one byte or more.
     ///
     /// # Errors
-    /// [`Error::Io`] if writing fails; it says that no finished row is lost, and how to continue.
-    pub fn add(&mut self, row: u64, position: usize, block: &Block) -> Result<()> {
-        let body = block.bytes();
-        let header = format!("@{row} {} {:08x}\n", body.len(), crc32(&[&row.to_le_bytes(), &body]));
-        let written = self.file.write_all(header.as_bytes()).and_then(|()| self.file.write_all(&body));
+    /// [`Error::Io`] if writing fails; it says that no finished part is lost, and how to continue.
+    pub fn add(&mut self, part: u64, position: usize, body: &[u8]) -> Result<()> {
+        let header = format!("@{part} {} {:08x}\n", body.len(), crc32(&[&part.to_le_bytes(), body]));
+        let written = self.file.write_all(header.as_bytes()).and_then(|()| self.file.write_all(body));
         written.and_then(|()| self.flush_now_and_then()).map_err(|error| interrupted(&self.path, &error))?;
         let offset = self.end + header.len() as u64;
         if let Some(slot) = self.extents.get_mut(position) {
@@ -170,11 +139,11 @@ impl Journal {
         flushed.map_err(|error| interrupted(&self.path, &error))
     }
 
-    /// The row at that position; `None` if it is not done.
+    /// The bytes of the part at that position; `None` if it is not done.
     ///
     /// # Errors
     /// [`Error::Io`] where it cannot be read.
-    pub fn read(&mut self, position: usize) -> Result<Option<Block>> {
+    pub fn read(&mut self, position: usize) -> Result<Option<Vec<u8>>> {
         let Some(&at) = self.extents.get(position).filter(|at| at.length > 0) else { return Ok(None) };
         let mut bytes = vec![0; at.length as usize];
         // The buffer is written at the end of the file, and so is what follows.
@@ -184,7 +153,7 @@ impl Journal {
             flushed.and_then(|()| file.seek(SeekFrom::Start(at.offset))).and_then(|_| file.read_exact(&mut bytes));
         let back = file.seek(SeekFrom::Start(self.end));
         read.and(back).map_err(|error| failure(&self.path, &error, false))?;
-        Ok(Block::read(&bytes))
+        Ok(Some(bytes))
     }
 }
 
@@ -201,10 +170,10 @@ fn header(reader: &mut impl BufRead) -> Option<(u64, Length)> {
     reader.by_ref().take(64).read_until(b'\n', &mut line).ok()?;
     let text = std::str::from_utf8(&line).ok()?.strip_prefix('@')?.strip_suffix('\n')?;
     let mut words = text.split(' ');
-    let row = words.next()?.parse().ok()?;
+    let part = words.next()?.parse().ok()?;
     let body = words.next()?.parse().ok().filter(|&body| body < MOST_BYTES)?;
     let crc = u32::from_str_radix(words.next()?, 16).ok()?;
-    words.next().is_none().then_some((row, Length { header: line.len() as u64, body, crc }))
+    words.next().is_none().then_some((part, Length { header: line.len() as u64, body, crc }))
 }
 
 /// CRC-32 of IEEE 802.3, as in zip files, of the concatenated `parts`.
@@ -231,7 +200,7 @@ const TABLE: [u32; 256] = {
 
 fn interrupted(path: &Path, error: &std::io::Error) -> Error {
     let reason = format!(
-        "{error}\nhelp: the rows done so far are kept in it; make room and give the same command \
+        "{error}\nhelp: what is done so far is kept in it; make room and give the same command \
          again, and it goes on from there"
     );
     Error::io(path.display(), reason, false)
@@ -245,13 +214,14 @@ fn failure(path: &Path, error: &std::io::Error, request: bool) -> Error {
 mod tests {
     use super::*;
 
-    fn block(x: f64) -> Block {
-        let end = Some(State { q: vec![x], v: vec![-x] });
-        Block { end, line: format!("{x}\n").into_bytes(), samples: b"a\nb\n".to_vec() }
+    const NAME: &str = "parts.journal";
+
+    fn block(x: f64) -> Vec<u8> {
+        format!("{x}\na\nb\n").into_bytes()
     }
 
     fn open(folder: &Path) -> Journal {
-        Journal::open(folder, 10, false, |row| usize::try_from(row).ok()).unwrap()
+        Journal::open(folder, NAME, 10, false, |part| usize::try_from(part).ok()).unwrap()
     }
 
     #[test]
@@ -260,21 +230,20 @@ mod tests {
     }
 
     #[test]
-    fn rows_are_read_again_and_a_torn_one_ends_the_journal_wherever_it_is_torn() {
+    fn parts_are_read_again_and_a_torn_one_ends_the_journal_wherever_it_is_torn() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join(JOURNAL);
+        let path = folder.path().join(NAME);
         let mut journal = open(folder.path());
-        for row in [3, 1, 2] {
-            journal.add(row, row as usize, &block(row as f64 / 3.0)).unwrap();
+        for part in [3, 1, 2] {
+            journal.add(part, part as usize, &block(part as f64 / 3.0)).unwrap();
         }
         journal.flush().unwrap();
         drop(journal);
         let whole = std::fs::read(&path).unwrap();
         let mut journal = open(folder.path());
         assert_eq!(journal.done(), 3);
-        let read = journal.read(1).unwrap().unwrap();
-        assert_eq!(read.end.unwrap().q, [1.0 / 3.0]);
-        assert_eq!((read.line, read.samples), (block(1.0 / 3.0).line, b"a\nb\n".to_vec()));
+        assert_eq!(journal.read(1).unwrap(), Some(block(1.0 / 3.0)));
+        assert_eq!(journal.read(4).unwrap(), None);
         // What is added after a look back stands at the end.
         journal.add(7, 7, &block(7.0)).unwrap();
         journal.flush().unwrap();

@@ -1,0 +1,64 @@
+//! `windows.journal`: the windows of histories of wear that were run, so that an interrupted study
+//! goes on.
+
+use super::journal::{Journal, is_begun};
+use super::results::Results;
+use crate::error::Result;
+use crate::study::wear_history::{WearJournal, WearWindow};
+
+/// Name of the file.
+const JOURNAL: &str = "windows.journal";
+
+/// Most windows of a history: at the shortest step and with every step halved. Those beyond it are
+/// run again after an interruption.
+const MOST_WINDOWS: u64 = 4096;
+
+/// The journal of the windows of histories of wear.
+#[derive(Debug)]
+pub struct WindowJournal {
+    journal: Journal,
+    /// Number of windows that an earlier process had run.
+    found: u64,
+}
+
+impl WindowJournal {
+    /// Opens the journal in the folder of `results`, for `histories` histories: as it is, where the
+    /// folder holds what is left of this request and it does not begin `anew`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Io`] where it cannot be read or written.
+    pub fn open(results: &mut Results, histories: usize, anew: bool) -> Result<Self> {
+        let folder = results.folder().to_owned();
+        let windows = MOST_WINDOWS.saturating_mul(histories as u64);
+        let anew = anew || !is_begun(&folder, JOURNAL);
+        let journal = Journal::open(&folder, JOURNAL, windows, anew, |number| place(number, windows))?;
+        results.begin(JOURNAL)?;
+        Ok(Self { found: journal.done(), journal })
+    }
+
+    /// Number of windows that an earlier process had run.
+    #[must_use]
+    pub fn found(&self) -> u64 {
+        self.found
+    }
+}
+
+/// Where window `number`, from 1, stands among so many.
+fn place(number: u64, windows: u64) -> Option<usize> {
+    usize::try_from(number.checked_sub(1)?).ok().filter(|place| (*place as u64) < windows)
+}
+
+impl WearJournal for WindowJournal {
+    fn recall(&mut self, number: u64) -> Result<Option<WearWindow>> {
+        let Some(place) = place(number, u64::MAX) else { return Ok(None) };
+        let kept = self.journal.read(place)?.and_then(|bytes| serde_json::from_slice::<WearWindow>(&bytes).ok());
+        Ok(kept.filter(|window| window.number == number))
+    }
+
+    fn keep(&mut self, window: &WearWindow) -> Result<()> {
+        let mut body = serde_json::to_vec(window).unwrap_or_default();
+        body.push(b'\n');
+        self.journal.add(window.number, place(window.number, u64::MAX).unwrap_or(usize::MAX), &body)?;
+        self.journal.flush()
+    }
+}

@@ -1,0 +1,198 @@
+//! Wear that feeds back: supports whose gaps grow by the wear that they cause.
+//!
+//! The gaps of a support follow from the work of wear E that was done there, by its
+//! [`Growth`](crate::wear::Growth); of a tube in a round support that wears evenly all round, and
+//! the support with it, the radial gap γ grows by Archard's law,
+//!
+//! dγ/dt = (k_t + k_s) W(γ)/(2πRw),   E = ∫ W dt,
+//!
+//! with the coefficients k_t of the tube and k_s of the support, the radius R of the tube and the
+//! width w of the support. The work rate W comes from a run with the gap of that time, a *window*:
+//! vibration takes seconds, wear takes years, and W is taken as constant in between. W depends on
+//! the gaps of all supports, so that the equations of all of them are solved together, for the work
+//! of each support by sectors and walls, by Heun's method (order 2): windows at the gaps of the
+//! start and at those of a step of Euler's method, of which the mean counts. A step makes no gap
+//! more than half as large again, and is halved where Heun's gap differs from Euler's by more than
+//! 0.5 %, or the place of a centre by more than 0.5 % of the gap, unless that is within the scatter
+//! of the windows.
+//!
+//! Under random loads several histories are followed side by side, each window with seeds of its
+//! own, so that the scatter of depths between histories is that of what was not averaged out.
+
+mod state;
+mod support;
+mod window;
+
+pub use state::{WearHistories, WearPoint, WearState, mean};
+pub use support::WearingSupport;
+pub use window::{NoJournal, WearJournal, WearWindow};
+
+use super::realisations::{mean_of, realisations};
+use crate::error::{Error, Result};
+use crate::run::Options;
+use crate::scene::Scene;
+use crate::scheme::Method;
+use crate::wear::{Opening, WearWork};
+
+/// Largest growth of a gap in a step, as a share of the gap.
+const MOST_GROWTH: f64 = 0.5;
+
+/// Largest difference of Heun's and Euler's gap, as a share of the gap.
+const TOLERANCE: f64 = 0.005;
+
+/// The shortest step, as a share of the time in service.
+const SHORTEST: f64 = 1.0 / 1024.0;
+
+/// What histories of wear are followed, and how.
+pub struct WearPlan<'a> {
+    /// The supports that wear.
+    pub supports: &'a [WearingSupport],
+    /// The scene of a window, from its number, from 1, which decides the seeds, and from what wear
+    /// has made of the supports.
+    pub scene: &'a (dyn Fn(u64, &[Opening]) -> Result<Scene> + Sync),
+    /// The scheme.
+    pub method: &'a Method,
+    /// Step and window of the statistics.
+    pub options: &'a Options,
+    /// Number of histories, 1 or more.
+    pub histories: usize,
+    /// Time in service, s.
+    pub service: f64,
+}
+
+/// The work at each support in each history, J; as rates, W.
+type Works = Vec<Vec<WearWork>>;
+
+impl WearPlan<'_> {
+    /// Follows the histories. Windows that `journal` has kept are not run again. `progress` is
+    /// called with the share of the service that is done.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a service that is not above 0, for no history, and for a support
+    /// without coefficient or scar; errors of the windows and of the journal; [`Error::Stopped`].
+    pub fn follow(&self, journal: &mut dyn WearJournal, progress: &mut dyn FnMut(f64)) -> Result<WearHistories> {
+        self.check()?;
+        let mut found = WearHistories {
+            supports: self.supports.iter().map(|support| support.name.clone()).collect(),
+            points: Vec::new(),
+            windows: 0,
+            refuted: Vec::new(),
+        };
+        let none = |support: &WearingSupport| WearWork::none(self.options.time.sectors, support.gaps.len());
+        let mut work: Works = vec![self.supports.iter().map(none).collect(); self.histories];
+        let (mut time, mut step) = (0.0, self.service);
+        loop {
+            let rates = self.rates(&work, &mut found, journal)?;
+            found.points.push(self.point(time, &work, &rates));
+            if time >= self.service {
+                return Ok(found);
+            }
+            step = self.longest_step(&work, &rates).min(step).min(self.service - time);
+            loop {
+                let ahead = advanced(&work, &rates, &rates, step);
+                let then = self.rates(&ahead, &mut found, journal)?;
+                let corrected = advanced(&work, &rates, &then, step);
+                if step <= SHORTEST * self.service || self.agree(&ahead, &corrected) {
+                    work = corrected;
+                    break;
+                }
+                step *= 0.5;
+            }
+            time = if self.service - time <= step { self.service } else { time + step };
+            step *= 2.0;
+            progress(time / self.service);
+        }
+    }
+
+    fn check(&self) -> Result<()> {
+        if !(self.service.is_finite() && self.service > 0.0) {
+            return Err(Error::invalid("service", format_args!("{:?}", self.service), "a number above 0, in s"));
+        }
+        if self.histories == 0 {
+            return Err(Error::invalid("histories", 0, "1 or more"));
+        }
+        match self.supports.iter().find(|support| !support.wears()) {
+            None => Ok(()),
+            Some(support) => {
+                let name = format!("{:?}", support.name);
+                Err(Error::invalid("support", name, "a support with a gap, a wear coefficient and a width"))
+            }
+        }
+    }
+
+    /// The rates in a window of each history after the work `work` (J), which is run where
+    /// `journal` has not kept all of them.
+    fn rates(&self, work: &Works, found: &mut WearHistories, journal: &mut dyn WearJournal) -> Result<Works> {
+        let first = found.windows + 1;
+        let numbers = first..=found.windows + self.histories as u64;
+        let kept: Option<Vec<WearWindow>> =
+            numbers.clone().map(|number| journal.recall(number)).collect::<Result<_>>()?;
+        let windows = match kept {
+            Some(windows) => windows,
+            None => {
+                let scene = |number: u64| {
+                    let history = work.get((number - first) as usize).map_or(&[][..], Vec::as_slice);
+                    let openings = self.supports.iter().zip(history).map(|(support, work)| support.opening(work));
+                    (self.scene)(number, &openings.collect::<Vec<_>>())
+                };
+                let members = realisations(numbers, &scene, self.method, self.options, &mut |_| {})?;
+                let windows: Vec<_> = members.iter().map(|member| WearWindow::of(member, self.supports)).collect();
+                windows.iter().try_for_each(|window| journal.keep(window))?;
+                windows
+            }
+        };
+        found.windows += self.histories as u64;
+        let refuted = windows.iter().filter(|window| !window.findings.is_empty());
+        found.refuted.extend(refuted.map(|window| (window.number, window.findings.clone())));
+        Ok(windows.into_iter().map(|window| window.rates).collect())
+    }
+
+    fn point(&self, time: f64, work: &Works, rates: &Works) -> WearPoint {
+        let states = |(work, rates): (&Vec<WearWork>, &Vec<WearWork>)| {
+            let all = self.supports.iter().zip(work.iter().zip(rates));
+            all.map(|(support, (work, rate))| support.state(work, rate.total)).collect()
+        };
+        WearPoint { time_s: time, histories: work.iter().zip(rates).map(states).collect() }
+    }
+
+    /// The longest step in which no gap grows by more than [`MOST_GROWTH`] of itself, s.
+    fn longest_step(&self, work: &Works, rates: &Works) -> f64 {
+        let all = work.iter().zip(rates).flat_map(|(work, rates)| self.supports.iter().zip(work.iter().zip(rates)));
+        let longest = |(support, (work, rate)): (&WearingSupport, (&WearWork, &WearWork))| {
+            support.growth.time_to_open(&support.law, &support.gaps, work, rate, MOST_GROWTH)
+        };
+        all.map(longest).fold(f64::INFINITY, f64::min).max(SHORTEST * self.service)
+    }
+
+    /// True if gaps and centres after the work of Euler's and of Heun's step agree, or differ by no
+    /// more than they scatter.
+    fn agree(&self, euler: &Works, heun: &Works) -> bool {
+        self.supports.iter().enumerate().all(|(index, support)| {
+            // Of each history the gaps, then the place of the centre.
+            let shapes = |works: &Works| -> Vec<Vec<f64>> {
+                let shape = |work: &WearWork| [support.gaps_after(work), support.opening(work).shift.to_vec()].concat();
+                works.iter().filter_map(|history| history.get(index)).map(shape).collect()
+            };
+            let (euler, heun) = (shapes(euler), shapes(heun));
+            let walls = support.gaps.len();
+            (0..walls + 2).all(|part| {
+                let of = |shape: &Vec<f64>, part: usize| shape.get(part).copied().unwrap_or(0.0);
+                let gap = if part < walls { part } else { 0 };
+                let gaps: Vec<f64> = heun.iter().map(|shape| of(shape, gap)).collect();
+                let differences: Vec<f64> =
+                    euler.iter().zip(&heun).map(|(euler, heun)| of(heun, part) - of(euler, part)).collect();
+                let (difference, _, half_width) = mean_of(&differences);
+                difference.abs() <= half_width.unwrap_or(0.0).max(TOLERANCE * mean_of(&gaps).0)
+            })
+        })
+    }
+}
+
+/// The work after a step of `step` seconds with the mean of the two rates.
+fn advanced(work: &Works, first: &Works, second: &Works, step: f64) -> Works {
+    let history = |((work, first), second): ((&Vec<WearWork>, &Vec<WearWork>), &Vec<WearWork>)| {
+        let all = work.iter().zip(first.iter().zip(second));
+        all.map(|(work, (first, second))| work.advanced(first, second, step)).collect()
+    };
+    work.iter().zip(first).zip(second).map(history).collect()
+}

@@ -1,0 +1,73 @@
+//! What histories of wear found.
+
+use super::super::realisations::mean_of;
+use crate::residual::Finding;
+use serde::Serialize;
+
+/// A support at one time of a history.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct WearState {
+    /// The gap, m: of flats the least.
+    pub gap_m: f64,
+    /// Where the centre has moved since the start, along y and z, m.
+    pub shift_m: [f64; 2],
+    /// The work of wear since the start, J.
+    pub work_j: f64,
+    /// The work rate at this gap, W.
+    pub work_rate_w: f64,
+    /// The depth worn off the tube where it is deepest, m: in a sector of a round support, or at
+    /// one of the flats; NaN where that would cut the tube in two.
+    pub depth_deepest_m: f64,
+    /// The depth worn off the tube, evenly all round, m.
+    pub depth_all_round_m: f64,
+    /// The depth if all that is worn off the tube comes off one scar in the first gap, m; NaN where
+    /// that would cut the tube in two.
+    pub depth_one_scar_m: f64,
+}
+
+/// All histories at one time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct WearPoint {
+    /// Time in service, s.
+    pub time_s: f64,
+    /// Each history, with a state for each support.
+    pub histories: Vec<Vec<WearState>>,
+}
+
+/// Histories of wear.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct WearHistories {
+    /// The names of the supports.
+    pub supports: Vec<String>,
+    /// From the start to the end.
+    pub points: Vec<WearPoint>,
+    /// Number of windows that were run, or had been run before.
+    pub windows: u64,
+    /// The windows that the judge refuted: number and findings.
+    pub refuted: Vec<(u64, Vec<Finding>)>,
+}
+
+/// The mean of a quantity over the histories, and the half width of its 95 % interval.
+#[must_use]
+pub fn mean(point: &WearPoint, support: usize, quantity: impl Fn(&WearState) -> f64) -> (f64, Option<f64>) {
+    let values: Vec<f64> = point.histories.iter().filter_map(|states| states.get(support)).map(quantity).collect();
+    let (mean, _, half_width) = mean_of(&values);
+    (mean, half_width)
+}
+
+impl WearHistories {
+    /// The time in service at which the mean over the histories of a quantity of a support, which
+    /// grows, reaches `limit`, s: straight between the points; `None` where it does not.
+    #[must_use]
+    pub fn reaches(&self, support: usize, limit: f64, quantity: impl Fn(&WearState) -> f64 + Copy) -> Option<f64> {
+        let along: Vec<(f64, f64)> =
+            self.points.iter().map(|point| (point.time_s, mean(point, support, quantity).0)).collect();
+        along.windows(2).find(|pair| pair[1].1 >= limit).map(|pair| {
+            let [(t0, d0), (t1, d1)] = [pair[0], pair[1]];
+            t0 + (t1 - t0) * ((limit - d0) / (d1 - d0)).clamp(0.0, 1.0)
+        })
+    }
+}

@@ -1,0 +1,51 @@
+//! A support that wears.
+
+use super::state::WearState;
+use crate::wear::{Archard, Growth, Opening, WearWork};
+
+/// A support that wears.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WearingSupport {
+    /// Its name.
+    pub name: String,
+    /// The gap of each of its walls at the start, m: of a round support the radial one.
+    pub gaps: Vec<f64>,
+    /// What wear does to these gaps.
+    pub growth: Growth,
+    /// The law of wear, with the coefficients of tube and support and a scar.
+    pub law: Archard,
+}
+
+impl WearingSupport {
+    /// True if the support has a gap at each wall, a wear coefficient and a scar.
+    pub(super) fn wears(&self) -> bool {
+        let coefficient = self.law.coefficient.or(self.law.support_coefficient);
+        let sound = |gap: &f64| gap.is_finite() && *gap >= 0.0;
+        coefficient.is_some() && self.law.scar.is_some() && !self.gaps.is_empty() && self.gaps.iter().all(sound)
+    }
+
+    /// What the work `work` (J) has made of it.
+    pub(super) fn opening(&self, work: &WearWork) -> Opening {
+        self.growth.opening(&self.law, work)
+    }
+
+    /// The gap of each wall after the work `work` (J), m.
+    pub(super) fn gaps_after(&self, work: &WearWork) -> Vec<f64> {
+        self.gaps.iter().zip(self.opening(work).recession).map(|(gap, receded)| gap + receded).collect()
+    }
+
+    /// The state after the work `work` (J) at the work rate `rate` (W).
+    pub(super) fn state(&self, work: &WearWork, rate: f64) -> WearState {
+        let worn = Archard { service: 1.0, ..self.law }.worn(work.total);
+        let one_scar = worn.depth_one_scar_m.unwrap_or(f64::NAN);
+        WearState {
+            gap_m: self.gaps_after(work).into_iter().fold(f64::INFINITY, f64::min),
+            shift_m: self.opening(work).shift,
+            work_j: work.total,
+            work_rate_w: rate,
+            depth_deepest_m: self.law.deepest(self.growth, work),
+            depth_all_round_m: worn.depth_all_round_m.unwrap_or(0.0),
+            depth_one_scar_m: if work.total > 0.0 && worn.volume_m3.is_some() { one_scar } else { 0.0 },
+        }
+    }
+}

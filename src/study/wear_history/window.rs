@@ -1,0 +1,66 @@
+//! Windows: runs with the gaps of a time of a history.
+
+use super::support::WearingSupport;
+use crate::error::Result;
+use crate::residual::Finding;
+use crate::study::realisations::Realisation;
+use crate::wear::WearWork;
+use serde::{Deserialize, Serialize};
+
+/// What a window tells.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct WearWindow {
+    /// Its number, from 1.
+    pub number: u64,
+    /// The work rates of each support that wears, W.
+    pub rates: Vec<WearWork>,
+    /// What the judge refutes in its run.
+    pub findings: Vec<Finding>,
+}
+
+impl WearWindow {
+    /// What `member` tells of `supports`.
+    pub(super) fn of(member: &Realisation, supports: &[WearingSupport]) -> Self {
+        let rate = |support: &WearingSupport| {
+            let found = member.wear.iter().find(|wear| wear.support == support.name);
+            found.map_or_else(WearWork::default, |wear| WearWork {
+                total: wear.work_rate_w,
+                sectors: wear.sectors.iter().map(|sector| sector.work_rate_w).collect(),
+                walls: wear.wall_work_rates_w.clone(),
+            })
+        };
+        let rates = supports.iter().map(rate).collect();
+        Self { number: member.number, rates, findings: member.findings.clone() }
+    }
+}
+
+/// Keeps windows that were run, so that histories that were interrupted go on with the same
+/// results.
+pub trait WearJournal {
+    /// Window number `number`, if it was kept.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    fn recall(&mut self, number: u64) -> Result<Option<WearWindow>>;
+
+    /// Keeps a window.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    fn keep(&mut self, window: &WearWindow) -> Result<()>;
+}
+
+/// Keeps nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoJournal;
+
+impl WearJournal for NoJournal {
+    fn recall(&mut self, _: u64) -> Result<Option<WearWindow>> {
+        Ok(None)
+    }
+
+    fn keep(&mut self, _: &WearWindow) -> Result<()> {
+        Ok(())
+    }
+}
