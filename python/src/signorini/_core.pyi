@@ -7,6 +7,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from ._derivative import Derivative
+from ._flow import FluidElastic
 from ._supports import SupportStatistics, Wear
 from ._types import Array, Place, Support
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ from . import _core
 from ._core import Case, Scene
 from ._types import Array
 
-Source = Scene | Case | Callable[..., Scene]
+Source: TypeAlias = Scene | Case | Callable[..., Scene]
 """A scene, a case, or a function that returns a scene of named numbers."""
 
 Keys = Sequence[str] | Mapping[str, float]

@@ -207,10 +207,16 @@ def fit(
     low = [(bounds or {}).get(name, (-np.inf, np.inf))[0] for name in names]
     high = [(bounds or {}).get(name, (-np.inf, np.inf))[1] for name in names]
     scale = np.where(x0 == 0.0, 1.0, np.abs(x0))
+
+    def residuals_at(x: Array) -> Array:
+        return model.at(x)[0]
+
+    def jacobian_at(x: Array) -> Array:
+        return model.at(x)[1]
+
     made = least_squares(
-        lambda x: model.at(x)[0], x0, jac=lambda x: model.at(x)[1], bounds=(low, high), x_scale=scale,
-        xtol=1e-12, ftol=1e-12, gtol=1e-12,
-    )  # fmt: skip
+        residuals_at, x0, jac=jacobian_at, bounds=(low, high), x_scale=scale, xtol=1e-12, ftol=1e-12, gtol=1e-12
+    )
     if not made.success:
         raise RunError(f"the search did not converge: {made.message}")
     residuals, jacobian = model.at(made.x)
