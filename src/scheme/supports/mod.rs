@@ -4,15 +4,16 @@
 //!
 //! A δ = h[f_θ − C v − K(q + hθv)] + J − C d + Σ Pᵀ(−p n + f t),    t = (−n_z, n_y),
 //!
-//! over the walls and holes that the step reaches; P are the two rows of a place. [`reach`] has
-//! their bounds on n·ẇ⁺. Friction follows Coulomb's law on the impulses and the velocity at the end
-//! of the step ([`crate::step::Friction`]): with velocities at θ in its place, a body that sticks
-//! would bounce along the surface.
+//! over the walls and holes that the step reaches; P are the two rows of a place. [`walls_in_play`]
+//! has their bounds on n·ẇ⁺. Friction follows Coulomb's law on the impulses and the velocity at the
+//! end of the step ([`crate::step::Friction`]): with velocities at θ in its place, a body that
+//! sticks would bounce along the surface.
 //!
 //! In the cross-section a contact has one tangent, so its law is piecewise linear and has an exact
-//! answer ([`touch`]); sweeps over the contacts and one linear system answer all of them, or a
-//! pivoting method ([`sweeps`]), on the 2 × 2 blocks of P A⁻¹ Pᵀ, which are constant. Where no
-//! answer has the rebounds that the contacts demand, they give these up for the step.
+//! answer ([`friction_contact`]); sweeps over the contacts and one linear system answer all of
+//! them, or a pivoting method ([`friction_contacts`]), on the 2 × 2 blocks of P A⁻¹ Pᵀ, which are
+//! constant. Where no answer has the rebounds that the contacts demand, they give these up for the
+//! step.
 //!
 //! Order 1 through impacts, 2 while sliding with θ = ½. Without friction a step never adds energy.
 //! With friction it might where W couples normal and tangent and e > 0 (Kane & Levinson 1985,

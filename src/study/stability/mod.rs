@@ -9,7 +9,7 @@
 //! | [`recorded_run`] | measurements of one run |
 //! | `ledger` | the energy that a scheme itself produces |
 //! | [`lasting`] | the effect of schemes on energy and on the force of a lasting contact |
-//! | [`ruler`] | the reference: fine runs from neighbouring starts |
+//! | [`fine_reference`] | the reference: fine runs from neighbouring starts |
 //! | [`class`] | classification of the measurements |
 //! | [`row`] | one scheme on one scene over all steps |
 //! | [`plan`] | the maps of a case, computed in parallel |
