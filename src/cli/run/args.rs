@@ -23,7 +23,7 @@ Examples:
   signorini run tube-loose-supports --modes 40
   signorini run rigid-walls-sine --from 4 --to 6   pictures of these two seconds
   signorini run tube-lattice-bars --seeds 6        means over six realisations of the random loads
-  signorini run elastic-wall --derivative wall.stop.stiffness,load.1.harmonic.amplitude
+  signorini run elastic-wall --derivative wall.upper.stiffness,load.1.harmonic.amplitude
   signorini run tube-in-cross-flow --until-interval 5%   as many as that takes
 
 Schemes: implicit-euler, paoli-schatzman, moreau-jean, located, generalized-alpha, newmark (for
