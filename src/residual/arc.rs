@@ -62,8 +62,9 @@ impl Judge {
         }
         self.noise.state(&[running_max(-low, high)], &[fastest], 0.0, &self.weights);
         // In flight, most instants are in front of all walls.
-        let clear = |sight: &RowWalls| sight.is_clear((sight.of(&[low]), sight.of(&[high])), 0.0);
-        if arc.is_rest() || arc.touches() || !self.sights.iter().all(clear) {
+        let clear =
+            |walls_of_row: &RowWalls| walls_of_row.is_clear((walls_of_row.of(&[low]), walls_of_row.of(&[high])), 0.0);
+        if arc.is_rest() || arc.touches() || !self.row_walls.iter().all(clear) {
             (0..at.count).for_each(|k| self.sample_walls(arc, k, at, along));
         }
     }

@@ -11,11 +11,11 @@ impl Judge {
     /// Checks a step on a grid whose displacement and velocity its walls corrected.
     pub(super) fn observe_corrected(&mut self, step: &Step<'_>) {
         let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = self.contract.balance else { return };
-        let Some(mut memory) = self.memory.take() else { return };
+        let Some(mut previous) = self.previous.take() else { return };
         let h = self.h;
         self.walls_on_grid(step, false);
         let closed = self.closes(step);
-        let PreviousStep { s, force, s_end, force_end, .. } = &mut *memory;
+        let PreviousStep { s, force, s_end, force_end, .. } = &mut *previous;
         let scratch = &mut self.scratch;
         force_end.copy_from_slice(&self.load_end);
         smooth(&self.scene, step.q, step.v, step.force, force_end);
@@ -73,7 +73,7 @@ impl Judge {
         self.noise.state(step.q, step.v, h, &self.weights);
         std::mem::swap(s, s_end);
         std::mem::swap(force, force_end);
-        self.memory = Some(memory);
+        self.previous = Some(previous);
         let moves = StepMotion::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
         let (hs, n) = ((h, 1.0 / h), self.q.len());
         self.energy.observe_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);

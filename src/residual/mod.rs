@@ -98,7 +98,7 @@ pub struct Judge {
     matrices: Matrices,
     /// The walls by their rows, and the indices of the rows with rigid walls that reach several
     /// degrees of freedom.
-    sights: Vec<RowWalls>,
+    row_walls: Vec<RowWalls>,
     wide: Vec<usize>,
     weights: Weights,
     mass: Option<Factor>,
@@ -111,7 +111,7 @@ pub struct Judge {
     /// Impulses over a part of a step, one entry a wall, N s.
     over: Vec<f64>,
     /// Work space for several steps at once; `None` where each is to be seen alone.
-    room: Option<Box<QuietScratch>>,
+    quiet_scratch: Option<Box<QuietScratch>>,
     walls: WallCheck,
     balance: BalanceCheck,
     extent: Extent,
@@ -119,7 +119,7 @@ pub struct Judge {
     normal_speed: f64,
     scales: Scales,
     /// Quantities of a generalized-α run that carry over from step to step.
-    memory: Option<Box<PreviousStep>>,
+    previous: Option<Box<PreviousStep>>,
     /// Round holes and friction; `None` in scenes without them.
     supports: Option<Box<Supports>>,
     energy: energy::Ledger,
@@ -162,7 +162,7 @@ impl Judge {
         let (q, v) = (fit(q), fit(v));
         let walls = WallCheck::new(scene, &q, &v);
         let grid_load = scene.is_line().then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
-        let sights = RowWalls::all(scene);
+        let row_walls = RowWalls::all(scene);
         let (weights, blows) = (Weights::new(scene), loads.has_blows());
         let mut noise = NoiseModel::new(&weights, masses, scene.gap_scale());
         noise.begin(h, 0.0);
@@ -172,13 +172,13 @@ impl Judge {
             loads,
             grid_load,
             matrices: Matrices::new(&scene.system),
-            wide: (0..sights.len()).filter(|&index| sights[index].is_wide(scene)).collect(),
-            sights,
+            wide: (0..row_walls.len()).filter(|&index| row_walls[index].is_wide(scene)).collect(),
+            row_walls,
             mass,
             energy: energy::Ledger::new(scene, contract, &q, &v),
             scales: Scales::new(scene, masses),
             sums: MomentumSums::new(scene, &q, &v),
-            memory: PreviousStep::new(scene, contract, (&q, &v), &load, &walls.last_force),
+            previous: PreviousStep::new(scene, contract, (&q, &v), &load, &walls.last_force),
             walls,
             supports: Supports::new(scene, masses),
             q,
@@ -187,7 +187,7 @@ impl Judge {
             blows: Blows::new(n),
             scratch: Scratch::new(n),
             over: vec![0.0; scene.walls.len()],
-            room: QuietScratch::new(scene, contract, &weights, blows),
+            quiet_scratch: QuietScratch::new(scene, contract, &weights, blows),
             balance: BalanceCheck::default(),
             extent: Extent::default(),
             normal_speed: 0.0,
@@ -233,7 +233,7 @@ impl Judge {
             self.take_blows(step);
         }
         match step.path {
-            Path::Grid if self.memory.is_some() => self.observe_apart(step, |judge| judge.observe_corrected(step)),
+            Path::Grid if self.previous.is_some() => self.observe_apart(step, |judge| judge.observe_corrected(step)),
             Path::Grid | Path::OneRestitution => self.observe_grid(step),
             Path::Part { length } => self.observe_part(step, length),
             Path::Exact(arc) => self.observe_apart(step, |judge| judge.observe_arc(step, arc)),
@@ -265,8 +265,8 @@ impl Judge {
     /// Makes the state at the end of a step that at the start of the next.
     #[inline(always)]
     fn begin_next_step(&mut self, step: &Step<'_>, n: usize) {
-        for sight in self.wide.iter().filter_map(|&index| self.sights.get(index)) {
-            self.extent.speed = self.extent.speed.max(sight.size(step.velocity_after));
+        for walls_of_row in self.wide.iter().filter_map(|&index| self.row_walls.get(index)) {
+            self.extent.speed = self.extent.speed.max(walls_of_row.size(step.velocity_after));
         }
         self.extent.observe(step.q, step.velocity_after, &self.weights, n);
         self.q[..n].copy_from_slice(&step.q[..n]);

@@ -13,26 +13,26 @@ use std::ops::Range;
 impl Judge {
     /// True if [`Judge::observe_quiet`] is faster than [`Judge::observe`] step by step.
     pub(crate) fn batches_quiet_steps(&self) -> bool {
-        self.room.is_some()
+        self.quiet_scratch.is_some()
     }
 
     /// Checks the steps of `calm`, which follow the last one seen, as [`Judge::observe`] checks
     /// each of them.
     pub(crate) fn observe_quiet(&mut self, calm: &QuietSteps) {
-        let Some(mut room) = self.room.take() else {
+        let Some(mut quiet_scratch) = self.quiet_scratch.take() else {
             return (0..calm.len()).for_each(|k| self.observe(&calm.step(k)));
         };
         let mut k = 0;
         while k < calm.len() {
             let clear = k + self.clear(calm, k);
-            self.observe_clear(&mut room, calm, k..clear);
+            self.observe_clear(&mut quiet_scratch, calm, k..clear);
             k = clear;
             if k < calm.len() {
                 self.observe(&calm.step(k));
                 k += 1;
             }
         }
-        self.room = Some(room);
+        self.quiet_scratch = Some(quiet_scratch);
     }
 
     /// The number of steps from step `from` on in which no wall is in reach. The first step of a
@@ -48,14 +48,14 @@ impl Judge {
         let in_reach = |(&w1, rate): (&f64, &f64)| {
             let ends = (std::mem::replace(&mut w0, w1), w1);
             // All walls have the one row that is the degree of freedom itself.
-            !self.sights.iter().all(|sight| sight.is_clear(ends, self.h * rate.abs()))
+            !self.row_walls.iter().all(|walls_of_row| walls_of_row.is_clear(ends, self.h * rate.abs()))
         };
         let left = calm.len() - from;
         calm.q()[from..].iter().zip(&before[from..]).position(in_reach).unwrap_or(left)
     }
 
     /// Checks steps in which no wall is in reach.
-    fn observe_clear(&mut self, room: &mut QuietScratch, calm: &QuietSteps, steps: Range<usize>) {
+    fn observe_clear(&mut self, quiet_scratch: &mut QuietScratch, calm: &QuietSteps, steps: Range<usize>) {
         let n = steps.len();
         let (&mut [ref mut q], &mut [ref mut load], Some(forcing)) =
             (&mut self.q[..], &mut self.load[..], &mut self.grid_load)
@@ -65,7 +65,7 @@ impl Judge {
         if n == 0 {
             return;
         }
-        let QuietScratch { weights, scratch, q: places, load: loads, zeros } = room;
+        let QuietScratch { weights, scratch, q: places, load: loads, zeros } = quiet_scratch;
         let (h, per_h) = (self.h, 1.0 / self.h);
         places[0] = *q;
         places[1..=n].copy_from_slice(&calm.q()[steps.clone()]);

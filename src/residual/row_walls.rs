@@ -79,17 +79,17 @@ impl RowWalls {
         let distinct = distinct(flats.iter().map(|&wall| scene.walls[wall].row()));
         let (touch, everywhere) = (scene.touching_distance(), (f64::NEG_INFINITY, f64::INFINITY));
         let new = |row: &&Row| Self { row: View::new(row), clear: everywhere, walls: Vec::new() };
-        let mut sights: Vec<Self> = distinct.rows.iter().map(new).collect();
+        let mut row_walls: Vec<Self> = distinct.rows.iter().map(new).collect();
         for (&index, &row) in flats.iter().zip(&distinct.of) {
             let wall = &scene.walls[index];
-            let (low, high) = &mut sights[row].clear;
+            let (low, high) = &mut row_walls[row].clear;
             match wall.side() {
                 Side::Lower => *low = low.max(wall.position() + touch),
                 Side::Upper => *high = high.min(wall.position() - touch),
             }
-            sights[row].walls.push(index);
+            row_walls[row].walls.push(index);
         }
-        sights
+        row_walls
     }
 
     /// The row times `x`.
@@ -168,33 +168,33 @@ mod tests {
     #[test]
     fn rows_are_products_with_the_structure_whatever_their_form() {
         let rows = rows();
-        let sights = RowWalls::all(&walls(&rows));
+        let row_walls = RowWalls::all(&walls(&rows));
         assert_eq!(
-            sights.iter().map(|sight| sight.walls.clone()).collect::<Vec<_>>(),
+            row_walls.iter().map(|walls_of_row| walls_of_row.walls.clone()).collect::<Vec<_>>(),
             [[0, 1], [2, 3], [4, 5], [6, 7], [8, 9]]
         );
-        let forms: Vec<bool> = sights.iter().map(|sight| matches!(sight.row, View::Wide(_))).collect();
+        let forms: Vec<bool> = row_walls.iter().map(|walls_of_row| matches!(walls_of_row.row, View::Wide(_))).collect();
         assert_eq!(forms, [false, false, false, true, false]);
         // Multiples of 1/32 of a few units: no product is rounded.
         let x: Vec<f64> = (0..10).map(|i| 1.25 - 0.75 * f64::from(i * i % 7)).collect();
-        for (sight, row) in sights.iter().zip(&rows) {
+        for (walls_of_row, row) in row_walls.iter().zip(&rows) {
             let terms: Vec<f64> = row.entries().iter().map(|&(i, weight)| weight * x[i]).collect();
-            assert_eq!(sight.of(&x), terms.iter().sum::<f64>(), "{row:?}");
-            assert_eq!(sight.size(&x), terms.iter().map(|term| term.abs()).sum::<f64>(), "{row:?}");
+            assert_eq!(walls_of_row.of(&x), terms.iter().sum::<f64>(), "{row:?}");
+            assert_eq!(walls_of_row.size(&x), terms.iter().map(|term| term.abs()).sum::<f64>(), "{row:?}");
         }
         let scene = walls(&rows);
-        let wide: Vec<bool> = sights.iter().map(|sight| sight.is_wide(&scene)).collect();
+        let wide: Vec<bool> = row_walls.iter().map(|walls_of_row| walls_of_row.is_wide(&scene)).collect();
         assert_eq!(wide, [false, true, true, true, true]);
         let mut soft = scene.clone();
         soft.walls.iter_mut().for_each(|wall| *wall = wall.clone().with_elasticity(1.0, 0.0));
-        assert!(!sights.iter().any(|sight| sight.is_wide(&soft)));
+        assert!(!row_walls.iter().any(|walls_of_row| walls_of_row.is_wide(&soft)));
     }
 
     #[test]
     fn a_step_is_clear_of_its_walls_if_both_ends_and_the_way_from_the_first_are() {
         let scene = walls(&[Row::dof(0)]);
-        let (sights, touch) = (RowWalls::all(&scene), scene.touching_distance());
-        let clear = |w0: f64, w1: f64, way: f64| sights[0].is_clear((w0, w1), way);
+        let (row_walls, touch) = (RowWalls::all(&scene), scene.touching_distance());
+        let clear = |w0: f64, w1: f64, way: f64| row_walls[0].is_clear((w0, w1), way);
         // The walls stand at −1 and 2 m.
         assert!(clear(0.0, 0.0, 0.0) && clear(-0.5, 1.5, 0.25) && clear(1.5, -0.5, 0.25));
         assert!(!clear(0.0, 2.5, 0.0) && !clear(0.0, -1.5, 0.0));

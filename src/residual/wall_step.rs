@@ -24,22 +24,22 @@ impl Judge {
     /// displacement of the step's rule.
     pub(super) fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) {
         let blows = self.loads.has_blows();
-        for place in 0..self.sights.len() {
-            let sight = &self.sights[place];
+        for place in 0..self.row_walls.len() {
+            let walls_of_row = &self.row_walls[place];
             let still = |&wall: &usize| {
                 step.impulse[wall] == 0.0 && step.force[wall] == 0.0 && self.walls.last_force[wall] == 0.0
             };
-            if !beyond && sight.walls.iter().all(still) {
-                let mut rate = sight.of(step.velocity_before).abs();
+            if !beyond && walls_of_row.walls.iter().all(still) {
+                let mut rate = walls_of_row.of(step.velocity_before).abs();
                 if blows {
-                    rate += sight.of(&self.blows.struck).abs();
+                    rate += walls_of_row.of(&self.blows.struck).abs();
                 }
-                if sight.is_clear((sight.of(&self.q), sight.of(step.q)), self.h * rate) {
+                if walls_of_row.is_clear((walls_of_row.of(&self.q), walls_of_row.of(step.q)), self.h * rate) {
                     continue;
                 }
             }
-            for wall in 0..sight.walls.len() {
-                self.check_wall(step, beyond, self.sights[place].walls[wall]);
+            for wall in 0..walls_of_row.walls.len() {
+                self.check_wall(step, beyond, self.row_walls[place].walls[wall]);
             }
         }
     }
@@ -98,7 +98,7 @@ impl Judge {
             step.impulse[hole.index] != 0.0
                 || at(hole.gap - y.hypot(z), self.way(&hole, &self.hole_motion(step, &hole)))
         };
-        self.sights.iter().any(|sight| sight.walls.iter().any(wall)) || self.scene.holes().any(hole)
+        self.row_walls.iter().any(|walls_of_row| walls_of_row.walls.iter().any(wall)) || self.scene.holes().any(hole)
     }
 
     /// Size of the terms that add up to the body's position, for its rounding error, and of its way
