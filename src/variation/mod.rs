@@ -28,7 +28,7 @@
 //! while stepper.time() < 1.0 {
 //!     let step = stepper.step()?;
 //!     impacts += i32::from(step.jump[0] != 0.0);
-//!     product.see(&step)?;
+//!     product.observe(&step)?;
 //! }
 //! // Flows shrink areas by exp(−c t/m), impacts by e².
 //! let area = product.matrix().determinant();
