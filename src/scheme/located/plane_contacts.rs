@@ -23,7 +23,7 @@ use super::round_path::RoundPath;
 use crate::error::Result;
 use crate::scene::{Row, Scene};
 
-/// A part shorter than this share of the step ends at a blow, and no contact acts in it.
+/// A part shorter than this share of the step ends at a blow, and no rigid contact acts in it.
 const INSTANT: f64 = 1e-12;
 
 /// Parts of a step after its rebounds are given up.
@@ -221,15 +221,12 @@ impl Contacts<Matrices> for PlaneContacts {
     ) -> Solved {
         self.holds.clear();
         for wall in 0..self.all.len() {
-            if length <= INSTANT * body.h {
-                break;
-            }
             let contact = self.all[wall];
             if !body.walls[wall].law.is_rigid() {
                 self.holds.push(self.spring(wall, (body, frame), (length, THETA)));
                 continue;
             }
-            if contact.place != Place::Resting {
+            if contact.place != Place::Resting || length <= INSTANT * body.h {
                 continue;
             }
             let behind = (-self.gap(wall, body, &frame.q).0).max(0.0) / body.h;
