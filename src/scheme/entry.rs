@@ -75,6 +75,8 @@ pub struct SchemeEntry {
     pub elastic_round: Coverage,
     /// Friction.
     pub friction: Coverage,
+    /// Friction at elastic round supports.
+    pub elastic_round_friction: Coverage,
 }
 
 /// What a scheme without friction expects instead.

@@ -29,9 +29,7 @@ pub(super) fn check(scene: &Scene, Method { scheme, backend }: Method) -> Result
         if let Coverage::Refused(expected) = entry.friction {
             return refuse("friction at the wall", &wall.name, expected);
         }
-        if let Some(ring) = &ring {
-            let expected = "no friction, or rigid round supports: the normal of an elastic one follows from the \
-                            step's end";
+        if let (Some(ring), Coverage::Refused(expected)) = (&ring, entry.elastic_round_friction) {
             return refuse("friction and the elastic round support", ring.name, expected);
         }
     }

@@ -72,6 +72,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     ),
     elastic_round: Coverage::Refused(ONES_FOR_RINGS),
     friction: Coverage::Refused(NO_SPEED_TO_STICK_AT),
+    elastic_round_friction: Coverage::Refused(NO_SPEED_TO_STICK_AT),
 };
 
 /// What every step with this ρ∞ satisfies.

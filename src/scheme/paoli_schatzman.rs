@@ -52,6 +52,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     round: Coverage::Refused(NO_ENERGY_ON_A_CIRCLE),
     elastic_round: Coverage::Refused(ONES_FOR_RINGS),
     friction: Coverage::Refused(ONES_FOR_FRICTION),
+    elastic_round_friction: Coverage::Refused(ONES_FOR_FRICTION),
 };
 
 /// What every step satisfies.

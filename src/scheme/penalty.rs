@@ -52,6 +52,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     ),
     elastic_round: Coverage::Stepped("(discrete-gradient) keeps energy and angular momentum"),
     friction: Coverage::Refused(ONES_FOR_FRICTION),
+    elastic_round_friction: Coverage::Refused(ONES_FOR_FRICTION),
 };
 
 /// What every step by this integrator satisfies.

@@ -48,6 +48,7 @@ pub(super) const IMPLICIT_EULER: SchemeEntry = SchemeEntry {
     ),
     elastic_round: Coverage::Stepped("presses with the force of the ring at the step's end"),
     friction: Coverage::Refused(NO_SPEED_TO_STICK_AT),
+    elastic_round_friction: Coverage::Refused(NO_SPEED_TO_STICK_AT),
 };
 
 /// What is known of θ = ½ beside its rule.
@@ -63,6 +64,7 @@ pub(super) const NEWMARK: SchemeEntry = SchemeEntry {
     round: Coverage::Refused(NO_ENERGY_ON_A_CIRCLE),
     elastic_round: Coverage::Refused(ONES_FOR_RINGS),
     friction: Coverage::Refused(ONES_FOR_FRICTION),
+    elastic_round_friction: Coverage::Refused(ONES_FOR_FRICTION),
 };
 
 /// What every step with this θ satisfies: walls on the displacement at its end, by the force there.

@@ -24,12 +24,17 @@ pub struct Choice {
 /// is predictable, on `rigid-walls-sine` 3e-5 of the gap against 1e-1 at h = 1e-4
 /// (`signorini compare CASE --schemes moreau-jean,located`). In round holes and with friction an
 /// impact costs it several steps, and a random motion gains nothing from its order: there, and
-/// where no wall is rigid, so that both make the same steps, it is moreau-jean with θ = ½.
+/// where no wall is rigid, so that both make the same steps, it is moreau-jean with θ = ½, but for
+/// friction at elastic round supports, which that does not step.
 #[must_use]
 pub fn choose(scene: &Scene) -> Choice {
     let moreau_jean = Scheme::MoreauJean { theta: 0.5 };
     let rubs = scene.walls.iter().any(|wall| wall.friction > 0.0);
-    let (scheme, reason) = if scene.holes().next().is_some() {
+    let (scheme, reason) = if rubs && scene.holes().any(|hole| !hole.law.is_rigid()) {
+        let reason = "the one scheme for friction at an elastic round support, whose force and normal it takes in the \
+                      middle of each part of a step";
+        (Scheme::Located, reason)
+    } else if scene.holes().next().is_some() {
         let reason = "it turns with the normal of a round support: what slides there keeps its speed, an impact \
                       never adds energy, and with θ = ½ free motion keeps its own";
         (moreau_jean, reason)
@@ -127,22 +132,31 @@ pub(crate) fn takes(scene: &Scene, scheme: &Scheme, step: f64) -> bool {
     Stepper::new(scene, scheme, step).is_ok()
 }
 
+/// True if a step of `method` on a scene with round walls is a programme with disks, not one of
+/// velocities along the normals of contacts.
+#[must_use]
+pub(crate) fn takes_disks(method: &Method, scene: &Scene) -> bool {
+    match method.scheme {
+        Scheme::Located => false,
+        Scheme::MoreauJean { .. } => scene.holes().any(|hole| !hole.law.is_rigid()),
+        _ => scene.turns_or_rubs(),
+    }
+}
+
 /// Why `method` on `scene` uses its solver.
 #[must_use]
 pub fn qp_reason(method: &Method, scene: &Scene) -> String {
     let single = matches!(scene.system, System::Oscillator(_));
-    let elastic = scene.holes().any(|hole| !hole.law.is_rigid());
     let kind = method.scheme.entry().kind;
-    let velocities = matches!(method.scheme, Scheme::MoreauJean { .. });
-    if scene.turns_or_rubs() && (elastic || !velocities) && kind == SchemeKind::Qp {
-        return "a programme with disks: one round support in closed form, several by sweeps and Newton's method on \
-                their multipliers; Clarabel is the fallback"
-            .to_owned();
-    }
     if scene.turns_or_rubs() && kind == SchemeKind::Qp {
-        return "round supports and friction are no QP: the contacts are solved one by one in closed form, in sweeps, \
-                and then together"
-            .to_owned();
+        return if takes_disks(method, scene) {
+            "a programme with disks: one round support in closed form, several by sweeps and Newton's method on \
+             their multipliers; Clarabel is the fallback"
+        } else {
+            "round supports and friction are no QP: the contacts are solved one by one in closed form, in sweeps, \
+             and then together"
+        }
+        .to_owned();
     }
     match (kind, method.backend) {
         (SchemeKind::Penalty, _) => "a penalty has no QP: Newton's method solves each step",

@@ -37,7 +37,13 @@ pub fn random_scene(seed: u64, units: Units) -> Drawn {
         _ => {
             let friction = [0.0, draws.between(0.05, 0.8)][draws.below(2)];
             let mut scene = rubbing::random_scene(draws, friction);
-            soften(draws, &mut scene);
+            // A draw of its own where there is friction leaves the rest of the scene as it was before
+            // elastic walls had friction.
+            if friction > 0.0 {
+                soften(&mut Draws::new(!seed), &mut scene)
+            } else {
+                soften(draws, &mut scene)
+            }
             scene
         }
     };
@@ -95,10 +101,10 @@ fn oscillator(draws: &mut Draws) -> Scene {
     scene
 }
 
-/// Makes some of the holes elastic.
+/// Makes some of the holes elastic; where there is friction, some of the flats too.
 fn soften(draws: &mut Draws, scene: &mut Scene) {
-    for wall in scene.walls.iter_mut().filter(|wall| wall.is_round()) {
-        if wall.friction == 0.0 && draws.chance(0.2) {
+    for wall in scene.walls.iter_mut().filter(|wall| wall.is_round() || wall.friction > 0.0) {
+        if draws.chance(0.2) {
             let damping = [0.0, draws.between(0.0, 20.0)][draws.below(2)];
             wall.law = WallLaw::Elastic { stiffness: 10_f64.powf(draws.between(2.0, 5.0)), damping };
         }

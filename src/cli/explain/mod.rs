@@ -87,7 +87,7 @@ fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
     tell("matrices", choice::path(&case.scene, case.time.step).into_iter().collect());
     tell(
         "solver of the quadratic programmes",
-        vec![format!("{}: {}", solver(case), choice::qp_reason(&choice.method, &case.scene))],
+        vec![format!("{}: {}", solver(case, &choice.method), choice::qp_reason(&choice.method, &case.scene))],
     );
     let mut steps = step(case);
     steps.extend(setup(case, choice).iter().map(|note| format!("note: {note}")));
@@ -136,7 +136,7 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
         "walls": walls,
         "scheme": choice.method.to_string(),
         "scheme_reason": choice.reason,
-        "qp_solver": solver(case),
+        "qp_solver": solver(case, &choice.method),
         "qp_reason": choice::qp_reason(&choice.method, &case.scene),
         "matrices": choice::path(&case.scene, h),
         "step_s": h,
@@ -152,7 +152,9 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
 /// Notes on the step and the scene that need no run.
 fn setup(case: &Case, choice: &Choice) -> Vec<String> {
     let mut said = notes::setup(&case.scene, &choice.method.scheme, case.time.step);
-    said.extend(notes::resting(&case.scene, case.time.step));
+    if matches!(choice.method.scheme, Scheme::MoreauJean { .. }) {
+        said.extend(notes::resting(&case.scene, case.time.step));
+    }
     said
 }
 
@@ -165,8 +167,8 @@ fn in_words(time: &RunTime) -> String {
     }
 }
 
-fn solver(case: &Case) -> &'static str {
-    if case.scene.holes().any(|hole| !hole.law.is_rigid()) {
+fn solver(case: &Case, method: &Method) -> &'static str {
+    if choice::takes_disks(method, &case.scene) {
         "disks"
     } else if case.scene.turns_or_rubs() {
         "sweeps"

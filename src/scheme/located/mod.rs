@@ -87,6 +87,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     round: Coverage::Stepped("finds the instants of contact, and follows the circle while the body slides along it"),
     elastic_round: Coverage::Stepped("presses with the force of the ring in the middle of each part"),
     friction: Coverage::Stepped("finds the instants at which sliding ends"),
+    elastic_round_friction: Coverage::Stepped("presses along the middle of each part, and finds these instants too"),
 };
 
 /// What every step satisfies.

@@ -18,6 +18,8 @@ pub(super) struct PlaneContact {
     pub place: Place,
     /// True if a round wall pushed over the last part.
     pub lasts: bool,
+    /// True if it pushes over the part that was computed last.
+    pub pushes: bool,
     /// Outward normal, and the rate of the place along it and along the tangent, m/s.
     pub normal: [f64; 2],
     pub rate: [f64; 2],
@@ -40,6 +42,7 @@ impl PlaneContact {
             round: wall.hole(index).map(|hole| (hole.centre, hole.gap)),
             place: Place::Away,
             lasts: false,
+            pushes: false,
             normal: point.normal,
             rate: [0.0; 2],
             rounding: 0.0,

@@ -143,6 +143,8 @@ impl PlaneContacts {
             short
         };
         self.settled = response.solve(body, (rows, holds), part, (v, length, theta));
+        self.all.iter_mut().for_each(|contact| contact.pushes = false);
+        part.pushes.iter().for_each(|push| self.all[push.wall].pushes = true);
         Ok(self.settled)
     }
 
@@ -223,7 +225,8 @@ impl Contacts<Matrices> for PlaneContacts {
         for wall in 0..self.all.len() {
             let contact = self.all[wall];
             if !body.walls[wall].law.is_rigid() {
-                self.holds.push(self.spring(wall, (body, frame), (length, THETA)));
+                let spring = self.spring(wall, (body, frame), (length, THETA));
+                self.holds.push(PlaneBound { slides: contact.slides(), ..spring });
                 continue;
             }
             if contact.place != Place::Resting || length <= INSTANT * body.h {
@@ -292,7 +295,8 @@ impl Contacts<Matrices> for PlaneContacts {
         };
         for (wall, face) in body.walls.iter().enumerate() {
             let contact = &self.all[wall];
-            if contact.place == Place::Resting {
+            let rests = contact.place == Place::Resting;
+            if rests || (contact.pushes && contact.point.friction > 0.0) {
                 let ahead = self.ahead(body, frame, Event::Reversal(wall), (delta, length));
                 let slides = contact.slides() != 0.0;
                 if slides && ahead.left < -ahead.met {
@@ -304,6 +308,8 @@ impl Contacts<Matrices> for PlaneContacts {
                 if let Some(at) = slips.filter(|at| !slides && *at > SOON * body.h && *at < length - SOON * body.h) {
                     add(at, Event::Slip(wall));
                 }
+            }
+            if rests {
                 continue;
             }
             let damped = face.law.damping() > 0.0;

@@ -132,17 +132,22 @@ impl PlaneBound {
         self.bound([0, 1].map(|i: usize| length * (self.rate[i] + theta * change[i])), length).0
     }
 
-    /// True if the end of the path lies outside of a round wall; of an elastic one, where it
-    /// pushes.
-    fn is_passed(&self, way: [f64; 2]) -> bool {
-        let after = |share: f64| [0, 1].map(|i: usize| self.from[i] + share * way[i]);
-        let (place, limit) = match self.guide {
+    /// True if a path of `way` (m) over `length` seconds ends outside of a round wall, or is one
+    /// along which an elastic one pushes.
+    fn is_passed(&self, way: [f64; 2], length: f64) -> bool {
+        let limit = match self.guide {
             Guide::Flat(..) => return false,
-            Guide::Chord { .. } => (after(1.0), dot(self.from, self.from)),
-            Guide::End { gap } => (after(1.0), gap * gap),
-            Guide::Ring(ring) => (after(ring.theta), ring.gap * ring.gap),
+            Guide::Chord { .. } => dot(self.from, self.from),
+            Guide::End { gap } => gap * gap,
+            Guide::Ring(ring) => {
+                // A dashpot may push where the middle of the path is clear of the ring.
+                let (normal, bound) = ring.bound([self.from, self.rate, way], length);
+                let rate = dot(normal, self.rate);
+                return rate + (dot(normal, way) / length - rate) / ring.theta > bound;
+            }
         };
-        dot(place, place) > limit
+        let end = [0, 1].map(|i: usize| self.from[i] + way[i]);
+        dot(end, end) > limit
     }
 
     /// True if the middle of the path along a round wall says little of its normal.
@@ -240,7 +245,7 @@ impl Response {
                 let found = [0, 1].map(|i: usize| length * (hold.rate[i] + theta * change[i]));
                 *warm = touch.impulse;
                 let (normal, _) = hold.bound(found, length);
-                if touch.impulse[0] > 0.0 || hold.is_passed(found) {
+                if touch.impulse[0] > 0.0 || hold.is_passed(found, length) {
                     turned = turned.max((normal[0] - touch.normal[0]).hypot(normal[1] - touch.normal[1]));
                 }
                 far |= touch.impulse[0] > 0.0 && hold.turns_far(found);

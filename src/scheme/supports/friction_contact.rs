@@ -18,6 +18,9 @@
 use super::contact_rows::ContactRows;
 use super::normal::dot;
 
+/// Rounding of velocities, relative to the largest: a state is accepted within this.
+pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// What a contact does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::scheme) enum State {
@@ -54,7 +57,7 @@ pub(in crate::scheme) struct FrictionContact {
     /// μ, and κ in m/s per N s.
     pub friction: f64,
     pub compliance: f64,
-    /// a, b, c.
+    /// a − κ, b, c.
     pub own: [f64; 3],
     pub state: State,
     /// p and f, N s.
@@ -76,9 +79,9 @@ impl FrictionContact {
         let tangent = if friction > 0.0 { [-normal[1], normal[0]] } else { [0.0; 2] };
         let form = |a: [f64; 2], b: [f64; 2]| places.between((rows, a), (rows, b));
         let own = if friction > 0.0 {
-            [form(normal, normal) + compliance, form(normal, tangent), form(tangent, tangent)]
+            [form(normal, normal), form(normal, tangent), form(tangent, tangent)]
         } else {
-            [form(normal, normal) + compliance, 0.0, 0.0]
+            [form(normal, normal), 0.0, 0.0]
         };
         Self {
             index,
@@ -100,6 +103,11 @@ impl FrictionContact {
         self.compliance == 0.0 && self.bound < 0.0
     }
 
+    /// a, m/s per N s.
+    pub fn yielding(&self) -> f64 {
+        self.own[0] + self.compliance
+    }
+
     /// n·ẇ⁺ − κp − β and t·ẇ⁺ for these velocities of all rows.
     pub fn excess(&self, y: &[f64]) -> [f64; 2] {
         let rate = self.rows.map(|row| y[row]);
@@ -115,7 +123,7 @@ impl FrictionContact {
     /// under all impulses, and changes `y` accordingly. Returns the size of the change, m/s, and
     /// whether the law has an answer.
     pub fn answer(&mut self, places: &ContactRows, y: &mut [f64]) -> (f64, bool) {
-        let [a, b, c] = self.own;
+        let ([own, b, c], a) = (self.own, self.yielding());
         let [p, f] = self.impulse;
         let [n, t] = self.excess(y);
         // Without its own impulse.
@@ -125,13 +133,13 @@ impl FrictionContact {
         let change = [found[0] - p, found[1] - f];
         self.impulse = found;
         places.add(self.rows, self.push(change), y);
-        (a * change[0].abs() + c * change[1].abs(), state.is_some())
+        (own * change[0].abs() + c * change[1].abs(), state.is_some())
     }
 
     /// The state in which it would answer these velocities, with the impulses of all others as they
     /// are.
     pub fn guess(&self, y: &[f64]) -> State {
-        let ([a, b, c], [p, f]) = (self.own, self.impulse);
+        let ([_, b, c], a, [p, f]) = (self.own, self.yielding(), self.impulse);
         let [n, t] = self.excess(y);
         self.alone(n + a * p - b * f, t + b * p - c * f).0.unwrap_or(State::Ahead)
     }
@@ -146,7 +154,7 @@ impl FrictionContact {
     }
 
     fn alone(&self, n: f64, t: f64) -> (Option<State>, [f64; 2]) {
-        let ([a, b, c], mu) = (self.own, self.friction);
+        let ([_, b, c], a, mu) = (self.own, self.yielding(), self.friction);
         if n <= 0.0 {
             return (Some(State::Open), [0.0; 2]);
         }
@@ -174,13 +182,15 @@ impl FrictionContact {
     }
 
     /// True if the velocities `y` and its impulse are those of its state, within a velocity of
-    /// `noise` (m/s).
+    /// `noise` (m/s). An elastic wall has rounding of its own in n·ẇ⁺ − κp: over a short part both
+    /// κp and β are far larger than velocities.
     pub fn holds(&self, y: &[f64], noise: f64) -> bool {
-        let ([n, t], [p, f], [a, _, c]) = (self.excess(y), self.impulse, self.own);
+        let ([n, t], [p, f], [_, _, c]) = (self.excess(y), self.impulse, self.own);
         let rubs = self.friction > 0.0;
-        let presses = p * a >= -noise && n.abs() <= noise;
+        let own = if self.compliance > 0.0 { noise.max(ROUNDING * self.bound.abs()) } else { noise };
+        let presses = p * self.yielding() >= -own && n.abs() <= own;
         match self.state {
-            State::Open => n <= noise,
+            State::Open => n <= own,
             State::Stick => presses && t.abs() <= noise && (f.abs() - self.friction * p) * c <= noise,
             State::Ahead | State::Back => {
                 presses && (!rubs || self.slides == self.state.sign() || self.state.sign() * t >= -noise)

@@ -15,7 +15,7 @@
 //! energy ([`FrictionContacts::strike`]).
 
 use super::contact_rows::ContactRows;
-use super::friction_contact::{FrictionContact, State};
+use super::friction_contact::{FrictionContact, ROUNDING, State};
 use super::linear::Linear;
 use super::normal::dot;
 use crate::linear::{Rows, Symmetric};
@@ -27,9 +27,6 @@ const MOST_SWEEPS: [u32; 2] = [200, 30];
 
 /// Sweeps that change no velocity by more than this share of the largest are done.
 const STILL: f64 = 4.0 * f64::EPSILON;
-
-/// Rounding of velocities, relative to the largest: a state is accepted within this.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A gain of energy below this share of what the impulses alone would give is none.
 const GAIN: f64 = 1e-9;
@@ -167,7 +164,8 @@ impl FrictionContacts {
     fn sweep(&mut self, places: &ContactRows) -> bool {
         let Self { touches, free, y, states, linear, .. } = self;
         let size = |y: &[f64]| y.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
-        let bounds = touches.iter().fold(0.0_f64, |most, touch| most.max(touch.bound.abs()));
+        let rigid = touches.iter().filter(|touch| touch.compliance == 0.0);
+        let bounds = rigid.fold(0.0_f64, |most, touch| most.max(touch.bound.abs()));
         let largest = size(free).max(bounds);
         let mut due = 2;
         let most_sweeps = MOST_SWEEPS[usize::from(touches.iter().any(|touch| touch.friction > 0.0))];

@@ -93,7 +93,7 @@ impl Linear {
         self.scale.clear();
         for (index, touch) in touches.iter().enumerate().filter(|(_, touch)| touch.state != State::Open) {
             self.unknowns.push((index, false));
-            self.scale.push(1.0 / touch.own[0].sqrt());
+            self.scale.push(1.0 / touch.yielding().sqrt());
             if touch.state == State::Stick {
                 self.unknowns.push((index, true));
                 self.scale.push(1.0 / touch.own[2].sqrt());
