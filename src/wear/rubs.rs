@@ -291,7 +291,9 @@ fn around(
         let ([y, z], [u, v]) = (series.at_hole(hole, a).0, series.at_hole(hole, b).0);
         y.hypot(z) * (y * v - z * u).atan2(y * u + z * v)
     };
-    if series.hole_acts(hole) && to > from {
+    if let Some(impulse) = series.round_impulse(hole)
+        && to > from
+    {
         let sliding = Sliding {
             force: &|t| series.hole_pressure(hole, t),
             impulse: &|a, b| series.hole_push(hole, a, b),
@@ -310,7 +312,7 @@ fn around(
             sliding.add(a, b, &mut sum);
             let [began, angle] = [a, 0.5 * (a + b)].map(|t| degrees(series.at_hole(hole, t).0));
             // Over so short a piece the impulse vector is nearly p n; this is its magnitude p.
-            let push = series.hole_impulse(hole, a, b);
+            let push = impulse.between(a, b);
             let normal = if sum.impulse > 0.0 { push.map(|push| -push / sum.impulse) } else { blank.normal };
             each(&Rub { time: std::mem::take(&mut time), angle, began, normal, ..lasting(blank, &sum) });
         });

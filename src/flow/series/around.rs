@@ -31,12 +31,6 @@ impl Series {
         if self.round_walls.contains(&wall) { impulse.abs() } else { impulse }
     }
 
-    /// True if the round wall of index `wall` holds the structure on its circle, with or without a
-    /// force.
-    pub(crate) fn hole_acts(&self, wall: usize) -> bool {
-        self.of_wall(wall).is_some()
-    }
-
     /// Magnitude of the force of the round wall of index `wall` at `t`, N: 0 if it does not act.
     pub(crate) fn hole_pressure(&self, wall: usize, t: f64) -> f64 {
         self.contact_force(wall, t).abs()
@@ -64,23 +58,49 @@ impl Series {
     /// within the stretch, N s, in closed form.
     #[must_use]
     pub fn hole_impulse(&self, wall: usize, from: f64, to: f64) -> [f64; 2] {
-        let (Some(acting), Some(circle)) = (self.of_wall(wall), self.circle(wall)) else {
-            return [0.0; 2];
-        };
+        self.round_impulse(wall).map_or([0.0; 2], |impulse| impulse.between(from, to))
+    }
+
+    /// The same as a function of both times, for many pieces of the stretch; `None` if the wall
+    /// does not act.
+    pub(crate) fn round_impulse(&self, wall: usize) -> Option<RoundImpulse> {
+        let (acting, circle) = (self.of_wall(wall)?, self.circle(wall)?);
         let force = self.force(acting.slot);
-        let (a, b) = ((from - self.start) / self.unit, (to - self.start) / self.unit);
-        [0, 1].map(|axis: usize| {
-            let w = &circle.w[axis][..self.terms];
-            let (mut sum, mut mixed, mut power) = (0.0, 1.0, 1.0);
-            for k in 0..2 * self.terms - 1 {
+        let along = |w: &[f64]| -> Vec<f64> {
+            let coefficient = |k: usize| {
                 let range = (k + 1).saturating_sub(self.terms)..=k.min(self.terms - 1);
-                let c: f64 = range.map(|j| force[j] * w[k - j]).sum();
-                // As for the impulse of a wall.
+                range.map(|j| force[j] * w[k - j]).sum()
+            };
+            (0..2 * self.terms - 1).map(coefficient).collect()
+        };
+        let along = [0, 1].map(|axis: usize| along(&circle.w[axis][..self.terms]));
+        Some(RoundImpulse { along, start: self.start, unit: self.unit, radius: circle.radius })
+    }
+}
+
+/// The impulse of a round wall on the structure over pieces of a stretch: its force along
+/// y and z, the products of its pressure with the place, by powers of x.
+#[derive(Debug, Clone)]
+pub(crate) struct RoundImpulse {
+    along: [Vec<f64>; 2],
+    start: f64,
+    unit: f64,
+    radius: f64,
+}
+
+impl RoundImpulse {
+    /// Over [from, to] within the stretch, N s.
+    pub(crate) fn between(&self, from: f64, to: f64) -> [f64; 2] {
+        let (a, b) = ((from - self.start) / self.unit, (to - self.start) / self.unit);
+        self.along.each_ref().map(|coefficients| {
+            let (mut sum, mut mixed, mut power) = (0.0, 1.0, 1.0);
+            for (k, c) in coefficients.iter().enumerate() {
+                // As for the impulse of a flat wall.
                 sum += c * mixed / (k + 1) as f64;
                 power *= b;
                 mixed = a * mixed + power;
             }
-            sum * (b - a) * self.unit / circle.radius
+            sum * (b - a) * self.unit / self.radius
         })
     }
 }
