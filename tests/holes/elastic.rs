@@ -229,6 +229,21 @@ fn a_body_that_slides_in_a_ring_has_the_motion_of_the_differential_equation_with
 }
 
 #[test]
+fn a_dashpot_pushes_where_the_middle_of_the_path_is_clear_of_the_ring() {
+    // From rest just behind the circle to the other side of the normal: along the normal at the
+    // start the body leaves; in the middle of its path the spring would pull with 7 mN, the dashpot
+    // pushes with 33.
+    let scene = with(isotropic(1.0, 0.0, 0.0), ring(hole("ring", body(), 8.263e-4, 0.0, 0.0), 394.0, 14.5))
+        .with_load(load(Load::constant(-0.31316), Row::dof(0)))
+        .with_load(load(Load::constant(0.01976), Row::dof(1)))
+        .with_initial(&[2.079e-4, -8.068e-4], &[0.0; 2]);
+    let mut impulse = 0.0;
+    let findings = judged(&scene, &Scheme::Located, (7.296e-2, 1), |_, pushes, _| impulse = pushes.impulse[0]);
+    assert_eq!(findings, []);
+    assert!(impulse > 0.0);
+}
+
+#[test]
 fn faults_of_a_ring_are_found() {
     let ring = ring(hole("ring", body(), 5e-3, 0.0, 0.0), 5e3, 2.0);
     let scene = rotating(with(isotropic(1.0, 0.2, 100.0), ring), 3.0, 5.0);
