@@ -37,8 +37,8 @@ pub fn random_scene(seed: u64, units: Units) -> Drawn {
         _ => {
             let friction = [0.0, draws.between(0.05, 0.8)][draws.below(2)];
             let mut scene = rubbing::random_scene(draws, friction);
-            // A draw of its own where there is friction leaves the rest of the scene as it was before
-            // elastic walls had friction.
+            // A draw of its own where there is friction leaves the rest of the scene as it was
+            // before elastic walls had friction.
             if friction > 0.0 {
                 soften(&mut Draws::new(!seed), &mut scene)
             } else {

@@ -152,9 +152,7 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
 /// Notes on the step and the scene that need no run.
 fn setup(case: &Case, choice: &Choice) -> Vec<String> {
     let mut said = notes::setup(&case.scene, &choice.method.scheme, case.time.step);
-    if matches!(choice.method.scheme, Scheme::MoreauJean { .. }) {
-        said.extend(notes::resting(&case.scene, case.time.step));
-    }
+    said.extend(notes::resting(&case.scene, case.time.step));
     said
 }
 

@@ -8,17 +8,20 @@ use std::f64::consts::TAU;
 const SLOW: f64 = 0.1;
 
 /// The warning before moreau-jean steps a scene whose load may hold the body on a rigid wall;
-/// `None` without such a wall. It names the schemes that rest on the face of the wall, of those
-/// that take the scene with steps of `step` seconds.
+/// `None` without such a wall, or where it refuses the scene. It names the schemes that rest on the
+/// face of the wall, of those that take the scene with steps of `step` seconds.
 pub(crate) fn resting(scene: &Scene, step: f64) -> Option<String> {
     let wall = scene.walls.iter().find(|wall| wall.law.is_rigid() && may_rest(scene, wall))?;
-    let others = [(Scheme::Event, "event"), (Scheme::GeneralizedAlpha { rho: 1.0 }, "generalized-alpha")];
-    let taken: Vec<&str> =
-        others.iter().filter(|(scheme, _)| Stepper::new(scene, scheme, step).is_ok()).map(|(_, name)| *name).collect();
+    let takes = |scheme: &Scheme| Stepper::new(scene, scheme, step).is_ok();
+    if !takes(&Scheme::MoreauJean { theta: 0.5 }) {
+        return None;
+    }
+    let others = [Scheme::Event, Scheme::Located, Scheme::GeneralizedAlpha { rho: 1.0 }];
+    let taken: Vec<&str> = others.iter().filter(|scheme| takes(scheme)).map(|scheme| scheme.entry().name).collect();
     let others = match taken.as_slice() {
         [] => String::new(),
         [one] => format!("{one} rests on the face, and "),
-        all => format!("{} rest on the face, and ", all.join(" and ")),
+        [rest @ .., last] => format!("{} and {last} rest on the face, and ", rest.join(", ")),
     };
     Some(format!(
         "a load that lasts can hold the body on wall {:?}: moreau-jean lets it rest up to h v (1 - e/2) behind \
