@@ -48,7 +48,8 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivati
         row.push(digits(Some(one.growth)));
         for key in 0..keys.len() {
             let lists = [&one.start_by, &one.approach_speed_by, &one.impulse_by];
-            row.extend(lists.map(|list| digits(list.get(key).copied().filter(|x| x.is_finite()))));
+            // A sum with 0 turns −0 into 0.
+            row.extend(lists.map(|list| digits(list.get(key).map(|x| x + 0.0).filter(|x| x.is_finite()))));
         }
         row
     });

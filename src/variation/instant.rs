@@ -5,7 +5,7 @@ use super::key_terms::{Instant, KeyTerms};
 use super::keys::Keys;
 use super::no_derivative::NoDerivative;
 use super::oscillator::ON_THE_FACE;
-use super::structure::{At, StructureVariation};
+use super::structure::{At, StructureVariation, name_of};
 use crate::flow::{Propagator, Series, held};
 use crate::step::Step;
 
@@ -31,7 +31,7 @@ impl StructureVariation {
     /// Applies the matrix of coming to rest for rows that are held from here on without an impact:
     /// they were at rest already, to rounding.
     pub fn come_to_rest(&mut self, time: f64, columns: &mut [f64]) -> Done {
-        let Self { flow, walls, jump, during, after, hold, q, v, a, wall_of, keys, .. } = self;
+        let Self { flow, walls, names, jump, during, after, hold, q, v, a, wall_of, keys, .. } = self;
         let rows = 0..during.len();
         let rests = |row| Struck { row, restitution: 0.0, rests: true, held: true, speed: 0.0, pull: 0.0 };
         let fresh: Vec<Struck> = rows.clone().filter(|&row| during[row] && !after[row]).map(rests).collect();
@@ -41,7 +41,7 @@ impl StructureVariation {
         let at = Instant { time, q, before: v, after: v, acceleration: a, impulse: &[], wall_of };
         for s in &fresh {
             keys.contacts.begin(wall_of[s.row]);
-            keys.check_touch(flow, s.row, &at, columns, true)?;
+            keys.check_touch((flow, names), s.row, &at, columns, true)?;
         }
         let held_rows = rows.filter(|&row| during[row]);
         hold.set(&flow.body, held_rows.clone().map(held), std::iter::empty());
@@ -153,7 +153,7 @@ impl StructureVariation {
         if self.keys.terms.is_empty() {
             return Ok(());
         }
-        let Self { flow, walls, during, after, a, length, .. } = self;
+        let Self { flow, walls, names, during, after, a, length, .. } = self;
         let grazed = |at: &At| {
             let [place, rate, pull] = [step.q, step.v, a].map(|x| flow.body.rows.dot(at.row, x));
             let free = at.restitution.is_some() && !during[at.row] && !after[at.row];
@@ -161,25 +161,21 @@ impl StructureVariation {
             free && (place - at.position).abs() <= near && rate * rate <= 200.0 * near * pull.abs()
         };
         match walls.iter().position(grazed) {
-            Some(wall) => Err(NoDerivative::Graze { time: step.end, wall }),
+            Some(wall) => Err(NoDerivative::Graze { time: step.end, wall: name_of(names, wall) }),
             None => Ok(()),
         }
     }
 
     /// The impacts at the end of `step`, after its blows if it is `blown`.
     pub fn impact(&mut self, step: &Step<'_>, series: &Series, blown: bool, columns: &mut [f64]) -> Done {
-        let together = || NoDerivative::Together {
-            time: step.end,
-            walls: step.jump.iter().enumerate().filter(|(_, p)| **p != 0.0).map(|(wall, _)| wall).collect(),
-        };
-        let Self { flow, walls, jump, during, after, wall_of, v, a, keys, .. } = self;
+        let Self { flow, walls, names, jump, during, after, wall_of, v, a, keys, .. } = self;
         let (mut struck, mut passing): (Vec<Struck>, Vec<usize>) = (Vec::new(), Vec::new());
         for row in 0..during.len() {
             let mut here = walls.iter().enumerate().filter(|(wall, at)| at.row == row && step.jump[*wall] != 0.0);
             let Some((wall, first)) = here.next() else { continue };
             let others: Vec<(usize, &At)> = here.collect();
             if others.iter().any(|other| keys.differ(wall, other.0)) {
-                return Err(together());
+                return Err(together(names, step));
             }
             wall_of[row] = wall;
             let e = others.iter().filter_map(|(_, at)| at.restitution).chain(first.restitution).fold(0.0, f64::max);
@@ -190,10 +186,10 @@ impl StructureVariation {
             }
             let rests = after[row] || (e > 0.0 && left.abs() < STUCK * e * speed.abs());
             if !rests && (left + e * speed).abs() > ONCE * speed.abs() {
-                return Err(together());
+                return Err(together(names, step));
             }
             if rests && e == 0.0 && keys.terms.iter().any(|terms| terms.restitution(wall) != 0.0) {
-                return Err(NoDerivative::Rebounds { time: step.end, wall });
+                return Err(NoDerivative::Rebounds { time: step.end, wall: name_of(names, wall) });
             }
             after[row] |= rests;
             let (restitution, pull) = if rests { (0.0, 0.0) } else { (e, acceleration / speed) };
@@ -203,16 +199,16 @@ impl StructureVariation {
         let turned = walls.iter().any(|at| at.during != at.after && at.damping > 0.0);
         let released = (0..during.len()).any(|row| during[row] && !after[row]);
         if struck.len() > 1 && (turned || released || jump.is_coupled(flow)) {
-            return Err(together());
+            return Err(together(names, step));
         }
         self.kick(step, series);
-        let Self { flow, walls, jump, during, q, v, a, wall_of, keys, .. } = self;
+        let Self { flow, walls, names, jump, during, q, v, a, wall_of, keys, .. } = self;
         let at = Instant { time: step.end, q, before: v, after: step.v, acceleration: a, impulse: step.jump, wall_of };
         let fixed = blown || (step.index == 0 && step.end <= step.start);
         let mut free = struck.iter().filter(|s| fixed && !during[s.row]);
-        free.try_for_each(|s| keys.check_touch(flow, s.row, &at, columns, false))?;
+        free.try_for_each(|s| keys.check_touch((flow, names), s.row, &at, columns, false))?;
         if !keys.note_impacts((flow, jump), (walls, &struck), (step, series), &at, columns) {
-            return Err(together());
+            return Err(together(names, step));
         }
         jump.apply_to(flow, columns, &keys.terms, &at);
         Ok(())
@@ -238,10 +234,23 @@ impl StructureVariation {
     }
 }
 
+/// The error of walls struck at the end of `step`.
+fn together(names: &[String], step: &Step<'_>) -> NoDerivative {
+    let pushed = names.iter().zip(step.jump).filter(|(_, p)| **p != 0.0);
+    NoDerivative::Together { time: step.end, walls: pushed.map(|(name, _)| name.clone()).collect() }
+}
+
 impl Keys {
     /// An error where a key or the change so far would move a row from the wall that it touches at
     /// an instant that is fixed, or at rest give it a speed.
-    fn check_touch(&self, flow: &Propagator, row: usize, at: &Instant<'_>, columns: &[f64], rests: bool) -> Done {
+    fn check_touch(
+        &self,
+        (flow, names): (&Propagator, &[String]),
+        row: usize,
+        at: &Instant<'_>,
+        columns: &[f64],
+        rests: bool,
+    ) -> Done {
         let (n, wall) = (at.q.len(), at.wall_of.get(row).copied().unwrap_or(0));
         let large = |own: f64, more: f64, size: f64| (own + more).abs() > ROUNDING * (own.abs() + more.abs()).max(size);
         for ((terms, change), sizes) in self.terms.iter().zip(columns.chunks_exact(2 * n)).zip(&self.sizes) {
@@ -249,7 +258,7 @@ impl Keys {
             let moved = large(flow.body.rows.dot(row, dq), terms.offset(wall, at.q), sizes[0]);
             let sped = rests && large(flow.body.rows.dot(row, dv), terms.along(wall, at.before), sizes[1]);
             if moved || sped {
-                return Err(NoDerivative::Touching { time: at.time, wall });
+                return Err(NoDerivative::Touching { time: at.time, wall: name_of(names, wall) });
             }
         }
         Ok(())

@@ -4,7 +4,7 @@ use super::contact_changes::ContactDerivative;
 use super::exponents::direction;
 use super::keys::MotionDerivative;
 use super::no_derivative::NoDerivative;
-use super::structure::StructureVariation;
+use super::structure::{StructureVariation, name_of};
 use super::tangent::SceneTangent;
 use crate::error::{Error, Result};
 use crate::scene::{Scene, System};
@@ -140,7 +140,7 @@ impl KeyVariation {
                 continue;
             }
             if let Some(wall) = struck.filter(|_| size > STEEPEST * before) {
-                return Err(NoDerivative::Graze { time: step.end, wall });
+                return Err(NoDerivative::Graze { time: step.end, wall: name_of(&self.variation.names, wall) });
             }
             let growth = size / witness.least;
             self.growth = self.growth.max(growth);

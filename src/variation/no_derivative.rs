@@ -12,8 +12,8 @@ pub enum NoDerivative {
     Together {
         /// Time, s.
         time: f64,
-        /// The walls, by their index in the scene.
-        walls: Vec<usize>,
+        /// The names of the walls.
+        walls: Vec<String>,
     },
     /// The step does not resolve its events: it was made by a scheme on a grid, or in a stretch
     /// that the exact scheme has handed to one.
@@ -27,8 +27,8 @@ pub enum NoDerivative {
     Graze {
         /// Time, s.
         time: f64,
-        /// The wall, by its index in the scene.
-        wall: usize,
+        /// The name of the wall.
+        wall: String,
     },
     /// Changes of the start have grown by more than 1e6: past this horizon the motion that is known
     /// to rounding does not determine its derivative to eight digits.
@@ -43,16 +43,16 @@ pub enum NoDerivative {
     Touching {
         /// Time, s.
         time: f64,
-        /// The wall, by its index in the scene.
-        wall: usize,
+        /// The name of the wall.
+        wall: String,
     },
     /// A body comes to rest on a wall with restitution 0, which the key raises: in place of one
     /// contact there would be many impacts.
     Rebounds {
         /// Time, s.
         time: f64,
-        /// The wall, by its index in the scene.
-        wall: usize,
+        /// The name of the wall.
+        wall: String,
     },
 }
 
@@ -75,7 +75,8 @@ impl fmt::Display for NoDerivative {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Together { time, walls } => {
-                write!(f, "no derivative: {} coupled walls are struck at one instant, t = {time} s", walls.len())
+                let walls = walls.join("\" and \"");
+                write!(f, "no derivative: the coupled walls \"{walls}\" are struck at one instant, t = {time} s")
             }
             Self::Unresolved { time } => write!(
                 f,
@@ -83,7 +84,7 @@ impl fmt::Display for NoDerivative {
                  the scheme event does"
             ),
             Self::Graze { time, wall } => {
-                write!(f, "no derivative: wall {} is grazed at t = {time} s, where it is infinite", wall + 1)
+                write!(f, "no derivative: wall {wall:?} is grazed at t = {time} s, where it is infinite")
             }
             Self::Horizon { time, growth } => write!(
                 f,
@@ -92,15 +93,13 @@ impl fmt::Display for NoDerivative {
             ),
             Self::Touching { time, wall } => write!(
                 f,
-                "no derivative: at t = {time} s wall {} is touched, and the key moves wall or body away from the \
-                 other, or into it",
-                wall + 1
+                "no derivative: at t = {time} s wall {wall:?} is touched, and the key moves wall or body away from \
+                 the other, or into it"
             ),
             Self::Rebounds { time, wall } => write!(
                 f,
-                "no derivative: the body comes to rest on wall {} at t = {time} s with a restitution of 0, and above \
-                 0 one contact becomes many impacts",
-                wall + 1
+                "no derivative: the body comes to rest on wall {wall:?} at t = {time} s with a restitution of 0, and \
+                 above 0 one contact becomes many impacts"
             ),
         }
     }

@@ -25,11 +25,18 @@ pub(super) struct At {
     pub after: bool,
 }
 
+/// The name of number `wall` among the `names` of all walls.
+pub(super) fn name_of(names: &[String], wall: usize) -> String {
+    names.get(wall).cloned().unwrap_or_default()
+}
+
 /// Propagates changes of the start over the steps of a structure.
 #[derive(Debug)]
 pub(super) struct StructureVariation {
     pub flow: Propagator,
     pub walls: Vec<At>,
+    /// The names of the walls.
+    pub names: Vec<String>,
     pub jump: Jump,
     /// Rows held during the present stretch, and after the last event.
     pub during: Vec<bool>,
@@ -70,6 +77,7 @@ impl StructureVariation {
         });
         Ok(Self {
             walls: walls.collect(),
+            names: (0..scene.walls.len()).map(|wall| scene.wall_name(wall).unwrap_or_default().to_owned()).collect(),
             jump: Jump::with_room(n, rows),
             during: vec![false; rows],
             after: vec![false; rows],
@@ -197,10 +205,9 @@ impl StructureVariation {
             at.during = !holds;
             if holds {
                 if self.during[at.row] && self.keys.differ(wall, self.wall_of[at.row]) {
-                    return Err(NoDerivative::Together {
-                        time: series.start(),
-                        walls: vec![self.wall_of[at.row], wall],
-                    });
+                    let both = [self.wall_of[at.row], wall];
+                    let walls = both.map(|wall| name_of(&self.names, wall)).to_vec();
+                    return Err(NoDerivative::Together { time: series.start(), walls });
                 }
                 self.during[at.row] = true;
                 self.wall_of[at.row] = wall;

@@ -111,7 +111,9 @@ fn a_graze_a_horizon_and_a_touched_start_are_named() {
     let key = SceneTangent::new("start", 9.9e-3, swing).unwrap();
     assert!(reason(&swing(9.9e-3).unwrap(), key).is_none());
     let key = SceneTangent::new("start", 0.01, swing).unwrap();
-    assert!(matches!(reason(&swing(0.01).unwrap(), key), Some(NoDerivative::Graze { wall: 0, .. })));
+    let grazed = reason(&swing(0.01).unwrap(), key).expect("a reason");
+    assert!(matches!(&grazed, NoDerivative::Graze { wall, .. } if wall == "stop"), "{grazed}");
+    assert!(grazed.to_string().contains("wall \"stop\" is grazed"), "{grazed}");
     // A chaotic motion between two walls.
     let chaotic = |amplitude: f64| {
         Ok(Scene::oscillator(1.0, 0.0, 0.0)
