@@ -2,6 +2,7 @@
 //! there.
 
 use super::signature::Kind;
+use crate::variation::WallTangent;
 
 /// A wall as the equations of an orbit use it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,6 +55,27 @@ impl Boundary {
             (Kind::Impact | Kind::Chatter, BoundaryLaw::Rigid(e)) => scaled(-e),
             (Kind::Rest | Kind::Release, _) => scaled(0.0),
             _ => self.before(kind, v),
+        }
+    }
+
+    /// The derivative of the state just before an event of speed `v` (m/s), which does not change,
+    /// with respect to a key that changes the wall by `by`.
+    pub fn before_by(&self, kind: Kind, v: f64, by: &WallTangent) -> [f64; 2] {
+        match (kind, self.law) {
+            (Kind::Leave | Kind::Again, BoundaryLaw::Elastic { stiffness, damping }) => {
+                let depth = self.toward * (by.damping - damping * by.stiffness / stiffness) / stiffness;
+                [by.position + depth * v, 0.0]
+            }
+            _ => [by.position, 0.0],
+        }
+    }
+
+    /// The same of the state just after it.
+    pub fn after_by(&self, kind: Kind, v: f64, by: &WallTangent) -> [f64; 2] {
+        match (kind, self.law) {
+            (Kind::Impact | Kind::Chatter, BoundaryLaw::Rigid(_)) => [by.position, -self.toward * by.restitution * v],
+            (Kind::Rest | Kind::Release, _) => [by.position, 0.0],
+            _ => self.before_by(kind, v, by),
         }
     }
 

@@ -14,10 +14,12 @@
 //!
 //! with Φ the propagator of the flight and f the right-hand side of the differential equation.
 
+use super::boundary::{Boundary, OnWall};
 use super::periodic::Orbit;
 use super::problem::Problem;
 use super::signature::{Kind, Signature};
 use crate::flow::{Arc, Support};
+use crate::scene::Side;
 use nalgebra::{DMatrix, DVector};
 
 /// The unknowns are made dimensionless by a tenth of a cycle, the gap, and the gap times the
@@ -38,6 +40,43 @@ impl Scales {
         let [length, speed] = problem.scales();
         Self { length, speed }
     }
+
+    /// N.
+    pub fn force(self, problem: &Problem) -> f64 {
+        let omega = std::f64::consts::TAU / problem.forcing_period();
+        problem.body().mass * self.length * omega * omega
+    }
+}
+
+/// A flight from an event to the next, `j`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Flight<'a> {
+    /// Its number.
+    pub i: usize,
+    /// That of the event at which it ends, and −1 if its end is the mirror image of that.
+    pub j: usize,
+    pub sign: f64,
+    /// The kinds of both events, their boundaries and walls, and their speeds (m/s).
+    pub kinds: [Kind; 2],
+    pub boundaries: [&'a Boundary; 2],
+    pub walls: [usize; 2],
+    pub speeds: [f64; 2],
+    /// Its start and its end, cycles.
+    pub phases: [f64; 2],
+    /// The states just after the one event and just before the other.
+    pub from: OnWall,
+    pub to: OnWall,
+    /// The wall on which the body rests.
+    pub carrier: Option<usize>,
+}
+
+impl Flight<'_> {
+    /// The reaction of the wall on which the body rests at the end of the flight, `span` (s) after
+    /// its start, and its derivatives with respect to time: N, N/s, …
+    pub fn reaction(&self, arc: &Arc, wall: usize, span: f64) -> [f64; 4] {
+        let side = if self.boundaries[0].toward > 0.0 { Side::Upper } else { Side::Lower };
+        arc.pressing(Support { wall, side }, span)
+    }
 }
 
 /// Sign with which a perturbation at the end of the last flight is passed on to the first event.
@@ -53,9 +92,9 @@ pub(super) enum Turn {
 /// The equations of one signature.
 #[derive(Debug)]
 pub(super) struct Equations<'a> {
-    signature: &'a Signature,
-    touching: Vec<Vec<usize>>,
-    scales: Scales,
+    pub signature: &'a Signature,
+    pub touching: Vec<Vec<usize>>,
+    pub scales: Scales,
 }
 
 impl<'a> Equations<'a> {
@@ -87,6 +126,39 @@ impl<'a> Equations<'a> {
         }
     }
 
+    /// Flight number `i` at `unknowns`, scaled; `None` beyond the walls and unknowns.
+    pub fn flight<'b>(&self, problem: &'b Problem, i: usize, unknowns: &[f64]) -> Option<Flight<'b>> {
+        let events = &self.signature.events;
+        let last = i + 1 == events.len();
+        let j = if last { 0 } else { i + 1 };
+        let (event, next) = (events.get(i)?, events.get(j)?);
+        let boundaries = [problem.boundary(event.wall)?, problem.boundary(next.wall)?];
+        let at = |index: usize| unknowns.get(index).copied();
+        let speeds = [at(2 * i + 1)? * self.scales.speed, at(2 * j + 1)? * self.scales.speed];
+        let shift = if last { self.signature.cycles() } else { 0.0 };
+        Some(Flight {
+            i,
+            j,
+            sign: if last && self.signature.symmetric { -1.0 } else { 1.0 },
+            kinds: [event.kind, next.kind],
+            boundaries,
+            walls: [event.wall, next.wall],
+            speeds,
+            phases: [at(2 * i)? * CYCLE, at(2 * j)? * CYCLE + shift],
+            from: boundaries[0].after(event.kind, speeds[0]),
+            to: boundaries[1].before(next.kind, speeds[1]),
+            carrier: (event.kind == Kind::Rest).then_some(event.wall),
+        })
+    }
+
+    /// Fills the arc of a flight, and gives its length, s.
+    pub fn fly(&self, problem: &Problem, arc: &mut Arc, flight: &Flight<'_>) -> f64 {
+        let [start, end] = flight.phases.map(|phase| phase * problem.forcing_period());
+        let touching = self.touching.get(flight.i).map_or(&[][..], Vec::as_slice);
+        problem.fly(arc, flight.from.state, [start, end - start], touching, flight.carrier);
+        end - start
+    }
+
     /// The residual at `unknowns`, scaled; and its Jacobian, where one is asked for.
     pub fn evaluate(
         &self,
@@ -99,36 +171,21 @@ impl<'a> Equations<'a> {
         let events = &self.signature.events;
         let period = problem.forcing_period();
         let Scales { length, speed } = self.scales;
-        let omega = std::f64::consts::TAU / period;
-        let force = problem.body().mass * length * omega * omega;
+        let force = self.scales.force(problem);
         let mut jacobian = jacobian;
         if let Some((matrix, _)) = &mut jacobian {
             matrix.fill(0.0);
         }
-        for (i, event) in events.iter().enumerate() {
-            let last = i + 1 == events.len();
-            let j = if last { 0 } else { i + 1 };
-            let next = events[j];
-            let (Some(boundary), Some(target)) = (problem.boundary(event.wall), problem.boundary(next.wall)) else {
-                continue;
-            };
-            let shift = if last { self.signature.cycles() } else { 0.0 };
-            let mirrored = last && self.signature.symmetric;
-            let sign = if mirrored { -1.0 } else { 1.0 };
-            let start = unknowns[2 * i] * CYCLE * period;
-            let span = (unknowns[2 * j] * CYCLE + shift) * period - start;
-            let from = boundary.after(event.kind, unknowns[2 * i + 1] * speed);
-            let to = target.before(next.kind, unknowns[2 * j + 1] * speed);
-            let touching = self.touching.get(i).map_or(&[][..], Vec::as_slice);
+        for i in 0..events.len() {
+            let Some(flight) = self.flight(problem, i, unknowns) else { continue };
+            let Flight { j, sign, from, to, carrier, .. } = flight;
             let (r0, r1) = (2 * i, 2 * i + 1);
-            let carrier = (event.kind == Kind::Rest).then_some(event.wall);
-            problem.fly(arc, from.state, [start, span], touching, carrier);
+            let span = self.fly(problem, arc, &flight);
             // The derivatives of both rows with respect to phase and speed of event i, and of event
             // j.
             let (own, other);
             if let Some(wall) = carrier {
-                let side = if boundary.toward > 0.0 { crate::scene::Side::Upper } else { crate::scene::Side::Lower };
-                let [reaction, rate, ..] = arc.pressing(Support { wall, side }, span);
+                let [reaction, rate, ..] = flight.reaction(arc, wall, span);
                 residual[r0] = reaction / force;
                 residual[r1] = unknowns[2 * j + 1];
                 own = [[0.0; 2]; 2];
@@ -155,7 +212,7 @@ impl<'a> Equations<'a> {
                 other = [first.1, second.1];
             }
             let Some((matrix, turn)) = &mut jacobian else { continue };
-            let factor = if last && *turn == Turn::Opposite { -1.0 } else { 1.0 };
+            let factor = if j == 0 && *turn == Turn::Opposite { -1.0 } else { 1.0 };
             for (k, row) in [r0, r1].into_iter().enumerate() {
                 for column in 0..2 {
                     matrix[(row, 2 * i + column)] += own[k][column];

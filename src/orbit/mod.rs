@@ -26,14 +26,18 @@
 //! mirror and the period of a scene; `branch/` follows orbits over a key: `branch/arclength.rs` is
 //! what all curves share (steps, corrections, points located between two), `branch/line.rs` what
 //! any curve of orbits can do, `branch/net.rs` joins branches, `branch/graph.rs` begins; of one
-//! degree of freedom `branch/curve.rs` is a branch as a curve, `branch/follow.rs` steps along it,
+//! degree of freedom `branch/curve.rs` is a branch as a curve over the scenes of
+//! `branch/family.rs`, with the derivative by the key of `key_column.rs`, `branch/follow.rs` steps
+//! along it,
 //! `branch/events.rs` has the test functions, `branch/switch.rs` finds the branch that begins
 //! there, `branch/locus.rs` follows special points over two keys; `branch/shots/` are branches of
 //! structures: `branch/shots/here.rs` is what is known at a point, `branch/shots/follow.rs` the
 //! steps, `branch/shots/moved.rs` moves the strobe, `branch/shots/change.rs` and
 //! `branch/shots/graze.rs` find where the walls that are met change, `branch/shots/switch.rs` the
 //! branches that begin there; `shooting.rs` finds orbits of structures, by `strobe.rs` and the runs
-//! of `turn.rs`, and `shot_derivative.rs` differentiates them by keys; it imports no case.
+//! of `turn.rs`, and `shot_derivative.rs` differentiates them by keys, as `orbit_derivative.rs` (with
+//! `monodromy_derivative.rs` for the multipliers) those of one degree of freedom; it imports no
+//! case.
 
 mod admissible;
 mod boundary;
@@ -45,7 +49,10 @@ mod flights;
 mod floquet;
 mod forcing;
 mod judge;
+mod key_column;
+mod monodromy_derivative;
 mod newton;
+mod orbit_derivative;
 #[cfg(feature = "cli")]
 mod path;
 mod periodic;
@@ -65,6 +72,7 @@ pub use floquet::Floquet;
 #[cfg(feature = "cli")]
 pub(crate) use forcing::{forcing_period, frequencies};
 pub use judge::{Instant, Judged, WallShare};
+pub use orbit_derivative::OrbitDerivative;
 #[cfg(feature = "cli")]
 pub(crate) use path::path;
 pub use periodic::Orbit;

@@ -137,14 +137,17 @@ impl Problem {
     ) {
         let from =
             Start { time: start, late: 0.0, state, forcing: &self.forcing, extra: 0.0, span, length: self.length };
-        let touch = |&wall: &usize| match self.boundaries.get(wall)?.law {
-            BoundaryLaw::Elastic { stiffness, damping } => {
-                Some(Touch { wall, position: self.boundaries.get(wall)?.position, stiffness, damping })
-            }
-            BoundaryLaw::Rigid(_) => None,
-        };
         let support = support.and_then(|wall| Some(Support { wall, side: self.scene.walls.get(wall)?.side() }));
-        arc.begin(&from, touching.iter().filter_map(touch), support);
+        arc.begin(&from, touching.iter().filter_map(|&wall| self.touch(wall)), support);
+    }
+
+    /// Wall number `wall` as one that touches; `None` for a rigid one.
+    pub(super) fn touch(&self, wall: usize) -> Option<Touch> {
+        let Boundary { position, law, .. } = *self.boundaries.get(wall)?;
+        match law {
+            BoundaryLaw::Elastic { stiffness, damping } => Some(Touch { wall, position, stiffness, damping }),
+            BoundaryLaw::Rigid(_) => None,
+        }
     }
 
     /// For each event, the elastic walls in contact after it.

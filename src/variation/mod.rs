@@ -41,12 +41,16 @@
 //!
 //! The derivative of a motion with respect to its start, from the steps of the exact scheme:
 //! `saltation.rs` states what each event makes of a small change, `oscillator.rs` and
-//! `structure.rs` (with `jump.rs`) read it from the steps, `product.rs` multiplies along a run,
-//! `exponents.rs` holds Lyapunov exponents; knows no scheme.
+//! `structure.rs` (with `jump.rs` and `instant.rs`) read it from the steps, `product.rs` multiplies
+//! along a run, `exponents.rs` holds Lyapunov exponents. With respect to keys: `tangent/` is the
+//! derivative of the scene, `key_variation.rs` that of a run, with `keys.rs`, `key_terms.rs` and
+//! `contact_changes.rs`; `arc_series.rs` writes closed-form motion as series, of which `flight.rs`
+//! takes one at a time. Knows no scheme.
 
 mod arc_series;
 mod contact_changes;
 mod exponents;
+mod flight;
 mod instant;
 mod jump;
 mod key_terms;
@@ -61,9 +65,11 @@ mod tangent;
 
 pub use contact_changes::ContactDerivative;
 pub use exponents::{Exponent, Exponents};
+pub(crate) use flight::FlightVariation;
 pub use key_variation::KeyVariation;
 pub use keys::MotionDerivative;
 pub use no_derivative::NoDerivative;
 pub use oscillator::OscillatorVariation;
 pub use product::{Product, Variation};
 pub use tangent::SceneTangent;
+pub(crate) use tangent::WallTangent;

@@ -6,7 +6,7 @@ use super::keys::Keys;
 use super::no_derivative::NoDerivative;
 use super::tangent::SceneTangent;
 use crate::error::{Error, Result};
-use crate::flow::{Hold, Propagator, Series};
+use crate::flow::{Arc, Hold, Propagator, Series};
 use crate::scene::Scene;
 use crate::step::{Contact, Path, Step};
 
@@ -123,18 +123,38 @@ impl StructureVariation {
             (Path::Exact(arc), Some(mut arcs)) if fits => {
                 arcs.begin(arc, arc.start());
                 let begun = self.begin(&arcs.series, columns);
-                while begun.is_ok() && arc.end() > arc.start() {
-                    self.pass(&arcs.series, columns);
-                    if arcs.series.end() >= arc.end() {
-                        break;
-                    }
-                    arcs.begin(arc, arcs.series.end());
+                if begun.is_ok() {
+                    self.pass_arc(arc, &mut arcs, columns);
                 }
                 let ended = begun.and_then(|()| self.end(step, &arcs.series, columns));
                 self.arcs = Some(arcs);
                 ended
             }
             _ => Err(NoDerivative::Unresolved { time: step.end }),
+        }
+    }
+
+    /// Propagates `columns` over `arc`, without what happens at its ends. It does nothing to a
+    /// structure.
+    pub fn fly(&mut self, arc: &Arc, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
+        let Some(mut arcs) = self.arcs.take() else { return Ok(()) };
+        arcs.begin(arc, arc.start());
+        let read = self.read(&arcs.series);
+        if read.is_ok() {
+            self.pass_arc(arc, &mut arcs, columns);
+        }
+        self.arcs = Some(arcs);
+        read
+    }
+
+    /// Propagates the columns over the series of an arc, which has begun.
+    fn pass_arc(&mut self, arc: &Arc, arcs: &mut ArcSeries, columns: &mut [f64]) {
+        while arc.end() > arc.start() {
+            self.pass(&arcs.series, columns);
+            if arcs.series.end() >= arc.end() {
+                break;
+            }
+            arcs.begin(arc, arcs.series.end());
         }
     }
 

@@ -6,19 +6,13 @@ use super::super::problem::Problem;
 use super::super::signature::Signature;
 pub(super) use super::arclength::Vector;
 use super::arclength::{self, extended};
+use super::family::{self, Family};
 use crate::error::{Error, Result};
-use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector};
 
-/// Relative step of the finite difference that gives the derivative with respect to the key. It
-/// enters the matrix only, so that the solution does not depend on it.
-const DIFFERENCE: f64 = 1e-6;
-
-/// A scene for each value of a key.
-///
-/// # Errors
-/// [`Error::Invalid`] or [`Error::Case`] for a value that the key does not accept.
-pub type Family<'a> = dyn Fn(f64) -> Result<Scene> + 'a;
+/// Most iterations that compute the derivative with respect to the key: the second is as near the
+/// solution as its square, and the derivative enters the matrix only.
+const OWN: usize = 2;
 
 /// A curve of orbits: the family of scenes and the scales of its unknowns.
 #[derive(Clone)]
@@ -44,10 +38,7 @@ impl Curve<'_> {
     }
 
     pub fn problem(&self, y: &Vector) -> Result<Problem> {
-        self.problem_at(self.value(y))
-    }
-
-    fn problem_at(&self, value: f64) -> Result<Problem> {
+        let value = self.value(y);
         let problem = Problem::new((self.family)(value)?)?;
         if self.signature.symmetric && !problem.is_symmetric() {
             return Err(Error::no_orbit(format!("the scene at {value} is not its own mirror image, as the orbit is")));
@@ -65,33 +56,31 @@ impl Curve<'_> {
         Equations::new(problem, &self.signature, self.scales).orbit(y.as_slice(), problem)
     }
 
-    fn residual(&self, problem: &Problem, y: &Vector) -> Vector {
-        let equations = Equations::new(problem, &self.signature, self.scales);
-        let mut residual = DVector::zeros(equations.unknowns());
-        equations.evaluate(problem, &mut problem.arc(), y.as_slice(), &mut residual, None);
-        residual
-    }
-
     /// Residual and derivatives at `y`.
     pub fn linear(&self, y: &Vector) -> Result<Linear> {
+        self.linear_with(y, &mut None)
+    }
+
+    /// The same, with the derivative with respect to the key from `column`; if it is `None` there,
+    /// it is computed and stored.
+    fn linear_with(&self, y: &Vector, column: &mut Option<Vector>) -> Result<Linear> {
         let problem = self.problem(y)?;
         let equations = Equations::new(&problem, &self.signature, self.scales);
         let n = equations.unknowns();
         let (mut residual, mut matrix) = (DVector::zeros(n), DMatrix::zeros(n, n + 1));
         let jacobian = Some((&mut matrix, Turn::Same));
-        equations.evaluate(&problem, &mut problem.arc(), y.as_slice(), &mut residual, jacobian);
+        let mut arc = problem.arc();
+        equations.evaluate(&problem, &mut arc, y.as_slice(), &mut residual, jacobian);
         if n > 0 {
-            let value = self.value(y);
-            let step = DIFFERENCE * value.abs().max(1e-3 * self.width);
-            // At the end of the values that the key accepts the difference is one-sided.
-            let (above, below) = (self.problem_at(value + step), self.problem_at(value - step));
-            let column = match (above, below) {
-                (Ok(above), Ok(below)) => (self.residual(&above, y) - self.residual(&below, y)) / (2.0 * step),
-                (Ok(above), Err(_)) => (self.residual(&above, y) - &residual) / step,
-                (Err(_), Ok(below)) => (&residual - self.residual(&below, y)) / step,
-                (Err(error), Err(_)) => return Err(error),
+            let column = match column {
+                Some(known) => &*known,
+                None => {
+                    let tangent = family::tangent(self.family, self.value(y), self.width, problem.scene())?;
+                    let own = equations.by_key(&problem, &mut arc, y.as_slice(), &tangent)?;
+                    &*column.insert(own * self.width)
+                }
             };
-            matrix.set_column(n, &(column * self.width));
+            matrix.set_column(n, column);
         }
         Ok(Linear { problem, residual, matrix })
     }
@@ -120,6 +109,14 @@ impl Curve<'_> {
     /// The point of the curve in the plane through `guess` with the normal `border`; with its
     /// linearised equations and the number of iterations.
     pub fn correct(&self, guess: &Vector, border: &Vector) -> Result<(Vector, Linear, usize)> {
-        arclength::correct(guess, border, |y| self.linear(y), |linear| (&linear.residual, &linear.matrix))
+        let (mut iteration, mut column) = (0, None);
+        let linear = |y: &Vector| {
+            if iteration < OWN {
+                column = None;
+            }
+            iteration += 1;
+            self.linear_with(y, &mut column)
+        };
+        arclength::correct(guess, border, linear, |linear| (&linear.residual, &linear.matrix))
     }
 }

@@ -25,6 +25,7 @@
 mod arclength;
 mod curve;
 mod events;
+mod family;
 mod follow;
 mod graph;
 mod label;
@@ -36,7 +37,7 @@ mod request;
 mod shots;
 mod switch;
 
-pub use curve::Family;
+pub use family::Family;
 pub use graph::{Start, graph};
 pub use label::Label;
 pub use line::End;

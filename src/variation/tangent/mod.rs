@@ -55,7 +55,7 @@ pub struct SceneTangent {
 
 /// The derivative of a wall.
 #[derive(Debug, Clone)]
-pub(super) struct WallTangent {
+pub(crate) struct WallTangent {
     /// δg, m; δe; δk_a, N/m, and δc_a, N s/m: each per unit of the value.
     pub position: f64,
     pub restitution: f64,
@@ -74,7 +74,15 @@ impl SceneTangent {
     /// number of walls or loads, another instant of a blow or of a row of a table, another
     /// duration; errors of `build`.
     pub fn new(name: &str, value: f64, build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
-        let tangent = Self::of(name, value, Stencil::new(value, build)?)?;
+        let stencil = Stencil::new(value, build)?;
+        let alike = stencil.scenes().all(|scene| scene.duration == stencil.base.duration);
+        if !alike || !stencil.scenes().all(|scene| is_alike(&stencil.base, scene)) {
+            return Err(refused(name, value, "a key that keeps walls, loads, their times and the duration"));
+        }
+        let tangent = Self::of(name, value, stencil);
+        if tangent.is_zero() {
+            return Err(refused(name, value, "a key on which the scene depends"));
+        }
         if tangent.error.is_nan() || tangent.error > MOST_ERROR {
             return Err(refused(name, value, "a key on which the scene depends smoothly"));
         }
@@ -82,18 +90,19 @@ impl SceneTangent {
     }
 
     /// The difference between the scenes at two values near that of `base`, whose error is not
-    /// known: enough for the matrix of Newton's method.
+    /// known: enough for the matrix of Newton's method. The durations may differ, and the scenes may
+    /// be the same.
     ///
     /// # Errors
-    /// As [`SceneTangent::new`].
+    /// [`Error::Invalid`] for scenes of other walls or loads.
     pub(crate) fn between(name: &str, value: f64, base: Scene, ends: [(f64, Scene); 2]) -> Result<Self> {
-        Self::of(name, value, Stencil::between(base, ends))
+        if !ends.iter().all(|(_, scene)| is_alike(&base, scene)) {
+            return Err(refused(name, value, "a key that keeps walls, loads and their times"));
+        }
+        Ok(Self::of(name, value, Stencil::between(base, ends)))
     }
 
-    fn of(name: &str, value: f64, mut stencil: Stencil) -> Result<Self> {
-        if !stencil.scenes().all(|scene| is_alike(&stencil.base, scene)) {
-            return Err(refused(name, value, "a key that keeps walls, loads, their times and the duration"));
-        }
+    fn of(name: &str, value: f64, mut stencil: Stencil) -> Self {
         let n = stencil.base.system.degrees_of_freedom();
         let [mass, damping, stiffness] = matrices::changes(&mut stencil);
         let walls = (0..stencil.base.walls.len()).map(|wall| WallTangent::new(&mut stencil, wall)).collect();
@@ -105,9 +114,30 @@ impl SceneTangent {
         let q = (0..n).map(|i| stencil.derivative(|scene| at(&scene.initial.q, i))).collect();
         let v = (0..n).map(|i| stencil.derivative(|scene| at(&scene.initial.v, i))).collect();
         let error = stencil.error;
-        let tangent =
-            Self { name: name.to_owned(), value, error, mass, damping, stiffness, walls, loads, probes, q, v };
-        if tangent.is_zero() { Err(refused(name, value, "a key on which the scene depends")) } else { Ok(tangent) }
+        Self { name: name.to_owned(), value, error, mass, damping, stiffness, walls, loads, probes, q, v }
+    }
+
+    /// δm (kg), δc (N s/m) and δk (N/m) of a body of one degree of freedom, per unit of the value.
+    pub(crate) fn body(&self) -> [f64; 3] {
+        [&self.mass, &self.damping, &self.stiffness].map(|matrix| {
+            let mut of_one = [0.0];
+            matrix.iter().for_each(|matrix| matrix.add_product(1.0, &[1.0], &mut of_one));
+            of_one[0]
+        })
+    }
+
+    /// The derivative of wall number `wall`.
+    pub(crate) fn wall(&self, wall: usize) -> Option<&WallTangent> {
+        self.walls.get(wall)
+    }
+
+    /// The derivative of the loads on a body of one degree of freedom at `time` (s), N per unit of
+    /// the value.
+    pub(crate) fn force(&self, time: f64) -> f64 {
+        let (mut terms, mut force) = (LoadTerms::default(), [0.0]);
+        terms.fill(&self.loads, 1, time, 1.0);
+        terms.add(&self.loads, 0, &mut force);
+        force[0]
     }
 
     /// The name of the value.
@@ -185,5 +215,5 @@ fn is_alike(a: &Scene, b: &Scene) -> bool {
             .all(|(a, b)| a.side() == b.side() && std::mem::discriminant(&a.law) == std::mem::discriminant(&b.law));
     let loads = a.loads.len() == b.loads.len() && a.loads.iter().zip(&b.loads).all(|(a, b)| loads::is_alike(a, b));
     let sizes = a.system.degrees_of_freedom() == b.system.degrees_of_freedom() && a.probes.len() == b.probes.len();
-    walls && loads && sizes && a.duration == b.duration
+    walls && loads && sizes
 }

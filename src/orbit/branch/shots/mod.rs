@@ -17,7 +17,7 @@ mod switch;
 
 use crate::error::{Error, Result};
 use crate::orbit::branch::arclength::{self, Vector, extended, unit};
-use crate::orbit::branch::curve::Family;
+use crate::orbit::branch::family::{self, DIFFERENCE, Family};
 use crate::orbit::forcing::forcing_period;
 use crate::orbit::shooting::{Shot, posed};
 use crate::orbit::strobe::{Scales, vector};
@@ -27,10 +27,7 @@ use crate::scene::Scene;
 use crate::variation::SceneTangent;
 use nalgebra::DMatrix;
 
-/// Relative step of the finite difference that gives the derivative with respect to the key …
-const DIFFERENCE: f64 = 1e-6;
-
-/// … and the factors by which it is reduced while the contacts differ at its ends.
+/// Factors by which the distance of two scenes is reduced while their contacts differ.
 const FINER: [f64; 3] = [1.0, 1e-2, 1e-4];
 
 /// An orbit is symmetric if its second half differs by less than this share of the scales from the
@@ -137,11 +134,7 @@ impl<'a> Shots<'a> {
     /// The derivative of the scene at the key's value, and those of the instants between which the
     /// map runs; `None` where the scenes beside it do not tell.
     fn tangent(&self, value: f64, posed: &Posed) -> Option<(SceneTangent, [f64; 2])> {
-        let step = DIFFERENCE * value.abs().max(1e-3 * self.width);
-        let end = |value: f64| Some((value, (self.family)(value).ok()?));
-        let here = || Some((value, posed.scene.clone()));
-        let ends = [end(value - step).or_else(here)?, end(value + step).or_else(here)?];
-        let tangent = SceneTangent::between("key", value, posed.scene.clone(), ends).ok()?;
+        let tangent = family::tangent(self.family, value, self.width, &posed.scene).ok()?;
         let longer = tangent.period(&posed.scene, posed.period).ok()?;
         Some((tangent, [self.strobe, self.strobe + self.cycles()].map(|cycles| cycles * longer)))
     }
