@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use signorini as sg;
 use signorini::study::derivatives::Derivatives;
-use signorini::variation::{ContactDerivative, SceneTangent};
+use signorini::variation::{ContactDerivative, MeanDerivative, SceneTangent};
 
 /// A key: its name, its value, and a function that returns the scene at another value.
 type Key = (String, f64, Py<PyAny>);
@@ -30,12 +30,17 @@ pub fn _derivative<'py>(scene: &Bound<'py, Scene>, keys: Vec<Key>, times: Vec<f6
     };
     dict.set_item("wall", found.contacts.iter().map(|one| inner.wall_name(one.contact.wall)).collect::<Vec<_>>())?;
     dict.set_item("start", of(|one| one.contact.start))?;
+    dict.set_item("end", of(|one| one.contact.end.unwrap_or(f64::NAN)))?;
     dict.set_item("approach_speed", of(|one| one.contact.approach_speed))?;
+    dict.set_item("departure_speed", of(|one| one.contact.departure_speed.unwrap_or(f64::NAN)))?;
     dict.set_item("impulse", of(|one| one.contact.impulse))?;
     dict.set_item("contact_growth", of(|one| one.growth))?;
     dict.set_item("start_by", by(|one| &one.start_by))?;
+    dict.set_item("end_by", by(|one| &one.end_by))?;
     dict.set_item("approach_speed_by", by(|one| &one.approach_speed_by))?;
+    dict.set_item("departure_speed_by", by(|one| &one.departure_speed_by))?;
     dict.set_item("impulse_by", by(|one| &one.impulse_by))?;
+    dict.set_item("mean", found.means.as_ref().map(|means| named_means(inner, means)))?;
     let motion = found.motion;
     for (name, values) in [
         ("displacement", motion.displacement),
@@ -49,6 +54,22 @@ pub fn _derivative<'py>(scene: &Bound<'py, Scene>, keys: Vec<Key>, times: Vec<f6
     dict.set_item("ended", found.ended.as_ref().map(ToString::to_string))?;
     dict.set_item("until", found.ended.as_ref().map_or(inner.duration, |reason| reason.time()))?;
     Ok(dict)
+}
+
+/// Means of a run of `scene`: their names, values and derivatives.
+fn named_means(scene: &sg::Scene, means: &MeanDerivative) -> Vec<(String, f64, Vec<f64>)> {
+    let mut rows = Vec::new();
+    let mut add = |what: &str, names: &[&str], values: &[f64], by: &[Vec<f64>]| {
+        let all = names.iter().zip(values).zip(by);
+        let named = |name: &str| if name.is_empty() { what.to_owned() } else { format!("{what}:{name}") };
+        rows.extend(all.map(|((name, value), by)| (named(name), *value, by.clone())));
+    };
+    let probes: Vec<&str> = scene.probes.iter().map(|probe| &*probe.name).collect();
+    let walls: Vec<&str> = (0..scene.walls.len()).map(|wall| scene.wall_name(wall).unwrap_or_default()).collect();
+    add("displacement", &probes, &means.displacement, &means.displacement_by);
+    add("rms", &probes, &means.rms, &means.rms_by);
+    add("force", &walls, &means.force, &means.force_by);
+    rows
 }
 
 /// The derivative of the scenes that a function returns.

@@ -7,7 +7,14 @@ import matplotlib.pyplot as plt
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGES = {"docs/python.md": 11, "docs/own-tube.md": 1, "docs/own-paper-figure.md": 1, "README.md": 1, "python/README.md": 1}
+PAGES = {
+    "docs/python.md": 11,
+    "docs/fit.md": 4,
+    "docs/own-tube.md": 1,
+    "docs/own-paper-figure.md": 1,
+    "README.md": 1,
+    "python/README.md": 1,
+}
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::scene::Scene;
 use crate::study::derivatives::Derivatives;
 use crate::study::horizon::LARGEST_GROWTH;
+use crate::variation::MeanDerivative;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -28,8 +29,12 @@ pub const FILE: &str = "derivatives.csv";
 /// The share of a key by which the table changes it.
 const SHARE: f64 = 0.01;
 
-/// Writes the contacts, one per row, with the derivatives of start, approach speed and impulse by
-/// each key: `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what is not known are
+/// The numbers of a contact that are differentiated, with their units.
+const NUMBERS: [(&str, &str); 5] =
+    [("start", "s"), ("end", "s"), ("approach_speed", "m_per_s"), ("departure_speed", "m_per_s"), ("impulse", "N_s")];
+
+/// Writes the contacts, one per row, with the derivatives of start, end, approach speed, departure
+/// speed and impulse by each key: `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what is not known are
 /// empty.
 ///
 /// # Errors
@@ -39,7 +44,7 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivati
     for key in keys {
         let word = key.key.replace(['.', '-'], "_");
         let per = key.unit.map_or_else(String::new, |unit| format!("_per_{unit}"));
-        for (what, unit) in [("start", "s"), ("approach_speed", "m_per_s"), ("impulse", "N_s")] {
+        for (what, unit) in NUMBERS {
             header.push(format!("{what}_by_{word}_{unit}{per}"));
         }
     }
@@ -47,7 +52,7 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivati
         let mut row = csv::contact_cells(name(scene, one.contact.wall), &one.contact);
         row.push(digits(Some(one.growth)));
         for key in 0..keys.len() {
-            let lists = [&one.start_by, &one.approach_speed_by, &one.impulse_by];
+            let lists = [&one.start_by, &one.end_by, &one.approach_speed_by, &one.departure_speed_by, &one.impulse_by];
             // A sum with 0 turns −0 into 0.
             row.extend(lists.map(|list| digits(list.get(key).map(|x| x + 0.0).filter(|x| x.is_finite()))));
         }
@@ -106,13 +111,36 @@ pub fn remarks(keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
     remarks
 }
 
+/// Means over the whole run with their derivatives, as JSON.
+fn means_document(scene: &Scene, means: &MeanDerivative) -> Value {
+    let rows = |unit: &str, names: Vec<&str>, values: &[f64], by: &[Vec<f64>]| {
+        let all = names.into_iter().zip(values).zip(by);
+        let row = |((name, value), by): ((&str, &f64), &Vec<f64>)| {
+            let by: Vec<Value> = by.iter().map(|x| number(*x)).collect();
+            json!({ "name": name, "unit": unit, "value": number(*value), "derivative": by })
+        };
+        all.map(row).collect::<Vec<Value>>()
+    };
+    let probes = || scene.probes.iter().map(|probe| &*probe.name).collect();
+    let walls = (0..scene.walls.len()).map(|wall| scene.wall_name(wall).unwrap_or_default()).collect();
+    json!({
+        "mean_displacement": rows("m", probes(), &means.displacement, &means.displacement_by),
+        "rms_displacement": rows("m", probes(), &means.rms, &means.rms_by),
+        "mean_force": rows("N", walls, &means.force, &means.force_by),
+    })
+}
+
+/// A number, or null where it is not finite.
+fn number(x: f64) -> Value {
+    if x.is_finite() { json!(x) } else { Value::Null }
+}
+
 /// The same as JSON.
 #[must_use]
 pub fn document(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Value {
     let all = derivatives.measured();
     let measured = all.iter().map(|one| {
-        let by: Vec<Value> =
-            one.derivative.iter().map(|x| if x.is_finite() { json!(x) } else { Value::Null }).collect();
+        let by: Vec<Value> = one.derivative.iter().map(|x| number(*x)).collect();
         json!({
             "wall": name(scene, one.wall),
             "name": one.name,
@@ -130,6 +158,7 @@ pub fn document(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Va
         "contacts": derivatives.contacts.len(),
         "predictable_contacts": derivatives.predictable().count(),
         "measured": measured.collect::<Vec<_>>(),
+        "means": derivatives.means.as_ref().map(|means| means_document(scene, means)),
         "growth": derivatives.growth,
         "ended_s": ended.map(crate::variation::NoDerivative::time),
         "ended": ended.map(ToString::to_string),

@@ -4,7 +4,7 @@ use super::horizon::LARGEST_GROWTH;
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
-use crate::variation::{ContactDerivative, KeyVariation, MotionDerivative, NoDerivative, SceneTangent};
+use crate::variation::{ContactDerivative, KeyVariation, MeanDerivative, MotionDerivative, NoDerivative, SceneTangent};
 
 /// The derivatives of an exact run with respect to several keys.
 ///
@@ -38,6 +38,8 @@ pub struct Derivatives {
     /// Displacements and velocities of the probes at the times asked for; NaN from the time of
     /// `ended` on.
     pub motion: MotionDerivative,
+    /// Means of displacements and forces over the whole run; `None` where `ended` is not.
+    pub means: Option<MeanDerivative>,
     /// Why there are no derivatives from a time on, if there are none.
     pub ended: Option<NoDerivative>,
     /// The largest growth of a change of the start since it was smallest.
@@ -79,6 +81,7 @@ impl Derivatives {
         Ok(Self {
             contacts: variation.contacts().to_vec(),
             motion: variation.motion().clone(),
+            means: ended.is_none().then(|| variation.means()),
             ended,
             growth: variation.growth(),
         })

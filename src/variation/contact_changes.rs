@@ -4,7 +4,8 @@
 //! from the function is what the change at a fixed instant adds to it. So an impact moves by
 //! δt = −(G δq + δG q − δg)/G q̇⁻, its approach speed changes as G q̇⁻ does at the moved instant,
 //! and its impulse p as in Newton's law there. The impulse ∫r dt of a lasting contact changes by
-//! ∫δr dt and, at each event within it at which its force jumps from r⁻ to r⁺, by (r⁻ − r⁺) δt.
+//! ∫δr dt and, at each event within it at which its force jumps from r⁻ to r⁺, by (r⁻ − r⁺) δt. It
+//! ends where its force vanishes, so that the end moves by −δr/ṙ.
 
 use crate::step::Contact;
 
@@ -16,8 +17,13 @@ pub struct ContactDerivative {
     pub contact: Contact,
     /// Of the time at which it begins, s per unit of the key.
     pub start_by: Vec<f64>,
+    /// Of the time at which it ends, s per unit of the key. NaN where a blow or an impact elsewhere
+    /// ends a lasting contact: this derivative is not known.
+    pub end_by: Vec<f64>,
     /// Of the approach speed, m/s per unit of the key.
     pub approach_speed_by: Vec<f64>,
+    /// Of the departure speed, m/s per unit of the key; NaN as `end_by`.
+    pub departure_speed_by: Vec<f64>,
     /// Of the impulse, N s per unit of the key, signed as the impulse.
     pub impulse_by: Vec<f64>,
     /// The largest growth of a change of the start until the contact ended.
@@ -30,6 +36,8 @@ pub(super) struct ContactChanges {
     keys: usize,
     open: Vec<Option<Open>>,
     ended: Vec<ContactDerivative>,
+    /// Of the impulses of each wall up to now, N s: for each wall the keys.
+    total: Vec<Vec<f64>>,
 }
 
 #[derive(Debug)]
@@ -37,18 +45,31 @@ struct Open {
     start: Vec<f64>,
     speed: Vec<f64>,
     impulse: Vec<f64>,
+    end: Vec<f64>,
+    departure: Vec<f64>,
+    /// Of its force at the end of the stretch, N.
+    force: Vec<f64>,
 }
 
 impl ContactChanges {
     pub fn new(keys: usize, walls: usize) -> Self {
-        Self { keys, open: (0..walls).map(|_| None).collect(), ended: Vec::new() }
+        let total = vec![vec![0.0; keys]; walls];
+        Self { keys, open: (0..walls).map(|_| None).collect(), ended: Vec::new(), total }
     }
 
     /// Begins a contact of `wall`, unless one is open.
     pub fn begin(&mut self, wall: usize) {
         let zero = || vec![0.0; self.keys];
         if let Some(open) = self.open.get_mut(wall).filter(|open| open.is_none()) {
-            *open = Some(Open { start: zero(), speed: zero(), impulse: zero() });
+            let unknown = || vec![f64::NAN; self.keys];
+            *open = Some(Open {
+                start: zero(),
+                speed: zero(),
+                impulse: zero(),
+                end: unknown(),
+                departure: unknown(),
+                force: zero(),
+            });
         }
     }
 
@@ -60,8 +81,36 @@ impl ContactChanges {
         }
     }
 
+    /// Sets the changes of end (s) and departure speed (m/s) of the open contact of `wall`.
+    pub fn set_end(&mut self, wall: usize, key: usize, [end, speed]: [f64; 2]) {
+        let Some(open) = self.open.get_mut(wall).and_then(Option::as_mut) else { return };
+        if let (Some(a), Some(b)) = (open.end.get_mut(key), open.departure.get_mut(key)) {
+            (*a, *b) = (end, speed);
+        }
+    }
+
+    /// Sets the change of the force (N) of the open contact of `wall`.
+    pub fn set_force(&mut self, wall: usize, key: usize, change: f64) {
+        let open = self.open.get_mut(wall).and_then(Option::as_mut);
+        if let Some(force) = open.and_then(|open| open.force.get_mut(key)) {
+            *force = change;
+        }
+    }
+
+    /// That change, N.
+    pub fn force(&self, wall: usize, key: usize) -> f64 {
+        let open = self.open.get(wall).and_then(Option::as_ref);
+        open.and_then(|open| open.force.get(key)).copied().unwrap_or(f64::NAN)
+    }
+
+    /// The changes of the impulses of each wall up to now, N s, open contacts included.
+    pub fn total(&self) -> &[Vec<f64>] {
+        &self.total
+    }
+
     /// Adds a change of the impulse (N s) of the open contact of `wall`.
     pub fn add_impulse(&mut self, wall: usize, key: usize, change: f64) {
+        self.total.get_mut(wall).and_then(|of_wall| of_wall.get_mut(key)).into_iter().for_each(|sum| *sum += change);
         let open = self.open.get_mut(wall).and_then(Option::as_mut);
         if let Some(impulse) = open.and_then(|open| open.impulse.get_mut(key)) {
             *impulse += change;
@@ -70,13 +119,17 @@ impl ContactChanges {
 
     /// Ends the contact of a wall.
     pub fn end(&mut self, contact: &Contact) {
-        let Some(Open { start, speed, impulse }) = self.open.get_mut(contact.wall).and_then(Option::take) else {
+        let Some(Open { start, speed, impulse, end, departure, .. }) =
+            self.open.get_mut(contact.wall).and_then(Option::take)
+        else {
             return;
         };
         self.ended.push(ContactDerivative {
             contact: *contact,
             start_by: start,
+            end_by: end,
             approach_speed_by: speed,
+            departure_speed_by: departure,
             impulse_by: impulse,
             growth: f64::NAN,
         });

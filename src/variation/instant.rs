@@ -130,22 +130,34 @@ impl StructureVariation {
 
     /// Gives the blows at the end of `step` to the state and to the columns of keys; false if there
     /// are none, or no keys.
-    pub fn take_blow(&mut self, step: &Step<'_>, columns: &mut [f64]) -> bool {
-        let Self { flow, q, v, a, wall_of, keys, .. } = self;
+    ///
+    /// # Errors
+    /// [`NoDerivative::Blow`] where a key moves a blow that falls into a contact.
+    pub fn take_blow(&mut self, step: &Step<'_>, columns: &mut [f64]) -> std::result::Result<bool, NoDerivative> {
+        let Self { flow, walls, names, during, after: held_after, q, v, a, wall_of, keys, .. } = self;
         let n = q.len();
         let mut after = vec![0.0; n];
         let time = step.end;
         if time <= 0.0 || !keys.loads.blow(time.next_down(), time, &mut after) {
-            return false;
+            return Ok(false);
         }
+        let acts = |(wall, at): (usize, &At)| {
+            let held = during[at.row] || held_after[at.row];
+            step.jump[wall] != 0.0 || at.during || at.after || (at.restitution.is_some() && held)
+        };
+        let touched = walls.iter().enumerate().position(acts);
         flow.body.solve(&mut after);
         after.iter_mut().zip(&*v).for_each(|(after, v)| *after += v);
         let at = Instant { time, q, before: v, after: &after, acceleration: a, impulse: &[], wall_of };
         for (terms, change) in keys.terms.iter().zip(columns.chunks_exact_mut(2 * n)) {
-            terms.add_blow(flow, &at, &mut change[n..]);
+            let (dq, dv) = change.split_at_mut(n);
+            terms.add_blow(flow, &at, dv);
+            if let (true, Some(wall)) = (terms.add_moved_blow(flow, time, (dq, dv)), touched) {
+                return Err(NoDerivative::Blow { time, wall: name_of(names, wall) });
+            }
         }
         v.copy_from_slice(&after);
-        true
+        Ok(true)
     }
 
     /// An error where a rigid wall is touched at the end of `step` without speed.
@@ -290,6 +302,10 @@ impl Keys {
                     let pull = flow.body.rows.dot(s.row, at.acceleration);
                     let faster = flow.body.rows.dot(s.row, dv) + terms.along(wall, at.before) + pull * moved;
                     self.contacts.set_start(wall, number, [moved, -of.sign * faster]);
+                    if !s.rests {
+                        let left = s.restitution * faster + terms.restitution(wall) * s.speed;
+                        self.contacts.set_end(wall, number, [moved, -of.sign * left]);
+                    }
                 }
                 let jumped = before(wall) - step.force[wall];
                 if jumped == 0.0 {

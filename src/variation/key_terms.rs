@@ -91,6 +91,29 @@ impl KeyTerms {
         velocity.iter_mut().zip(&momentum).for_each(|(v, change)| *v += change);
     }
 
+    /// Adds what the moved instants of blows at `time` (s) make of displacements and velocities:
+    /// (ẋ⁻ − ẋ⁺) δt, which is −M⁻¹J δt and M⁻¹C M⁻¹J δt. False if none moves.
+    pub fn add_moved_blow(&self, flow: &mut Propagator, time: f64, (q, v): (&mut [f64], &mut [f64])) -> bool {
+        let mut change = vec![0.0; q.len()];
+        let mut moves = false;
+        for load in &self.tangent.loads {
+            let later = load.blow_moves(time);
+            if later != 0.0 {
+                moves = true;
+                load.add_own_blow(-later, &mut change);
+            }
+        }
+        if moves {
+            flow.body.solve(&mut change);
+            let (still, mut faster) = (vec![0.0; q.len()], vec![0.0; q.len()]);
+            flow.body.add_force(&still, &change, &mut faster);
+            flow.body.solve(&mut faster);
+            q.iter_mut().zip(&change).for_each(|(q, change)| *q += change);
+            v.iter_mut().zip(&faster).for_each(|(v, faster)| *v += faster);
+        }
+        moves
+    }
+
     fn add_inertia(&self, at: &Instant<'_>, momentum: &mut [f64]) {
         if let Some(mass) = &self.tangent.mass {
             mass.add_product(-1.0, at.after, momentum);

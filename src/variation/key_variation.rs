@@ -3,6 +3,7 @@
 use super::contact_changes::ContactDerivative;
 use super::exponents::direction;
 use super::keys::MotionDerivative;
+use super::means::MeanDerivative;
 use super::no_derivative::NoDerivative;
 use super::structure::{StructureVariation, name_of};
 use super::tangent::SceneTangent;
@@ -129,6 +130,7 @@ impl KeyVariation {
     /// [`NoDerivative`]: what has been read so far holds, and there is nothing more from then on.
     pub fn carry(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
         self.variation.carry(step, &mut self.columns)?;
+        self.variation.keys.means.passed(step);
         let struck = step.jump.iter().position(|&p| p != 0.0);
         for which in 0..self.witnesses.len() {
             let size = self.size_of(which);
@@ -163,6 +165,14 @@ impl KeyVariation {
     #[must_use]
     pub fn motion(&self) -> &MotionDerivative {
         &self.variation.keys.motion.found
+    }
+
+    /// Means of displacements and forces from the start of the run up to now, with their
+    /// derivatives.
+    #[must_use]
+    pub fn means(&self) -> MeanDerivative {
+        let keys = &self.variation.keys;
+        keys.means.found(keys.contacts.total())
     }
 
     /// The derivative of the state now, (δq, δq̇) for each key one after the other: m and m/s per

@@ -2,6 +2,7 @@
 
 use super::contact_changes::ContactChanges;
 use super::key_terms::KeyTerms;
+use super::means::MeanChanges;
 use super::tangent::SceneTangent;
 use crate::flow::{Change, Propagator, Series, SeriesBody};
 use crate::scene::{Loads, Row, Scene};
@@ -12,6 +13,7 @@ pub(super) struct Keys {
     pub terms: Vec<KeyTerms>,
     pub contacts: ContactChanges,
     pub motion: MotionChanges,
+    pub means: MeanChanges,
     pub loads: Loads,
     /// The largest |δq| (m) and |δq̇| (m/s) of each key so far.
     pub sizes: Vec<[f64; 2]>,
@@ -53,6 +55,7 @@ impl Keys {
             terms: Vec::new(),
             contacts: ContactChanges::new(0, 0),
             motion: MotionChanges::new(&[], Vec::new(), 0),
+            means: MeanChanges::new(&[], 0),
             loads: Loads::new(&[]),
             sizes: Vec::new(),
             change: Change::new(body),
@@ -65,10 +68,11 @@ impl Keys {
     pub fn new(scene: &Scene, body: &SeriesBody, tangents: &[SceneTangent], times: &[f64]) -> Self {
         let places: Vec<(Row, f64)> = scene.walls.iter().map(|wall| (wall.row().clone(), wall.position())).collect();
         let rows = body.rows.count();
-        let probes = scene.probes.iter().map(|probe| probe.at.clone()).collect();
+        let probes: Vec<Row> = scene.probes.iter().map(|probe| probe.at.clone()).collect();
         Self {
             terms: tangents.iter().map(|tangent| KeyTerms::new(tangent.clone(), &places, rows)).collect(),
             contacts: ContactChanges::new(tangents.len(), scene.walls.len()),
+            means: MeanChanges::new(&probes, tangents.len()),
             motion: MotionChanges::new(times, probes, tangents.len()),
             loads: Loads::new(&scene.loads),
             sizes: vec![[0.0; 2]; tangents.len()],
@@ -90,7 +94,7 @@ impl Keys {
         base: &Series,
         (q, v): (&mut [f64], &mut [f64]),
     ) -> bool {
-        let Self { terms, contacts, motion, change, sizes, work: [work_q, work_v], .. } = self;
+        let Self { terms, contacts, motion, means, change, sizes, work: [work_q, work_v], .. } = self;
         let Some((terms, sizes)) = terms.get_mut(column).zip(sizes.get_mut(column)) else { return false };
         for (size, change) in sizes.iter_mut().zip([&*q, &*v]) {
             *size = change.iter().fold(*size, |most, x| most.max(x.abs()));
@@ -104,9 +108,12 @@ impl Keys {
         hold.change(body, v, scratch, |held| -terms.along(wall(held.row), work_v));
         change.fill(body, base, (touching, hold), (q, v), terms, scratch);
         motion.read(column, base, change, terms, (work_q, work_v));
+        means.pass(column, (base, change), terms);
         let end = base.span();
         for (wall, share) in base.acting_shares() {
-            contacts.add_impulse(wall, column, share * change.impulse(body, (touching, hold), wall, end));
+            let [force, impulse] = change.push(body, (touching, hold), wall, end);
+            contacts.add_impulse(wall, column, share * impulse);
+            contacts.set_force(wall, column, share * force);
         }
         change.state_at(end, q, v);
         true

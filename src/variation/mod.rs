@@ -44,11 +44,12 @@
 //! `structure.rs` (with `jump.rs` and `instant.rs`) read it from the steps, `product.rs` multiplies
 //! along a run, `exponents.rs` holds Lyapunov exponents. With respect to keys: `tangent/` is the
 //! derivative of the scene, `key_variation.rs` that of a run, with `keys.rs`, `key_terms.rs` and
-//! `contact_changes.rs`; `arc_series.rs` writes closed-form motion as series, of which `flight.rs`
+//! `contact_changes.rs`, `ends.rs` and `means.rs`; `arc_series.rs` writes closed-form motion as series, of which `flight.rs`
 //! takes one at a time. Knows no scheme.
 
 mod arc_series;
 mod contact_changes;
+mod ends;
 mod exponents;
 mod flight;
 mod instant;
@@ -56,6 +57,7 @@ mod jump;
 mod key_terms;
 mod key_variation;
 mod keys;
+mod means;
 mod no_derivative;
 mod oscillator;
 mod product;
@@ -68,6 +70,7 @@ pub use exponents::{Exponent, Exponents};
 pub(crate) use flight::FlightVariation;
 pub use key_variation::KeyVariation;
 pub use keys::MotionDerivative;
+pub use means::MeanDerivative;
 pub use no_derivative::NoDerivative;
 pub use oscillator::OscillatorVariation;
 pub use product::{Product, Variation};

@@ -46,6 +46,14 @@ pub enum NoDerivative {
         /// The name of the wall.
         wall: String,
     },
+    /// A key moves the instant of a blow that falls into a contact, or into an impact: how that
+    /// changes the contact is not known.
+    Blow {
+        /// Time, s.
+        time: f64,
+        /// The name of the wall.
+        wall: String,
+    },
     /// A body comes to rest on a wall with restitution 0, which the key raises: in place of one
     /// contact there would be many impacts.
     Rebounds {
@@ -66,6 +74,7 @@ impl NoDerivative {
             | Self::Graze { time, .. }
             | Self::Horizon { time, .. }
             | Self::Touching { time, .. }
+            | Self::Blow { time, .. }
             | Self::Rebounds { time, .. } => *time,
         }
     }
@@ -95,6 +104,10 @@ impl fmt::Display for NoDerivative {
                 f,
                 "no derivative: at t = {time} s wall {wall:?} is touched, and the key moves wall or body away from \
                  the other, or into it"
+            ),
+            Self::Blow { time, wall } => write!(
+                f,
+                "no derivative: at t = {time} s a blow, which the key moves, falls into a contact with wall {wall:?}"
             ),
             Self::Rebounds { time, wall } => write!(
                 f,

@@ -194,7 +194,7 @@ impl StructureVariation {
             self.after[at.row] |= force != 0.0 && at.restitution.is_some();
         }
         self.began = true;
-        let blown = self.take_blow(step, columns);
+        let blown = self.take_blow(step, columns)?;
         // A blow ends the contact that it disturbs, and begins another.
         let (ended, others): (Vec<&Contact>, Vec<&Contact>) =
             step.closed.iter().partition(|contact| blown && contact.start < step.end);
@@ -206,6 +206,9 @@ impl StructureVariation {
             self.impact(step, series, blown, columns)?;
         } else {
             self.check_grazes(step)?;
+            if !blown {
+                self.note_ends(step, series, columns);
+            }
             for w in 0..self.walls.len() {
                 if self.walls[w].after && !self.walls[w].during {
                     self.enter(w, series, columns);

@@ -40,6 +40,10 @@ fn a_ball_bounces_at_the_times_and_speeds_of_the_textbook() {
         near(contact.start_by[2], 0.0, 10.0);
         near(contact.approach_speed_by[0], speed * slope, 10.0);
         near(contact.approach_speed_by[1], speed * power / (2.0 * height), 10.0);
+        // An impact has no length, and the ball leaves it at e times the speed.
+        near(contact.end_by[0], contact.start_by[0], 10.0);
+        near(contact.departure_speed_by[0], speed * (power + e * slope), 10.0);
+        near(contact.departure_speed_by[1], e * speed * power / (2.0 * height), 10.0);
         near(contact.impulse_by[0], mass * speed * (power + (1.0 + e) * slope), 10.0);
         near(contact.impulse_by[2], (1.0 + e) * speed * power, 10.0);
     }
@@ -78,10 +82,15 @@ fn a_buffer_returns_the_share_that_its_damping_leaves() {
     let found = Derivatives::new(&scene(k, c, v).unwrap(), &keys, &[]).unwrap();
     // ε(ζ) = exp(−ζ φ/√(1 − ζ²)) with φ = π − 2 atan(√(1 − ζ²)/… ), where s̈ = 0: tan(ω_d t) =
     // 2ζ√(1 − ζ²)/(2ζ² − 1).
-    let returned = |zeta: f64| {
+    let phase = |zeta: f64| {
         let root = (1.0 - zeta * zeta).sqrt();
-        let phase = (2.0 * zeta * root).atan2(2.0 * zeta * zeta - 1.0);
-        (-zeta / root * phase).exp()
+        (2.0 * zeta * root).atan2(2.0 * zeta * zeta - 1.0)
+    };
+    let returned = |zeta: f64| (-zeta / (1.0 - zeta * zeta).sqrt() * phase(zeta)).exp();
+    // The contact lasts phase/(ω √(1 − ζ²)).
+    let lasts = |k: f64, c: f64| {
+        let (omega, zeta) = ((k / m).sqrt(), c / (2.0 * (k * m).sqrt()));
+        phase(zeta) / (omega * (1.0 - zeta * zeta).sqrt())
     };
     let zeta = c / (2.0 * (k * m).sqrt());
     let slope = (returned(zeta + 1e-5) - returned(zeta - 1e-5)) / 2e-5;
@@ -93,6 +102,17 @@ fn a_buffer_returns_the_share_that_its_damping_leaves() {
     near(contact.impulse_by[0], -m * v * slope * (-0.5 * zeta / k));
     near(contact.impulse_by[1], -m * v * slope * zeta / c);
     near(contact.impulse_by[2], impulse / v);
+    let difference = |x: f64, of: &dyn Fn(f64) -> f64| (of(x * (1.0 + 1e-5)) - of(x * (1.0 - 1e-5))) / (2e-5 * x);
+    near(contact.end_by[0], difference(k, &|k| lasts(k, c)));
+    near(contact.end_by[1], difference(c, &|c| lasts(k, c)));
+    near(contact.end_by[2], -0.1 / (v * v));
+    near(contact.departure_speed_by[0], v * slope * (-0.5 * zeta / k));
+    near(contact.departure_speed_by[1], v * slope * zeta / c);
+    near(contact.departure_speed_by[2], returned(zeta));
+    // Nothing but the buffer changes the momentum: the mean force is the impulse over the run.
+    let means = found.means.as_ref().expect("means");
+    near(means.force[0], impulse);
+    near(means.force_by[0][1], contact.impulse_by[1]);
     near(contact.start_by[2], -0.1 / (v * v));
     near(contact.approach_speed_by[2], 1.0);
 }
@@ -143,4 +163,120 @@ fn a_graze_a_horizon_and_a_touched_start_are_named() {
     let dead = |e: f64| Ok(ball(1.0, 0.3, e));
     let key = SceneTangent::new("restitution", 0.0, dead).unwrap();
     assert!(matches!(reason(&dead(0.0).unwrap(), key), Some(NoDerivative::Rebounds { .. })));
+}
+
+/// A block that stands on a floor is lifted off by A sin(ω t) at the instant asin(mg/A)/ω. Up to the
+/// end at that of its first fall nothing but the load moves it.
+#[test]
+fn a_block_is_lifted_at_the_instant_of_its_load() {
+    let (m, amplitude, frequency) = (0.5, 9.0, 0.4);
+    let scene = |amplitude: f64, m: f64| {
+        Ok(Scene::oscillator(m, 0.0, 0.0)
+            .with_wall(Wall::lower("floor", 0.0))
+            .with_load(Load::constant(-m * G))
+            .with_load(Load::harmonic(amplitude, frequency, 0.0))
+            .with_duration(0.5))
+    };
+    let keys = [
+        SceneTangent::new("amplitude", amplitude, |a| scene(a, m)).unwrap(),
+        SceneTangent::new("mass", m, |m| scene(amplitude, m)).unwrap(),
+    ];
+    let found = Derivatives::new(&scene(amplitude, m).unwrap(), &keys, &[]).unwrap();
+    let contact = &found.contacts[0];
+    let (ratio, omega) = (m * G / amplitude, 2.0 * std::f64::consts::PI * frequency);
+    let slope = 1.0 / (omega * (1.0 - ratio * ratio).sqrt());
+    // Rounding of a few products.
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-11 * b.abs().max(1.0), "{a} {b}");
+    near(contact.contact.end.unwrap(), ratio.asin() / omega);
+    near(contact.end_by[0], -slope * ratio / amplitude);
+    near(contact.end_by[1], slope * ratio / m);
+    near(contact.departure_speed_by[0], 0.0);
+    near(contact.departure_speed_by[1], 0.0);
+    // Its impulse is that of weight less load up to there, whose integrand vanishes at its end.
+    let end = ratio.asin() / omega;
+    near(contact.impulse_by[0], -(1.0 - (omega * end).cos()) / omega);
+    near(contact.impulse_by[1], G * end);
+    near(found.means.as_ref().unwrap().force_by[0][1], G * end / 0.5);
+}
+
+/// The ball between two floors falls, rises and falls: mean and mean square of its height over the
+/// run follow from parabolas, and so do their derivatives by the restitution, through the instant
+/// of the impact.
+#[test]
+fn means_have_the_derivatives_of_their_integrals() {
+    let (height, e, end) = (1.3, 0.8, 1.2);
+    let scene = |height: f64, e: f64| Ok(ball(1.0, height, e).with_duration(end));
+    let keys = [
+        SceneTangent::new("height", height, |height| scene(height, e)).unwrap(),
+        SceneTangent::new("restitution", e, |e| scene(height, e)).unwrap(),
+    ];
+    let found = Derivatives::new(&scene(height, e).unwrap(), &keys, &[]).unwrap();
+    assert_eq!(found.contacts.len(), 1);
+    // ∫ and ∫² of h − g t²/2 up to t₀, and of e g t₀ s − g s²/2 after it.
+    let moments = |height: f64, e: f64| {
+        let t0 = (2.0 * height / G).sqrt();
+        let (s, v) = (end - t0, e * G * t0);
+        let mean = height * t0 - G * t0.powi(3) / 6.0 + v * s * s / 2.0 - G * s.powi(3) / 6.0;
+        let fall = height * height * t0 - height * G * t0.powi(3) / 3.0 + G * G * t0.powi(5) / 20.0;
+        let rise = v * v * s.powi(3) / 3.0 - v * G * s.powi(4) / 4.0 + G * G * s.powi(5) / 20.0;
+        [mean / end, ((fall + rise) / end).sqrt()]
+    };
+    let means = found.means.as_ref().expect("means");
+    let own = moments(height, e);
+    // The five-point difference of polynomials over 1e-3 errs by 1e-12.
+    let difference = |of: &dyn Fn(f64) -> f64| (8.0 * (of(1e-3) - of(-1e-3)) - (of(2e-3) - of(-2e-3))) / 12e-3;
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-10 * b.abs(), "{a} {b}");
+    near(means.displacement[0], own[0]);
+    near(means.rms[0], own[1]);
+    for (part, by) in [&means.displacement_by, &means.rms_by].into_iter().enumerate() {
+        near(by[0][0], difference(&|x| moments(height + x, e)[part]));
+        near(by[0][1], difference(&|x| moments(height, e + x)[part]));
+    }
+    let weight = (1.0 + e) * (2.0 * G * height).sqrt() / end;
+    near(means.force[0], weight);
+    near(means.force_by[0][1], weight / (1.0 + e));
+}
+
+/// A blow J at the time τ on an oscillator at rest makes it swing as J/(m ω_d) e^{−δ(t − τ)}
+/// sin ω_d(t − τ): the derivative by τ is minus its velocity. It then meets a stop later by as much.
+#[test]
+fn a_blow_at_another_time_moves_all_that_follows() {
+    let (m, c, k, impulse, blow) = (1.2, 0.7, 90.0, 0.5, 0.3);
+    let scene = |time: f64| {
+        Ok(Scene::oscillator(m, c, k)
+            .with_wall(Wall::upper("stop", 0.03).with_restitution(0.6))
+            .with_load(Load::impulse(impulse, time))
+            .with_duration(0.6))
+    };
+    let key = || SceneTangent::new("time", blow, scene).unwrap();
+    let (decay, omega) = (c / (2.0 * m), (k / m - (c / (2.0 * m)).powi(2)).sqrt());
+    let velocity = |t: f64| {
+        let (sin, cos) = (omega * t).sin_cos();
+        impulse / (m * omega) * (-decay * t).exp() * (omega * cos - decay * sin)
+    };
+    let found = Derivatives::new(&scene(blow).unwrap(), &[key()], &[0.2, 0.32]).unwrap();
+    // Rounding of a few products.
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-11 * b.abs().max(1.0), "{a} {b}");
+    near(found.motion.displacement_by[0], 0.0);
+    near(found.motion.displacement_by[1], -velocity(0.02));
+    assert!(!found.contacts.is_empty());
+    for contact in &found.contacts {
+        near(contact.start_by[0], 1.0);
+        near(contact.approach_speed_by[0], 0.0);
+        near(contact.impulse_by[0], 0.0);
+    }
+    // A blow at the start can be moved to one side only, and one within a contact is refused.
+    assert!(SceneTangent::new("time", 0.0, scene).is_err());
+    let pressed = |time: f64| {
+        let buffer = Wall::lower("buffer", 0.0).with_elasticity(500.0, 1.0);
+        Ok(Scene::oscillator(m, c, 0.0)
+            .with_wall(buffer)
+            .with_load(Load::constant(-5.0))
+            .with_load(Load::impulse(impulse, time))
+            .with_initial(&[0.0], &[-0.1])
+            .with_duration(0.6))
+    };
+    let key = SceneTangent::new("time", 0.05, pressed).unwrap();
+    let ended = Derivatives::new(&pressed(0.05).unwrap(), &[key], &[]).unwrap().ended;
+    assert!(matches!(&ended, Some(NoDerivative::Blow { wall, .. }) if wall == "buffer"), "{ended:?}");
 }

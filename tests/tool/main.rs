@@ -3,6 +3,7 @@
 
 mod commands;
 mod compare_seeds;
+mod derivatives;
 mod documents;
 mod folders;
 mod formats;

@@ -32,9 +32,11 @@ class Derivative:
     values: Array
     """Their values; shape (keys,)."""
     contacts: npt.NDArray[np.void]
-    """The contacts in the order of their ends, shape (contacts,): ``wall``, ``start`` (s),
-    ``approach_speed`` (m/s), ``impulse`` (N s), ``growth``; ``start_by``, ``approach_speed_by`` and
-    ``impulse_by`` have the derivatives under the names of the keys, per unit of the key."""
+    """The contacts in the order of their ends, shape (contacts,): ``wall``, ``start`` and ``end``
+    (s), ``approach_speed`` and ``departure_speed`` (m/s), ``impulse`` (N s), ``growth``;
+    ``start_by``, ``end_by``, ``approach_speed_by``, ``departure_speed_by`` and ``impulse_by`` have
+    the derivatives under the names of the keys, per unit of the key. Those of end and departure
+    speed are NaN where a blow or an impact elsewhere ends a lasting contact."""
     time: Array
     """The times asked for, s; shape (times,)."""
     displacement: Array
@@ -45,6 +47,12 @@ class Derivative:
     """Its derivatives under the names of the keys, m per unit of the key; shape (times,)."""
     velocity_by: npt.NDArray[np.void]
     """m/s per unit of the key; shape (times,)."""
+    mean: npt.NDArray[np.void] | None
+    """Means over the whole run, one row for each number: ``name`` (``displacement`` and ``rms``, in m,
+    with the name of the probe after a colon where it has one, and ``force:``, in N, with that of
+    the wall),
+    ``value``, and ``by``, the derivatives under the names of the keys. None if the derivatives end
+    before the run does."""
     growth: float
     """The largest growth of a small change of the start since it was smallest."""
     until: float
@@ -104,8 +112,8 @@ def found(
 
     count = len(made["wall"])
     walls = np.array(made["wall"] or [""])
-    numbers = ["start", "approach_speed", "impulse", "growth"]
-    derived = ["start_by", "approach_speed_by", "impulse_by"]
+    numbers = ["start", "end", "approach_speed", "departure_speed", "impulse", "growth"]
+    derived = [f"{name}_by" for name in numbers[:-1]]
     contacts = np.empty(
         count, [("wall", walls.dtype), *((name, np.float64) for name in numbers), *((name, by) for name in derived)]
     )
@@ -118,6 +126,14 @@ def found(
         raise ValueError(f"probe is {probe!r}; expected one of {', '.join(scene.probes)}")
     number = scene.probes.index(probe) if probe is not None else 0
     shape = (len(rows), max(len(scene.probes), 1))
+
+    mean = None
+    if made["mean"] is not None:
+        rows_of_mean: list[tuple[str, float, list[float]]] = made["mean"]
+        names = np.array([name for name, _, _ in rows_of_mean] or [""])
+        mean = np.empty(len(rows_of_mean), [("name", names.dtype), ("value", np.float64), ("by", by)])
+        for number_of_mean, (name, value, derivatives) in enumerate(rows_of_mean):
+            mean[number_of_mean] = (name, value, tuple(derivatives))
 
     def of_probe(flat: Array) -> Array:
         column: Array = np.full(len(rows), np.nan) if not scene.probes else flat.reshape(shape)[:, number].copy()
@@ -137,6 +153,7 @@ def found(
         velocity=of_probe(made["velocity"]),
         displacement_by=by_probe(made["displacement_by"]),
         velocity_by=by_probe(made["velocity_by"]),
+        mean=mean,
         growth=made["growth"],
         until=made["until"],
         ended=made["ended"],

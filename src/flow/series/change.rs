@@ -99,18 +99,24 @@ impl Change {
         v.iter_mut().for_each(|v| *v /= self.unit);
     }
 
-    /// ∫ δr of a wall over the stretch up to x, N s: of a wall of `touching`, or all that acts at
-    /// its row, if `hold` holds that; both are those of [`Change::fill`].
-    pub fn impulse(&self, body: &SeriesBody, (touching, hold): (&[Touching], &Hold), wall: usize, x: f64) -> f64 {
+    /// δr of a wall at x, N, and ∫ δr over the stretch up to x, N s: of a wall of `touching`, or all
+    /// that acts at its row, if `hold` holds that; both are those of [`Change::fill`].
+    pub fn push(&self, body: &SeriesBody, (touching, hold): (&[Touching], &Hold), wall: usize, x: f64) -> [f64; 2] {
         let row = body.row_of.get(wall);
         let held = || hold.rows().iter().position(|held| Some(&held.row) == row).map(|held| touching.len() + held);
-        let Some(slot) = touching.iter().position(|t| t.wall == wall).or_else(held) else { return 0.0 };
+        let Some(slot) = touching.iter().position(|t| t.wall == wall).or_else(held) else { return [0.0; 2] };
         let force = self.forces.iter().skip(slot * TERMS).take(self.terms).enumerate();
-        let (mut sum, mut power) = (0.0, x * self.unit);
+        let (mut now, mut sum, mut power) = (0.0, 0.0, 1.0);
         for (k, c) in force {
-            sum += c * power / (k + 1) as f64;
+            now += c * power;
             power *= x;
+            sum += c * power / (k + 1) as f64;
         }
-        sum
+        [now, sum * self.unit]
+    }
+
+    /// Term `k` of δq, n entries.
+    pub fn term(&self, k: usize) -> &[f64] {
+        self.motion.get(k * self.n..(k + 1) * self.n).unwrap_or_default()
     }
 }

@@ -25,17 +25,16 @@ enum KindChange {
     Constant(f64),
     /// Of amplitude (N), ω (rad/s) and phase (rad).
     Harmonic([f64; 3]),
-    /// Of the impulse of a blow, N s.
-    Blow(f64),
+    /// Of the impulse (N s) and the time (s) of a blow.
+    Blow([f64; 2]),
     /// Of the forces of a table, N.
     Table(Option<Table>),
 }
 
-/// True for loads that differ in numbers only, at the same times.
+/// True for loads that differ in numbers only; tables at the same times.
 pub(super) fn is_alike(a: &Load, b: &Load) -> bool {
     match (&a.kind, &b.kind) {
         (LoadKind::Table(a), LoadKind::Table(b)) => a.time() == b.time(),
-        (LoadKind::Impulse { .. }, LoadKind::Impulse { .. }) => blow(&a.kind)[1] == blow(&b.kind)[1],
         (LoadKind::Function(_), _) | (_, LoadKind::Function(_)) => false,
         (a, b) => std::mem::discriminant(a) == std::mem::discriminant(b),
     }
@@ -57,14 +56,14 @@ impl LoadChange {
             LoadKind::Harmonic { .. } => {
                 KindChange::Harmonic([of(|kind| sine(kind)[0]), of(|kind| sine(kind)[1]), of(|kind| sine(kind)[2])])
             }
-            LoadKind::Impulse { .. } => KindChange::Blow(of(|kind| blow(kind)[0])),
+            LoadKind::Impulse { .. } => KindChange::Blow([of(|kind| blow(kind)[0]), of(|kind| blow(kind)[1])]),
             LoadKind::Table(table) => KindChange::Table(table_change(stencil, index, table)),
             LoadKind::Function(_) => return None,
         };
         let zero = match &kind {
             KindChange::Constant(x) => *x == 0.0,
             KindChange::Harmonic(x) => *x == [0.0; 3],
-            KindChange::Blow(x) => *x == 0.0,
+            KindChange::Blow(x) => *x == [0.0; 2],
             KindChange::Table(x) => x.is_none(),
         };
         (!zero || !row.entries().is_empty()).then_some(Self { index, load, row, kind })
@@ -81,13 +80,27 @@ impl LoadChange {
     /// Adds the derivative of the momentum that a blow at `time` (s) gives, N s, to `out`, n
     /// entries.
     pub fn add_blow(&self, time: f64, out: &mut [f64]) {
-        let (LoadKind::Impulse { impulse, time: own }, KindChange::Blow(change)) = (&self.load.kind, &self.kind) else {
+        let (LoadKind::Impulse { impulse, time: own }, KindChange::Blow([change, _])) = (&self.load.kind, &self.kind)
+        else {
             return;
         };
         if *own == time {
             self.load.at.add_transposed(*change, out);
             self.row.add_transposed(*impulse, out);
         }
+    }
+
+    /// By how much the instant of this blow moves, s, if it is one at `time` (s).
+    pub fn blow_moves(&self, time: f64) -> f64 {
+        match self.kind {
+            KindChange::Blow([_, later]) if blow(&self.load.kind)[1] == time => later,
+            _ => 0.0,
+        }
+    }
+
+    /// Adds the momentum that this blow gives, N s, to `out`, n entries, `scale` times.
+    pub fn add_own_blow(&self, scale: f64, out: &mut [f64]) {
+        self.load.at.add_transposed(scale * blow(&self.load.kind)[0], out);
     }
 }
 

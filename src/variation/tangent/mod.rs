@@ -71,8 +71,8 @@ impl SceneTangent {
     ///
     /// # Errors
     /// [`Error::Invalid`] where the scenes do not depend on the value, or not smoothly: another
-    /// number of walls or loads, another instant of a blow or of a row of a table, another
-    /// duration; errors of `build`.
+    /// number of walls or loads, another instant of a row of a table, a blow at the start
+    /// that moves, another duration; errors of `build`.
     pub fn new(name: &str, value: f64, build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
         let stencil = Stencil::new(value, build)?;
         let alike = stencil.scenes().all(|scene| scene.duration == stencil.base.duration);
@@ -80,6 +80,9 @@ impl SceneTangent {
             return Err(refused(name, value, "a key that keeps walls, loads, their times and the duration"));
         }
         let tangent = Self::of(name, value, stencil);
+        if tangent.loads.iter().any(|load| load.blow_moves(0.0) != 0.0) {
+            return Err(refused(name, value, "the time of a blow after the start"));
+        }
         if tangent.is_zero() {
             return Err(refused(name, value, "a key on which the scene depends"));
         }

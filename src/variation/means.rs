@@ -1,0 +1,130 @@
+//! Means over a run, and their derivatives.
+//!
+//! Displacements are continuous and the window is fixed, so that ∫q dt and ∫q² dt change by ∫δq dt
+//! and ∫2q δq dt: that δq jumps at an impact, whose instant moves, adds nothing. Over a stretch both
+//! q and δq are polynomials, whose product is integrated term by term.
+
+use super::key_terms::KeyTerms;
+use crate::flow::{Change, Series, TERMS};
+use crate::scene::Row;
+use crate::step::Step;
+
+/// Means over a run from its start, and their derivatives with respect to each key.
+#[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
+pub struct MeanDerivative {
+    /// The length of the run, s.
+    pub length: f64,
+    /// The mean displacement of each probe, m.
+    pub displacement: Vec<f64>,
+    /// Its derivatives, m per unit of the key: for each probe a list of keys.
+    pub displacement_by: Vec<Vec<f64>>,
+    /// The root of the mean square of the displacement of each probe, m.
+    pub rms: Vec<f64>,
+    /// Its derivatives, m per unit of the key; NaN for a probe that does not move.
+    pub rms_by: Vec<Vec<f64>>,
+    /// The mean force of each wall, N, signed as the force: its impulses over the length, those of
+    /// contacts that are still open included.
+    pub force: Vec<f64>,
+    /// Its derivatives, N per unit of the key: for each wall a list of keys.
+    pub force_by: Vec<Vec<f64>>,
+}
+
+/// Integrals along the run.
+#[derive(Debug)]
+pub(super) struct MeanChanges {
+    probes: Vec<Probe>,
+    /// The impulse of each wall, N s.
+    impulse: Vec<f64>,
+    /// The times between which the run has been seen, s.
+    span: Option<[f64; 2]>,
+}
+
+/// ∫q dt (m s) and ∫q² dt (m² s) of a probe, and their changes by each key.
+#[derive(Debug)]
+struct Probe {
+    row: Row,
+    own: [f64; 2],
+    by: Vec<[f64; 2]>,
+}
+
+impl MeanChanges {
+    pub fn new(probes: &[Row], keys: usize) -> Self {
+        let probe = |row: &Row| Probe { row: row.clone(), own: [0.0; 2], by: vec![[0.0; 2]; keys] };
+        Self { probes: probes.iter().map(probe).collect(), impulse: Vec::new(), span: None }
+    }
+
+    /// Adds the stretch of `base`, with its change by key number `column`.
+    pub fn pass(&mut self, column: usize, (base, change): (&Series, &Change), terms: &KeyTerms) {
+        let (unit, x, count) = (base.unit(), base.span(), base.terms().min(TERMS));
+        for (number, probe) in self.probes.iter_mut().enumerate() {
+            let (mut own, mut by) = ([0.0; TERMS], [0.0; TERMS]);
+            let of_key = terms.tangent.probes.get(number);
+            let mut power = 1.0;
+            for k in 0..count {
+                own[k] = power * probe.row.dot(base.term(k));
+                by[k] = power * (probe.row.dot(change.term(k)) + of_key.map_or(0.0, |row| row.dot(base.term(k))));
+                power *= x;
+            }
+            let (own, by) = (&own[..count], &by[..count]);
+            let scale = x * unit;
+            if column == 0 {
+                probe.own[0] += scale * integral(own);
+                probe.own[1] += scale * integral_of_product(own, own);
+            }
+            if let Some(changes) = probe.by.get_mut(column) {
+                changes[0] += scale * integral(by);
+                changes[1] += scale * 2.0 * integral_of_product(own, by);
+            }
+        }
+    }
+
+    /// Adds the impulses of `step`.
+    pub fn passed(&mut self, step: &Step<'_>) {
+        self.impulse.resize(step.impulse.len(), 0.0);
+        self.impulse.iter_mut().zip(step.impulse).for_each(|(sum, p)| *sum += p);
+        self.span = Some([self.span.map_or(step.start, |span| span[0]), step.end]);
+    }
+
+    /// The means so far; `total` are the changes of the impulses of each wall by each key, N s.
+    pub fn found(&self, total: &[Vec<f64>]) -> MeanDerivative {
+        let length = self.span.map_or(0.0, |[from, to]| to - from);
+        let rms = |probe: &Probe| (probe.own[1] / length).sqrt();
+        let over = |list: &[f64]| list.iter().map(|x| x / length).collect::<Vec<f64>>();
+        MeanDerivative {
+            length,
+            displacement: self.probes.iter().map(|probe| probe.own[0] / length).collect(),
+            displacement_by: self.probes.iter().map(|p| p.by.iter().map(|by| by[0] / length).collect()).collect(),
+            rms: self.probes.iter().map(rms).collect(),
+            rms_by: self
+                .probes
+                .iter()
+                .map(|probe| probe.by.iter().map(|by| by[1] / (2.0 * length * rms(probe))).collect())
+                .collect(),
+            force: over(&self.impulse),
+            force_by: total.iter().map(|by| over(by)).collect(),
+        }
+    }
+}
+
+/// ∫₀¹ of a polynomial.
+fn integral(c: &[f64]) -> f64 {
+    c.iter().enumerate().map(|(k, c)| c * INVERSE[k]).sum()
+}
+
+/// ∫₀¹ of the product of two polynomials.
+fn integral_of_product(a: &[f64], b: &[f64]) -> f64 {
+    let row = |(j, a): (usize, &f64)| a * b.iter().zip(&INVERSE[j..]).map(|(b, inverse)| b * inverse).sum::<f64>();
+    a.iter().enumerate().map(row).sum()
+}
+
+/// 1/(k + 1).
+const INVERSE: [f64; 2 * TERMS] = {
+    let mut inverse = [0.0; 2 * TERMS];
+    let mut k = 0;
+    while k < inverse.len() {
+        inverse[k] = 1.0 / (k + 1) as f64;
+        k += 1;
+    }
+    inverse
+};

@@ -1,0 +1,148 @@
+//! `run --derivative`: the columns of derivatives.csv, and what is refused.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn signorini(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).env_remove("COLUMNS").output().unwrap()
+}
+
+/// Runs it and expects the exit code; gives stdout and stderr.
+fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
+    let output = signorini(folder, args);
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
+    assert!(!err.contains("panicked"), "{args:?}: {err}");
+    (out, err)
+}
+
+/// A ball of 2 kg that falls from 1 m onto a floor.
+const BALL: &str = r#"
+[system.oscillator]
+mass = 2.0
+damping = 0.0
+stiffness = 0.0
+
+[initial]
+displacement = 1.0
+velocity = 0.0
+
+[[wall]]
+name = "floor"
+side = "lower"
+position = 0.0
+restitution = 0.8
+
+[[load]]
+constant = { force = -19.62 }
+
+[time]
+end = 1.0
+step = 1e-3
+"#;
+
+/// A swing whose stop is where it turns.
+const SWING: &str = r#"
+[system.oscillator]
+mass = 1.0
+damping = 0.0
+stiffness = 100.0
+
+[initial]
+displacement = -0.01
+velocity = 0.0
+
+[[wall]]
+name = "stop"
+side = "upper"
+position = 0.01
+restitution = 0.5
+
+[time]
+end = 1.0
+step = 1e-3
+"#;
+
+fn folder() -> tempfile::TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("ball.toml"), BALL).unwrap();
+    fs::write(dir.path().join("swing.toml"), SWING).unwrap();
+    dir
+}
+
+/// The derivatives of a file, by column.
+fn columns(folder: &Path, out: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let text = fs::read_to_string(folder.join(out).join("derivatives.csv")).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+    (lines.next().unwrap(), lines.collect())
+}
+
+#[test]
+fn the_file_has_five_derivatives_of_each_contact_by_each_key() {
+    let dir = folder();
+    let keys = "wall.floor.restitution,system.oscillator.mass";
+    let args = ["run", "ball.toml", "--derivative", keys, "--out", "out", "--no-report"];
+    let (out, _) = said(dir.path(), &args, 0);
+    assert!(out.contains("1 % more of wall.floor.restitution"), "{out}");
+    let (header, rows) = columns(dir.path(), "out");
+    let of_key = |word: &str, per: &str| {
+        ["start_by_{}_s", "end_by_{}_s", "approach_speed_by_{}_m_per_s", "departure_speed_by_{}_m_per_s", "impulse_by_{}_N_s"]
+            .map(|name| format!("{}{per}", name.replace("{}", word)))
+    };
+    let expected = [of_key("wall_floor_restitution", ""), of_key("system_oscillator_mass", "_per_kg")].concat();
+    assert_eq!(header[8..], expected);
+    // It falls for √(2/g) s and bounces for 2e times as long.
+    assert_eq!(rows.len(), 1);
+    let number = |name: &str| {
+        let at = header.iter().position(|column| column == name).unwrap();
+        rows[0][at].parse::<f64>().unwrap()
+    };
+    let speed = (2.0 * 9.81_f64).sqrt();
+    for (name, value) in [
+        ("start_by_wall_floor_restitution_s", 0.0),
+        ("departure_speed_by_wall_floor_restitution_m_per_s", speed),
+        ("impulse_by_wall_floor_restitution_N_s", 2.0 * speed),
+        // The weight is a force of its own: a heavier ball falls slower.
+        ("approach_speed_by_system_oscillator_mass_m_per_s_per_kg", -speed / 4.0),
+    ] {
+        // Rounding of a few products.
+        assert!((number(name) - value).abs() <= 1e-12 * speed, "{name}: {} {value}", number(name));
+    }
+    assert!(rows.iter().flatten().all(|cell| cell != "-0.0"), "{rows:?}");
+}
+
+#[test]
+fn what_cannot_be_differentiated_is_refused_in_one_message() {
+    let dir = folder();
+    let refused = |extra: &[&str], words: &[&str]| {
+        let args = [&["run", "ball.toml", "--out", "refused"][..], extra].concat();
+        let (_, err) = said(dir.path(), &args, 2);
+        assert!(words.iter().all(|word| err.contains(word)), "{err}");
+        assert_eq!(err.matches("error:").count(), 1, "{err}");
+        assert!(!dir.path().join("refused").exists());
+    };
+    refused(&["--derivative", "wall.floor.stifness"], &["stifness"]);
+    refused(&["--derivative", "wall.floor.name"], &["wall.floor.name"]);
+    refused(&["--derivative", "time.step"], &["time.step", "depends"]);
+    refused(&["--derivative", "time.end"], &["time.end", "duration"]);
+    refused(&["--derivative", "wall.floor.restitution", "--scheme", "moreau-jean"], &["--scheme", "event"]);
+}
+
+#[test]
+fn a_graze_and_the_horizon_end_the_derivatives_with_their_reason() {
+    let dir = folder();
+    let args = ["run", "swing.toml", "--derivative", "initial.displacement", "--out", "grazed", "--no-report"];
+    let (out, err) = said(dir.path(), &args, 0);
+    assert!(format!("{out}{err}").contains("wall \"stop\" is grazed"), "{out}{err}");
+    // Between rigid walls that return all of the speed the motion is not predictable for long.
+    let args =
+        ["run", "rigid-walls-sine", "--derivative", "wall.upper.restitution", "--out", "chaos", "--no-report"];
+    let set = ["--set", "load.1.harmonic.amplitude=30", "--set", "time.end=60"];
+    let (out, err) = said(dir.path(), &[&args[..], &set].concat(), 0);
+    assert!(format!("{out}{err}").contains("no longer predictable"), "{out}{err}");
+    let (header, rows) = columns(dir.path(), "chaos");
+    let growth = header.iter().position(|column| column == "growth").unwrap();
+    assert!(rows.len() > 10 && rows.iter().all(|row| row[growth].parse::<f64>().unwrap() <= 1e6));
+}
