@@ -88,8 +88,14 @@ fn the_file_has_five_derivatives_of_each_contact_by_each_key() {
     assert!(out.contains("1 % more of wall.floor.restitution"), "{out}");
     let (header, rows) = columns(dir.path(), "out");
     let of_key = |word: &str, per: &str| {
-        ["start_by_{}_s", "end_by_{}_s", "approach_speed_by_{}_m_per_s", "departure_speed_by_{}_m_per_s", "impulse_by_{}_N_s"]
-            .map(|name| format!("{}{per}", name.replace("{}", word)))
+        [
+            "start_by_{}_s",
+            "end_by_{}_s",
+            "approach_speed_by_{}_m_per_s",
+            "departure_speed_by_{}_m_per_s",
+            "impulse_by_{}_N_s",
+        ]
+        .map(|name| format!("{}{per}", name.replace("{}", word)))
     };
     let expected = [of_key("wall_floor_restitution", ""), of_key("system_oscillator_mass", "_per_kg")].concat();
     assert_eq!(header[8..], expected);
@@ -137,8 +143,7 @@ fn a_graze_and_the_horizon_end_the_derivatives_with_their_reason() {
     let (out, err) = said(dir.path(), &args, 0);
     assert!(format!("{out}{err}").contains("wall \"stop\" is grazed"), "{out}{err}");
     // Between rigid walls that return all of the speed the motion is not predictable for long.
-    let args =
-        ["run", "rigid-walls-sine", "--derivative", "wall.upper.restitution", "--out", "chaos", "--no-report"];
+    let args = ["run", "rigid-walls-sine", "--derivative", "wall.upper.restitution", "--out", "chaos", "--no-report"];
     let set = ["--set", "load.1.harmonic.amplitude=30", "--set", "time.end=60"];
     let (out, err) = said(dir.path(), &[&args[..], &set].concat(), 0);
     assert!(format!("{out}{err}").contains("no longer predictable"), "{out}{err}");
