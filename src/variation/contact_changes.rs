@@ -36,6 +36,8 @@ pub(super) struct ContactChanges {
     keys: usize,
     open: Vec<Option<Open>>,
     ended: Vec<ContactDerivative>,
+    /// The number of those whose growth is noted.
+    noted: usize,
     /// Of the impulses of each wall up to now, N s: for each wall the keys.
     total: Vec<Vec<f64>>,
 }
@@ -54,7 +56,7 @@ struct Open {
 impl ContactChanges {
     pub fn new(keys: usize, walls: usize) -> Self {
         let total = vec![vec![0.0; keys]; walls];
-        Self { keys, open: (0..walls).map(|_| None).collect(), ended: Vec::new(), total }
+        Self { keys, open: (0..walls).map(|_| None).collect(), ended: Vec::new(), noted: 0, total }
     }
 
     /// Begins a contact of `wall`, unless one is open.
@@ -137,11 +139,13 @@ impl ContactChanges {
 
     /// Notes the growth up to now with the contacts that have ended since it was last noted.
     pub fn note_growth(&mut self, growth: f64) {
-        self.ended.iter_mut().rev().take_while(|one| one.growth.is_nan()).for_each(|one| one.growth = growth);
+        self.ended.iter_mut().skip(self.noted).for_each(|one| one.growth = growth);
+        self.noted = self.ended.len();
     }
 
-    /// The contacts that have ended, in the order of their ends.
+    /// The contacts that have ended and whose growth is noted, in the order of their ends: those of
+    /// a step that ends the derivatives are left out.
     pub fn ended(&self) -> &[ContactDerivative] {
-        &self.ended
+        self.ended.get(..self.noted).unwrap_or_default()
     }
 }

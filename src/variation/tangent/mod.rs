@@ -9,11 +9,14 @@ pub(super) use loads::{LoadChange, LoadTerms};
 use crate::error::{Error, Result};
 use crate::linear::Operator;
 use crate::scene::{LoadKind, Row, Scene};
-use stencil::Stencil;
+use stencil::{SPACINGS, Stencil};
 
 /// The largest error of the derivative of a number of the scene, as a share: the results are exact
 /// to 1e-8 of themselves, with a hundredth of that for their own rounding.
 const MOST_ERROR: f64 = 1e-8;
+
+/// An error below which scenes closer to each other are not tried.
+const ENOUGH: f64 = 1e-12;
 
 /// The derivative of a scene with respect to a value from which it is built: δM, δC, δK, and those
 /// of its walls, loads, probes and of its start.
@@ -73,20 +76,31 @@ impl SceneTangent {
     /// [`Error::Invalid`] where the scenes do not depend on the value, or not smoothly: another
     /// number of walls or loads, another instant of a row of a table, a blow at the start
     /// that moves, another duration; errors of `build`.
-    pub fn new(name: &str, value: f64, build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
-        let stencil = Stencil::new(value, build)?;
-        let alike = stencil.scenes().all(|scene| scene.duration == stencil.base.duration);
-        if !alike || !stencil.scenes().all(|scene| is_alike(&stencil.base, scene)) {
-            return Err(refused(name, value, "a key that keeps walls, loads, their times and the duration"));
+    pub fn new(name: &str, value: f64, mut build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
+        let mut best: Option<Self> = None;
+        for apart in SPACINGS {
+            let stencil = Stencil::new(value, apart, &mut build)?;
+            let alike = |scene: &Scene| scene.duration == stencil.base.duration && is_alike(&stencil.base, scene);
+            if !stencil.scenes().all(alike) {
+                return Err(refused(name, value, "a key that keeps walls, loads, their times and the duration"));
+            }
+            let found = Self::of(name, value, stencil);
+            let error = if found.error.is_nan() { f64::INFINITY } else { found.error };
+            if best.as_ref().is_none_or(|best| error < best.error) {
+                best = Some(Self { error, ..found });
+            }
+            if error <= ENOUGH {
+                break;
+            }
         }
-        let tangent = Self::of(name, value, stencil);
+        let tangent = best.ok_or_else(|| refused(name, value, "a number"))?;
         if tangent.loads.iter().any(|load| load.blow_moves(0.0) != 0.0) {
             return Err(refused(name, value, "the time of a blow after the start"));
         }
         if tangent.is_zero() {
             return Err(refused(name, value, "a key on which the scene depends"));
         }
-        if tangent.error.is_nan() || tangent.error > MOST_ERROR {
+        if tangent.error > MOST_ERROR {
             return Err(refused(name, value, "a key on which the scene depends smoothly"));
         }
         Ok(tangent)

@@ -6,14 +6,17 @@
 //! rounding. Matrices that are assembled from dimensions are smooth functions of them: the central
 //! difference over twelve scenes, which are a 32nd of the value apart, errs by 4e-13 for 1/x and is
 //! exact for polynomials up to degree 12. That over eight of these scenes has a larger error, so
-//! that their difference bounds the error of the former.
+//! that their difference bounds the error of the former. Where it tells of a large one (a value near
+//! one that is not possible, such as the inner diameter of a thin tube) the scenes are taken closer
+//! to each other.
 
 use crate::error::{Error, Result};
 use crate::scene::{Row, Scene};
 
-/// Distance of two neighbouring values as a share of the value: as large as keeps the error of the
-/// formula below that of rounding, ε over this.
-const SPACING: f64 = 1.0 / 32.0;
+/// Distances of two neighbouring values as shares of the value: the first as large as keeps the
+/// error of the formula below that of rounding, ε over this, where the scene is as smooth as 1/x;
+/// the others for what is less smooth.
+pub(super) const SPACINGS: [f64; 4] = [1.0 / 32.0, 1.0 / 128.0, 1.0 / 512.0, 1.0 / 2048.0];
 
 /// Number of scenes on either side of the value, and in the formula that tells the error.
 const POINTS: i32 = 6;
@@ -45,11 +48,12 @@ struct Point {
 }
 
 impl Stencil {
-    /// The scenes that `build` makes of `value` and of values near it.
+    /// The scenes that `build` makes of `value` and of values near it, `apart` times the value from
+    /// each other or less.
     ///
     /// # Errors
     /// Errors of `build`, where no values near this one are valid.
-    pub fn new(value: f64, mut build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
+    pub fn new(value: f64, apart: f64, mut build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
         let mut valid = |x: f64| {
             let scene = build(x)?;
             scene.validate()?;
@@ -57,10 +61,10 @@ impl Stencil {
         };
         let base = valid(value)?;
         let size = if value == 0.0 { 1.0 } else { value.abs() };
-        let two_sided = (0..HALVINGS).map(|halvings| (SPACING * 0.5_f64.powi(halvings as i32), -POINTS..=POINTS));
+        let two_sided = (0..HALVINGS).map(|halvings| (apart * 0.5_f64.powi(halvings as i32), -POINTS..=POINTS));
         let sides = [0..=POINTS_ONE_SIDED, -POINTS_ONE_SIDED..=0];
         let one_sided = (0..HALVINGS).flat_map(|halvings| {
-            let spacing = 2.0 * SPACING * 0.5_f64.powi(halvings as i32);
+            let spacing = 2.0 * apart * 0.5_f64.powi(halvings as i32);
             sides.clone().map(|side| (spacing, side))
         });
         let mut refused = None;
@@ -159,7 +163,7 @@ mod tests {
     /// A scene whose stiffness is f(x).
     fn of(x: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
         let build = |x: f64| Ok(Scene::oscillator(1.0, 0.0, f(x)));
-        let mut stencil = Stencil::new(x, build).unwrap();
+        let mut stencil = Stencil::new(x, SPACINGS[0], build).unwrap();
         let derivative = stencil.derivative(|scene| scene.system.structure().stiffness.get(0, 0));
         (derivative, stencil.error)
     }
@@ -190,6 +194,6 @@ mod tests {
         // A stiffness below 0 is invalid.
         let (one, error) = of(0.0, |x| 2.0 * x);
         assert!((one - 2.0).abs() < 1e-11 && error < 1e-11, "{one} {error}");
-        assert!(Stencil::new(-1.0, |x| Ok(Scene::oscillator(1.0, 0.0, x))).is_err());
+        assert!(Stencil::new(-1.0, SPACINGS[0], |x| Ok(Scene::oscillator(1.0, 0.0, x))).is_err());
     }
 }
