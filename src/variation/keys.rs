@@ -85,17 +85,16 @@ impl Keys {
         a != b && self.terms.iter().any(|terms| terms.differ(a, b))
     }
 
-    /// Propagates the column of key number `column` over a stretch without events; false if there
-    /// is no such key.
+    /// Propagates the column of key number `column` over a stretch without events.
     pub fn pass(
         &mut self,
         column: usize,
         (flow, wall_of): (&mut Propagator, &[usize]),
         base: &Series,
         (q, v): (&mut [f64], &mut [f64]),
-    ) -> bool {
+    ) {
         let Self { terms, contacts, motion, means, change, sizes, work: [work_q, work_v], .. } = self;
-        let Some((terms, sizes)) = terms.get_mut(column).zip(sizes.get_mut(column)) else { return false };
+        let Some((terms, sizes)) = terms.get_mut(column).zip(sizes.get_mut(column)) else { return };
         for (size, change) in sizes.iter_mut().zip([&*q, &*v]) {
             *size = change.iter().fold(*size, |most, x| most.max(x.abs()));
         }
@@ -116,7 +115,6 @@ impl Keys {
             contacts.set_force(wall, column, share * force);
         }
         change.state_at(end, q, v);
-        true
     }
 
     /// Notes that all keys have passed `time` (s).

@@ -46,11 +46,31 @@ struct Probe {
     row: Row,
     own: [f64; 2],
     by: Vec<[f64; 2]>,
+    /// ∫₀¹ q xᵏ of the present stretch, x being 1 at its end.
+    weights: [f64; TERMS],
+}
+
+impl Probe {
+    /// Begins the stretch of `base`, which ends at `x` and lasts `scale` (s), with its first `count`
+    /// terms.
+    fn begin(&mut self, base: &Series, (x, scale): (f64, f64), count: usize) {
+        let (mut own, mut power) = ([0.0; TERMS], 1.0);
+        for (k, own) in own.iter_mut().enumerate().take(count) {
+            *own = power * self.row.dot(base.term(k));
+            power *= x;
+        }
+        for (k, weight) in self.weights.iter_mut().enumerate() {
+            *weight = dot(&own, INVERSE.get(k..).unwrap_or_default());
+        }
+        self.own[0] += scale * dot(&own, &INVERSE);
+        self.own[1] += scale * dot(&own, &self.weights);
+    }
 }
 
 impl MeanChanges {
     pub fn new(probes: &[Row], keys: usize) -> Self {
-        let probe = |row: &Row| Probe { row: row.clone(), own: [0.0; 2], by: vec![[0.0; 2]; keys] };
+        let probe =
+            |row: &Row| Probe { row: row.clone(), own: [0.0; 2], by: vec![[0.0; 2]; keys], weights: [0.0; TERMS] };
         Self { probes: probes.iter().map(probe).collect(), impulse: Vec::new(), span: None }
     }
 
@@ -58,23 +78,19 @@ impl MeanChanges {
     pub fn pass(&mut self, column: usize, (base, change): (&Series, &Change), terms: &KeyTerms) {
         let (unit, x, count) = (base.unit(), base.span(), base.terms().min(TERMS));
         for (number, probe) in self.probes.iter_mut().enumerate() {
-            let (mut own, mut by) = ([0.0; TERMS], [0.0; TERMS]);
+            let (scale, mut by) = (x * unit, [0.0; TERMS]);
+            if column == 0 {
+                probe.begin(base, (x, scale), count);
+            }
             let of_key = terms.tangent.probes.get(number);
             let mut power = 1.0;
-            for k in 0..count {
-                own[k] = power * probe.row.dot(base.term(k));
-                by[k] = power * (probe.row.dot(change.term(k)) + of_key.map_or(0.0, |row| row.dot(base.term(k))));
+            for (k, by) in by.iter_mut().enumerate().take(count) {
+                *by = power * (probe.row.dot(change.term(k)) + of_key.map_or(0.0, |row| row.dot(base.term(k))));
                 power *= x;
             }
-            let (own, by) = (&own[..count], &by[..count]);
-            let scale = x * unit;
-            if column == 0 {
-                probe.own[0] += scale * integral(own);
-                probe.own[1] += scale * integral_of_product(own, own);
-            }
             if let Some(changes) = probe.by.get_mut(column) {
-                changes[0] += scale * integral(by);
-                changes[1] += scale * 2.0 * integral_of_product(own, by);
+                changes[0] += scale * dot(&by, &INVERSE);
+                changes[1] += scale * 2.0 * dot(&by, &probe.weights);
             }
         }
     }
@@ -107,15 +123,9 @@ impl MeanChanges {
     }
 }
 
-/// ∫₀¹ of a polynomial.
-fn integral(c: &[f64]) -> f64 {
-    c.iter().enumerate().map(|(k, c)| c * INVERSE[k]).sum()
-}
-
-/// ∫₀¹ of the product of two polynomials.
-fn integral_of_product(a: &[f64], b: &[f64]) -> f64 {
-    let row = |(j, a): (usize, &f64)| a * b.iter().zip(&INVERSE[j..]).map(|(b, inverse)| b * inverse).sum::<f64>();
-    a.iter().enumerate().map(row).sum()
+/// Σ aₖ bₖ.
+fn dot(a: &[f64; TERMS], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// 1/(k + 1).

@@ -4,6 +4,7 @@ use super::arc_series::ArcSeries;
 use super::jump::Jump;
 use super::keys::Keys;
 use super::no_derivative::NoDerivative;
+use super::saltation::{REST, apply};
 use super::tangent::SceneTangent;
 use crate::error::{Error, Result};
 use crate::flow::{Arc, Hold, Propagator, Series};
@@ -147,14 +148,21 @@ impl StructureVariation {
         read
     }
 
-    /// Propagates the columns over the series of an arc, which has begun.
+    /// Propagates the columns over the series of an arc, which has begun; those without a key over
+    /// the whole arc at once, in closed form.
     fn pass_arc(&mut self, arc: &Arc, arcs: &mut ArcSeries, columns: &mut [f64]) {
         while arc.end() > arc.start() {
-            self.pass(&arcs.series, columns);
+            self.pass_keys(&arcs.series, columns);
             if arcs.series.end() >= arc.end() {
                 break;
             }
             arcs.begin(arc, arcs.series.end());
+        }
+        let propagator = if arc.is_rest() { REST } else { arc.propagator() };
+        for change in columns.chunks_exact_mut(2).skip(self.keys.terms.len()) {
+            if let &mut [q, v] = change {
+                change.copy_from_slice(&apply(propagator, [q, v]));
+            }
         }
     }
 
@@ -173,13 +181,21 @@ impl StructureVariation {
 
     /// Propagates the columns over a stretch without events.
     fn pass(&mut self, series: &Series, columns: &mut [f64]) {
+        self.pass_keys(series, columns);
+        let Self { flow, keys, .. } = self;
+        let n = flow.body.n;
+        for change in columns.chunks_exact_mut(2 * n).skip(keys.terms.len()) {
+            let (q, v) = change.split_at_mut(n);
+            flow.flow(series.end() - series.start(), q, v);
+        }
+    }
+
+    /// The same for the columns of keys alone.
+    fn pass_keys(&mut self, series: &Series, columns: &mut [f64]) {
         let Self { flow, keys, wall_of, .. } = self;
         let n = flow.body.n;
-        for (column, change) in columns.chunks_exact_mut(2 * n).enumerate() {
-            let (q, v) = change.split_at_mut(n);
-            if !keys.pass(column, (flow, wall_of), series, (q, v)) {
-                flow.flow(series.end() - series.start(), q, v);
-            }
+        for (column, change) in columns.chunks_exact_mut(2 * n).enumerate().take(keys.terms.len()) {
+            keys.pass(column, (flow, wall_of), series, change.split_at_mut(n));
         }
         keys.passed(series.end());
     }
