@@ -221,9 +221,9 @@ impl Body {
 }
 
 impl Floquet {
-    /// The derivatives of the multipliers for those of trace and determinant: μ² − t μ + d = 0 gives
-    /// δμ = (μ δt − δd)/(2μ − t), and a multiplier of a symmetric orbit is the square of that of its
-    /// half map. `None` where two coincide, unless both are 0 and stay so.
+    /// The derivatives of the multipliers for those of trace and determinant: μ² − t μ + d = 0
+    /// gives δμ = (μ δt − δd)/(2μ − t), and a multiplier of a symmetric orbit is the square of that
+    /// of its half map. `None` where two coincide, unless both are 0 and stay so.
     pub(super) fn derivative(&self, [trace, determinant]: [f64; 2]) -> Option<Vec<[f64; 2]>> {
         let own = self.half.as_ref().unwrap_or(&self.multipliers);
         let still = [self.trace, self.determinant, trace, determinant].iter().all(|&x| x == 0.0);

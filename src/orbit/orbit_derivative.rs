@@ -31,8 +31,8 @@ pub struct OrbitDerivative {
     /// Of the speed of each event, m/s per unit of each key.
     pub speeds: Vec<Vec<f64>>,
     /// Of real and imaginary part of each multiplier, in the order of
-    /// [`Floquet::multipliers`](super::Floquet::multipliers), per unit of each key. `None` where two
-    /// multipliers coincide: they part like a square root, whose derivative is infinite.
+    /// [`Floquet::multipliers`](super::Floquet::multipliers), per unit of each key. `None` where
+    /// two multipliers coincide: they part like a square root, whose derivative is infinite.
     pub multipliers: Option<Vec<Vec<[f64; 2]>>>,
     /// Of [`Floquet::trace`](super::Floquet::trace), per unit of each key.
     pub trace: Vec<f64>,

@@ -1,8 +1,8 @@
 //! Means over a run, and their derivatives.
 //!
 //! Displacements are continuous and the window is fixed, so that ∫q dt and ∫q² dt change by ∫δq dt
-//! and ∫2q δq dt: that δq jumps at an impact, whose instant moves, adds nothing. Over a stretch both
-//! q and δq are polynomials, whose product is integrated term by term.
+//! and ∫2q δq dt: that δq jumps at an impact, whose instant moves, adds nothing. Over a stretch
+//! both q and δq are polynomials, whose product is integrated term by term.
 
 use super::key_terms::KeyTerms;
 use crate::flow::{Change, Series, TERMS};
@@ -51,8 +51,8 @@ struct Probe {
 }
 
 impl Probe {
-    /// Begins the stretch of `base`, which ends at `x` and lasts `scale` (s), with its first `count`
-    /// terms.
+    /// Begins the stretch of `base`, which ends at `x` and lasts `scale` (s), with its first
+    /// `count` terms.
     fn begin(&mut self, base: &Series, (x, scale): (f64, f64), count: usize) {
         let (mut own, mut power) = ([0.0; TERMS], 1.0);
         for (k, own) in own.iter_mut().enumerate().take(count) {

@@ -44,8 +44,8 @@
 //! `structure.rs` (with `jump.rs` and `instant.rs`) read it from the steps, `product.rs` multiplies
 //! along a run, `exponents.rs` holds Lyapunov exponents. With respect to keys: `tangent/` is the
 //! derivative of the scene, `key_variation.rs` that of a run, with `keys.rs`, `key_terms.rs` and
-//! `contact_changes.rs`, `ends.rs` and `means.rs`; `arc_series.rs` writes closed-form motion as series, of which `flight.rs`
-//! takes one at a time. Knows no scheme.
+//! `contact_changes.rs`, `ends.rs` and `means.rs`; `arc_series.rs` writes closed-form motion as
+//! series, of which `flight.rs` takes one at a time. Knows no scheme.
 
 mod arc_series;
 mod contact_changes;

@@ -165,8 +165,7 @@ fn a_graze_a_horizon_and_a_touched_start_are_named() {
     assert!(matches!(reason(&dead(0.0).unwrap(), key), Some(NoDerivative::Rebounds { .. })));
 }
 
-/// A block that stands on a floor is lifted off by A sin(ω t) at the instant asin(mg/A)/ω. Up to the
-/// end at that of its first fall nothing but the load moves it.
+/// A block that stands on a floor is lifted off by A sin(ω t) at the instant asin(mg/A)/ω.
 #[test]
 fn a_block_is_lifted_at_the_instant_of_its_load() {
     let (m, amplitude, frequency) = (0.5, 9.0, 0.4);
@@ -237,8 +236,8 @@ fn means_have_the_derivatives_of_their_integrals() {
     near(means.force_by[0][1], weight / (1.0 + e));
 }
 
-/// A blow J at the time τ on an oscillator at rest makes it swing as J/(m ω_d) e^{−δ(t − τ)}
-/// sin ω_d(t − τ): the derivative by τ is minus its velocity. It then meets a stop later by as much.
+/// A blow J at the time τ on an oscillator at rest makes it swing as J/(m ω_d) e^{−δ(t − τ)} sin
+/// ω_d(t − τ): the derivative by τ is minus its velocity. It then meets a stop later by as much.
 #[test]
 fn a_blow_at_another_time_moves_all_that_follows() {
     let (m, c, k, impulse, blow) = (1.2, 0.7, 90.0, 0.5, 0.3);

@@ -11,7 +11,8 @@ use signorini::{Load, Result, Row, Scene, Structure, Wall};
 /// rounding.
 const FIRST: usize = 20;
 
-/// What is compared: of the first contacts their instants, their speeds and their impulses, then means.
+/// What is compared: of the first contacts their instants, their speeds and their impulses, then
+/// means.
 fn listed(found: &Derivatives) -> [Vec<f64>; 4] {
     let mut kinds: [Vec<f64>; 4] = Default::default();
     for contact in found.contacts.iter().take(FIRST).map(|one| one.contact) {

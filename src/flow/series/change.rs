@@ -99,8 +99,8 @@ impl Change {
         v.iter_mut().for_each(|v| *v /= self.unit);
     }
 
-    /// δr of a wall at x, N, and ∫ δr over the stretch up to x, N s: of a wall of `touching`, or all
-    /// that acts at its row, if `hold` holds that; both are those of [`Change::fill`].
+    /// δr of a wall at x, N, and ∫ δr over the stretch up to x, N s: of a wall of `touching`, or
+    /// all that acts at its row, if `hold` holds that; both are those of [`Change::fill`].
     pub fn push(&self, body: &SeriesBody, (touching, hold): (&[Touching], &Hold), wall: usize, x: f64) -> [f64; 2] {
         let row = body.row_of.get(wall);
         let held = || hold.rows().iter().position(|held| Some(&held.row) == row).map(|held| touching.len() + held);

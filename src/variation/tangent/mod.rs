@@ -107,8 +107,8 @@ impl SceneTangent {
     }
 
     /// The difference between the scenes at two values near that of `base`, whose error is not
-    /// known: enough for the matrix of Newton's method. The durations may differ, and the scenes may
-    /// be the same.
+    /// known: enough for the matrix of Newton's method. The durations may differ, and the scenes
+    /// may be the same.
     ///
     /// # Errors
     /// [`Error::Invalid`] for scenes of other walls or loads.

@@ -6,9 +6,9 @@
 //! rounding. Matrices that are assembled from dimensions are smooth functions of them: the central
 //! difference over twelve scenes, which are a 32nd of the value apart, errs by 4e-13 for 1/x and is
 //! exact for polynomials up to degree 12. That over eight of these scenes has a larger error, so
-//! that their difference bounds the error of the former. Where it tells of a large one (a value near
-//! one that is not possible, such as the inner diameter of a thin tube) the scenes are taken closer
-//! to each other.
+//! that their difference bounds the error of the former. Where it tells of a large one (a value
+//! near one that is not possible, such as the inner diameter of a thin tube) the scenes are taken
+//! closer to each other.
 
 use crate::error::{Error, Result};
 use crate::scene::{Row, Scene};
