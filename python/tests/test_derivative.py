@@ -33,6 +33,21 @@ def test_a_ball_has_the_derivatives_of_the_textbook() -> None:
     np.testing.assert_allclose(by.displacement_by["height"][0], 1.0, rtol=1e-14)
     assert by.keys == ["height", "restitution"] and by.ended is None and by.until == 3.0
     np.testing.assert_allclose(by.displacement[0], 0.5 - 0.5 * G * 0.01, rtol=1e-14)
+    # An impact has no length, and the ball leaves it at e times its speed.
+    np.testing.assert_array_equal(by.contacts["end_by"]["height"], start["height"])
+    np.testing.assert_allclose(by.contacts["departure_speed_by"]["restitution"][0], G * fall, rtol=1e-12)
+
+
+def test_means_have_names_values_and_derivatives() -> None:
+    # Falls for half a second from 10 m: the mean of h − g t²/2 and its RMS, by h.
+    by = sg.derivative(lambda height: ball(height, 0.8).replace(duration=0.5), {"height": 10.0})
+    assert by.mean is not None and by.mean["name"].tolist() == ["displacement", "rms", "force:floor"]
+    t, fall = 0.5, G / 2
+    mean = 10.0 - fall * t**2 / 3
+    square = 100.0 - 20.0 * fall * t**2 / 3 + fall**2 * t**4 / 5
+    # Rounding of a few operations.
+    np.testing.assert_allclose(by.mean["value"], [mean, math.sqrt(square), 0.0], rtol=1e-13)
+    np.testing.assert_allclose(by.mean["by"]["height"], [1.0, mean / math.sqrt(square), 0.0], rtol=1e-12)
 
 
 def test_scenes_cases_and_functions_agree() -> None:
