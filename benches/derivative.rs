@@ -1,6 +1,6 @@
 //! Cost of an exact run with its derivatives by 1, 4 and 7 keys, over that of the run without,
 //! measured alternately: a body between two walls, and chains of masses. Prints a table, asserts
-//! nothing about time. The derivatives are to cost at most half a run for each key.
+//! nothing about time. The target is half a run for each key.
 //!
 //! `cargo bench --bench derivative`
 
@@ -82,7 +82,7 @@ fn line(what: &str, scene: &dyn Fn(Numbers) -> Scene, numbers: Numbers) {
 
 fn main() {
     println!("{:<24} {:>9} {:>8} {:>8} {:>8} {:>9}", "exact run", "ms", "1 key", "4 keys", "7 keys", "contacts");
-    println!("{:<24} {:>9} {:>8.2} {:>8.2} {:>8.2}", "at most", "", 1.5, 3.0, 4.5);
+    println!("{:<24} {:>9} {:>8.2} {:>8.2} {:>8.2}", "target", "", 1.5, 3.0, 4.5);
     line("body between walls", &|numbers| body(numbers, 20.0), [5e-3, 0.8, 3.0, 5.0, 1.0, 100.0, 0.2]);
     for masses in [2, 6, 20] {
         let scene = move |numbers: Numbers| chain(masses, numbers, 5.0);

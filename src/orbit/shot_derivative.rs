@@ -32,7 +32,10 @@ pub struct ShotDerivative {
 }
 
 impl Shot {
-    /// The derivatives of this orbit of `scene` with respect to the keys of `tangents`.
+    /// The derivatives of this orbit of `scene` with respect to the keys of `tangents`: its state
+    /// and its contacts. Its multipliers would need second derivatives of the run, which are not
+    /// known for structures; for one degree of freedom
+    /// [`Problem::derivative`](super::Problem::derivative) has them.
     ///
     /// ```
     /// use signorini::orbit::shoot;
