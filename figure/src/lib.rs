@@ -46,6 +46,7 @@ mod curve;
 mod envelope;
 mod heat;
 mod labels;
+mod layout;
 mod legend;
 mod look;
 mod overlay;

@@ -1,10 +1,11 @@
 //! A whole figure: title, panels one below the other, one horizontal axis, one legend.
 
-use super::axis::{Axis, Extent, Scale};
+use super::axis::Scale;
 use super::labels;
+use super::layout::Layout;
 use super::legend::Legend;
 use super::look::{LABEL, Look, Role, SMALL, TITLE, WIDTH, colour, look};
-use super::panel::{Entry, Panel, include_marks};
+use super::panel::{Entry, Panel};
 use super::plot_area::{PlotArea, draw_axes, draw_grid};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
@@ -18,38 +19,24 @@ pub struct Figure {
     title: String,
     subtitle: String,
     x_label: String,
-    x_scale: Scale,
-    x_range: Option<(f64, f64)>,
-    square: bool,
-    detail: Option<Detail>,
-    panels: Vec<Panel>,
+    pub(super) x_scale: Scale,
+    pub(super) x_range: Option<(f64, f64)>,
+    pub(super) square: bool,
+    pub(super) detail: Option<Detail>,
+    pub(super) panels: Vec<Panel>,
 }
 
 /// A stretch of the horizontal axis that is drawn a second time beside the whole.
 #[derive(Debug, Clone)]
-struct Detail {
-    from: f64,
-    to: f64,
+pub(super) struct Detail {
+    pub(super) from: f64,
+    pub(super) to: f64,
     /// Headings of the two columns.
     headings: [String; 2],
 }
 
-/// Frames one below the other with one horizontal axis.
-struct Column {
-    x: f64,
-    width: f64,
-    axis: Axis,
-}
-
-/// Side of the frame of a square figure with one panel, and with several.
-const SIDE: f64 = 420.0;
-const SIDE_OF_SEVERAL: f64 = 300.0;
-
-/// Share of the width for the whole beside a detail, and the space between the two.
-const WHOLE: f64 = 0.42;
 /// Factor by which bold letters are wider.
 const BOLD: f64 = 1.1;
-const BETWEEN: f64 = 26.0;
 
 impl Figure {
     /// A figure without panels; `x_label` gives quantity and unit, for example `Time (s)`.
@@ -115,42 +102,20 @@ impl Figure {
     /// The figure as SVG text.
     #[must_use]
     pub fn to_svg(&self) -> String {
-        let height = match self.panels.len() {
-            0 | 1 if self.square => SIDE,
-            _ if self.square => SIDE_OF_SEVERAL,
-            0 | 1 if self.x_scale == Scale::Log => 320.0,
-            0 | 1 => 260.0,
-            2 => 165.0,
-            _ if self.x_scale == Scale::Log => 155.0,
-            _ => 130.0,
-        };
         let entries = self.entries();
         // A single label needs no legend: the title names it.
         let labelled = entries.iter().filter(|(label, _)| !label.is_empty());
         let shown: Vec<_> = labelled.filter(|_| entries.len() > 1).cloned().collect();
         let legend = Legend::new(shown, WIDTH - 20.0);
-        let y_axes: Vec<Axis> = self.panels.iter().map(|p| p.y_axis(self.x_scale, height)).collect();
-
-        // The same margins for all panels, so that their frames are aligned.
-        let y_labels: Vec<_> = self.panels.iter().map(|p| text::wrap(&p.y_label, LABEL, height + 10.0, 2)).collect();
-        let label_lines = y_labels.iter().map(Vec::len).max().unwrap_or(0) as f64;
-        let left = 12.0 + 14.0 * label_lines + y_axes.iter().map(widest).fold(0.0, f64::max) + 8.0;
-        let beside = self.panels.iter().zip(&y_axes).map(|(p, axis)| labels::room_beside(p, axis, height));
-        let right = beside.fold(18.0, f64::max);
-        let room = WIDTH - left - right;
-        // A square stands in the middle of the room, and its labels stand beside it.
-        let (width, aside) = if self.square { (height.min(room), 0.5 * (room - height).max(0.0)) } else { (room, 0.0) };
-        let left = left + aside;
-        let columns = self.columns(left, width);
+        let layout = self.layout();
 
         let title = text::wrap(&self.title, BOLD * TITLE, WIDTH - 20.0, 3);
         let below_title = text::wrap(&self.subtitle, LABEL, WIDTH - 20.0, 3);
         let lines = (title.len() + below_title.len()) as f64;
-        let heads: Vec<f64> = self.panels.iter().zip(&y_axes).map(|(p, axis)| head_height(p, axis)).collect();
         let top = 12.0 + 17.0 * lines + if self.detail.is_some() { 15.0 } else { 0.0 };
-        let frames = heads.iter().sum::<f64>() + (height + 10.0) * self.panels.len() as f64;
+        let frames = layout.heads.iter().sum::<f64>() + (layout.height + 10.0) * self.panels.len() as f64;
         // A power of ten has a line of its own between the numbers and the label.
-        let factor = if columns.iter().any(|c| c.axis.factor.is_some()) { 13.0 } else { 0.0 };
+        let factor = if layout.columns.iter().any(|c| c.axis.factor.is_some()) { 13.0 } else { 0.0 };
         let below = if legend.height() > 0.0 { 46.0 } else { 36.0 } + factor;
         let total = top + frames + below + legend.height();
 
@@ -160,82 +125,54 @@ impl Figure {
             let y = 22.0 + 17.0 * i as f64;
             canvas.text(Text { bold, ..Text::new(WIDTH / 2.0, y, line, size, Anchor::Middle) });
         }
-        for (column, heading) in columns.iter().zip(self.detail.iter().flat_map(|d| &d.headings)) {
+        for (column, heading) in layout.columns.iter().zip(self.detail.iter().flat_map(|d| &d.headings)) {
             let heading = text::shorten(heading, LABEL, column.width);
             let middle = column.x + column.width / 2.0;
             canvas.text(Text::new(middle, top + 1.0, &heading, LABEL, Anchor::Middle));
         }
         let mut y = top;
-        for (i, ((panel, y_axis), head)) in self.panels.iter().zip(&y_axes).zip(&heads).enumerate() {
+        for (i, head) in layout.heads.iter().enumerate() {
+            self.draw_panel(&mut canvas, &layout, i, y, &entries);
             y += head;
-            let last = i + 1 == self.panels.len();
-            for (k, column) in columns.iter().enumerate() {
-                let (x, width, x_axis) = (column.x, column.width, &column.axis);
-                let frame = PlotArea { x, y, width, height, x_axis, y_axis, envelopes: k == 0 };
-                self.draw_frame(&mut canvas, panel, &frame, &entries, k == 0);
-                draw_axes(&mut canvas, &frame, k == 0, last);
-                let free = match y_axis.factor.filter(|_| k == 0) {
-                    Some(power) => frame.x + factor_width(power),
-                    None => frame.x,
-                };
-                labels::draw_above(&mut canvas, panel, &frame, free.min(frame.x + frame.width));
-                if k + 1 == columns.len() {
-                    labels::draw_beside(&mut canvas, panel, &frame);
-                }
-            }
-            if !panel.heading.is_empty() {
-                let heading = text::shorten(&panel.heading, BOLD * LABEL, width);
-                let text = Text::new(left, y - head + 17.0, &heading, LABEL, Anchor::Start);
-                canvas.text(Text { bold: true, ..text });
-            }
-            let middle = y + height / 2.0;
-            for (k, line) in y_labels.get(i).into_iter().flatten().enumerate() {
-                let text = Text::new(aside + 18.0 + 14.0 * k as f64, middle, line, LABEL, Anchor::Middle);
-                canvas.text(Text { upwards: true, ..text });
-            }
-            y += height + 10.0;
+            y += layout.height + 10.0;
         }
         let x_label = text::shorten(&self.x_label, LABEL, WIDTH - 20.0);
-        canvas.text(Text::new(left + width / 2.0, y + 24.0 + factor, &x_label, LABEL, Anchor::Middle));
+        let middle = layout.left + layout.width / 2.0;
+        canvas.text(Text::new(middle, y + 24.0 + factor, &x_label, LABEL, Anchor::Middle));
         legend.draw(&mut canvas, 10.0, y + 36.0 + factor, WIDTH - 20.0);
         canvas.finish()
     }
 
-    /// The columns that share `width` from `left` on: the whole and, if there is one, the detail.
-    fn columns(&self, left: f64, width: f64) -> Vec<Column> {
-        let Some(detail) = &self.detail else {
-            return vec![Column { x: left, width, axis: self.x_axis(width) }];
-        };
-        let whole = WHOLE * (width - BETWEEN);
-        let rest = width - BETWEEN - whole;
-        let extent = Extent { low: detail.from, high: detail.to.max(detail.from) }.padded(0.0, Scale::Linear);
-        vec![
-            Column { x: left, width: whole, axis: self.x_axis(whole) },
-            Column { x: left + whole + BETWEEN, width: rest, axis: Axis::across(Scale::Linear, extent, rest) },
-        ]
-    }
-
-    fn x_axis(&self, width: f64) -> Axis {
-        let given = self.x_range.and_then(|(low, high)| Some((self.x_scale.even(low)?, self.x_scale.even(high)?)));
-        if let Some((low, high)) = given.filter(|(low, high)| low < high) {
-            return Axis::across(self.x_scale, Extent { low, high }, width);
+    /// Draws panel `index`, whose head begins at height `top`: its frames, labels and heading.
+    fn draw_panel(&self, canvas: &mut Canvas, layout: &Layout, index: usize, top: f64, entries: &[(String, Look)]) {
+        let Layout { height, left, columns, .. } = layout;
+        let (panel, y_axis, head) = (&self.panels[index], &layout.y_axes[index], layout.heads[index]);
+        let y = top + head;
+        let last = index + 1 == self.panels.len();
+        for (k, column) in columns.iter().enumerate() {
+            let (x, width, x_axis) = (column.x, column.width, &column.axis);
+            let frame = PlotArea { x, y, width, height: *height, x_axis, y_axis, envelopes: k == 0 };
+            self.draw_frame(canvas, panel, &frame, entries, k == 0);
+            draw_axes(canvas, &frame, k == 0, last);
+            let free = match y_axis.factor.filter(|_| k == 0) {
+                Some(power) => frame.x + factor_width(power),
+                None => frame.x,
+            };
+            labels::draw_above(canvas, panel, &frame, free.min(frame.x + frame.width));
+            if k + 1 == columns.len() {
+                labels::draw_beside(canvas, panel, &frame);
+            }
         }
-        let mut extent = Extent::EMPTY;
-        for (xs, _) in self.panels.iter().map(|p| p.extents(self.x_scale)).filter(|(xs, _)| !xs.is_empty()) {
-            extent.include(xs.low);
-            extent.include(xs.high);
+        if !panel.heading.is_empty() {
+            let heading = text::shorten(&panel.heading, BOLD * LABEL, layout.width);
+            let text = Text::new(*left, y - head + 17.0, &heading, LABEL, Anchor::Start);
+            canvas.text(Text { bold: true, ..text });
         }
-        let marks = self.panels.iter().flat_map(|p| &p.marks).filter(|m| m.upright).map(|m| m.value);
-        let forward = self.x_scale == Scale::Linear && self.panels.iter().all(Panel::goes_forward);
-        let share = if !forward {
-            0.05
-        } else if self.panels.iter().any(|p| !p.stems.is_empty()) {
-            0.01
-        } else {
-            0.0
-        };
-        let extent = include_marks(extent, marks, self.x_scale).padded(share, self.x_scale);
-        Axis::across(self.x_scale, extent, width)
+        let middle = y + height / 2.0;
+        for (k, line) in layout.y_labels[index].iter().enumerate() {
+            let text = Text::new(layout.aside + 18.0 + 14.0 * k as f64, middle, line, LABEL, Anchor::Middle);
+            canvas.text(Text { upwards: true, ..text });
+        }
     }
 
     /// Distinct labels in order of appearance, each with its look.
@@ -323,17 +260,4 @@ impl Figure {
 /// Width of a power of ten above an axis.
 fn factor_width(power: i32) -> f64 {
     text::width("×10", SMALL) + text::width(&power.to_string(), 0.75 * SMALL) + 8.0
-}
-
-/// Room above a frame: for a heading, labels of upright marks, or the power of ten of the axis.
-fn head_height(panel: &Panel, axis: &Axis) -> f64 {
-    let labels = panel.marks.iter().any(|m| m.upright) || axis.factor.is_some();
-    6.0 + if panel.heading.is_empty() { 0.0 } else { 15.0 } + if labels { 13.0 } else { 0.0 }
-}
-
-fn widest(axis: &Axis) -> f64 {
-    let width = |body: &str, exponent: Option<i32>| {
-        text::width(body, SMALL) + exponent.map_or(0.0, |e| text::width(&e.to_string(), 0.78 * SMALL))
-    };
-    axis.ticks.iter().map(|tick| width(&tick.body, tick.exponent)).fold(0.0, f64::max)
 }

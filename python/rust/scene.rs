@@ -102,47 +102,14 @@ impl Scene {
         let scene = &mut origin.scene;
         let n = scene.system.degrees_of_freedom();
         if let Some(walls) = walls {
-            let stand = |Wall { wall, place }: Wall| {
-                let at = self.model.row(&format!("wall {:?}", wall.name), &place, n)?;
-                Ok(wall.at(at))
-            };
-            let flat = walls.into_iter().map(stand).collect::<PyResult<_>>()?;
-            let (before, supports) = (mem::replace(&mut scene.walls, flat), mem::take(&mut scene.supports));
-            // A support of flat walls stays where all of them do, in their order; round supports,
-            // which only a case file makes, stay as they are.
-            for mut support in supports {
-                let members = before.get(support.walls.clone()).unwrap_or_default();
-                let first = if members.iter().any(sg::Wall::is_round) {
-                    scene.walls.extend_from_slice(members);
-                    Some(scene.walls.len() - members.len())
-                } else {
-                    let names = || members.iter().map(|wall| &wall.name);
-                    let is_support =
-                        |first: &usize| scene.walls[*first..].iter().map(|w| &w.name).take(members.len()).eq(names());
-                    (0..scene.walls.len()).find(is_support)
-                };
-                if let Some(first) = first {
-                    support.walls = first..first + members.len();
-                    scene.supports.push(support);
-                }
-            }
+            let flat = self.flat_walls(walls, n)?;
+            replace_flat(scene, flat);
         }
         if let Some(loads) = loads {
-            let act = |(i, load): (usize, Load)| {
-                let owner = format!("load {}", i + 1);
-                let (load, place) = load.in_one_plane(&owner)?;
-                let at = self.model.row(&owner, &place, n)?;
-                Ok(sg::Load { at, ..load })
-            };
-            scene.loads = loads.into_iter().enumerate().map(act).collect::<PyResult<_>>()?;
+            scene.loads = self.loads_of(loads, n)?;
         }
         if let Some(probes) = probes {
-            let observe = |(name, place): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
-                let (name, place) = (name.extract::<String>()?, place.extract::<Place>()?);
-                let at = self.model.row(&format!("probe {name:?}"), &place, n)?;
-                Ok(sg::Probe { name, at })
-            };
-            scene.probes = probes.iter().map(observe).collect::<PyResult<_>>()?;
+            scene.probes = self.probes_of(&probes, n)?;
         }
         displacement.map_or(Ok(()), |values| values.put("displacement", &mut scene.initial.q))?;
         velocity.map_or(Ok(()), |values| values.put("velocity", &mut scene.initial.v))?;
@@ -317,10 +284,60 @@ impl Scene {
         self.origin.as_ref().map_or(&self.scene, |origin| &origin.scene)
     }
 
+    /// Walls of Python, each at its row among `n` degrees of freedom.
+    fn flat_walls(&self, walls: Vec<Wall>, n: usize) -> PyResult<Vec<sg::Wall>> {
+        let stand = |Wall { wall, place }: Wall| {
+            let at = self.model.row(&format!("wall {:?}", wall.name), &place, n)?;
+            Ok(wall.at(at))
+        };
+        walls.into_iter().map(stand).collect()
+    }
+
+    fn loads_of(&self, loads: Vec<Load>, n: usize) -> PyResult<Vec<sg::Load>> {
+        let act = |(i, load): (usize, Load)| {
+            let owner = format!("load {}", i + 1);
+            let (load, place) = load.in_one_plane(&owner)?;
+            let at = self.model.row(&owner, &place, n)?;
+            Ok(sg::Load { at, ..load })
+        };
+        loads.into_iter().enumerate().map(act).collect()
+    }
+
+    fn probes_of(&self, probes: &Bound<'_, PyDict>, n: usize) -> PyResult<Vec<sg::Probe>> {
+        let observe = |(name, place): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+            let (name, place) = (name.extract::<String>()?, place.extract::<Place>()?);
+            let at = self.model.row(&format!("probe {name:?}"), &place, n)?;
+            Ok(sg::Probe { name, at })
+        };
+        probes.iter().map(observe).collect()
+    }
+
     fn place(&self, row: &sg::Row) -> Place {
         match self.given().system {
             sg::System::Oscillator(_) if *row == sg::Row::dof(0) => Place::Only,
             _ => Place::Row(row.entries().to_vec()),
+        }
+    }
+}
+
+/// Gives the scene the walls `flat` in place of its flat ones. A support of flat walls stays where
+/// all of them do, in their order; round supports, which only a case file makes, stay as they are.
+fn replace_flat(scene: &mut sg::Scene, flat: Vec<sg::Wall>) {
+    let (before, supports) = (mem::replace(&mut scene.walls, flat), mem::take(&mut scene.supports));
+    for mut support in supports {
+        let members = before.get(support.walls.clone()).unwrap_or_default();
+        let first = if members.iter().any(sg::Wall::is_round) {
+            scene.walls.extend_from_slice(members);
+            Some(scene.walls.len() - members.len())
+        } else {
+            let names = || members.iter().map(|wall| &wall.name);
+            let is_support =
+                |first: &usize| scene.walls[*first..].iter().map(|w| &w.name).take(members.len()).eq(names());
+            (0..scene.walls.len()).find(is_support)
+        };
+        if let Some(first) = first {
+            support.walls = first..first + members.len();
+            scene.supports.push(support);
         }
     }
 }

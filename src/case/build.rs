@@ -11,14 +11,11 @@ use super::report::Source;
 use super::schema::CASE;
 use super::start;
 use super::value::Section;
-use super::wording::written;
-use super::written::NewLoad;
 use super::{Case, FileRead, PenaltyOptions, StatisticsOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result, Subject, escaped};
-use crate::scene::{Condensation, Damping, Row, Scene, State, Structure, System, Wall};
+use crate::scene::{Condensation, Damping, Row, Scene, State, Structure, System};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
 use crate::study::truncation::{Start, Whole};
-use std::ops::Range;
 use toml::Spanned;
 
 /// Builds the case of `document`.
@@ -52,11 +49,7 @@ impl Builder<'_> {
         (self.model, self.planes) = (built.model, built.planes);
         let total = built.system.degrees_of_freedom();
         self.n = if let Planes::Two(n) = self.planes { n } else { total };
-        if let (Some(more), Planes::Two(n)) = (modes.filter(|modes| *modes > self.n), self.planes) {
-            let expected = format!("from 1 to {n}, the degrees of freedom of one plane");
-            return Err(self.at_key(Error::invalid("modes", more, expected)));
-        }
-        let modes = modes.map(|modes| modes * self.planes.modes());
+        let modes = self.modes_of_planes(modes)?;
         let mut scene = Scene {
             system: built.system,
             walls: Vec::new(),
@@ -67,34 +60,11 @@ impl Builder<'_> {
             duration: self.required("duration", &time, "end"),
         };
         if let Some(initial) = file.section("initial") {
-            self.written.start = self.start(&initial)?;
-            scene.initial.q = self.field("displacement", &initial)?;
-            scene.initial.v = self.field("velocity", &initial)?;
+            scene.initial = self.initial(&initial)?;
         }
-        let (mut walls, mut supports) = (Vec::new(), Vec::new());
-        for (index, wall) in file.sections("wall").iter().enumerate() {
-            walls.extend(self.walls(index, walls.len(), wall)?);
-        }
-        for (index, support) in file.sections("support").iter().enumerate() {
-            let (support, flats) = self.support(index, walls.len(), support)?;
-            supports.push(support);
-            walls.extend(flats);
-        }
+        let walls = self.walls_and_supports(file, &mut scene.supports)?;
         let (wear, sectors) = self.wear(file.section("wear").as_ref())?;
-        let mut second = Vec::new();
-        let mut loads = Vec::new();
-        for (index, load) in file.sections("load").iter().enumerate() {
-            let mut made = self.load(index, load, scene.duration, &scene.system)?.into_iter();
-            loads.extend(made.next());
-            second.extend(made);
-        }
-        // What a load adds beyond the first comes last, so that the loads of the file keep their
-        // numbers.
-        for NewLoad { load, place, origin } in loads.into_iter().chain(second) {
-            scene.loads.push(load);
-            self.written.loads.push(place);
-            self.written.origins.push(origin);
-        }
+        self.loads(&file.sections("load"), &mut scene)?;
         let mut turbulence = Vec::new();
         for (index, table) in file.sections("turbulence").iter().enumerate() {
             turbulence.extend(self.turbulence(index, table, scene.duration, modes.is_some())?);
@@ -102,27 +72,11 @@ impl Builder<'_> {
         scene.probes = self.probes(&file.sections("probe"), &walls)?;
         let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
         scene.walls = all;
-        scene.supports = supports;
-        let time = TimeOptions {
-            step: self.required("step", &time, "step"),
-            sample: self.optional("sample", &time, "sample"),
-            statistics_from: self.optional("statistics_from", &time, "statistics_from").unwrap_or(0.0),
-            force_averaging: self
-                .optional("force_averaging", &time, "force_averaging")
-                .unwrap_or(TimeOptions::FORCE_AVERAGING),
-            sectors,
-        };
+        let time = self.time(&time, sectors);
         let statistics = file.section("statistics").map(|section| self.statistics(&section));
-        let penalty = file.section("penalty");
-        if let Some(penalty) = penalty.as_ref().filter(|_| self.static_correction) {
-            let help = "expected no [penalty]: with static_correction rigid walls are springs of the compliance \
-                        that the modes leave out already";
-            return Err(self.source.error(penalty.span.clone(), "`penalty` beside static_correction", help));
-        }
-        let penalty = penalty.map(|penalty| self.penalty(&penalty)).transpose()?.unwrap_or_default();
-        let (scene, condensation) = self
+        let penalty = file.section("penalty").map(|penalty| self.penalty(&penalty)).transpose()?.unwrap_or_default();
+        let (mut scene, condensation) = self
             .condensed(scene, built.pending.as_ref().filter(|d| modes.is_none() || !matches!(d, Damping::Modal(_))))?;
-        let mut scene = scene;
         if self.written.start == Start::Equilibrium {
             scene.initial.q = equilibrium(&scene).map_err(|error| self.locate(error, &scene))?;
         }
@@ -144,36 +98,38 @@ impl Builder<'_> {
             wear,
             written: std::mem::take(&mut self.written),
         };
-        if let (Some(start), None) = (start, modes) {
-            start::carry_on(&mut case.scene, start);
-        }
-        case.check().map_err(|error| self.locate(error, &case.scene))?;
         let flow = file.section("flow");
-        if let (Some(flow), None) = (&flow, modes) {
-            return Err(self.without_flow(flow));
-        }
-        if let Some(modes) = modes {
-            let ratios = built.pending.filter(|damping| matches!(damping, Damping::Modal(_)));
-            let whole = Whole {
-                scene: case.scene.clone(),
-                damping: ratios,
-                static_correction: self.static_correction,
-                start: case.written.start,
-                planes: self.planes.modes(),
-                turbulence,
-            };
-            let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
-            case.scene = reduction.scene.clone();
-            if let Some(flow) = &flow {
-                case.fluid_elastic = Some(self.flow(flow, &whole, &reduction.modes)?);
-            }
+        let Some(modes) = modes else {
             if let Some(start) = start {
                 start::carry_on(&mut case.scene, start);
             }
-            case.truncated = Some(Truncated { whole, reduction });
             case.check().map_err(|error| self.locate(error, &case.scene))?;
+            return flow.map_or(Ok(case), |flow| Err(self.without_flow(&flow)));
+        };
+        case.check().map_err(|error| self.locate(error, &case.scene))?;
+        let whole = Whole {
+            scene: case.scene.clone(),
+            damping: built.pending.filter(|damping| matches!(damping, Damping::Modal(_))),
+            static_correction: self.static_correction,
+            start: case.written.start,
+            planes: self.planes.modes(),
+            turbulence,
+        };
+        self.reduce(&mut case, whole, modes, flow.as_ref())?;
+        if let Some(start) = start {
+            start::carry_on(&mut case.scene, start);
         }
+        case.check().map_err(|error| self.locate(error, &case.scene))?;
         Ok(case)
+    }
+
+    /// Reduces the case, whose scene is that of `whole`, to its slowest `modes`.
+    fn reduce(&mut self, case: &mut Case, whole: Whole, modes: usize, flow: Option<&Section<'_>>) -> Result<()> {
+        let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
+        case.scene = reduction.scene.clone();
+        case.fluid_elastic = flow.map(|flow| self.flow(flow, &whole, &reduction.modes)).transpose()?;
+        case.truncated = Some(Truncated { whole, reduction });
+        Ok(())
     }
 
     /// Full name and text of the file that the case calls `name`, or why it cannot be read.
@@ -231,6 +187,27 @@ impl Builder<'_> {
         Ok(modes)
     }
 
+    /// The number of modes in all planes, where the file asks for `modes` in each.
+    fn modes_of_planes(&self, modes: Option<usize>) -> Result<Option<usize>> {
+        if let (Some(more), Planes::Two(n)) = (modes.filter(|modes| *modes > self.n), self.planes) {
+            let expected = format!("from 1 to {n}, the degrees of freedom of one plane");
+            return Err(self.at_key(Error::invalid("modes", more, expected)));
+        }
+        Ok(modes.map(|modes| modes * self.planes.modes()))
+    }
+
+    fn time(&mut self, time: &Section<'_>, sectors: usize) -> TimeOptions {
+        TimeOptions {
+            step: self.required("step", time, "step"),
+            sample: self.optional("sample", time, "sample"),
+            statistics_from: self.optional("statistics_from", time, "statistics_from").unwrap_or(0.0),
+            force_averaging: self
+                .optional("force_averaging", time, "force_averaging")
+                .unwrap_or(TimeOptions::FORCE_AVERAGING),
+            sectors,
+        }
+    }
+
     fn statistics(&mut self, statistics: &Section<'_>) -> StatisticsOptions {
         let spectra = statistics.truth("spectra");
         self.note(("statistics", "spectra"), spectra.clone());
@@ -239,6 +216,11 @@ impl Builder<'_> {
     }
 
     fn penalty(&mut self, penalty: &Section<'_>) -> Result<PenaltyOptions> {
+        if self.static_correction {
+            let help = "expected no [penalty]: with static_correction rigid walls are springs of the compliance \
+                        that the modes leave out already";
+            return Err(self.source.error(penalty.span.clone(), "`penalty` beside static_correction", help));
+        }
         let (epsilon, stiffness) = (penalty.numbers("epsilon"), penalty.numbers("stiffness"));
         if let (Some(_), Some(stiffness)) = (&epsilon, &stiffness) {
             let help = "expected epsilon for the source's law, or stiffness for the linear one";
@@ -276,66 +258,5 @@ impl Builder<'_> {
         let law = Subject::nth("penalty law", index);
         self.places.push((law.clone(), value.span()));
         self.number(law.part(what), value)
-    }
-
-    /// Notes the position of a value under the subject that an error would name.
-    pub fn note(&mut self, subject: impl Into<Subject>, at: Option<Range<usize>>) {
-        self.places.extend(at.map(|at| (subject.into(), at)));
-    }
-
-    /// The number; its position is noted under the subject that an error would name.
-    pub fn number(&mut self, subject: impl Into<Subject>, value: &Spanned<f64>) -> f64 {
-        self.places.push((subject.into(), value.span()));
-        *value.get_ref()
-    }
-
-    /// The number at `key`, which `section` must have.
-    pub fn required(&mut self, subject: impl Into<Subject>, section: &Section<'_>, key: &str) -> f64 {
-        self.number(subject, &section.required(key))
-    }
-
-    /// The number at `key`, where `section` has one.
-    pub fn optional(&mut self, subject: impl Into<Subject>, section: &Section<'_>, key: &str) -> Option<f64> {
-        section.number(key).map(|value| self.number(subject, &value))
-    }
-
-    pub fn refuse(&self, span: Range<usize>, key: &str, expected: &str) -> Error {
-        let title = format!("{key} is {}", self.source.slice(span.clone()));
-        self.source.error(span, &title, &format!("expected {expected}"))
-    }
-
-    /// The same error, shown at its position in the file; the original error is its source.
-    pub fn locate(&self, error: Error, scene: &Scene) -> Error {
-        let Error::Invalid { subject, value, expected } = &error else { return error };
-        // An initial displacement that is not written is 0: in that case the error is shown at the
-        // wall behind which it lies.
-        let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.row().dot(&scene.initial.q)) < 0.0;
-        let start = Subject::from(("initial state", "displacement"));
-        let wall = || scene.walls.iter().find(behind).filter(|_| *subject == start);
-        let outside = |wall: &&Wall| wall.holds_out(&scene.initial.q);
-        let hole = || scene.walls.iter().find(outside).filter(|_| *subject == start);
-        let span = self
-            .noted(subject)
-            .or_else(|| wall().and_then(|wall| self.noted(&Subject::wall(&wall.name).part("position"))))
-            .or_else(|| self.nearest(subject))
-            .or_else(|| hole().and_then(|hole| self.noted(&Subject::support(&hole.name).part("gap"))))
-            .unwrap_or(0..0);
-        let title = format!("{} is {value}", written(subject));
-        let or = if wall().is_some() || hole().is_some() {
-            "; or equilibrium = true in place of it: at rest between the walls and in the holes"
-        } else {
-            ""
-        };
-        self.source.error(span, &title, &format!("expected {expected}{or}")).caused_by(error.clone())
-    }
-
-    fn noted(&self, subject: &Subject) -> Option<Range<usize>> {
-        self.places.iter().find(|(s, _)| s == subject).map(|(_, span)| span.clone())
-    }
-
-    /// The position of the smallest enclosing part of `subject` that was noted.
-    fn nearest(&self, subject: &Subject) -> Option<Range<usize>> {
-        let whole = subject.whole()?;
-        self.noted(&whole).or_else(|| self.nearest(&whole))
     }
 }

@@ -1,12 +1,17 @@
-//! State shared by all parts of the reader of a case.
+//! What all parts of the reader of a case share: what is read so far, and where each value stands.
 
 use super::Written;
 use super::case_file::CaseFile;
 use super::model::Model;
 use super::planes::Planes;
 use super::report::Source;
-use crate::error::Subject;
+use super::schema::accepted;
+use super::value::{Section, Value};
+use super::wording::written;
+use crate::error::{Error, Result, Subject};
+use crate::scene::{Scene, Wall};
 use std::ops::Range;
+use toml::Spanned;
 
 /// Most masses in a chain.
 pub(super) const MOST_MASSES: usize = 1_000_000;
@@ -26,4 +31,98 @@ pub(super) struct Builder<'a> {
     pub n: usize,
     pub static_correction: bool,
     pub written: Written,
+}
+
+impl Builder<'_> {
+    /// Notes the position of a value under the subject that an error would name.
+    pub fn note(&mut self, subject: impl Into<Subject>, at: Option<Range<usize>>) {
+        self.places.extend(at.map(|at| (subject.into(), at)));
+    }
+
+    /// The number; its position is noted under the subject that an error would name.
+    pub fn number(&mut self, subject: impl Into<Subject>, value: &Spanned<f64>) -> f64 {
+        self.places.push((subject.into(), value.span()));
+        *value.get_ref()
+    }
+
+    /// The number at `key`, which `section` must have.
+    pub fn required(&mut self, subject: impl Into<Subject>, section: &Section<'_>, key: &str) -> f64 {
+        self.number(subject, &section.required(key))
+    }
+
+    /// The number at `key`, where `section` has one.
+    pub fn optional(&mut self, subject: impl Into<Subject>, section: &Section<'_>, key: &str) -> Option<f64> {
+        section.number(key).map(|value| self.number(subject, &value))
+    }
+
+    pub fn refuse(&self, span: Range<usize>, key: &str, expected: &str) -> Error {
+        let title = format!("{key} is {}", self.source.slice(span.clone()));
+        self.source.error(span, &title, &format!("expected {expected}"))
+    }
+
+    /// The same error, shown at its position in the file; the original error is its source.
+    pub fn locate(&self, error: Error, scene: &Scene) -> Error {
+        let Error::Invalid { subject, value, expected } = &error else { return error };
+        // An initial displacement that is not written is 0: in that case the error is shown at the
+        // wall behind which it lies.
+        let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.row().dot(&scene.initial.q)) < 0.0;
+        let start = Subject::from(("initial state", "displacement"));
+        let wall = || scene.walls.iter().find(behind).filter(|_| *subject == start);
+        let outside = |wall: &&Wall| wall.holds_out(&scene.initial.q);
+        let hole = || scene.walls.iter().find(outside).filter(|_| *subject == start);
+        let span = self
+            .noted(subject)
+            .or_else(|| wall().and_then(|wall| self.noted(&Subject::wall(&wall.name).part("position"))))
+            .or_else(|| self.nearest(subject))
+            .or_else(|| hole().and_then(|hole| self.noted(&Subject::support(&hole.name).part("gap"))))
+            .unwrap_or(0..0);
+        let title = format!("{} is {value}", written(subject));
+        let or = if wall().is_some() || hole().is_some() {
+            "; or equilibrium = true in place of it: at rest between the walls and in the holes"
+        } else {
+            ""
+        };
+        self.source.error(span, &title, &format!("expected {expected}{or}")).caused_by(error.clone())
+    }
+
+    pub fn noted(&self, subject: &Subject) -> Option<Range<usize>> {
+        self.places.iter().find(|(s, _)| s == subject).map(|(_, span)| span.clone())
+    }
+
+    /// The position of the smallest enclosing part of `subject` that was noted.
+    pub fn nearest(&self, subject: &Subject) -> Option<Range<usize>> {
+        let whole = subject.whole()?;
+        self.noted(&whole).or_else(|| self.nearest(&whole))
+    }
+
+    /// A list of numbers, with the position of each noted.
+    pub fn list(&mut self, key: &str, subject: Subject, items: &[Spanned<Value<'_>>]) -> Result<Vec<f64>> {
+        let mut list = Vec::with_capacity(items.len());
+        for (i, item) in items.iter().enumerate() {
+            let Value::Number(x) = item.get_ref() else { return Err(self.refuse_as(item.span(), key)) };
+            self.places.push((subject.clone().value(i), item.span()));
+            list.push(*x);
+        }
+        Ok(list)
+    }
+
+    /// A whole number from 1 to `most`.
+    pub fn whole(&mut self, subject: impl Into<Subject>, value: &Spanned<f64>, most: usize) -> Result<usize> {
+        let subject = subject.into();
+        let x = self.number(subject.clone(), value);
+        self.count(&written(&subject), x, value.span(), most)
+    }
+
+    pub fn count(&self, key: &str, x: f64, span: Range<usize>, most: usize) -> Result<usize> {
+        if x.fract() == 0.0 && (1.0..=most as f64).contains(&x) {
+            Ok(x as usize)
+        } else {
+            Err(self.refuse(span, key, &format!("a whole number from 1 to {most}")))
+        }
+    }
+
+    /// An error at a key, with the accepted values of that key.
+    pub fn refuse_as(&self, span: Range<usize>, key: &str) -> Error {
+        self.refuse(span, key, &accepted(key).unwrap_or_default())
+    }
 }

@@ -5,6 +5,7 @@ use super::model::Model;
 use super::planes::Planes;
 use super::value::{Name, Section, Value};
 use crate::error::{Result, Subject};
+use crate::scene::State;
 use crate::study::truncation::Start;
 use toml::Spanned;
 
@@ -29,8 +30,14 @@ impl Builder<'_> {
         }
     }
 
+    /// The state from which the case starts; that of an equilibrium is found later.
+    pub fn initial(&mut self, initial: &Section<'_>) -> Result<State> {
+        self.written.start = self.start(initial)?;
+        Ok(State { q: self.field("displacement", initial)?, v: self.field("velocity", initial)? })
+    }
+
     /// Whether the start is given, or a static equilibrium.
-    pub fn start(&mut self, initial: &Section<'_>) -> Result<Start> {
+    fn start(&mut self, initial: &Section<'_>) -> Result<Start> {
         let Some(equilibrium) = initial.truth("equilibrium") else { return Ok(Start::Given) };
         self.places.push((("initial state", "equilibrium").into(), equilibrium));
         match initial.span_of("displacement").or(initial.span_of("velocity")) {
@@ -44,7 +51,7 @@ impl Builder<'_> {
     }
 
     /// A displacement or velocity of every degree of freedom; 0 where none is given.
-    pub fn field(&mut self, part: &'static str, initial: &Section<'_>) -> Result<Vec<f64>> {
+    fn field(&mut self, part: &'static str, initial: &Section<'_>) -> Result<Vec<f64>> {
         let total = self.total();
         let Some(value) = initial.get(part) else { return Ok(vec![0.0; total]) };
         let subject = Subject::from(("initial state", part));

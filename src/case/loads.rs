@@ -7,10 +7,27 @@ use super::table::{self, TableColumns};
 use super::value::{Section, Value};
 use super::written::{NewLoad, Origin};
 use crate::error::{Result, Subject};
-use crate::scene::{Load, LoadKind, RandomForce, System};
+use crate::scene::{Load, LoadKind, RandomForce, Scene, System};
 use toml::Spanned;
 
 impl Builder<'_> {
+    /// Adds the loads of the file to `scene`. What a load adds beyond the first comes last, so that
+    /// the loads of the file keep their numbers.
+    pub fn loads(&mut self, tables: &[Section<'_>], scene: &mut Scene) -> Result<()> {
+        let (mut loads, mut further) = (Vec::new(), Vec::new());
+        for (index, table) in tables.iter().enumerate() {
+            let mut made = self.load(index, table, scene.duration, &scene.system)?.into_iter();
+            loads.extend(made.next());
+            further.extend(made);
+        }
+        for NewLoad { load, place, origin } in loads.into_iter().chain(further) {
+            scene.loads.push(load);
+            self.written.loads.push(place);
+            self.written.origins.push(origin);
+        }
+        Ok(())
+    }
+
     /// The load in table `index`, for a run until `end` of `system`; of a random load in both
     /// directions the signal along y, then the one along z.
     pub fn load(&mut self, index: usize, load: &Section<'_>, end: f64, system: &System) -> Result<Vec<NewLoad>> {

@@ -16,8 +16,8 @@
 //! Case file → scene, with errors that point at line and column: `keys.rs` lists every key
 //! (`key_entry.rs`) with its type, unit, default and accepted values, which `schema.rs` looks up;
 //! `value.rs` reads TOML with the position of each value, `check.rs` checks it against the keys,
-//! `build.rs` builds the case table by table, `model.rs`, `place.rs`, `planes.rs` and
-//! `direction.rs` read the structure, the locations on it and their directions, `loads.rs`,
+//! `build.rs` builds the case table by table from what `builder.rs` holds, `system.rs`, `beam.rs`,
+//! `model.rs`, `place.rs`, `planes.rs` and `direction.rs` read the structure, the locations on it and their directions, `loads.rs`,
 //! `random.rs`, `turbulence.rs` and `base.rs` the loads, `truncated.rs` keeps the full scene of a
 //! case reduced to modes, `wording.rs` finds the key of each value of the scene, `written.rs` keeps
 //! what the scene itself no longer shows; `case_file.rs` is the document that a case keeps,
@@ -27,6 +27,7 @@
 #![doc = include_str!("../../cases/README.md")]
 
 mod base;
+mod beam;
 mod build;
 mod builder;
 mod case_file;

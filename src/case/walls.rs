@@ -6,7 +6,7 @@ use super::place::{MOST_PLACES, Site};
 use super::planes::Planes;
 use super::value::Section;
 use crate::error::{Error, Result, Subject};
-use crate::scene::{ModalData, Probe, Row, Side, Wall, WallLaw};
+use crate::scene::{ModalData, Probe, Row, Side, Support, Wall, WallLaw};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -18,6 +18,20 @@ pub(super) struct NewWall {
 }
 
 impl Builder<'_> {
+    /// All walls of the file, flat and round, in its order; adds its supports to `supports`.
+    pub fn walls_and_supports(&mut self, file: &Section<'_>, supports: &mut Vec<Support>) -> Result<Vec<NewWall>> {
+        let mut walls = Vec::new();
+        for (index, wall) in file.sections("wall").iter().enumerate() {
+            walls.extend(self.walls(index, walls.len(), wall)?);
+        }
+        for (index, support) in file.sections("support").iter().enumerate() {
+            let (support, flats) = self.support(index, walls.len(), support)?;
+            supports.push(support);
+            walls.extend(flats);
+        }
+        Ok(walls)
+    }
+
     /// The walls of table `index`, the first of which has index `first` in the scene.
     pub fn walls(&mut self, index: usize, first: usize, wall: &Section<'_>) -> Result<Vec<NewWall>> {
         let base = self.name_of(&format!("wall {}: name", index + 1), wall)?;

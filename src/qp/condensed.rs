@@ -82,45 +82,15 @@ impl Condensed {
         solution: &mut Solution,
         counters: &mut SolverCounters,
     ) -> Result<(), Failure> {
-        let Solution { x, multiplier: r } = solution;
         rhs.check(scale, bounded.iter().copied())?;
         if let Some(&index) = bounded.iter().find(|&&row| !self.system.y[row].is_finite()) {
             return Err(Failure::NotFinite { what: "free displacement of row", index });
         }
-        let Self { system, pivoting, .. } = self;
-        if !self.always {
-            if system.loose {
-                pivoting.call_violated(system, rhs, bounded);
-            }
-            if let Some(elimination) = self.elimination.as_mut().filter(|e| e.pays())
-                && let Some(pivots) = elimination.solve(system, pivoting, rhs, scale, (x, r))
-            {
-                counters.pivots += pivots;
-                counters.eliminated += 1;
-                return super::finite("solution", x, |v| v.is_finite());
-            }
-            match pivoting.solve(system, rhs, bounded, scale, self.passes, r) {
-                Some(pivots) => {
-                    counters.pivots += pivots;
-                    if let Some(elimination) = &mut self.elimination {
-                        elimination.note(system, pivoting.rows().iter().copied());
-                    }
-                    return self.answer(rhs, solution);
-                }
-                // Whether it did not settle or found that bounds cross, the next method decides.
-                None if pivoting.rank() < r.len() && r.len() <= MOST_ROWS => {
-                    counters.crowded += 1;
-                    system.complete(x);
-                    let crowd = self.crowd.get_or_insert_with(|| Box::new(RedundantRows::new(system)));
-                    if let Some(pivots) = crowd.solve(system, pivoting, rhs, bounded, scale, r) {
-                        counters.pivots += pivots;
-                        return self.answer(rhs, solution);
-                    }
-                    counters.fallbacks += 1;
-                }
-                None => counters.fallbacks += 1,
-            }
+        if !self.always && self.pivoted(rhs, bounded, scale, solution, counters)? {
+            return Ok(());
         }
+        let Solution { x, multiplier: r } = solution;
+        let Self { system, pivoting, .. } = self;
         system.complete(x);
         let largest = system.y.iter().fold(scale, |most, y| f64::max(most, y.abs()));
         let violation = violation(system, rhs, NOISE * largest);
@@ -166,6 +136,49 @@ impl Condensed {
         let all: Vec<usize> = (0..r.len()).collect();
         system.respond(rhs.b, &all, r, x);
         super::finite("solution", x, |v| v.is_finite())
+    }
+
+    /// Solves from the last programme's active set: by elimination in a band where that pays, by
+    /// pivoting, or by the method for redundant rows. Returns false where none of them settles.
+    fn pivoted(
+        &mut self,
+        rhs: &Rhs,
+        bounded: &[usize],
+        scale: f64,
+        solution: &mut Solution,
+        counters: &mut SolverCounters,
+    ) -> Result<bool, Failure> {
+        let Solution { x, multiplier: r } = solution;
+        let Self { system, pivoting, .. } = self;
+        if system.loose {
+            pivoting.call_violated(system, rhs, bounded);
+        }
+        if let Some(elimination) = self.elimination.as_mut().filter(|e| e.pays())
+            && let Some(pivots) = elimination.solve(system, pivoting, rhs, scale, (x, r))
+        {
+            counters.pivots += pivots;
+            counters.eliminated += 1;
+            return super::finite("solution", x, |v| v.is_finite()).map(|()| true);
+        }
+        if let Some(pivots) = pivoting.solve(system, rhs, bounded, scale, self.passes, r) {
+            counters.pivots += pivots;
+            if let Some(elimination) = &mut self.elimination {
+                elimination.note(system, pivoting.rows().iter().copied());
+            }
+            return self.answer(rhs, solution).map(|()| true);
+        }
+        // Whether it did not settle or found that bounds cross, the next method decides.
+        if pivoting.rank() < r.len() && r.len() <= MOST_ROWS {
+            counters.crowded += 1;
+            system.complete(x);
+            let crowd = self.crowd.get_or_insert_with(|| Box::new(RedundantRows::new(system)));
+            if let Some(pivots) = crowd.solve(system, pivoting, rhs, bounded, scale, r) {
+                counters.pivots += pivots;
+                return self.answer(rhs, solution).map(|()| true);
+            }
+        }
+        counters.fallbacks += 1;
+        Ok(false)
     }
 
     fn answer(&mut self, rhs: &Rhs, solution: &mut Solution) -> Result<(), Failure> {

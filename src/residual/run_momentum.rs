@@ -89,19 +89,8 @@ impl Judge {
     /// rounding, over the largest momentum exchanged.
     pub(super) fn open_momentum(&self) -> LargestResidual {
         let sums = &self.sums;
-        let mut worst = LargestResidual::default();
         let impulses = sums.recorded.as_ref().unwrap_or(&sums.seen);
-        for (wall, ((p, seen), size)) in impulses.iter().zip(&sums.seen).zip(&sums.sizes).enumerate() {
-            let rounding = sums.steps as f64 * f64::EPSILON * size;
-            worst.observe(over((p - seen).abs() - rounding, *size), self.noise.end, Some(wall));
-        }
-        if let Some(supports) = &self.supports {
-            for (hole, told) in self.scene.holes().zip(supports.recorded.iter().flatten()) {
-                let ([y, z], size) = (supports.impulse[hole.index], supports.size[hole.index]);
-                let apart = (told[0] - y).hypot(told[1] - z) - sums.steps as f64 * f64::EPSILON * size;
-                worst.observe(over(apart, size), self.noise.end, Some(hole.index));
-            }
-        }
+        let mut worst = self.unrecorded(impulses);
         if !sums.whole || sums.steps == 0 || self.contract.balance == Balance::Exact {
             return worst;
         }
@@ -124,21 +113,7 @@ impl Judge {
         };
         self.loads.blow(sums.from, until, &mut blows);
         let mut exchanged: Vec<f64> = sums.forces.iter().map(|force| force.exchanged).collect();
-        // The forces at both ends of the run, which no step's mean contains: a staggered rule
-        // starts half a step before.
-        let mut begin = vec![0.0; n];
-        self.loads.add_force(sums.from, 1.0, &mut begin);
-        system.add_damping(-1.0, &sums.first, &mut begin);
-        system.add_stiffness(-1.0, &sums.start, &mut begin);
-        let mut end = self.load.clone();
-        system.add_damping(-1.0, &sums.last, &mut end);
-        system.add_stiffness(-1.0, &self.q, &mut end);
-        let mut ends: Vec<f64> =
-            sums.forces.iter().zip(&end).map(|(force, end)| force.largest.max(end.abs())).collect();
-        for i in 0..n {
-            let Forces { load, own, .. } = sums.forces[i];
-            ends[i] += begin[i].abs() + (self.load[i] - load).abs() + (end[i] - self.load[i] - own).abs();
-        }
+        let mut ends = self.end_forces();
         for (wall, (p, size)) in self.scene.walls.iter().zip(impulses.iter().zip(&sums.sizes)) {
             for &(i, weight) in wall.row().entries() {
                 open[i] -= weight * p;
@@ -169,6 +144,45 @@ impl Judge {
             worst.observe(over(left / roots[i] - rounding, largest), self.noise.end, None);
         }
         worst
+    }
+
+    /// The largest difference between the sums of impulses over the steps seen and those of the
+    /// recorder, of which `impulses` are those of the walls, over their size.
+    fn unrecorded(&self, impulses: &[f64]) -> LargestResidual {
+        let sums = &self.sums;
+        let mut worst = LargestResidual::default();
+        for (wall, ((p, seen), size)) in impulses.iter().zip(&sums.seen).zip(&sums.sizes).enumerate() {
+            let rounding = sums.steps as f64 * f64::EPSILON * size;
+            worst.observe(over((p - seen).abs() - rounding, *size), self.noise.end, Some(wall));
+        }
+        if let Some(supports) = &self.supports {
+            for (hole, told) in self.scene.holes().zip(supports.recorded.iter().flatten()) {
+                let ([y, z], size) = (supports.impulse[hole.index], supports.size[hole.index]);
+                let apart = (told[0] - y).hypot(told[1] - z) - sums.steps as f64 * f64::EPSILON * size;
+                worst.observe(over(apart, size), self.noise.end, Some(hole.index));
+            }
+        }
+        worst
+    }
+
+    /// The sizes of the forces on each degree of freedom at both ends of the run, N, which no
+    /// step's mean contains: a staggered rule starts half a step before.
+    fn end_forces(&self) -> Vec<f64> {
+        let (sums, system) = (&self.sums, &self.scene.system);
+        let mut begin = vec![0.0; sums.last.len()];
+        self.loads.add_force(sums.from, 1.0, &mut begin);
+        system.add_damping(-1.0, &sums.first, &mut begin);
+        system.add_stiffness(-1.0, &sums.start, &mut begin);
+        let mut end = self.load.clone();
+        system.add_damping(-1.0, &sums.last, &mut end);
+        system.add_stiffness(-1.0, &self.q, &mut end);
+        let mut ends: Vec<f64> =
+            sums.forces.iter().zip(&end).map(|(force, end)| force.largest.max(end.abs())).collect();
+        for (i, size) in ends.iter_mut().enumerate() {
+            let Forces { load, own, .. } = sums.forces[i];
+            *size += begin[i].abs() + (self.load[i] - load).abs() + (end[i] - self.load[i] - own).abs();
+        }
+        ends
     }
 }
 

@@ -119,7 +119,6 @@ impl DiskSolver {
         }
         if !self.settle() {
             self.counters.fallbacks += 1;
-            self.system.forget();
             self.counters.iterations += cones::find(&self.problem, &mut self.system)?;
             let polished = self.newton.settle(&mut self.system) || self.settle();
             self.counters.newton = self.newton.steps;

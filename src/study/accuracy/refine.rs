@@ -83,89 +83,140 @@ pub(super) fn refine(
 
 /// The same, with runs made by `make`.
 fn refine_by(judged: &Judged, target: &Target, make: &mut dyn FnMut(&Options) -> Result<Run>) -> Result<Refined> {
-    let rows = TimeOptions { sample: Some(judged.coarse.sample), ..judged.time(&target.time) };
-    let reference = match target.against {
-        Against::Exact => exact(&judged.model, rows).ok(),
-        Against::Refinements => None,
-    };
-    let judged_by = if reference.is_some() { JudgedBy::ExactMotion } else { JudgedBy::Halving };
-    let share = if reference.is_some() { 1.0 } else { QUIET };
-    let mut levels = Vec::new();
-    let mut done: Vec<(u32, Run)> = Vec::new();
-    let mut refuted: Option<(u32, Run)> = None;
-    let mut worst = (f64::INFINITY, "nothing to compare".to_owned());
-    let (mut kept, mut quiet, mut failure) = (false, 0, None);
+    let mut halvings = Halvings::new(judged, target);
     for level in 0..u64::BITS {
         let steps = judged.coarse.steps.saturating_mul(1 << level);
         if steps > target.most_steps {
             break;
         }
         let time = judged.time(&judged.coarse.options(level, &target.time));
-        let options = Options::new(time);
-        let made = make(&options).and_then(|run| match run.refuted() {
-            Some(error) => {
-                refuted = Some((level, run));
-                Err(error)
-            }
-            None => Ok(run),
-        });
-        let run = match made {
-            Ok(run) => run,
+        match make(&Options::new(time)).and_then(|run| halvings.unrefuted(level, run)) {
+            Ok(run) => halvings.add(level, steps, run),
             Err(error) if error.is_request() => return Err(error),
             // If a step is too large for the scheme, a smaller one may still work.
-            Err(error) => {
-                levels.push(Level { step_s: time.step, steps, error: None, failure: Some(error.to_string()) });
-                failure = Some(error);
-                done.clear();
-                quiet = 0;
-                continue;
-            }
-        };
-        let against = reference.as_ref().or(done.last().map(|(_, run)| run));
-        let change = against.map(|against| judged.change(&run, against));
-        levels.push(Level { step_s: run.grid.step, steps, error: change.as_ref().map(|c| c.worst().0), failure: None });
-        if let Some(change) = change {
-            worst = change.worst();
-            // A body frozen between its walls does not change from halving to halving, and yet is
-            // wrong.
-            let moves = run.counters.frozen_steps == 0;
-            quiet = if moves && worst.0 <= share * target.tolerance { quiet + 1 } else { 0 };
+            Err(error) => halvings.add_failed(Level { step_s: time.step, steps, error: None, failure: None }, error),
         }
-        done.push((level, run));
-        if done.len() > QUIET_HALVINGS + 1 {
-            done.remove(0);
-        }
-        let enough = if reference.is_some() || converges(&levels) { 1 } else { QUIET_HALVINGS };
-        kept = quiet >= enough;
-        if kept || leads_nowhere(&levels) {
+        if halvings.kept || leads_nowhere(&halvings.levels) {
             break;
         }
     }
-    if done.is_empty() && refuted.is_some() {
-        worst = (f64::INFINITY, "refuted by the judge".to_owned());
-        kept = false;
-    }
-    let Some((level, run)) = done.pop().or(refuted) else {
-        return Err(failure.unwrap_or(Error::Inaccurate {
-            tolerance: target.tolerance,
-            reached: f64::INFINITY,
-            quantity: worst.1,
-            until: 0.0,
-            steps: judged.coarse.steps,
-        }));
-    };
-    let against = reference.as_ref().or(done.last().map(|(_, run)| run));
-    let agree = |other: &Run| agree_until(&judged.scene, &run.trajectory, &other.trajectory, share * target.tolerance);
-    let agrees_until = against.map_or(0.0, agree);
-    let mut sufficient = level;
-    if reference.is_none() {
-        for (coarser, earlier) in done.iter().rev() {
-            if judged.change(earlier, &run).worst().0 <= SUFFICIENT * target.tolerance {
-                sufficient = *coarser;
-            }
+    halvings.refined()
+}
+
+/// The runs so far, each with half the step of the one before.
+struct Halvings<'a> {
+    judged: &'a Judged,
+    target: &'a Target,
+    /// The exact motion, where the runs are judged by it.
+    reference: Option<Run>,
+    /// Largest error or change, as a share of the scale of its quantity.
+    allowed: f64,
+    levels: Vec<Level>,
+    /// The last runs since one failed, with their levels.
+    done: Vec<(u32, Run)>,
+    /// The last run that the judge refuted.
+    refuted: Option<(u32, Run)>,
+    /// The last error or change, and the quantity it belongs to.
+    worst: (f64, String),
+    /// Number of successive halvings up to the last whose change is allowed.
+    quiet: usize,
+    kept: bool,
+    failure: Option<Error>,
+}
+
+impl<'a> Halvings<'a> {
+    fn new(judged: &'a Judged, target: &'a Target) -> Self {
+        let rows = TimeOptions { sample: Some(judged.coarse.sample), ..judged.time(&target.time) };
+        let reference = match target.against {
+            Against::Exact => exact(&judged.model, rows).ok(),
+            Against::Refinements => None,
+        };
+        Self {
+            judged,
+            target,
+            allowed: if reference.is_some() { 1.0 } else { QUIET } * target.tolerance,
+            reference,
+            levels: Vec::new(),
+            done: Vec::new(),
+            refuted: None,
+            worst: (f64::INFINITY, "nothing to compare".to_owned()),
+            quiet: 0,
+            kept: false,
+            failure: None,
         }
     }
-    Ok(Refined { run, level, sufficient, levels, worst, kept, agrees_until, judged_by })
+
+    /// What the finest run is compared with: the exact motion, or the run before it.
+    fn against(&self) -> Option<&Run> {
+        self.reference.as_ref().or(self.done.last().map(|(_, run)| run))
+    }
+
+    /// The run, unless the judge refutes it.
+    fn unrefuted(&mut self, level: u32, run: Run) -> Result<Run> {
+        match run.refuted() {
+            Some(error) => {
+                self.refuted = Some((level, run));
+                Err(error)
+            }
+            None => Ok(run),
+        }
+    }
+
+    fn add_failed(&mut self, level: Level, error: Error) {
+        self.levels.push(Level { failure: Some(error.to_string()), ..level });
+        self.failure = Some(error);
+        self.done.clear();
+        self.quiet = 0;
+    }
+
+    fn add(&mut self, level: u32, steps: u64, run: Run) {
+        let change = self.against().map(|against| self.judged.change(&run, against).worst());
+        let error = change.as_ref().map(|worst| worst.0);
+        self.levels.push(Level { step_s: run.grid.step, steps, error, failure: None });
+        if let Some(worst) = change {
+            // A body frozen between its walls does not change from halving to halving, and yet is
+            // wrong.
+            let moves = run.counters.frozen_steps == 0;
+            self.quiet = if moves && worst.0 <= self.allowed { self.quiet + 1 } else { 0 };
+            self.worst = worst;
+        }
+        self.done.push((level, run));
+        if self.done.len() > QUIET_HALVINGS + 1 {
+            self.done.remove(0);
+        }
+        let enough = if self.reference.is_some() || converges(&self.levels) { 1 } else { QUIET_HALVINGS };
+        self.kept = self.quiet >= enough;
+    }
+
+    /// The finest run, or the last refuted one where no other is left.
+    fn refined(mut self) -> Result<Refined> {
+        if self.done.is_empty() && self.refuted.is_some() {
+            self.worst = (f64::INFINITY, "refuted by the judge".to_owned());
+            self.kept = false;
+        }
+        let Some((level, run)) = self.done.pop().or_else(|| self.refuted.take()) else {
+            return Err(self.failure.unwrap_or(Error::Inaccurate {
+                tolerance: self.target.tolerance,
+                reached: f64::INFINITY,
+                quantity: self.worst.1,
+                until: 0.0,
+                steps: self.judged.coarse.steps,
+            }));
+        };
+        let agree = |other: &Run| agree_until(&self.judged.scene, &run.trajectory, &other.trajectory, self.allowed);
+        let agrees_until = self.against().map_or(0.0, agree);
+        let mut sufficient = level;
+        if self.reference.is_none() {
+            for (coarser, earlier) in self.done.iter().rev() {
+                if self.judged.change(earlier, &run).worst().0 <= SUFFICIENT * self.target.tolerance {
+                    sufficient = *coarser;
+                }
+            }
+        }
+        let judged_by = if self.reference.is_some() { JudgedBy::ExactMotion } else { JudgedBy::Halving };
+        let Self { levels, worst, kept, .. } = self;
+        Ok(Refined { run, level, sufficient, levels, worst, kept, agrees_until, judged_by })
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,165 @@
+//! Reads the tables `[system.bar]` and `[system.beam]`: dimensions, section and ends.
+
+use super::builder::Builder;
+use super::schema::accepted;
+use super::value::{Section, Value};
+use crate::error::Result;
+use crate::scene::{Bar, BarEnd, Beam, BeamEnd, BeamSection, MOST_ELEMENTS, MassMatrix};
+use toml::Spanned;
+
+/// All conditions at an end that the file can give; each system accepts some of them.
+pub(super) enum End {
+    Free,
+    Pinned,
+    Clamped,
+    Sprung { stiffness: f64, rotational: f64 },
+}
+
+impl Builder<'_> {
+    pub fn bar(&mut self, bar: &Section<'_>) -> Result<Bar> {
+        let mass = match bar.word("mass_matrix") {
+            None => MassMatrix::Consistent,
+            Some(word) => match *word.get_ref() {
+                "consistent" => MassMatrix::Consistent,
+                "lumped" => MassMatrix::Lumped,
+                _ => return Err(self.refuse_as(word.span(), "system.bar.mass_matrix")),
+            },
+        };
+        let mut ends = [BarEnd::Free; 2];
+        for (side, made) in ["left", "right"].into_iter().zip(&mut ends) {
+            let Some(end) = bar.get(side) else { continue };
+            *made = match self.end("system.bar", side, end)? {
+                End::Free => BarEnd::Free,
+                End::Clamped => BarEnd::Fixed,
+                End::Sprung { stiffness, .. } => BarEnd::Sprung { stiffness },
+                End::Pinned => return Err(self.refuse_as(end.span(), &format!("system.bar.{side}"))),
+            };
+        }
+        let [left, right] = ends;
+        let mut number = |key| self.required(("bar", key), bar, key);
+        let [length, area] = ["length", "area"].map(&mut number);
+        let [youngs_modulus, density] = ["youngs_modulus", "density"].map(&mut number);
+        let elements = self.whole(("bar", "elements"), &bar.required("elements"), MOST_ELEMENTS)?;
+        Ok(Bar { length, area, youngs_modulus, density, elements, left, right, mass })
+    }
+
+    pub fn beam(&mut self, beam: &Section<'_>) -> Result<Beam> {
+        let mut ends = [BeamEnd::Free; 2];
+        for (side, made) in ["left", "right"].into_iter().zip(&mut ends) {
+            let Some(end) = beam.get(side) else { continue };
+            *made = match self.end("system.beam", side, end)? {
+                End::Free => BeamEnd::Free,
+                End::Pinned => BeamEnd::Pinned,
+                End::Clamped => BeamEnd::Clamped,
+                End::Sprung { stiffness, rotational } => BeamEnd::Sprung { stiffness, rotational },
+            };
+        }
+        let [left, right] = ends;
+        let length = self.length(beam)?;
+        let mut number = |key| self.required(("beam", key), beam, key);
+        let youngs_modulus = number("youngs_modulus");
+        let density = number("density");
+        let section = self.cross_section(beam)?;
+        let added_mass = self.optional(("beam", "added_mass"), beam, "added_mass").unwrap_or(0.0);
+        let elements = self.whole(("beam", "elements"), &beam.required("elements"), MOST_ELEMENTS)?;
+        Ok(Beam { length, youngs_modulus, density, section, added_mass, elements, left, right })
+    }
+
+    /// The section of a beam: the diameters of a tube, or the sides of a rectangle.
+    fn cross_section(&mut self, beam: &Section<'_>) -> Result<BeamSection> {
+        let missing = |key: &str, help: &str| {
+            let title = format!("`{key}` is missing in `system.beam`");
+            self.source.error(beam.span.clone(), &title, help)
+        };
+        let diameter = beam.span_of("outer_diameter").or(beam.span_of("inner_diameter"));
+        match (diameter, beam.get("width"), beam.get("height")) {
+            (Some(at), Some(_), _) | (Some(at), _, Some(_)) => {
+                let help = "expected one section: outer_diameter and inner_diameter of a tube, or width and height of \
+                            a rectangle";
+                Err(self.source.error(at, "`system.beam` has a diameter and a side of a rectangle", help))
+            }
+            (None, Some(_), None) => {
+                let help = "expected height = a number above 0, in m, in the direction of the vibration, beside width";
+                Err(missing("height", help))
+            }
+            (None, None, Some(_)) => {
+                let help = "expected width = a number above 0, in m, across the vibration, beside height";
+                Err(missing("width", help))
+            }
+            (None, Some(_), Some(_)) => {
+                let [width, height] = ["width", "height"].map(|key| self.required(("beam", key), beam, key));
+                Ok(BeamSection::Rectangle { width, height })
+            }
+            (_, None, None) if beam.get("outer_diameter").is_none() => {
+                let help = "expected outer_diameter = a number above 0, in m, or width and height of a rectangle";
+                Err(missing("outer_diameter", help))
+            }
+            (_, None, None) => {
+                let outer_diameter = self.required(("beam", "outer_diameter"), beam, "outer_diameter");
+                let inner = self.optional(("beam", "inner_diameter"), beam, "inner_diameter");
+                Ok(BeamSection::Tube { outer_diameter, inner_diameter: inner.unwrap_or(0.0) })
+            }
+        }
+    }
+
+    /// The length of a beam, m; where it is the sum of spans, their joints are noted.
+    fn length(&mut self, beam: &Section<'_>) -> Result<f64> {
+        let (length, spans) = (beam.number("length"), beam.numbers("spans"));
+        match (length, spans) {
+            (Some(length), None) => Ok(self.number(("beam", "length"), &length)),
+            (None, Some(spans)) => {
+                let mut reached = 0.0;
+                for span in spans.get_ref() {
+                    if !(span.get_ref().is_finite() && *span.get_ref() > 0.0) {
+                        return Err(self.refuse(span.span(), "system.beam.spans", "numbers above 0, in m"));
+                    }
+                    reached += span.get_ref();
+                    self.joints.push(reached);
+                }
+                self.places.push((("beam", "length").into(), spans.span()));
+                Ok(reached)
+            }
+            (Some(_), Some(spans)) => {
+                let help = "expected one of them: the length is the sum of the spans";
+                Err(self.source.error(spans.span(), "`system.beam` has a length and spans", help))
+            }
+            (None, None) => {
+                let help = "expected length = a number above 0, in m, or spans = a list of them, whose sum it is";
+                Err(self.source.error(beam.span.clone(), "`length` is missing in `system.beam`", help))
+            }
+        }
+    }
+
+    pub fn end(&mut self, table: &str, side: &str, end: &Spanned<Value<'_>>) -> Result<End> {
+        let key = format!("{table}.{side}");
+        match end.get_ref() {
+            Value::Word(word) => match word.as_ref() {
+                "free" => Ok(End::Free),
+                "pinned" => Ok(End::Pinned),
+                "clamped" => Ok(End::Clamped),
+                _ => Err(self.refuse_as(end.span(), &key)),
+            },
+            Value::Table(entries) => {
+                let (mut stiffness, mut rotational) = (None, 0.0);
+                for (name, value) in entries {
+                    let part = format!("{key}.{}", name.get_ref());
+                    let known =
+                        name.get_ref() == "stiffness" || (name.get_ref() == "rotational" && table == "system.beam");
+                    if !known {
+                        let title = format!("unknown key `{}` in `{table}.{side}`", name.get_ref());
+                        let help = format!("expected {}", accepted(&key).unwrap_or_default());
+                        return Err(self.source.error(name.span(), &title, &help));
+                    }
+                    let x = self.finite(&part, value, "a number, 0 or more")?;
+                    if x < 0.0 {
+                        return Err(self.refuse(value.span(), &part, "a number, 0 or more"));
+                    }
+                    if name.get_ref() == "stiffness" { stiffness = Some(x) } else { rotational = x }
+                }
+                let stiffness = stiffness.ok_or_else(|| self.refuse_as(end.span(), &key))?;
+                Ok(End::Sprung { stiffness, rotational })
+            }
+            _ => Err(self.refuse_as(end.span(), &key)),
+        }
+    }
+}
