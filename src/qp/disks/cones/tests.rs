@@ -69,8 +69,8 @@ fn a_free_motion_that_violates_nothing_is_refused() {
 #[test]
 fn the_two_blocks_that_weigh_most_in_a_certificate_are_named() {
     let named = |certificate: &[(usize, f64)]| {
-        let line = |&(block, _): &(usize, f64)| Line { block, along: [0.0; 2], bound: 0.0 };
-        let lines: Vec<Line> = certificate.iter().map(line).collect();
+        let line = |&(block, _): &(usize, f64)| ConeRow { block, along: [0.0; 2], bound: 0.0 };
+        let lines: Vec<ConeRow> = certificate.iter().map(line).collect();
         match apart(&lines, &certificate.iter().map(|entry| entry.1).collect::<Vec<_>>()) {
             Failure::Infeasible { row, against } => [row, against],
             other => panic!("{other:?}"),
