@@ -5,59 +5,18 @@
 //! is not in contact with it, whatever the scheme: the force that a scheme computes there is
 //! rounding, and counts as 0.
 
-use crate::scene::{LoadKind, Scene, Side, System, Wall, WallLaw};
-use crate::step::{Bound, Contact, Contract};
+mod floor;
+mod open;
+
+use crate::scene::{Scene, Side, Wall};
+use crate::step::{Contact, Contract};
+use floor::Floor;
+use open::OpenEpisode;
 
 /// An impact on a rigid wall takes one step in a velocity-level scheme and up to two in a
 /// position-level one. Longer episodes are lasting contact, whose force is finite after those first
 /// steps.
 pub(crate) const IMPACT_STEPS: u64 = 2;
-
-/// Rounding error of a sum of a few terms, relative to the largest.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
-
-/// Limit up to which an impulse at one wall is rounding: `force` · h + `inertia`/h, N s.
-#[derive(Debug, Clone, Copy)]
-struct Floor {
-    /// N: rounding error of the forces that balance where a body rests.
-    force: f64,
-    /// kg m: rounding error of the displacement times the mass, where a scheme computes its
-    /// impulses from displacements.
-    inertia: f64,
-}
-
-impl Floor {
-    /// One per wall of `scene`.
-    fn all(scene: &Scene, masses: &[f64], contract: Contract) -> Vec<Self> {
-        let size = |kind: &LoadKind| match kind {
-            LoadKind::Constant { force } => force.abs(),
-            LoadKind::Harmonic { amplitude, .. } => amplitude.abs(),
-            LoadKind::Table(table) => table.force().iter().fold(0.0, |most: f64, f| most.max(f.abs())),
-            _ => 0.0,
-        };
-        let loads: f64 = scene.loads.iter().map(|load| size(&load.kind)).sum();
-        // For a structure the loads alone set the scale: what its springs carry at rest comes from
-        // the loads.
-        let spring = if let System::Oscillator(o) = scene.system { o.stiffness } else { 0.0 };
-        let positions = matches!(contract.promise.rigid.displacement, Some(Bound::End | Bound::Reflected));
-        let spring_of = |law: WallLaw| law.spring().map_or(0.0, |spring| spring.stiffness);
-        let floor = |(wall, mass): (&crate::scene::Wall, &f64)| {
-            let place = wall.position().abs();
-            let own = spring_of(wall.law);
-            let displaced = if wall.is_round() { contract.promise.hole.is_some() } else { positions };
-            let inertia = if displaced { mass * place } else { 0.0 };
-            Self { force: ROUNDING * (loads + (spring + own) * place), inertia: ROUNDING * inertia }
-        };
-        scene.walls.iter().zip(masses).map(floor).collect()
-    }
-
-    /// True if an impulse `p` (N s) of a step of `h` (s) is rounding; without a division, since
-    /// this runs for every pushing wall in every step.
-    #[inline]
-    fn holds(&self, p: f64, h: f64) -> bool {
-        p.abs() * h <= self.force * h * h + self.inertia
-    }
-}
 
 /// If the momentum that a rigid wall reverses in a step exceeds this share of the step's impulse,
 /// the step contains an impact and impulse/h is not a force. (The last bounces of an accumulation
@@ -66,25 +25,6 @@ const BLOW: f64 = 1e-2;
 
 /// The least length of the parts, of the longest one, over which a round wall's mean force is told.
 const SHORT: f64 = 0.5;
-
-/// An open episode at one wall.
-#[derive(Debug, Clone, Copy)]
-struct Open {
-    first: f64,
-    last: f64,
-    steps: u64,
-    impulse: f64,
-    /// ∫ t dp, for the instant of an impact spread over two steps.
-    moment: f64,
-    /// Largest finite force, N; `None` while every step had an impact in it.
-    peak: Option<f64>,
-    /// The middle (s) of the last two parts in which the wall pushed, and its mean force there, N.
-    forces: [Option<(f64, f64)>; 2],
-    /// Impulse and length of parts too short for a mean force of their own, N s and s.
-    short: (f64, f64),
-    approach: f64,
-    departure: f64,
-}
 
 /// Velocities of a step at the row of a wall, m/s.
 #[derive(Debug, Clone, Copy)]
@@ -117,7 +57,7 @@ pub(crate) struct Episodes {
     side: Vec<Side>,
     /// The sign of each wall's impulses.
     sign: Vec<f64>,
-    open: Vec<Option<Open>>,
+    open: Vec<Option<OpenEpisode>>,
     any: bool,
     /// Walls that pushed in the last step.
     pushed: Vec<usize>,
@@ -195,21 +135,16 @@ impl Episodes {
         self.pushed = before;
     }
 
-    /// The sign of the impulse of an episode.
-    fn sign(&self, wall: usize) -> f64 {
-        self.sign[wall]
-    }
-
     /// Closes the episode, if any, of a wall that does not push.
     fn part(&mut self, wall: usize) {
         if let Some(episode) = self.open.get_mut(wall).and_then(Option::take) {
             let is_impact = self.is_impact(wall, &episode);
-            self.closed.push(contact(wall, self.sign(wall), is_impact, &episode, true));
+            self.closed.push(episode.contact(wall, self.sign[wall], is_impact, true));
         }
     }
 
     /// True if an episode at this wall is an impact, which has no finite force.
-    fn is_impact(&self, wall: usize, episode: &Open) -> bool {
+    fn is_impact(&self, wall: usize, episode: &OpenEpisode) -> bool {
         self.rigid[wall] && episode.steps <= self.impact_steps
     }
 
@@ -231,18 +166,7 @@ impl Episodes {
         if self.rigid[wall] && sign * (struck - before) < 0.0 {
             self.part(wall);
         }
-        let fresh = Open {
-            first: instant,
-            last: instant,
-            steps: 0,
-            impulse: 0.0,
-            moment: 0.0,
-            peak: None,
-            forces: [None; 2],
-            short: (0.0, 0.0),
-            approach: (-sign * struck).max(0.0),
-            departure: 0.0,
-        };
+        let fresh = OpenEpisode::new(instant, (-sign * struck).max(0.0));
         let episode = self.open[wall].get_or_insert(fresh);
         episode.steps += 1;
         episode.last = instant;
@@ -311,23 +235,12 @@ impl Episodes {
 
     /// The open episode at a wall, begun now at `time` (s) with the velocity ẇ `rate` (m/s) unless
     /// there is one.
-    fn open(&mut self, wall: usize, time: f64, rate: f64) -> &mut Open {
+    fn open(&mut self, wall: usize, time: f64, rate: f64) -> &mut OpenEpisode {
         if !self.pushed.contains(&wall) {
             self.pushed.push(wall);
         }
         let approach = (-self.side[wall].sign() * rate).max(0.0);
-        self.open[wall].get_or_insert(Open {
-            first: time,
-            last: time,
-            steps: 0,
-            impulse: 0.0,
-            moment: 0.0,
-            peak: None,
-            forces: [None; 2],
-            short: (0.0, 0.0),
-            approach,
-            departure: 0.0,
-        })
+        self.open[wall].get_or_insert(OpenEpisode::new(time, approach))
     }
 
     /// Closes the episode of a wall that does not push in the part from `start` to `end` (s). Where
@@ -355,30 +268,7 @@ impl Episodes {
     /// Episodes still open at the end of the run.
     pub(crate) fn still_open(&self) -> Vec<Contact> {
         let rows = self.open.iter().enumerate().filter_map(|(wall, open)| open.as_ref().map(|e| (wall, e)));
-        rows.map(|(wall, e)| contact(wall, self.sign(wall), self.is_impact(wall, e), e, false)).collect()
-    }
-}
-
-/// The mean force of an impulse over some length; `None` without one.
-fn mean_of((impulse, length): (f64, f64)) -> Option<f64> {
-    (length > 0.0).then(|| impulse / length)
-}
-
-fn contact(wall: usize, sign: f64, impact: bool, episode: &Open, ended: bool) -> Contact {
-    let (start, end) = if impact {
-        let mean = episode.moment / episode.impulse;
-        (mean, mean)
-    } else {
-        (episode.first, episode.last)
-    };
-    Contact {
-        wall,
-        start,
-        end: ended.then_some(end),
-        impulse: sign * episode.impulse,
-        peak_force: if impact { None } else { episode.peak.or_else(|| mean_of(episode.short)) },
-        approach_speed: episode.approach,
-        departure_speed: ended.then_some(episode.departure),
+        rows.map(|(wall, e)| e.contact(wall, self.sign[wall], self.is_impact(wall, e), false)).collect()
     }
 }
 

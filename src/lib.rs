@@ -79,12 +79,12 @@ pub use scene::{
 };
 pub use scheme::{Counters, Handover, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{
-    ContactPlace, Distribution, EpisodeStatistics, ForceStatistics, Forces, HalfWidths, PlaceKind, Rubbing,
-    SectorStatistics, Spectrum, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics, WearStatistics,
+    ContactPlace, Distribution, EpisodeStatistics, ForceStatistics, Forces, HalfWidths, PlaceKind, SectorStatistics,
+    Spectrum, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics, WearStatistics, WearTally,
 };
 pub use step::{
     Balance, Bound, Circle, Conserves, Contact, Contract, Elastic, Friction, Law, Normal, Path, Promise, PromisedForce,
     Reached, Rigid, Step, Tolerance, Tolerances, Turning,
 };
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
-pub use trajectory::{ContactWear, Recorder, Trajectory};
+pub use trajectory::{EpisodeWear, Recorder, Trajectory};

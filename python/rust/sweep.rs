@@ -12,7 +12,7 @@ use signorini as sg;
 use signorini::WallStatistics;
 use signorini::case::KeyValue;
 use signorini::parallel::{Take, on_threads};
-use signorini::sweep::{Axis, Finished, Manner, Shard, Sweep, Values};
+use signorini::sweep::{Axis, Finished, Shard, Sweep, SweepOptions, Values};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -183,8 +183,8 @@ pub fn _sweep(
     let work = || {
         let plan = sweep.plan()?;
         notes = plan.notes();
-        let manner = Manner { threads, shard: Shard::WHOLE, force: false };
-        plan.run_into(&folder, manner, &|progress| done.store(progress.done as usize, Ordering::Relaxed))
+        let options = SweepOptions { threads, shard: Shard::WHOLE, force: false };
+        plan.run_into(&folder, options, &|progress| done.store(progress.done as usize, Ordering::Relaxed))
     };
     let mut watch = |py: Python<'_>| progress.bind(py).call1((done.load(Ordering::Relaxed),)).map(drop);
     let Finished { rows, tables, .. } = compute_beside(py, work, &mut watch)?;

@@ -102,7 +102,7 @@ pub use truncated::Truncated;
 #[cfg(feature = "cli")]
 pub(crate) use value::{Section, Value};
 pub use wear::WearOptions;
-pub use written::{FileRead, Origin, Scarred, Support, Written};
+pub use written::{FileRead, Origin, Support, WearData, Written};
 
 use crate::error::{Error, Result};
 use crate::scene::{Condensation, FluidElastic, Scene};

@@ -47,7 +47,7 @@ impl Case {
 
     /// Wear coefficients beyond those of metals in water or air.
     fn odd_coefficients(&self) -> Option<String> {
-        let own = self.written.supports.iter().flat_map(|s| [s.scarred.coefficient, s.scarred.support_coefficient]);
+        let own = self.written.supports.iter().flat_map(|s| [s.wear.coefficient, s.wear.support_coefficient]);
         let mut all = own.chain([self.wear.coefficient, self.wear.support_coefficient]).flatten();
         let odd = all.find(|k| !(LEAST_COEFFICIENT..=MOST_COEFFICIENT).contains(k))?;
         Some(format!(

@@ -5,7 +5,7 @@ use super::model::{Model, Place};
 use super::place::MOST_PLACES;
 use super::value::Section;
 use super::walls::NewWall;
-use super::written::{Scarred, Support};
+use super::written::{Support, WearData};
 use crate::error::{Error, Result, Subject};
 use crate::scene::{self, Face, Flat, Flats, PlaneRows, Wall, WallLaw};
 use crate::wear::Growth;
@@ -45,7 +45,7 @@ impl Builder<'_> {
         let place = self.place_in_two_planes(&owner, support)?;
         let at = self.planes.rows(&self.model, &place)?;
         let friction = self.optional(owner.subject.clone().part("friction"), support, "friction").unwrap_or(0.0);
-        let scarred = self.scarred(&owner, support)?;
+        let wear = self.wear_data(&owner, support)?;
         let shape = support.required_word("shape");
         let (made, flats, walls) = match *shape.get_ref() {
             "flats" => {
@@ -66,7 +66,7 @@ impl Builder<'_> {
             }
         };
         let growth = self.growth(&owner, support, flats.is_some())?;
-        self.written.supports.push(Support { name, place, flats, scarred, growth });
+        self.written.supports.push(Support { name, place, flats, wear, growth });
         Ok((made, walls))
     }
 
@@ -169,7 +169,7 @@ impl Builder<'_> {
     }
 
     /// The values on which the depth of a scar depends.
-    fn scarred(&mut self, owner: &Owner, support: &Section<'_>) -> Result<Scarred> {
+    fn wear_data(&mut self, owner: &Owner, support: &Section<'_>) -> Result<WearData> {
         let number = |key, unit| self.above_0(&owner.name, key, unit, support);
         let (width, radius) = (number("width", "m")?, number("radius", "m")?);
         let [coefficient, support_coefficient] = ["coefficient", "support_coefficient"].map(|key| number(key, "1/Pa"));
@@ -194,14 +194,14 @@ impl Builder<'_> {
             }
             _ => {}
         }
-        let scarred = Scarred {
+        let wear = WearData {
             scar: width.zip(radius.or(tube)),
             coefficient: coefficient?,
             support_coefficient: support_coefficient?,
         };
         let first = support.span_of("coefficient").or(support.span_of("support_coefficient"));
         self.note(owner.subject.clone().part("coefficient"), first);
-        Ok(scarred)
+        Ok(wear)
     }
 
     /// What wear does to the gaps of a support, of flats or round.

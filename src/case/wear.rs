@@ -31,7 +31,7 @@ impl Builder<'_> {
             .written
             .supports
             .iter()
-            .find(|support| support.scarred.coefficient.is_some() || support.scarred.support_coefficient.is_some());
+            .find(|support| support.wear.coefficient.is_some() || support.wear.support_coefficient.is_some());
         let own = own.map(|support| support.name.clone());
         let Some(wear) = wear else {
             return match own.and_then(|name| self.coefficient_of(&name).map(|at| (name, at))) {
@@ -106,13 +106,13 @@ impl Case {
     /// coefficient for it.
     #[must_use]
     pub fn archard(&self, index: usize) -> Option<Archard> {
-        let scarred = self.written.supports.get(index)?.scarred;
-        let coefficient = scarred.coefficient.or(self.wear.coefficient);
-        let support_coefficient = scarred.support_coefficient.or(self.wear.support_coefficient);
+        let wear = self.written.supports.get(index)?.wear;
+        let coefficient = wear.coefficient.or(self.wear.coefficient);
+        let support_coefficient = wear.support_coefficient.or(self.wear.support_coefficient);
         coefficient.or(support_coefficient)?;
         let hole = self.scene.supports.get(index)?.hole(&self.scene.walls);
         let bearing = hole.map_or(Bearing::Flat, |hole| Bearing::Hole { gap: hole.gap });
-        let scar = scarred.scar.map(|(width, radius)| Scar { width, radius, bearing });
+        let scar = wear.scar.map(|(width, radius)| Scar { width, radius, bearing });
         Some(Archard { coefficient, support_coefficient, service: self.wear.service?, scar })
     }
 }

@@ -71,7 +71,7 @@ pub struct Support {
     /// walls in the scene; the others follow. `None` for a round support.
     pub flats: Option<(Flats, usize)>,
     /// The values on which the depth of a scar there depends.
-    pub scarred: Scarred,
+    pub wear: WearData,
     /// What wear does to its gaps over the years.
     pub growth: Growth,
 }
@@ -79,7 +79,7 @@ pub struct Support {
 /// The values on which the depth of a scar at a support depends.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
-pub struct Scarred {
+pub struct WearData {
     /// Width of the support and radius of the tube that slides there, m.
     pub scar: Option<(f64, f64)>,
     /// Wear coefficient of the tube there, 1/Pa; `None` where that of `[wear]` holds.

@@ -35,12 +35,12 @@ pub fn request(command: &str, case: &Case, methods: &[Method]) -> Map<String, Va
     }
     let truncated =
         case.truncated.as_ref().map(|truncated| (&truncated.whole.damping, truncated.whole.static_correction));
-    let scarred: Vec<_> = case.written.supports.iter().map(|support| support.scarred).collect();
+    let wear: Vec<_> = case.written.supports.iter().map(|support| support.wear).collect();
     for (part, digest) in [
         ("system", fingerprint(&(&whole.system, truncated))),
         ("walls", fingerprint(&whole.walls)),
         ("supports", fingerprint(&whole.supports)),
-        ("wear", fingerprint(&(case.wear, scarred))),
+        ("wear", fingerprint(&(case.wear, wear))),
         ("loads", fingerprint(&whole.loads)),
         ("initial", fingerprint(&whole.initial)),
         ("probes", fingerprint(&whole.probes)),

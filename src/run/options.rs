@@ -6,7 +6,7 @@ use crate::finite::first_not_finite;
 use crate::residual::{Finding, Judge, Residuals};
 use crate::scene::{Scene, State};
 use crate::scheme::Stepper;
-use crate::statistics::{Forces, Rubbing, Statistics};
+use crate::statistics::{Forces, Statistics, WearTally};
 use crate::step::{Contact, QuietSteps, Step};
 use crate::time::{TimeGrid, TimeOptions};
 use crate::trajectory::{Recorder, Trajectory};
@@ -271,19 +271,19 @@ pub struct Unrecorded;
 impl Recording for Recorded {
     type Motion = Trajectory;
     type Statistics = Statistics;
-    type Recorder = (Recorder, Forces, Rubbing);
+    type Recorder = (Recorder, Forces, WearTally);
     const ROWLESS: bool = false;
 
     fn begin(stepper: &Stepper, rows: u64, start: &State, time: &TimeOptions) -> Self::Recorder {
         let forces = Forces::new(stepper.scene(), time.statistics_from, time.force_averaging);
-        let rubbing = Rubbing::new(stepper.scene(), time.statistics_from, time.sectors);
-        (Recorder::new(stepper.scene(), rows, &start.q, &start.v), forces, rubbing)
+        let wear = WearTally::new(stepper.scene(), time.statistics_from, time.sectors);
+        (Recorder::new(stepper.scene(), rows, &start.q, &start.v), forces, wear)
     }
 
-    fn observe((recorder, forces, rubbing): &mut Self::Recorder, step: &Step<'_>) {
+    fn observe((recorder, forces, wear): &mut Self::Recorder, step: &Step<'_>) {
         recorder.observe(step);
         forces.observe(step);
-        rubbing.observe(step);
+        wear.observe(step);
     }
 
     fn observe_quiet((recorder, _, _): &mut Self::Recorder, calm: &QuietSteps) {
@@ -292,14 +292,14 @@ impl Recording for Recorded {
     }
 
     fn finish(
-        (recorder, forces, rubbing): Self::Recorder,
+        (recorder, forces, wear): Self::Recorder,
         open: &[Contact],
         (scene, masses): (&Scene, &[f64]),
         from: f64,
     ) -> (Trajectory, Statistics) {
         let trajectory = recorder.finish(open);
         let statistics = Statistics::of(scene, masses, trajectory.contacts(), from).with_forces(&forces);
-        let statistics = statistics.with_wear(&rubbing);
+        let statistics = statistics.with_wear(&wear);
         (trajectory, statistics)
     }
 

@@ -9,8 +9,8 @@
 //! # Files
 //!
 //! Contact statistics for wear models, over one window; `force.rs` sums up each wall's force over
-//! time, step by step, `support.rs` that of each support, `rubbing.rs` the work of wear of every
-//! support; `batch.rs` and `student.rs` make intervals; `episodes.rs` joins contacts into episodes,
+//! time, step by step, `support.rs` that of each support, `wear_tally.rs` the work of wear of
+//! every support; `batch.rs` and `student.rs` make intervals; `episodes.rs` joins contacts into episodes,
 //! `distribution.rs` counts them, `spectrum.rs` estimates spectra.
 
 mod batch;
@@ -18,23 +18,23 @@ mod distribution;
 mod episodes;
 mod force;
 mod place;
-mod rubbing;
 mod spectrum;
 mod student;
 mod summary;
 mod support;
+mod wear_tally;
 
 pub use distribution::Distribution;
 pub use episodes::EpisodeStatistics;
 pub use force::{ForceStatistics, Forces};
 pub use place::{ContactPlace, PlaceKind};
-pub use rubbing::{Rubbing, SectorStatistics, WearStatistics};
 #[cfg(feature = "case")]
 pub(crate) use spectrum::FEWEST as FEWEST_VALUES;
 pub use spectrum::Spectrum;
 pub(crate) use student::student_95;
 pub use summary::Summary;
 pub use support::{SupportForce, SupportStatistics};
+pub use wear_tally::{SectorStatistics, WearStatistics, WearTally};
 
 use crate::scene::{Scene, Wall};
 use crate::step::Contact;
@@ -161,8 +161,8 @@ impl Statistics {
 
     /// Adds what slides at supports, as summed step by step.
     #[must_use]
-    pub fn with_wear(mut self, rubbing: &Rubbing) -> Self {
-        self.wear = rubbing.statistics();
+    pub fn with_wear(mut self, wear: &WearTally) -> Self {
+        self.wear = wear.statistics();
         self
     }
 

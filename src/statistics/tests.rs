@@ -67,12 +67,12 @@ fn a_window_without_length_has_no_rates_and_no_intervals() {
     let statistics = Statistics::new(&scene, &contacts, 1.0);
     assert_eq!((statistics.walls[0].contacts, &statistics.walls[0].half_width_95), (10, &None));
     assert_eq!(EpisodeStatistics::of(&scene, &statistics, &contacts, 0.1)[0].episodes_per_s, 0.0);
-    let (mut forces, mut rubbing) = (Forces::new(&scene, 1.0, 0.1), Rubbing::new(&scene, 1.0, 4));
+    let (mut forces, mut wear) = (Forces::new(&scene, 1.0, 0.1), WearTally::new(&scene, 1.0, 4));
     let last = step(9, [0.9, 1.0], &[-1.0, 0.0], &[-1.0, 0.0]);
     forces.observe(&last);
-    rubbing.observe(&last);
+    wear.observe(&last);
     assert_eq!(forces.statistics(0, 10), None);
-    assert!(rubbing.statistics().is_empty());
+    assert!(wear.statistics().is_empty());
 }
 
 #[test]
@@ -148,14 +148,14 @@ fn an_impact_at_the_beginning_of_the_window_counts_and_one_after_its_end_does_no
 #[test]
 fn a_support_at_which_nothing_slides_has_no_shares_of_nothing() {
     let scene = between_flats(10.0);
-    let mut rubbing = Rubbing::new(&scene, 0.0, 4);
-    let untouched = &rubbing.statistics()[0];
+    let mut wear = WearTally::new(&scene, 0.0, 4);
+    let untouched = &wear.statistics()[0];
     assert!(untouched.sectors.iter().all(|sector| sector.impulse_share == 0.0 && sector.work_rate_w == 0.0));
     assert_eq!((untouched.impact_share, untouched.sliding_speed_m_per_s), (None, None));
     assert_eq!(untouched.work_rate_half_width_95_w, None);
     // An impact straight onto a flat: all of the impulse in its sector, and no work.
-    rubbing.observe(&step(3, [0.3, 0.4], &[-2.0, 0.0], &[0.0, 0.0]));
-    let struck = &rubbing.statistics()[0];
+    wear.observe(&step(3, [0.3, 0.4], &[-2.0, 0.0], &[0.0, 0.0]));
+    let struck = &wear.statistics()[0];
     assert_eq!(struck.sectors.iter().map(|sector| sector.impulse_share).sum::<f64>(), 1.0);
     assert_eq!((struck.impact_share, struck.sliding_speed_m_per_s), (None, None));
     assert_eq!((struck.work_rate_w, struck.work_rate_half_width_95_w), (0.0, None));

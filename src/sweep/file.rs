@@ -33,11 +33,11 @@ impl Sweep {
     /// Reads the sweep file at `path`; its case is a file relative to it, or a built-in case.
     ///
     /// ```no_run
-    /// use signorini::sweep::{Manner, Shard, Sweep};
+    /// use signorini::sweep::{SweepOptions, Shard, Sweep};
     ///
     /// let sweep = Sweep::read("bifurcation.toml".as_ref())?;
-    /// let manner = Manner { threads: None, shard: Shard::WHOLE, force: false };
-    /// sweep.plan()?.run_into("out/bifurcation".as_ref(), manner, &|_| ())?;
+    /// let options = SweepOptions { threads: None, shard: Shard::WHOLE, force: false };
+    /// sweep.plan()?.run_into("out/bifurcation".as_ref(), options, &|_| ())?;
     /// # Ok::<(), signorini::Error>(())
     /// ```
     ///

@@ -115,7 +115,7 @@ pub use plan::Plan;
 pub use random::{Design, MOST_DIMENSIONS, Normal, Random};
 pub use request::{Kernel, MOST_SAMPLES, Sweep, Window};
 pub use row::Row;
-pub use run::{Manner, Progress};
+pub use run::{Progress, SweepOptions};
 pub use sample::{Sample, Samples};
 pub use shard::Shard;
 pub use status::Status;

@@ -10,7 +10,7 @@ use super::strobe::Strobe;
 use crate::case::Case;
 use crate::error::Result;
 use crate::scene::{Checked, Scene, State};
-use crate::statistics::{Forces, Rubbing, Statistics, WallStatistics};
+use crate::statistics::{Forces, Statistics, WallStatistics, WearTally};
 use crate::step::{Contact, Step};
 use crate::study::attractor::{self, MOST_FREEDOM};
 use crate::time::TimeOptions;
@@ -22,7 +22,7 @@ pub(super) struct RowObserver {
     /// Contact episodes that reach into the window.
     contacts: Vec<Contact>,
     forces: Option<Forces>,
-    rubbing: Option<Rubbing>,
+    wear: Option<WearTally>,
     motion: Option<Motion>,
     strobe: Option<Strobe>,
     /// The growth of a small change of the start; an error from the step on at which there is no
@@ -53,7 +53,7 @@ impl RowObserver {
             from,
             contacts: Vec::new(),
             forces: any(Measure::sees_force).then(|| Forces::new(scene, from, time.force_averaging)),
-            rubbing: any(Measure::sees_sliding).then(|| Rubbing::new(scene, from, time.sectors)),
+            wear: any(Measure::sees_sliding).then(|| WearTally::new(scene, from, time.sectors)),
             motion: any(Measure::sees_motion).then(|| Motion::new(scene, from, start, speeds)),
             strobe,
             growth,
@@ -69,8 +69,8 @@ impl RowObserver {
         if let Some(forces) = &mut self.forces {
             forces.observe(step);
         }
-        if let Some(rubbing) = &mut self.rubbing {
-            rubbing.observe(step);
+        if let Some(wear) = &mut self.wear {
+            wear.observe(step);
         }
         if let Some(motion) = &mut self.motion {
             motion.observe(step);
@@ -105,8 +105,8 @@ impl RowObserver {
             Some(forces) => statistics.with_forces(forces),
             None => statistics,
         };
-        let statistics = match &self.rubbing {
-            Some(rubbing) => statistics.with_wear(rubbing),
+        let statistics = match &self.wear {
+            Some(wear) => statistics.with_wear(wear),
             None => statistics,
         };
         let mut values = Vec::new();

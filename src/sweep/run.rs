@@ -23,7 +23,7 @@ const TELL: Duration = Duration::from_millis(100);
 
 /// Options for running a sweep into a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Manner {
+pub struct SweepOptions {
     /// Number of threads; all cores if `None`.
     pub threads: Option<usize>,
     /// The part of the sweep.
@@ -71,10 +71,10 @@ impl Plan {
     /// # Errors
     /// [`Error::Io`](crate::Error::Io) for a folder with results of another request, one that
     /// another process is writing to, and if writing fails.
-    pub fn run_into(&self, folder: &Path, manner: Manner, progress: &dyn Fn(Progress)) -> Result<Finished> {
-        let (finished, mut results) = self.run_in(folder, manner, Vec::new(), progress, &|_| ())?;
+    pub fn run_into(&self, folder: &Path, options: SweepOptions, progress: &dyn Fn(Progress)) -> Result<Finished> {
+        let (finished, mut results) = self.run_in(folder, options, Vec::new(), progress, &|_| ())?;
         let effects = effects(&finished.folder, &self.request())?;
-        if !effects.is_empty() && manner.shard == Shard::WHOLE && !finished.folder.join(EFFECTS).exists() {
+        if !effects.is_empty() && options.shard == Shard::WHOLE && !finished.folder.join(EFFECTS).exists() {
             write_effects(&mut results, &effects)?;
             results.finish()?;
         }
@@ -87,21 +87,21 @@ impl Plan {
     pub(crate) fn run_in(
         &self,
         folder: &Path,
-        manner: Manner,
+        options: SweepOptions,
         formats: Vec<Format>,
         progress: &dyn Fn(Progress),
         told: &dyn Fn(&str),
     ) -> Result<(Finished, Results)> {
         let started = Instant::now();
-        let folder = manner.shard.folder(folder);
-        let request = folder::of_shard(self.request(), manner.shard);
-        let mut results = Results::open(&folder, request, manner.force, formats)?;
-        folder::record_request(&mut results, &Study::of(self)?, manner.shard);
+        let folder = options.shard.folder(folder);
+        let request = folder::of_shard(self.request(), options.shard);
+        let mut results = Results::open(&folder, request, options.force, formats)?;
+        folder::record_request(&mut results, &Study::of(self)?, options.shard);
         let all = std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = manner.threads.unwrap_or(all).max(1);
-        let rows = manner.shard.chains(self.chains) * self.chain_rows();
+        let threads = options.threads.unwrap_or(all).max(1);
+        let rows = options.shard.chains(self.chains) * self.chain_rows();
         let runs = rows * self.runs_of_row();
-        let state = if manner.force { State::Empty } else { folder::state(&folder, rows) };
+        let state = if options.force { State::Empty } else { folder::state(&folder, rows) };
         let mut damaged = None;
         let anew = matches!(state, State::Empty);
         match state {
@@ -118,11 +118,11 @@ impl Plan {
             }
             State::Empty | State::Begun => {}
         }
-        let place = |run: u64| manner.shard.place(self, run);
+        let place = |run: u64| options.shard.place(self, run);
         let journal = Journal::open(&folder, JOURNAL, runs, anew, place)?;
         results.begin(JOURNAL)?;
         let found = journal.done();
-        let mut journal = self.fill(journal, manner.shard, threads, &|done| {
+        let mut journal = self.fill(journal, options.shard, threads, &|done| {
             let new = done - found;
             let rate = if new > 0 { new as f64 / started.elapsed().as_secs_f64() } else { 0.0 };
             progress(Progress { done, runs, rate });

@@ -1,6 +1,7 @@
 //! The columns of a recorded motion.
 
-use super::worn::ContactWear;
+use super::worn::EpisodeWear;
+use crate::scene::Scene;
 use crate::step::Contact;
 use serde::{Deserialize, Serialize};
 
@@ -29,10 +30,36 @@ pub(super) struct Columns {
     pub wear_work: Vec<Vec<f64>>,
     pub contacts: Vec<Contact>,
     #[serde(default)]
-    pub contact_wear: Vec<Option<ContactWear>>,
+    pub contact_wear: Vec<Option<EpisodeWear>>,
 }
 
 impl Columns {
+    /// The columns of `scene` without rows, with room for `rows` intervals.
+    pub fn new(scene: &Scene, rows: u64) -> Self {
+        let capacity = usize::try_from(rows).unwrap_or(0).saturating_add(1).min(1 << 24);
+        let column = || Vec::with_capacity(capacity);
+        let columns = |count: usize| (0..count).map(|_| column()).collect::<Vec<_>>();
+        let holes: Vec<String> = scene.holes().map(|hole| hole.name.to_owned()).collect();
+        let walls = scene.walls.len();
+        Self {
+            walls: scene.walls.iter().map(|w| w.name.clone()).collect(),
+            probes: scene.probes.iter().map(|p| p.name.clone()).collect(),
+            time: column(),
+            displacement: columns(scene.probes.len()),
+            velocity: columns(scene.probes.len()),
+            force: columns(walls),
+            impulse: columns(walls),
+            hole_force: holes.iter().map(|_| [column(), column()]).collect(),
+            hole_impulse: holes.iter().map(|_| [column(), column()]).collect(),
+            friction: columns(if scene.turns_or_rubs() { walls } else { 0 }),
+            holes,
+            supports: scene.supports.iter().map(|support| support.name.clone()).collect(),
+            wear_work: columns(scene.supports.len()),
+            contacts: Vec::new(),
+            contact_wear: Vec::new(),
+        }
+    }
+
     /// Writes the zeros that the columns of the walls lack up to the last row.
     pub fn fill(&mut self) {
         let rows = self.time.len();

@@ -2,16 +2,16 @@
 //!
 //! # Files
 //!
-//! `Trajectory` (`columns.rs` its data), its `recorder.rs`; `rubbed.rs` and `worn.rs`: round
-//! supports, friction and the work of wear over its rows.
+//! `Trajectory` (`columns.rs` its data), its `recorder.rs`; `plane_impulses.rs` and `worn.rs`:
+//! round supports, friction and the work of wear over its rows.
 
 mod columns;
+mod plane_impulses;
 mod recorder;
-mod rubbed;
 mod worn;
 
 pub use recorder::Recorder;
-pub use worn::ContactWear;
+pub use worn::EpisodeWear;
 
 use crate::error::{Error, Result};
 use crate::step::Contact;
@@ -158,7 +158,7 @@ impl Trajectory {
     /// What each of the contacts wore; `None` at walls that belong to no support. Empty in scenes
     /// without supports.
     #[must_use]
-    pub fn contact_wear(&self) -> &[Option<ContactWear>] {
+    pub fn contact_wear(&self) -> &[Option<EpisodeWear>] {
         &self.0.contact_wear
     }
 

@@ -2,7 +2,7 @@
 
 use super::Trajectory;
 use super::columns::Columns;
-use super::rubbed::Rubbed;
+use super::plane_impulses::PlaneImpulses;
 use super::worn::Worn;
 use crate::scene::{Row, Scene};
 use crate::step::{Contact, Path, QuietSteps, Step};
@@ -26,9 +26,7 @@ pub struct Recorder {
     /// True once a part of a step, or a step that was handed over, has ended at the last row, whose
     /// state and force wait in `state` and `partial`.
     ended: bool,
-    /// Impulse of each round support along y and z and friction of each wall since the last row, N
-    /// s.
-    rubbed: Rubbed,
+    planar: PlaneImpulses,
     worn: Worn,
     /// Displacement and velocity at a row, n entries each.
     state: [Vec<f64>; 2],
@@ -39,30 +37,9 @@ impl Recorder {
     /// (m), `v` (m/s).
     #[must_use]
     pub fn new(scene: &Scene, rows: u64, q: &[f64], v: &[f64]) -> Self {
-        let capacity = usize::try_from(rows).unwrap_or(0).saturating_add(1).min(1 << 24);
-        let column = || Vec::with_capacity(capacity);
         let (n, m) = (scene.system.degrees_of_freedom(), scene.walls.len());
-        let columns = |count: usize| (0..count).map(|_| column()).collect::<Vec<_>>();
-        let holes: Vec<String> = scene.holes().map(|hole| hole.name.to_owned()).collect();
-        let rubbed = if scene.turns_or_rubs() { m } else { 0 };
         let mut recorder = Self {
-            columns: Columns {
-                walls: scene.walls.iter().map(|w| w.name.clone()).collect(),
-                probes: scene.probes.iter().map(|p| p.name.clone()).collect(),
-                time: column(),
-                displacement: columns(scene.probes.len()),
-                velocity: columns(scene.probes.len()),
-                force: columns(m),
-                impulse: columns(m),
-                hole_force: holes.iter().map(|_| [column(), column()]).collect(),
-                hole_impulse: holes.iter().map(|_| [column(), column()]).collect(),
-                friction: columns(rubbed),
-                holes: holes.clone(),
-                supports: scene.supports.iter().map(|support| support.name.clone()).collect(),
-                wear_work: columns(scene.supports.len()),
-                contacts: Vec::new(),
-                contact_wear: Vec::new(),
-            },
+            columns: Columns::new(scene, rows),
             worn: Worn::new(scene),
             probes: scene.probes.iter().map(|p| p.at.clone()).collect(),
             end: scene.duration,
@@ -72,13 +49,7 @@ impl Recorder {
             pending: vec![0.0; m],
             partial: vec![0.0; m],
             ended: false,
-            rubbed: Rubbed {
-                walls: scene.holes().map(|hole| hole.index).collect(),
-                force: vec![[0.0; 2]; holes.len()],
-                holes: vec![[0.0; 2]; holes.len()],
-                friction: vec![0.0; rubbed],
-                parts: (u64::MAX, 0.0),
-            },
+            planar: PlaneImpulses::new(scene),
             state: [vec![0.0; n], vec![0.0; n]],
         };
         let force: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.row().dot(q), w.row().dot(v))).collect();
@@ -102,7 +73,7 @@ impl Recorder {
         if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != m) {
             return;
         }
-        let planar = self.rubbed.friction.len();
+        let planar = self.planar.friction.len();
         if [step.friction.len(), step.normal.len(), step.turned.len()] != [planar; 3] {
             return;
         }
@@ -110,7 +81,7 @@ impl Recorder {
             return;
         }
         if !matches!(step.path, Path::Series(_)) && planar > 0 {
-            self.rubbed.observe(step);
+            self.planar.observe(step);
         }
         self.columns.contacts.extend_from_slice(step.closed);
         match step.path {
@@ -248,7 +219,7 @@ impl Recorder {
                 column[0] = path.contact_force(wall, 0.0);
             }
             if let Path::Series(series) = path {
-                for (&wall, [y, z]) in self.rubbed.walls.iter().zip(&mut self.columns.hole_force) {
+                for (&wall, [y, z]) in self.planar.walls.iter().zip(&mut self.columns.hole_force) {
                     [y[0], z[0]] = series.hole_force(wall, 0.0);
                 }
             }
@@ -272,7 +243,7 @@ impl Recorder {
                 self.worn.add(step, [from, due]);
             }
             if let Path::Series(series) = path {
-                self.rubbed.follow(series, [from, due]);
+                self.planar.follow(series, [from, due]);
             }
             self.push(due, &q, &v, &force);
             (self.partial, self.state) = (force, [q, v]);
@@ -280,8 +251,8 @@ impl Recorder {
         }
         self.wear_exactly(step, from);
         if let Path::Series(series) = path {
-            self.rubbed.follow(series, [from, step.end]);
-            self.rubbed.jump(step);
+            self.planar.follow(series, [from, step.end]);
+            self.planar.jump(step);
         }
         for (wall, ((sum, &whole), &jump)) in self.pending.iter_mut().zip(step.impulse).zip(step.jump).enumerate() {
             *sum += if from > step.start { path.contact_impulse(wall, from, step.end) + jump } else { whole };
@@ -306,7 +277,7 @@ impl Recorder {
         for (column, &p) in t.impulse.iter_mut().zip(step.impulse) {
             column[0] += p;
         }
-        for (column, hole) in t.hole_impulse.iter_mut().zip(&self.rubbed.walls) {
+        for (column, hole) in t.hole_impulse.iter_mut().zip(&self.planar.walls) {
             column.iter_mut().zip(step.hole_push(*hole)).for_each(|(column, push)| column[0] += push);
         }
         for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
@@ -338,7 +309,7 @@ impl Recorder {
         for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
             column.push(work);
         }
-        let known = &mut self.rubbed;
+        let known = &mut self.planar;
         for (columns, force) in t.hole_force.iter_mut().zip(&known.force) {
             columns.iter_mut().zip(force).for_each(|(column, force)| column.push(*force));
         }

@@ -2,13 +2,13 @@
 
 use crate::scene::Scene;
 use crate::step::{Contact, Step};
-use crate::wear::{Manner, Rub, Rubs};
+use crate::wear::{ImpulseDuration, SlidingContacts, SlidingPiece};
 use serde::{Deserialize, Serialize};
 
 /// What a contact of a support did.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct ContactWear {
+pub struct EpisodeWear {
     /// Where it began, degrees from +y towards +z.
     pub angle: f64,
     /// Its work of wear ∫ F_n |v_t| dt, J.
@@ -20,67 +20,67 @@ pub struct ContactWear {
 /// The work of wear of each support since the start, and of the open contacts.
 #[derive(Debug, Clone)]
 pub(super) struct Worn {
-    rubs: Rubs,
+    sliding: SlidingContacts,
     /// J, one for each support.
     pub work: Vec<f64>,
     /// One for each contact of the supports that is open.
-    open: Vec<Option<ContactWear>>,
+    open: Vec<Option<EpisodeWear>>,
     /// The contacts that pushed at the end of the current step, of exact motion.
-    jumps: Vec<(usize, ContactWear)>,
+    jumps: Vec<(usize, EpisodeWear)>,
 }
 
 impl Worn {
     pub fn new(scene: &Scene) -> Self {
-        let rubs = Rubs::new(scene);
-        let open = if rubs.is_empty() { 0 } else { rubs.contacts() };
-        Self { work: vec![0.0; scene.supports.len()], open: vec![None; open], jumps: Vec::new(), rubs }
+        let sliding = SlidingContacts::new(scene);
+        let open = if sliding.is_empty() { 0 } else { sliding.contacts() };
+        Self { work: vec![0.0; scene.supports.len()], open: vec![None; open], jumps: Vec::new(), sliding }
     }
 
     /// True for a scene without supports.
     #[inline]
     pub fn is_empty(&self) -> bool {
-        self.rubs.is_empty()
+        self.sliding.is_empty()
     }
 
     /// Adds what slid in `step` between two times in it, s.
     pub fn add(&mut self, step: &Step<'_>, within: [f64; 2]) {
-        let Self { rubs, work, open, jumps } = self;
-        rubs.observe(step, within, |rub: &Rub| {
-            if let Some(sum) = work.get_mut(rub.support) {
-                *sum += rub.work;
+        let Self { sliding, work, open, jumps } = self;
+        sliding.observe(step, within, |piece: &SlidingPiece| {
+            if let Some(sum) = work.get_mut(piece.support) {
+                *sum += piece.work;
             }
-            let fresh = ContactWear { angle: rub.began, work: 0.0, sliding: 0.0 };
-            if rub.manner == Manner::Instant {
-                jumps.push((rub.contact, ContactWear { work: rub.work, ..fresh }));
-            } else if let Some(open) = open.get_mut(rub.contact) {
+            let fresh = EpisodeWear { angle: piece.began, work: 0.0, sliding: 0.0 };
+            if piece.duration == ImpulseDuration::Instant {
+                jumps.push((piece.contact, EpisodeWear { work: piece.work, ..fresh }));
+            } else if let Some(open) = open.get_mut(piece.contact) {
                 let contact = open.get_or_insert(fresh);
-                contact.work += rub.work;
-                contact.sliding += rub.sliding;
+                contact.work += piece.work;
+                contact.sliding += piece.sliding;
             }
         });
     }
 
     /// Takes the contacts that end, and calls `each` for every one of them.
-    pub fn close(&mut self, closed: &[Contact], mut each: impl FnMut(Option<ContactWear>)) {
+    pub fn close(&mut self, closed: &[Contact], mut each: impl FnMut(Option<EpisodeWear>)) {
         for contact in closed {
             each(self.take(contact));
         }
         for (index, jump) in std::mem::take(&mut self.jumps) {
             // An impact that begins a contact.
             if let Some(open) = self.open.get_mut(index) {
-                let contact = open.get_or_insert(ContactWear { work: 0.0, ..jump });
+                let contact = open.get_or_insert(EpisodeWear { work: 0.0, ..jump });
                 contact.work += jump.work;
             }
         }
     }
 
-    fn take(&mut self, contact: &Contact) -> Option<ContactWear> {
+    fn take(&mut self, contact: &Contact) -> Option<EpisodeWear> {
         let instant = contact.end == Some(contact.start);
         let jump = self.jumps.iter().position(|(index, _)| *index == contact.wall).filter(|_| instant);
         if let Some(at) = jump {
             return Some(self.jumps.swap_remove(at).1);
         }
         let worn = self.open.get_mut(contact.wall)?.take()?;
-        Some(ContactWear { sliding: if instant { 0.0 } else { worn.sliding }, ..worn })
+        Some(EpisodeWear { sliding: if instant { 0.0 } else { worn.sliding }, ..worn })
     }
 }

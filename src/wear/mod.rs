@@ -7,23 +7,25 @@
 //!
 //! # Files
 //!
-//! Wear at supports: `rubs.rs` finds what slides in a step, `stretch.rs` integrates over exact
-//! motion, `work.rs` is the work of wear of an impulse, `sectors.rs` the part of the circle in
-//! which a contact lies, `depth.rs` the depth of a scar of given volume, `growth.rs` what that
-//! does to the gaps of a support.
+//! Wear at supports: `contacts.rs` finds the contacts that slide in a step, `piece.rs` what each of
+//! them does over a piece of it, `stretch.rs` integrates over exact motion, `work.rs` is the work
+//! of wear of an impulse, `sectors.rs` the part of the circle in which a contact lies, `depth.rs`
+//! the depth of a scar of given volume, `growth.rs` what that does to the gaps of a support.
 
 mod archard;
 mod blows;
+mod contacts;
 mod depth;
 mod growth;
-mod rubs;
+mod piece;
 mod sectors;
 mod stretch;
 mod work;
 
 pub use archard::{Archard, Bearing, Scar, Worn};
+pub(crate) use contacts::SlidingContacts;
 pub use depth::{all_round, flat_area, flat_depth, moon_area, moon_depth};
 pub use growth::{Growth, Opening, WearWork};
-pub(crate) use rubs::{Manner, Rub, Rubs};
+pub(crate) use piece::{ImpulseDuration, SlidingPiece};
 pub use sectors::sector_of;
 pub use work::{sliding_distance, work_of_impulse};

@@ -21,7 +21,7 @@ pub(super) struct Sliding<'a> {
 
 /// The result: the work of wear ∫ F |v_t| dt, J, the impulse, N s, and the distance, m.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Slid {
+pub(super) struct SlidingSums {
     pub work: f64,
     pub impulse: f64,
     pub way: f64,
@@ -30,7 +30,7 @@ pub(super) struct Slid {
 impl Sliding<'_> {
     /// Adds to `sum` the sliding between two times, between which v_t changes its sign at most
     /// once.
-    pub fn add(&self, from: f64, to: f64, sum: &mut Slid) {
+    pub fn add(&self, from: f64, to: f64, sum: &mut SlidingSums) {
         let (left, right) = ((from, (self.speed)(from)), (to, (self.speed)(to)));
         if left.1 * right.1 < 0.0 {
             let root = self.turn(left, right);
@@ -41,7 +41,7 @@ impl Sliding<'_> {
         }
     }
 
-    fn piece(&self, a: f64, b: f64, sum: &mut Slid) {
+    fn piece(&self, a: f64, b: f64, sum: &mut SlidingSums) {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
         for (node, weight) in GAUSS {
             let t = middle + half * node;

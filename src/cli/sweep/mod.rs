@@ -13,7 +13,8 @@ use super::ui::Ui;
 use crate::error::Result;
 use crate::output::results::Results;
 use crate::sweep::{
-    Finished, Manner, Pictures, Plan, Progress, Shard, Status, Tables, effects, means, write_effects, write_summary,
+    Finished, Pictures, Plan, Progress, Shard, Status, SweepOptions, Tables, effects, means, write_effects,
+    write_summary,
 };
 use serde_json::{Map, Value, json};
 use std::cell::Cell;
@@ -65,7 +66,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
 fn run(args: &Args, plan: &Plan, title: &str, ui: &Ui) -> Result<(Finished, Results)> {
     let folder = args.place.folder(title, "sweep");
     let (threads, shard) = (args.threads.map(usize::from), args.shard.unwrap_or(Shard::WHOLE));
-    let manner = Manner { threads, shard, force: args.place.force };
+    let options = SweepOptions { threads, shard, force: args.place.force };
     let formats = args.place.formats.usable()?;
     ui.with_bar("sweep", |bar| {
         let said = Cell::new(Instant::now());
@@ -80,7 +81,7 @@ fn run(args: &Args, plan: &Plan, title: &str, ui: &Ui) -> Result<(Finished, Resu
             }
         };
         let damaged = |what: &str| bar.message(&format!("the rows are computed again: {what}"));
-        plan.run_in(&folder, manner, formats, &progress, &damaged)
+        plan.run_in(&folder, options, formats, &progress, &damaged)
     })
 }
 

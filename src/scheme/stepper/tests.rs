@@ -4,7 +4,7 @@ use super::super::{Integrator, PenaltyLaw};
 use super::*;
 use crate::linear::Symmetric;
 use crate::scene::{Load, PlaneRows, Row, Structure, Table, WallLaw};
-use crate::statistics::{Forces, Rubbing, Statistics};
+use crate::statistics::{Forces, Statistics, WearTally};
 use crate::trajectory::Recorder;
 
 const WITH_PROGRAMMES: [Scheme; 5] = [
@@ -202,11 +202,11 @@ fn an_impact_at_the_very_start_wears() {
     let wall = Wall { law: WallLaw::Rigid { restitution: 0.5 }, ..Wall::round("hole", at.clone(), 1e-3) };
     scene = scene.with_support("hole", at, [0.0; 2], vec![wall]);
     let mut stepper = Stepper::new(&scene, &Scheme::Event, 1e-3).unwrap();
-    let mut rubbing = Rubbing::new(&scene, 0.0, 4);
+    let mut wear = WearTally::new(&scene, 0.0, 4);
     while stepper.time() < scene.duration {
-        rubbing.observe(&stepper.step().unwrap());
+        wear.observe(&stepper.step().unwrap());
     }
     // The sliding speed times the impulse of 2 kg (0.4 + 0.2) m/s, over 1 ms.
-    let found = rubbing.statistics()[0].work_rate_w;
+    let found = wear.statistics()[0].work_rate_w;
     assert!((found - 360.0).abs() < 1e-6, "{found}");
 }

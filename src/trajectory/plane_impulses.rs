@@ -1,11 +1,12 @@
 //! What round supports and friction do between two rows.
 
 use crate::flow::Series;
+use crate::scene::Scene;
 use crate::step::{Path, Step};
 
 /// What round supports and friction did since the last row; all empty in scenes without.
 #[derive(Debug, Clone)]
-pub(super) struct Rubbed {
+pub(super) struct PlaneImpulses {
     /// The indices of the round walls.
     pub walls: Vec<usize>,
     /// Impulse of each round support along y and z, and friction of each wall, N s.
@@ -17,7 +18,18 @@ pub(super) struct Rubbed {
     pub parts: (u64, f64),
 }
 
-impl Rubbed {
+impl PlaneImpulses {
+    pub fn new(scene: &Scene) -> Self {
+        let walls: Vec<usize> = scene.holes().map(|hole| hole.index).collect();
+        Self {
+            force: vec![[0.0; 2]; walls.len()],
+            holes: vec![[0.0; 2]; walls.len()],
+            walls,
+            friction: vec![0.0; if scene.turns_or_rubs() { scene.walls.len() } else { 0 }],
+            parts: (u64::MAX, 0.0),
+        }
+    }
+
     /// Adds the impulses of the holes over a piece of a stretch of exact motion (s), and sets their
     /// forces to those at its end.
     #[inline(never)]

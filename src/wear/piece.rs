@@ -1,18 +1,12 @@
-//! What slides in a step: each contact of each support, with its force and its sliding velocity.
-//!
-//! The sliding velocity is v_t = t · (g_y · q̇, g_z · q̇) with t = (−n_z, n_y) and n the outward
-//! normal of the contact. In a step on a grid it varies linearly from the step's start, after the
-//! impulses of loads, to its end; in a part of a step, whose impulses come at its end, from its
-//! start to its end, and at the instant that ends it. For exact motion force and velocity are
-//! polynomials in time, and
-//! |v_t| is integrated from one sign change to the next.
+//! A piece of a step in which a contact slides: impulse, work and distance on a grid, in parts of a
+//! step, and along exact motion.
 
 use super::blows::Blow;
-use super::stretch::{Slid, Sliding};
+use super::contacts::Section;
+use super::stretch::{Sliding, SlidingSums};
 use super::work::{sliding_distance, work_of_impulse};
 use crate::flow::Series;
-use crate::scene::{Face, PlaneRows, Scene, Support, Wall, heading};
-use crate::step::{Path, Step};
+use crate::step::Step;
 
 /// Number of parts of a stretch of exact motion, which lasts at most two radians of its fastest
 /// motion. Two sign changes of the sliding velocity within one part would be missed, but it is
@@ -26,7 +20,7 @@ const MOST_PARTS: f64 = 256.0;
 
 /// How long a support's impulse lasted, as far as the step shows it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Manner {
+pub(crate) enum ImpulseDuration {
     /// At one instant.
     Instant,
     /// Over the whole piece of time, with a finite force.
@@ -38,12 +32,12 @@ pub(crate) enum Manner {
 
 /// Impulse, work and sliding of one contact of a support over a piece of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Rub {
+pub(crate) struct SlidingPiece {
     /// Index of the support in the scene.
     pub support: usize,
     /// The index of the wall.
     pub contact: usize,
-    pub manner: Manner,
+    pub duration: ImpulseDuration,
     /// Its angle, degrees from +y towards +z, from 0 to below 360, and its outward normal n; their
     /// means over a piece in which the normal turns.
     pub angle: f64,
@@ -61,154 +55,21 @@ pub(crate) struct Rub {
     pub time: f64,
 }
 
-/// The contacts of a scene's supports.
-#[derive(Debug, Clone)]
-pub(crate) struct Rubs {
-    walls: usize,
-    sections: Vec<Section>,
-}
-
-/// The cross-section at a support.
-#[derive(Debug, Clone)]
-struct Section {
-    at: PlaneRows,
-    contacts: Vec<Contact>,
-    blows: Vec<Blow>,
-}
-
-/// A contact of a support.
-#[derive(Debug, Clone, Copy)]
-enum Contact {
-    Flat { wall: usize, rigid: bool, angle: f64, normal: [f64; 2] },
-    Hole { wall: usize, rigid: bool },
-}
-
-impl Rubs {
-    /// The contacts of `scene` as the scheme sees it.
-    pub fn new(scene: &Scene) -> Self {
-        let section = |(support, blows): (&Support, Vec<Blow>)| {
-            let contact = |(index, wall): (usize, &Wall)| {
-                let rigid = wall.law.is_rigid();
-                Some(match wall.face {
-                    Face::Flat { direction, .. } => Contact::Flat {
-                        wall: index,
-                        rigid,
-                        angle: direction?.rem_euclid(360.0) % 360.0,
-                        normal: heading(direction?),
-                    },
-                    Face::Round { .. } => Contact::Hole { wall: index, rigid },
-                })
-            };
-            let contacts = support.members(&scene.walls).filter_map(contact).collect();
-            Section { at: support.at.clone(), contacts, blows }
-        };
-        let sections = scene.supports.iter().zip(Blow::all(scene)).map(section).collect();
-        Self { walls: scene.walls.len(), sections }
-    }
-
-    /// True for a scene without supports.
-    pub fn is_empty(&self) -> bool {
-        self.sections.is_empty()
-    }
-
-    /// Number of contacts; a [`Rub::contact`] is below it.
-    pub fn contacts(&self) -> usize {
-        self.walls
-    }
-
-    /// Calls `each` with every contact that pushed in `step` between the times `from` and `to` (s);
-    /// impulses at the end of the step are included where `to` reaches the end.
-    pub fn observe(&self, step: &Step<'_>, [from, to]: [f64; 2], mut each: impl FnMut(&Rub)) {
-        for (support, section) in self.sections.iter().enumerate() {
-            for contact in &section.contacts {
-                let Some((index, push)) = contact.push(step) else { continue };
-                let blank = Rub {
-                    support,
-                    contact: index,
-                    manner: if contact.is_rigid() { Manner::Unresolved } else { Manner::Lasting },
-                    angle: push.angle,
-                    normal: push.normal,
-                    began: push.angle,
-                    impulse: push.impulse,
-                    friction: push.friction,
-                    work: 0.0,
-                    dissipated: 0.0,
-                    sliding: 0.0,
-                    time: to - from,
-                };
-                match (&step.path, contact) {
-                    (Path::Series(series), Contact::Flat { wall, .. }) => {
-                        along(series, (step, *wall), section, [from, to], &blank, &mut each);
-                    }
-                    (Path::Series(series), Contact::Hole { wall, .. }) => {
-                        around(series, (step, *wall), section, [from, to], &blank, &mut each);
-                    }
-                    (Path::Part { .. }, _) => {
-                        in_part(step, section, (contact.wall(), [from, to]), &blank, &mut each);
-                    }
-                    _ => {
-                        let blown = Blow::along(&section.blows, blank.normal, [step.start, step.end]);
-                        each(&on_grid(step, section, [from, to], &blank, blown));
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Force and impulse of a contact in a step.
-struct Push {
-    angle: f64,
-    normal: [f64; 2],
-    impulse: f64,
-    friction: f64,
-}
-
-impl Contact {
-    fn is_rigid(self) -> bool {
-        match self {
-            Self::Flat { rigid, .. } | Self::Hole { rigid, .. } => rigid,
-        }
-    }
-
-    fn wall(self) -> usize {
-        let (Self::Flat { wall, .. } | Self::Hole { wall, .. }) = self;
-        wall
-    }
-
-    /// The index of the contact, with its force and impulse; `None` if there was none.
-    fn push(self, step: &Step<'_>) -> Option<(usize, Push)> {
-        match self {
-            Self::Flat { wall, angle, normal, .. } => {
-                let impulse = step.impulse.get(wall).copied().filter(|p| *p != 0.0)?.abs();
-                let friction = step.friction.get(wall).copied().unwrap_or(0.0);
-                Some((wall, Push { angle, normal, impulse, friction }))
-            }
-            Self::Hole { wall: index, .. } => {
-                let impulse = step.impulse.get(index).copied().filter(|p| *p != 0.0)?;
-                let (normal, friction) = (*step.normal.get(index)?, *step.friction.get(index)?);
-                Some((index, Push { angle: degrees(normal), normal, impulse, friction }))
-            }
-        }
-    }
-}
-
-impl Section {
-    /// The sliding velocity of the velocities `v` along t of the normal `normal`, m/s.
-    fn along(&self, [y, z]: [f64; 2], v: &[f64]) -> f64 {
-        y * self.at.z.dot(v) - z * self.at.y.dot(v)
-    }
-}
-
 /// A piece of a step on a grid: its share of the step's impulse, with the sliding velocity `blown`
 /// (m/s) that the blows give at its start.
-fn on_grid(step: &Step<'_>, section: &Section, [from, to]: [f64; 2], blank: &Rub, blown: f64) -> Rub {
+pub(super) fn on_grid(
+    step: &Step<'_>,
+    section: &Section,
+    [from, to]: [f64; 2],
+    blank: &SlidingPiece,
+    blown: f64,
+) -> SlidingPiece {
     let length = step.end - step.start;
     let share = if length > 0.0 { ((to - from) / length).clamp(0.0, 1.0) } else { 1.0 };
     let [before, after] = [step.velocity_before, step.velocity_after].map(|v| section.along(blank.normal, v));
     let before = before + blown;
     let (impulse, friction) = (share * blank.impulse, share * blank.friction);
-    Rub {
+    SlidingPiece {
         impulse,
         friction,
         work: work_of_impulse(impulse, before, after),
@@ -220,19 +81,19 @@ fn on_grid(step: &Step<'_>, section: &Section, [from, to]: [f64; 2], blank: &Rub
 
 /// A piece of a part of a step: the force over it, then the impulse at its end. A wall with an
 /// impulse there has its friction there.
-fn in_part(
+pub(super) fn in_part(
     step: &Step<'_>,
     section: &Section,
     (wall, [from, to]): (usize, [f64; 2]),
-    blank: &Rub,
-    each: &mut impl FnMut(&Rub),
+    blank: &SlidingPiece,
+    each: &mut impl FnMut(&SlidingPiece),
 ) {
     let jump = step.jump.get(wall).map_or(0.0, |p| p.abs());
     let impulse = blank.impulse - jump;
     // Rounding of the sum is not a contact.
     if step.end > step.start && impulse > f64::EPSILON * jump {
         let friction = if jump == 0.0 { blank.friction } else { 0.0 };
-        let over = Rub { manner: Manner::Lasting, impulse, friction, ..*blank };
+        let over = SlidingPiece { duration: ImpulseDuration::Lasting, impulse, friction, ..*blank };
         each(&on_grid(step, section, [from, to], &over, 0.0));
     }
     if to >= step.end {
@@ -242,13 +103,13 @@ fn in_part(
 }
 
 /// A piece of a stretch of exact motion: the force over it, then the impulse at its end.
-fn along(
+pub(super) fn along(
     series: &Series,
     (step, wall): (&Step<'_>, usize),
     section: &Section,
     [from, to]: [f64; 2],
-    blank: &Rub,
-    each: &mut impl FnMut(&Rub),
+    blank: &SlidingPiece,
+    each: &mut impl FnMut(&SlidingPiece),
 ) {
     let jump = step.jump.get(wall).map_or(0.0, |p| p.abs());
     // The impulse of the wall apart from the jump; rounding of the sum is not a contact.
@@ -263,7 +124,7 @@ fn along(
             speed: &speed,
             way: &|a, b| series.value_of(&moved, b) - series.value_of(&moved, a),
         };
-        let mut sum = Slid::default();
+        let mut sum = SlidingSums::default();
         parts([from, to], PARTS, |a, b| sliding.add(a, b, &mut sum));
         each(&lasting(blank, &sum));
     }
@@ -275,13 +136,13 @@ fn along(
 }
 
 /// The same for a round hole, in pieces over which its normal turns little.
-fn around(
+pub(super) fn around(
     series: &Series,
     (step, hole): (&Step<'_>, usize),
     section: &Section,
     [from, to]: [f64; 2],
-    blank: &Rub,
-    each: &mut impl FnMut(&Rub),
+    blank: &SlidingPiece,
+    each: &mut impl FnMut(&SlidingPiece),
 ) {
     let speed = |t: f64| {
         let ([y, z], [vy, vz]) = series.at_hole(hole, t);
@@ -308,13 +169,13 @@ fn around(
         let count = (PARTS as f64).max((turn / TURN).ceil()).min(MOST_PARTS) as usize;
         let mut time = to - from;
         parts([from, to], count, |a, b| {
-            let mut sum = Slid::default();
+            let mut sum = SlidingSums::default();
             sliding.add(a, b, &mut sum);
             let [began, angle] = [a, 0.5 * (a + b)].map(|t| degrees(series.at_hole(hole, t).0));
             // Over so short a piece the impulse vector is nearly p n; this is its magnitude p.
             let push = impulse.between(a, b);
             let normal = if sum.impulse > 0.0 { push.map(|push| -push / sum.impulse) } else { blank.normal };
-            each(&Rub { time: std::mem::take(&mut time), angle, began, normal, ..lasting(blank, &sum) });
+            each(&SlidingPiece { time: std::mem::take(&mut time), angle, began, normal, ..lasting(blank, &sum) });
         });
     }
     if to >= step.end {
@@ -326,7 +187,7 @@ fn around(
 }
 
 /// The angle of a vector (y, z), degrees from +y towards +z, from 0 to below 360.
-fn degrees([y, z]: [f64; 2]) -> f64 {
+pub(super) fn degrees([y, z]: [f64; 2]) -> f64 {
     z.atan2(y).to_degrees().rem_euclid(360.0) % 360.0
 }
 
@@ -342,18 +203,31 @@ fn parts([from, to]: [f64; 2], count: usize, mut each: impl FnMut(f64, f64)) {
 }
 
 /// A contact that lasted, and what slid.
-fn lasting(blank: &Rub, slid: &Slid) -> Rub {
-    let Slid { work, impulse, way } = *slid;
-    Rub { manner: Manner::Lasting, impulse, friction: 0.0, work, sliding: way, ..*blank }
+fn lasting(blank: &SlidingPiece, slid: &SlidingSums) -> SlidingPiece {
+    let SlidingSums { work, impulse, way } = *slid;
+    SlidingPiece { duration: ImpulseDuration::Lasting, impulse, friction: 0.0, work, sliding: way, ..*blank }
 }
 
 /// The impulse `jump` (N s) at the end of a step, with the sliding velocity `left` (m/s) before the
 /// loads' impulses there.
-fn knock(step: &Step<'_>, section: &Section, (jump, left): (f64, f64), blank: &Rub, each: &mut impl FnMut(&Rub)) {
+fn knock(
+    step: &Step<'_>,
+    section: &Section,
+    (jump, left): (f64, f64),
+    blank: &SlidingPiece,
+    each: &mut impl FnMut(&SlidingPiece),
+) {
     if jump > 0.0 {
         let before = left + Blow::along(&section.blows, blank.normal, [step.start, step.end]);
         let after = section.along(blank.normal, step.v);
         let (work, dissipated) = (work_of_impulse(jump, before, after), -0.5 * blank.friction * (before + after));
-        each(&Rub { manner: Manner::Instant, impulse: jump, work, dissipated, time: 0.0, ..*blank });
+        each(&SlidingPiece {
+            duration: ImpulseDuration::Instant,
+            impulse: jump,
+            work,
+            dissipated,
+            time: 0.0,
+            ..*blank
+        });
     }
 }

@@ -4,7 +4,7 @@ use super::batch::{BATCHES, batch_of, half_width};
 use crate::contact::IMPACT_STEPS;
 use crate::scene::Scene;
 use crate::step::{Path, Step};
-use crate::wear::{Manner, Rub, Rubs, sector_of};
+use crate::wear::{ImpulseDuration, SlidingContacts, SlidingPiece, sector_of};
 use serde::{Deserialize, Serialize};
 
 /// A support over the window of the statistics.
@@ -110,10 +110,10 @@ impl Episode {
 /// On a grid the impulse of a step at a rigid support may be that of an impact or of a force that
 /// lasts: contacts of at most two steps are impacts, which slide no distance and take no time.
 #[derive(Debug, Clone)]
-pub struct Rubbing {
+pub struct WearTally {
     from: f64,
     length: f64,
-    rubs: Rubs,
+    sliding: SlidingContacts,
     supports: Vec<Tally>,
     /// One for each contact.
     episodes: Vec<Episode>,
@@ -121,7 +121,7 @@ pub struct Rubbing {
     touched: Vec<Option<(u64, f64)>>,
 }
 
-impl Rubbing {
+impl WearTally {
     /// For the supports of `scene` (as the scheme sees it), from the time `from` (s) to the end,
     /// with the work divided among `sectors` equal sectors.
     #[must_use]
@@ -142,21 +142,21 @@ impl Rubbing {
             walls: vec![0.0; support.walls.len()],
             episode: Episode::default(),
         };
-        let rubs = Rubs::new(scene);
+        let sliding = SlidingContacts::new(scene);
         Self {
             from,
             length: scene.duration - from,
             supports: scene.supports.iter().map(tally).collect(),
-            episodes: vec![Episode::default(); rubs.contacts()],
+            episodes: vec![Episode::default(); sliding.contacts()],
             touched: vec![None; scene.supports.len()],
-            rubs,
+            sliding,
         }
     }
 
     /// Adds one step; steps must come in order.
     #[inline]
     pub fn observe(&mut self, step: &Step<'_>) {
-        if !self.rubs.is_empty() && step.end >= self.from && self.length > 0.0 {
+        if !self.sliding.is_empty() && step.end >= self.from && self.length > 0.0 {
             self.add(step);
         }
     }
@@ -184,26 +184,27 @@ impl Rubbing {
     /// Adds the part of a step between two times in it, s, which lies in one batch.
     fn add_part(&mut self, step: &Step<'_>, window: [f64; 2]) {
         let (from, length) = (self.from, self.length);
-        let Self { rubs, supports, episodes, touched, .. } = self;
-        rubs.observe(step, window, |rub| {
-            let Some(tally) = supports.get_mut(rub.support) else { return };
-            let middle = if rub.manner == Manner::Instant { step.end } else { 0.5 * (window[0] + window[1]) };
-            tally.add(rub, batch_of(middle - from, length));
+        let Self { sliding, supports, episodes, touched, .. } = self;
+        sliding.observe(step, window, |piece| {
+            let Some(tally) = supports.get_mut(piece.support) else { return };
+            let middle =
+                if piece.duration == ImpulseDuration::Instant { step.end } else { 0.5 * (window[0] + window[1]) };
+            tally.add(piece, batch_of(middle - from, length));
             let part = Some((step.index, window[0]));
-            let first = touched.get_mut(rub.support).is_some_and(|last| std::mem::replace(last, part) != part);
-            match rub.manner {
-                Manner::Instant => tally.impacts += rub.work,
-                Manner::Lasting => {
-                    tally.sliding += rub.sliding;
-                    tally.time += if first { rub.time } else { 0.0 };
+            let first = touched.get_mut(piece.support).is_some_and(|last| std::mem::replace(last, part) != part);
+            match piece.duration {
+                ImpulseDuration::Instant => tally.impacts += piece.work,
+                ImpulseDuration::Lasting => {
+                    tally.sliding += piece.sliding;
+                    tally.time += if first { piece.time } else { 0.0 };
                 }
-                Manner::Unresolved => {
-                    let Some(episode) = episodes.get_mut(rub.contact) else { return };
-                    let (steps, sliding) = episode.add(step.index, rub.sliding);
+                ImpulseDuration::Unresolved => {
+                    let Some(episode) = episodes.get_mut(piece.contact) else { return };
+                    let (steps, sliding) = episode.add(step.index, piece.sliding);
                     tally.sliding += sliding;
-                    tally.impacts += if steps <= IMPACT_STEPS { rub.work } else { 0.0 };
+                    tally.impacts += if steps <= IMPACT_STEPS { piece.work } else { 0.0 };
                     if first {
-                        tally.time += tally.episode.add(step.index, rub.time).1;
+                        tally.time += tally.episode.add(step.index, piece.time).1;
                     }
                 }
             }
@@ -221,18 +222,18 @@ impl Rubbing {
 }
 
 impl Tally {
-    fn add(&mut self, rub: &Rub, batch: usize) {
-        self.pushed[batch] += rub.impulse;
-        self.work[batch] += rub.work;
-        self.dissipated += rub.dissipated;
-        self.rigid |= rub.manner != Manner::Lasting;
-        let sector = sector_of(rub.angle, self.sectors.len());
+    fn add(&mut self, piece: &SlidingPiece, batch: usize) {
+        self.pushed[batch] += piece.impulse;
+        self.work[batch] += piece.work;
+        self.dissipated += piece.dissipated;
+        self.rigid |= piece.duration != ImpulseDuration::Lasting;
+        let sector = sector_of(piece.angle, self.sectors.len());
         if let Some([work, pushed]) = self.sectors.get_mut(sector) {
-            *work += rub.work;
-            *pushed += rub.impulse;
+            *work += piece.work;
+            *pushed += piece.impulse;
         }
-        let wall = rub.contact.checked_sub(self.first).and_then(|wall| self.walls.get_mut(wall));
-        wall.into_iter().for_each(|work| *work += rub.work);
+        let wall = piece.contact.checked_sub(self.first).and_then(|wall| self.walls.get_mut(wall));
+        wall.into_iter().for_each(|work| *work += piece.work);
     }
 
     fn statistics(&self, length: f64) -> WearStatistics {

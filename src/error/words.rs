@@ -1,0 +1,122 @@
+//! What an error says.
+
+use super::{Error, escaped, escaped_lines};
+use std::fmt;
+
+/// The entry of `known` that `word` was probably meant to be: one letter in three may be wrong,
+/// left out, added, or swapped with the next; or `word` is its beginning.
+pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
+    let word = word.to_lowercase();
+    let letters = word.chars().count();
+    let close = known.clone().map(|name| (strsim::osa_distance(&word, &name.to_lowercase()), name));
+    let best = close.min_by_key(|(distance, _)| *distance).filter(|(distance, _)| 3 * distance <= letters + 1);
+    let mut begun = known.filter(|name| letters >= 3 && name.starts_with(&word));
+    best.map(|(_, name)| name).or_else(|| begun.next())
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&escaped_lines(&Words(self).to_string()))
+    }
+}
+
+/// The words of an error, with names as they are.
+struct Words<'a>(&'a Error);
+
+impl fmt::Display for Words<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Error::Invalid { subject, value, expected } => write!(f, "{subject} is {value}; expected {expected}"),
+            Error::Unknown { kind, name, known } if known.is_empty() => {
+                write!(f, "no {kind} is named {name:?}: none exists")
+            }
+            Error::Unknown { kind, name, known } => {
+                write!(f, "no {kind} is named {name:?}; ")?;
+                if let Some(near) = nearest(name, known.iter().map(String::as_str)) {
+                    write!(f, "did you mean {}? ", escaped(near))?;
+                }
+                let known: Vec<_> = known.iter().map(|name| escaped(name)).collect();
+                write!(f, "there is {}", known.join(", "))
+            }
+            Error::Case { report, .. } => f.write_str(report),
+            Error::Io { path, reason, .. } => write!(f, "{}: {reason}", escaped(path)),
+            Error::Qp { time, step, wall, reason, .. } => {
+                write!(f, "the QP of step {step} at t = {time} s was not solved")?;
+                if let Some(wall) = wall {
+                    write!(f, " (wall {wall:?})")?;
+                }
+                write!(f, ": {reason}")
+            }
+            Error::Newton { time, step, residual } => write!(
+                f,
+                "Newton's method did not converge in step {step} at t = {time} s (residual {residual:e} N); \
+                 a smaller step or a softer penalty would"
+            ),
+            Error::NotFinite { time, step, what } => {
+                write!(f, "the {what} is no longer finite at t = {time:.4e} s, step {step}: the scheme has diverged")
+            }
+            Error::Diverged { time, step, ratio, cause } => write!(
+                f,
+                "the run diverged by t = {time:.4e} s, step {step}: it is {ratio:.1e} times faster than its start \
+                 and its loads can make it; {cause}"
+            ),
+            Error::TooManyEvents { time, wall, count, window } => write!(
+                f,
+                "{count} contact events, or steps of the search for them, within {window:.3e} s at wall \
+                 {wall:?}, t = {time:.6} s: more than the exact scheme follows; \
+                 a stepping scheme (moreau-jean, paoli-schatzman) does not resolve them one by one"
+            ),
+            Error::Inaccurate { tolerance, reached, steps, .. } if reached.is_infinite() => write!(
+                f,
+                "an error of {tolerance:e} is out of reach: the coarsest runs that could see the motion take \
+                 {steps} steps and more"
+            ),
+            Error::Inaccurate { tolerance, reached, quantity, until, steps } => write!(
+                f,
+                "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
+                 the displacement keeps it until t = {until:.6} s"
+            ),
+            Error::Scattered { share, reached, quantity, count, needed } => write!(
+                f,
+                "an interval of ± {:.1} % was not reached: {count} of {needed} realisations leave ± {:.1} % \
+                 ({quantity}); --most-seeds allows more",
+                100.0 * share,
+                100.0 * reached
+            ),
+            Error::Stopped => f.write_str("stopped before its end on request"),
+            Error::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),
+            Error::Unverified { values } => write!(f, "not within their tolerances: {}", values.join("; ")),
+            Error::NoOrbit { reason } => write!(f, "no periodic orbit: {reason}"),
+            Error::Truncated { tolerance, reached, quantity, modes } => write!(
+                f,
+                "a truncation within {tolerance:e} was not reached: going to {modes} modes still changed \
+                 {reached:.1e} ({quantity})"
+            ),
+            Error::Unpredictable { tolerance, reached, horizon, end } => write!(
+                f,
+                "an error of {tolerance:e} is kept until t = {horizon:.6} s only ({reached:.1e} reached): \
+                 rounding grows to a quarter of it soon \
+                 after, and no step predicts the motion up to {end} s"
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_word_is_taken_for_the_one_it_resembles() {
+        let known = ["moreau-jean", "newmark", "event", "theta"];
+        let near = |word| nearest(word, known.into_iter());
+        for (word, meant) in
+            [("moreau-jaen", "moreau-jean"), ("Newmark", "newmark"), ("tetha", "theta"), ("moreau", "moreau-jean")]
+        {
+            assert_eq!(near(word), Some(meant));
+        }
+        for word in ["runge-kutta", "x", ""] {
+            assert_eq!(near(word), None, "{word}");
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Which scenes are valid.
+
+use super::system::{finite, positive};
+use super::{Row, Scene, Side, Wall};
+use crate::error::{Error, Result, Subject};
+use std::collections::HashSet;
+
+impl Scene {
+    /// Checks everything that a scheme relies on.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for the first invalid value: what it is, and what would be accepted.
+    pub fn validate(&self) -> Result<()> {
+        #[cfg(test)]
+        counted::count();
+        self.system.validate()?;
+        positive("duration", self.duration)?;
+        let n = self.system.degrees_of_freedom();
+        for (part, values) in [("displacement", &self.initial.q), ("velocity", &self.initial.v)] {
+            let key = || Subject::of("initial state").part(part);
+            if values.len() != n {
+                return Err(Error::invalid(
+                    key(),
+                    format!("{} values", values.len()),
+                    format!("{n}, one per degree of freedom"),
+                ));
+            }
+            values.iter().try_for_each(|&x| finite(key(), x))?;
+        }
+        for (index, load) in self.loads.iter().enumerate() {
+            load.validate(index)?;
+            self.check_row(|| Subject::nth("load", index), &load.at)?;
+        }
+        for (index, probe) in self.probes.iter().enumerate() {
+            if probe.name.chars().any(char::is_control) {
+                let key = Subject::nth("probe", index).part("name");
+                return Err(Error::invalid(key, format!("{:?}", probe.name), "no control characters"));
+            }
+            self.check_row(|| Subject::probe(&probe.name), &probe.at)?;
+        }
+        let mut names = HashSet::new();
+        for (index, wall) in self.walls.iter().enumerate() {
+            wall.validate_name(index)?;
+            if !names.insert(wall.name.as_str()) {
+                return Err(Error::invalid(
+                    Subject::nth("wall", index).part("name"),
+                    format!("{:?}, which another wall has", wall.name),
+                    "a name of its own for each wall",
+                ));
+            }
+        }
+        for wall in &self.walls {
+            if wall.is_round() {
+                continue;
+            }
+            wall.validate()?;
+            self.check_row(|| Subject::wall(&wall.name), wall.row())?;
+            if wall.row().is_blind() {
+                let key = Subject::wall(&wall.name).part("at");
+                return Err(Error::invalid(key, "a place that nothing moves", "a place that can move"));
+            }
+        }
+        let (place, lower) = self.lower_walls();
+        for (wall, place) in self.walls.iter().zip(place) {
+            check_crossing(wall, &lower[place])?;
+        }
+        for wall in self.walls.iter().filter(|wall| !wall.is_round()) {
+            self.check_start(wall)?;
+        }
+        self.check_supports(|name, row| self.check_row(|| Subject::support(name), row))
+    }
+
+    fn check_row(&self, owner: impl Fn() -> Subject, row: &Row) -> Result<()> {
+        let n = self.system.degrees_of_freedom();
+        for &(i, weight) in row.entries() {
+            if i >= n {
+                let least = format!("a degree of freedom from 0 to {}", n - 1);
+                return Err(Error::invalid(owner().part("at"), i, least));
+            }
+            finite(owner().part("weight"), weight)?;
+        }
+        Ok(())
+    }
+
+    fn check_start(&self, wall: &Wall) -> Result<()> {
+        let w = wall.row().dot(&self.initial.q);
+        if wall.law.is_rigid() && wall.gap(w) < 0.0 {
+            let relation = if wall.side() == Side::Upper { "at most" } else { "at least" };
+            let expected = format!("{relation} {:?}, the position of the rigid wall {:?}", wall.position(), wall.name);
+            return Err(Error::invalid(("initial state", "displacement"), format_args!("{w:?}"), expected));
+        }
+        Ok(())
+    }
+}
+
+/// Refuses a rigid upper wall below a rigid lower one of its row.
+fn check_crossing(upper: &Wall, lower: &[&Wall]) -> Result<()> {
+    if upper.side() == Side::Lower || !upper.law.is_rigid() {
+        return Ok(());
+    }
+    match lower.iter().find(|lower| lower.law.is_rigid() && lower.position() > upper.position()) {
+        Some(lower) => Err(Error::invalid(
+            Subject::wall(&upper.name).part("position"),
+            format_args!("{:?}", upper.position()),
+            format!("at least {:?}, the position of the rigid lower wall {:?}", lower.position(), lower.name),
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Number of scenes that this thread has checked; used by tests.
+#[cfg(test)]
+pub(crate) mod counted {
+    use std::cell::Cell;
+
+    thread_local!(static CHECKS: Cell<usize> = const { Cell::new(0) });
+
+    pub(super) fn count() {
+        CHECKS.set(CHECKS.get() + 1);
+    }
+
+    /// The number since the last call.
+    pub(crate) fn take() -> usize {
+        CHECKS.replace(0)
+    }
+}

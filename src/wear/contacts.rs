@@ -1,0 +1,152 @@
+//! What slides in a step: each contact of each support, with its force and its sliding velocity.
+//!
+//! The sliding velocity is v_t = t · (g_y · q̇, g_z · q̇) with t = (−n_z, n_y) and n the outward
+//! normal of the contact. In a step on a grid it varies linearly from the step's start, after the
+//! impulses of loads, to its end; in a part of a step, whose impulses come at its end, from its
+//! start to its end, and at the instant that ends it. For exact motion force and velocity are
+//! polynomials in time, and |v_t|
+//! is integrated from one sign change to the next.
+
+use super::blows::Blow;
+use super::piece::{ImpulseDuration, SlidingPiece, along, around, degrees, in_part, on_grid};
+use crate::scene::{Face, PlaneRows, Scene, Support, Wall, heading};
+use crate::step::{Path, Step};
+
+/// The contacts of a scene's supports.
+#[derive(Debug, Clone)]
+pub(crate) struct SlidingContacts {
+    walls: usize,
+    sections: Vec<Section>,
+}
+
+/// The cross-section at a support.
+#[derive(Debug, Clone)]
+pub(super) struct Section {
+    pub at: PlaneRows,
+    contacts: Vec<Contact>,
+    pub blows: Vec<Blow>,
+}
+
+/// A contact of a support.
+#[derive(Debug, Clone, Copy)]
+enum Contact {
+    Flat { wall: usize, rigid: bool, angle: f64, normal: [f64; 2] },
+    Hole { wall: usize, rigid: bool },
+}
+
+impl SlidingContacts {
+    /// The contacts of `scene` as the scheme sees it.
+    pub fn new(scene: &Scene) -> Self {
+        let section = |(support, blows): (&Support, Vec<Blow>)| {
+            let contact = |(index, wall): (usize, &Wall)| {
+                let rigid = wall.law.is_rigid();
+                Some(match wall.face {
+                    Face::Flat { direction, .. } => Contact::Flat {
+                        wall: index,
+                        rigid,
+                        angle: direction?.rem_euclid(360.0) % 360.0,
+                        normal: heading(direction?),
+                    },
+                    Face::Round { .. } => Contact::Hole { wall: index, rigid },
+                })
+            };
+            let contacts = support.members(&scene.walls).filter_map(contact).collect();
+            Section { at: support.at.clone(), contacts, blows }
+        };
+        let sections = scene.supports.iter().zip(Blow::all(scene)).map(section).collect();
+        Self { walls: scene.walls.len(), sections }
+    }
+
+    /// True for a scene without supports.
+    pub fn is_empty(&self) -> bool {
+        self.sections.is_empty()
+    }
+
+    /// Number of contacts; a [`SlidingPiece::contact`] is below it.
+    pub fn contacts(&self) -> usize {
+        self.walls
+    }
+
+    /// Calls `each` with every contact that pushed in `step` between the times `from` and `to` (s);
+    /// impulses at the end of the step are included where `to` reaches the end.
+    pub fn observe(&self, step: &Step<'_>, [from, to]: [f64; 2], mut each: impl FnMut(&SlidingPiece)) {
+        for (support, section) in self.sections.iter().enumerate() {
+            for contact in &section.contacts {
+                let Some((index, push)) = contact.push(step) else { continue };
+                let blank = SlidingPiece {
+                    support,
+                    contact: index,
+                    duration: if contact.is_rigid() { ImpulseDuration::Unresolved } else { ImpulseDuration::Lasting },
+                    angle: push.angle,
+                    normal: push.normal,
+                    began: push.angle,
+                    impulse: push.impulse,
+                    friction: push.friction,
+                    work: 0.0,
+                    dissipated: 0.0,
+                    sliding: 0.0,
+                    time: to - from,
+                };
+                match (&step.path, contact) {
+                    (Path::Series(series), Contact::Flat { wall, .. }) => {
+                        along(series, (step, *wall), section, [from, to], &blank, &mut each);
+                    }
+                    (Path::Series(series), Contact::Hole { wall, .. }) => {
+                        around(series, (step, *wall), section, [from, to], &blank, &mut each);
+                    }
+                    (Path::Part { .. }, _) => {
+                        in_part(step, section, (contact.wall(), [from, to]), &blank, &mut each);
+                    }
+                    _ => {
+                        let blown = Blow::along(&section.blows, blank.normal, [step.start, step.end]);
+                        each(&on_grid(step, section, [from, to], &blank, blown));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Force and impulse of a contact in a step.
+struct Push {
+    angle: f64,
+    normal: [f64; 2],
+    impulse: f64,
+    friction: f64,
+}
+
+impl Contact {
+    fn is_rigid(self) -> bool {
+        match self {
+            Self::Flat { rigid, .. } | Self::Hole { rigid, .. } => rigid,
+        }
+    }
+
+    fn wall(self) -> usize {
+        let (Self::Flat { wall, .. } | Self::Hole { wall, .. }) = self;
+        wall
+    }
+
+    /// The index of the contact, with its force and impulse; `None` if there was none.
+    fn push(self, step: &Step<'_>) -> Option<(usize, Push)> {
+        match self {
+            Self::Flat { wall, angle, normal, .. } => {
+                let impulse = step.impulse.get(wall).copied().filter(|p| *p != 0.0)?.abs();
+                let friction = step.friction.get(wall).copied().unwrap_or(0.0);
+                Some((wall, Push { angle, normal, impulse, friction }))
+            }
+            Self::Hole { wall: index, .. } => {
+                let impulse = step.impulse.get(index).copied().filter(|p| *p != 0.0)?;
+                let (normal, friction) = (*step.normal.get(index)?, *step.friction.get(index)?);
+                Some((index, Push { angle: degrees(normal), normal, impulse, friction }))
+            }
+        }
+    }
+}
+
+impl Section {
+    /// The sliding velocity of the velocities `v` along t of the normal `normal`, m/s.
+    pub fn along(&self, [y, z]: [f64; 2], v: &[f64]) -> f64 {
+        y * self.at.z.dot(v) - z * self.at.y.dot(v)
+    }
+}
