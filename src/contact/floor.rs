@@ -10,10 +10,10 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Floor {
     /// N: rounding error of the forces that balance where a body rests.
-    force: f64,
+    pub force: f64,
     /// kg m: rounding error of the displacement times the mass, where a scheme computes its
     /// impulses from displacements.
-    inertia: f64,
+    pub inertia: f64,
 }
 
 impl Floor {

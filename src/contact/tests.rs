@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::linear::Symmetric;
-use crate::scene::{Load, PlaneRows, Row, Structure, Wall};
-use crate::step::{Balance, Conserves, Promise, Tolerances};
+use crate::scene::{Load, PlaneRows, Row, Structure, Wall, WallLaw};
+use crate::step::{Balance, Bound, Conserves, Promise, Tolerances};
 
 fn contract(hole: Option<Bound>) -> Contract {
     Contract {

@@ -3,7 +3,7 @@
 use super::super::{Integrator, PenaltyLaw};
 use super::*;
 use crate::linear::Symmetric;
-use crate::scene::{Load, PlaneRows, Row, Structure, Table, WallLaw};
+use crate::scene::{Load, PlaneRows, Row, Structure, Table, Wall, WallLaw};
 use crate::statistics::{Forces, Statistics, WearTally};
 use crate::trajectory::Recorder;
 
