@@ -173,7 +173,7 @@ impl Asking {
     /// [`Error::Stopped`].
     #[inline]
     pub fn pass(&mut self, count: u64) -> Result<()> {
-        if count < self.due { Ok(()) } else { self.look(count) }
+        if count < self.due { Ok(()) } else { self.ask_now(count) }
     }
 
     /// The count goes on from elsewhere.
@@ -185,7 +185,7 @@ impl Asking {
 
     #[cold]
     #[inline(never)]
-    fn look(&mut self, count: u64) -> Result<()> {
+    fn ask_now(&mut self, count: u64) -> Result<()> {
         let Some(pace) = &mut self.pace else { return Ok(()) };
         let now = Instant::now();
         let since = now - pace.looked;

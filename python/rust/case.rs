@@ -115,7 +115,7 @@ fn built(py: Python<'_>, file: CaseFile) -> PyResult<Case> {
         _ => Model::Numbered,
     };
     let origin = case.truncated.as_ref().map(|truncated| {
-        let sg::study::truncation::Whole { scene, damping, static_correction, turbulence, .. } =
+        let sg::study::truncation::Unreduced { scene, damping, static_correction, turbulence, .. } =
             truncated.whole.clone();
         let modes = Some(truncated.reduction.modes.count());
         Box::new(Origin { scene, damping, modes, static_correction, turbulence })

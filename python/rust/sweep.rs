@@ -141,7 +141,7 @@ fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Noted> {
 }
 
 /// Notes before the rows run, the number of rows, how many failed, and the first of these.
-type Told = (Vec<String>, u64, u64, Option<String>);
+type Outcome = (Vec<String>, u64, u64, Option<String>);
 
 /// Varies the keys of a case over a grid, or one at a time between two bounds, and writes the
 /// tables into `folder`.
@@ -158,7 +158,7 @@ pub fn _sweep(
     threads: Option<usize>,
     folder: PathBuf,
     progress: Py<PyAny>,
-) -> PyResult<Told> {
+) -> PyResult<Outcome> {
     let mut sweep = Sweep::new(case.file.clone());
     for (key, values) in axes {
         let values = values.iter().map(|one| value(&key, one)).collect::<PyResult<Vec<_>>>()?;

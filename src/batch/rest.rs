@@ -1,6 +1,6 @@
 //! Rest on a wall: when it begins, how long it lasts, and the force.
 
-use super::series::{Series, sin_cos};
+use super::series::{LaneConstants, sin_cos};
 use crate::scheme::{TAIL_CHANGE, TAIL_HEIGHT, TIME_UNITS};
 
 /// Maximum number of iterations in the search for a release: it converges like Newton's method, and
@@ -44,7 +44,7 @@ pub(super) enum Release {
 /// in metres per step squared, with away = 1 on a lower wall and −1 on an upper one. The body
 /// leaves when p falls through 0.
 pub(super) struct Rest<'a> {
-    series: &'a Series,
+    series: &'a LaneConstants,
     away: f64,
     /// p₀ − κg.
     constant: f64,
@@ -53,7 +53,7 @@ pub(super) struct Rest<'a> {
 }
 
 impl<'a> Rest<'a> {
-    pub fn new(series: &'a Series, away: f64, position: f64) -> Self {
+    pub fn new(series: &'a LaneConstants, away: f64, position: f64) -> Self {
         let spring = series.kappa * position;
         let noise = 4.0 * f64::EPSILON * (series.load + spring.abs());
         Self { series, away, constant: series.push - spring, noise }

@@ -49,7 +49,7 @@ pub(super) struct Wave {
 
 /// The constants of a lane.
 #[derive(Debug, Clone)]
-pub(super) struct Series {
+pub(super) struct LaneConstants {
     /// d, s.
     pub step: f64,
     /// Number of steps in a period, not an integer in general.
@@ -70,7 +70,7 @@ pub(super) struct Series {
     pub waves: Vec<Wave>,
 }
 
-impl Series {
+impl LaneConstants {
     /// `None` where a period takes too many steps.
     pub fn of(lane: &Lane) -> Option<Self> {
         let (m, period) = (lane.body.mass, lane.period);

@@ -4,7 +4,7 @@
 use super::lane::{Lane, LaneWall};
 use super::outcome::{AtWall, By, Outcome, grown};
 use super::rest::{Arrival, Release, Rest};
-use super::series::{REACH, Series};
+use super::series::{LaneConstants, REACH};
 use super::state::{Constants, State};
 use super::stretch::Ended;
 use super::vector::Vector;
@@ -21,7 +21,7 @@ pub(super) struct LaneJob<'a> {
     /// Its number in the share of the batch.
     pub index: usize,
     pub lane: &'a Lane,
-    pub series: Series,
+    pub series: LaneConstants,
 }
 
 /// The memory for the results.
@@ -243,7 +243,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
     }
 
     /// Releases a body that rested up to `t` in its period.
-    fn lift(&mut self, slot: usize, t: f64, series: &Series) {
+    fn lift(&mut self, slot: usize, t: f64, series: &LaneConstants) {
         self.state.t.put(slot, t);
         for (wave, [sin, cos]) in series.waves.iter().zip(&mut self.state.phase) {
             let [s, c] = wave.at(t);
@@ -288,7 +288,7 @@ impl<S: Simd, const W: usize> Group<S, W> {
     }
 
     /// The result of the oscillator in a lane over a window of `length` (s).
-    fn outcome(&self, slot: usize, lane: &Lane, series: &Series, length: f64) -> Option<Outcome> {
+    fn outcome(&self, slot: usize, lane: &Lane, series: &LaneConstants, length: f64) -> Option<Outcome> {
         let seat = self.seats.get(slot)?;
         let unit = lane.body.mass / series.step;
         let at = |wall: usize, sign: f64| AtWall {

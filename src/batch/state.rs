@@ -1,7 +1,7 @@
 //! A group of lanes: their constants, their states, and one step of fixed length.
 
 use super::lane::{Lane, LaneWall};
-use super::series::{COSINE, ORDER, SINE, Series};
+use super::series::{COSINE, LaneConstants, ORDER, SINE};
 use super::vector::{Mask, Vector, polynomial, series};
 use crate::scheme::TAIL_HEIGHT;
 use pulp::Simd;
@@ -16,7 +16,7 @@ pub(super) struct Waves<S: Simd> {
     pub whole: [[Vector<S>; 2]; 2],
 }
 
-/// Constants of every lane, as in [`Series`], and its walls.
+/// Constants of every lane, as in [`LaneConstants`], and its walls.
 #[derive(Clone, Copy)]
 pub(super) struct Constants<S: Simd, const W: usize> {
     pub steps: Vector<S>,
@@ -85,7 +85,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
     }
 
     /// Assigns an oscillator to lane `slot`.
-    pub fn put(&mut self, slot: usize, lane: &Lane, series: &Series) {
+    pub fn put(&mut self, slot: usize, lane: &Lane, series: &LaneConstants) {
         self.steps.put(slot, series.steps);
         self.alpha.put(slot, series.alpha);
         self.kappa.put(slot, series.kappa);

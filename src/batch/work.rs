@@ -5,7 +5,7 @@ use super::engine::Engine;
 use super::fallback::follow;
 use super::lane::{Lane, LaneWall};
 use super::outcome::Outcome;
-use super::series::Series;
+use super::series::LaneConstants;
 use super::slots::{LaneJob, Results};
 use super::width::Width;
 use crate::error::Result;
@@ -51,12 +51,12 @@ impl Work<'_> {
 
 /// The constants of an oscillator that the lanes support: rigid walls, no start on one except on
 /// the way off, few sines, and steps not too short compared with the period.
-fn seated(lane: &Lane) -> Option<Series> {
+fn seated(lane: &Lane) -> Option<LaneConstants> {
     let starts_free = |stop: Option<LaneWall>, side: Side| {
         stop.is_none_or(|stop| {
             stop.law.is_rigid() && (lane.displacement != stop.position || side.sign() * lane.velocity >= 0.0)
         })
     };
     let holds = starts_free(lane.lower, Side::Lower) && starts_free(lane.upper, Side::Upper);
-    if holds && lane.sines.len() <= MOST_SINES { Series::of(lane) } else { None }
+    if holds && lane.sines.len() <= MOST_SINES { LaneConstants::of(lane) } else { None }
 }

@@ -39,7 +39,7 @@ impl Builder<'_> {
         let mut number = |key| self.required(("bar", key), bar, key);
         let [length, area] = ["length", "area"].map(&mut number);
         let [youngs_modulus, density] = ["youngs_modulus", "density"].map(&mut number);
-        let elements = self.whole(("bar", "elements"), &bar.required("elements"), MOST_ELEMENTS)?;
+        let elements = self.whole_number(("bar", "elements"), &bar.required("elements"), MOST_ELEMENTS)?;
         Ok(Bar { length, area, youngs_modulus, density, elements, left, right, mass })
     }
 
@@ -61,7 +61,7 @@ impl Builder<'_> {
         let density = number("density");
         let section = self.cross_section(beam)?;
         let added_mass = self.optional(("beam", "added_mass"), beam, "added_mass").unwrap_or(0.0);
-        let elements = self.whole(("beam", "elements"), &beam.required("elements"), MOST_ELEMENTS)?;
+        let elements = self.whole_number(("beam", "elements"), &beam.required("elements"), MOST_ELEMENTS)?;
         Ok(Beam { length, youngs_modulus, density, section, added_mass, elements, left, right })
     }
 
@@ -116,7 +116,7 @@ impl Builder<'_> {
                     reached += span.get_ref();
                     self.joints.push(reached);
                 }
-                self.places.push((("beam", "length").into(), spans.span()));
+                self.positions.push((("beam", "length").into(), spans.span()));
                 Ok(reached)
             }
             (Some(_), Some(spans)) => {

@@ -15,7 +15,7 @@ use super::{Case, FileRead, PenaltyOptions, StatisticsOptions, TimeOptions, Trun
 use crate::error::{Error, Result, Subject, escaped};
 use crate::scene::{Condensation, Damping, Row, Scene, State, Structure, System};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
-use crate::study::truncation::{Start, Whole};
+use crate::study::truncation::{Start, Unreduced};
 use toml::Spanned;
 
 /// Builds the case of `document`.
@@ -29,7 +29,7 @@ pub(super) fn case(document: &CaseFile, start: Option<&State>) -> Result<Case> {
     let values = check::read(&source, &CASE)?;
     let mut builder = Builder {
         source,
-        places: Vec::new(),
+        positions: Vec::new(),
         document,
         model: Model::Oscillator,
         planes: Planes::One,
@@ -107,7 +107,7 @@ impl Builder<'_> {
             return flow.map_or(Ok(case), |flow| Err(self.without_flow(&flow)));
         };
         case.check().map_err(|error| self.locate(error, &case.scene))?;
-        let whole = Whole {
+        let whole = Unreduced {
             scene: case.scene.clone(),
             damping: built.pending.filter(|damping| matches!(damping, Damping::Modal(_))),
             static_correction: self.static_correction,
@@ -124,7 +124,7 @@ impl Builder<'_> {
     }
 
     /// Reduces the case, whose scene is that of `whole`, to its slowest `modes`.
-    fn reduce(&mut self, case: &mut Case, whole: Whole, modes: usize, flow: Option<&Section<'_>>) -> Result<()> {
+    fn reduce(&mut self, case: &mut Case, whole: Unreduced, modes: usize, flow: Option<&Section<'_>>) -> Result<()> {
         let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
         case.scene = reduction.scene.clone();
         case.fluid_elastic = flow.map(|flow| self.flow(flow, &whole, &reduction.modes)).transpose()?;
@@ -175,9 +175,9 @@ impl Builder<'_> {
 
     /// Applies `modes` and `static_correction`.
     fn modes(&mut self, system: &Section<'_>) -> Result<Option<usize>> {
-        let modes = system.number("modes").map(|modes| self.whole("modes", &modes, MOST_MASSES)).transpose()?;
+        let modes = system.number("modes").map(|modes| self.whole_number("modes", &modes, MOST_MASSES)).transpose()?;
         if let Some(correction) = system.truth("static_correction") {
-            self.places.push(("static correction".into(), correction.clone()));
+            self.positions.push(("static correction".into(), correction.clone()));
             self.static_correction = true;
             if modes.is_none() {
                 let help = "expected modes = k beside it: without them nothing is left out that could be corrected";
@@ -256,7 +256,7 @@ impl Builder<'_> {
 
     fn law(&mut self, index: usize, what: &'static str, value: &Spanned<f64>) -> f64 {
         let law = Subject::nth("penalty law", index);
-        self.places.push((law.clone(), value.span()));
+        self.positions.push((law.clone(), value.span()));
         self.number(law.part(what), value)
     }
 }

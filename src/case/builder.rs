@@ -20,7 +20,7 @@ pub(super) const MOST_MASSES: usize = 1_000_000;
 pub(super) struct Builder<'a> {
     pub source: Source<'a>,
     /// Subjects that an error may name, and the positions of their values.
-    pub places: Vec<(Subject, Range<usize>)>,
+    pub positions: Vec<(Subject, Range<usize>)>,
     /// The case file, which opens the files that it names.
     pub document: &'a CaseFile,
     pub model: Model,
@@ -36,12 +36,12 @@ pub(super) struct Builder<'a> {
 impl Builder<'_> {
     /// Notes the position of a value under the subject that an error would name.
     pub fn note(&mut self, subject: impl Into<Subject>, at: Option<Range<usize>>) {
-        self.places.extend(at.map(|at| (subject.into(), at)));
+        self.positions.extend(at.map(|at| (subject.into(), at)));
     }
 
     /// The number; its position is noted under the subject that an error would name.
     pub fn number(&mut self, subject: impl Into<Subject>, value: &Spanned<f64>) -> f64 {
-        self.places.push((subject.into(), value.span()));
+        self.positions.push((subject.into(), value.span()));
         *value.get_ref()
     }
 
@@ -86,12 +86,12 @@ impl Builder<'_> {
     }
 
     pub fn noted(&self, subject: &Subject) -> Option<Range<usize>> {
-        self.places.iter().find(|(s, _)| s == subject).map(|(_, span)| span.clone())
+        self.positions.iter().find(|(s, _)| s == subject).map(|(_, span)| span.clone())
     }
 
     /// The position of the smallest enclosing part of `subject` that was noted.
     pub fn nearest(&self, subject: &Subject) -> Option<Range<usize>> {
-        let whole = subject.whole()?;
+        let whole = subject.enclosing()?;
         self.noted(&whole).or_else(|| self.nearest(&whole))
     }
 
@@ -100,14 +100,14 @@ impl Builder<'_> {
         let mut list = Vec::with_capacity(items.len());
         for (i, item) in items.iter().enumerate() {
             let Value::Number(x) = item.get_ref() else { return Err(self.refuse_as(item.span(), key)) };
-            self.places.push((subject.clone().value(i), item.span()));
+            self.positions.push((subject.clone().value(i), item.span()));
             list.push(*x);
         }
         Ok(list)
     }
 
     /// A whole number from 1 to `most`.
-    pub fn whole(&mut self, subject: impl Into<Subject>, value: &Spanned<f64>, most: usize) -> Result<usize> {
+    pub fn whole_number(&mut self, subject: impl Into<Subject>, value: &Spanned<f64>, most: usize) -> Result<usize> {
         let subject = subject.into();
         let x = self.number(subject.clone(), value);
         self.count(&written(&subject), x, value.span(), most)

@@ -24,7 +24,7 @@ impl Builder<'_> {
 
     fn matrix(&mut self, what: &str, file: &Spanned<&str>) -> Result<Symmetric> {
         // The structure names an invalid matrix by this key.
-        self.places.push((Subject::of("system").part(format!("{what} matrix")), file.span()));
+        self.positions.push((Subject::of("system").part(format!("{what} matrix")), file.span()));
         let name = *file.get_ref();
         let opened = self.open(name);
         let refuse = |reason: &str| {
@@ -47,7 +47,7 @@ impl Builder<'_> {
 
     /// Reads `[system.damping]`, which must specify exactly one kind of damping.
     pub fn damping(&mut self, damping: &Section<'_>) -> Result<Damping> {
-        self.places.push(("damping".into(), damping.span.clone()));
+        self.positions.push(("damping".into(), damping.span.clone()));
         let kinds = ["rayleigh", "ratio", "ratios", "matrix"];
         let mut given = kinds.into_iter().filter_map(|kind| Some((kind, damping.span_of(kind)?)));
         let help = "expected one of rayleigh = { mass, stiffness }, ratio, ratios, matrix";
@@ -70,17 +70,17 @@ impl Builder<'_> {
                 return Err(self.refuse(ratios.span(), "system.damping.ratios", "one ratio or more"));
             }
             let subject = Subject::from(("damping", "ratios"));
-            self.places.push((subject.clone(), ratios.span()));
+            self.positions.push((subject.clone(), ratios.span()));
             let mut all = Vec::with_capacity(ratios.get_ref().len());
             for (i, ratio) in ratios.get_ref().iter().enumerate() {
-                self.places.push((subject.clone().value(i), ratio.span()));
+                self.positions.push((subject.clone().value(i), ratio.span()));
                 all.push(self.above_minus_one("system.damping.ratios", ratio)?);
             }
             return Ok(Damping::Modal(all));
         }
         match damping.word("matrix") {
             Some(file) => {
-                self.places.push((("damping", "matrix").into(), file.span()));
+                self.positions.push((("damping", "matrix").into(), file.span()));
                 Ok(Damping::Matrix(self.matrix("damping", &file)?))
             }
             None => Err(self.source.error(damping.span.clone(), "`system.damping` has no kind of damping", help)),

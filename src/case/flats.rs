@@ -21,13 +21,13 @@ impl Builder<'_> {
                 Err(self.source.error(span.clone(), &format!("`directions` is missing in {owner}"), one))
             }
             (Some(list), None, None) => {
-                self.places.push((subject.clone(), list.span()));
+                self.positions.push((subject.clone(), list.span()));
                 let each = |(i, x): (usize, &Spanned<f64>)| self.number(subject.clone().value(i), x);
                 Ok(list.get_ref().iter().enumerate().map(each).collect())
             }
             (None, Some(sides), turn) => {
-                self.places.push((subject, sides.span()));
-                let count = self.whole(Subject::support(owner).part("sides"), &sides, MOST_FLATS);
+                self.positions.push((subject, sides.span()));
+                let count = self.whole_number(Subject::support(owner).part("sides"), &sides, MOST_FLATS);
                 let count = count.map_err(|_| {
                     let expected = format!("a whole number from 1 to {MOST_FLATS}");
                     self.refuse(sides.span(), &format!("{owner}: sides"), &expected)
@@ -47,7 +47,7 @@ impl Builder<'_> {
     pub fn gaps(&mut self, owner: &Owner, support: &Section<'_>, count: usize) -> Result<Vec<f64>> {
         let Some(gap) = support.get("gap") else { return Ok(vec![f64::NAN; count]) };
         let (key, subject) = (format!("{}: gap", owner.name), owner.subject.clone().part("gap"));
-        self.places.push((subject.clone(), gap.span()));
+        self.positions.push((subject.clone(), gap.span()));
         let wanted = format!("a number, 0 or more, in m, or a list of {count} of them, one for each flat");
         match gap.get_ref() {
             Value::Number(x) => Ok(vec![*x; count]),
@@ -55,7 +55,7 @@ impl Builder<'_> {
                 let mut gaps = Vec::with_capacity(count);
                 for (i, item) in items.iter().enumerate() {
                     let Value::Number(x) = item.get_ref() else { return Err(self.refuse(item.span(), &key, &wanted)) };
-                    self.places.push((subject.clone().value(i), item.span()));
+                    self.positions.push((subject.clone().value(i), item.span()));
                     gaps.push(*x);
                 }
                 Ok(gaps)

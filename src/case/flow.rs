@@ -6,11 +6,11 @@ use super::model::{Model, Place};
 use super::value::Section;
 use crate::error::{Error, Result};
 use crate::scene::{Connors, Damping, FlowMargin, FluidElastic, Modes, Row, System};
-use crate::study::truncation::Whole;
+use crate::study::truncation::Unreduced;
 
 impl Builder<'_> {
     /// The margins that the table `flow` asks for, of the tube `whole` with the modes `own`.
-    pub fn flow(&mut self, flow: &Section<'_>, whole: &Whole, own: &Modes) -> Result<FluidElastic> {
+    pub fn flow(&mut self, flow: &Section<'_>, whole: &Unreduced, own: &Modes) -> Result<FluidElastic> {
         let constant = self.required(("flow", "connors"), flow, "connors");
         let span = || flow.span_of("connors").unwrap_or(flow.span.clone());
         let Model::Beam(beam) = self.model.clone() else { return Err(self.without_flow(flow)) };

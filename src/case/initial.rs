@@ -39,7 +39,7 @@ impl Builder<'_> {
     /// Whether the start is given, or a static equilibrium.
     fn start(&mut self, initial: &Section<'_>) -> Result<Start> {
         let Some(equilibrium) = initial.truth("equilibrium") else { return Ok(Start::Given) };
-        self.places.push((("initial state", "equilibrium").into(), equilibrium));
+        self.positions.push((("initial state", "equilibrium").into(), equilibrium));
         match initial.span_of("displacement").or(initial.span_of("velocity")) {
             Some(given) => {
                 let help = "expected no displacement and no velocity: an equilibrium is at rest where the constant \
@@ -55,7 +55,7 @@ impl Builder<'_> {
         let total = self.total();
         let Some(value) = initial.get(part) else { return Ok(vec![0.0; total]) };
         let subject = Subject::from(("initial state", part));
-        self.places.push((subject.clone(), value.span()));
+        self.positions.push((subject.clone(), value.span()));
         let unit = if part == "velocity" { "m/s" } else { "m" };
         let field = |name: &str| Field { key: format!("initial.{part}{name}"), subject: subject.clone(), unit };
         match (self.planes, value.get_ref()) {

@@ -32,7 +32,7 @@ impl Builder<'_> {
     /// directions the signal along y, then the one along z.
     pub fn load(&mut self, index: usize, load: &Section<'_>, end: f64, system: &System) -> Result<Vec<NewLoad>> {
         let owner = format!("load {}", index + 1);
-        self.places.push((Subject::nth("load", index), load.span.clone()));
+        self.positions.push((Subject::nth("load", index), load.span.clone()));
         let kinds = ["constant", "harmonic", "impulse", "table", "random", "base", "gravity"];
         let mut given = kinds.into_iter().filter_map(|kind| Some((kind, load.section(kind)?)));
         let (first, second) = (given.next(), given.next());

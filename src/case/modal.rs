@@ -55,7 +55,7 @@ impl Builder<'_> {
             if !(x.is_finite() && x >= 0.0) {
                 return Err(self.refuse(item.span(), &format!("system.modal.{key}: value {}", i + 1), "0 or more"));
             }
-            self.places.push((Subject::from(("modal data", name)).value(i), item.span()));
+            self.positions.push((Subject::from(("modal data", name)).value(i), item.span()));
             values.push(factor * x);
         }
         Ok(values)
@@ -71,10 +71,10 @@ impl Builder<'_> {
     ) -> Result<Vec<f64>> {
         let Some(value) = value else { return Ok(vec![plain; k]) };
         let (key, subject) = (format!("system.modal.{name}"), Subject::from(("modal data", name)));
-        self.places.push((subject.clone(), value.span()));
+        self.positions.push((subject.clone(), value.span()));
         match value.get_ref() {
             Value::Number(x) => {
-                self.places.push((subject.value(0), value.span()));
+                self.positions.push((subject.value(0), value.span()));
                 Ok(vec![*x; k])
             }
             Value::List(items) if items.len() == k => self.list(&key, subject, items),
@@ -90,7 +90,7 @@ impl Builder<'_> {
     fn shapes(&mut self, shapes: &Spanned<Value<'_>>, k: usize) -> Result<Vec<ModalPoint>> {
         let key = "system.modal.shapes";
         let subject = Subject::from(("modal data", "shapes"));
-        self.places.push((subject.clone(), shapes.span()));
+        self.positions.push((subject.clone(), shapes.span()));
         match shapes.get_ref() {
             Value::Word(file) => {
                 let (path, text) = self.open(file).map_err(|reason| {
@@ -104,7 +104,7 @@ impl Builder<'_> {
                 for (name, shape) in entries {
                     let key = format!("{key}.{}", name.get_ref());
                     self.name(&key, name.get_ref(), name.span())?;
-                    self.places.push((subject.clone().part(name.get_ref().to_string()), shape.span()));
+                    self.positions.push((subject.clone().part(name.get_ref().to_string()), shape.span()));
                     let Value::List(items) = shape.get_ref() else {
                         return Err(self.refuse(
                             shape.span(),

@@ -64,7 +64,7 @@ impl Case {
             "{left} of {} degrees of freedom have no mass: condensed statically, which is exact",
             left + kept
         )];
-        let soft = self.whole().walls.iter().zip(&condensation.compliance).filter(|(_, s)| **s > 0.0);
+        let soft = self.unreduced().walls.iter().zip(&condensation.compliance).filter(|(_, s)| **s > 0.0);
         let names: Vec<String> = soft.clone().map(|(wall, _)| format!("{:?}", wall.name)).collect();
         if let Some(most) = soft.map(|(_, s)| *s).reduce(f64::max) {
             let (walls, push) = if names.len() == 1 { ("wall", "pushes") } else { ("walls", "push") };

@@ -78,7 +78,7 @@ impl Builder<'_> {
             [Part::Named(kind, _)] => kind,
             _ => "place",
         };
-        self.places.push((subject.part("at"), at.span()));
+        self.positions.push((subject.part("at"), at.span()));
         if let Value::Word(word) = at.get_ref()
             && word == "each"
             && !load

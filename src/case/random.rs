@@ -118,7 +118,7 @@ impl Case {
     /// The size of each random force that has more than 2^20 rows, in words: a user who waits for
     /// the case should know what takes the time and the memory.
     pub fn large_random_forces(&self) -> impl Iterator<Item = String> {
-        let made = self.written.origins.iter().zip(&self.whole().loads).enumerate();
+        let made = self.written.origins.iter().zip(&self.unreduced().loads).enumerate();
         let single = made.filter_map(|(index, (origin, load))| match (origin, &load.kind) {
             (Origin::Random { force, .. } | Origin::Second(force), LoadKind::Table(table)) => {
                 let rows = table.time().len();
@@ -136,7 +136,7 @@ impl Case {
             _ => None,
         });
         // The loads of turbulence come after those of the file.
-        let turbulent = self.scene.loads.get(self.whole().loads.len()..).unwrap_or_default();
+        let turbulent = self.scene.loads.get(self.unreduced().loads.len()..).unwrap_or_default();
         let rows = |load: &Load| if let LoadKind::Table(table) = &load.kind { table.time().len() } else { 0 };
         let values: usize = turbulent.iter().map(rows).sum();
         let fields = (values > MANY_ROWS).then(|| {

@@ -161,7 +161,7 @@ impl Builder<'_> {
 
     fn centre(&mut self, owner: &Owner, centre: Option<Spanned<Vec<Spanned<f64>>>>) -> Result<[f64; 2]> {
         let Some(centre) = centre else { return Ok([0.0; 2]) };
-        self.places.push((owner.subject.clone().part("centre"), centre.span()));
+        self.positions.push((owner.subject.clone().part("centre"), centre.span()));
         match centre.get_ref().as_slice() {
             [y, z] => Ok([*y.get_ref(), *z.get_ref()]),
             _ => Err(self.refuse(centre.span(), &format!("{}: centre", owner.name), "[y, z], two numbers in m")),

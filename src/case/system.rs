@@ -34,8 +34,8 @@ impl Builder<'_> {
             return Err(self.source.error(later, &format!("two systems, `{kind}` and `{second}`"), one));
         }
         let name = if kind == "modal" { "modal data" } else { kind };
-        self.places.push(("system".into(), table.span.clone()));
-        self.places.push((name.into(), table.span.clone()));
+        self.positions.push(("system".into(), table.span.clone()));
+        self.positions.push((name.into(), table.span.clone()));
         let two = self.two_planes(system.number("planes"), kind)?;
         if kind == "oscillator" {
             return self.oscillator(system, &table, two);
@@ -165,11 +165,11 @@ impl Builder<'_> {
             return Err(self.refuse_as(chain.span.clone(), "system.chain"));
         };
         let (key, subject) = ("system.chain.masses", Subject::from(("chain", "masses")));
-        self.places.push((subject.clone(), masses.span()));
+        self.positions.push((subject.clone(), masses.span()));
         let masses = match (masses.get_ref(), chain.number("mass")) {
             (Value::Number(x), Some(mass)) => {
                 let count = self.count(key, *x, masses.span(), MOST_MASSES)?;
-                self.places.push((subject.value(0), mass.span()));
+                self.positions.push((subject.value(0), mass.span()));
                 vec![self.number(("chain", "mass"), &mass); count]
             }
             (Value::List(items), None) => self.list(key, subject, items)?,
@@ -184,10 +184,10 @@ impl Builder<'_> {
             _ => return Err(self.refuse_as(masses.span(), key)),
         };
         let (key, subject) = ("system.chain.springs", Subject::from(("chain", "springs")));
-        self.places.push((subject.clone(), springs.span()));
+        self.positions.push((subject.clone(), springs.span()));
         let springs = match springs.get_ref() {
             Value::Number(k) => {
-                self.places.push((subject.value(0), springs.span()));
+                self.positions.push((subject.value(0), springs.span()));
                 vec![*k; masses.len().saturating_sub(1)]
             }
             Value::List(items) => self.list(key, subject, items)?,

@@ -62,7 +62,7 @@ impl Builder<'_> {
             field.check(end).map_err(|error| self.at_turbulence(&owner, table, error))?;
             fields.push(field);
         }
-        self.places.push((("turbulence", "band").into(), to.span()));
+        self.positions.push((("turbulence", "band").into(), to.span()));
         Ok(fields)
     }
 

@@ -87,13 +87,13 @@ impl Builder<'_> {
 
     fn sectors(&mut self, sectors: Option<Spanned<f64>>) -> Result<usize> {
         let Some(value) = sectors else { return Ok(TimeOptions::SECTORS) };
-        self.whole("sectors", &value, TimeOptions::MOST_SECTORS)
+        self.whole_number("sectors", &value, TimeOptions::MOST_SECTORS)
     }
 
     /// The position of the coefficient of the support `name`, if it has one.
     fn coefficient_of(&self, name: &str) -> Option<Range<usize>> {
         let subject = crate::error::Subject::support(name).part("coefficient");
-        self.places.iter().find(|(known, _)| *known == subject).map(|(_, at)| at.clone())
+        self.positions.iter().find(|(known, _)| *known == subject).map(|(_, at)| at.clone())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::case_args::CaseArgs;
 use super::estimate::DurationEstimate;
-use super::pipeline::{Destination, Shown};
+use super::pipeline::{Answer, Destination};
 use super::request::Request;
 use super::ui::Ui;
 use super::values;
@@ -13,7 +13,9 @@ use crate::output::floors;
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
 use crate::output::{document, work_precision as output};
-use crate::study::work_precision::{Effort, Outcome, Peer, Series, Steps, WorkPrecision, every_method, read, study};
+use crate::study::work_precision::{
+    Effort, MethodPoints, Outcome, Peer, Steps, WorkPrecision, every_method, read, study,
+};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -67,7 +69,7 @@ pub struct Args {
     place: Destination,
 }
 
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let Args { end, restitution, .. } = *args;
     let settings = Request { case: args.case.clone(), end, restitution, ..Request::default() };
     let case = settings.read(ui)?;
@@ -110,13 +112,13 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     results.add_to_manifest("compared", json!(compared(&case, &chart)));
     document["conclusion"] = json!(conclusion);
     document["cheapest"] = rows(&best);
-    let mut shown = Shown::of(results, !args.place.no_report, document);
+    let mut answer = Answer::of(results, !args.place.no_report, document);
     for table in tables(&best) {
-        shown.table(table, "work-precision.csv");
+        answer.table(table, "work-precision.csv");
     }
-    shown.remarks([conclusion]);
-    shown.messages(messages(&case, &chart));
-    Ok(shown)
+    answer.remarks([conclusion]);
+    answer.messages(messages(&case, &chart));
+    Ok(answer)
 }
 
 /// Reports the points that the judge has refuted: the CSV marks their rows, the picture does not
@@ -207,6 +209,6 @@ fn messages(case: &Case, chart: &WorkPrecision) -> Vec<String> {
     messages
 }
 
-fn own_words(series: &Series) -> &'static str {
+fn own_words(series: &MethodPoints) -> &'static str {
     if series.measured().any(|(_, m)| m.own.is_some()) { " of its own springs" } else { "" }
 }

@@ -3,7 +3,7 @@
 use super::compare_seeds::Studies;
 use super::drawing::PlotSpan;
 use super::estimate::DurationEstimate;
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::request::Request;
 use super::run::checked_seeds;
 use super::run_notes::run_notes;
@@ -12,7 +12,7 @@ use super::{values, verdicts};
 use crate::case::Case;
 use crate::error::Result;
 use crate::output::compare as output;
-use crate::output::compare_table::{conclusion, overview, remark, whole};
+use crate::output::compare_table::{all_quantities, conclusion, overview, remark};
 use crate::output::document::under_head;
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
@@ -61,7 +61,7 @@ pub struct Args {
     span: PlotSpan,
 }
 
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.request.read(ui)?;
     let count = checked_seeds(args.seeds, &case)?;
     let methods = args.methods(&case)?;
@@ -95,24 +95,24 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     if let Some(studies) = &studies {
         document["realisations"] = studies.document();
     }
-    let mut shown = Shown::of(results, report, document);
+    let mut answer = Answer::of(results, report, document);
     if args.verbose {
-        shown.table(whole(&case, &comparison), "compare.csv");
-        shown.remarks(remark(&case));
+        answer.table(all_quantities(&case, &comparison), "compare.csv");
+        answer.remarks(remark(&case));
     } else {
-        shown.table(overview(&case, &comparison), "compare.csv");
+        answer.table(overview(&case, &comparison), "compare.csv");
     }
-    shown.prose(conclusion);
+    answer.prose(conclusion);
     if let Some(studies) = &studies {
-        studies.show(&mut shown, &case);
+        studies.show(&mut answer, &case);
     }
-    add_messages(&mut shown, args, &case, &comparison, &verdicts, &notes);
-    Ok(shown)
+    add_messages(&mut answer, args, &case, &comparison, &verdicts, &notes);
+    Ok(answer)
 }
 
 /// Shows what failed, and in full or as a count the findings and notes.
 fn add_messages(
-    shown: &mut Shown,
+    answer: &mut Answer,
     args: &Args,
     case: &Case,
     comparison: &Comparison,
@@ -121,23 +121,23 @@ fn add_messages(
 ) {
     let findings = comparison.findings.iter();
     let failure = comparison.rows.iter().filter_map(|row| Some((row.method, row.outcome.as_ref().err()?)));
-    shown.messages(failure.map(|(method, error)| format!("- {method} failed: {error}")));
+    answer.messages(failure.map(|(method, error)| format!("- {method} failed: {error}")));
     if !args.verbose {
         let count = findings.count() + notes.len();
         let more = (count > 0).then(|| format!("--verbose shows all quantities and the notes, {count} of them"));
-        shown.remarks(more);
+        answer.remarks(more);
         return;
     }
-    shown.messages(findings.map(|finding| format!("- {finding}")));
+    answer.messages(findings.map(|finding| format!("- {finding}")));
     if case.penalty.laws.is_empty()
         && args.schemes.is_none()
         && case.scene.walls.iter().any(|wall| wall.law.is_rigid() && !wall.is_round())
     {
-        shown.messages(["- the case has no [penalty] table: no penalty was compared".to_owned()]);
+        answer.messages(["- the case has no [penalty] table: no penalty was compared".to_owned()]);
     }
-    shown.messages(notes.iter().map(|note| format!("- {note}")));
+    answer.messages(notes.iter().map(|note| format!("- {note}")));
     if !args.no_verdict {
-        shown.messages([format!("refinement: {}", verdicts::line(comparison, verdicts))]);
+        answer.messages([format!("refinement: {}", verdicts::line(comparison, verdicts))]);
     }
 }
 

@@ -1,7 +1,7 @@
 //! `compare --seeds`: every method under the same realisations of the random loads.
 
 use super::estimate::DurationEstimate;
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
@@ -97,9 +97,9 @@ impl Studies {
     }
 
     /// Shows their table and the remarks on it.
-    pub fn show(&self, shown: &mut Shown, case: &Case) {
+    pub fn show(&self, answer: &mut Answer, case: &Case) {
         if let Some(table) = output::table(&self.methods, &self.reference, &case.scene) {
-            shown.table(table, output::FILE);
+            answer.table(table, output::FILE);
         }
         let above = (self.count > 1).then(|| "what stands above is of realisation 1 alone".to_owned());
         let refuted = self.methods.iter().filter(|one| !one.study.refuted.is_empty()).map(|one| {
@@ -107,6 +107,6 @@ impl Studies {
             format!("{}: {count} of {} realisations are refuted: its means are wrong", one.method, self.count)
         });
         let failures = self.failures.iter().cloned();
-        shown.messages([output::remark(self.count)].into_iter().chain(above).chain(refuted).chain(failures));
+        answer.messages([output::remark(self.count)].into_iter().chain(above).chain(refuted).chain(failures));
     }
 }

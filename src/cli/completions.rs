@@ -1,6 +1,6 @@
 //! `signorini completions`: completion scripts for shells.
 
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use clap_complete::Shell;
 
 /// Print completions for a shell
@@ -12,11 +12,11 @@ pub struct Args {
 }
 
 /// Completions for `command`, the whole tool.
-pub fn answer(args: &Args, mut command: clap::Command) -> Shown {
+pub fn answer(args: &Args, mut command: clap::Command) -> Answer {
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut command, "signorini", &mut text);
     let script = String::from_utf8_lossy(&text).into_owned();
-    let mut shown = Shown::new(serde_json::json!({ "shell": args.shell.to_string(), "script": script }));
-    shown.verbatim(script);
-    shown
+    let mut answer = Answer::new(serde_json::json!({ "shell": args.shell.to_string(), "script": script }));
+    answer.verbatim(script);
+    answer
 }

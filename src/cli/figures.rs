@@ -2,7 +2,7 @@
 
 use super::drawing::Formats;
 use super::estimate::DurationEstimate;
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::case::{Case, Embedded};
 use crate::error::{Error, Result};
@@ -64,7 +64,7 @@ const PLATES: [Plate; 8] = [
 /// Time shown, s: enough periods to see the motion, few enough to tell them apart.
 const SHOWN: f64 = 2.0;
 
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let request = json!({ "command": "figures" }).as_object().cloned().unwrap_or_default();
     let mut results = Results::open(&args.out, request, args.force, args.formats.usable()?)?;
     // Each method has one look in all figures: its index in the order in which methods first
@@ -79,9 +79,9 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
             written.extend(results.draw(&format!("fig{}-{name}", plate.number), &svg)?);
         }
     }
-    let mut shown = Shown::of(results, false, json!({ "command": "figures" }));
-    shown.messages(written.iter().map(|path| format!("wrote {}", path.display())));
-    Ok(shown)
+    let mut answer = Answer::of(results, false, json!({ "command": "figures" }));
+    answer.messages(written.iter().map(|path| format!("wrote {}", path.display())));
+    Ok(answer)
 }
 
 impl Plate {

@@ -2,7 +2,7 @@
 
 use super::command_line::command_line;
 use super::drawing::Formats;
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::sweep::{picture_messages, show_effects, show_means, status_document, status_messages};
 use crate::error::Result;
 use crate::sweep::{Merged, effects, merge_in, write_effects, write_summary};
@@ -29,7 +29,7 @@ pub struct Args {
     formats: Formats,
 }
 
-pub fn answer(args: &Args) -> Result<Shown> {
+pub fn answer(args: &Args) -> Result<Answer> {
     let formats = args.formats.usable()?;
     let (merged, mut results) = merge_in(&args.folders, &args.out, args.force, formats)?;
     let Merged { rows, shards, tables, request, title, picture, differing_arithmetic, unverified } = merged;
@@ -51,19 +51,19 @@ pub fn answer(args: &Args) -> Result<Shown> {
     let effects = effects(&args.out, &request)?;
     write_effects(&mut results, &effects)?;
     let document = write_summary(&mut results, document)?;
-    let mut shown = Shown::of(results, !args.no_report, document);
-    show_effects(&mut shown, &effects, request.get("seeds").and_then(Value::as_u64));
-    show_means(&mut shown, &args.out, &request)?;
-    shown.messages(unverified.iter().map(|folder| {
+    let mut answer = Answer::of(results, !args.no_report, document);
+    show_effects(&mut answer, &effects, request.get("seeds").and_then(Value::as_u64));
+    show_means(&mut answer, &args.out, &request)?;
+    answer.messages(unverified.iter().map(|folder| {
         format!("{}: of a version that recorded no digests: its tables are not verified", folder.display())
     }));
     if differing_arithmetic {
         let text = "the shards come from machines whose sines and exponentials differ in their last digits: rows that \
                     are sensitive to them may differ from those of one machine";
-        shown.messages([text.to_owned()]);
+        answer.messages([text.to_owned()]);
     }
-    shown.messages([format!("{rows} rows of {shards} shards")]);
-    shown.messages(status_messages(&args.out, &tables, rows)?);
-    shown.messages(picture_messages(&pictures));
-    Ok(shown)
+    answer.messages([format!("{rows} rows of {shards} shards")]);
+    answer.messages(status_messages(&args.out, &tables, rows)?);
+    answer.messages(picture_messages(&pictures));
+    Ok(answer)
 }

@@ -132,7 +132,7 @@ fn answer(text: &clap::Error, stdout: Stdout) -> ExitCode {
 }
 
 fn execute(command: &Command, ui: &Ui) -> Result<()> {
-    let shown = match command {
+    let answer = match command {
         Command::Run(args) => run::answer(args, ui)?,
         Command::Chart(args) => chart::answer(args, ui)?,
         Command::Compare(args) => compare::answer(args, ui)?,
@@ -149,7 +149,7 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
         Command::Wear(args) => wear::answer(args, ui)?,
         Command::Completions(args) => completions::answer(args, self::command()),
     };
-    shown.conclude(ui)
+    answer.conclude(ui)
 }
 
 /// The tool's command, for shell completions.

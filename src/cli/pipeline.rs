@@ -67,7 +67,7 @@ enum Part {
 
 /// The answer of a command: what is printed, and the folder of its results if it has one.
 #[derive(Default)]
-pub struct Shown {
+pub struct Answer {
     parts: Vec<Part>,
     document: Value,
     results: Option<Results>,
@@ -79,7 +79,7 @@ pub struct Shown {
     shortfall: Option<Error>,
 }
 
-impl Shown {
+impl Answer {
     /// The answer of a command without results on disk; `document` is printed with `--json`.
     pub fn new(document: Value) -> Self {
         Self { document, ..Self::default() }

@@ -1,6 +1,6 @@
 //! `signorini report`: the report on results that exist.
 
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use crate::error::{Error, Result};
 use crate::output::atomic::write_whole;
 use crate::output::manifest::{self, MANIFEST};
@@ -32,7 +32,7 @@ pub struct Args {
     out: Option<PathBuf>,
 }
 
-pub fn answer(args: &Args) -> Result<Shown> {
+pub fn answer(args: &Args) -> Result<Answer> {
     let manifest = manifest_of(&args.folder)?;
     let page = match &args.over {
         Some(over) => report::page_over(&args.folder, &manifest, (over, &manifest_of(over)?))?,
@@ -46,13 +46,13 @@ pub fn answer(args: &Args) -> Result<Shown> {
         None => manifest::add(&args.folder, manifest, report::FILE, page.as_bytes())?,
     }
     let document = json!({ "command": "report", "results": args.folder, "files_written": [path] });
-    let mut shown = Shown::new(document);
+    let mut answer = Answer::new(document);
     if !verified {
         let text = "the version that made these results recorded no digests: their tables are not verified";
-        shown.messages([text.to_owned()]);
+        answer.messages([text.to_owned()]);
     }
-    shown.last_line(format!("wrote the page; open {}", path.display()));
-    Ok(shown)
+    answer.last_line(format!("wrote the page; open {}", path.display()));
+    Ok(answer)
 }
 
 /// What was asked for the results in `folder`.

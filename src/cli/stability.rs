@@ -2,7 +2,7 @@
 
 use super::case_args::CaseArgs;
 use super::estimate::DurationEstimate;
-use super::pipeline::{Destination, Shown};
+use super::pipeline::{Answer, Destination};
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
@@ -13,7 +13,7 @@ use crate::output::{document, stability as output};
 use crate::scheme::{PenaltyLaw, Scheme};
 use crate::study::stability::family::{MapRequest, SchemeFamily};
 use crate::study::stability::impact;
-use crate::study::stability::lasting::{Line, MULTIPLES, Quality};
+use crate::study::stability::lasting::{LastingForce, MULTIPLES, Quality};
 use crate::study::stability::plan::{Grid, Maps, Plan};
 use serde_json::json;
 
@@ -63,7 +63,7 @@ pub struct Args {
 /// # Errors
 /// A case that makes no sense or has no wall, a folder that cannot be written, a reference run that
 /// fails.
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.case.read_with_restitution(args.restitution, ui)?;
     let mut results = args.place.open(&case, "stability", request("stability", &case, &[]))?;
     let question = MapRequest { scene: &case.scene, laws: &case.penalty.laws };
@@ -92,10 +92,10 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let mut document = document::stability(&case, &maps, &quality);
     document["conclusion"] = json!(conclusion(&safe));
     document["schemes"] = rows(&safe);
-    let mut shown = Shown::of(results, !args.place.no_report, document);
-    show_maps(&mut shown, &maps, &safe);
-    show_contacts(&mut shown, &quality);
-    Ok(shown)
+    let mut answer = Answer::of(results, !args.place.no_report, document);
+    show_maps(&mut answer, &maps, &safe);
+    show_contacts(&mut answer, &quality);
+    Ok(answer)
 }
 
 /// Energy and lasting contacts of each scheme.
@@ -129,14 +129,14 @@ fn schemes(case: &Case) -> Vec<Scheme> {
 }
 
 /// Shows what each scheme does to the energy and to the force of a lasting contact.
-fn show_contacts(shown: &mut Shown, quality: &Quality) {
-    let lasts = |line: &Line| line.outcome.as_ref().is_ok_and(|seen| seen.contact.is_some());
+fn show_contacts(answer: &mut Answer, quality: &Quality) {
+    let lasts = |line: &LastingForce| line.outcome.as_ref().is_ok_and(|seen| seen.contact.is_some());
     let what = if quality.lines.iter().any(lasts) {
         "and the force of the largest lasting contact"
     } else {
         "; no contact lasts"
     };
-    shown.remarks([format!("energy, in shares of {:.3e} J, {what}:", quality.energy)]);
+    answer.remarks([format!("energy, in shares of {:.3e} J, {what}:", quality.energy)]);
     let headers = [
         "scheme",
         "step (s)",
@@ -148,10 +148,10 @@ fn show_contacts(shown: &mut Shown, quality: &Quality) {
         "impulse (N s)",
         "contact (s)",
     ];
-    shown.table(Table::new(&headers, quality.lines.iter().map(contact_cells).collect()), "lasting-contact.csv");
+    answer.table(Table::new(&headers, quality.lines.iter().map(contact_cells).collect()), "lasting-contact.csv");
 }
 
-fn contact_cells(line: &Line) -> Vec<String> {
+fn contact_cells(line: &LastingForce) -> Vec<String> {
     let mut row = vec![line.scheme.to_string(), format!("{:.2e}", line.step)];
     match &line.outcome {
         Err(error) => {
@@ -181,15 +181,15 @@ fn share(x: f64) -> String {
 }
 
 /// Shows the largest safe step of each scheme.
-fn show_maps(shown: &mut Shown, maps: &Maps, safe: &[SafeStep]) {
+fn show_maps(answer: &mut Answer, maps: &Maps, safe: &[SafeStep]) {
     let (first, last) = (maps.steps.first().copied().unwrap_or(0.0), maps.steps.last().copied().unwrap_or(0.0));
-    shown.remarks([format!(
+    answer.remarks([format!(
         "{} steps from {first:.2e} to {last:.2e} s, runs of {:.4} s, {} ({:.4} rad/s)",
         maps.steps.len(),
         maps.horizon,
         maps.scale.origin.describe(),
         maps.scale.omega
     )]);
-    shown.table(table(safe), "stability.csv");
-    shown.remarks([conclusion(safe)]);
+    answer.table(table(safe), "stability.csv");
+    answer.remarks([conclusion(safe)]);
 }

@@ -1,6 +1,6 @@
 //! `signorini verify`: the verification manual, run on this machine.
 
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
 use crate::output::atomic::write_whole;
@@ -24,7 +24,7 @@ pub struct Args {
     force: bool,
 }
 
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let request = json!({ "command": "verify" }).as_object().cloned().unwrap_or_default();
     let mut results = Results::open(&args.out, request, args.force, Vec::new())?;
     let (lines, failures) = ui.with_bar("verifying", |bar| verify(&|share| bar.set_share(share)));
@@ -32,12 +32,12 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     write_whole(&results.place(FILE)?, page(&lines).as_bytes())?;
     let conclusion = conclusion(&lines);
     let page_to_open = format!("; open {}", args.out.join(FILE).display());
-    let mut shown =
-        Shown::of(results, false, json!({ "command": "verify", "conclusion": conclusion, "values": lines }));
-    shown.table(table(&lines), TABLE);
-    shown.messages(failures.iter().map(|(case, error)| format!("- {case} could not be run: {error}")));
-    shown.prose(conclusion);
-    shown.close_with(page_to_open);
-    shown.fall_short(shortfall(&lines));
-    Ok(shown)
+    let mut answer =
+        Answer::of(results, false, json!({ "command": "verify", "conclusion": conclusion, "values": lines }));
+    answer.table(table(&lines), TABLE);
+    answer.messages(failures.iter().map(|(case, error)| format!("- {case} could not be run: {error}")));
+    answer.prose(conclusion);
+    answer.close_with(page_to_open);
+    answer.fall_short(shortfall(&lines));
+    Ok(answer)
 }

@@ -1,7 +1,7 @@
 //! `signorini wear`: depth over the years at supports whose gaps grow by wear.
 
 use super::estimate::DurationEstimate;
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::request::Request;
 use super::ui::Ui;
 use super::values;
@@ -60,7 +60,7 @@ pub struct Args {
 ///
 /// # Errors
 /// A case without supports that wear, a scheme that refuses it, a run that fails.
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.request.read(ui)?;
     let supports = wearing(&case)?;
     let histories = args.histories(&case)?;
@@ -97,17 +97,17 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     results.add_to_manifest("answers", json!(answers));
     results.add_to_manifest("supports", json!(found.supports));
     results.add_to_manifest("fluid_elastic", json!(case.fluid_elastic));
-    let mut shown = Shown::of(results, !args.request.place.no_report, output::document(&case, &found));
-    shown.table(output::table(&found), "years.csv");
-    shown.remarks(answers);
+    let mut answer = Answer::of(results, !args.request.place.no_report, output::document(&case, &found));
+    answer.table(output::table(&found), "years.csv");
+    answer.remarks(answers);
     let there = match journal.found() {
         0 => String::new(),
         count => format!(", {count} of them there already"),
     };
-    shown
+    answer
         .messages([format!("{} by {method}: {} runs of {:?} s{there}", case.name, found.windows, case.scene.duration)]);
-    shown.messages(notes.iter().map(|note| format!("note: {note}")));
-    Ok(shown)
+    answer.messages(notes.iter().map(|note| format!("note: {note}")));
+    Ok(answer)
 }
 
 impl Args {

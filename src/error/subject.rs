@@ -108,7 +108,7 @@ impl Subject {
 
     /// The subject that it is a part of; `None` for a whole.
     #[must_use]
-    pub fn whole(&self) -> Option<Self> {
+    pub fn enclosing(&self) -> Option<Self> {
         match self.0.split_last() {
             Some((_, before)) if !before.is_empty() => Some(Self(before.to_vec())),
             _ => None,

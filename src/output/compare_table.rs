@@ -118,7 +118,7 @@ fn force(case: &Case, run: &Run) -> String {
 
 /// All quantities, one column per method, since there are more quantities than methods.
 #[must_use]
-pub fn whole(case: &Case, comparison: &Comparison) -> Table {
+pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
     let methods: Vec<String> = comparison.rows.iter().map(|row| row.method.to_string()).collect();
     let header: Vec<&str> = std::iter::once("").chain(methods.iter().map(String::as_str)).collect();
     let mut rows = Vec::new();

@@ -2,9 +2,9 @@
 //! missing or not finite is null.
 
 use crate::case::Case;
-use crate::study::stability::lasting::{Line, Quality};
+use crate::study::stability::lasting::{LastingForce, Quality};
 use crate::study::stability::plan::Maps;
-use crate::study::work_precision::{Errors, Measured, Outcome, Point, Series, WorkPrecision};
+use crate::study::work_precision::{Errors, Measured, MethodPoints, Outcome, Point, WorkPrecision};
 use serde_json::{Value, json};
 
 /// `value`, an object, with the keys that every document has: program and case.
@@ -43,11 +43,11 @@ pub fn chart(case: &Case, chart: &WorkPrecision) -> Value {
 /// The order of convergence of each method of a chart, by its name: null where there is none.
 #[must_use]
 pub fn orders(chart: &WorkPrecision) -> Value {
-    let order = |one: &Series| (one.method.to_string(), json!(one.order(chart.known(&one.method.scheme))));
+    let order = |one: &MethodPoints| (one.method.to_string(), json!(one.order(chart.known(&one.method.scheme))));
     Value::Object(chart.series.iter().map(order).collect())
 }
 
-fn series(chart: &WorkPrecision, series: &Series, walls: &[&str]) -> Value {
+fn series(chart: &WorkPrecision, series: &MethodPoints, walls: &[&str]) -> Value {
     json!({
         "method": series.method.to_string(),
         "order": series.order(chart.known(&series.method.scheme)),
@@ -101,7 +101,7 @@ pub fn stability(case: &Case, maps: &Maps, quality: &Quality) -> Value {
     under_head(case, value)
 }
 
-fn lasting(line: &Line) -> Value {
+fn lasting(line: &LastingForce) -> Value {
     let seen = line.outcome.as_ref().ok();
     json!({
         "scheme": line.scheme.to_string(),

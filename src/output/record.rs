@@ -91,7 +91,7 @@ impl Record {
         if length > self.bytes {
             return Err(damaged(format!("has {length} bytes")));
         }
-        let found = Self::of(Passed { source: file.take(self.bytes), take })
+        let found = Self::of(TeeReader { source: file.take(self.bytes), take })
             .map_err(|error| damaged(format!("cannot be read ({error})")))?;
         if found.bytes != self.bytes {
             return Err(damaged(format!("has {}", size(path, found.rows, found.bytes))));
@@ -111,12 +111,12 @@ fn size(path: &Path, rows: u64, bytes: u64) -> String {
 }
 
 /// A source whose bytes are also passed to `take`.
-struct Passed<R, F> {
+struct TeeReader<R, F> {
     source: R,
     take: F,
 }
 
-impl<R: Read, F: FnMut(&[u8])> Read for Passed<R, F> {
+impl<R: Read, F: FnMut(&[u8])> Read for TeeReader<R, F> {
     fn read(&mut self, block: &mut [u8]) -> io::Result<usize> {
         let read = self.source.read(block)?;
         (self.take)(block.get(..read).unwrap_or_default());

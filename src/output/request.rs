@@ -12,7 +12,7 @@ use std::fmt::Debug;
 /// case (walls, loads and so on) as fingerprints. Titles and comments of a case file are left out.
 #[must_use]
 pub fn request(command: &str, case: &Case, methods: &[Method]) -> Map<String, Value> {
-    let whole = case.whole();
+    let whole = case.unreduced();
     let integrator = |method: &Method| matches!(method.scheme, Scheme::Penalty { .. });
     let mut request = object(json!({
         "command": command,

@@ -8,7 +8,7 @@ use crate::scheme::Scheme;
 use crate::study::stability::class::Class;
 use crate::study::stability::family::{Parameter, SchemeFamily};
 use crate::study::stability::impact::{ImpactMap, KAPPAS, alike};
-use crate::study::stability::lasting::{Lasting, Line, Quality};
+use crate::study::stability::lasting::{Lasting, LastingForce, Quality};
 use crate::study::stability::plan::{Maps, Row};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -141,7 +141,7 @@ pub fn quality(path: &Path, quality: &Quality) -> Result<()> {
         "ripple",
         "failure",
     ];
-    let line = |line: &Line| {
+    let line = |line: &LastingForce| {
         let mut row = vec![line.scheme.to_string(), number(Some(line.step))];
         match &line.outcome {
             Ok(seen) => {

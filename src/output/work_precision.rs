@@ -6,7 +6,9 @@ use super::floors;
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::scheme::{Method, PenaltyLaw, Scheme};
-use crate::study::work_precision::{Errors, Measured, Outcome, Peer, Point, Quantity, Series, WorkPrecision, pareto};
+use crate::study::work_precision::{
+    Errors, Measured, MethodPoints, Outcome, Peer, Point, Quantity, WorkPrecision, pareto,
+};
 use std::path::Path;
 
 /// Errors below this are negligible and are not shown on the chart.
@@ -182,9 +184,9 @@ fn heading(quantity: Quantity) -> &'static str {
 }
 
 /// The series of the first figure, numbered: for each penalty only the first integrator.
-fn shown(chart: &WorkPrecision) -> impl Iterator<Item = (usize, &Series)> {
+fn shown(chart: &WorkPrecision) -> impl Iterator<Item = (usize, &MethodPoints)> {
     let mut laws = Vec::new();
-    let first = move |series: &&Series| match series.method.scheme {
+    let first = move |series: &&MethodPoints| match series.method.scheme {
         Scheme::Penalty { law, .. } if laws.contains(&law) => false,
         Scheme::Penalty { law, .. } => {
             laws.push(law);
@@ -196,7 +198,7 @@ fn shown(chart: &WorkPrecision) -> impl Iterator<Item = (usize, &Series)> {
 }
 
 /// Error and time of each run that has this error.
-fn points(series: &Series, quantity: Quantity) -> Vec<(f64, f64)> {
+fn points(series: &MethodPoints, quantity: Quantity) -> Vec<(f64, f64)> {
     let point = |m: &Measured| Some((quantity.of(&m.errors)?, m.seconds));
     series.measured().filter_map(|(_, m)| point(m)).filter(|p| p.0.is_finite()).collect()
 }
@@ -215,7 +217,7 @@ pub(crate) fn programs(peers: &[Peer]) -> Vec<(String, Vec<(f64, f64)>)> {
     programs
 }
 
-/// Whole decades that hold the errors between [`NEGLIGIBLE`] and [`NO_ANSWER`]; values beyond are
+/// Unreduced decades that hold the errors between [`NEGLIGIBLE`] and [`NO_ANSWER`]; values beyond are
 /// marked at the edge.
 fn range(errors: &[f64]) -> (f64, f64) {
     let within = errors.iter().copied().filter(|e| (NEGLIGIBLE..=NO_ANSWER).contains(e));

@@ -31,7 +31,7 @@ pub(super) struct Envelope {
 
 /// The line of L of one more row, as long as it is not taken into the factor.
 #[derive(Clone, Copy)]
-pub(super) struct Line {
+pub(super) struct EnvelopeRow {
     /// Its first column.
     from: usize,
     /// What is left of Wₖₖ.
@@ -87,7 +87,7 @@ impl Envelope {
     }
 
     /// Appends the line of one more row to L.
-    pub(super) fn eliminate(&mut self, system: &Delassus, row: usize) -> Line {
+    pub(super) fn eliminate(&mut self, system: &Delassus, row: usize) -> EnvelopeRow {
         let (first, w) = system.row(row);
         let (k, at) = (self.rows.len(), self.lower.len());
         let mut from = if self.ordered { k } else { 0 };
@@ -108,11 +108,11 @@ impl Envelope {
             pivot -= *v * l;
             *v = l;
         }
-        Line { from, pivot }
+        EnvelopeRow { from, pivot }
     }
 
     /// Takes the last line of L, that of `row`, into the factor.
-    pub(super) fn admit(&mut self, row: usize, line: Line) {
+    pub(super) fn admit(&mut self, row: usize, line: EnvelopeRow) {
         self.rows.push(row);
         self.from.push(line.from);
         // Kept positive, whatever rounding did, so that nothing is divided by zero.
@@ -127,7 +127,7 @@ impl Envelope {
 
     /// Computes the combination c of the factor's rows, W_BB c = W_Bk, that the last line of L
     /// stands for.
-    pub(super) fn combine(&self, line: Line, c: &mut Vec<f64>) {
+    pub(super) fn combine(&self, line: EnvelopeRow, c: &mut Vec<f64>) {
         c.clear();
         c.resize(line.from, 0.0);
         c.extend_from_slice(&self.lower[self.starts[self.rows.len()]..]);
@@ -179,7 +179,7 @@ impl Envelope {
                 *left -= v * v / pivot;
             }
             left[p] = f64::NEG_INFINITY;
-            self.admit(rows[p], Line { from: 0, pivot });
+            self.admit(rows[p], EnvelopeRow { from: 0, pivot });
         }
         for (i, &row) in rows.iter().enumerate() {
             if left[i] > f64::NEG_INFINITY {

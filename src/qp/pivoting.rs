@@ -143,7 +143,7 @@ impl Pivoting {
         let (mut tolerance, mut ulps, mut cycle) = (ROUNDING, 0.0, Cycle::default());
         for _ in 0..passes {
             self.block.set(system, &self.next);
-            self.look(system, rhs, bounded, (scale, tolerance, ulps), r);
+            self.find_wrong(system, rhs, bounded, (scale, tolerance, ulps), r);
             if self.wrong.is_empty() && joins < JOINS {
                 self.join(system, rhs, scale, tolerance, r);
                 joins += 1;
@@ -180,7 +180,7 @@ impl Pivoting {
     }
 
     /// One pass: forces r, the motion y they cause, and the rows whose state is wrong, increasing.
-    fn look(
+    fn find_wrong(
         &mut self,
         system: &Delassus,
         rhs: &Rhs,

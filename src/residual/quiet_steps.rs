@@ -16,19 +16,19 @@ impl Judge {
         self.quiet_scratch.is_some()
     }
 
-    /// Checks the steps of `calm`, which follow the last one seen, as [`Judge::observe`] checks
+    /// Checks the steps of `quiet`, which follow the last one seen, as [`Judge::observe`] checks
     /// each of them.
-    pub(crate) fn observe_quiet(&mut self, calm: &QuietSteps) {
+    pub(crate) fn observe_quiet(&mut self, quiet: &QuietSteps) {
         let Some(mut quiet_scratch) = self.quiet_scratch.take() else {
-            return (0..calm.len()).for_each(|k| self.observe(&calm.step(k)));
+            return (0..quiet.len()).for_each(|k| self.observe(&quiet.step(k)));
         };
         let mut k = 0;
-        while k < calm.len() {
-            let clear = k + self.clear(calm, k);
-            self.observe_clear(&mut quiet_scratch, calm, k..clear);
+        while k < quiet.len() {
+            let clear = k + self.clear(quiet, k);
+            self.observe_clear(&mut quiet_scratch, quiet, k..clear);
             k = clear;
-            if k < calm.len() {
-                self.observe(&calm.step(k));
+            if k < quiet.len() {
+                self.observe(&quiet.step(k));
                 k += 1;
             }
         }
@@ -38,24 +38,24 @@ impl Judge {
     /// The number of steps from step `from` on in which no wall is in reach. The first step of a
     /// run, with which its sums begin, counts as one in which a wall is, and so does one before
     /// which a wall still pushed.
-    fn clear(&self, calm: &QuietSteps, from: usize) -> usize {
+    fn clear(&self, quiet: &QuietSteps, from: usize) -> usize {
         if self.sums.steps == 0 || self.energy.walls_store() || self.walls.last_force.iter().any(|&force| force != 0.0)
         {
             return 0;
         }
-        let (before, _) = calm.velocities();
+        let (before, _) = quiet.velocities();
         let mut w0 = self.q.first().copied().unwrap_or(0.0);
         let in_reach = |(&w1, rate): (&f64, &f64)| {
             let ends = (std::mem::replace(&mut w0, w1), w1);
             // All walls have the one row that is the degree of freedom itself.
             !self.row_walls.iter().all(|walls_of_row| walls_of_row.is_clear(ends, self.h * rate.abs()))
         };
-        let left = calm.len() - from;
-        calm.q()[from..].iter().zip(&before[from..]).position(in_reach).unwrap_or(left)
+        let left = quiet.len() - from;
+        quiet.q()[from..].iter().zip(&before[from..]).position(in_reach).unwrap_or(left)
     }
 
     /// Checks steps in which no wall is in reach.
-    fn observe_clear(&mut self, quiet_scratch: &mut QuietScratch, calm: &QuietSteps, steps: Range<usize>) {
+    fn observe_clear(&mut self, quiet_scratch: &mut QuietScratch, quiet: &QuietSteps, steps: Range<usize>) {
         let n = steps.len();
         let (&mut [ref mut q], &mut [ref mut load], Some(forcing)) =
             (&mut self.q[..], &mut self.load[..], &mut self.grid_load)
@@ -68,32 +68,32 @@ impl Judge {
         let QuietScratch { weights, scratch, q: places, load: loads, zeros } = quiet_scratch;
         let (h, per_h) = (self.h, 1.0 / self.h);
         places[0] = *q;
-        places[1..=n].copy_from_slice(&calm.q()[steps.clone()]);
+        places[1..=n].copy_from_slice(&quiet.q()[steps.clone()]);
         loads[0] = *load;
-        for (load, &end) in loads[1..=n].iter_mut().zip(&calm.end()[steps.clone()]) {
+        for (load, &end) in loads[1..=n].iter_mut().zip(&quiet.end()[steps.clone()]) {
             *load = forcing.at(end);
         }
-        let (before, after) = calm.velocities();
+        let (before, after) = quiet.velocities();
         let moves = StepMotion {
             from: &places[..n],
             to: &places[1..=n],
             shown: &places[1..=n],
             before: &before[steps.clone()],
             after: &after[steps.clone()],
-            v: &calm.v()[steps.clone()],
+            v: &quiet.v()[steps.clone()],
             load_start: &loads[..n],
             load_end: &loads[1..=n],
             extra: &zeros[..n],
             blow: &zeros[..n],
         };
-        self.noise.begin(h, calm.end()[steps.end - 1]);
+        self.noise.begin(h, quiet.end()[steps.end - 1]);
         let path = scratch.means(self.contract.balance, h, &moves, weights, n);
         self.noise.step(&moves, &scratch.load, weights, (h, per_h), n);
         self.balance.scale = scratch.products(&self.matrices, (h, per_h), zeros, weights, n, self.balance.scale);
         let (largest, worst) = scratch.open(per_h, weights, n, self.balance.largest);
         if worst > self.noise.force() || path > self.noise.path() {
             // One of the steps will be accused: see them one by one to find out when.
-            return steps.for_each(|k| self.observe(&calm.step(k)));
+            return steps.for_each(|k| self.observe(&quiet.step(k)));
         }
         self.noise.book(1.0, n as f64);
         self.balance.largest = largest;

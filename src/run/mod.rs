@@ -164,7 +164,7 @@ mod tests {
         let h = 1e-3;
         let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, h).expect("a scene");
         let judge = || Judge::new(&scene, stepper.contract(), h, &[1e-3], &[0.1]);
-        let (mut together, mut alone, mut calm) = (judge(), judge(), QuietSteps::new(1));
+        let (mut together, mut alone, mut quiet) = (judge(), judge(), QuietSteps::new(1));
         for k in 0..300 {
             let step = stepper.step().expect("a step");
             let mut told = [step.end, step.q[0], step.v[0], step.velocity_before[0], step.velocity_after[0]];
@@ -172,12 +172,12 @@ mod tests {
                 lie(&mut told);
             }
             let [end, q, v, before, after] = told;
-            assert!(calm.begin(step.index, step.start) > 0);
-            calm.add(end, (&[q], &[v]), (&[before], &[after]));
-            if calm.is_full() || k == 299 {
-                together.observe_quiet(&calm);
-                (0..calm.len()).for_each(|k| alone.observe(&calm.step(k)));
-                calm.clear();
+            assert!(quiet.begin(step.index, step.start) > 0);
+            quiet.add(end, (&[q], &[v]), (&[before], &[after]));
+            if quiet.is_full() || k == 299 {
+                together.observe_quiet(&quiet);
+                (0..quiet.len()).for_each(|k| alone.observe(&quiet.step(k)));
+                quiet.clear();
             }
         }
         assert!(together.batches_quiet_steps());

@@ -11,22 +11,22 @@ pub(super) struct Observers<J: Judging, R: Recording> {
     pub judge: J::Judge,
     pub recorder: R::Recorder,
     /// Steps that have not been passed on yet; `None` where each step is passed on at once.
-    calm: Option<QuietSteps>,
+    quiet: Option<QuietSteps>,
 }
 
 impl<J: Judging, R: Recording> Observers<J, R> {
     /// The observers of a run by `stepper`.
     pub fn new(judge: J::Judge, recorder: R::Recorder, stepper: &Stepper) -> Self {
         let together = J::batches_quiet_steps(&judge).unwrap_or(!R::ROWLESS);
-        let calm = (together && stepper.is_line()).then(|| QuietSteps::new(stepper.scene().walls.len()));
-        Self { judge, recorder, calm }
+        let quiet = (together && stepper.is_line()).then(|| QuietSteps::new(stepper.scene().walls.len()));
+        Self { judge, recorder, quiet }
     }
 
     /// Makes the next step, or several between two contacts but at most `most`; returns how many
     /// were completed, and the time reached, s.
     #[inline(always)]
     pub fn follow(&mut self, stepper: &mut Stepper, most: u64) -> Result<(u64, f64)> {
-        let Some(calm) = &mut self.calm else {
+        let Some(quiet) = &mut self.quiet else {
             let index = stepper.index();
             let step = stepper.step()?;
             J::observe(&mut self.judge, &step);
@@ -34,9 +34,9 @@ impl<J: Judging, R: Recording> Observers<J, R> {
             let end = step.end;
             return Ok((stepper.index() - index, end));
         };
-        let made = stepper.advance_quiet_into(calm, most)?;
+        let made = stepper.advance_quiet_into(quiet, most)?;
         if made > 0 {
-            if calm.is_full() {
+            if quiet.is_full() {
                 self.catch_up();
             }
             return Ok((made, stepper.time()));
@@ -44,11 +44,11 @@ impl<J: Judging, R: Recording> Observers<J, R> {
         let index = stepper.index();
         let step = stepper.step()?;
         let end = step.end;
-        if !calm.take(&step) {
+        if !quiet.take(&step) {
             self.catch_up();
             J::observe(&mut self.judge, &step);
             R::observe(&mut self.recorder, &step);
-        } else if calm.is_full() {
+        } else if quiet.is_full() {
             self.catch_up();
         }
         Ok((stepper.index() - index, end))
@@ -56,10 +56,10 @@ impl<J: Judging, R: Recording> Observers<J, R> {
 
     /// Passes on the steps that have not been passed on yet.
     pub fn catch_up(&mut self) {
-        if let Some(calm) = self.calm.as_mut().filter(|calm| calm.len() > 0) {
-            J::observe_quiet(&mut self.judge, calm);
-            R::observe_quiet(&mut self.recorder, calm);
-            calm.clear();
+        if let Some(quiet) = self.quiet.as_mut().filter(|quiet| quiet.len() > 0) {
+            J::observe_quiet(&mut self.judge, quiet);
+            R::observe_quiet(&mut self.recorder, quiet);
+            quiet.clear();
         }
     }
 }

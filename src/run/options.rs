@@ -128,7 +128,7 @@ pub trait Judging: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     fn batches_quiet_steps(judge: &Self::Judge) -> Option<bool>;
     #[doc(hidden)]
-    fn observe_quiet(judge: &mut Self::Judge, calm: &QuietSteps);
+    fn observe_quiet(judge: &mut Self::Judge, quiet: &QuietSteps);
     #[doc(hidden)]
     fn verdict(judge: Self::Judge, recorded: Option<&Trajectory>) -> (Self::Verdict, Self::Findings);
     #[doc(hidden)]
@@ -168,8 +168,8 @@ impl Judging for Judged {
         Some(judge.batches_quiet_steps())
     }
 
-    fn observe_quiet(judge: &mut Judge, calm: &QuietSteps) {
-        judge.observe_quiet(calm);
+    fn observe_quiet(judge: &mut Judge, quiet: &QuietSteps) {
+        judge.observe_quiet(quiet);
     }
 
     fn verdict(mut judge: Judge, recorded: Option<&Trajectory>) -> (Residuals, Vec<Finding>) {
@@ -245,7 +245,7 @@ pub trait Recording: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     fn observe(recorder: &mut Self::Recorder, step: &Step<'_>);
     #[doc(hidden)]
-    fn observe_quiet(recorder: &mut Self::Recorder, calm: &QuietSteps);
+    fn observe_quiet(recorder: &mut Self::Recorder, quiet: &QuietSteps);
     #[doc(hidden)]
     fn finish(
         recorder: Self::Recorder,
@@ -286,9 +286,9 @@ impl Recording for Recorded {
         wear.observe(step);
     }
 
-    fn observe_quiet((recorder, _, _): &mut Self::Recorder, calm: &QuietSteps) {
+    fn observe_quiet((recorder, _, _): &mut Self::Recorder, quiet: &QuietSteps) {
         // Without an impulse there is nothing to sum up.
-        recorder.observe_quiet(calm);
+        recorder.observe_quiet(quiet);
     }
 
     fn finish(

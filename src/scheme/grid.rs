@@ -53,11 +53,11 @@ impl<S: Space> Grid<S> {
     }
 
     /// As [`Motion::advance_quiet`].
-    pub fn advance_quiet(&mut self, step: u64, until: u64, calm: Option<&mut QuietSteps>) -> Result<u64> {
+    pub fn advance_quiet(&mut self, step: u64, until: u64, quiet: Option<&mut QuietSteps>) -> Result<u64> {
         if self.forced || !self.frame.pushing.is_empty() || !self.episodes.idle() {
             return Ok(step);
         }
-        let reached = self.rule.advance_quiet(step, until, &mut self.frame, calm)?;
+        let reached = self.rule.advance_quiet(step, until, &mut self.frame, quiet)?;
         if reached > step {
             self.frame.check(reached - 1)?;
         }
@@ -123,8 +123,8 @@ impl<S: Space> Motion for Grid<S> {
         self.advance(step, extra)
     }
 
-    fn advance_quiet(&mut self, step: u64, until: u64, calm: Option<&mut QuietSteps>) -> Result<u64> {
-        self.advance_quiet(step, until, calm)
+    fn advance_quiet(&mut self, step: u64, until: u64, quiet: Option<&mut QuietSteps>) -> Result<u64> {
+        self.advance_quiet(step, until, quiet)
     }
 
     fn flush(&mut self, tiny: f64) {

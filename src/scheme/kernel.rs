@@ -105,10 +105,10 @@ impl Kernel {
     }
 
     /// As [`Motion::advance_quiet`].
-    pub fn advance_quiet(&mut self, step: u64, until: u64, calm: Option<&mut QuietSteps>) -> Result<u64> {
+    pub fn advance_quiet(&mut self, step: u64, until: u64, quiet: Option<&mut QuietSteps>) -> Result<u64> {
         match self {
-            Self::Line(grid) => grid.advance_quiet(step, until, calm),
-            Self::Other(motion) => motion.advance_quiet(step, until, calm),
+            Self::Line(grid) => grid.advance_quiet(step, until, quiet),
+            Self::Other(motion) => motion.advance_quiet(step, until, quiet),
         }
     }
 

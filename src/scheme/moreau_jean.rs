@@ -192,7 +192,7 @@ fn look_ahead<S: Space>(h: f64, q: &S::Vector, v: &S::Vector, ahead: &mut S::Vec
 
 /// Adds δ, and the displacement that follows from it, to the state.
 #[inline(always)]
-fn go<S: Space>((h, theta): (f64, f64), delta: &S::Vector, q: &mut S::Vector, v: &mut S::Vector) {
+fn add_change<S: Space>((h, theta): (f64, f64), delta: &S::Vector, q: &mut S::Vector, v: &mut S::Vector) {
     for ((q, v), d) in q.as_mut().iter_mut().zip(v.as_mut()).zip(delta.as_ref()) {
         *q += h * (*v + theta * d);
         *v += d;
@@ -222,7 +222,7 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
             Some(row) => self.solve_contacts(row, step, frame)?,
         }
         let carried = self.body.blows.is_some() && self.solve_with_blows(step, frame)?;
-        go::<S>((h, self.theta), self.programme.x(), &mut frame.q, &mut frame.v);
+        add_change::<S>((h, self.theta), self.programme.x(), &mut frame.q, &mut frame.v);
         frame.after.clone_from(&frame.v);
         if carried {
             self.body.shift(&mut frame.q);
@@ -238,7 +238,7 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
         step: u64,
         until: u64,
         frame: &mut Frame<S>,
-        mut calm: Option<&mut QuietSteps>,
+        mut quiet: Option<&mut QuietSteps>,
     ) -> Result<u64> {
         if self.body.blows.is_some() || !self.pushed.is_empty() {
             return Ok(step);
@@ -256,11 +256,11 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
             body.momentum_to((next + 1) as f64 * h, *theta, (&q, &v, &frame.extra), b);
             done = programme.release(b, (next as f64 * h, next));
             before.clone_from(&v);
-            go::<S>((h, *theta), programme.x(), &mut q, &mut v);
+            add_change::<S>((h, *theta), programme.x(), &mut q, &mut v);
             finite = all_finite(q.as_ref()) && all_finite(v.as_ref());
             next += 1;
-            if let Some(calm) = &mut calm {
-                calm.add(next as f64 * h, (q.as_ref(), v.as_ref()), (before.as_ref(), v.as_ref()));
+            if let Some(quiet) = &mut quiet {
+                quiet.add(next as f64 * h, (q.as_ref(), v.as_ref()), (before.as_ref(), v.as_ref()));
             }
         }
         (frame.q, frame.v, frame.before) = (q, v, before);

@@ -19,9 +19,9 @@ pub(super) trait Motion: Debug + Send {
     }
 
     /// Makes the steps from number `step` on that touch no wall, up to number `until`, and adds
-    /// those of one degree of freedom to `calm`; returns the number of the first step that is not
+    /// those of one degree of freedom to `quiet`; returns the number of the first step that is not
     /// made. A motion without such a loop makes none.
-    fn advance_quiet(&mut self, step: u64, _until: u64, _calm: Option<&mut QuietSteps>) -> Result<u64> {
+    fn advance_quiet(&mut self, step: u64, _until: u64, _quiet: Option<&mut QuietSteps>) -> Result<u64> {
         Ok(step)
     }
 

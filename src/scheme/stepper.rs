@@ -232,13 +232,13 @@ impl Stepper {
         self.index
     }
 
-    /// Makes steps in which no wall pushes, at most as many as `calm` has room for and no more than
+    /// Makes steps in which no wall pushes, at most as many as `quiet` has room for and no more than
     /// `most`, and adds them to it. Returns how many.
-    pub(crate) fn advance_quiet_into(&mut self, calm: &mut QuietSteps, most: u64) -> Result<u64> {
+    pub(crate) fn advance_quiet_into(&mut self, quiet: &mut QuietSteps, most: u64) -> Result<u64> {
         self.asking.pass(self.index)?;
         let from = self.index;
-        let until = from.saturating_add(most.min(calm.begin(from, self.kernel.motion().end()))).min(self.due);
-        self.index = self.kernel.advance_quiet(from, until, Some(calm))?;
+        let until = from.saturating_add(most.min(quiet.begin(from, self.kernel.motion().end()))).min(self.due);
+        self.index = self.kernel.advance_quiet(from, until, Some(quiet))?;
         Ok(self.index - from)
     }
 

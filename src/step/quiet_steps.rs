@@ -45,8 +45,8 @@ impl QuietSteps {
         let (&[q], &[v], &[extra]) = (step.q, step.v, step.extra) else { return false };
         let (&[before], &[after]) = (step.velocity_before, step.velocity_after) else { return false };
         let zero = |x: &[f64]| x.len() == self.zeros.len() && x.iter().all(|&x| x == 0.0);
-        let calm = matches!(step.path, Path::Grid) && extra == 0.0 && zero(step.impulse) && zero(step.force);
-        if !calm || !step.closed.is_empty() || !step.friction.is_empty() {
+        let quiet = matches!(step.path, Path::Grid) && extra == 0.0 && zero(step.impulse) && zero(step.force);
+        if !quiet || !step.closed.is_empty() || !step.friction.is_empty() {
             return false;
         }
         if self.begin(step.index, step.start) == 0 {

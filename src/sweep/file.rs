@@ -75,7 +75,7 @@ impl Sweep {
         }
         if let Some(random) = file.section("random") {
             let random = part(random);
-            let (points, seed) = (random.whole("points", MOST_WHOLE)?, random.whole("seed", MOST_WHOLE)?);
+            let (points, seed) = (random.whole_number("points", MOST_WHOLE)?, random.whole_number("seed", MOST_WHOLE)?);
             let design = random.word("kind").unwrap_or_default().parse()?;
             sweep = sweep.drawn(Random { design, points: points.unwrap_or(0), seed });
         }
@@ -87,7 +87,7 @@ impl Sweep {
             let columns = measure.table.words("columns").unwrap_or_default();
             let measures = columns.iter().map(|name| name.parse::<Measure>()).collect::<Result<Vec<_>>>()?;
             sweep = sweep.measure(measures);
-            let most = measure.whole("most_samples", MOST_WHOLE)?.map_or(MOST_SAMPLES, |most| most as usize);
+            let most = measure.whole_number("most_samples", MOST_WHOLE)?.map_or(MOST_SAMPLES, |most| most as usize);
             if let Some(word) = measure.word("samples").filter(|word| word != "no") {
                 sweep = sweep.sample(word.parse()?, most);
             }
@@ -111,7 +111,7 @@ impl Sweep {
             let Some(length) = run.table.section(key).map(|table| Part { source: run.source, table }) else {
                 return Ok(None);
             };
-            let periods = length.whole("periods", f64::from(u32::MAX))?.map(|periods| periods as u32);
+            let periods = length.whole_number("periods", f64::from(u32::MAX))?.map(|periods| periods as u32);
             Ok(Some(Length { periods, seconds: length.number("seconds") }))
         };
         sweep.window = window(length("settle")?, length("keep")?)?;
@@ -120,8 +120,8 @@ impl Sweep {
             sweep = sweep.laid_out(&word)?;
         }
         sweep.kernel = run.word("kernel").map_or(Ok(Kernel::Scalar), |word| word.parse())?;
-        sweep.judged = run.whole("judged", MOST_WHOLE)?;
-        sweep.realisations = run.whole(SEEDS, MOST_WHOLE)?;
+        sweep.judged = run.whole_number("judged", MOST_WHOLE)?;
+        sweep.realisations = run.whole_number(SEEDS, MOST_WHOLE)?;
         Ok(sweep)
     }
 }

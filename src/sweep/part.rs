@@ -18,7 +18,7 @@ impl Part<'_> {
     ///
     /// # Errors
     /// [`Error::Case`] for another number.
-    pub fn whole(&self, key: &str, most: f64) -> Result<Option<u64>> {
+    pub fn whole_number(&self, key: &str, most: f64) -> Result<Option<u64>> {
         let Some(number) = self.table.number(key) else { return Ok(None) };
         match *number.get_ref() {
             x if x.fract() == 0.0 && (0.0..=most).contains(&x) => Ok(Some(x as u64)),

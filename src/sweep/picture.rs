@@ -84,7 +84,7 @@ pub(super) struct Drawn {
 
 impl Drawn {
     /// A picture of everything.
-    pub fn whole(svg: String) -> Self {
+    pub fn complete(svg: String) -> Self {
         Self { svg, left_out: Vec::new() }
     }
 }
@@ -188,9 +188,9 @@ impl Picture {
             Kind::Tornado => self.tornado(&source, request),
             Kind::Line => self.line(&source),
             Kind::Heat => self.heat(&source),
-            Kind::Basin => Ok(self.basin(&source)?.map(Drawn::whole)),
-            Kind::Bifurcation => Ok(self.bifurcation(&source)?.map(Drawn::whole)),
-            Kind::Section => Ok(self.section(&source)?.map(Drawn::whole)),
+            Kind::Basin => Ok(self.basin(&source)?.map(Drawn::complete)),
+            Kind::Bifurcation => Ok(self.bifurcation(&source)?.map(Drawn::complete)),
+            Kind::Section => Ok(self.section(&source)?.map(Drawn::complete)),
         }
     }
 

@@ -19,7 +19,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Interval between reports of progress.
-const TELL: Duration = Duration::from_millis(100);
+const BETWEEN_REPORTS: Duration = Duration::from_millis(100);
 
 /// Options for running a sweep into a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,7 +82,7 @@ impl Plan {
     }
 
     /// As [`Plan::run_into`]; also returns the folder, in whose place files can be added, pictures
-    /// in each of `formats`. `told` is called with what the folder holds that is damaged, before
+    /// in each of `formats`. `on_damage` is called with what the folder holds that is damaged, before
     /// its rows are computed again.
     pub(crate) fn run_in(
         &self,
@@ -90,7 +90,7 @@ impl Plan {
         options: SweepOptions,
         formats: Vec<Format>,
         progress: &dyn Fn(Progress),
-        told: &dyn Fn(&str),
+        on_damage: &dyn Fn(&str),
     ) -> Result<(Finished, Results)> {
         let started = Instant::now();
         let folder = options.shard.folder(folder);
@@ -113,7 +113,7 @@ impl Plan {
                 return Ok((finished, results));
             }
             State::Damaged(what) => {
-                told(&what);
+                on_damage(&what);
                 damaged = Some(what);
             }
             State::Empty | State::Begun => {}
@@ -134,24 +134,24 @@ impl Plan {
     }
 
     /// Computes the rows that are not yet in the journal.
-    fn fill(&self, mut journal: Journal, shard: Shard, threads: usize, tell: &dyn Fn(u64)) -> Result<Journal> {
+    fn fill(&self, mut journal: Journal, shard: Shard, threads: usize, progress: &dyn Fn(u64)) -> Result<Journal> {
         let found = RowsFound::of(self, &mut journal, shard)?;
-        let mut told = Instant::now();
+        let mut reported = Instant::now();
         let outcome =
             self.compute(shard, threads, &found, &|row| (self.run_number(&row), self.block(row)), &mut |finished| {
                 if let Some((run, block)) = finished {
                     journal.add(run, shard.place(self, run).unwrap_or(usize::MAX), &block.bytes())?;
                 }
-                if told.elapsed() > TELL {
-                    told = Instant::now();
-                    tell(journal.done());
+                if reported.elapsed() > BETWEEN_REPORTS {
+                    reported = Instant::now();
+                    progress(journal.done());
                 }
                 Ok(())
             });
         // Rows received before writing failed are kept.
         let flushed = journal.flush();
         outcome.and(flushed)?;
-        tell(journal.done());
+        progress(journal.done());
         Ok(journal)
     }
 

@@ -33,10 +33,10 @@ pub(super) struct Table {
     header: csv::StringRecord,
 }
 
-/// One line.
-pub(super) struct Line<'a>(&'a csv::StringRecord);
+/// One row.
+pub(super) struct CsvRow<'a>(&'a csv::StringRecord);
 
-impl Line<'_> {
+impl CsvRow<'_> {
     pub fn text(&self, index: usize) -> &str {
         self.0.get(index).unwrap_or_default()
     }
@@ -65,18 +65,18 @@ impl Table {
     }
 
     /// Calls `take` with every line.
-    pub fn each(mut self, mut take: impl FnMut(Line<'_>)) -> Result<()> {
+    pub fn each(mut self, mut take: impl FnMut(CsvRow<'_>)) -> Result<()> {
         let mut record = csv::StringRecord::new();
         while self.reader.read_record(&mut record).map_err(|error| failed(&self.path, &error))? {
-            take(Line(&record));
+            take(CsvRow(&record));
         }
         Ok(())
     }
 
     /// The value of `of` for the first line; `None` for an empty table.
-    pub fn first<T>(mut self, of: impl Fn(Line<'_>) -> T) -> Option<T> {
+    pub fn first<T>(mut self, of: impl Fn(CsvRow<'_>) -> T) -> Option<T> {
         let mut record = csv::StringRecord::new();
-        matches!(self.reader.read_record(&mut record), Ok(true)).then(|| of(Line(&record)))
+        matches!(self.reader.read_record(&mut record), Ok(true)).then(|| of(CsvRow(&record)))
     }
 }
 

@@ -38,7 +38,7 @@ pub(super) fn axis(vary: &Part<'_>) -> Result<Axis> {
         Value::List(items) => items.iter().map(|item| vary.value(item)).collect::<Result<Vec<_>>>(),
         _ => Err(vary.source.error(list.span(), "`vary.values` is no list", "expected values = a list: [4e-3, 5e-3]")),
     });
-    let (list, points) = (list.transpose()?, vary.whole("points", MOST_WHOLE)?);
+    let (list, points) = (list.transpose()?, vary.whole_number("points", MOST_WHOLE)?);
     let ([from, to], normal) = (["from", "to"].map(|key| vary.number(key)), vary.table.section("normal"));
     let values = match (list, from, to, points, normal) {
         (Some(values), None, None, None, None) => Values::List(values),

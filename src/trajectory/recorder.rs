@@ -128,17 +128,17 @@ impl Recorder {
 
     /// Adds steps in which no wall pushes and no contact ends, as [`Recorder::observe`] adds each
     /// of them.
-    pub(crate) fn observe_quiet(&mut self, calm: &QuietSteps) {
+    pub(crate) fn observe_quiet(&mut self, quiet: &QuietSteps) {
         let mut from = 0;
         // Impulses since the last row belong to the next one.
-        while from < calm.len() && (!self.worn.is_empty() || self.pending.iter().any(|&sum| sum != 0.0)) {
-            self.observe(&calm.step(from));
+        while from < quiet.len() && (!self.worn.is_empty() || self.pending.iter().any(|&sum| sum != 0.0)) {
+            self.observe(&quiet.step(from));
             from += 1;
         }
         let mut rows = [0; QuietSteps::capacity()];
         let mut count = 0;
-        for k in from..calm.len() {
-            let (start, end) = (calm.start(k), calm.end()[k]);
+        for k in from..quiet.len() {
+            let (start, end) = (quiet.start(k), quiet.end()[k]);
             if self.columns.time.len() as u64 <= self.rows && end > self.due - 0.5 * (end - start) {
                 self.columns.time.push(self.due);
                 self.due = self.row_time(self.columns.time.len() as u64);
@@ -146,7 +146,7 @@ impl Recorder {
             }
         }
         let Columns { displacement, velocity, .. } = &mut self.columns;
-        for (columns, values) in [(displacement, calm.q()), (velocity, calm.v())] {
+        for (columns, values) in [(displacement, quiet.q()), (velocity, quiet.v())] {
             for (column, probe) in columns.iter_mut().zip(&self.probes) {
                 column.extend(rows[..count].iter().map(|&k| probe.dot(&values[k..=k])));
             }

@@ -71,7 +71,7 @@ fn an_error_of_a_case_file_has_its_place_its_key_and_its_cause() {
     let wall = Wall::upper("far", 1.0).at(Row::dof(7));
     let error = Scene::oscillator(1.0, 0.0, 1.0).with_wall(wall).validate().unwrap_err();
     assert_eq!(subject(&error), Subject::wall("far").part("at"));
-    assert_eq!(subject(&error).whole(), Some(Subject::wall("far")));
+    assert_eq!(subject(&error).enclosing(), Some(Subject::wall("far")));
     assert!(error.source().is_none());
 }
 

@@ -2,7 +2,9 @@
 //! command itself. Errors, files and counters only: no time is asserted.
 
 use signorini::scheme::SchemeKind;
-use signorini::study::work_precision::{Effort, Measured, Quantity, Series, Steps, WorkPrecision, every_method, study};
+use signorini::study::work_precision::{
+    Effort, Measured, MethodPoints, Quantity, Steps, WorkPrecision, every_method, study,
+};
 use signorini::{Integrator, Load, Method, PenaltyLaw, Scene, Scheme, Wall};
 use std::process::{Command, Output};
 
@@ -32,7 +34,7 @@ fn order(chart: &WorkPrecision, scheme: Scheme) -> f64 {
     series.order(chart.known(&scheme)).unwrap_or_else(|| panic!("{scheme}: no order from {series:?}"))
 }
 
-fn series(chart: &WorkPrecision, scheme: Scheme) -> &Series {
+fn series(chart: &WorkPrecision, scheme: Scheme) -> &MethodPoints {
     chart.series.iter().find(|s| s.method.scheme == scheme).unwrap()
 }
 
@@ -113,7 +115,8 @@ fn the_front_on_the_source_scene_ends_at_the_exact_scheme_with_an_error_of_round
     // Rounding is 2e-16 and the scene makes it grow by 27: the estimate is 2e-14, never 0.
     assert!((1e-16..=1e-11).contains(&exact.errors.displacement), "{:e}", exact.errors.displacement);
     let others = chart.series.iter().filter(|s| s.method.scheme != Scheme::Event);
-    let least = others.flat_map(Series::measured).map(|(_, m)| m.errors.displacement).fold(f64::INFINITY, f64::min);
+    let least =
+        others.flat_map(MethodPoints::measured).map(|(_, m)| m.errors.displacement).fold(f64::INFINITY, f64::min);
     assert!(least > 1e4 * exact.errors.displacement);
     for tolerance in [1e-6, 1e-9] {
         assert!(series(&chart, Scheme::Event).cheapest(Quantity::Displacement, tolerance).is_some());

@@ -204,7 +204,7 @@ fn a_bar_on_a_wall_shows_what_each_scheme_does_to_energy_and_to_the_force() {
     // ½ E A ε² L = 1/8 J at the start, by linear elements exactly.
     assert!((quality.energy - 0.125).abs() < 1e-9, "{}", quality.energy);
     let at = |scheme: Scheme, multiple: f64| {
-        let near = |line: &&signorini::study::stability::lasting::Line| {
+        let near = |line: &&signorini::study::stability::lasting::LastingForce| {
             line.scheme == scheme && (line.step / (multiple * 2e-3) - 1.0).abs() < 0.1
         };
         quality.lines.iter().find(near).unwrap().outcome.clone().unwrap()

@@ -1,14 +1,14 @@
 //! `signorini continue`: branches of periodic orbits over a key.
 
 mod args;
-mod begin;
 mod family;
+mod first_orbit;
 mod loci;
 mod varied;
 
 pub use args::Args;
 
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
 use crate::orbit::branch::{Graph, Locus, OnLocus, Point, Request, Switch, graph};
@@ -18,21 +18,21 @@ use crate::output::request::{extended, request};
 use crate::output::results::Results;
 use crate::output::table::Table;
 use crate::output::{self, json, orbits, overlay};
-use begin::Begin;
 use family::SceneFamily;
+use first_orbit::FirstOrbit;
 use serde_json::{Value, json};
 use varied::Varied;
 
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let family = SceneFamily::new(args, ui)?;
-    let begin = args.from.as_deref().map(|path| Begin::read(path, &family)).transpose()?;
+    let first = args.from.as_deref().map(|path| FirstOrbit::read(path, &family)).transpose()?;
     let column = family.key.column();
     let beneath = args.over.as_deref().map(|path| overlay::read(path, &family.key.key, &column)).transpose()?;
     let case = &family.case;
     let asked = extended(request("continue", case, &[]), args.settings());
     let mut results = args.place.open(case, "continue", asked)?;
-    let begin = begin.map_or_else(|| Begin::settled(&family, args.settle, ui), Ok)?;
-    let found = branches(args, &family, &begin, ui)?;
+    let first = first.map_or_else(|| FirstOrbit::settled(&family, args.settle, ui), Ok)?;
+    let found = branches(args, &family, &first, ui)?;
     let drawn = Drawn { graph: &found, column, label: family.key.label(), scene: &case.scene };
     let document = write(&mut results, &drawn, &family, beneath.as_deref(), !args.place.no_report)?;
     let mut traced = Vec::new();
@@ -42,17 +42,17 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     }
     results.add_to_manifest("orbit_command", json!(args.case.command_line("orbit")));
     results.add_to_manifest("case_file", case.document.json()?);
-    let mut shown = Shown::of(results, !args.place.no_report, document);
-    show_branches(&mut shown, &drawn);
-    show_specials(&mut shown, &drawn);
+    let mut answer = Answer::of(results, !args.place.no_report, document);
+    show_branches(&mut answer, &drawn);
+    show_specials(&mut answer, &drawn);
     for (number, locus) in traced.iter().enumerate() {
-        shown.prose(format!("locus {} of {}", number + 1, in_words(locus)));
+        answer.prose(format!("locus {} of {}", number + 1, in_words(locus)));
     }
-    Ok(shown)
+    Ok(answer)
 }
 
 /// Follows the branches with a progress bar, which shows the value of the key on the current one.
-fn branches(args: &Args, family: &SceneFamily, begin: &Begin, ui: &Ui) -> Result<Graph> {
+fn branches(args: &Args, family: &SceneFamily, first: &FirstOrbit, ui: &Ui) -> Result<Graph> {
     let Varied { value, range, .. } = family.key;
     let switch = match args.switch.as_str() {
         "no" => Switch::No,
@@ -63,7 +63,7 @@ fn branches(args: &Args, family: &SceneFamily, begin: &Begin, ui: &Ui) -> Result
     let [low, high] = range;
     ui.with_bar("branches", |bar| {
         let mut progress = |point: &Point| bar.set_share((point.value - low) / (high - low));
-        graph(&|value| family.scene(value), begin.start(), value, &request, &mut progress)
+        graph(&|value| family.scene(value), first.start(), value, &request, &mut progress)
     })
 }
 
@@ -124,7 +124,7 @@ fn in_words(locus: &Locus) -> String {
 }
 
 /// Shows the branches.
-fn show_branches(shown: &mut Shown, drawn: &Drawn<'_>) {
+fn show_branches(answer: &mut Answer, drawn: &Drawn<'_>) {
     let graph = drawn.graph;
     let rows = graph.branches.iter().enumerate().map(|(number, branch)| {
         let (Some(first), Some(last)) = (branch.points.first(), branch.points.last()) else { return Vec::new() };
@@ -152,11 +152,11 @@ fn show_branches(shown: &mut Shown, drawn: &Drawn<'_>) {
         ]
     });
     let header = ["branch", "signature", "periods", "points", "stable", "from", "begins at", "to", "ends at"];
-    shown.table(Table::new(&header, rows.collect()), "branches.json");
+    answer.table(Table::new(&header, rows.collect()), "branches.json");
 }
 
 /// Shows the special points.
-fn show_specials(shown: &mut Shown, drawn: &Drawn<'_>) {
+fn show_specials(answer: &mut Answer, drawn: &Drawn<'_>) {
     let graph = drawn.graph;
     if graph.specials.is_empty() {
         return;
@@ -176,5 +176,5 @@ fn show_specials(shown: &mut Shown, drawn: &Drawn<'_>) {
         ]
     });
     let header = ["special", "what", &drawn.label, "branch", "leads to", "not followed because"];
-    shown.table(Table::new(&header, rows.collect()), "special.csv");
+    answer.table(Table::new(&header, rows.collect()), "special.csv");
 }

@@ -7,7 +7,7 @@ mod penalty;
 
 use super::case_args::CaseArgs;
 use super::estimate::{RunTime, run_time, time_in_words};
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
@@ -43,7 +43,7 @@ struct Section {
     lines: Vec<String>,
 }
 
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.case.read(ui)?;
     let case = match args.modes {
         Some(modes) => case.with("system.modes", modes)?,
@@ -52,13 +52,13 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let choice = choice::choose(&case.scene);
     let times = [choice.method, Method::new(Scheme::Event)]
         .map(|method| run_time(&case.scene, &method, case.time.step, MOMENT));
-    let mut shown = Shown::new(document(&case, &choice, &times)?);
-    shown.prose(format!("{}: {}", case.name, case.title.as_deref().unwrap_or("no title")));
+    let mut answer = Answer::new(document(&case, &choice, &times)?);
+    answer.prose(format!("{}: {}", case.name, case.title.as_deref().unwrap_or("no title")));
     for Section { heading, lines } in sections(&case, &choice, &times)? {
-        shown.prose(heading.to_owned());
-        lines.iter().for_each(|line| shown.prose(format!("  {line}")));
+        answer.prose(heading.to_owned());
+        lines.iter().for_each(|line| answer.prose(format!("  {line}")));
     }
-    Ok(shown)
+    Ok(answer)
 }
 
 /// The explanation; `times` are those of a run by the chosen scheme, and by the exact one.

@@ -2,7 +2,7 @@
 
 mod tube;
 
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::values;
 use crate::case::Embedded;
 use crate::error::{Error, Result};
@@ -35,7 +35,7 @@ pub struct Args {
 /// The name of a tube made from its data.
 const TUBE: &str = "tube";
 
-pub fn answer(args: &Args) -> Result<Shown> {
+pub fn answer(args: &Args) -> Result<Answer> {
     let Some(name) = &args.name else { return Ok(list()) };
     let path = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
     let text = if name == TUBE { Some(args.tube.text(&format!("{TUBE}.toml"))?) } else { None };
@@ -56,18 +56,18 @@ pub fn answer(args: &Args) -> Result<Shown> {
     }
     files.iter().try_for_each(|(path, text)| write_whole(path, text.as_bytes()))?;
     let paths: Vec<_> = files.iter().map(|(path, _)| path).collect();
-    let mut shown = Shown::new(json!({ "files_written": paths }));
-    shown.messages(paths.iter().map(|path| format!("wrote {}", path.display())));
-    Ok(shown)
+    let mut answer = Answer::new(json!({ "files_written": paths }));
+    answer.messages(paths.iter().map(|path| format!("wrote {}", path.display())));
+    Ok(answer)
 }
 
 /// The built-in cases and their titles.
-fn list() -> Shown {
+fn list() -> Answer {
     let title = |case: &Embedded| case.case().ok().and_then(|c| c.title).unwrap_or_default();
     let cases: Vec<_> = Embedded::all().iter().map(|case| (case.name, title(case))).collect();
     let documents: Vec<_> = cases.iter().map(|(case, title)| json!({ "case": case, "title": title })).collect();
-    let mut shown = Shown::new(json!({ "cases": documents }));
+    let mut answer = Answer::new(json!({ "cases": documents }));
     let lines: Vec<_> = cases.iter().map(|(case, title)| format!("{case:20} {title}")).collect();
-    shown.verbatim(lines.join("\n"));
-    shown
+    answer.verbatim(lines.join("\n"));
+    answer
 }

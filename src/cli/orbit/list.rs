@@ -1,7 +1,7 @@
 //! `orbit --list`: orbits of one impact, in closed form.
 
 use crate::case::Case;
-use crate::cli::pipeline::Shown;
+use crate::cli::pipeline::Answer;
 use crate::error::Result;
 use crate::orbit::{ClosedForm, Problem, closed_forms};
 use crate::output::periodic::listed;
@@ -11,7 +11,7 @@ use crate::output::table::Table;
 const LISTED: u32 = 8;
 
 /// The closed forms.
-pub(super) fn list(case: &Case) -> Result<Shown> {
+pub(super) fn list(case: &Case) -> Result<Answer> {
     let scene = &case.scene;
     let forms = closed_forms(scene, LISTED)?;
     // With several degrees of freedom the motion between the impacts is not checked.
@@ -21,10 +21,10 @@ pub(super) fn list(case: &Case) -> Result<Shown> {
         Some(problem.admissible(&form.orbit(problem)).ok()?.holds())
     };
     let found: Vec<_> = forms.into_iter().map(|form| (form.clone(), holds(&form))).collect();
-    let mut shown = Shown::new(listed(&found, scene));
+    let mut answer = Answer::new(listed(&found, scene));
     if found.is_empty() {
-        shown.prose(format!("no orbit of one impact per period of the orbit in up to {LISTED} forcing periods"));
-        return Ok(shown);
+        answer.prose(format!("no orbit of one impact per period of the orbit in up to {LISTED} forcing periods"));
+        return Ok(answer);
     }
     let rows = found.iter().map(|(form, admissible)| {
         let wall = scene.walls.get(form.wall).map_or("", |wall| wall.name.as_str());
@@ -47,6 +47,6 @@ pub(super) fn list(case: &Case) -> Result<Shown> {
     });
     let header =
         ["wall", "periods", "symmetric", "phase (cycles)", "speed (m/s)", "largest |μ|", "stability", "admissible"];
-    shown.table(Table::new(&header, rows.collect()), "--json");
-    Ok(shown)
+    answer.table(Table::new(&header, rows.collect()), "--json");
+    Ok(answer)
 }

@@ -7,7 +7,7 @@ mod written;
 
 pub use args::Args;
 
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::{Error, Result};
 use crate::orbit::{Floquet, Kind, Orbit, Problem};
@@ -21,7 +21,7 @@ use written::{periods_in_words, write_document};
 /// Instants of the motion over one orbit.
 const POINTS: u32 = 2000;
 
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.case.read(ui)?;
     if args.list {
         return list(&case);
@@ -48,10 +48,10 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
         results.draw("phase", &known.portrait(&title))?;
         results.draw("motion", &known.picture(&title))?;
     }
-    let mut shown = Shown::of(results, !args.place.no_report, document);
-    show(&mut shown, &known);
-    shown.fall_short(fault(&known));
-    Ok(shown)
+    let mut answer = Answer::of(results, !args.place.no_report, document);
+    show(&mut answer, &known);
+    answer.fall_short(fault(&known));
+    Ok(answer)
 }
 
 /// Why what was found is no orbit.
@@ -82,11 +82,11 @@ fn headline(problem: &Problem, orbit: &Orbit) -> String {
 }
 
 /// Shows an orbit of one degree of freedom.
-fn show(shown: &mut Shown, known: &Known<'_>) {
+fn show(answer: &mut Answer, known: &Known<'_>) {
     let Known { problem, orbit, floquet, admissible, judged } = known;
     let scene = problem.scene();
     let name = |wall: usize| scene.walls.get(wall).map_or("", |wall| wall.name.as_str());
-    shown.prose(format!("orbit: {}, period {:.9} s", headline(problem, orbit), orbit.period()));
+    answer.prose(format!("orbit: {}, period {:.9} s", headline(problem, orbit), orbit.period()));
     if !orbit.phases.is_empty() {
         let rows = orbit.signature.events.iter().enumerate().map(|(index, event)| {
             let number = |values: &[f64]| values.get(index).map_or_else(String::new, |x| format!("{x:.12}"));
@@ -94,13 +94,13 @@ fn show(shown: &mut Shown, known: &Known<'_>) {
             vec![event.kind.to_string(), name(event.wall).to_owned(), number(&orbit.phases), speed]
         });
         let header = ["event", "wall", "phase (cycles)", "speed (m/s)"];
-        shown.table(Table::new(&header, rows.collect()), "orbit.json");
+        answer.table(Table::new(&header, rows.collect()), "orbit.json");
     }
-    multipliers(floquet).into_iter().for_each(|line| shown.prose(line));
+    multipliers(floquet).into_iter().for_each(|line| answer.prose(line));
     let near = admissible.nearest.map_or_else(String::new, |nearest| {
         format!(", nearest to a wall without striking it: {:.4e} m ({})", nearest.gap, name(nearest.wall))
     });
-    shown.prose(format!("displacement at most {:.6e} m{near}", admissible.largest));
+    answer.prose(format!("displacement at most {:.6e} m{near}", admissible.largest));
     if judged.motion.is_empty() {
         return;
     }
@@ -115,8 +115,8 @@ fn show(shown: &mut Shown, known: &Known<'_>) {
         ]
     });
     let header = ["wall", "contacts", "impulse (N s)", "largest speed (m/s)", "largest lasting force (N)"];
-    shown.table(Table::new(&header, rows.collect()), "orbit.json");
-    shown.prose(format!(
+    answer.table(Table::new(&header, rows.collect()), "orbit.json");
+    answer.prose(format!(
         "free run over one period: comes back within {:.1e} of the gap, {} events",
         judged.closure,
         if judged.same_events { "the same" } else { "other" }

@@ -3,7 +3,7 @@
 use super::args::Args;
 use super::written::{periods_in_words, write_document};
 use crate::case::Case;
-use crate::cli::pipeline::Shown;
+use crate::cli::pipeline::Answer;
 use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
 use crate::orbit::{Shot, shoot};
@@ -12,7 +12,7 @@ use crate::output::table::Table;
 use crate::scene::{Scene, Wall};
 
 /// The orbit of a structure, by shooting.
-pub(super) fn structure(args: &Args, case: &Case, ui: &Ui) -> Result<Shown> {
+pub(super) fn structure(args: &Args, case: &Case, ui: &Ui) -> Result<Answer> {
     if args.signature.is_some() {
         let expected = "a case of one degree of freedom; the orbit of a structure is the one on which its run settles \
                         (--settle), or one near that of a file (--from)";
@@ -26,21 +26,21 @@ pub(super) fn structure(args: &Args, case: &Case, ui: &Ui) -> Result<Shown> {
         None => shoot(scene, args.settle, &|share| bar.set_share(share)),
     })?;
     let document = write_document(&mut results, shot(&found, scene, &case.name, modal))?;
-    let mut shown = Shown::of(results, !args.place.no_report, document);
-    show_structure(&mut shown, &found, scene);
-    Ok(shown)
+    let mut answer = Answer::of(results, !args.place.no_report, document);
+    show_structure(&mut answer, &found, scene);
+    Ok(answer)
 }
 
 /// Shows an orbit of a structure.
-fn show_structure(shown: &mut Shown, found: &Shot, scene: &Scene) {
+fn show_structure(answer: &mut Answer, found: &Shot, scene: &Scene) {
     let period = f64::from(found.periods) * found.forcing_period;
-    shown.prose(format!("orbit: {}, period {period:.9} s", periods_in_words(found.periods)));
+    answer.prose(format!("orbit: {}, period {period:.9} s", periods_in_words(found.periods)));
     let multipliers = found.multipliers.iter().take(4).map(|[re, im]| match im {
         0.0 => format!("{re:.9}"),
         im => format!("{re:.9} {im:+.9}i"),
     });
     let verdict = if found.is_stable() { "stable" } else { "unstable" };
-    shown.prose(format!(
+    answer.prose(format!(
         "largest of {} Floquet multipliers: {} ({verdict})",
         found.multipliers.len(),
         multipliers.collect::<Vec<_>>().join(", ")
@@ -49,6 +49,6 @@ fn show_structure(shown: &mut Shown, found: &Shot, scene: &Scene) {
     let row = |((wall, contacts), impulse): ((&Wall, &u64), &f64)| {
         vec![wall.name.clone(), contacts.to_string(), format!("{impulse:.9e}")]
     };
-    shown.table(Table::new(&["wall", "contacts", "impulse (N s)"], rows.map(row).collect()), "orbit.json");
-    shown.prose(format!("free run over one period: comes back within {:.1e} of the gap", found.closure));
+    answer.table(Table::new(&["wall", "contacts", "impulse (N s)"], rows.map(row).collect()), "orbit.json");
+    answer.prose(format!("free run over one period: comes back within {:.1e} of the gap", found.closure));
 }

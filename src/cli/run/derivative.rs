@@ -1,7 +1,7 @@
 //! `run --derivative`: what the keys of the case change.
 
 use crate::case::{Case, Key};
-use crate::cli::pipeline::Shown;
+use crate::cli::pipeline::Answer;
 use crate::error::{Error, Result};
 use crate::output::derivatives::{self as output, FILE, Varied};
 use crate::output::results::Results;
@@ -87,10 +87,10 @@ impl Wanted {
     }
 
     /// Shows the table of what 1 % more of each key changes.
-    pub fn show(&self, shown: &mut Shown, case: &Case, found: &Derivatives) {
+    pub fn show(&self, answer: &mut Answer, case: &Case, found: &Derivatives) {
         if let Some(table) = output::table(&case.scene, &self.keys, found) {
-            shown.table(table, FILE);
+            answer.table(table, FILE);
         }
-        shown.remarks(output::remarks(&self.keys, found));
+        answer.remarks(output::remarks(&self.keys, found));
     }
 }

@@ -9,7 +9,7 @@ mod seeds;
 pub use args::Args;
 pub(super) use seeds::checked as checked_seeds;
 
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
@@ -24,7 +24,7 @@ use checked::CheckedRun;
 use serde_json::json;
 use std::fmt::Display;
 
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.request.read(ui)?;
     // A stretch outside the run is refused before anything runs.
     let span = args.span.within(&case, case.scene.duration)?;
@@ -64,24 +64,24 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     if let Some(error) = &shortfall {
         document["error"] = json!(error.to_string());
     }
-    let mut shown = Shown::of(results, !args.request.place.no_report, document);
-    shown.messages([first]);
-    show(&mut shown, &case, &run, &method)?;
+    let mut answer = Answer::of(results, !args.request.place.no_report, document);
+    answer.messages([first]);
+    show(&mut answer, &case, &run, &method)?;
     if let Some((wanted, found)) = &derivatives {
-        wanted.show(&mut shown, &case, found);
+        wanted.show(&mut answer, &case, found);
     }
     if let Some(study) = &study {
-        seeds::show(&mut shown, study, &case);
+        seeds::show(&mut answer, study, &case);
     }
-    shown.messages(checked_line("refinement", refinement.as_ref()));
-    shown.messages(checked_line("truncation", truncation.as_ref()));
-    shown.messages(checked_line("modes", modes.as_ref()));
-    shown.messages(checked_line("accuracy", accuracy.as_ref()));
+    answer.messages(checked_line("refinement", refinement.as_ref()));
+    answer.messages(checked_line("truncation", truncation.as_ref()));
+    answer.messages(checked_line("modes", modes.as_ref()));
+    answer.messages(checked_line("accuracy", accuracy.as_ref()));
     if shortfall.is_some() {
-        shown.close_with(", kept in spite of the error below");
+        answer.close_with(", kept in spite of the error below");
     }
-    shown.fall_short(shortfall);
-    Ok(shown)
+    answer.fall_short(shortfall);
+    Ok(answer)
 }
 
 fn succeeded<T>(check: Option<&Result<T>>) -> Option<&T> {
@@ -97,24 +97,24 @@ fn checked_line<T: Display>(what: &str, check: Option<&Result<T>>) -> Option<Str
 }
 
 /// Shows a run: its tables with the remarks on them, its figures in a line, and its notes.
-fn show(shown: &mut Shown, case: &Case, run: &Run, method: &Method) -> Result<()> {
+fn show(answer: &mut Answer, case: &Case, run: &Run, method: &Method) -> Result<()> {
     if let Some(table) = output::table(run)? {
-        shown.table(table, "summary.json");
-        shown.remarks(output::remarks(run));
+        answer.table(table, "summary.json");
+        answer.remarks(output::remarks(run));
     }
     if let Some(table) = supports::table(case, run) {
-        shown.table(table, "supports.csv");
-        shown.remarks(supports::remarks(case, run));
+        answer.table(table, "supports.csv");
+        answer.remarks(supports::remarks(case, run));
     }
     if let Some(options) = case.statistics {
         let episodes = Episodes::of(case, run, options.rest);
         if let Some(table) = episodes.table(&case.scene) {
-            shown.table(table, "episodes.csv");
-            shown.remarks([episodes.remark()]);
+            answer.table(table, "episodes.csv");
+            answer.remarks([episodes.remark()]);
         }
     }
     let notes = run.notes.iter().cloned().chain(case.notes()).chain(supports::warnings(case, run));
-    shown.messages([output::line(case, run, method)]);
-    shown.messages(notes.map(|note| format!("note: {note}")));
+    answer.messages([output::line(case, run, method)]);
+    answer.messages(notes.map(|note| format!("note: {note}")));
     Ok(())
 }

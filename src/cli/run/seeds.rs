@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::cli::estimate::DurationEstimate;
-use crate::cli::pipeline::Shown;
+use crate::cli::pipeline::Answer;
 use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
 use crate::output::realisations as output;
@@ -172,9 +172,9 @@ pub fn write(study: &Realisations, results: &mut Results) -> Result<()> {
 }
 
 /// Shows the table of the study and the remarks on it.
-pub fn show(shown: &mut Shown, study: &Realisations, case: &Case) {
+pub fn show(answer: &mut Answer, study: &Realisations, case: &Case) {
     if let Some(table) = output::table(study, &case.scene) {
-        shown.table(table, "summary.json");
+        answer.table(table, "summary.json");
     }
-    shown.messages(output::remarks(study, &case.scene));
+    answer.messages(output::remarks(study, &case.scene));
 }

@@ -1,6 +1,6 @@
 //! The table of the effects of keys that are varied one at a time.
 
-use super::Shown;
+use super::Answer;
 use crate::output::realisations::with_interval;
 use crate::output::table::Table;
 use crate::sweep::Effect;
@@ -9,7 +9,7 @@ use crate::sweep::Effect;
 const MOST_LINES: usize = 40;
 
 /// Shows the effects, by measure and place, the largest first; nothing where there are none.
-pub fn show_effects(shown: &mut Shown, effects: &[Effect], seeds: Option<u64>) {
+pub fn show_effects(answer: &mut Answer, effects: &[Effect], seeds: Option<u64>) {
     if effects.is_empty() {
         return;
     }
@@ -29,8 +29,8 @@ pub fn show_effects(shown: &mut Shown, effects: &[Effect], seeds: Option<u64>) {
     };
     let rows = effects.iter().take(MOST_LINES).map(|one| cut(row(one))).collect();
     let header = if every { &header[..header.len() - 1] } else { &header[..] };
-    shown.table(Table::new(header, rows).in_blocks(), "effects.csv");
-    shown.messages([match seeds {
+    answer.table(Table::new(header, rows).in_blocks(), "effects.csv");
+    answer.messages([match seeds {
         Some(count) => format!(
             "effect: the mean over {count} realisations of the measure at the upper bound less that at the lower one, \
              under the same seeds; ± is the half width of its 95 % interval, by Student's t"

@@ -8,7 +8,7 @@ pub(super) use effects::show_effects;
 
 use super::command_line::command_line;
 use super::estimate::time_in_words;
-use super::pipeline::Shown;
+use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
 use crate::output::results::Results;
@@ -27,7 +27,7 @@ const TRIAL: Duration = Duration::from_secs(3);
 /// Interval of the lines that report progress.
 const REPORT_INTERVAL: Duration = Duration::from_secs(30);
 
-pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
+pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     // A format that cannot be written is refused before anything is computed.
     args.place.formats.usable()?;
     let sweep = args.sweep(ui)?;
@@ -43,23 +43,23 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Shown> {
     let effects = if whole { effects(&finished.folder, &plan.request())? } else { Vec::new() };
     write_effects(&mut results, &effects)?;
     let document = write_summary(&mut results, document(&plan, &finished, &pictures.drawn))?;
-    let mut shown = Shown::of(results, whole && !args.place.no_report, document);
-    show_effects(&mut shown, &effects, plan.realisations());
-    show_means(&mut shown, &finished.folder, &plan.request())?;
+    let mut answer = Answer::of(results, whole && !args.place.no_report, document);
+    show_effects(&mut answer, &effects, plan.realisations());
+    show_means(&mut answer, &finished.folder, &plan.request())?;
     let found = match finished.found {
         0 => String::new(),
         found if found == finished.runs => ", all of them there already".to_owned(),
         found => format!(", {found} of them there already"),
     };
     let seeds = plan.realisations().map_or_else(String::new, |count| format!(" × {count} realisations"));
-    shown.messages([format!("{} rows{seeds} in {}{found}", finished.rows, time_in_words(finished.seconds))]);
-    shown.messages(status_messages(&finished.folder, &finished.tables, finished.rows)?);
-    shown.messages(picture_messages(&pictures));
+    answer.messages([format!("{} rows{seeds} in {}{found}", finished.rows, time_in_words(finished.seconds))]);
+    answer.messages(status_messages(&finished.folder, &finished.tables, finished.rows)?);
+    answer.messages(picture_messages(&pictures));
     if !whole {
-        shown.close_with("; `signorini merge` joins the shards");
+        answer.close_with("; `signorini merge` joins the shards");
     }
-    shown.fall_short(finished.failure(args.strict));
-    Ok(shown)
+    answer.fall_short(finished.failure(args.strict));
+    Ok(answer)
 }
 
 /// Runs the sweep with a progress bar; a line from time to time reports progress too.
@@ -86,20 +86,20 @@ fn run(args: &Args, plan: &Plan, title: &str, ui: &Ui) -> Result<(Finished, Resu
 }
 
 /// Shows the means over realisations of the rows in `folder`, where they have several.
-pub(super) fn show_means(shown: &mut Shown, folder: &Path, request: &Map<String, Value>) -> Result<()> {
+pub(super) fn show_means(answer: &mut Answer, folder: &Path, request: &Map<String, Value>) -> Result<()> {
     if let Some((table, remark)) = means(folder, request)? {
-        shown.table(table, "sweep.csv");
-        shown.messages([remark]);
+        answer.table(table, "sweep.csv");
+        answer.messages([remark]);
     }
     Ok(())
 }
 
 /// The size of the sweep, and estimates of its time and bytes.
-fn planned(plan: &Plan) -> Shown {
+fn planned(plan: &Plan) -> Answer {
     let estimate = plan.estimate(TRIAL);
     let chains = plan.count() / plan.chain_rows();
     let seeds = plan.realisations().map_or_else(String::new, |count| format!(" × {count} realisations"));
-    let mut shown = Shown::new(json!({
+    let mut answer = Answer::new(json!({
         "rows": plan.count(),
         "runs": plan.runs(),
         "chains": chains,
@@ -111,20 +111,20 @@ fn planned(plan: &Plan) -> Shown {
         "threads": estimate.threads,
         "bytes": estimate.bytes,
     }));
-    shown.prose(format!("{} rows{seeds} by {}, {} columns", plan.count(), plan.method(), plan.header().len()));
+    answer.prose(format!("{} rows{seeds} by {}, {} columns", plan.count(), plan.method(), plan.header().len()));
     if plan.chain_rows() > 1 {
-        shown.prose(format!("{chains} chains of {} rows, each on one thread", plan.chain_rows()));
+        answer.prose(format!("{chains} chains of {} rows, each on one thread", plan.chain_rows()));
     }
     let failed = if estimate.failed > 0 { format!(", {} of which failed", estimate.failed) } else { String::new() };
-    shown.prose(format!(
+    answer.prose(format!(
         "about {} on {} threads, from {} {} tried{failed}",
         time_in_words(estimate.seconds),
         estimate.threads,
         estimate.tried,
         if seeds.is_empty() { "rows" } else { "realisations" }
     ));
-    shown.prose(format!("about {:.1e} bytes of tables, and as much again while it runs", estimate.bytes));
-    shown
+    answer.prose(format!("about {:.1e} bytes of tables, and as much again while it runs", estimate.bytes));
+    answer
 }
 
 /// The sweep as a document: `summary.json`.

@@ -168,8 +168,8 @@ impl Series {
         for (a, v) in self.motion[n..2 * n].iter_mut().zip(from.v) {
             *a = v * self.unit;
         }
-        self.look(body, 0);
-        self.look(body, 1);
+        self.add_row_term(body, 0);
+        self.add_row_term(body, 1);
         Wave::wind(&mut self.waves, body, self.start, self.unit);
         for k in 0..self.terms - 2 {
             let (known, next) = self.motion.split_at_mut((k + 2) * n);
@@ -212,7 +212,7 @@ impl Series {
             }
             body.solve(force);
             force.iter_mut().for_each(|a| *a *= factor);
-            self.look(body, k + 2);
+            self.add_row_term(body, k + 2);
             if slides && k == 0 {
                 let held = hold.rows().iter().filter_map(|held| self.circles.get(held.row.wrapping_sub(self.fixed)));
                 let bend = held.map(Circle::start).fold(0.0, f64::max);
@@ -226,7 +226,7 @@ impl Series {
 
     /// Computes term k of the displacements at the rows.
     #[inline]
-    fn look(&mut self, body: &SeriesBody, k: usize) {
+    fn add_row_term(&mut self, body: &SeriesBody, k: usize) {
         let term = &self.motion[k * self.n..(k + 1) * self.n];
         for row in 0..body.rows.count() {
             self.seen[row * TERMS + k] = body.rows.dot(row, term);

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 
 pub(super) fn scene(case: &Case) -> Value {
-    let whole = case.whole();
+    let whole = case.unreduced();
     let mut out = Map::new();
     out.insert(case.model.kind().to_owned(), system(case));
     if !matches!(case.scene.system, System::Oscillator(_)) {
@@ -122,7 +122,7 @@ fn beam_end(end: BeamEnd) -> Value {
 fn structure(case: &Case) -> Value {
     let [slowest, fastest] = case.scene.system.frequencies().map(|omega| omega / TAU);
     let mut out = json!({
-        "degrees_of_freedom": case.whole().system.degrees_of_freedom(),
+        "degrees_of_freedom": case.unreduced().system.degrees_of_freedom(),
         "unknowns": case.scene.system.degrees_of_freedom(),
         "slowest_frequency_hz": slowest,
         "fastest_frequency_hz": fastest,
@@ -168,7 +168,7 @@ fn at(place: &Place) -> Value {
 
 /// The supports, each with where it is.
 fn supports(case: &Case) -> impl Iterator<Item = Value> {
-    let whole = case.whole();
+    let whole = case.unreduced();
     let places = case.written.supports.iter().map(|written| Some(&written.place)).chain(std::iter::repeat(None));
     whole.supports.iter().zip(places).map(|(one, place)| support(one, place, &whole.walls))
 }

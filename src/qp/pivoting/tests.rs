@@ -12,7 +12,7 @@ fn wrong(system: &Delassus, held: &[usize], lo: &[f64], ulps: f64) -> Vec<(usize
     held.iter().for_each(|&row| pivoting.call(row, Side::Lower));
     pivoting.block.set(system, held);
     let (all, hi): (Vec<usize>, Vec<f64>) = ((0..m).collect(), vec![INF; m]);
-    pivoting.look(system, &Rhs { b: &[], lo, hi: &hi }, &all, (1.0, ROUNDING, ulps), &mut vec![0.0; m]);
+    pivoting.find_wrong(system, &Rhs { b: &[], lo, hi: &hi }, &all, (1.0, ROUNDING, ulps), &mut vec![0.0; m]);
     pivoting.wrong
 }
 

@@ -1,7 +1,7 @@
 //! Matrices in the Matrix Market format (Boisvert, Pozo & Remington 1996, NISTIR 5935).
 
 use super::pairs::{Entry, symmetric};
-use super::{Line, MOST_ENTRIES, MOST_ROWS, TextError, at_end, lines};
+use super::{MOST_ENTRIES, MOST_ROWS, MatrixLine, TextError, at_end, lines};
 use crate::linear::Symmetric;
 
 const HEADER: &str = "%%MatrixMarket matrix coordinate|array real|integer general|symmetric";
@@ -64,7 +64,7 @@ pub fn read_matrix_market(text: &str) -> Result<Symmetric, TextError> {
 }
 
 /// Whether the format is coordinate, and whether it stores one triangle only.
-fn kind(header: &Line<'_>) -> Result<(bool, bool), TextError> {
+fn kind(header: &MatrixLine<'_>) -> Result<(bool, bool), TextError> {
     let words: Vec<&str> = header.text.split_whitespace().collect();
     let is = |word: &str, name: &str| word.eq_ignore_ascii_case(name);
     let [banner, object, format, field, symmetry] = words.as_slice() else {
@@ -85,7 +85,7 @@ fn kind(header: &Line<'_>) -> Result<(bool, bool), TextError> {
     Ok((is(format, "coordinate"), is(symmetry, "symmetric")))
 }
 
-fn whole_numbers(line: &Line<'_>, count: usize, what: &str) -> Result<Vec<usize>, TextError> {
+fn whole_numbers(line: &MatrixLine<'_>, count: usize, what: &str) -> Result<Vec<usize>, TextError> {
     let expected = || format!("{count} whole numbers: {what}");
     let fields: Vec<&str> = line.text.split_whitespace().collect();
     if fields.len() != count {
@@ -98,7 +98,7 @@ fn whole_numbers(line: &Line<'_>, count: usize, what: &str) -> Result<Vec<usize>
 }
 
 /// Row, column (from 1) and value.
-fn triplet(line: Line<'_>, n: usize) -> Result<Entry<'_>, TextError> {
+fn triplet(line: MatrixLine<'_>, n: usize) -> Result<Entry<'_>, TextError> {
     let expected = || format!("row and column from 1 to {n}, and a value");
     let fields: Vec<&str> = line.text.split_whitespace().collect();
     let [row, column, value] = fields.as_slice() else {

@@ -44,13 +44,13 @@ impl std::error::Error for TextError {}
 /// A line of a text: its number from 1, the byte at which it starts, and its text without the line
 /// end.
 #[derive(Debug, Clone, Copy)]
-struct Line<'a> {
+struct MatrixLine<'a> {
     number: usize,
     start: usize,
     text: &'a str,
 }
 
-impl<'a> Line<'a> {
+impl<'a> MatrixLine<'a> {
     fn error(&self, message: impl Into<String>, expected: impl Into<String>) -> TextError {
         self.error_at(self.text, message, expected)
     }
@@ -73,11 +73,11 @@ impl<'a> Line<'a> {
 }
 
 /// The lines of `text`, without a byte-order mark.
-fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
+fn lines(text: &str) -> impl Iterator<Item = MatrixLine<'_>> {
     let mark = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
     let mut start = mark;
     text[mark..].split_inclusive('\n').enumerate().map(move |(index, raw)| {
-        let line = Line { number: index + 1, start, text: raw.trim_end_matches(['\n', '\r']) };
+        let line = MatrixLine { number: index + 1, start, text: raw.trim_end_matches(['\n', '\r']) };
         start += raw.len();
         line
     })

@@ -1,6 +1,6 @@
 //! Combines the entries of both triangles into one symmetric matrix.
 
-use super::{Line, TextError};
+use super::{MatrixLine, TextError};
 use crate::linear::Symmetric;
 
 /// Tolerance between an entry and its mirror across the diagonal, relative to the larger or to
@@ -13,7 +13,7 @@ pub(super) struct Entry<'a> {
     pub row: usize,
     pub column: usize,
     pub value: f64,
-    pub line: Line<'a>,
+    pub line: MatrixLine<'a>,
 }
 
 /// The matrix of `entries`, with each position given once. If not `half`, both triangles are given

@@ -41,14 +41,20 @@ pub(super) struct Orbit {
 }
 
 /// The motion over several periods.
-struct Passed {
+struct PeriodsPassed {
     /// The state at the start and once a period.
     strobes: Vec<DVector<f64>>,
     matrix: DMatrix<f64>,
     contacts: Vec<Contact>,
 }
 
-fn pass(stepper: &mut Stepper, scene: &Checked, from: &DVector<f64>, count: usize, period: f64) -> Option<Passed> {
+fn pass(
+    stepper: &mut Stepper,
+    scene: &Checked,
+    from: &DVector<f64>,
+    count: usize,
+    period: f64,
+) -> Option<PeriodsPassed> {
     stepper.set_state(0.0, &state(from)).ok()?;
     let mut product = Product::new(scene).ok()?;
     let (mut strobes, mut contacts) = (vec![from.clone()], Vec::new());
@@ -61,13 +67,13 @@ fn pass(stepper: &mut Stepper, scene: &Checked, from: &DVector<f64>, count: usiz
         }
     }
     contacts.extend(stepper.open_contacts());
-    Some(Passed { strobes, matrix: product.matrix().clone(), contacts })
+    Some(PeriodsPassed { strobes, matrix: product.matrix().clone(), contacts })
 }
 
 /// The periodic motion over `count` periods (s) near `from`, if there is one.
 pub(super) fn find(scene: &Checked, period: f64, count: usize, from: &DVector<f64>, scales: Scales) -> Option<Orbit> {
     let mut stepper = Stepper::by(scene, Method::new(Scheme::Event), period).ok()?;
-    let (mut x, mut best) = (from.clone(), None::<(f64, Passed)>);
+    let (mut x, mut best) = (from.clone(), None::<(f64, PeriodsPassed)>);
     for _ in 0..ITERATIONS {
         let passed = pass(&mut stepper, scene, &x, count, period)?;
         let gap = passed.strobes.last()? - &x;
@@ -94,7 +100,7 @@ pub(super) fn find(scene: &Checked, period: f64, count: usize, from: &DVector<f6
     if size > CLOSED {
         return None;
     }
-    let Passed { mut strobes, matrix, contacts } = passed;
+    let PeriodsPassed { mut strobes, matrix, contacts } = passed;
     strobes.pop();
     let repeats = |d: &usize| {
         count.is_multiple_of(*d)

@@ -178,7 +178,7 @@ impl Search<'_> {
             Some(candidate) => self.approached(candidate, count, &x),
             None => {
                 if count >= self.next {
-                    self.look(count, &x);
+                    self.find_candidate(count, &x);
                 }
                 None
             }
@@ -186,7 +186,7 @@ impl Search<'_> {
     }
 
     /// Looks for an orbit that the run may be approaching.
-    fn look(&mut self, count: u32, x: &DVector<f64>) {
+    fn find_candidate(&mut self, count: u32, x: &DVector<f64>) {
         let last = self.strobes.len() - 1;
         let returned = |n: &usize| {
             let before = last.checked_sub(*n).and_then(|at| self.strobes.get(at));

@@ -49,7 +49,7 @@ pub struct Figure {
 }
 
 /// A value and the half width of its interval by batches.
-type Told = (f64, Option<f64>);
+type ValueAndHalfWidth = (f64, Option<f64>);
 
 impl Measure {
     /// All of them, in the order of tables.
@@ -87,7 +87,7 @@ impl Measure {
     }
 
     /// The value at a wall.
-    fn of_wall(self, wall: &WallStatistics) -> Option<Told> {
+    fn of_wall(self, wall: &WallStatistics) -> Option<ValueAndHalfWidth> {
         let force = wall.force?;
         let elastic = force.rms_averaged_over_s.is_none();
         match self {
@@ -99,7 +99,7 @@ impl Measure {
     }
 
     /// The value at a support.
-    fn of_support(self, support: &SupportStatistics, wear: Option<&WearStatistics>) -> Option<Told> {
+    fn of_support(self, support: &SupportStatistics, wear: Option<&WearStatistics>) -> Option<ValueAndHalfWidth> {
         let force = support.force?;
         let vector =
             |axis: usize| (force.mean_vector_n[axis], force.mean_vector_half_width_95_n.map(|half| half[axis]));
@@ -118,7 +118,7 @@ impl Measure {
 /// Every measure of every place in `statistics`: flat walls, then supports, in the scene's order.
 pub(super) fn figures(statistics: &Statistics) -> Vec<Figure> {
     let mut figures = Vec::new();
-    let mut add = |name: &str, kind: PlaceKind, of: &dyn Fn(Measure) -> Option<Told>| {
+    let mut add = |name: &str, kind: PlaceKind, of: &dyn Fn(Measure) -> Option<ValueAndHalfWidth>| {
         for measure in Measure::ALL {
             let place = || ContactPlace { name: name.to_owned(), kind };
             let figure = |(value, half)| Figure { place: place(), measure, value, batch_half_width_95: half };

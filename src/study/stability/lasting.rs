@@ -81,7 +81,7 @@ pub fn lasting(impulse: &[f64], h: f64, joined: f64) -> Option<Lasting> {
 
 /// One run: one scheme with one step.
 #[derive(Debug, Clone)]
-pub struct Line {
+pub struct LastingForce {
     /// The scheme.
     pub scheme: Scheme,
     /// Its step, s; for the exact scheme, the spacing of its rows.
@@ -112,7 +112,7 @@ pub struct Quality {
     /// step where the exact scheme cannot follow the case.
     pub energy: f64,
     /// The runs, scheme by scheme, coarse steps first.
-    pub lines: Vec<Line>,
+    pub lines: Vec<LastingForce>,
 }
 
 impl Quality {
@@ -138,11 +138,11 @@ impl Quality {
         let line = |&(scheme, step): &(Scheme, f64)| {
             let run = go(scheme, step);
             let step = run.as_ref().map_or(step, |run| run.grid.step);
-            Line { scheme, step, outcome: run.map(|run| seen(&run, step, joined, energy)) }
+            LastingForce { scheme, step, outcome: run.map(|run| seen(&run, step, joined, energy)) }
         };
-        let mut lines: Vec<Line> = jobs.par_iter().map(line).collect();
+        let mut lines: Vec<LastingForce> = jobs.par_iter().map(line).collect();
         let outcome = exact.map(|run| seen(&run, run.grid.end / run.grid.rows as f64, joined, energy));
-        lines.push(Line { scheme: Scheme::Event, step: finest, outcome });
+        lines.push(LastingForce { scheme: Scheme::Event, step: finest, outcome });
         Ok(Self { energy, lines })
     }
 }

@@ -1,6 +1,6 @@
 //! Chooses the number of modes.
 
-use super::{Truncation, Whole};
+use super::{Truncation, Unreduced};
 use crate::error::{Error, Result};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::Reduction;
@@ -79,7 +79,7 @@ impl ChosenModes {
 /// # Errors
 /// Errors of a reduction or a run.
 pub fn choose_modes(
-    whole: &Whole,
+    whole: &Unreduced,
     start: usize,
     method: &Method,
     time: &TimeOptions,

@@ -24,7 +24,7 @@ use std::fmt;
 
 /// A scene before it is reduced to modes, and how it is reduced.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Whole {
+pub struct Unreduced {
     /// The scene in its own degrees of freedom.
     pub scene: Scene,
     /// Damping that is given to the modes, in place of the scene's own; `None` where the scene's
@@ -50,7 +50,7 @@ pub enum Start {
     Equilibrium,
 }
 
-impl Whole {
+impl Unreduced {
     /// The scene reduced to its `modes` slowest modes.
     ///
     /// # Errors
@@ -160,7 +160,7 @@ impl Truncation {
     /// # Errors
     /// Errors of the other reduction or run.
     pub fn of(
-        whole: &Whole,
+        whole: &Unreduced,
         reduction: &Reduction,
         run: &Run,
         method: &Method,
@@ -181,7 +181,7 @@ impl Truncation {
     }
 
     /// The changes from one reduction and its run to the other.
-    fn between(whole: &Whole, cuts: [&Reduction; 2], runs: [&Run; 2]) -> Self {
+    fn between(whole: &Unreduced, cuts: [&Reduction; 2], runs: [&Run; 2]) -> Self {
         let [run, against] = runs;
         let change = Change::of_runs(&cuts[1].scene, run, against, against.grid.end);
         let mut walls = Vec::new();

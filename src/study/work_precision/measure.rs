@@ -4,7 +4,7 @@ use super::errors::Errors;
 use super::ladder::Ladder;
 use super::reference::{Horizon, PERTURBED_STEPS, Reference};
 use super::timing::{self, Job};
-use super::{Effort, Floor, Measured, Outcome, Point, Series, WorkPrecision};
+use super::{Effort, Floor, Measured, MethodPoints, Outcome, Point, WorkPrecision};
 use crate::error::{Error, Result};
 use crate::run::{Options, Run, run};
 use crate::scene::Scene;
@@ -71,7 +71,7 @@ fn errors_of(
     floors: &[Floor],
     ladder: &Ladder,
     effort: &Effort,
-) -> Series {
+) -> MethodPoints {
     let ran = |measured| Outcome::Ran(Box::new(measured));
     if method.scheme.is_exact() {
         let outcome = match exact(scene) {
@@ -81,7 +81,7 @@ fn errors_of(
             }
             Err(error) => Outcome::Failed(error),
         };
-        return Series { method, points: vec![Point { step: None, outcome }] };
+        return MethodPoints { method, points: vec![Point { step: None, outcome }] };
     }
     let own = floors.iter().find(|f| matches!(method.scheme, Scheme::Penalty { law, .. } if law == f.law));
     let own = own.and_then(|f| f.reference.as_ref().ok());
@@ -104,7 +104,7 @@ fn errors_of(
         };
         points.push(Point { step: Some(time.step), outcome });
     }
-    Series { method, points }
+    MethodPoints { method, points }
 }
 
 fn measure(run: Run, reference: &Reference, own: Option<&Reference>) -> Measured {
@@ -123,7 +123,7 @@ fn exact(scene: &Scene) -> Result<Counters> {
     Ok(run(scene, &Scheme::Event, &options)?.unrefuted()?.counters)
 }
 
-fn time_all(scene: &Scene, series: &mut [Series], ladder: &Ladder, effort: &Effort, progress: &mut dyn FnMut()) {
+fn time_all(scene: &Scene, series: &mut [MethodPoints], ladder: &Ladder, effort: &Effort, progress: &mut dyn FnMut()) {
     let mut jobs = Vec::new();
     let mut points = Vec::new();
     for series in series {

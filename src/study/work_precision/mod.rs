@@ -98,14 +98,14 @@ impl Point {
 
 /// One method over its steps, coarsest first.
 #[derive(Debug, Clone)]
-pub struct Series {
+pub struct MethodPoints {
     /// The method.
     pub method: Method,
     /// Its points.
     pub points: Vec<Point>,
 }
 
-impl Series {
+impl MethodPoints {
     /// The points that ran: step (s; `None` for the exact scheme) and measurements.
     pub fn measured(&self) -> impl Iterator<Item = (Option<f64>, &Measured)> {
         self.points.iter().filter_map(|p| Some((p.step, p.measured()?)))
@@ -156,7 +156,7 @@ pub struct WorkPrecision {
     /// The reference.
     pub reference: Reference,
     /// One series per method.
-    pub series: Vec<Series>,
+    pub series: Vec<MethodPoints>,
     /// One floor per penalty law.
     pub floors: Vec<Floor>,
 }
@@ -171,7 +171,7 @@ impl WorkPrecision {
         kind: SchemeKind,
         quantity: Quantity,
         tolerance: f64,
-    ) -> Option<(&Series, Option<f64>, &Measured)> {
+    ) -> Option<(&MethodPoints, Option<f64>, &Measured)> {
         let of_kind = self.series.iter().filter(|s| s.method.scheme.entry().kind == kind);
         let reached = of_kind.filter_map(|s| s.cheapest(quantity, tolerance).map(|(step, m)| (s, step, m)));
         reached.min_by(|a, b| a.2.seconds.total_cmp(&b.2.seconds))

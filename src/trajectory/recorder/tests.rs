@@ -78,17 +78,17 @@ fn steps_seen_together_make_the_rows_of_steps_seen_one_by_one() {
                 impulse: [if k < pushed { -1.0 } else { 0.0 }],
             };
             let start = || Recorder::new(&scene, 10, &[0.0], &[1.0]);
-            let (mut one, mut many, mut calm) = (start(), start(), QuietSteps::new(1));
+            let (mut one, mut many, mut quiet) = (start(), start(), QuietSteps::new(1));
             for k in 0..20 {
                 let shown = shown(k);
                 one.observe(&shown.step(k, Path::Grid));
                 if k < pushed {
                     many.observe(&shown.step(k, Path::Grid));
                 } else {
-                    assert!(calm.take(&shown.step(k, Path::Grid)));
+                    assert!(quiet.take(&shown.step(k, Path::Grid)));
                     if k % 7 == 6 || k == 19 {
-                        many.observe_quiet(&calm);
-                        calm.clear();
+                        many.observe_quiet(&quiet);
+                        quiet.clear();
                     }
                 }
             }
@@ -102,7 +102,7 @@ fn steps_seen_together_make_the_rows_of_steps_seen_one_by_one() {
 #[test]
 fn an_impulse_waits_for_its_row_however_many_steps_come_between() {
     let start = || Recorder::new(&scene(1.0), 1, &[0.0], &[0.0]);
-    let (mut one, mut many, mut calm) = (start(), start(), QuietSteps::new(1));
+    let (mut one, mut many, mut quiet) = (start(), start(), QuietSteps::new(1));
     for k in 0..512 {
         let at = |k: u64| k as f64 / 512.0;
         let (q, impulse) = ([at(k + 1)], [if k == 0 { -1.0 } else { 0.0 }]);
@@ -111,11 +111,11 @@ fn an_impulse_waits_for_its_row_however_many_steps_come_between() {
         if k == 0 {
             many.observe(&shown.step(k, Path::Grid));
         } else {
-            assert!(calm.take(&shown.step(k, Path::Grid)));
+            assert!(quiet.take(&shown.step(k, Path::Grid)));
         }
-        if calm.is_full() || k == 511 {
-            many.observe_quiet(&calm);
-            calm.clear();
+        if quiet.is_full() || k == 511 {
+            many.observe_quiet(&quiet);
+            quiet.clear();
         }
     }
     let (one, many) = (one.finish(&[]), many.finish(&[]));

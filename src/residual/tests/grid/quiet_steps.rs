@@ -41,14 +41,14 @@ fn free(balance: Balance, count: u64, lie: impl Fn(u64, &mut f64, &mut f64)) -> 
 fn both(scene: &Scene, contract: Contract, q: f64, told: &[Told]) -> [Judge; 2] {
     let mut judges = [(); 2].map(|()| judge(scene, contract, q, told[0][3]));
     assert!(judges[0].batches_quiet_steps());
-    let mut calm = QuietSteps::new(scene.walls.len());
+    let mut quiet = QuietSteps::new(scene.walls.len());
     for (k, &[end, q, v, before, after]) in told.iter().enumerate() {
-        calm.begin(k as u64, k as f64 * H);
-        calm.add(end, (&[q], &[v]), (&[before], &[after]));
-        if calm.len() == 11 || k + 1 == told.len() {
-            judges[0].observe_quiet(&calm);
-            (0..calm.len()).for_each(|k| judges[1].observe(&calm.step(k)));
-            calm.clear();
+        quiet.begin(k as u64, k as f64 * H);
+        quiet.add(end, (&[q], &[v]), (&[before], &[after]));
+        if quiet.len() == 11 || k + 1 == told.len() {
+            judges[0].observe_quiet(&quiet);
+            (0..quiet.len()).for_each(|k| judges[1].observe(&quiet.step(k)));
+            quiet.clear();
         }
     }
     judges

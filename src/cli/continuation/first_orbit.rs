@@ -9,12 +9,12 @@ use crate::output::periodic::{read, read_shot};
 use std::path::Path;
 
 /// The orbit from which the first branch starts: of one degree of freedom, or of a structure.
-pub(super) enum Begin {
+pub(super) enum FirstOrbit {
     Orbit(Orbit),
     Shot(Shot),
 }
 
-impl Begin {
+impl FirstOrbit {
     /// The orbit in a file of `signorini orbit`.
     pub(super) fn read(path: &Path, family: &SceneFamily) -> Result<Self> {
         let case = &family.case;
