@@ -91,29 +91,27 @@ pub fn _beam(
     length: f64,
     youngs_modulus: f64,
     density: f64,
-    diameters: (Option<f64>, Option<f64>),
-    sides: (Option<f64>, Option<f64>),
+    diameters: [Option<f64>; 2],
+    sides: [Option<f64>; 2],
     added_mass: f64,
     elements: usize,
     left: End,
     right: End,
 ) -> PyResult<Scene> {
-    let section = match (diameters, sides) {
-        ((Some(outer_diameter), inner), (None, None)) => {
-            sg::BeamSection::Tube { outer_diameter, inner_diameter: inner.unwrap_or(0.0) }
-        }
-        ((None, None), (Some(width), Some(height))) => sg::BeamSection::Rectangle { width, height },
-        ((None, None), (Some(_), None)) => return Err(wrong("beam: height", "missing", "it beside width, in m")),
-        ((None, None), (None, Some(_))) => return Err(wrong("beam: width", "missing", "it beside height, in m")),
-        ((None, _), (None, None)) => {
-            let expected = "it, in m, or width and height of a rectangle";
-            return Err(wrong("beam: outer_diameter", "missing", expected));
-        }
-        _ => {
+    let section = sg::BeamSection::of(diameters, sides).map_err(|fault| match fault {
+        sg::SectionFault::TwoSections => {
             let expected = "outer_diameter and inner_diameter of a tube, or width and height of a rectangle";
-            return Err(wrong("beam: section", "that of a tube and of a rectangle", expected));
+            wrong("beam: section", "that of a tube and of a rectangle", expected)
         }
-    };
+        sg::SectionFault::Missing(key) => {
+            let expected = match key {
+                "height" => "it beside width, in m",
+                "width" => "it beside height, in m",
+                _ => "it, in m, or width and height of a rectangle",
+            };
+            wrong(&format!("beam: {key}"), "missing", expected)
+        }
+    })?;
     let expected = "\"free\", \"pinned\", \"clamped\", or stiffnesses (N/m, N m/rad)";
     let end = |key: &str, end: End| match end {
         End::Named(name) if name == "free" => Ok(sg::BeamEnd::Free),

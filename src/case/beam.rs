@@ -4,7 +4,7 @@ use super::builder::Builder;
 use super::schema::accepted;
 use super::value::{Section, Value};
 use crate::error::Result;
-use crate::scene::{Bar, BarEnd, Beam, BeamEnd, BeamSection, MOST_ELEMENTS, MassMatrix};
+use crate::scene::{Bar, BarEnd, Beam, BeamEnd, BeamSection, MOST_ELEMENTS, MassMatrix, SectionFault};
 use toml::Spanned;
 
 /// All conditions at an end that the file can give; each system accepts some of them.
@@ -67,39 +67,28 @@ impl Builder<'_> {
 
     /// The section of a beam: the diameters of a tube, or the sides of a rectangle.
     fn cross_section(&mut self, beam: &Section<'_>) -> Result<BeamSection> {
-        let missing = |key: &str, help: &str| {
-            let title = format!("`{key}` is missing in `system.beam`");
-            self.source.error(beam.span.clone(), &title, help)
-        };
-        let diameter = beam.span_of("outer_diameter").or(beam.span_of("inner_diameter"));
-        match (diameter, beam.get("width"), beam.get("height")) {
-            (Some(at), Some(_), _) | (Some(at), _, Some(_)) => {
+        let mut number = |key| self.optional(("beam", key), beam, key);
+        let (diameters, sides) =
+            (["outer_diameter", "inner_diameter"].map(&mut number), ["width", "height"].map(number));
+        BeamSection::of(diameters, sides).map_err(|fault| match fault {
+            SectionFault::TwoSections => {
+                let at = beam.span_of("outer_diameter").or(beam.span_of("inner_diameter"));
                 let help = "expected one section: outer_diameter and inner_diameter of a tube, or width and height of \
                             a rectangle";
-                Err(self.source.error(at, "`system.beam` has a diameter and a side of a rectangle", help))
+                let title = "`system.beam` has a diameter and a side of a rectangle";
+                self.source.error(at.unwrap_or(beam.span.clone()), title, help)
             }
-            (None, Some(_), None) => {
-                let help = "expected height = a number above 0, in m, in the direction of the vibration, beside width";
-                Err(missing("height", help))
+            SectionFault::Missing(key) => {
+                let help = match key {
+                    "height" => {
+                        "expected height = a number above 0, in m, in the direction of the vibration, beside width"
+                    }
+                    "width" => "expected width = a number above 0, in m, across the vibration, beside height",
+                    _ => "expected outer_diameter = a number above 0, in m, or width and height of a rectangle",
+                };
+                self.source.error(beam.span.clone(), &format!("`{key}` is missing in `system.beam`"), help)
             }
-            (None, None, Some(_)) => {
-                let help = "expected width = a number above 0, in m, across the vibration, beside height";
-                Err(missing("width", help))
-            }
-            (None, Some(_), Some(_)) => {
-                let [width, height] = ["width", "height"].map(|key| self.required(("beam", key), beam, key));
-                Ok(BeamSection::Rectangle { width, height })
-            }
-            (_, None, None) if beam.get("outer_diameter").is_none() => {
-                let help = "expected outer_diameter = a number above 0, in m, or width and height of a rectangle";
-                Err(missing("outer_diameter", help))
-            }
-            (_, None, None) => {
-                let outer_diameter = self.required(("beam", "outer_diameter"), beam, "outer_diameter");
-                let inner = self.optional(("beam", "inner_diameter"), beam, "inner_diameter");
-                Ok(BeamSection::Tube { outer_diameter, inner_diameter: inner.unwrap_or(0.0) })
-            }
-        }
+        })
     }
 
     /// The length of a beam, m; where it is the sum of spans, their joints are noted.

@@ -83,8 +83,10 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let runs = WINDOWS * histories as f64 / cores;
     let estimate = DurationEstimate::of_run(&case.scene, &method, case.time.step).times(runs);
     let mut journal = WindowJournal::open(&mut results, histories, args.request.place.force)?;
-    let found =
-        ui.with_estimate("wear", estimate, |bar| plan.follow(&mut journal, &mut |share| bar.set_share(share)))?;
+    let kept = journal.kept()?;
+    let found = ui.with_estimate("wear", estimate, |bar| {
+        plan.follow(&kept, &mut |window| journal.keep(window), &mut |share| bar.set_share(share))
+    })?;
     for (number, findings) in &found.refuted {
         ui.refute(&format!("window {number}"), findings);
     }

@@ -15,6 +15,7 @@ pub use cause::Cause;
 pub(crate) use cause::unnumbered;
 pub(crate) use escape::{escaped, escaped_lines};
 pub use subject::{Part, Subject};
+#[cfg(feature = "case")]
 pub(crate) use words::nearest;
 
 use std::fmt;

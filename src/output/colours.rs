@@ -2,6 +2,7 @@
 //! and the same on the page of a report (`look.js`).
 
 use crate::scene::Scene;
+use std::collections::HashMap;
 
 /// The looks whose colours places have in turn: neighbours differ, and black comes last.
 const PLACES: [usize; 8] = [1, 2, 3, 5, 4, 6, 7, 0];
@@ -19,20 +20,21 @@ pub(crate) fn place_of(wall: &str) -> &str {
     }
 }
 
-/// The walls and supports of a scene, each once; the flats of a support are the support.
+/// The walls and supports of a scene, each once with its number; the flats of a support are the
+/// support.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Places(Vec<String>);
+pub(crate) struct Places(HashMap<String, usize>);
 
 impl Places {
     /// The places of these walls, then of these supports, by their names.
     pub fn new<'a>(walls: impl IntoIterator<Item = &'a str>, supports: impl IntoIterator<Item = &'a str>) -> Self {
-        let mut names: Vec<String> = Vec::new();
+        let mut numbers = HashMap::new();
         for name in walls.into_iter().map(place_of).chain(supports) {
-            if names.iter().all(|known| known != name) {
-                names.push(name.to_owned());
+            if !numbers.contains_key(name) {
+                numbers.insert(name.to_owned(), numbers.len());
             }
         }
-        Self(names)
+        Self(numbers)
     }
 
     /// The places of a scene.
@@ -43,7 +45,7 @@ impl Places {
 
     /// The look whose colour the wall or support of that name has.
     pub fn colour(&self, name: &str) -> usize {
-        let index = self.0.iter().position(|known| known == place_of(name)).unwrap_or(0);
+        let index = self.0.get(place_of(name)).copied().unwrap_or(0);
         PLACES.get(index % PLACES.len()).copied().unwrap_or(0)
     }
 }
@@ -56,7 +58,7 @@ mod tests {
     fn a_support_and_all_its_flats_have_one_colour() {
         let walls = ["upper", "bars-flat-1", "bars-flat-2", "lower"];
         let places = Places::new(walls, ["plate", "bars"]);
-        assert_eq!(places.0, ["upper", "bars", "lower", "plate"]);
+        assert_eq!(["upper", "bars", "lower", "plate"].map(|name| places.0[name]), [0, 1, 2, 3]);
         let colours = ["upper", "bars-flat-1", "bars-flat-2", "bars", "lower", "plate"].map(|name| places.colour(name));
         assert_eq!(colours, [1, 2, 2, 2, 3, 5]);
         // Not the name of a flat.

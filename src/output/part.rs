@@ -4,6 +4,7 @@ use super::colours::{Places, place_of};
 use super::figure::{Curve, Stems};
 use super::labelled::Labelled;
 use crate::scene::Scene;
+use std::collections::HashMap;
 
 /// Some walls at one place, and how their forces and impulses are drawn.
 #[derive(Debug, Clone)]
@@ -32,10 +33,11 @@ impl<'a> Part<'a> {
             return vec![of_run(walls.to_vec())];
         }
         let places = Places::of(scene);
-        let mut parts: Vec<Self> = Vec::new();
+        let (mut parts, mut numbers): (Vec<Self>, HashMap<&str, usize>) = Default::default();
         for (index, wall) in walls.iter().filter_map(|&index| Some((index, scene.walls.get(index)?))) {
             let label = place_of(&wall.name);
-            match parts.iter_mut().find(|part| part.label == label) {
+            let number = *numbers.entry(label).or_insert(parts.len());
+            match parts.get_mut(number) {
                 Some(part) => part.walls.push(index),
                 None => {
                     let colour = Some(places.colour(label));

@@ -4,7 +4,7 @@
 use super::journal::{Journal, is_begun};
 use super::results::Results;
 use crate::error::Result;
-use crate::study::wear_history::{WearJournal, WearWindow};
+use crate::study::wear_history::WearWindow;
 
 /// Name of the file.
 const JOURNAL: &str = "windows.journal";
@@ -41,24 +41,35 @@ impl WindowJournal {
     pub fn found(&self) -> u64 {
         self.found
     }
-}
 
-/// Where window `number`, from 1, stands among so many.
-fn place(number: u64, windows: u64) -> Option<usize> {
-    usize::try_from(number.checked_sub(1)?).ok().filter(|place| (*place as u64) < windows)
-}
-
-impl WearJournal for WindowJournal {
-    fn recall(&mut self, number: u64) -> Result<Option<WearWindow>> {
-        let Some(place) = place(number, u64::MAX) else { return Ok(None) };
-        let kept = self.journal.read(place)?.and_then(|bytes| serde_json::from_slice::<WearWindow>(&bytes).ok());
-        Ok(kept.filter(|window| window.number == number))
+    /// The windows that earlier processes have run, from number 1 up to the first that is not
+    /// there.
+    ///
+    /// # Errors
+    /// [`crate::Error::Io`] where they cannot be read.
+    pub fn kept(&mut self) -> Result<Vec<WearWindow>> {
+        let mut kept = Vec::new();
+        while let Some(bytes) = self.journal.read(kept.len())? {
+            let window = serde_json::from_slice::<WearWindow>(&bytes).ok();
+            let Some(window) = window.filter(|window| window.number == kept.len() as u64 + 1) else { break };
+            kept.push(window);
+        }
+        Ok(kept)
     }
 
-    fn keep(&mut self, window: &WearWindow) -> Result<()> {
+    /// Keeps a window.
+    ///
+    /// # Errors
+    /// [`crate::Error::Io`] where it cannot be written.
+    pub fn keep(&mut self, window: &WearWindow) -> Result<()> {
         let mut body = serde_json::to_vec(window).unwrap_or_default();
         body.push(b'\n');
         self.journal.add(window.number, place(window.number, u64::MAX).unwrap_or(usize::MAX), &body)?;
         self.journal.flush()
     }
+}
+
+/// Where window `number`, from 1, stands among so many.
+fn place(number: u64, windows: u64) -> Option<usize> {
+    usize::try_from(number.checked_sub(1)?).ok().filter(|place| (*place as u64) < windows)
 }

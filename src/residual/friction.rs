@@ -8,7 +8,7 @@
 
 use super::Judge;
 use super::front::ComplementarityFront;
-use super::pushes::terms;
+use super::hole_motion::terms;
 use crate::scene::{Face, PlaneRows, heading};
 #[cfg(doc)]
 use crate::step::Friction;

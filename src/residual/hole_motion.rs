@@ -31,6 +31,12 @@ fn at_place<const K: usize>(at: &PlaneRows, vectors: [&[f64]; K]) -> [AtPlace; K
     std::array::from_fn(|k| AtPlace { value: [y.0[k], z.0[k]], terms: y.1[k] + z.1[k] })
 }
 
+/// Sum of the magnitudes of the terms of both rows of a place.
+pub(super) fn terms(at: &PlaneRows, x: &[f64]) -> f64 {
+    let [seen] = at_place(at, [x]);
+    seen.terms
+}
+
 /// The place of a hole in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HoleMotion {
@@ -68,7 +74,6 @@ impl Judge {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::residual::pushes::terms;
     use crate::scene::Row;
 
     #[test]
@@ -77,7 +82,8 @@ mod tests {
         let vectors = [[0.1, -0.2, 3.0], [-7.0, 1e-9, 0.4]];
         let both = at_place(&at, [&vectors[0], &vectors[1]]);
         for (x, seen) in vectors.iter().zip(both) {
-            assert_eq!((seen.value, seen.terms), (at.dot(x), terms(&at, x)));
+            let size = |row: &Row| row.entries().iter().map(|&(i, weight)| (weight * x[i]).abs()).sum::<f64>();
+            assert_eq!((seen.value, seen.terms), (at.dot(x), size(&at.y) + size(&at.z)));
         }
     }
 }

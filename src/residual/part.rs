@@ -10,7 +10,8 @@ use super::Judge;
 use super::complementarity::rebound;
 use super::energy::Moved;
 use super::friction::Rub;
-use super::pushes::{pushes, terms};
+use super::hole_motion::terms;
+use super::pushes::pushes;
 use crate::scene::Hole;
 use crate::step::Step;
 

@@ -1,6 +1,6 @@
 //! The impulses of round holes and of friction in a step.
 
-use crate::scene::{Face, PlaneRows, Row, Scene, heading};
+use crate::scene::{Face, PlaneRows, Scene, heading};
 use crate::step::Step;
 
 /// What the walls that push did in a step beside the normal impulses of flats: the index of each,
@@ -37,12 +37,4 @@ pub(super) fn place_of(scene: &Scene, wall: usize) -> Option<&PlaneRows> {
 /// The places of the supports without a round wall.
 pub(super) fn places_of_flats(scene: &Scene) -> impl Iterator<Item = &PlaneRows> {
     scene.supports.iter().filter(|support| support.hole(&scene.walls).is_none()).map(|support| &support.at)
-}
-
-/// Sum of the magnitudes of the terms of both rows of a place.
-pub(super) fn terms(at: &PlaneRows, x: &[f64]) -> f64 {
-    let row = |row: &Row| -> f64 {
-        row.entries().iter().map(|&(i, weight)| (weight * x.get(i).copied().unwrap_or(0.0)).abs()).sum()
-    };
-    row(&at.y) + row(&at.z)
 }

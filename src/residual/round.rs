@@ -4,9 +4,9 @@
 
 use super::Judge;
 use super::friction::Rub;
-use super::hole_motion::HoleMotion;
+use super::hole_motion::{HoleMotion, terms};
 use super::largest_residual::Residual;
-use super::pushes::{places_of_flats, pushes, terms};
+use super::pushes::{places_of_flats, pushes};
 use crate::scene::Hole;
 use crate::step::{Bound, Normal, Step, Turning};
 

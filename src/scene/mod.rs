@@ -45,7 +45,9 @@ mod turbulence;
 mod validate;
 mod wall;
 
-pub use builders::{Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, MOST_ELEMENTS, MassMatrix, ModalData, ModalPoint};
+pub use builders::{
+    Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, MOST_ELEMENTS, MassMatrix, ModalData, ModalPoint, SectionFault,
+};
 pub(crate) use checked::Checked;
 pub use condensation::Condensation;
 pub use damping::Damping;

@@ -74,6 +74,7 @@ pub enum Path<'a> {
 
 impl Step<'_> {
     /// The length of the step, s: that of the grid, `h`, except in parts of its steps.
+    #[cfg(feature = "cli")]
     pub(crate) fn length(&self, h: f64) -> f64 {
         match self.path {
             Path::Part { length } => length,

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import Load, Rayleigh, Scene, Wall
 from ._matrix import Entries, lower
-from ._types import Place, Support
+from ._types import End, Place
 
 
 class SceneOptions(TypedDict, total=False):
@@ -112,8 +112,8 @@ def bar(
     youngs_modulus: float,
     density: float,
     elements: int,
-    left: Support = "free",
-    right: Support = "free",
+    left: End = "free",
+    right: End = "free",
     lumped: bool = False,
     **scene: Unpack[StructureOptions],
 ) -> Scene:
@@ -163,8 +163,8 @@ def beam(
     width: float | None = None,
     height: float | None = None,
     added_mass: float = 0.0,
-    left: Support = "pinned",
-    right: Support = "pinned",
+    left: End = "pinned",
+    right: End = "pinned",
     **scene: Unpack[StructureOptions],
 ) -> Scene:
     """A tube, rod or rectangular beam in bending, by Euler–Bernoulli elements of equal length.

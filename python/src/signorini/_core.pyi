@@ -9,7 +9,7 @@ import pandas as pd
 from ._derivative import Derivative
 from ._flow import FluidElastic
 from ._supports import SupportStatistics, Wear
-from ._types import Array, Place, Support
+from ._types import Array, End, Place
 
 __all__ = [
     "AccuracyWarning",
@@ -336,8 +336,8 @@ def _bar(
     youngs_modulus: float,
     density: float,
     elements: int,
-    left: Support,
-    right: Support,
+    left: End,
+    right: End,
     lumped: bool,
 ) -> Scene: ...
 def _beam(
@@ -348,8 +348,8 @@ def _beam(
     sides: tuple[float | None, float | None],
     added_mass: float,
     elements: int,
-    left: Support,
-    right: Support,
+    left: End,
+    right: End,
 ) -> Scene: ...
 def _matrices(n: int, mass: _Entries, damping: _Entries, stiffness: _Entries) -> Scene: ...
 def _modal(

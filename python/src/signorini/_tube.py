@@ -10,7 +10,7 @@ from ._core import Case, Load
 from ._document import case
 from ._types import Place
 from ._turbulence import Turbulence
-from ._types import Support as End
+from ._types import End
 
 SECONDS_PER_YEAR = 365.25 * 86400.0
 

@@ -13,5 +13,5 @@ Place = int | float | str | tuple[float, float] | Sequence[tuple[int, float]] | 
 """A location: a degree of freedom, a position in m on a bar or beam, a stretch of it, a point
 of modal data, or degrees of freedom (or points) with weights; None where there is one only."""
 
-Support = str | float | tuple[float, float]
+End = str | float | tuple[float, float]
 """The support of an end of a bar or beam: its name, or its stiffnesses."""

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::residual::energy::Instants;
+use crate::residual::hole_motion::terms;
 use crate::residual::matrices::Part;
-use crate::residual::pushes::terms;
 
 #[test]
 fn the_terms_of_a_place_are_those_of_both_rows_by_magnitude() {

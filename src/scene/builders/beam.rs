@@ -47,7 +47,34 @@ pub enum BeamSection {
     },
 }
 
+/// Why some dimensions are not those of one section.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SectionFault {
+    /// A diameter beside a side of a rectangle.
+    TwoSections,
+    /// This dimension is missing.
+    Missing(&'static str),
+}
+
 impl BeamSection {
+    /// The section of the dimensions that are given (m): a tube of an outer and an inner diameter,
+    /// 0 where that is left out, or a rectangle of a width and a height.
+    ///
+    /// # Errors
+    /// [`SectionFault`], where these are not the dimensions of one section.
+    pub fn of(diameters: [Option<f64>; 2], sides: [Option<f64>; 2]) -> std::result::Result<Self, SectionFault> {
+        match (diameters, sides) {
+            ([Some(outer_diameter), inner], [None, None]) => {
+                Ok(Self::Tube { outer_diameter, inner_diameter: inner.unwrap_or(0.0) })
+            }
+            ([None, None], [Some(width), Some(height)]) => Ok(Self::Rectangle { width, height }),
+            ([None, None], [Some(_), None]) => Err(SectionFault::Missing("height")),
+            ([None, None], [None, Some(_)]) => Err(SectionFault::Missing("width")),
+            ([None, _], [None, None]) => Err(SectionFault::Missing("outer_diameter")),
+            _ => Err(SectionFault::TwoSections),
+        }
+    }
+
     /// Outer diameter of a tube, m; a rectangle has none.
     #[must_use]
     pub fn outer_diameter(&self) -> Option<f64> {

@@ -16,7 +16,7 @@ mod modal;
 mod profile;
 
 pub use bar::{Bar, BarEnd, MassMatrix};
-pub use beam::{Beam, BeamEnd, BeamSection};
+pub use beam::{Beam, BeamEnd, BeamSection, SectionFault};
 pub use chain::Chain;
 pub use mesh::MOST_ELEMENTS;
 pub use modal::{ModalData, ModalPoint};

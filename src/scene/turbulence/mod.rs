@@ -69,11 +69,13 @@ pub struct Turbulence {
 impl Turbulence {
     /// The stream of a field of table `index`, from 0, of a case: of the only one, or of those
     /// along y (0) and z (1).
+    #[cfg(feature = "case")]
     pub(crate) fn stream(index: usize, plane: usize) -> u64 {
         2 * index as u64 + plane as u64
     }
 
     /// The number of its table in the case, from 1.
+    #[cfg(feature = "case")]
     pub(crate) fn number(&self) -> u64 {
         self.stream / 2 + 1
     }
@@ -135,6 +137,7 @@ impl Turbulence {
     }
 
     /// Refuses invalid values, and a band that has no line or too many in a run of `end` seconds.
+    #[cfg(feature = "case")]
     pub(crate) fn check(&self, end: f64) -> Result<()> {
         self.lines(end).map(drop)
     }

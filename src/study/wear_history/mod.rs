@@ -25,7 +25,7 @@ mod window;
 
 pub use state::{WearHistories, WearPoint, WearState, mean};
 pub use support::WearingSupport;
-pub use window::{NoJournal, WearJournal, WearWindow};
+pub use window::WearWindow;
 
 use super::realisations::{mean_of, realisations};
 use crate::error::{Error, Result};
@@ -64,13 +64,19 @@ pub struct WearPlan<'a> {
 type Works = Vec<Vec<WearWork>>;
 
 impl WearPlan<'_> {
-    /// Follows the histories. Windows that `journal` has kept are not run again. `progress` is
-    /// called with the share of the service that is done.
+    /// Follows the histories. The windows that were `kept` by an earlier call, numbers 1, 2, … in
+    /// order, are not run again; `keep` is called with each that is run, and `progress` with the
+    /// share of the service that is done.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a service that is not above 0, for no history, and for a support
-    /// without coefficient or scar; errors of the windows and of the journal; [`Error::Stopped`].
-    pub fn follow(&self, journal: &mut dyn WearJournal, progress: &mut dyn FnMut(f64)) -> Result<WearHistories> {
+    /// without coefficient or scar; errors of the windows and of `keep`; [`Error::Stopped`].
+    pub fn follow(
+        &self,
+        kept: &[WearWindow],
+        keep: &mut dyn FnMut(&WearWindow) -> Result<()>,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<WearHistories> {
         self.check()?;
         let mut found = WearHistories {
             supports: self.supports.iter().map(|support| support.name.clone()).collect(),
@@ -82,7 +88,7 @@ impl WearPlan<'_> {
         let mut work: Works = vec![self.supports.iter().map(none).collect(); self.histories];
         let (mut time, mut step) = (0.0, self.service);
         loop {
-            let rates = self.rates(&work, &mut found, journal)?;
+            let rates = self.rates(&work, &mut found, kept, keep)?;
             found.points.push(self.point(time, &work, &rates));
             if time >= self.service {
                 return Ok(found);
@@ -90,7 +96,7 @@ impl WearPlan<'_> {
             step = self.longest_step(&work, &rates).min(step).min(self.service - time);
             loop {
                 let ahead = advanced(&work, &rates, &rates, step);
-                let then = self.rates(&ahead, &mut found, journal)?;
+                let then = self.rates(&ahead, &mut found, kept, keep)?;
                 let corrected = advanced(&work, &rates, &then, step);
                 if step <= SHORTEST * self.service || self.agree(&ahead, &corrected) {
                     work = corrected;
@@ -120,24 +126,27 @@ impl WearPlan<'_> {
         }
     }
 
-    /// The rates in a window of each history after the work `work` (J), which is run where
-    /// `journal` has not kept all of them.
-    fn rates(&self, work: &Works, found: &mut WearHistories, journal: &mut dyn WearJournal) -> Result<Works> {
-        let first = found.windows + 1;
-        let numbers = first..=found.windows + self.histories as u64;
-        let kept: Option<Vec<WearWindow>> =
-            numbers.clone().map(|number| journal.recall(number)).collect::<Result<_>>()?;
-        let windows = match kept {
-            Some(windows) => windows,
+    /// The rates in a window of each history after the work `work` (J), which is run unless all of
+    /// them were kept.
+    fn rates(
+        &self,
+        work: &Works,
+        found: &mut WearHistories,
+        kept: &[WearWindow],
+        keep: &mut dyn FnMut(&WearWindow) -> Result<()>,
+    ) -> Result<Works> {
+        let (first, last) = (found.windows + 1, found.windows + self.histories as u64);
+        let windows = match kept.get(found.windows as usize..last as usize) {
+            Some(windows) => windows.to_vec(),
             None => {
                 let scene = |number: u64| {
                     let history = work.get((number - first) as usize).map_or(&[][..], Vec::as_slice);
                     let openings = self.supports.iter().zip(history).map(|(support, work)| support.opening(work));
                     (self.scene)(number, &openings.collect::<Vec<_>>())
                 };
-                let members = realisations(numbers, &scene, self.method, self.options, &mut |_| {})?;
+                let members = realisations(first..=last, &scene, self.method, self.options, &mut |_| {})?;
                 let windows: Vec<_> = members.iter().map(|member| WearWindow::of(member, self.supports)).collect();
-                windows.iter().try_for_each(|window| journal.keep(window))?;
+                windows.iter().try_for_each(keep)?;
                 windows
             }
         };

@@ -1,7 +1,6 @@
 //! Windows: runs with the gaps of a time of a history.
 
 use super::support::WearingSupport;
-use crate::error::Result;
 use crate::residual::Finding;
 use crate::study::realisations::Realisation;
 use crate::wear::WearWork;
@@ -32,35 +31,5 @@ impl WearWindow {
         };
         let rates = supports.iter().map(rate).collect();
         Self { number: member.number, rates, findings: member.findings.clone() }
-    }
-}
-
-/// Keeps windows that were run, so that histories that were interrupted go on with the same
-/// results.
-pub trait WearJournal {
-    /// Window number `number`, if it was kept.
-    ///
-    /// # Errors
-    /// Where it cannot be read.
-    fn recall(&mut self, number: u64) -> Result<Option<WearWindow>>;
-
-    /// Keeps a window.
-    ///
-    /// # Errors
-    /// Where it cannot be written.
-    fn keep(&mut self, window: &WearWindow) -> Result<()>;
-}
-
-/// Keeps nothing.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct NoJournal;
-
-impl WearJournal for NoJournal {
-    fn recall(&mut self, _: u64) -> Result<Option<WearWindow>> {
-        Ok(None)
-    }
-
-    fn keep(&mut self, _: &WearWindow) -> Result<()> {
-        Ok(())
     }
 }
