@@ -37,6 +37,7 @@ mod verify;
 mod wear;
 
 use crate::error::Result;
+use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 use ui::Ui;
@@ -106,7 +107,7 @@ enum Command {
 pub fn main(stdout: Stdout) -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(text) => return answer(&text, stdout),
+        Err(text) => return answer(&with_tip(text), stdout),
     };
     let ui = Ui::new(cli.quiet, cli.json, stdout);
     match execute(&cli.command, &ui) {
@@ -116,6 +117,18 @@ pub fn main(stdout: Stdout) -> ExitCode {
             ExitCode::from(if error.is_request() { 2 } else { 1 })
         }
     }
+}
+
+/// The error with what to write in place of `--end`, where a command has no such option: clap would
+/// take it for `--seed`.
+fn with_tip(mut error: clap::Error) -> clap::Error {
+    let is_end = |value: &ContextValue| matches!(value, ContextValue::String(word) if word == "--end");
+    if error.get(ContextKind::InvalidArg).is_some_and(is_end) {
+        error.remove(ContextKind::SuggestedArg);
+        let tip = "'--set time.end=SECONDS' sets the end of a run".into();
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+    }
+    error
 }
 
 /// Prints clap's text and exits as the tool does: 0 after --help and --version, 2 after a wrong
@@ -159,7 +172,7 @@ fn command() -> clap::Command {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cli, Stdout, Ui, execute};
+    use super::{Cli, Stdout, Ui, execute, with_tip};
     use crate::linear::counted as factored;
     use crate::scene::counted as checked;
     use clap::Parser;
@@ -175,6 +188,13 @@ mod tests {
         factored::take();
         execute(&cli.command, &Ui::new(true, false, Stdout::Open)).unwrap();
         (checked::take(), factored::take())
+    }
+
+    #[test]
+    fn a_sweep_that_is_given_an_end_is_told_the_key_that_sets_it() {
+        let words = ["signorini", "sweep", "rigid-walls-sine", "--vary", "time.step=1e-4:1e-3:2", "--end", "2"];
+        let said = with_tip(Cli::try_parse_from(words).unwrap_err()).to_string();
+        assert!(said.contains("tip: '--set time.end=SECONDS'") && !said.contains("--seed"), "{said}");
     }
 
     /// Each matrix is factored once, however many users it has: M, C and K where the scene is

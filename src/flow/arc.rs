@@ -1,8 +1,8 @@
 //! The exact motion of one degree of freedom between two events, in closed form.
 
-use super::contact::{Support, Touch};
 use super::force::LocalForce;
 use super::response::{Jet, Response};
+use super::touch::{Support, Touch};
 use crate::scene::{Forcing, Oscillator, Side};
 
 /// A stretch of exact motion on which the set of touching walls does not change.

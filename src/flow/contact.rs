@@ -1,29 +1,7 @@
 //! Forces and impulses of the walls that touch during an arc.
 
-use super::Arc;
-use crate::scene::Side;
-
-/// An elastic wall that touches during an arc.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Touch {
-    /// Index of the wall in the scene.
-    pub wall: usize,
-    /// Its position g, m.
-    pub position: f64,
-    /// k_a, N/m.
-    pub stiffness: f64,
-    /// c_a, N s/m.
-    pub damping: f64,
-}
-
-/// The rigid wall that carries a body at rest.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Support {
-    /// Index of the wall in the scene.
-    pub wall: usize,
-    /// The side on which it stands.
-    pub side: Side,
-}
+use super::arc::Arc;
+use super::touch::Support;
 
 impl Arc {
     /// Force of wall `wall` on the body at `t`, N, signed: 0 if it does not touch.

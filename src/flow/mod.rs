@@ -3,9 +3,10 @@
 //!
 //! # Files
 //!
-//! The exact motion between events: `arc.rs`, `response.rs`, `force.rs`, `divided.rs` in closed form
-//! for one degree of freedom, `series/` by Taylor series for structures (along a circle in round holes);
-//! `propagator.rs` carries a small change of a structure's state along.
+//! The exact motion between events: `arc.rs`, `touch.rs`, `contact.rs`, `response.rs`, `force.rs`,
+//! `divided.rs` in closed form for one degree of freedom, `series/` by Taylor series for structures
+//! (along a circle in round holes); `propagator.rs` carries a small change of a structure's state
+//! along.
 
 mod arc;
 mod contact;
@@ -15,11 +16,12 @@ mod propagator;
 mod response;
 mod roots;
 mod series;
+mod touch;
 
 pub use arc::Arc;
 pub(crate) use arc::Start;
-pub(crate) use contact::{Support, Touch};
 pub(crate) use propagator::{Propagator, held};
 pub(crate) use response::Jet;
 pub use series::Series;
 pub(crate) use series::{Change, Drive, Held, Hold, Round, SeriesBody, Start as SeriesStart, TERMS, Touching, value};
+pub(crate) use touch::{Support, Touch};

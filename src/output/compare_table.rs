@@ -7,7 +7,7 @@ use super::site::Site;
 use super::table::Table;
 use crate::case::Case;
 use crate::run::Run;
-use crate::study::compare::{Comparison, FINER, Row};
+use crate::study::compare::{Comparison, FINER, Row, is_aperiodic};
 use crate::study::verdict::Verdict;
 
 /// Most walls that get rows of their own in the table of all quantities; above that it shows sums
@@ -60,7 +60,8 @@ pub fn conclusion(case: &Case, comparison: &Comparison, verdicts: &[Option<Verdi
         None => format!("{} m", share(x * length)),
     };
     let until = if comparison.horizon < case.scene.duration {
-        format!("until {} s, where chaos takes over", share(comparison.horizon))
+        let why = if is_aperiodic(&case.scene) { "small differences have grown" } else { "chaos takes over" };
+        format!("until {} s, where {why}", share(comparison.horizon))
     } else {
         "to the end".to_owned()
     };

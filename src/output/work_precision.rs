@@ -217,7 +217,7 @@ pub(crate) fn programs(peers: &[Peer]) -> Vec<(String, Vec<(f64, f64)>)> {
     programs
 }
 
-/// Unreduced decades that hold the errors between [`NEGLIGIBLE`] and [`NO_ANSWER`]; values beyond are
+/// Whole decades that hold the errors between [`NEGLIGIBLE`] and [`NO_ANSWER`]; values beyond are
 /// marked at the edge.
 fn range(errors: &[f64]) -> (f64, f64) {
     let within = errors.iter().copied().filter(|e| (NEGLIGIBLE..=NO_ANSWER).contains(e));

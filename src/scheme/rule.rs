@@ -23,8 +23,8 @@ pub(super) trait Rule<S: Space>: Debug + Send {
 
     /// Makes the steps from number `step` on that touch no wall, up to number `until`, as
     /// [`Rule::advance`] makes them one by one but with the state kept in registers, and adds those
-    /// of one degree of freedom to `quiet`; returns the number of the first step that is not made. A
-    /// rule without such a loop makes none.
+    /// of one degree of freedom to `quiet`; returns the number of the first step that is not made.
+    /// A rule without such a loop makes none.
     fn advance_quiet(
         &mut self,
         step: u64,

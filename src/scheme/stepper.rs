@@ -232,8 +232,8 @@ impl Stepper {
         self.index
     }
 
-    /// Makes steps in which no wall pushes, at most as many as `quiet` has room for and no more than
-    /// `most`, and adds them to it. Returns how many.
+    /// Makes steps in which no wall pushes, at most as many as `quiet` has room for and no more
+    /// than `most`, and adds them to it. Returns how many.
     pub(crate) fn advance_quiet_into(&mut self, quiet: &mut QuietSteps, most: u64) -> Result<u64> {
         self.asking.pass(self.index)?;
         let from = self.index;

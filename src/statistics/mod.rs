@@ -10,8 +10,8 @@
 //!
 //! Contact statistics for wear models, over one window; `force.rs` sums up each wall's force over
 //! time, step by step, `support.rs` that of each support, `wear_tally.rs` the work of wear of
-//! every support; `batch.rs` and `student.rs` make intervals; `episodes.rs` joins contacts into episodes,
-//! `distribution.rs` counts them, `spectrum.rs` estimates spectra.
+//! every support; `batch.rs` and `student.rs` make intervals; `episodes.rs` joins contacts into
+//! episodes, `distribution.rs` counts them, `spectrum.rs` estimates spectra.
 
 mod batch;
 mod distribution;

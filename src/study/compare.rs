@@ -7,7 +7,7 @@ use super::horizon::{Growth, LARGEST_GROWTH, Source};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::run::{Options, Run, run_with_progress};
-use crate::scene::{Scene, System, WallLaw};
+use crate::scene::{LoadKind, Scene, System, WallLaw};
 use crate::scheme::{Method, Realised, Scheme, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use std::time::Instant;
@@ -208,6 +208,13 @@ fn step_ns(scene: &Scene, method: &Method, time: &TimeOptions) -> Result<f64> {
     Ok(best)
 }
 
+/// True under loads that need not repeat themselves, such as random ones: perturbations may then
+/// grow exponentially, but there is no attractor whose chaos that would be.
+#[must_use]
+pub fn is_aperiodic(scene: &Scene) -> bool {
+    scene.loads.iter().any(|load| matches!(load.kind, LoadKind::Table(_)))
+}
+
 fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     let mut findings = Vec::new();
     let asked: Vec<f64> = scene.walls.iter().map(|wall| wall.law).filter_map(|law| law.restitution()).collect();
@@ -254,15 +261,18 @@ fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     let held = comparison.reference.is_ok() || comparison.refined.is_some();
     let by =
         comparison.growth_by.filter(|by| *by != Source::Saltation).map_or_else(String::new, |by| format!(" ({by})"));
+    // A table need not repeat itself, and random loads do not.
+    let [chaotic, predictable] =
+        if is_aperiodic(scene) { ["sensitive", "not sensitive"] } else { ["chaos", "not chaotic"] };
     match comparison.growth.filter(|_| held) {
         Some(growth) if comparison.horizon < scene.duration => findings.push(format!(
-            "chaos: a perturbation of the start grows {growth:.1e}-fold over the run{by}, and \
+            "{chaotic}: a perturbation of the start grows {growth:.1e}-fold over the run{by}, and \
              {LARGEST_GROWTH:e}-fold by t = {:.3} s; errors are taken up \
              to then, later compare impulses, contact counts and RMS",
             comparison.horizon
         )),
         Some(growth) => findings.push(format!(
-            "not chaotic: a perturbation of the start never grows beyond {growth:.1}-fold{by}, so errors are \
+            "{predictable}: a perturbation of the start never grows beyond {growth:.1}-fold{by}, so errors are \
              taken over the whole run"
         )),
         None => {}

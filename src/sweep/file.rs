@@ -33,7 +33,7 @@ impl Sweep {
     /// Reads the sweep file at `path`; its case is a file relative to it, or a built-in case.
     ///
     /// ```no_run
-    /// use signorini::sweep::{SweepOptions, Shard, Sweep};
+    /// use signorini::sweep::{Shard, Sweep, SweepOptions};
     ///
     /// let sweep = Sweep::read("bifurcation.toml".as_ref())?;
     /// let options = SweepOptions { threads: None, shard: Shard::WHOLE, force: false };

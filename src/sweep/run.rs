@@ -82,8 +82,8 @@ impl Plan {
     }
 
     /// As [`Plan::run_into`]; also returns the folder, in whose place files can be added, pictures
-    /// in each of `formats`. `on_damage` is called with what the folder holds that is damaged, before
-    /// its rows are computed again.
+    /// in each of `formats`. `on_damage` is called with what the folder holds that is damaged,
+    /// before its rows are computed again.
     pub(crate) fn run_in(
         &self,
         folder: &Path,

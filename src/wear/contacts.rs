@@ -8,23 +8,22 @@
 //! is integrated from one sign change to the next.
 
 use super::blows::Blow;
-use super::piece::{ImpulseDuration, SlidingPiece, along, around, degrees, in_part, on_grid};
-use crate::scene::{Face, PlaneRows, Scene, Support, Wall, heading};
+use super::piece::{ImpulseDuration, Section, SlidingPiece, along, around, degrees, in_part, on_grid};
+use crate::scene::{Face, Scene, Support, Wall, heading};
 use crate::step::{Path, Step};
 
 /// The contacts of a scene's supports.
 #[derive(Debug, Clone)]
 pub(crate) struct SlidingContacts {
     walls: usize,
-    sections: Vec<Section>,
+    supports: Vec<SupportContacts>,
 }
 
-/// The cross-section at a support.
+/// A support: its cross-section and its contacts.
 #[derive(Debug, Clone)]
-pub(super) struct Section {
-    pub at: PlaneRows,
+struct SupportContacts {
+    section: Section,
     contacts: Vec<Contact>,
-    pub blows: Vec<Blow>,
 }
 
 /// A contact of a support.
@@ -37,7 +36,7 @@ enum Contact {
 impl SlidingContacts {
     /// The contacts of `scene` as the scheme sees it.
     pub fn new(scene: &Scene) -> Self {
-        let section = |(support, blows): (&Support, Vec<Blow>)| {
+        let of = |(support, blows): (&Support, Vec<Blow>)| {
             let contact = |(index, wall): (usize, &Wall)| {
                 let rigid = wall.law.is_rigid();
                 Some(match wall.face {
@@ -51,15 +50,15 @@ impl SlidingContacts {
                 })
             };
             let contacts = support.members(&scene.walls).filter_map(contact).collect();
-            Section { at: support.at.clone(), contacts, blows }
+            SupportContacts { section: Section { at: support.at.clone(), blows }, contacts }
         };
-        let sections = scene.supports.iter().zip(Blow::all(scene)).map(section).collect();
-        Self { walls: scene.walls.len(), sections }
+        let supports = scene.supports.iter().zip(Blow::all(scene)).map(of).collect();
+        Self { walls: scene.walls.len(), supports }
     }
 
     /// True for a scene without supports.
     pub fn is_empty(&self) -> bool {
-        self.sections.is_empty()
+        self.supports.is_empty()
     }
 
     /// Number of contacts; a [`SlidingPiece::contact`] is below it.
@@ -70,8 +69,8 @@ impl SlidingContacts {
     /// Calls `each` with every contact that pushed in `step` between the times `from` and `to` (s);
     /// impulses at the end of the step are included where `to` reaches the end.
     pub fn observe(&self, step: &Step<'_>, [from, to]: [f64; 2], mut each: impl FnMut(&SlidingPiece)) {
-        for (support, section) in self.sections.iter().enumerate() {
-            for contact in &section.contacts {
+        for (support, SupportContacts { section, contacts }) in self.supports.iter().enumerate() {
+            for contact in contacts {
                 let Some((index, push)) = contact.push(step) else { continue };
                 let blank = SlidingPiece {
                     support,
@@ -141,12 +140,5 @@ impl Contact {
                 Some((index, Push { angle: degrees(normal), normal, impulse, friction }))
             }
         }
-    }
-}
-
-impl Section {
-    /// The sliding velocity of the velocities `v` along t of the normal `normal`, m/s.
-    pub fn along(&self, [y, z]: [f64; 2], v: &[f64]) -> f64 {
-        y * self.at.z.dot(v) - z * self.at.y.dot(v)
     }
 }

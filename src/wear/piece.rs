@@ -2,10 +2,10 @@
 //! step, and along exact motion.
 
 use super::blows::Blow;
-use super::contacts::Section;
 use super::stretch::{Sliding, SlidingSums};
 use super::work::{sliding_distance, work_of_impulse};
 use crate::flow::Series;
+use crate::scene::PlaneRows;
 use crate::step::Step;
 
 /// Number of parts of a stretch of exact motion, which lasts at most two radians of its fastest
@@ -53,6 +53,20 @@ pub(crate) struct SlidingPiece {
     /// The distance ∫ |v_t| dt, m, and the time, s; both 0 at an instant.
     pub sliding: f64,
     pub time: f64,
+}
+
+/// The cross-section at a support.
+#[derive(Debug, Clone)]
+pub(super) struct Section {
+    pub at: PlaneRows,
+    pub blows: Vec<Blow>,
+}
+
+impl Section {
+    /// The sliding velocity of the velocities `v` along t of the normal `normal`, m/s.
+    pub fn along(&self, [y, z]: [f64; 2], v: &[f64]) -> f64 {
+        y * self.at.z.dot(v) - z * self.at.y.dot(v)
+    }
 }
 
 /// A piece of a step on a grid: its share of the step's impulse, with the sliding velocity `blown`
