@@ -28,8 +28,8 @@ impl Judge {
                 let at = [0, 1].map(|i: usize| (1.0 - theta) * start[i] + theta * end[i]);
                 let distance = at[0].hypot(at[1]);
                 // Where the dashpot's plate is at the step's start: on the body or the circle.
-                let plate = if self.contract.promise.hole == Some(Bound::Along) {
-                    (at[0] * start[0] + at[1] * start[1]) / distance + (gap - r0).max(0.0)
+                let plate = if self.contract.promise.hole == Some(Bound::Along) && r0 >= gap {
+                    (at[0] * start[0] + at[1] * start[1]) / distance
                 } else {
                     r0.max(gap)
                 };

@@ -177,11 +177,8 @@ impl PlaneContacts {
         if let (Some((centre, gap)), Some(spring)) = (contact.round, face.law.spring()) {
             let from = self.offset(wall, centre, &frame.q);
             let distance = from[0].hypot(from[1]);
-            let plate = if theta == THETA {
-                Plate::Beyond((gap - distance).max(0.0))
-            } else {
-                Plate::Distance(distance.max(gap))
-            };
+            let plate =
+                if theta == THETA && distance >= gap { Plate::Body } else { Plate::Distance(distance.max(gap)) };
             let ring = Ring { spring, gap, plate, theta };
             let compliance = ring.compliance(length);
             return PlaneBound { compliance, ..self.velocity_bound(wall, state, Guide::Ring(ring)) };

@@ -47,8 +47,8 @@ pub(super) enum Guide {
 pub(super) enum Plate {
     /// At this distance from the centre.
     Distance(f64),
-    /// That far beyond the body, along the normal.
-    Beyond(f64),
+    /// On the body, which it touches.
+    Body,
 }
 
 /// The force of an elastic round wall over a part of a step.
@@ -71,7 +71,7 @@ impl Ring {
         let (w, speed, st) = (dot(normal, from), dot(normal, rate), self.theta * length);
         let plate = match self.plate {
             Plate::Distance(distance) => distance,
-            Plate::Beyond(beyond) => w + beyond,
+            Plate::Body => w,
         };
         let force = self.spring.force(w + st * speed, self.gap, plate, st);
         (normal, speed - length * force * self.compliance(length))
