@@ -119,12 +119,13 @@ pub fn main(stdout: Stdout) -> ExitCode {
     }
 }
 
-/// The error with what to write in place of `--end`, where a command has no such option: clap would
-/// take it for `--seed`.
+/// The error with what to write in place of `--end`, where a command has no such option and clap
+/// takes it for `--seed`, in its tip and in the usage.
 fn with_tip(mut error: clap::Error) -> clap::Error {
-    let is_end = |value: &ContextValue| matches!(value, ContextValue::String(word) if word == "--end");
-    if error.get(ContextKind::InvalidArg).is_some_and(is_end) {
+    let is = |kind, option: &str| matches!(error.get(kind), Some(ContextValue::String(word)) if word == option);
+    if is(ContextKind::InvalidArg, "--end") && is(ContextKind::SuggestedArg, "--seed") {
         error.remove(ContextKind::SuggestedArg);
+        error.remove(ContextKind::Usage);
         let tip = "'--set time.end=SECONDS' sets the end of a run".into();
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
     }
