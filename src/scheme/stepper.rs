@@ -63,6 +63,11 @@ pub struct Stepper {
 }
 
 impl Stepper {
+    /// True if `scheme` does not refuse `scene` with steps of `step` seconds.
+    pub(crate) fn takes(scene: &Scene, scheme: &Scheme, step: f64) -> bool {
+        Self::new(scene, scheme, step).is_ok()
+    }
+
     /// A stepper for `scene` by `method`, a [`Scheme`] or a [`Method`], with steps of `step`
     /// seconds. For the exact scheme, which steps from event to event, `step` is the longest
     /// stretch of one step.

@@ -65,7 +65,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         Ok(run) => run,
         Err(error) => {
             let restitution_0 = |w: &Wall| w.law.restitution() == Some(0.0);
-            let (scheme, why) = if takes(scene, &Scheme::Located, scene.duration) {
+            let (scheme, why) = if Stepper::takes(scene, &Scheme::Located, scene.duration) {
                 (Scheme::Located, "located divides its steps at the impacts, and is of order 2 through them")
             } else if scene.walls.iter().all(restitution_0) && !scene.turns_or_rubs() {
                 (Scheme::PaoliSchatzman, "with e = 0 at every wall paoli-schatzman is of order 2")
@@ -108,7 +108,7 @@ pub fn at_supports(scene: &Scene, step: f64) -> Vec<String> {
     if !scene.turns_or_rubs() {
         return Vec::new();
     }
-    let (taken, refused): (Vec<_>, Vec<_>) = Scheme::ALL.into_iter().partition(|one| takes(scene, one, step));
+    let (taken, refused): (Vec<_>, Vec<_>) = Scheme::ALL.into_iter().partition(|one| Stepper::takes(scene, one, step));
     let names = |of: &[Scheme]| of.iter().map(|one| one.entry().name).collect::<Vec<_>>().join(", ");
     let law = |one: &Scheme| match one.entry().round {
         Coverage::Stepped(law) => Some(format!("at round supports {} {law}", one.entry().name)),
@@ -124,12 +124,6 @@ pub fn at_supports(scene: &Scene, step: f64) -> Vec<String> {
         lines.push(format!("refused here: {}; `run --scheme NAME` says why", names(&refused)));
     }
     lines
-}
-
-/// True if `scheme` does not refuse `scene`.
-#[must_use]
-pub(crate) fn takes(scene: &Scene, scheme: &Scheme, step: f64) -> bool {
-    Stepper::new(scene, scheme, step).is_ok()
 }
 
 /// True if a step of `method` on a scene with round walls is a programme with disks, not one of

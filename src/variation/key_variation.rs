@@ -130,7 +130,7 @@ impl KeyVariation {
     /// [`NoDerivative`]: what has been read so far holds, and there is nothing more from then on.
     pub fn carry(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
         self.variation.carry(step, &mut self.columns)?;
-        self.variation.keys.means.passed(step);
+        self.variation.keys.means.add_impulses(step);
         let struck = step.jump.iter().position(|&p| p != 0.0);
         for which in 0..self.witnesses.len() {
             let size = self.size_of(which);
@@ -172,7 +172,7 @@ impl KeyVariation {
     #[must_use]
     pub fn means(&self) -> MeanDerivative {
         let keys = &self.variation.keys;
-        keys.means.found(keys.contacts.total())
+        keys.means.means(keys.contacts.total())
     }
 
     /// The derivative of the state now, (δq, δq̇) for each key one after the other: m and m/s per

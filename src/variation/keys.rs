@@ -107,7 +107,7 @@ impl Keys {
         hold.change(body, v, scratch, |held| -terms.along(wall(held.row), work_v));
         change.fill(body, base, (touching, hold), (q, v), terms, scratch);
         motion.read(column, base, change, terms, (work_q, work_v));
-        means.pass(column, (base, change), terms);
+        means.add_stretch(column, (base, change), terms);
         let end = base.span();
         for (wall, share) in base.acting_shares() {
             let [force, impulse] = change.push(body, (touching, hold), wall, end);

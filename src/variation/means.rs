@@ -75,7 +75,7 @@ impl MeanChanges {
     }
 
     /// Adds the stretch of `base`, with its change by key number `column`.
-    pub fn pass(&mut self, column: usize, (base, change): (&Series, &Change), terms: &KeyTerms) {
+    pub fn add_stretch(&mut self, column: usize, (base, change): (&Series, &Change), terms: &KeyTerms) {
         let (unit, x, count) = (base.unit(), base.span(), base.terms().min(TERMS));
         for (number, probe) in self.probes.iter_mut().enumerate() {
             let (scale, mut by) = (x * unit, [0.0; TERMS]);
@@ -96,14 +96,14 @@ impl MeanChanges {
     }
 
     /// Adds the impulses of `step`.
-    pub fn passed(&mut self, step: &Step<'_>) {
+    pub fn add_impulses(&mut self, step: &Step<'_>) {
         self.impulse.resize(step.impulse.len(), 0.0);
         self.impulse.iter_mut().zip(step.impulse).for_each(|(sum, p)| *sum += p);
         self.span = Some([self.span.map_or(step.start, |span| span[0]), step.end]);
     }
 
     /// The means so far; `total` are the changes of the impulses of each wall by each key, N s.
-    pub fn found(&self, total: &[Vec<f64>]) -> MeanDerivative {
+    pub fn means(&self, total: &[Vec<f64>]) -> MeanDerivative {
         let length = self.span.map_or(0.0, |[from, to]| to - from);
         let rms = |probe: &Probe| (probe.own[1] / length).sqrt();
         let over = |list: &[f64]| list.iter().map(|x| x / length).collect::<Vec<f64>>();

@@ -15,7 +15,7 @@ use crate::output::document::under_head;
 use crate::output::summary;
 use crate::run::notes;
 use crate::scene::{System, WallSpring};
-use crate::scheme::{Method, Scheme};
+use crate::scheme::{Method, Scheme, Stepper};
 use crate::study::choice::{self, Choice};
 use model::{MOST_WALLS, excitations, supports, walls, what};
 use penalty::Penalty;
@@ -79,7 +79,7 @@ fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
     tell("model", model);
     tell("fluid-elastic margins", flow::margins(case));
     let mut schemes = vec![format!("{}: {}", choice.method, choice.reason)];
-    if choice::takes(&case.scene, &Scheme::Event, case.time.step) {
+    if Stepper::takes(&case.scene, &Scheme::Event, case.time.step) {
         schemes.push("event: exact, from impact to impact without a step; the reference of `compare`".to_owned());
     }
     schemes.extend(choice::at_supports(&case.scene, case.time.step));

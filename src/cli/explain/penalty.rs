@@ -3,8 +3,7 @@
 use crate::case::Case;
 use crate::error::Result;
 use crate::scene::Scene;
-use crate::scheme::{Integrator, PenaltyLaw, Scheme};
-use crate::study::choice::takes;
+use crate::scheme::{Integrator, PenaltyLaw, Scheme, Stepper};
 use serde_json::{Value, json};
 
 /// A penalty of the case, and how well its step resolves it.
@@ -23,7 +22,7 @@ impl Penalty {
         let h = case.time.step;
         let one =
             |&law: &PenaltyLaw| stiffest(&case.scene, law).map(|k| Self { law, integrator, kappa: h * h * k / least });
-        let taken = |law: &&PenaltyLaw| takes(&case.scene, &Scheme::Penalty { law: **law, integrator }, h);
+        let taken = |law: &&PenaltyLaw| Stepper::takes(&case.scene, &Scheme::Penalty { law: **law, integrator }, h);
         case.penalty.laws.iter().filter(taken).map(one).collect()
     }
 

@@ -12,7 +12,7 @@ const SLOW: f64 = 0.1;
 /// face of the wall, of those that take the scene with steps of `step` seconds.
 pub(crate) fn resting(scene: &Scene, step: f64) -> Option<String> {
     let wall = scene.walls.iter().find(|wall| wall.law.is_rigid() && may_rest(scene, wall))?;
-    let takes = |scheme: &Scheme| Stepper::new(scene, scheme, step).is_ok();
+    let takes = |scheme: &Scheme| Stepper::takes(scene, scheme, step);
     if !takes(&Scheme::MoreauJean { theta: 0.5 }) {
         return None;
     }
