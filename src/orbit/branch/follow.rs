@@ -27,6 +27,34 @@ fn here(curve: &Curve<'_>, y: Vector, linear: &Linear, along: &Vector) -> Result
     Ok(Here { y, tangent, point, tests })
 }
 
+/// A special point within a step, by its distance along the branch from the step's begin.
+struct Crossed {
+    at: f64,
+    label: Label,
+    event: usize,
+    y: Vector,
+}
+
+/// How far a step goes: its length, and the value of the key at which it ends, where a full one
+/// would leave the range.
+#[derive(Clone, Copy)]
+struct Reach {
+    length: f64,
+    bound: Option<f64>,
+}
+
+/// A branch as it is followed.
+struct Follower<'c, 'a> {
+    curve: &'c Curve<'a>,
+    range: [f64; 2],
+    /// The equations at its first point, that point, and the tangent there.
+    linear: Linear,
+    start: (Vector, Vector),
+    now: Here,
+    stride: Stride,
+    line: Line<Curve<'a>>,
+}
+
 /// Follows `curve` from the solution `y` in the direction of `along`, while the key stays in
 /// `range`. It takes at most `most` points, the first being that at `y`, and calls `seen` with
 /// each.
@@ -39,125 +67,154 @@ pub(super) fn follow<'a>(
     seen: &mut dyn FnMut(&Point),
 ) -> Result<Line<Curve<'a>>> {
     let linear = curve.linear(&y)?;
-    let mut now = here(curve, y, &linear, along)?;
+    let now = here(curve, y, &linear, along)?;
     let start = (now.y.clone(), now.tangent.clone());
-    let mut line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
-    let mut stride = Stride::new();
-    while line.points.len() < most {
-        let last = now.y.len() - 1;
-        // A step that would leave the range is shortened to its end: the key may accept no value
-        // outside.
-        let slope = now.tangent[last] * curve.width;
-        let bound = beyond(range, now.point.value + slope * stride.length);
-        let step = bound.map_or(stride.length, |bound| (bound - now.point.value) / slope);
-        // A branch that starts at an end of the range and leads out of it ends at once.
-        if step <= 0.0 {
-            line.end = End::Range;
-            return Ok(line);
+    let line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
+    let mut follower = Follower { curve, range, linear, start, now, stride: Stride::new(), line };
+    while follower.line.points.len() < most {
+        if let Some(end) = follower.advance(seen)? {
+            follower.line.end = end;
+            break;
         }
-        let (mut guess, mut border) = (&now.y + &now.tangent * step, now.tangent.clone());
+    }
+    Ok(follower.line)
+}
+
+impl Follower<'_, '_> {
+    /// Takes a step, or halves the stride; the end of the branch where it has come to one.
+    fn advance(&mut self, seen: &mut dyn FnMut(&Point)) -> Result<Option<End>> {
+        let reach = self.reach();
+        // A branch that starts at an end of the range and leads out of it ends at once.
+        if reach.length <= 0.0 {
+            return Ok(Some(End::Range));
+        }
+        let next = match self.corrected(reach) {
+            Ok(next) => next,
+            Err(_) if self.stride.halve() => return Ok(None),
+            Err(why) => return Ok(Some(End::Stuck(why))),
+        };
+        let mut crossed = match self.crossed(&next, reach.length) {
+            Ok(crossed) => crossed,
+            Err(why) => return Ok(Some(End::Stuck(why))),
+        };
+        let before_end = self.line.points.len();
+        let limit = self.leave_range(&next, reach)?;
+        if let Some(limit) = limit {
+            crossed.retain(|crossed| crossed.at <= limit);
+        }
+        crossed.sort_by(|a, b| a.at.total_cmp(&b.at));
+        forget_echoes(&mut crossed, &next.point, SAME_PLACE * reach.length);
+        if let Some(label) = self.pass(crossed, before_end)? {
+            return Ok(Some(End::Special(label)));
+        }
+        if limit.is_some() {
+            return Ok(Some(End::Range));
+        }
+        seen(&next.point);
+        if let Some(reason) = next.point.admissible.reason(self.linear.problem.scene()) {
+            return Ok(Some(End::Stuck(reason)));
+        }
+        let back = (&next.y - &self.start.0).norm() <= reach.length && turns_little(&self.start.1, &next.tangent);
+        let closed = before_end >= LEAST_LOOP && back;
+        self.line.points.push(next.point.clone());
+        if closed {
+            return Ok(Some(End::Closed));
+        }
+        self.now = next;
+        Ok(self.stride.grow(1.0).err().map(|error| End::Stuck(error.to_string())))
+    }
+
+    /// How far the next step goes: one that would leave the range is shortened to its end, since
+    /// the key may accept no value outside.
+    fn reach(&self) -> Reach {
+        let now = &self.now;
+        let slope = now.tangent[now.y.len() - 1] * self.curve.width;
+        let bound = beyond(self.range, now.point.value + slope * self.stride.length);
+        let length = bound.map_or(self.stride.length, |bound| (bound - now.point.value) / slope);
+        Reach { length, bound }
+    }
+
+    /// The point at the end of a step, or why there is none nearby.
+    fn corrected(&self, Reach { length, bound }: Reach) -> std::result::Result<Here, String> {
+        let Self { curve, now, .. } = self;
+        let last = now.y.len() - 1;
+        let (mut guess, mut border) = (&now.y + &now.tangent * length, now.tangent.clone());
         if let Some(bound) = bound {
-            (guess[last], border) = (scaled(bound, curve.width, range), unit(last + 1, last));
+            (guess[last], border) = (scaled(bound, curve.width, self.range), unit(last + 1, last));
         }
         let tried = curve.correct(&guess, &border).and_then(|(y, linear, iterations)| {
             let mut next = here(curve, y, &linear, &now.tangent)?;
             next.point.value = bound.unwrap_or(next.point.value);
             Ok((next, iterations))
         });
-        let good = tried.as_ref().is_ok_and(|(next, iterations)| {
-            Stride::keeps(*iterations, &now.tangent, &next.tangent) && next.point.value.is_finite()
-        });
-        let next = match tried {
-            Ok((next, _)) if good => next,
-            tried => {
-                if !stride.halve() {
-                    let why = tried
-                        .err()
-                        .map_or_else(|| "the branch turns too sharply".to_owned(), |error| error.to_string());
-                    line.end = End::Stuck(why);
-                    return Ok(line);
-                }
-                continue;
-            }
-        };
-        // All special points within the step, in order, and the first end of the branch.
+        let (next, iterations) = tried.map_err(|error| error.to_string())?;
+        if Stride::keeps(iterations, &now.tangent, &next.tangent) && next.point.value.is_finite() {
+            return Ok(next);
+        }
+        Err("the branch turns too sharply".to_owned())
+    }
+
+    /// All special points within a step of `length` to `next`, or why one was not located.
+    fn crossed(&self, next: &Here, length: f64) -> std::result::Result<Vec<Crossed>, String> {
+        let Self { curve, now, .. } = self;
         let mut crossed = Vec::new();
         for (index, (before, after)) in now.tests.iter().zip(&next.tests).enumerate() {
             // A test function that is 0 at the beginning belongs to the point where the branch
             // begins.
-            if before.value * after.value < 0.0 && before.value.abs() > ZERO {
-                let found = locate([0.0, step], [before.value, after.value], |s| {
-                    let (y, linear, _) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
-                    let tangent = curve.tangent(&linear, &now.tangent)?;
-                    let point = point(curve, &linear.problem, &y)?;
-                    let all = tests(curve, &linear.problem, &point, &y, &tangent);
-                    Ok((all.get(index).map_or(f64::NAN, |test| test.value), y))
-                });
-                match found {
-                    Ok(found) => crossed.push((found.0, before.label, before.event, found.1)),
-                    Err(error) => {
-                        line.end = End::Stuck(format!("a {} ahead was not located: {error}", before.label));
-                        return Ok(line);
-                    }
-                }
+            let turned = before.value * after.value < 0.0 && before.value.abs() > ZERO;
+            if !turned {
+                continue;
             }
+            let (at, y) = locate([0.0, length], [before.value, after.value], |s| {
+                let (y, linear, _) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
+                let tangent = curve.tangent(&linear, &now.tangent)?;
+                let point = point(curve, &linear.problem, &y)?;
+                let all = tests(curve, &linear.problem, &point, &y, &tangent);
+                Ok((all.get(index).map_or(f64::NAN, |test| test.value), y))
+            })
+            .map_err(|error| format!("a {} ahead was not located: {error}", before.label))?;
+            crossed.push(Crossed { at, label: before.label, event: before.event, y });
         }
-        let mut limit = f64::INFINITY;
-        if bound.is_some() {
-            limit = step;
-            line.points.push(next.point.clone());
-        } else if let Some(bound) = beyond(range, next.point.value) {
-            // Within the step the branch leaves the range.
-            let ends = [now.point.value - bound, next.point.value - bound];
-            let (s, y) = locate([0.0, step], ends, |s| {
-                let (y, ..) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
-                Ok((curve.value(&y) - bound, y))
-            })?;
-            limit = s;
-            crossed.retain(|(s, ..)| *s <= limit);
-            let linear = curve.linear(&y)?;
-            line.points.push(point(curve, &linear.problem, &y)?);
-        }
-        crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
-        forget_echoes(&mut crossed, &next.point, SAME_PLACE * step);
-        let last = line.points.len() - usize::from(limit.is_finite());
-        for (_, label, event, y) in crossed {
-            let problem = curve.problem(&y)?;
-            let point = point(curve, &problem, &y)?;
-            let label = problem.halves(&point.orbit).filter(|_| label == Label::Fold).map_or(label, |half| half.1);
-            let wall = label.wall(event, &point);
-            let curve = curve.clone();
-            line.passed.push(Passed { label, event, wall, point: point.clone(), curve, y, after: last, beyond: None });
-            if label.ends() {
-                line.points.truncate(last);
-                line.points.push(point);
-                line.end = End::Special(label);
-                return Ok(line);
-            }
-        }
-        if limit.is_finite() {
-            line.end = End::Range;
-            return Ok(line);
-        }
-        seen(&next.point);
-        if let Some(reason) = next.point.admissible.reason(linear.problem.scene()) {
-            line.end = End::Stuck(reason);
-            return Ok(line);
-        }
-        let apart = (&next.y - &start.0).norm();
-        let closed = line.points.len() >= LEAST_LOOP && apart <= step && turns_little(&start.1, &next.tangent);
-        line.points.push(next.point.clone());
-        if closed {
-            line.end = End::Closed;
-            return Ok(line);
-        }
-        now = next;
-        if let Err(error) = stride.grow(1.0) {
-            line.end = End::Stuck(error.to_string());
-            return Ok(line);
-        }
+        Ok(crossed)
     }
-    Ok(line)
+
+    /// Where a step to `next` leaves the range: adds the point at its end, and returns the distance
+    /// along the branch to it.
+    fn leave_range(&mut self, next: &Here, reach: Reach) -> Result<Option<f64>> {
+        if reach.bound.is_some() {
+            self.line.points.push(next.point.clone());
+            return Ok(Some(reach.length));
+        }
+        let Self { curve, now, .. } = self;
+        let Some(bound) = beyond(self.range, next.point.value) else { return Ok(None) };
+        let ends = [now.point.value - bound, next.point.value - bound];
+        let (limit, y) = locate([0.0, reach.length], ends, |s| {
+            let (y, ..) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
+            Ok((curve.value(&y) - bound, y))
+        })?;
+        let linear = curve.linear(&y)?;
+        self.line.points.push(point(curve, &linear.problem, &y)?);
+        Ok(Some(limit))
+    }
+
+    /// Notes the special points of a step, before which the branch had `after` points; the label of
+    /// the first one at which the branch ends.
+    fn pass(&mut self, crossed: Vec<Crossed>, after: usize) -> Result<Option<Label>> {
+        for Crossed { label, event, y, .. } in crossed {
+            let problem = self.curve.problem(&y)?;
+            let point = point(self.curve, &problem, &y)?;
+            let label = problem.halves(&point.orbit).filter(|_| label == Label::Fold).map_or(label, |half| half.1);
+            let (wall, curve) = (label.wall(event, &point), self.curve.clone());
+            let line = &mut self.line;
+            line.passed.push(Passed { label, event, wall, point: point.clone(), curve, y, after, beyond: None });
+            if label.ends() {
+                line.points.truncate(after);
+                line.points.push(point);
+                return Ok(Some(label));
+            }
+        }
+        Ok(None)
+    }
 }
 
 /// A test function below this counts as zero: the branch begins at its special point.
@@ -169,24 +226,23 @@ const SAME_PLACE: f64 = 1e-4;
 /// Where the duration of a contact with an elastic wall goes to 0, the equations themselves become
 /// singular. The other test functions (determinants, and the key's part of the tangent) vanish
 /// there too without meaning anything, and are left out.
-fn forget_echoes(crossed: &mut Vec<(f64, Label, usize, Vector)>, point: &Point, near: f64) {
+fn forget_echoes(crossed: &mut Vec<Crossed>, point: &Point, near: f64) {
     let kind = |event: usize| point.orbit.signature.events.get(event).map(|event| event.kind);
-    let elastic = |label: Label, event: usize| match label {
-        Label::GrazingOut | Label::ContactEnds => matches!(kind(event), Some(Kind::Enter | Kind::Leave | Kind::Again)),
+    let elastic = |crossed: &&Crossed| match crossed.label {
+        Label::GrazingOut | Label::ContactEnds => {
+            matches!(kind(crossed.event), Some(Kind::Enter | Kind::Leave | Kind::Again))
+        }
         _ => false,
     };
-    let ends: Vec<f64> =
-        crossed.iter().filter(|(_, label, event, _)| elastic(*label, *event)).map(|(s, ..)| *s).collect();
-    crossed.retain(|(s, label, ..)| label.ends() || !ends.iter().any(|end| (end - s).abs() <= near));
+    let among = |places: &[f64], at: f64| places.iter().any(|place| (place - at).abs() <= near);
+    let ends: Vec<f64> = crossed.iter().filter(elastic).map(|crossed| crossed.at).collect();
+    crossed.retain(|crossed| crossed.label.ends() || !among(&ends, crossed.at));
     // Beyond an impact of speed 0 the motion turns back behind its wall: this is not a new contact.
-    let gone: Vec<f64> =
-        crossed.iter().filter(|(_, label, ..)| *label == Label::GrazingOut).map(|(s, ..)| *s).collect();
-    crossed.retain(|(s, label, ..)| *label != Label::GrazingIn || !gone.iter().any(|end| (end - s).abs() <= near));
+    let gone = |crossed: &&Crossed| crossed.label == Label::GrazingOut;
+    let turns: Vec<f64> = crossed.iter().filter(gone).map(|crossed| crossed.at).collect();
+    crossed.retain(|crossed| crossed.label != Label::GrazingIn || !among(&turns, crossed.at));
     // Where a contact vanishes, its entry and its exit coincide: the first of the two tests stands
     // for both.
-    let enters =
-        crossed.iter().any(|(_, label, event, _)| *label == Label::GrazingOut && kind(*event) == Some(Kind::Enter));
-    crossed.retain(|(s, label, ..)| {
-        !(enters && *label == Label::ContactEnds && ends.iter().any(|end| (end - s).abs() <= near))
-    });
+    let enters = crossed.iter().filter(gone).any(|crossed| kind(crossed.event) == Some(Kind::Enter));
+    crossed.retain(|crossed| !(enters && crossed.label == Label::ContactEnds && among(&ends, crossed.at)));
 }

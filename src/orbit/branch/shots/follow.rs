@@ -1,25 +1,16 @@
 //! One branch of orbits of a structure, followed by steps of pseudo-arclength (Keller 1977).
 
 use super::Shots;
+use super::change::Change;
 use super::here::{Here, Tests};
 use crate::error::{Error, Result};
-use crate::orbit::branch::arclength::{Stride, Vector, beyond, bordered, extended, locate, scaled, turns_little, unit};
+use crate::orbit::branch::arclength::{Stride, Vector, beyond, locate, turns_little};
 use crate::orbit::branch::label::Label;
 use crate::orbit::branch::line::{End, Line, Passed};
 use crate::orbit::branch::point::Point;
-use crate::orbit::newton::SOLVED;
-use crate::orbit::turn::Look;
 
 /// Least number of points after which a curve may be found closed.
 const LEAST_LOOP: usize = 6;
-
-/// A step has stayed on the branch if it ends within this many step lengths of its start.
-const NEAR: f64 = 2.0;
-
-/// Most iterations with the derivative of the point before, and the factor by which each must
-/// reduce the residual.
-const CHORDS: usize = 10;
-const FAST: f64 = 0.3;
 
 /// Multipliers closer than this to the unit circle lie on it to rounding.
 const ON_CIRCLE: f64 = 1e-9;
@@ -55,13 +46,21 @@ pub(super) fn follow<'a>(
 ) -> Result<Line<Shots<'a>>> {
     let linear = curve.linear(&y, &mut None)?;
     let now = curve.here(y, linear, along)?;
-    let mut line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
-    line.end = match curve.clone().go_on(now, range, most, &mut line, seen) {
-        Ok(end) => end,
-        Err(stopped @ Error::Stopped) => return Err(stopped),
-        Err(error) => End::Stuck(error.to_string()),
-    };
-    Ok(line)
+    let line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
+    let start = Some((now.y.clone(), now.tangent.clone()));
+    let mut follower = Follower { curve: curve.clone(), range, start, before: None, now, stride: Stride::new(), line };
+    while follower.line.points.len() < most {
+        let end = match follower.advance(seen) {
+            Ok(end) => end,
+            Err(stopped @ Error::Stopped) => return Err(stopped),
+            Err(error) => Some(End::Stuck(error.to_string())),
+        };
+        if let Some(end) = end {
+            follower.line.end = end;
+            break;
+        }
+    }
+    Ok(follower.line)
 }
 
 /// Adds the special points of a step after the last point of `line`.
@@ -83,184 +82,145 @@ fn note<'a>(curve: &Shots<'a>, line: &mut Line<Shots<'a>>, mut crossed: Crossed)
     Ok(())
 }
 
-impl<'a> Shots<'a> {
-    /// Follows the curve from `now` on; adds to `line`, and gives its end.
-    fn go_on(
-        mut self,
-        mut now: Here,
-        range: [f64; 2],
-        most: usize,
-        line: &mut Line<Self>,
-        seen: &mut dyn FnMut(&Point),
-    ) -> Result<End> {
-        // The first point of the branch, at the present strobe; `None` where it could not be moved
-        // there.
-        let mut start = Some((now.y.clone(), now.tangent.clone()));
-        let mut stride = Stride::new();
-        // The point before, and how far along the branch it lies.
-        let mut before: Option<(Here, f64)> = None;
-        while line.points.len() < most {
-            if let Some(strobe) = self.better_strobe(&now) {
-                // Otherwise the strobe stays where it is.
-                if let Ok((moved, there)) = self.moved(&now, strobe) {
-                    start = start.and_then(|(y, tangent)| self.carried(&y, &tangent, strobe).ok());
-                    (self, now, before) = (moved, there, None);
-                }
-            }
-            let step = stride.length;
-            let good = |(next, iterations): &(Here, usize)| {
-                next.meets_as(&now)
-                    && Stride::keeps(*iterations, &now.tangent, &next.tangent)
-                    && next.point.value.is_finite()
-            };
-            // A step that would leave the range is shortened to its end: the key may accept no
-            // value outside.
-            let slope = now.tests.fold * self.width;
-            let ahead = now.point.value + slope * step;
-            if let Some(bound) = beyond(range, ahead) {
-                let short = (bound - now.point.value) / slope;
-                if short <= 0.0 {
-                    return Ok(End::Range);
-                }
-                if let Ok(found) = self.at_bound(&now, bound, range, short)
-                    && good(&found)
-                    && let (crossed, true) = self.crossed(&now, &found.0.tests, short)?
-                {
-                    note(&self, line, crossed)?;
-                    seen(&found.0.point);
-                    line.points.push(found.0.point);
-                    return Ok(End::Range);
-                }
-            }
-            let tried = self.next(&now, step);
-            if let Err(stopped @ Error::Stopped) = tried {
-                return Err(stopped);
-            }
-            let change = match &tried {
-                Ok(found) if good(found) => None,
-                Ok((next, _)) => {
-                    self.change(&now, before.as_ref(), step, Some(next).filter(|next| !next.meets_as(&now)))
-                }
-                Err(_) => self.change(&now, before.as_ref(), step, None),
-            };
-            if let Some(change) = change.filter(|change| (range[0]..=range[1]).contains(&change.point.value)) {
-                let shorter = SHARE * change.step;
-                let near = change.step <= LAST * now.size() || step <= CRAWL * change.step;
-                if near {
-                    let end = change.passed(&self, line.points.len());
-                    seen(&end.point);
-                    line.points.push(end.point.clone());
-                    let label = end.label;
-                    line.passed.push(end);
-                    return Ok(End::Special(label));
-                }
-                if stride.length > shorter {
-                    // No other special point may lie within this step.
-                    stride.length = shorter;
-                    continue;
-                }
-            }
-            let crossed = match &tried {
-                Ok(found) if good(found) => Some(self.crossed(&now, &found.0.tests, step)?),
-                _ => None,
-            };
-            let (next, crossed) = match (tried, crossed) {
-                (Ok((next, _)), Some((crossed, true))) => (next, crossed),
-                (tried, _) => {
-                    if stride.halve() {
-                        continue;
-                    }
-                    let sharp = || Error::no_orbit("the branch turns too sharply, or other walls are met beyond");
-                    return Err(tried.err().unwrap_or_else(sharp));
-                }
-            };
-            let value = next.point.value;
-            if let Some(bound) = beyond(range, value) {
-                let ends = [now.point.value - bound, value - bound];
-                // A branch that starts at an end of the range and leads out of it ends at once.
-                if ends[0] * ends[1] < 0.0 {
-                    let (limit, mut last) = locate([0.0, step], ends, |s| {
-                        let (here, _) = self.next(&now, s)?;
-                        Ok((here.point.value - bound, here.point))
-                    })?;
-                    last.value = bound;
-                    let inside = crossed.into_iter().filter(|(s, ..)| *s <= limit).collect();
-                    note(&self, line, inside)?;
-                    line.points.push(last);
-                }
-                return Ok(End::Range);
-            }
-            note(&self, line, crossed)?;
-            seen(&next.point);
-            let back = line.points.len() >= LEAST_LOOP
-                && start
-                    .as_ref()
-                    .is_some_and(|(y, tangent)| (&next.y - y).norm() <= step && turns_little(tangent, &next.tangent));
-            line.points.push(next.point.clone());
-            if back {
-                return Ok(End::Closed);
-            }
-            before = Some((std::mem::replace(&mut now, next), step));
-            stride.grow(now.size())?;
+/// A branch as it is followed.
+struct Follower<'a> {
+    curve: Shots<'a>,
+    range: [f64; 2],
+    /// The first point of the branch and the tangent there, at the present strobe; `None` where it
+    /// could not be moved there.
+    start: Option<(Vector, Vector)>,
+    /// The point before, and how far along the branch it lies.
+    before: Option<(Here, f64)>,
+    now: Here,
+    stride: Stride,
+    line: Line<Shots<'a>>,
+}
+
+impl<'a> Follower<'a> {
+    /// Takes a step, or shortens the stride; the end of the branch where it has come to one.
+    fn advance(&mut self, seen: &mut dyn FnMut(&Point)) -> Result<Option<End>> {
+        self.move_strobe();
+        let step = self.stride.length;
+        if let Some(end) = self.end_at_bound(step, seen)? {
+            return Ok(Some(end));
         }
-        Ok(End::Points)
-    }
-
-    /// The point one step from `now`, and the number of iterations of its correction.
-    ///
-    /// # Errors
-    /// [`Error::NoOrbit`] where there is none nearby.
-    pub(super) fn next(&self, now: &Here, step: f64) -> Result<(Here, usize)> {
-        self.corrected(now, &(&now.y + &now.tangent * step), &now.tangent, step)
-    }
-
-    /// The same at the key's value `bound`, about a step from `now`.
-    fn at_bound(&self, now: &Here, bound: f64, range: [f64; 2], step: f64) -> Result<(Here, usize)> {
-        let mut guess = &now.y + &now.tangent * step;
-        let last = guess.len() - 1;
-        guess[last] = scaled(bound, self.width, range);
-        let (mut there, iterations) = self.corrected(now, &guess, &unit(last + 1, last), step)?;
-        there.point.value = bound;
-        Ok((there, iterations))
-    }
-
-    /// The point in the plane through `guess` with the normal `border`, one step from `now`.
-    fn corrected(&self, now: &Here, guess: &Vector, border: &Vector, step: f64) -> Result<(Here, usize)> {
-        let (y, linear, iterations) = match self.chord(now, guess, border)? {
-            Some(y) => (y.clone(), self.linear(&y, &mut None)?, 0),
-            None => self.correct(guess, border, Some(now.column.clone()))?,
+        let tried = match self.curve.next(&self.now, step) {
+            Err(stopped @ Error::Stopped) => return Err(stopped),
+            tried => tried,
         };
-        if (&y - &now.y).norm() > NEAR * step.abs() {
-            return Err(Error::no_orbit("Newton's method led too far from the branch"));
+        let mut crossed = None;
+        match &tried {
+            Ok(found) if self.keeps(found) => {
+                crossed = Some(self.curve.crossed(&self.now, &found.0.tests, step)?);
+            }
+            tried => {
+                let other = tried.as_ref().ok().map(|(next, _)| next).filter(|next| !next.meets_as(&self.now));
+                let change = self.curve.change(&self.now, self.before.as_ref(), step, other);
+                let within = |change: &Change<'_>| (self.range[0]..=self.range[1]).contains(&change.point.value);
+                if let Some(change) = change.filter(within) {
+                    if change.step <= LAST * self.now.size() || step <= CRAWL * change.step {
+                        return Ok(Some(self.end_at_change(change, seen)));
+                    }
+                    if step > SHARE * change.step {
+                        // No other special point may lie within this step.
+                        self.stride.length = SHARE * change.step;
+                        return Ok(None);
+                    }
+                }
+            }
         }
-        Ok((self.here(y, linear, &now.tangent)?, iterations))
+        match (tried, crossed) {
+            (Ok((next, _)), Some((crossed, true))) => self.accept(next, crossed, step, seen),
+            _ if self.stride.halve() => Ok(None),
+            (Err(error), _) => Err(error),
+            _ => Err(Error::no_orbit("the branch turns too sharply, or other walls are met beyond")),
+        }
     }
 
-    /// The same point, by Newton's method with the derivative of `now` kept: an iteration then
-    /// takes one run, while a new derivative takes as many as the state has entries. `None` where
-    /// this does not converge fast.
-    fn chord(&self, now: &Here, guess: &Vector, border: &Vector) -> Result<Option<Vector>> {
-        let solver = bordered(&now.matrix, border).lu();
-        let mut y = guess.clone();
-        let mut last = f64::INFINITY;
-        for _ in 0..CHORDS {
-            let x = self.state(&y);
-            let turn = self.turn(&self.posed(self.value(&y))?, &x, Look::Events)?;
-            let residual = self.scales.scaled(&(&turn.end * self.sign() - &x));
-            let size = residual.amax();
-            if last <= SOLVED {
-                return Ok(Some(y));
-            }
-            if size.is_nan() || size > FAST * last {
-                return Ok(None);
-            }
-            let Some(step) = solver.solve(&extended(&residual, border.dot(&(&y - guess)))) else { return Ok(None) };
-            y -= step;
-            last = size;
+    /// Moves the strobe to where the motion is better told from its neighbours; otherwise it stays
+    /// where it is.
+    fn move_strobe(&mut self) {
+        let Some(strobe) = self.curve.better_strobe(&self.now) else { return };
+        let Ok((moved, there)) = self.curve.moved(&self.now, strobe) else { return };
+        self.start = self.start.take().and_then(|(y, tangent)| self.curve.carried(&y, &tangent, strobe).ok());
+        (self.curve, self.now, self.before) = (moved, there, None);
+    }
+
+    /// True if a point found in so many iterations goes on as the branch does.
+    fn keeps(&self, (next, iterations): &(Here, usize)) -> bool {
+        next.meets_as(&self.now)
+            && Stride::keeps(*iterations, &self.now.tangent, &next.tangent)
+            && next.point.value.is_finite()
+    }
+
+    /// The end of a branch whose next step would leave the range: that step is shortened to the
+    /// range's end, since the key may accept no value outside. `None` where the branch stays
+    /// within, or no point was found there.
+    fn end_at_bound(&mut self, step: f64, seen: &mut dyn FnMut(&Point)) -> Result<Option<End>> {
+        let Self { curve, now, range, .. } = self;
+        let slope = now.tests.fold * curve.width;
+        let Some(bound) = beyond(*range, now.point.value + slope * step) else { return Ok(None) };
+        let short = (bound - now.point.value) / slope;
+        if short <= 0.0 {
+            return Ok(Some(End::Range));
+        }
+        if let Ok(found) = curve.at_bound(now, bound, *range, short)
+            && self.keeps(&found)
+            && let (crossed, true) = self.curve.crossed(&self.now, &found.0.tests, short)?
+        {
+            note(&self.curve, &mut self.line, crossed)?;
+            seen(&found.0.point);
+            self.line.points.push(found.0.point);
+            return Ok(Some(End::Range));
         }
         Ok(None)
     }
 
+    /// Ends the branch at a change of its contacts.
+    fn end_at_change(&mut self, change: Change<'a>, seen: &mut dyn FnMut(&Point)) -> End {
+        let end = change.passed(&self.curve, self.line.points.len());
+        seen(&end.point);
+        self.line.points.push(end.point.clone());
+        let label = end.label;
+        self.line.passed.push(end);
+        End::Special(label)
+    }
+
+    /// Goes on to the point `next` a step away, past the special points between; the end of the
+    /// branch where that lies within the step.
+    fn accept(&mut self, next: Here, crossed: Crossed, step: f64, seen: &mut dyn FnMut(&Point)) -> Result<Option<End>> {
+        let Self { curve, now, line, .. } = self;
+        let value = next.point.value;
+        if let Some(bound) = beyond(self.range, value) {
+            let ends = [now.point.value - bound, value - bound];
+            // A branch that starts at an end of the range and leads out of it ends at once.
+            if ends[0] * ends[1] < 0.0 {
+                let (limit, mut last) = locate([0.0, step], ends, |s| {
+                    let (here, _) = curve.next(now, s)?;
+                    Ok((here.point.value - bound, here.point))
+                })?;
+                last.value = bound;
+                note(curve, line, crossed.into_iter().filter(|(s, ..)| *s <= limit).collect())?;
+                line.points.push(last);
+            }
+            return Ok(Some(End::Range));
+        }
+        note(curve, line, crossed)?;
+        seen(&next.point);
+        let back =
+            |(y, tangent): &(Vector, Vector)| (&next.y - y).norm() <= step && turns_little(tangent, &next.tangent);
+        let closed = line.points.len() >= LEAST_LOOP && self.start.as_ref().is_some_and(back);
+        line.points.push(next.point.clone());
+        if closed {
+            return Ok(Some(End::Closed));
+        }
+        self.before = Some((std::mem::replace(&mut self.now, next), step));
+        self.stride.grow(self.now.size())?;
+        Ok(None)
+    }
+}
+
+impl Shots<'_> {
     /// The special points within a step from `now` to a point with the tests `after`; false if they
     /// could not be separated.
     fn crossed(&self, now: &Here, after: &Tests, step: f64) -> Result<(Crossed, bool)> {

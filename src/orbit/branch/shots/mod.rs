@@ -9,6 +9,7 @@
 //! symmetric orbit is followed by its half map −P½, as with one degree of freedom.
 
 mod change;
+mod correct;
 mod follow;
 mod graze;
 mod here;
