@@ -203,6 +203,33 @@ impl Response {
         if holds.is_empty() {
             return true;
         }
+        let unsettled = self.unsettled();
+        let (places, sweeps) = self.contacts(body, rows);
+        let free: Vec<f64> = v.iter().zip(&part.delta).map(|(v, d)| v + d).collect();
+        for (row, rate) in sweeps.free.iter_mut().enumerate() {
+            *rate = places.seen(row, &free);
+        }
+        let found = find_normals((places, sweeps), holds, &part.delta, (length, theta));
+        for (hold, touch) in holds.iter().zip(&sweeps.touches) {
+            let [p, friction] = touch.impulse;
+            if p == 0.0 {
+                continue;
+            }
+            let normal = if matches!(hold.guide, Guide::Flat(..)) { [0.0; 2] } else { touch.normal };
+            part.pushes.push(Push { wall: hold.wall, impulse: hold.sign * p, friction, normal });
+            for (row, push) in touch.rows.into_iter().zip(touch.push(touch.impulse)) {
+                for &(i, weight) in rows[row].entries() {
+                    part.b[i] += weight * push;
+                }
+            }
+        }
+        // Solved again rather than added, so that the balance keeps its rounding where both cancel.
+        self.release(&part.b, &mut part.delta);
+        found && self.unsettled() == unsettled
+    }
+
+    /// The responses at all rows and the solver of the contacts, of the present matrix.
+    fn contacts(&mut self, body: &Body<Matrices>, rows: &[Row]) -> (&mut ContactRows, &mut FrictionContacts) {
         let Self { matrix, factor, contacts, current } = self;
         let (places, sweeps) = match contacts {
             Some((places, sweeps)) => {
@@ -220,64 +247,59 @@ impl Response {
             }
         };
         *current = true;
-        let free: Vec<f64> = v.iter().zip(&part.delta).map(|(v, d)| v + d).collect();
-        for (row, rate) in sweeps.free.iter_mut().enumerate() {
-            *rate = places.seen(row, &free);
-        }
-        let mut ways: Vec<[f64; 2]> = holds.iter().map(|hold| hold.rate.map(|rate| length * rate)).collect();
-        let mut warm = vec![[0.0; 2]; holds.len()];
-        let unsettled = sweeps.unsettled;
-        let mut settled = false;
-        for turn in 0..MOST_TURNS {
-            let touches = holds.iter().zip(ways.iter().zip(&warm)).map(|(hold, (way, warm))| {
-                let (laws, contact) = ((hold.friction, hold.compliance), (hold.wall, hold.rows));
-                let touch = FrictionContact::new(places, contact, hold.bound(*way, length), laws, *warm);
-                FrictionContact { slides: hold.slides, ..touch }
-            });
-            sweeps.touches.clear();
-            sweeps.touches.extend(touches);
-            sweeps.solve(places);
-            let mut delta = part.delta.clone();
-            places.lift(&sweeps.impulse, &mut delta);
-            let (mut turned, mut far) = (0.0_f64, false);
-            for ((hold, way), (touch, warm)) in holds.iter().zip(&mut ways).zip(sweeps.touches.iter().zip(&mut warm)) {
-                let change = places.pair(hold.rows, &delta);
-                let found = [0, 1].map(|i: usize| length * (hold.rate[i] + theta * change[i]));
-                *warm = touch.impulse;
-                let (normal, _) = hold.bound(found, length);
-                if touch.impulse[0] > 0.0 || hold.is_passed(found, length) {
-                    turned = turned.max((normal[0] - touch.normal[0]).hypot(normal[1] - touch.normal[1]));
-                }
-                far |= touch.impulse[0] > 0.0 && hold.turns_far(found);
-                // Normals that swing to and fro meet in the middle.
-                let share = if turn % 4 == 3 && turn >= MOST_TURNS / 4 { 0.5 } else { 1.0 };
-                *way = [0, 1].map(|i: usize| way[i] + share * (found[i] - way[i]));
-            }
-            settled = turned <= TURNED && !far;
-            if settled || far {
-                break;
-            }
-        }
-        for (hold, touch) in holds.iter().zip(&sweeps.touches) {
-            let [p, friction] = touch.impulse;
-            if p == 0.0 {
-                continue;
-            }
-            let normal = if matches!(hold.guide, Guide::Flat(..)) { [0.0; 2] } else { touch.normal };
-            part.pushes.push(Push { wall: hold.wall, impulse: hold.sign * p, friction, normal });
-            for (row, push) in touch.rows.into_iter().zip(touch.push(touch.impulse)) {
-                for &(i, weight) in rows[row].entries() {
-                    part.b[i] += weight * push;
-                }
-            }
-        }
-        // Solved again rather than added, so that the balance keeps its rounding where both cancel.
-        self.release(&part.b, &mut part.delta);
-        settled && self.contacts.as_ref().is_some_and(|(_, sweeps)| sweeps.unsettled == unsettled)
+        (places, sweeps)
+    }
+
+    /// Problems of the contacts without an answer.
+    fn unsettled(&self) -> u64 {
+        self.contacts.as_ref().map_or(0, |(_, sweeps)| sweeps.unsettled)
     }
 
     /// Programmes solved.
     pub fn solves(&self) -> u64 {
         self.contacts.as_ref().map_or(0, |(_, sweeps)| sweeps.solves)
     }
+}
+
+/// Solves for the impulses of `holds` with the normals that they find themselves, over a part of
+/// `length` seconds of the weight θ that changes the velocity by `delta` without them. Returns
+/// whether the normals were found.
+fn find_normals(
+    (places, sweeps): (&ContactRows, &mut FrictionContacts),
+    holds: &[PlaneBound],
+    delta: &[f64],
+    (length, theta): (f64, f64),
+) -> bool {
+    let mut ways: Vec<[f64; 2]> = holds.iter().map(|hold| hold.rate.map(|rate| length * rate)).collect();
+    let mut warm = vec![[0.0; 2]; holds.len()];
+    for turn in 0..MOST_TURNS {
+        let touches = holds.iter().zip(ways.iter().zip(&warm)).map(|(hold, (way, warm))| {
+            let (laws, contact) = ((hold.friction, hold.compliance), (hold.wall, hold.rows));
+            let touch = FrictionContact::new(places, contact, hold.bound(*way, length), laws, *warm);
+            FrictionContact { slides: hold.slides, ..touch }
+        });
+        sweeps.touches.clear();
+        sweeps.touches.extend(touches);
+        sweeps.solve(places);
+        let mut delta = delta.to_vec();
+        places.lift(&sweeps.impulse, &mut delta);
+        let (mut turned, mut far) = (0.0_f64, false);
+        for ((hold, way), (touch, warm)) in holds.iter().zip(&mut ways).zip(sweeps.touches.iter().zip(&mut warm)) {
+            let change = places.pair(hold.rows, &delta);
+            let found = [0, 1].map(|i: usize| length * (hold.rate[i] + theta * change[i]));
+            *warm = touch.impulse;
+            let (normal, _) = hold.bound(found, length);
+            if touch.impulse[0] > 0.0 || hold.is_passed(found, length) {
+                turned = turned.max((normal[0] - touch.normal[0]).hypot(normal[1] - touch.normal[1]));
+            }
+            far |= touch.impulse[0] > 0.0 && hold.turns_far(found);
+            // Normals that swing to and fro meet in the middle.
+            let share = if turn % 4 == 3 && turn >= MOST_TURNS / 4 { 0.5 } else { 1.0 };
+            *way = [0, 1].map(|i: usize| way[i] + share * (found[i] - way[i]));
+        }
+        if turned <= TURNED || far {
+            return !far;
+        }
+    }
+    false
 }
