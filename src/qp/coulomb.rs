@@ -2,7 +2,8 @@
 //!
 //! Contact i gives the impulse p along −n and f along t. Together they change the rates u along
 //! these directions, u = W x + u₀ with x = (p₁, f₁, p₂, …) and W symmetric and at least
-//! semidefinite (the response of the structure, with the compliance of elastic contacts):
+//! semidefinite (the response of the structure, with the compliance of elastic contacts), or with
+//! rows u_n in units of their own:
 //!
 //! 0 ≤ u_n ⟂ p ≥ 0,    |f| ≤ μp,    f = −μp sign(u_t) where u_t ≠ 0.
 //!
@@ -27,13 +28,17 @@
 use super::dependent::solve_dependent;
 use super::lemke::{Lemke, lemke};
 
-/// Largest residual of an answer, relative to the velocities of the problem and to those that its
-/// impulses cause: answers are exact to some roundings, wrong states miss by far more.
+/// Largest residual of an answer in a row, relative to the terms of the row: answers are exact to
+/// some roundings, wrong states miss by far more.
 const MET: f64 = 1e-11;
 
 /// Impulses that press against each other may cause velocities that are larger than those of the
 /// problem by this factor; beyond, any velocity would count as rounding.
 const PRESSED: f64 = 1e3;
+
+/// The most by which the unit of a rate is larger than the largest rate of approach: a row of
+/// smaller numbers would itself be taken for rounding.
+const FASTEST: f64 = 1e6;
 
 /// Weights of the artificial unknown that are tried.
 const TRIES: usize = 8;
@@ -187,7 +192,10 @@ impl Coulomb {
     }
 
     /// Matrix and right-hand side of the complementarity problem: impulses in units of 1/√W_kk, so
-    /// that the diagonal of W is 1, and rates in the unit that is returned beside them.
+    /// that the diagonal of W is 1, and rates in the unit that is returned beside them. A row of
+    /// W whose rate is far larger than that of any approach, of a contact that slides or separates
+    /// fast, is in a unit of its own (as λ is in the row of a tangent): beside it, pivots would
+    /// take the approaches for rounding.
     fn complementarity(&self, unknowns: &[Unknown]) -> (Vec<f64>, Vec<f64>, f64) {
         use Unknown::{Press, Rub, Slip};
         let n = self.scale.len();
@@ -197,9 +205,15 @@ impl Coulomb {
             Rub(i, sign) => Some((2 * i + 1, sign)),
             Slip(_) => None,
         };
+        let rate = |k: usize| self.contacts[k / 2].free[k % 2] * self.scale[k];
+        let approach = (0..n).step_by(2).fold(0.0_f64, |most, k| most.max(-rate(k)));
+        let unit = |k: usize| match approach / rate(k).abs() {
+            share if share < 1.0 => share.max(FASTEST.recip()),
+            _ => 1.0,
+        };
         let entry = |to: Unknown, from: Unknown| match (row(to), row(from)) {
             (Some((k, one)), Some((l, other))) => {
-                one * other * self.response[k * n + l] * self.scale[k] * self.scale[l]
+                one * other * self.response[k * n + l] * self.scale[k] * self.scale[l] * unit(k)
             }
             _ => match (to, from) {
                 (Rub(i, _), Slip(j)) if i == j => 1.0,
@@ -208,9 +222,7 @@ impl Coulomb {
                 _ => 0.0,
             },
         };
-        let free = |unknown: Unknown| {
-            row(unknown).map_or(0.0, |(k, sign)| sign * self.contacts[k / 2].free[k % 2] * self.scale[k])
-        };
+        let free = |unknown: Unknown| row(unknown).map_or(0.0, |(k, sign)| sign * rate(k) * unit(k));
         let matrix = unknowns.iter().flat_map(|&to| unknowns.iter().map(move |&from| entry(to, from))).collect();
         let mut free: Vec<f64> = unknowns.iter().map(|&unknown| free(unknown)).collect();
         let largest = free.iter().fold(f64::MIN_POSITIVE, |most, u| most.max(u.abs()));
@@ -299,21 +311,36 @@ impl Coulomb {
         comply(impulses);
     }
 
-    /// By how much impulses miss the law, relative to the velocities.
+    /// By how much impulses miss the law, each rate relative to the terms of its row: impulses that
+    /// change velocities by 1e-9 of those with which other contacts slide obey it as well.
     fn residual(&self, impulses: &[[f64; 2]]) -> f64 {
         let n = self.scale.len();
-        let (mut free, mut moved, mut residual) = (0.0_f64, 0.0_f64, 0.0_f64);
-        for (index, (contact, &[p, f])) in self.contacts.iter().zip(impulses).enumerate() {
-            let [a, c] = [2 * index, 2 * index + 1].map(|k| self.response[k * n + k]);
-            free = free.max(contact.free[0].abs()).max(contact.free[1].abs());
-            moved = moved.max(a * p.abs()).max(c * f.abs());
-            residual = residual.max(self.rate(2 * index, impulses).min(a * p).abs());
-            if contact.friction > 0.0 {
-                let (along, most) = (self.rate(2 * index + 1, impulses), contact.friction * p);
-                let slips = c * (f + most * along.signum()).abs();
-                residual = residual.max(c * (f.abs() - most)).max(along.abs().min(slips));
+        let free = self.contacts.iter().flat_map(|contact| contact.free);
+        let most_moved = PRESSED * free.fold(0.0_f64, |most, u| most.max(u.abs()));
+        let moved = |k: usize| {
+            let terms = self.response[k * n..(k + 1) * n].iter().zip(impulses.as_flattened());
+            terms.map(|(w, x)| (w * x).abs()).sum::<f64>().min(most_moved)
+        };
+        // What misses nothing is exact, also in a row without terms.
+        let share = |missed: f64, terms: f64| if missed <= 0.0 { 0.0 } else { missed / terms };
+        let of = |(index, (contact, &[p, f])): (usize, (&CoulombContact, &[f64; 2]))| {
+            let [k, l] = [2 * index, 2 * index + 1];
+            let pressing = self.rate(k, impulses).min(self.response[k * n + k] * p).abs();
+            let missed = share(pressing, contact.free[0].abs() + moved(k));
+            if contact.friction == 0.0 {
+                return missed;
             }
-        }
-        residual / free.max(moved.min(PRESSED * free))
+            let (along, most, c) = (self.rate(l, impulses), contact.friction * p, self.response[l * n + l]);
+            let beyond = share(c * (f.abs() - most), moved(l));
+            let sticks = share(along.abs(), contact.free[1].abs() + moved(l));
+            let slips = share(c * (f + most * along.signum()).abs(), moved(l));
+            missed.max(beyond).max(sticks.min(slips))
+        };
+        // Not a number is the largest.
+        let larger = |most, missed| if missed <= most { most } else { missed };
+        self.contacts.iter().zip(impulses).enumerate().map(of).fold(0.0, larger)
     }
 }
+
+#[cfg(test)]
+mod tests;

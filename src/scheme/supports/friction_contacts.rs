@@ -231,27 +231,32 @@ impl FrictionContacts {
     #[cold]
     fn complement(&mut self, places: &ContactRows) -> Option<()> {
         let Self { touches, free, wedged, .. } = self;
-        // An elastic wall over a short part hardly yields to an impulse: in units in which its own
-        // response is that without compliance, rates and impulses of all contacts are comparable.
-        let unit = |touch: &FrictionContact| (touch.own[0] / touch.yielding()).sqrt();
+        // An elastic wall over a short part hardly yields to an impulse: in a unit of the rate along
+        // its normal in which its own response is that without compliance, the rates of all
+        // contacts are comparable.
+        let unit = |touch: &FrictionContact| touch.own[0] / touch.yielding();
         let contact = |touch: &FrictionContact| {
             let [beyond, along] = FrictionContact { impulse: [0.0; 2], ..*touch }.excess(free);
             let rebound = if touch.compliance == 0.0 { (-touch.bound).max(0.0) } else { 0.0 };
-            CoulombContact { free: [-unit(touch) * beyond, along], friction: unit(touch) * touch.friction, rebound }
+            CoulombContact { free: [-unit(touch) * beyond, along], friction: touch.friction, rebound }
         };
         let directions: Vec<_> = touches
             .iter()
-            .flat_map(|touch| [touch.push([unit(touch), 0.0]), touch.push([0.0, 1.0])].map(|along| (touch.rows, along)))
+            .flat_map(|touch| [touch.push([1.0, 0.0]), touch.push([0.0, 1.0])].map(|along| (touch.rows, along)))
             .collect();
-        let responses = directions.iter().flat_map(|&to| directions.iter().map(move |&from| places.between(to, from)));
-        let mut responses: Vec<f64> = responses.collect();
-        for (index, touch) in touches.iter().enumerate() {
-            responses[2 * index * (directions.len() + 1)] += unit(touch) * unit(touch) * touch.compliance;
+        let mut responses = Vec::with_capacity(directions.len() * directions.len());
+        for (k, &to) in directions.iter().enumerate() {
+            let (touch, first) = (&touches[k / 2], responses.len());
+            responses.extend(directions.iter().map(|&from| places.between(to, from)));
+            if k % 2 == 0 {
+                responses[first + k] += touch.compliance;
+                responses[first..].iter_mut().for_each(|response| *response *= unit(touch));
+            }
         }
         let contacts = touches.iter().map(contact).collect();
         let (impulses, gave_up) = Coulomb::new(contacts, responses).solve()?;
-        for (touch, [p, f]) in touches.iter_mut().zip(impulses) {
-            touch.impulse = [unit(touch) * p, f];
+        for (touch, impulse) in touches.iter_mut().zip(impulses) {
+            touch.impulse = impulse;
         }
         for &index in &gave_up {
             touches[index].bound = 0.0;
