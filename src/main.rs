@@ -30,7 +30,7 @@ mod before_main {
 
     // Nothing of the standard library that needs its runtime: a system call, and an atomic store.
     #[ctor::ctor(unsafe)]
-    fn look() {
+    fn note_closed_stdout() {
         CLOSED.store(rustix::io::fcntl_getfd(rustix::stdio::stdout()).is_err(), Ordering::Relaxed);
     }
 

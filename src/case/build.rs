@@ -101,7 +101,7 @@ impl Builder<'_> {
         let flow = file.section("flow");
         let Some(modes) = modes else {
             if let Some(start) = start {
-                start::carry_on(&mut case.scene, start);
+                start::start_from(&mut case.scene, start);
             }
             case.check().map_err(|error| self.locate(error, &case.scene))?;
             return flow.map_or(Ok(case), |flow| Err(self.without_flow(&flow)));
@@ -117,7 +117,7 @@ impl Builder<'_> {
         };
         self.reduce(&mut case, whole, modes, flow.as_ref())?;
         if let Some(start) = start {
-            start::carry_on(&mut case.scene, start);
+            start::start_from(&mut case.scene, start);
         }
         case.check().map_err(|error| self.locate(error, &case.scene))?;
         Ok(case)

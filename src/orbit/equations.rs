@@ -81,7 +81,7 @@ impl Flight<'_> {
 
 /// Sign with which a perturbation at the end of the last flight is passed on to the first event.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Turn {
+pub(super) enum Closure {
     /// It comes back to itself.
     Same,
     /// It comes back with the other sign: the Jacobian is singular where the period doubles, or
@@ -166,7 +166,7 @@ impl<'a> Equations<'a> {
         arc: &mut Arc,
         unknowns: &[f64],
         residual: &mut DVector<f64>,
-        jacobian: Option<(&mut DMatrix<f64>, Turn)>,
+        jacobian: Option<(&mut DMatrix<f64>, Closure)>,
     ) {
         let events = &self.signature.events;
         let period = problem.forcing_period();
@@ -212,7 +212,7 @@ impl<'a> Equations<'a> {
                 other = [first.1, second.1];
             }
             let Some((matrix, turn)) = &mut jacobian else { continue };
-            let factor = if j == 0 && *turn == Turn::Opposite { -1.0 } else { 1.0 };
+            let factor = if j == 0 && *turn == Closure::Opposite { -1.0 } else { 1.0 };
             for (k, row) in [r0, r1].into_iter().enumerate() {
                 for column in 0..2 {
                     matrix[(row, 2 * i + column)] += own[k][column];

@@ -28,16 +28,16 @@
 //! any curve of orbits can do, `branch/net.rs` joins branches, `branch/graph.rs` begins; of one
 //! degree of freedom `branch/curve.rs` is a branch as a curve over the scenes of
 //! `branch/family.rs`, with the derivative by the key of `key_column.rs`, `branch/follow.rs` steps
-//! along it,
-//! `branch/events.rs` has the test functions, `branch/switch.rs` finds the branch that begins
-//! there, `branch/locus.rs` follows special points over two keys; `branch/shots/` are branches of
-//! structures: `branch/shots/here.rs` is what is known at a point, `branch/shots/follow.rs` the
-//! steps, `branch/shots/moved.rs` moves the strobe, `branch/shots/change.rs` and
-//! `branch/shots/graze.rs` find where the walls that are met change, `branch/shots/switch.rs` the
-//! branches that begin there; `shooting.rs` finds orbits of structures, by `strobe.rs` and the runs
-//! of `turn.rs`, and `shot_derivative.rs` differentiates them by keys, as `orbit_derivative.rs`
-//! (with `monodromy_derivative.rs` for the multipliers) those of one degree of freedom; it imports
-//! no case.
+//! along it, `branch/events.rs` has the test functions, `branch/switch.rs` finds the branch that
+//! begins there, `branch/locus.rs` follows special points over two keys; `branch/shots/` are
+//! branches of structures: `branch/shots/step_start.rs` is what is known at a point,
+//! `branch/shots/correct.rs` the points beside it, `branch/shots/follow.rs` the steps,
+//! `branch/shots/moved.rs` moves the strobe, `branch/shots/change.rs` and `branch/shots/graze.rs`
+//! find where the walls that are met change, `branch/shots/switch.rs` the branches that begin
+//! there; `shooting.rs` finds orbits of structures, by `strobe.rs` and the runs of `orbit_run.rs`,
+//! and `shot_derivative.rs` differentiates them by keys, as `orbit_derivative.rs` (with
+//! `monodromy_derivative.rs` for the multipliers) those of one degree of freedom; it imports no
+//! case.
 
 mod admissible;
 mod boundary;
@@ -53,6 +53,7 @@ mod key_column;
 mod monodromy_derivative;
 mod newton;
 mod orbit_derivative;
+mod orbit_run;
 #[cfg(feature = "cli")]
 mod path;
 mod periodic;
@@ -63,7 +64,6 @@ mod shot_derivative;
 mod signature;
 pub(crate) mod strobe;
 mod symmetry;
-mod turn;
 mod watch;
 
 pub use admissible::{Admissible, Nearest};

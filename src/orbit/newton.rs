@@ -1,6 +1,6 @@
 //! Newton's method on the equations with explicit times.
 
-use super::equations::{Equations, Scales, Turn};
+use super::equations::{Closure, Equations, Scales};
 use super::periodic::{Orbit, REPEATED};
 use super::problem::Problem;
 use super::signature::Signature;
@@ -60,7 +60,7 @@ impl Problem {
         let (mut residual, mut matrix) = (DVector::zeros(count), DMatrix::zeros(count, count));
         let mut last = f64::INFINITY;
         for _ in 0..ITERATIONS {
-            equations.evaluate(self, &mut arc, unknowns.as_slice(), &mut residual, Some((&mut matrix, Turn::Same)));
+            equations.evaluate(self, &mut arc, unknowns.as_slice(), &mut residual, Some((&mut matrix, Closure::Same)));
             let size = residual.amax();
             if !size.is_finite() {
                 return Err(Error::no_orbit(

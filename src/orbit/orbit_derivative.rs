@@ -6,7 +6,7 @@
 //!
 //! The multipliers follow from these changes, see `monodromy_derivative.rs`.
 
-use super::equations::{CYCLE, Equations, Scales, Turn};
+use super::equations::{CYCLE, Closure, Equations, Scales};
 use super::periodic::Orbit;
 use super::problem::Problem;
 use crate::error::{Error, Result};
@@ -125,7 +125,7 @@ impl Problem {
             return Ok(vec![DVector::zeros(0); tangents.len()]);
         }
         let (mut residual, mut matrix) = (DVector::zeros(n), DMatrix::zeros(n, n));
-        let jacobian = Some((&mut matrix, Turn::Same));
+        let jacobian = Some((&mut matrix, Closure::Same));
         equations.evaluate(self, &mut arc, unknowns.as_slice(), &mut residual, jacobian);
         let missed = residual.amax();
         if missed.is_nan() || missed > SOLVED {

@@ -6,10 +6,10 @@
 //! allowed.
 
 use super::forcing::forcing_period;
+use super::orbit_run::{OrbitRun, Recorded, run};
 use super::periodic::{Orbit, REPEATED};
 use super::signature::{MOST_PERIODS, Signature};
 use super::strobe::{Scales, multipliers, newton_step, state, vector};
-use super::turn::{Look, Turn, run};
 use crate::error::{Error, Result};
 use crate::scene::{Scene, State};
 use crate::scheme::{Scheme, Stepper};
@@ -206,8 +206,8 @@ impl Shooting<'_> {
         let x = vector(&found.state.q, &found.state.v);
         for shorter in (1..periods).filter(|&shorter| periods.is_multiple_of(shorter)) {
             let span = [found.time, found.time + f64::from(shorter) * self.period];
-            let turn = run(self.scene, self.period, span, &x, Look::Events)?;
-            if self.scales.size(&(&turn.end - &x)) <= REPEATED {
+            let motion = run(self.scene, self.period, span, &x, Recorded::Events)?;
+            if self.scales.size(&(&motion.end - &x)) <= REPEATED {
                 return self.solved(found.time, found.state, shorter);
             }
         }
@@ -219,15 +219,15 @@ impl Shooting<'_> {
         let time = time - (time / self.period).floor() * self.period;
         let end = time + f64::from(periods) * self.period;
         let mut x = vector(&start.q, &start.v);
-        let mut best: Option<(f64, DVector<f64>, Turn)> = None;
+        let mut best: Option<(f64, DVector<f64>, OrbitRun)> = None;
         for _ in 0..ITERATIONS {
-            let turn = run(self.scene, self.period, [time, end], &x, Look::All)?;
-            let gap = &turn.end - &x;
+            let motion = run(self.scene, self.period, [time, end], &x, Recorded::All)?;
+            let gap = &motion.end - &x;
             let miss = self.scales.size(&gap);
             let improved = best.as_ref().is_none_or(|(least, ..)| miss < 0.5 * least);
-            let step = newton_step(&turn.derivative, &gap);
+            let step = newton_step(&motion.derivative, &gap);
             if best.as_ref().is_none_or(|(least, ..)| miss < *least) {
-                best = Some((miss, x.clone(), turn));
+                best = Some((miss, x.clone(), motion));
             }
             // Once rounding limits the residual, further steps do not help.
             if !improved && best.as_ref().is_some_and(|(least, ..)| *least <= CLOSES) {
@@ -236,16 +236,20 @@ impl Shooting<'_> {
             let step = step.ok_or_else(|| Error::no_orbit("the equations are singular there: a multiplier is 1"))?;
             x += step;
         }
-        let Some((closure, x, turn)) = best.filter(|(miss, ..)| *miss <= CLOSES) else {
+        let Some((closure, x, motion)) = best.filter(|(miss, ..)| *miss <= CLOSES) else {
             return Err(Error::no_orbit(format!(
                 "shooting did not converge in {ITERATIONS} iterations: an impact of the orbit \
                  nearly grazes, or it has not settled yet"
             )));
         };
         let orbit = Orbit {
-            signature: Signature { events: turn.passages.iter().map(|p| p.event).collect(), periods, symmetric: false },
-            phases: turn.passages.iter().map(|p| p.phase).collect(),
-            speeds: turn.passages.iter().map(|p| p.speed).collect(),
+            signature: Signature {
+                events: motion.passages.iter().map(|p| p.event).collect(),
+                periods,
+                symmetric: false,
+            },
+            phases: motion.passages.iter().map(|p| p.phase).collect(),
+            speeds: motion.passages.iter().map(|p| p.speed).collect(),
             forcing_period: self.period,
         };
         Ok(Shot {
@@ -254,10 +258,10 @@ impl Shooting<'_> {
             orbit,
             time,
             state: state(&x),
-            multipliers: multipliers(&turn.derivative).iter().map(|z| [z.re, z.im]).collect(),
+            multipliers: multipliers(&motion.derivative).iter().map(|z| [z.re, z.im]).collect(),
             closure,
-            contacts: turn.contacts,
-            impulses: turn.impulses,
+            contacts: motion.contacts,
+            impulses: motion.impulses,
         })
     }
 }

@@ -107,7 +107,7 @@ impl Shot {
         let (mut begin, mut acceleration) = (vec![0.0; n], vec![0.0; n]);
         while stepper.time() < to {
             let step = stepper.step()?;
-            by_key.carry(&step).map_err(|reason| Error::no_orbit(reason.to_string()))?;
+            by_key.propagate(&step).map_err(|reason| Error::no_orbit(reason.to_string()))?;
             product.observe(&step).map_err(|reason| Error::no_orbit(reason.to_string()))?;
             step.path.accelerations(&mut begin, &mut acceleration);
         }

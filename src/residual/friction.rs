@@ -16,7 +16,7 @@ use crate::step::Step;
 
 /// A contact with friction in a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rub {
+pub(super) struct FrictionImpulse {
     /// Index of the wall.
     pub place: usize,
     pub friction: f64,
@@ -41,7 +41,13 @@ impl Judge {
     }
 
     /// Checks the friction of one contact.
-    pub(super) fn rub(&self, step: &Step<'_>, at: &PlaneRows, rub: &Rub, rubs: &mut ComplementarityFront) {
+    pub(super) fn check_friction(
+        &self,
+        step: &Step<'_>,
+        at: &PlaneRows,
+        rub: &FrictionImpulse,
+        rubs: &mut ComplementarityFront,
+    ) {
         let [p, f] = rub.impulse.map(|impulse| impulse / self.h);
         if p == 0.0 && f == 0.0 {
             return;
@@ -67,9 +73,10 @@ impl Judge {
                 continue;
             };
             let [y, z] = heading(*degrees);
-            let rub = Rub { place: index, friction: wall.friction, impulse: [p.abs(), f], tangent: [-z, y] };
+            let rub =
+                FrictionImpulse { place: index, friction: wall.friction, impulse: [p.abs(), f], tangent: [-z, y] };
             self.walls.force_scale = self.walls.force_scale.max(f.abs() / self.h);
-            self.rub(step, &support.at, &rub, rubs);
+            self.check_friction(step, &support.at, &rub, rubs);
         }
     }
 }

@@ -9,7 +9,7 @@
 use super::Judge;
 use super::complementarity::rebound;
 use super::energy::Moved;
-use super::friction::Rub;
+use super::friction::FrictionImpulse;
 use super::hole_motion::terms;
 use super::pushes::pushes;
 use crate::scene::Hole;
@@ -85,8 +85,8 @@ impl Judge {
             self.rebound_at_hole(step, &hole, &mut supports);
             let ([y, z], place) = (step.normal[hole.index], hole.index);
             let impulse = [step.jump[place], if step.jump[place] == 0.0 { 0.0 } else { step.friction[place] }];
-            let rub = Rub { place, friction: hole.friction, impulse, tangent: [-z, y] };
-            self.rub(&after, hole.at, &rub, &mut supports.rubs);
+            let rub = FrictionImpulse { place, friction: hole.friction, impulse, tangent: [-z, y] };
+            self.check_friction(&after, hole.at, &rub, &mut supports.rubs);
         }
         let at_end = Step { friction: &supports.friction_at_end(step), ..after };
         self.rub_flats(&at_end, &mut supports.rubs);

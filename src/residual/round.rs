@@ -3,7 +3,7 @@
 //! the velocity at the end keeps the bound.
 
 use super::Judge;
-use super::friction::Rub;
+use super::friction::FrictionImpulse;
 use super::hole_motion::{HoleMotion, terms};
 use super::largest_residual::Residual;
 use super::pushes::{places_of_flats, pushes};
@@ -23,13 +23,13 @@ impl Judge {
             self.walls.observe_depth(hole.index, motion.end[0].hypot(motion.end[1]) - hole.gap);
             self.extent.speed = self.extent.speed.max(motion.after.terms);
             self.hold_hole(step, (&hole, &motion, &did), beyond, &mut supports.askew);
-            let rub = Rub {
+            let rub = FrictionImpulse {
                 place: hole.index,
                 friction: hole.friction,
                 impulse: [did.impulse, did.friction],
                 tangent: [-did.normal[1], did.normal[0]],
             };
-            self.rub(step, hole.at, &rub, &mut supports.rubs);
+            self.check_friction(step, hole.at, &rub, &mut supports.rubs);
         }
         self.rub_flats(step, &mut supports.rubs);
         supports.pushed.copy_from_slice(step.impulse);

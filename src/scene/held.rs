@@ -17,14 +17,14 @@ const PARALLEL: f64 = 1e-9;
 
 /// A structure with places held, and its motions in the coordinates of the structure it was.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Held {
+pub(super) struct HeldStructure {
     /// TᵀMT and TᵀKT, without damping.
     pub structure: Structure,
     /// T by its rows: each degree of freedom as a sum of those of the held structure.
     motion: Vec<Row>,
 }
 
-impl Held {
+impl HeldStructure {
     /// `structure` with g q = 0 for each of `rows`; rows that depend on others change nothing.
     pub fn new(structure: &Structure, rows: &[Row]) -> Self {
         let n = structure.mass.size();
@@ -94,7 +94,7 @@ fn congruent(matrix: &Symmetric, motion: &[Row], count: usize) -> Symmetric {
 }
 
 /// What a place is held by.
-struct Hold {
+struct HeldPlace {
     row: Row,
     /// N/m; `None` for a rigid hold.
     stiffness: Option<f64>,
@@ -105,13 +105,13 @@ impl Scene {
     /// springs to the ground of their stiffness. A round support, or flats that stand in several
     /// directions, holds in both planes; flats along one line, and a wall beside supports, hold
     /// that line. `None` for one degree of freedom and for a scene without walls.
-    pub(super) fn all_active(&self) -> Option<Held> {
+    pub(super) fn all_active(&self) -> Option<HeldStructure> {
         let System::Structure(structure) = &self.system else { return None };
         let holds = self.holds();
         if holds.is_empty() {
             return None;
         }
-        let spring = |hold: &Hold| {
+        let spring = |hold: &HeldPlace| {
             let stiffness = hold.stiffness?;
             let pairs = |&(i, a): &(usize, f64)| {
                 let up_to = hold.row.entries().iter().filter(move |entry| entry.0 <= i);
@@ -126,11 +126,11 @@ impl Scene {
             stiffness: Symmetric::sum(&[(1.0, &structure.stiffness), (1.0, &springs)]),
         };
         let rigid: Vec<Row> = holds.into_iter().filter(|hold| hold.stiffness.is_none()).map(|hold| hold.row).collect();
-        Some(Held::new(&sprung, &rigid))
+        Some(HeldStructure::new(&sprung, &rigid))
     }
 
     /// The rows that the supports hold, and those of the walls beside them.
-    fn holds(&self) -> Vec<Hold> {
+    fn holds(&self) -> Vec<HeldPlace> {
         let mut holds = Vec::new();
         for support in &self.supports {
             let walls = support.members(&self.walls).map(|(_, wall)| wall);
@@ -143,8 +143,10 @@ impl Scene {
                 .collect();
             let line = normals.first().filter(|first| normals.iter().all(|other| are_parallel(first, other)));
             match line {
-                Some(normal) => holds.push(Hold { row: support.at.towards(*normal), stiffness }),
-                None => holds.extend([&support.at.y, &support.at.z].map(|row| Hold { row: row.clone(), stiffness })),
+                Some(normal) => holds.push(HeldPlace { row: support.at.towards(*normal), stiffness }),
+                None => {
+                    holds.extend([&support.at.y, &support.at.z].map(|row| HeldPlace { row: row.clone(), stiffness }))
+                }
             }
         }
         let beside = |index: &usize| self.support_of(*index).is_none();
@@ -153,7 +155,7 @@ impl Scene {
         let places = distinct(others.iter().map(|wall| wall.row()));
         for (place, row) in places.rows.into_iter().enumerate() {
             let here = others.iter().zip(&places.of).filter(|(_, of)| **of == place).map(|(wall, _)| *wall);
-            holds.push(Hold { row: row.clone(), stiffness: softest(here) });
+            holds.push(HeldPlace { row: row.clone(), stiffness: softest(here) });
         }
         holds
     }
@@ -185,7 +187,7 @@ mod tests {
         };
         let row = Row::new(vec![(1, 1.0), (2, 1.0)]);
         // The second row says the same, twice.
-        let held = Held::new(&structure, &[row.clone(), Row::new(vec![(2, 2.0), (1, 2.0)])]);
+        let held = HeldStructure::new(&structure, &[row.clone(), Row::new(vec![(2, 2.0), (1, 2.0)])]);
         assert_eq!(held.structure.mass.size(), 4);
         let modes = Modes::lowest(&held.structure, 4).unwrap();
         for (omega, shape) in modes.omega.iter().zip(&modes.shapes) {
@@ -208,7 +210,7 @@ mod tests {
             damping: Symmetric::zeros(2),
             stiffness: Symmetric::diagonal(&[3.0, 4.0]),
         };
-        let held = Held::new(&structure, &[Row::new(vec![(0, 1.0), (1, -1.0)]), Row::dof(1)]);
+        let held = HeldStructure::new(&structure, &[Row::new(vec![(0, 1.0), (1, -1.0)]), Row::dof(1)]);
         assert_eq!((held.structure.mass.size(), held.expand(&[])), (0, vec![0.0, 0.0]));
     }
 }

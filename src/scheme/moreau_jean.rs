@@ -184,7 +184,7 @@ impl<S: Space> MoreauJean<S> {
 
 /// Writes q + ½hv to `ahead`.
 #[inline(always)]
-fn look_ahead<S: Space>(h: f64, q: &S::Vector, v: &S::Vector, ahead: &mut S::Vector) {
+fn write_midpoint<S: Space>(h: f64, q: &S::Vector, v: &S::Vector, ahead: &mut S::Vector) {
     for (ahead, (q, v)) in ahead.as_mut().iter_mut().zip(q.as_ref().iter().zip(v.as_ref())) {
         *ahead = q + 0.5 * h * v;
     }
@@ -215,7 +215,7 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
         body.theta_momentum(*theta, frame, b);
         // Blows come first: the impact law applies to the velocity after them.
         frame.blown = body.strike((frame.start, frame.end), 1.0, b, frame);
-        look_ahead::<S>(h, &frame.q, frame.struck(), &mut self.ahead);
+        write_midpoint::<S>(h, &frame.q, frame.struck(), &mut self.ahead);
         self.programme.free();
         match self.programme.first_near(&self.ahead) {
             None => self.programme.release(&self.b, (frame.start, step))?,
@@ -249,7 +249,7 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
         // As variables of their own, numbers stay in registers.
         let (mut q, mut v, mut before) = (take(&mut frame.q), take(&mut frame.v), take(&mut frame.before));
         while next < until && done.is_ok() && finite {
-            look_ahead::<S>(h, &q, &v, ahead);
+            write_midpoint::<S>(h, &q, &v, ahead);
             if programme.first_near(ahead).is_some() {
                 break;
             }

@@ -76,7 +76,7 @@ impl Derivatives {
         let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
         let mut ended = None;
         while stepper.time() < scene.duration && ended.is_none() {
-            ended = variation.carry(&stepper.step()?).err();
+            ended = variation.propagate(&stepper.step()?).err();
         }
         Ok(Self {
             contacts: variation.contacts().to_vec(),

@@ -124,7 +124,7 @@ impl Exponents {
             }
         };
         scale(&mut self.changes, omega);
-        self.variation.carry(step, &mut self.changes)?;
+        self.variation.propagate(step, &mut self.changes)?;
         scale(&mut self.changes, 1.0 / omega);
         orthogonalise(&mut self.changes, size, &mut self.factors);
         if step.start >= from {

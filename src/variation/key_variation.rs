@@ -52,7 +52,7 @@ const MOST_GROWTH: f64 = 1e6;
 /// let mut stepper = Stepper::new(&scene, &Scheme::Event, scene.duration)?;
 /// let mut variation = KeyVariation::new(&scene, &[tangent], &[])?;
 /// while stepper.time() < scene.duration {
-///     variation.carry(&stepper.step()?)?;
+///     variation.propagate(&stepper.step()?)?;
 /// }
 /// // The second impact comes 2ev/g after the first.
 /// let second = &variation.contacts()[1];
@@ -128,8 +128,8 @@ impl KeyVariation {
     ///
     /// # Errors
     /// [`NoDerivative`]: what has been read so far holds, and there is nothing more from then on.
-    pub fn carry(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
-        self.variation.carry(step, &mut self.columns)?;
+    pub fn propagate(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
+        self.variation.propagate(step, &mut self.columns)?;
         self.variation.keys.means.add_impulses(step);
         let struck = step.jump.iter().position(|&p| p != 0.0);
         for which in 0..self.witnesses.len() {

@@ -53,7 +53,7 @@ impl Variation {
     ///
     /// # Errors
     /// [`NoDerivative`].
-    pub fn carry(&mut self, step: &Step<'_>, changes: &mut [f64]) -> std::result::Result<(), NoDerivative> {
+    pub fn propagate(&mut self, step: &Step<'_>, changes: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         match &mut self.0 {
             Kind::Oscillator(oscillator) => {
                 let matrix = oscillator.over(step)?;
@@ -64,7 +64,7 @@ impl Variation {
                 }
                 Ok(())
             }
-            Kind::Structure(structure) => structure.carry(step, changes),
+            Kind::Structure(structure) => structure.propagate(step, changes),
         }
     }
 }
@@ -97,7 +97,7 @@ impl Product {
     /// # Errors
     /// [`NoDerivative`]; the matrix is meaningless from then on.
     pub fn observe(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
-        self.variation.carry(step, self.matrix.as_mut_slice())
+        self.variation.propagate(step, self.matrix.as_mut_slice())
     }
 
     /// The product so far, 2n × 2n.

@@ -112,7 +112,7 @@ impl StructureVariation {
 
     /// Propagates `columns`, changes of 2n entries (δq, δq̇) one after the other, over `step`. They
     /// must not be used after an error.
-    pub fn carry(&mut self, step: &Step<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
+    pub fn propagate(&mut self, step: &Step<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         let n = self.degrees_of_freedom();
         let fits = step.q.len() == n && step.force.len() == self.walls.len();
         match (step.path, self.arcs.take()) {

@@ -1,6 +1,6 @@
 //! A branch of orbits of one signature as a curve: the unknowns of the equations and a key's value.
 
-use super::super::equations::{Equations, Scales, Turn};
+use super::super::equations::{Closure, Equations, Scales};
 use super::super::periodic::Orbit;
 use super::super::problem::Problem;
 use super::super::signature::Signature;
@@ -68,7 +68,7 @@ impl Curve<'_> {
         let equations = Equations::new(&problem, &self.signature, self.scales);
         let n = equations.unknowns();
         let (mut residual, mut matrix) = (DVector::zeros(n), DMatrix::zeros(n, n + 1));
-        let jacobian = Some((&mut matrix, Turn::Same));
+        let jacobian = Some((&mut matrix, Closure::Same));
         let mut arc = problem.arc();
         equations.evaluate(&problem, &mut arc, y.as_slice(), &mut residual, jacobian);
         if n > 0 {
@@ -96,7 +96,7 @@ impl Curve<'_> {
         let equations = Equations::new(problem, &self.signature, self.scales);
         let n = equations.unknowns();
         let (mut residual, mut matrix) = (DVector::zeros(n), DMatrix::zeros(n, n));
-        let jacobian = Some((&mut matrix, Turn::Opposite));
+        let jacobian = Some((&mut matrix, Closure::Opposite));
         equations.evaluate(problem, &mut problem.arc(), y.as_slice(), &mut residual, jacobian);
         matrix
     }

@@ -13,18 +13,18 @@ use crate::error::Result;
 const LEAST_LOOP: usize = 6;
 
 /// The point at which a step begins.
-struct Here {
+struct StepStart {
     y: Vector,
     tangent: Vector,
     point: Point,
     tests: Vec<Test>,
 }
 
-fn here(curve: &Curve<'_>, y: Vector, linear: &Linear, along: &Vector) -> Result<Here> {
+fn step_start(curve: &Curve<'_>, y: Vector, linear: &Linear, along: &Vector) -> Result<StepStart> {
     let tangent = curve.tangent(linear, along)?;
     let point = point(curve, &linear.problem, &y)?;
     let tests = tests(curve, &linear.problem, &point, &y, &tangent);
-    Ok(Here { y, tangent, point, tests })
+    Ok(StepStart { y, tangent, point, tests })
 }
 
 /// A special point within a step, by its distance along the branch from the step's begin.
@@ -50,7 +50,7 @@ struct Follower<'c, 'a> {
     /// The equations at its first point, that point, and the tangent there.
     linear: Linear,
     start: (Vector, Vector),
-    now: Here,
+    now: StepStart,
     stride: Stride,
     line: Line<Curve<'a>>,
 }
@@ -67,7 +67,7 @@ pub(super) fn follow<'a>(
     seen: &mut dyn FnMut(&Point),
 ) -> Result<Line<Curve<'a>>> {
     let linear = curve.linear(&y)?;
-    let now = here(curve, y, &linear, along)?;
+    let now = step_start(curve, y, &linear, along)?;
     let start = (now.y.clone(), now.tangent.clone());
     let line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
     let mut follower = Follower { curve, range, linear, start, now, stride: Stride::new(), line };
@@ -135,7 +135,7 @@ impl Follower<'_, '_> {
     }
 
     /// The point at the end of a step, or why there is none nearby.
-    fn corrected(&self, Reach { length, bound }: Reach) -> std::result::Result<Here, String> {
+    fn corrected(&self, Reach { length, bound }: Reach) -> std::result::Result<StepStart, String> {
         let Self { curve, now, .. } = self;
         let last = now.y.len() - 1;
         let (mut guess, mut border) = (&now.y + &now.tangent * length, now.tangent.clone());
@@ -143,7 +143,7 @@ impl Follower<'_, '_> {
             (guess[last], border) = (scaled(bound, curve.width, self.range), unit(last + 1, last));
         }
         let tried = curve.correct(&guess, &border).and_then(|(y, linear, iterations)| {
-            let mut next = here(curve, y, &linear, &now.tangent)?;
+            let mut next = step_start(curve, y, &linear, &now.tangent)?;
             next.point.value = bound.unwrap_or(next.point.value);
             Ok((next, iterations))
         });
@@ -155,7 +155,7 @@ impl Follower<'_, '_> {
     }
 
     /// All special points within a step of `length` to `next`, or why one was not located.
-    fn crossed(&self, next: &Here, length: f64) -> std::result::Result<Vec<Crossed>, String> {
+    fn crossed(&self, next: &StepStart, length: f64) -> std::result::Result<Vec<Crossed>, String> {
         let Self { curve, now, .. } = self;
         let mut crossed = Vec::new();
         for (index, (before, after)) in now.tests.iter().zip(&next.tests).enumerate() {
@@ -180,7 +180,7 @@ impl Follower<'_, '_> {
 
     /// Where a step to `next` leaves the range: adds the point at its end, and returns the distance
     /// along the branch to it.
-    fn leave_range(&mut self, next: &Here, reach: Reach) -> Result<Option<f64>> {
+    fn leave_range(&mut self, next: &StepStart, reach: Reach) -> Result<Option<f64>> {
         if reach.bound.is_some() {
             self.line.points.push(next.point.clone());
             return Ok(Some(reach.length));

@@ -5,7 +5,7 @@
 //! of the test function is a finite difference, which enters the matrix only.
 
 use super::super::admissible::Admissible;
-use super::super::equations::{Equations, Scales, Turn};
+use super::super::equations::{Closure, Equations, Scales};
 use super::super::periodic::Orbit;
 use super::super::problem::Problem;
 use super::label::Label;
@@ -165,17 +165,17 @@ impl Traced<'_> {
         let equations = Equations::new(&problem, &self.orbit.signature, self.scales);
         let n = equations.unknowns();
         let mut residual = DVector::zeros(n);
-        let mut jacobian = |turn: Turn| {
+        let mut jacobian = |turn: Closure| {
             let mut matrix = DMatrix::zeros(n, n);
             let into = Some((&mut matrix, turn));
             equations.evaluate(&problem, &mut problem.arc(), y.as_slice(), &mut residual, into);
             matrix.determinant()
         };
         let test = match self.label {
-            Label::Fold => jacobian(Turn::Same),
-            Label::PeriodDoubling | Label::SymmetryBreaking => jacobian(Turn::Opposite),
+            Label::Fold => jacobian(Closure::Same),
+            Label::PeriodDoubling | Label::SymmetryBreaking => jacobian(Closure::Opposite),
             _ => {
-                jacobian(Turn::Same);
+                jacobian(Closure::Same);
                 match self.label {
                     Label::GrazingOut => y[2 * self.event + 1],
                     _ => self.admissible(&problem, y)?.nearest.map_or(1.0, |nearest| nearest.gap / self.scales.length),

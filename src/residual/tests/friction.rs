@@ -1,7 +1,7 @@
 //! Coulomb's law on the impulses of a step.
 
 use super::*;
-use crate::residual::friction::Rub;
+use crate::residual::friction::FrictionImpulse;
 use crate::residual::front::ComplementarityFront;
 use crate::scene::{Face, Side, Wall};
 use crate::step::{Friction, Law, PromisedForce, Reached, Rigid};
@@ -45,8 +45,8 @@ fn missing_and_surplus_friction_is_measured_whatever_else_is_zero() {
         let judge = start(&scene);
         let mut rubs = ComplementarityFront::default();
         let made = Made { after: vec![0.0, speed], ..Made::rest(&scene, 0.25) };
-        let rub = Rub { place: 0, friction: 0.5, impulse: [0.25 * push, 0.25 * rub], tangent: [0.0, 1.0] };
-        judge.rub(&made.step(), &scene.supports[0].at, &rub, &mut rubs);
+        let rub = FrictionImpulse { place: 0, friction: 0.5, impulse: [0.25 * push, 0.25 * rub], tangent: [0.0, 1.0] };
+        judge.check_friction(&made.step(), &scene.supports[0].at, &rub, &mut rubs);
         let found = rubs.worst(1.0, 1.0);
         assert_eq!(found, residual, "{push} N, {} N, {speed} m/s", rub.impulse[1] / 0.25);
         // What exceeds rounding, some 1e-11 here, is the same.
@@ -62,8 +62,8 @@ fn a_sliding_speed_counts_less_the_rounding_of_all_speeds() {
     judge.blows.struck.copy_from_slice(&[100.0, 0.0]);
     let made = Made { before: vec![50.0, -20.0], after: vec![-30.0, 1e-9], ..Made::rest(&scene, 0.25) };
     let mut rubs = ComplementarityFront::default();
-    let rub = Rub { place: 0, friction: 0.5, impulse: [1.0, 0.0], tangent: [0.0, 1.0] };
-    judge.rub(&made.step(), &scene.supports[0].at, &rub, &mut rubs);
+    let rub = FrictionImpulse { place: 0, friction: 0.5, impulse: [1.0, 0.0], tangent: [0.0, 1.0] };
+    judge.check_friction(&made.step(), &scene.supports[0].at, &rub, &mut rubs);
     // Of 70, 30 and 100 m/s, and the solver's tolerance of the gap over a step. At this scale of
     // forces the speed is the smaller one.
     let found = rubs.worst_excess(1.0, 1e-30).value;

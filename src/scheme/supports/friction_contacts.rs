@@ -231,8 +231,8 @@ impl FrictionContacts {
     #[cold]
     fn complement(&mut self, places: &ContactRows) -> Option<()> {
         let Self { touches, free, wedged, .. } = self;
-        // An elastic wall over a short part hardly yields to an impulse: in a unit of the rate along
-        // its normal in which its own response is that without compliance, the rates of all
+        // An elastic wall over a short part hardly yields to an impulse: in a unit of the rate
+        // along its normal in which its own response is that without compliance, the rates of all
         // contacts are comparable.
         let unit = |touch: &FrictionContact| touch.own[0] / touch.yielding();
         let contact = |touch: &FrictionContact| {

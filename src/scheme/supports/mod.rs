@@ -115,7 +115,7 @@ impl Supports {
     /// Lists the walls and holes in play, with their bounds.
     fn gather(&mut self) {
         let Self { body, frame, places, reach, sweeps, met, given, memory, .. } = self;
-        reach.look(frame, body.h);
+        reach.set_reach(frame, body.h);
         sweeps.touches.clear();
         for index in 0..body.walls.len() {
             if !reach.is_round(index) {

@@ -65,7 +65,7 @@ impl WallsInPlay {
     }
 
     /// Sets how far the step of `h` seconds reaches.
-    pub fn look(&mut self, frame: &Frame<Matrices>, h: f64) {
+    pub fn set_reach(&mut self, frame: &Frame<Matrices>, h: f64) {
         self.resting.clear();
         for (ahead, (q, v)) in self.ahead.iter_mut().zip(frame.q.iter().zip(frame.struck())) {
             *ahead = q + AHEAD * h * v;

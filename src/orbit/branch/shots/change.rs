@@ -2,7 +2,7 @@
 
 use super::Shots;
 use super::graze::Contact;
-use super::here::{Here, events};
+use super::step_start::{StepStart, events};
 use crate::orbit::branch::arclength::Vector;
 use crate::orbit::branch::label::Label;
 use crate::orbit::branch::line::{Begin, Passed};
@@ -66,10 +66,10 @@ impl<'a> Shots<'a> {
     /// before, with its distance; `other` the orbit at the end of the step, if it has other events.
     pub(super) fn change(
         &self,
-        now: &Here,
-        before: Option<&(Here, f64)>,
+        now: &StepStart,
+        before: Option<&(StepStart, f64)>,
         step: f64,
-        other: Option<&Here>,
+        other: Option<&StepStart>,
     ) -> Option<Change<'a>> {
         let mut candidates = self.candidates(now, before, step, other);
         candidates.sort_by(|a, b| a.distance.total_cmp(&b.distance));
@@ -78,7 +78,13 @@ impl<'a> Shots<'a> {
     }
 
     /// The contacts that may vanish or begin within a few steps.
-    fn candidates(&self, now: &Here, before: Option<&(Here, f64)>, step: f64, other: Option<&Here>) -> Vec<Candidate> {
+    fn candidates(
+        &self,
+        now: &StepStart,
+        before: Option<&(StepStart, f64)>,
+        step: f64,
+        other: Option<&StepStart>,
+    ) -> Vec<Candidate> {
         let passages = &now.passages;
         let ends = [self.strobe, self.strobe + self.cycles()];
         let previous = |i: usize| if i == 0 { ends[0] } else { passages[i - 1].phase };
@@ -88,7 +94,7 @@ impl<'a> Shots<'a> {
         // Distance at which a quantity vanishes that was `a` a distance `s` before and is `b` now.
         let root = |a: f64, b: f64, s: f64| if a > b { s * b / (a - b) } else { f64::INFINITY };
         let differs = |wall: usize, more: bool| {
-            let count = |here: &Here| {
+            let count = |here: &StepStart| {
                 here.passages.iter().filter(|p| p.event.wall == wall && p.event.kind.is_approach()).count()
             };
             other.is_some_and(|other| if more { count(other) > count(now) } else { count(other) < count(now) })
@@ -134,7 +140,7 @@ impl<'a> Shots<'a> {
     }
 
     /// The graze at which `candidate` begins or vanishes, if it lies near.
-    fn grazes(&self, now: &Here, step: f64, candidate: &Candidate) -> Option<Change<'a>> {
+    fn grazes(&self, now: &StepStart, step: f64, candidate: &Candidate) -> Option<Change<'a>> {
         let Candidate { contact, own, distance } = candidate;
         let graze = self.graze(&(&now.y + &now.tangent * *distance), *contact).ok()?;
         let apart = &graze.y - &now.y;
@@ -143,7 +149,7 @@ impl<'a> Shots<'a> {
         }
         // All other events must stay the same.
         let stays = now.passages.iter().enumerate().filter(|(i, _)| !own.contains(i)).map(|(_, p)| p.event);
-        if !events(&graze.turn.passages).eq(stays) {
+        if !events(&graze.motion.passages).eq(stays) {
             return None;
         }
         let vanished: Vec<Passage> = own.iter().filter_map(|&i| now.passages.get(i)).copied().collect();
@@ -158,14 +164,14 @@ impl<'a> Shots<'a> {
     }
 
     /// The index in the branch's signature of event `i` after the strobe.
-    fn number(&self, now: &Here, i: usize) -> usize {
+    fn number(&self, now: &StepStart, i: usize) -> usize {
         let count = now.passages.len() * if self.symmetric { 2 } else { 1 };
         let number = (i + count - self.first % count) % count;
         number % now.passages.len()
     }
 
     /// A change across which the branch continues, located by bisection between `now` and `other`.
-    fn kink(&self, now: &Here, step: f64, other: &Here) -> Option<Change<'a>> {
+    fn kink(&self, now: &StepStart, step: f64, other: &StepStart) -> Option<Change<'a>> {
         if step > SHORT * now.size() {
             return None;
         }
@@ -206,7 +212,7 @@ impl<'a> Shots<'a> {
 
 /// The change between the events of two orbits, and the index, after the strobe, of the event that
 /// changed.
-fn difference(before: &Here, after: &Here) -> (Label, usize) {
+fn difference(before: &StepStart, after: &StepStart) -> (Label, usize) {
     let (a, b) = (&before.passages, &after.passages);
     let event = a.iter().zip(b).take_while(|(a, b)| a.event == b.event).count();
     let count = |list: &[Passage], kinds: &[Kind]| list.iter().filter(|p| kinds.contains(&p.event.kind)).count();

@@ -2,7 +2,7 @@
 
 use super::Shots;
 use super::change::Change;
-use super::here::{Here, Tests};
+use super::step_start::{StepStart, Tests};
 use crate::error::{Error, Result};
 use crate::orbit::branch::arclength::{Stride, Vector, beyond, locate, turns_little};
 use crate::orbit::branch::label::Label;
@@ -45,7 +45,7 @@ pub(super) fn follow<'a>(
     seen: &mut dyn FnMut(&Point),
 ) -> Result<Line<Shots<'a>>> {
     let linear = curve.linear(&y, &mut None)?;
-    let now = curve.here(y, linear, along)?;
+    let now = curve.step_start(y, linear, along)?;
     let line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
     let start = Some((now.y.clone(), now.tangent.clone()));
     let mut follower = Follower { curve: curve.clone(), range, start, before: None, now, stride: Stride::new(), line };
@@ -69,8 +69,8 @@ fn note<'a>(curve: &Shots<'a>, line: &mut Line<Shots<'a>>, mut crossed: Crossed)
     let after = line.points.len();
     for (_, label, y) in crossed {
         let linear = curve.linear(&y, &mut None)?;
-        let own = super::here::multipliers_of(&linear);
-        let point = curve.point(&y, linear.posed.period, &linear.turn, own);
+        let own = super::step_start::multipliers_of(&linear);
+        let point = curve.point(&y, linear.posed.period, &linear.motion, own);
         // A branch of orbits over several periods has met the orbit of one of them.
         let label = match point.orbit.part(curve.mirror.as_deref()) {
             Some((_, true)) if matches!(label, Label::Fold | Label::BranchPoint) => Label::SymmetryBreaking,
@@ -90,8 +90,8 @@ struct Follower<'a> {
     /// could not be moved there.
     start: Option<(Vector, Vector)>,
     /// The point before, and how far along the branch it lies.
-    before: Option<(Here, f64)>,
-    now: Here,
+    before: Option<(StepStart, f64)>,
+    now: StepStart,
     stride: Stride,
     line: Line<Shots<'a>>,
 }
@@ -147,7 +147,7 @@ impl<'a> Follower<'a> {
     }
 
     /// True if a point found in so many iterations goes on as the branch does.
-    fn keeps(&self, (next, iterations): &(Here, usize)) -> bool {
+    fn keeps(&self, (next, iterations): &(StepStart, usize)) -> bool {
         next.meets_as(&self.now)
             && Stride::keeps(*iterations, &self.now.tangent, &next.tangent)
             && next.point.value.is_finite()
@@ -188,7 +188,13 @@ impl<'a> Follower<'a> {
 
     /// Goes on to the point `next` a step away, past the special points between; the end of the
     /// branch where that lies within the step.
-    fn accept(&mut self, next: Here, crossed: Crossed, step: f64, seen: &mut dyn FnMut(&Point)) -> Result<Option<End>> {
+    fn accept(
+        &mut self,
+        next: StepStart,
+        crossed: Crossed,
+        step: f64,
+        seen: &mut dyn FnMut(&Point),
+    ) -> Result<Option<End>> {
         let Self { curve, now, line, .. } = self;
         let value = next.point.value;
         if let Some(bound) = beyond(self.range, value) {
@@ -223,7 +229,7 @@ impl<'a> Follower<'a> {
 impl Shots<'_> {
     /// The special points within a step from `now` to a point with the tests `after`; false if they
     /// could not be separated.
-    fn crossed(&self, now: &Here, after: &Tests, step: f64) -> Result<(Crossed, bool)> {
+    fn crossed(&self, now: &StepStart, after: &Tests, step: f64) -> Result<(Crossed, bool)> {
         let before = &now.tests;
         let turns = |a: f64, b: f64| a * b < 0.0;
         let flip = if self.symmetric { Label::SymmetryBreaking } else { Label::PeriodDoubling };
@@ -267,7 +273,7 @@ impl Shots<'_> {
     }
 
     /// A point within a step, with the same walls in the same order.
-    fn between(&self, now: &Here, step: f64) -> Result<Here> {
+    fn between(&self, now: &StepStart, step: f64) -> Result<StepStart> {
         let (here, _) = self.next(now, step)?;
         if here.meets_as(now) || step == 0.0 {
             return Ok(here);

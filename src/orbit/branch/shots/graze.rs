@@ -18,8 +18,8 @@ use crate::flow::SeriesBody;
 use crate::orbit::branch::arclength::{Vector, extended, tangent};
 use crate::orbit::branch::line::Begin;
 use crate::orbit::branch::point::Point;
+use crate::orbit::orbit_run::{OrbitRun, Recorded, Touch, run};
 use crate::orbit::strobe::multipliers;
-use crate::orbit::turn::{Look, Touch, Turn, run};
 use crate::orbit::watch::Passage;
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -58,7 +58,7 @@ pub(super) struct Contact {
 /// The map with the wall moved away in the window.
 struct Free {
     posed: Posed,
-    turn: Turn,
+    motion: OrbitRun,
     touch: Touch,
     /// The derivative of the gap with respect to the scaled state, over the scale of lengths.
     gap: Vector,
@@ -72,7 +72,7 @@ struct Free {
 pub(super) struct Graze {
     pub y: Vector,
     pub touch: Touch,
-    pub turn: Turn,
+    pub motion: OrbitRun,
     period: f64,
     own: Vec<Complex<f64>>,
     /// The derivatives of the map (all rows but the last) and the gap (the last row) with respect
@@ -95,24 +95,24 @@ impl<'a> Shots<'a> {
         let Some(wall) = open.walls.get_mut(contact.wall) else { return Err(gone()) };
         let shift = -wall.side().sign() * AWAY * self.scales.length;
         *wall = wall.clone().with_position(wall.position() + shift);
-        let look = if whole { Look::All } else { Look::Events };
+        let recorded = if whole { Recorded::All } else { Recorded::Events };
         let at = |phase: f64| phase * period;
         let [from, to] = contact.window.map(at);
         let ends = [at(self.strobe), at(self.strobe + self.cycles())];
-        let first = run(scene, *period, [ends[0], from], x, look)?;
-        let within = run(&open, *period, [from, to], &first.end, Look::Touches)?;
+        let first = run(scene, *period, [ends[0], from], x, recorded)?;
+        let within = run(&open, *period, [from, to], &first.end, Recorded::Touches)?;
         let near = |touch: &&Touch| (touch.phase - contact.at).abs();
         let mine = within.touches.iter().filter(|touch| touch.wall == contact.wall);
         let touch = mine.min_by(|a, b| near(a).total_cmp(&near(b))).copied().ok_or_else(gone)?;
         let touch = Touch { gap: touch.gap - AWAY * self.scales.length, ..touch };
         let time = at(touch.phase);
-        let last = run(scene, *period, [to, ends[1]], &within.end, look)?;
-        let mut turn = Turn { end: last.end, ..within };
-        turn.passages = [first.passages, turn.passages, last.passages].concat();
-        turn.touches = Vec::new();
-        turn.largest = first.largest.max(turn.largest).max(last.largest);
+        let last = run(scene, *period, [to, ends[1]], &within.end, recorded)?;
+        let mut motion = OrbitRun { end: last.end, ..within };
+        motion.passages = [first.passages, motion.passages, last.passages].concat();
+        motion.touches = Vec::new();
+        motion.largest = first.largest.max(motion.largest).max(last.largest);
         let mut free = Free {
-            turn,
+            motion,
             touch,
             gap: DVector::zeros(0),
             after: DMatrix::zeros(0, 0),
@@ -122,9 +122,9 @@ impl<'a> Shots<'a> {
         if !whole {
             return Ok(free);
         }
-        let until = run(&open, *period, [from, time], &first.end, Look::All)?;
-        let since = run(&open, *period, [time, to], &until.end, Look::All)?;
-        let soon = run(&open, *period, [time, time + SOON * (to - time)], &until.end, Look::Events)?;
+        let until = run(&open, *period, [from, time], &first.end, Recorded::All)?;
+        let since = run(&open, *period, [time, to], &until.end, Recorded::All)?;
+        let soon = run(&open, *period, [time, time + SOON * (to - time)], &until.end, Recorded::Events)?;
         let wall = &scene.walls[contact.wall];
         let sign = wall.side().sign();
         let rate = |x: &DVector<f64>| sign * wall.row().dot(&x.as_slice()[n..]);
@@ -134,7 +134,7 @@ impl<'a> Shots<'a> {
         let mut row = vec![0.0; n];
         wall.row().entries().iter().for_each(|&(dof, weight)| row[dof] += sign * weight);
         free.gap = DVector::from_fn(2 * n, |j, _| (0..n).map(|i| row[i] * before[(i, j)]).sum());
-        free.turn.derivative = &after * &before;
+        free.motion.derivative = &after * &before;
         free.after = after.columns(n, n).into_owned();
         Ok(free)
     }
@@ -151,24 +151,24 @@ impl<'a> Shots<'a> {
             let (value, x) = (self.value(&y), self.state(&y));
             let free = self.free(self.posed(value)?, &x, &contact, true)?;
             let end = |free: &Free| {
-                extended(&(self.scales.scaled(&free.turn.end) * self.sign()), free.touch.gap / self.scales.length)
+                extended(&(self.scales.scaled(&free.motion.end) * self.sign()), free.touch.gap / self.scales.length)
             };
             let residual = end(&free) - extended(&y.rows(0, n).into_owned(), 0.0);
             let column = self.column(&y, |posed| {
                 let posed = Posed { scene: posed.scene.clone(), period: posed.period };
                 Ok(Some(end(&self.free(posed, &x, &contact, false)?)))
             })?;
-            let map = &free.turn.derivative - DMatrix::identity(n, n);
+            let map = &free.motion.derivative - DMatrix::identity(n, n);
             let row = |i: usize, j: usize| if i < n { map[(i, j)] } else { free.gap[j] };
             let matrix = DMatrix::from_fn(n + 1, n + 1, |i, j| if j < n { row(i, j) } else { column[i] });
             let size = residual.amax();
             if size <= SOLVED || size >= 0.5 * last && size <= ACCEPTED {
-                let own = multipliers(&free.turn.derivative);
+                let own = multipliers(&free.motion.derivative);
                 let kick = self.kick(&free, &contact)?;
-                let Free { turn, touch, acceleration, posed, .. } = free;
+                let Free { motion, touch, acceleration, posed, .. } = free;
                 let period = posed.period;
                 let rigid = posed.scene.walls.get(contact.wall).is_some_and(|wall| wall.law.is_rigid());
-                return Ok(Graze { y, touch, turn, period, own, matrix, kick, acceleration, contact, rigid });
+                return Ok(Graze { y, touch, motion, period, own, matrix, kick, acceleration, contact, rigid });
             }
             let step = matrix.lu().solve(&residual).filter(|step| step.norm() <= 1.0).ok_or_else(gone)?;
             y -= step;
@@ -194,14 +194,14 @@ impl<'a> Shots<'a> {
     /// The special point of a graze; `vanished` are the events of the contact whose speed is 0
     /// there and which still belongs to the branch's signature.
     pub(super) fn grazing(&self, graze: &Graze, vanished: &[Passage]) -> Point {
-        let mut turn = graze.turn.clone();
-        let place = turn.passages.partition_point(|p| p.phase < graze.touch.phase);
+        let mut motion = graze.motion.clone();
+        let place = motion.passages.partition_point(|p| p.phase < graze.touch.phase);
         let still = vanished.iter().map(|p| Passage { phase: graze.touch.phase, speed: 0.0, ..*p });
-        turn.passages.splice(place..place, still);
+        motion.passages.splice(place..place, still);
         if vanished.is_empty() {
-            turn.touches = vec![graze.touch];
+            motion.touches = vec![graze.touch];
         }
-        self.point(&graze.y, graze.period, &turn, graze.own.clone())
+        self.point(&graze.y, graze.period, &motion, graze.own.clone())
     }
 
     /// The start of the branch without the contact, or with an elastic one.
@@ -211,10 +211,10 @@ impl<'a> Shots<'a> {
         let row = graze.matrix.row(n).transpose();
         // The direction is towards the wall or away from it.
         let along = tangent(&matrix, &(if strikes { -row } else { row }))?;
-        let count = graze.turn.passages.len();
+        let count = graze.motion.passages.len();
         for step in BESIDE {
             let Ok((y, linear, _)) = self.correct(&(&graze.y + &along * step), &along, None) else { continue };
-            let more = linear.turn.passages.len() > count;
+            let more = linear.motion.passages.len() > count;
             if more == strikes && (&y - &graze.y).norm() <= 2.0 * step {
                 return Ok(Begin { curve: self.anew(), y, along, both: false });
             }
@@ -231,7 +231,7 @@ impl<'a> Shots<'a> {
         if !(graze.acceleration > 0.0 && along.norm() > 0.0) {
             return Err(gone());
         }
-        let (count, unit_along) = (graze.turn.passages.len(), along.normalize());
+        let (count, unit_along) = (graze.motion.passages.len(), along.normalize());
         let depth = |v: f64| v * v / (2.0 * graze.acceleration * self.scales.length);
         for share in SPEEDS {
             let wanted = share * self.scales.speed;
@@ -239,15 +239,16 @@ impl<'a> Shots<'a> {
             let mut found = false;
             for _ in 0..STRIKES {
                 let x = self.state(&y);
-                let Ok(turn) = self.posed(self.value(&y)).and_then(|posed| self.turn(&posed, &x, Look::Events)) else {
+                let Ok(motion) = self.posed(self.value(&y)).and_then(|posed| self.run(&posed, &x, Recorded::Events))
+                else {
                     break;
                 };
                 let [from, to] = graze.contact.window;
-                let mine = turn.passages.iter().find(|p| {
+                let mine = motion.passages.iter().find(|p| {
                     p.event.wall == graze.contact.wall && p.event.kind.is_approach() && p.phase > from && p.phase < to
                 });
                 let v = mine.map_or(0.0, |p| p.speed);
-                let residual = self.scales.scaled(&(&turn.end * self.sign() - &x));
+                let residual = self.scales.scaled(&(&motion.end * self.sign() - &x));
                 let map = -residual - &graze.kick * (wanted - v);
                 let step = solve(&map, depth(v) - depth(wanted))?;
                 found = v > 0.0 && step.norm() <= STRUCK * share * share;
@@ -259,7 +260,7 @@ impl<'a> Shots<'a> {
             let Some((y, linear, _)) = found.then(|| self.correct(&y, &unit_along, None).ok()).flatten() else {
                 continue;
             };
-            if linear.turn.passages.len() == count + 1 && (&y - &graze.y).norm() <= 4.0 * share * along.norm() {
+            if linear.motion.passages.len() == count + 1 && (&y - &graze.y).norm() <= 4.0 * share * along.norm() {
                 return Ok(Begin { curve: self.anew(), y, along: unit_along, both: false });
             }
         }

@@ -12,18 +12,18 @@ mod change;
 mod correct;
 mod follow;
 mod graze;
-mod here;
 mod moved;
+mod step_start;
 mod switch;
 
 use crate::error::{Error, Result};
 use crate::orbit::branch::arclength::{self, Vector, extended, unit};
 use crate::orbit::branch::family::{self, DIFFERENCE, Family};
 use crate::orbit::forcing::forcing_period;
+use crate::orbit::orbit_run::{self, ByKey, OrbitRun, Recorded};
 use crate::orbit::shooting::{Shot, posed};
 use crate::orbit::strobe::{Scales, vector};
 use crate::orbit::symmetry;
-use crate::orbit::turn::{ByKey, Look, Turn, run_by_key};
 use crate::scene::Scene;
 use crate::variation::SceneTangent;
 use nalgebra::DMatrix;
@@ -62,7 +62,7 @@ struct Posed {
 /// The linearised equations at a point.
 struct Linear {
     posed: Posed,
-    turn: Turn,
+    motion: OrbitRun,
     residual: Vector,
     /// 2n × (2n + 1): the derivatives with respect to the scaled state, and to the key.
     matrix: DMatrix<f64>,
@@ -85,8 +85,8 @@ impl<'a> Shots<'a> {
         let x = vector(&start.state.q, &start.state.v);
         if curve.mirror.is_some() && start.periods % 2 == 1 {
             let half = Self { symmetric: true, ..curve.clone() };
-            let turn = half.turn(&Posed { scene, period }, &x, Look::Events)?;
-            if scales.size(&(&turn.end + &x)) <= MIRRORED {
+            let motion = half.run(&Posed { scene, period }, &x, Recorded::Events)?;
+            if scales.size(&(&motion.end + &x)) <= MIRRORED {
                 curve = half;
             }
         }
@@ -123,13 +123,20 @@ impl<'a> Shots<'a> {
         Ok(Posed { scene, period })
     }
 
-    fn turn(&self, posed: &Posed, x: &Vector, look: Look) -> Result<Turn> {
-        self.turn_by_key(posed, x, look, None)
+    fn run(&self, posed: &Posed, x: &Vector, recorded: Recorded) -> Result<OrbitRun> {
+        self.run_by_key(posed, x, recorded, None)
     }
 
-    fn turn_by_key(&self, posed: &Posed, x: &Vector, look: Look, key: Option<ByKey<'_>>) -> Result<Turn> {
+    fn run_by_key(&self, posed: &Posed, x: &Vector, recorded: Recorded, key: Option<ByKey<'_>>) -> Result<OrbitRun> {
         let Posed { scene, period } = posed;
-        run_by_key(scene, *period, [self.strobe * period, (self.strobe + self.cycles()) * period], x, look, key)
+        orbit_run::run_by_key(
+            scene,
+            *period,
+            [self.strobe * period, (self.strobe + self.cycles()) * period],
+            x,
+            recorded,
+            key,
+        )
     }
 
     /// The derivative of the scene at the key's value, and those of the instants between which the
@@ -146,28 +153,28 @@ impl<'a> Shots<'a> {
         let (posed, x) = (self.posed(self.value(y))?, self.state(y));
         let tangent = if column.is_none() { self.tangent(self.value(y), &posed) } else { None };
         let key = tangent.as_ref().map(|(tangent, later)| ByKey { tangent, later: *later });
-        let turn = self.turn_by_key(&posed, &x, Look::All, key)?;
+        let motion = self.run_by_key(&posed, &x, Recorded::All, key)?;
         let (n, sign) = (x.len(), self.sign());
-        let residual = self.scales.scaled(&(&turn.end * sign - &x));
-        let own = self.scales.similar(&turn.derivative) * sign - DMatrix::identity(n, n);
+        let residual = self.scales.scaled(&(&motion.end * sign - &x));
+        let own = self.scales.similar(&motion.derivative) * sign - DMatrix::identity(n, n);
         let column = match column {
             Some(known) => known.clone(),
             None => {
-                let own = match &turn.by_key {
+                let own = match &motion.by_key {
                     Some(own) => self.scales.scaled(own) * (sign * self.width),
-                    None => self.column(y, |posed| self.same(&turn, posed, &x))?,
+                    None => self.column(y, |posed| self.same(&motion, posed, &x))?,
                 };
                 column.insert(own).clone()
             }
         };
         let matrix = DMatrix::from_fn(n, n + 1, |i, j| if j < n { own[(i, j)] } else { column[i] });
-        Ok(Linear { posed, turn, residual, matrix })
+        Ok(Linear { posed, motion, residual, matrix })
     }
 
-    /// The scaled end of the run from `x` in another scene, if it meets the same walls as `turn`.
-    fn same(&self, turn: &Turn, posed: &Posed, x: &Vector) -> Result<Option<Vector>> {
-        let other = self.turn(posed, x, Look::Events)?;
-        let same = turn.passages.iter().map(|p| p.event).eq(other.passages.iter().map(|p| p.event));
+    /// The scaled end of the run from `x` in another scene, if it meets the same walls as `motion`.
+    fn same(&self, motion: &OrbitRun, posed: &Posed, x: &Vector) -> Result<Option<Vector>> {
+        let other = self.run(posed, x, Recorded::Events)?;
+        let same = motion.passages.iter().map(|p| p.event).eq(other.passages.iter().map(|p| p.event));
         Ok(same.then(|| self.scales.scaled(&other.end) * self.sign()))
     }
 

@@ -1,11 +1,11 @@
 //! The strobe moved away from events.
 
 use super::Shots;
-use super::here::Here;
+use super::step_start::StepStart;
 use crate::error::Result;
 use crate::orbit::branch::arclength::{Vector, extended};
+use crate::orbit::orbit_run::{Recorded, run};
 use crate::orbit::signature::Kind;
-use crate::orbit::turn::{Look, run};
 
 /// Step along the tangent, relative to its length, of the second point that is moved to the new
 /// strobe to find the tangent there.
@@ -22,7 +22,7 @@ const ROOM: f64 = 0.15;
 
 impl Shots<'_> {
     /// The curve with its strobe moved to `strobe` (cycles), and the same point of it.
-    pub(super) fn moved(&self, now: &Here, strobe: f64) -> Result<(Self, Here)> {
+    pub(super) fn moved(&self, now: &StepStart, strobe: f64) -> Result<(Self, StepStart)> {
         let passed = now.passages.iter().filter(|p| p.phase < strobe).count();
         let count = now.passages.len() * if self.symmetric { 2 } else { 1 };
         let turn = f64::from(self.periods);
@@ -33,12 +33,12 @@ impl Shots<'_> {
         };
         let (y, along) = self.carried(&now.y, &now.tangent, strobe)?;
         let (y, linear, _) = moved.correct(&y, &along, None)?;
-        let there = moved.here(y, linear, &along)?;
+        let there = moved.step_start(y, linear, &along)?;
         Ok((moved, there))
     }
 
     /// The better instant for the strobe, in cycles; `None` where it is well placed.
-    pub(super) fn better_strobe(&self, now: &Here) -> Option<f64> {
+    pub(super) fn better_strobe(&self, now: &StepStart) -> Option<f64> {
         let (start, turn) = (self.strobe, self.cycles());
         let close = now.touches.iter().filter(|touch| touch.gap < CLOSE * self.scales.length);
         let mut phases: Vec<f64> = now.passages.iter().map(|p| p.phase).chain(close.map(|touch| touch.phase)).collect();
@@ -60,7 +60,7 @@ impl Shots<'_> {
         let carried = |y: &Vector| -> Result<Vector> {
             let posed = self.posed(self.value(y))?;
             let span = [self.strobe, strobe].map(|phase| phase * posed.period);
-            let turn = run(&posed.scene, posed.period, span, &self.state(y), Look::Events)?;
+            let turn = run(&posed.scene, posed.period, span, &self.state(y), Recorded::Events)?;
             Ok(extended(&self.scales.scaled(&turn.end), y[y.len() - 1]))
         };
         let there = carried(y)?;

@@ -51,7 +51,7 @@ impl Followed for Shots<'_> {
 
     fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)> {
         let linear = self.linear(y, &mut None)?;
-        let point = self.point(y, linear.posed.period, &linear.turn, super::here::multipliers_of(&linear));
+        let point = self.point(y, linear.posed.period, &linear.motion, super::step_start::multipliers_of(&linear));
         Ok((point.orbit, Metric { mirror: self.mirror.clone(), speed: self.scales.speed, near: SAME }))
     }
 }

@@ -6,15 +6,15 @@ use crate::orbit::admissible::{Admissible, Nearest};
 use crate::orbit::branch::arclength::{Vector, bordered, tangent};
 use crate::orbit::branch::point::Point;
 use crate::orbit::floquet::Floquet;
+use crate::orbit::orbit_run::{OrbitRun, Touch};
 use crate::orbit::periodic::Orbit;
 use crate::orbit::signature::{Event, Signature};
 use crate::orbit::strobe::{Strobe, multipliers, state};
-use crate::orbit::turn::{Touch, Turn};
 use crate::orbit::watch::Passage;
 use nalgebra::{Complex, DMatrix};
 
 /// The point at which a step begins.
-pub(super) struct Here {
+pub(super) struct StepStart {
     pub y: Vector,
     pub tangent: Vector,
     /// The derivatives of the equations, and the column of the key among them.
@@ -42,7 +42,7 @@ pub(super) struct Tests {
     pub pair: f64,
 }
 
-impl Here {
+impl StepStart {
     /// True if both orbits meet the same walls in the same order.
     pub fn meets_as(&self, other: &Self) -> bool {
         events(&self.passages).eq(events(&other.passages))
@@ -66,12 +66,12 @@ pub(super) fn multipliers_of(linear: &Linear) -> Vec<Complex<f64>> {
 
 impl Shots<'_> {
     /// The data at the solution `y`, with the tangent in the direction of `along`.
-    pub(super) fn here(&self, y: Vector, linear: Linear, along: &Vector) -> Result<Here> {
+    pub(super) fn step_start(&self, y: Vector, linear: Linear, along: &Vector) -> Result<StepStart> {
         let tangent = tangent(&linear.matrix, along)?;
         let n = y.len() - 1;
         let square = linear.matrix.columns(0, n).into_owned();
         let own = multipliers_of(&linear);
-        let speeds = linear.turn.passages.iter().filter(|p| p.event.kind.is_approach() && p.event.kind.is_rigid());
+        let speeds = linear.motion.passages.iter().filter(|p| p.event.kind.is_approach() && p.event.kind.is_rigid());
         let flip = (&square + DMatrix::identity(n, n) * 2.0).determinant();
         let flip = speeds.fold(flip, |product, p| product * p.speed.abs() / self.scales.speed);
         let distance = |z: &&Complex<f64>| (z.norm() - 1.0).abs();
@@ -84,25 +84,25 @@ impl Shots<'_> {
             pair: nearest.map_or(f64::INFINITY, |z| (z.norm() - 1.0).abs()),
         };
         let column = linear.matrix.column(n).into_owned();
-        let point = self.point(&y, linear.posed.period, &linear.turn, own);
-        let Linear { turn: Turn { passages, touches, .. }, matrix, .. } = linear;
-        Ok(Here { y, tangent, matrix, column, point, passages, touches, tests })
+        let point = self.point(&y, linear.posed.period, &linear.motion, own);
+        let Linear { motion: OrbitRun { passages, touches, .. }, matrix, .. } = linear;
+        Ok(StepStart { y, tangent, matrix, column, point, passages, touches, tests })
     }
 
-    /// The orbit whose run is `turn`, and whose map has the multipliers `own`.
-    pub(super) fn point(&self, y: &Vector, period: f64, turn: &Turn, own: Vec<Complex<f64>>) -> Point {
+    /// The orbit whose run is `motion`, and whose map has the multipliers `own`.
+    pub(super) fn point(&self, y: &Vector, period: f64, motion: &OrbitRun, own: Vec<Complex<f64>>) -> Point {
         let signature =
-            Signature { events: events(&turn.passages).collect(), periods: self.periods, symmetric: self.symmetric };
+            Signature { events: events(&motion.passages).collect(), periods: self.periods, symmetric: self.symmetric };
         let orbit = Orbit {
             signature,
-            phases: turn.passages.iter().map(|p| p.phase).collect(),
-            speeds: turn.passages.iter().map(|p| p.speed).collect(),
+            phases: motion.passages.iter().map(|p| p.phase).collect(),
+            speeds: motion.passages.iter().map(|p| p.speed).collect(),
             forcing_period: period,
         };
-        let approaches = turn.passages.iter().filter(|p| p.event.kind.is_approach());
-        let nearest = turn.touches.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
-        let flight = |phase: f64| turn.passages.iter().filter(|p| p.phase <= phase).count();
-        let count = turn.passages.len();
+        let approaches = motion.passages.iter().filter(|p| p.event.kind.is_approach());
+        let nearest = motion.touches.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
+        let flight = |phase: f64| motion.passages.iter().filter(|p| p.phase <= phase).count();
+        let count = motion.passages.len();
         let admissible = Admissible {
             least_speed: approaches.map(|p| p.speed).fold(f64::INFINITY, f64::min),
             nearest: nearest.map(|touch| Nearest {
@@ -113,7 +113,7 @@ impl Shots<'_> {
                 phase: touch.phase,
             }),
             least_push: f64::INFINITY,
-            largest: turn.largest,
+            largest: motion.largest,
         };
         let product = own.iter().fold(Complex::from(1.0), |product, z| product * z).re;
         let trace = own.iter().map(|z| z.re).sum();
@@ -130,13 +130,13 @@ impl Shots<'_> {
         if count == 0 {
             return orbit;
         }
-        let (first, turn) = (self.first % count, f64::from(self.periods));
+        let (first, cycles) = (self.first % count, f64::from(self.periods));
         whole.signature.events.rotate_left(first);
         whole.speeds.rotate_left(first);
         whole.phases.rotate_left(first);
-        let from = whole.phases.first().map_or(0.0, |phase| (phase / turn).floor() * turn);
+        let from = whole.phases.first().map_or(0.0, |phase| (phase / cycles).floor() * cycles);
         for (index, phase) in whole.phases.iter_mut().enumerate() {
-            *phase += if index + first >= count { turn } else { 0.0 } - from;
+            *phase += if index + first >= count { cycles } else { 0.0 } - from;
         }
         if orbit.signature.symmetric {
             whole.signature.symmetric = true;

@@ -28,7 +28,7 @@ pub(super) struct Touch {
 
 /// What a run records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Look {
+pub(super) enum Recorded {
     /// The events only.
     Events,
     /// Also the points where the motion turns back before walls.
@@ -47,7 +47,7 @@ pub(super) struct ByKey<'a> {
 
 /// A run.
 #[derive(Debug, Clone)]
-pub(super) struct Turn {
+pub(super) struct OrbitRun {
     pub end: DVector<f64>,
     /// The derivative of the end with respect to the start; empty unless asked for.
     pub derivative: DMatrix<f64>,
@@ -68,8 +68,14 @@ pub(super) struct Turn {
 ///
 /// # Errors
 /// Those of a run; [`Error::NoOrbit`] where its derivative does not exist.
-pub(super) fn run(scene: &Scene, period: f64, span: [f64; 2], start: &DVector<f64>, look: Look) -> Result<Turn> {
-    run_by_key(scene, period, span, start, look, None)
+pub(super) fn run(
+    scene: &Scene,
+    period: f64,
+    span: [f64; 2],
+    start: &DVector<f64>,
+    recorded: Recorded,
+) -> Result<OrbitRun> {
+    run_by_key(scene, period, span, start, recorded, None)
 }
 
 /// As [`run`], with the derivative by a key.
@@ -81,18 +87,18 @@ pub(super) fn run_by_key(
     period: f64,
     span: [f64; 2],
     start: &DVector<f64>,
-    look: Look,
+    recorded: Recorded,
     key: Option<ByKey<'_>>,
-) -> Result<Turn> {
+) -> Result<OrbitRun> {
     let [from, to] = span;
     let mut timed = scene.clone();
     timed.duration = to;
     let mut stepper = Stepper::new(&timed, &Scheme::Event, to)?;
     stepper.set_state(from, &state(start))?;
-    let mut product = if look == Look::All { Some(Product::new(scene)?) } else { None };
+    let mut product = if recorded == Recorded::All { Some(Product::new(scene)?) } else { None };
     let mut column = key.map(|key| Column::new(scene, key));
     let mut watch = Watch::new(scene, period);
-    let mut turns = Turns::new(scene, period, look != Look::Events);
+    let mut turns = Turns::new(scene, period, recorded != Recorded::Events);
     let walls = scene.walls.len();
     let (mut contacts, mut impulses) = (vec![0; walls], vec![0.0; walls]);
     while stepper.time() < to {
@@ -101,7 +107,7 @@ pub(super) fn run_by_key(
             product.observe(&step).map_err(|error| Error::no_orbit(error.to_string()))?;
         }
         if let Some(column) = &mut column {
-            column.carry(&step);
+            column.propagate(&step);
         }
         watch.observe(&step);
         turns.observe(&step);
@@ -113,7 +119,7 @@ pub(super) fn run_by_key(
         impulses.iter_mut().zip(step.impulse).for_each(|(sum, impulse)| *sum += impulse);
     }
     let end = stepper.state();
-    Ok(Turn {
+    Ok(OrbitRun {
         end: vector(&end.q, &end.v),
         by_key: column.and_then(|column| column.end(&end.v)),
         derivative: product.map_or_else(|| DMatrix::zeros(0, 0), |product| product.matrix().clone()),
@@ -142,7 +148,7 @@ impl<'a> Column<'a> {
 
     /// Propagates the derivative over `step`. At the first one the state of the moved start, as it
     /// was at the fixed instant, is (q, q̇) less its rate times δt.
-    fn carry(&mut self, step: &Step<'_>) {
+    fn propagate(&mut self, step: &Step<'_>) {
         if !self.known {
             return;
         }
@@ -156,7 +162,7 @@ impl<'a> Column<'a> {
                 KeyVariation::from_state(self.scene, std::slice::from_ref(self.key.tangent), &start)
             }
         };
-        self.variation = variation.ok().and_then(|mut one| one.carry(step).is_ok().then_some(one));
+        self.variation = variation.ok().and_then(|mut one| one.propagate(step).is_ok().then_some(one));
         self.known = self.variation.is_some();
     }
 
