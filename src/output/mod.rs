@@ -18,6 +18,7 @@
 //! | [`document`] | a chart and a stability study as JSON |
 //! | [`episodes`] | `episodes.csv` and `exceedances.csv`, and their table |
 //! | [`realisations`] | `realisations.csv`, and its table |
+//! | [`error_parts`] | `errors.csv`, and its table |
 //! | [`periodic`] | a periodic orbit: its document, motion and pictures |
 //! | [`branches`] | branches of orbits: tables, document and picture |
 //! | [`overlay`] | `beneath.csv`: points of other results beneath the branches |
@@ -48,10 +49,10 @@
 //! motion of those along branches and `overlay.rs` points of other results under them, `shape.rs`
 //! the shape of a structure over time; `summary/`, `csv.rs`, `derivatives.rs`, `table.rs`,
 //! `document.rs`, `detail.rs` (what `[statistics]` asks for: `episodes.rs`, `spectra.rs`),
-//! `realisations.rs`, `cheapest.rs` (the conclusion of a chart), `floors.rs` (why its penalties
-//! have floors), `safe_steps.rs` (the conclusion of a stability study), figures (`colours.rs` has
-//! the colour of every wall and support, `part.rs` the walls that are drawn together), `format.rs`
-//! (figures as SVG, PDF or PNG; feature `cli`).
+//! `realisations.rs`, `error_parts.rs` (the errors of their means), `cheapest.rs` (the conclusion
+//! of a chart), `floors.rs` (why its penalties have floors), `safe_steps.rs` (the conclusion of a
+//! stability study), figures (`colours.rs` has the colour of every wall and support, `part.rs` the
+//! walls that are drawn together), `format.rs` (figures as SVG, PDF or PNG; feature `cli`).
 
 pub(crate) mod animation;
 pub mod atomic;
@@ -65,6 +66,7 @@ pub mod derivatives;
 mod detail;
 pub mod document;
 pub mod episodes;
+pub mod error_parts;
 pub use signorini_figure as figure;
 pub(crate) mod floors;
 pub mod format;

@@ -5,16 +5,14 @@ use super::table::Table;
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::statistics::{ContactPlace, PlaceKind};
-use crate::study::realisations::{Estimate, Interval, Larger, Measure, Realisations, StepChange};
+use crate::study::realisations::{Estimate, Interval, Measure, Realisations};
 use std::path::Path;
 
 /// Name of the file.
 pub const FILE: &str = "realisations.csv";
 
-/// Most rows of the table in the terminal, and most places for which it shows the effect of half
-/// the step.
-const MOST_ROWS: usize = 24;
-const MOST_LINES: usize = 4;
+/// Most rows of the table in the terminal.
+pub(super) const MOST_ROWS: usize = 24;
 
 /// The title of what shows the first of `count` realisations alone, and not their means.
 #[must_use]
@@ -140,20 +138,6 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
     if scene.supports.iter().any(|support| support.friction(&scene.walls) == 0.0) {
         remarks.push("work rates without friction are upper figures".to_owned());
     }
-    let measures = [Measure::MeanForce, Measure::WorkRate];
-    let shown = shown(study, scene, MOST_LINES);
-    for one in shown.iter().flat_map(|place| measures.map(|measure| find(study, place, measure))).flatten() {
-        let Some(StepChange { change, half_width_95, larger, .. }) = one.half_step else { continue };
-        let mean = with_interval(one.mean, one.half_width_95);
-        let verdict = match larger {
-            Some(Larger::Step) => ": the error of the step is the larger",
-            Some(Larger::Sampling) => ": the scatter of the sample is the larger",
-            None => "",
-        };
-        let change = with_interval(change, half_width_95);
-        let (place, what, unit) = (&one.place.name, one.measure.words(), one.unit);
-        remarks.push(format!("{place}: {what} {mean} {unit}; half the step changes it by {change} {unit}{verdict}"));
-    }
     remarks
 }
 
@@ -163,7 +147,7 @@ fn decimals(x: f64) -> usize {
     if digits.is_finite() { digits.clamp(0.0, 12.0) as usize } else { 1 }
 }
 
-fn with_decimals(x: f64, decimals: usize) -> String {
+pub(super) fn with_decimals(x: f64, decimals: usize) -> String {
     // Where rounding would show −0.
     let x = if x.abs() < 0.5 * 10_f64.powi(-(decimals as i32)) { 0.0 } else { x };
     format!("{x:.decimals$}")

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 /// share of what was exchanged.
 const SMALL: f64 = 1e-2;
 
-/// An interval of a mean up to this share of it needs no attention.
+/// An error of a mean over realisations up to this share of it needs no attention.
 const SCATTER: f64 = 0.1;
 
 /// The cards of the run with this summary.
@@ -101,37 +101,44 @@ fn refinement(summary: &Value) -> Option<Value> {
     Some(card("Refinement", state, verdict, text))
 }
 
-/// The scatter of the largest mean force over realisations, beside what half the step changes.
+/// The largest work rate over realisations, or without one the largest mean force: its error in
+/// parts, or its interval where that is not known.
 fn realisations(summary: &Value) -> Option<Value> {
     let study = summary.get("realisations")?;
-    let forces = list(&study["estimates"]).iter().filter(|one| one["measure"] == "mean_force");
-    let most = forces.max_by(|a, b| number(&a["mean"]).total_cmp(&number(&b["mean"])))?;
-    let count = number(&study["count"]);
-    let told = |value: &Value, half: &Value| match half.as_f64() {
-        Some(half) => format!("{} ± {} N", short(number(value)), short(half)),
-        None => format!("{} N", short(number(value))),
+    let largest = |measure: &str, least: f64| {
+        let all = list(&study["estimates"]).iter();
+        let own = all.filter(|one| one["measure"] == *measure && number(&one["mean"]) >= least);
+        own.max_by(|a, b| number(&a["mean"]).total_cmp(&number(&b["mean"])))
     };
-    let step = &most["half_step"];
-    let changed = if step["change"].is_null() {
-        String::new()
-    } else {
-        format!("; half the step changes it by {}", told(&step["change"], &step["half_width_95"]))
+    let most = largest("work_rate", f64::MIN_POSITIVE).or_else(|| largest("mean_force", 0.0))?;
+    let mean = number(&most["mean"]);
+    let what = most["measure"].as_str().unwrap_or_default().replace('_', " ");
+    let half = most["half_width_95"].as_f64().map_or_else(String::new, |half| format!(" ± {}", short(half)));
+    let part = |name: &str| {
+        let part = &most["error"][name];
+        let [change, half] = [part["mean"].as_f64()?, part["half_width_95"].as_f64()?].map(|x| short(100.0 * x / mean));
+        Some(format!("; {name} {change} ± {half} %"))
     };
     let text = format!(
-        "{}: mean force {}{changed}.",
+        "{}: {what} {}{half} {}{}.",
         most["place"].as_str().unwrap_or_default(),
-        told(&most["mean"], &most["half_width_95"])
+        short(mean),
+        most["unit"].as_str().unwrap_or_default(),
+        ["start", "step", "modes"].into_iter().filter_map(part).collect::<String>()
     );
-    if !list(&study["refuted"]).is_empty() {
+    let mut refuted = list(&study["checks"]).iter().chain([study]).map(|runs| list(&runs["refuted"]).len());
+    if refuted.any(|count| count > 0) {
         return Some(card("Realisations", State::Bad, "Some of them are refuted".to_owned(), text));
     }
-    let relative = number(&most["half_width_95"]) / number(&most["mean"]);
-    let state = if relative <= SCATTER && step["larger"] != "step" { State::Good } else { State::Mind };
+    let total = most["error"]["total"].as_f64();
+    let relative = total.unwrap_or_else(|| number(&most["half_width_95"])) / mean;
+    let state = if relative <= SCATTER { State::Good } else { State::Mind };
+    let count = number(&study["count"]);
     let of = if count > 1.0 { format!("over {count} realisations") } else { "from ten batches of one".to_owned() };
-    let verdict = if relative.is_finite() {
-        format!("The mean force is known to ±{} {of}", percent(relative))
-    } else {
-        "The mean force has no interval: too few contacts".to_owned()
+    let verdict = match total {
+        _ if !relative.is_finite() => format!("The {what} has no interval: too few contacts"),
+        Some(_) => format!("The {what} has an error of {}, {of}", percent(relative)),
+        None => format!("The {what} is known to ±{} {of}", percent(relative)),
     };
     Some(card("Realisations", state, verdict, text))
 }

@@ -67,6 +67,9 @@ pub struct SchemeEntry {
     pub realises: &'static str,
     /// What it is for.
     pub purpose: &'static str,
+    /// The order of convergence that it keeps through impacts, whatever their restitution; of a
+    /// penalty with any integrator, against its own springs. `None` for a scheme without a step.
+    pub order: Option<u32>,
     /// Where it fails.
     pub fails: &'static str,
     /// Rigid round supports.

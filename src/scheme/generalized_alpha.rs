@@ -64,6 +64,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     realises: "e, per wall",
     purpose: "stiff structures: order 2 between impacts; vibrations that the step does not resolve shrink by the \
               factor ρ∞ per step; no rigid wall or round hole is ever penetrated",
+    order: Some(1),
     fails: "order 1 through impacts (2 at e = 0); each impact gains or loses energy of order h (reported), so \
             prefer moreau-jean where impacts are many",
     round: Coverage::Stepped(

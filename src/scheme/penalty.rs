@@ -44,6 +44,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     restitution: Realised::BySprings,
     realises: "≈ 1 while h²k_w/m ≪ 1",
     purpose: "comparison, and stops that are known springs",
+    order: Some(1),
     fails: "`trapezoidal` and `central-difference` gain energy beyond that, `implicit-euler` loses it; \
             `discrete-gradient` (the default) conserves it",
     round: Coverage::Stepped(

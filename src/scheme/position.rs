@@ -42,6 +42,7 @@ pub(super) const IMPLICIT_EULER: SchemeEntry = SchemeEntry {
     restitution: Realised::Zero,
     realises: "0, whatever the case asks for",
     purpose: "plastic impacts, e = 0",
+    order: Some(1),
     fails: "order 1; damps, also what slides round a hole; force of an impact ∝ 1/h",
     round: Coverage::Stepped(
         "puts the body within the circle, stops what arrives, whatever the restitution, and slows what slides",
@@ -60,6 +61,7 @@ pub(super) const NEWMARK: SchemeEntry = SchemeEntry {
     restitution: Realised::ByChance,
     realises: "between 1/3 and 3, by chance",
     purpose: "a demonstration: what happens without care at the walls",
+    order: Some(1),
     fails: "**gains energy**",
     round: Coverage::Refused(NO_ENERGY_ON_A_CIRCLE),
     elastic_round: Coverage::Refused(ONES_FOR_RINGS),

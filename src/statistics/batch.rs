@@ -46,6 +46,12 @@ pub(super) fn ratio_half_width(sums: &[f64; BATCHES], numbers: &[f64; BATCHES]) 
     Some(half_width(&open) * BATCHES as f64 / all)
 }
 
+/// The sums of the first and of the second half of the batches.
+pub(super) fn halves(batches: &[f64; BATCHES]) -> [f64; 2] {
+    let (first, second) = batches.split_at(BATCHES / 2);
+    [first, second].map(|half| half.iter().sum())
+}
+
 /// Turns the sums over time of each batch into means over the window.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sums {
@@ -64,6 +70,11 @@ impl Sums {
         let means = sums.map(|p| p / batch);
         let enough = contacts >= BATCHES || pushed.iter().all(|&p| p > 0.0);
         (means.iter().sum::<f64>() / BATCHES as f64, enough.then(|| half_width(&means)))
+    }
+
+    /// The means over time of the two halves of the window.
+    pub fn mean_of_halves(self, sums: &[f64; BATCHES]) -> [f64; 2] {
+        halves(sums).map(|sum| 2.0 * sum / self.length)
     }
 
     /// The root of that mean, and the half width of its interval: that of the mean divided by twice

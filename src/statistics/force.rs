@@ -26,6 +26,9 @@ pub struct ForceStatistics {
     pub mean_n: f64,
     /// Half width of its 95 % interval by batch means, N.
     pub mean_half_width_95_n: Option<f64>,
+    /// That mean over the first and over the second half of the window, N.
+    #[serde(default)]
+    pub mean_of_halves_n: [f64; 2],
     /// Root mean square of the force over time, N: for an elastic wall of the force itself, for a
     /// rigid wall of its mean over intervals of `rms_averaged_over_s`, since impacts have no finite
     /// force and the mean square of impulse/h has no limit as h → 0.
@@ -33,6 +36,9 @@ pub struct ForceStatistics {
     /// Half width of its 95 % interval, N: that of the mean square by batch means, divided by twice
     /// the RMS.
     pub rms_half_width_95_n: Option<f64>,
+    /// That root over the first and over the second half of the window, N.
+    #[serde(default)]
+    pub rms_of_halves_n: [f64; 2],
     /// Length of those intervals, s:
     /// [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging) or a little less, so
     /// that each batch of the window holds a whole number of them; more where the window would hold
@@ -197,8 +203,10 @@ impl Forces {
             impulse_half_width_95_n_s: mean_half.map(|half| half * self.length),
             mean_n: mean,
             mean_half_width_95_n: mean_half,
+            mean_of_halves_n: sums.mean_of_halves(&tally.pushed),
             rms_n: rms,
             rms_half_width_95_n: rms_half,
+            rms_of_halves_n: sums.mean_of_halves(&squares).map(f64::sqrt),
             rms_averaged_over_s: tally.rigid.then_some(self.bin),
         })
     }

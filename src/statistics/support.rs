@@ -31,6 +31,9 @@ pub struct SupportForce {
     /// Half width of its 95 % interval by batch means, N. This and those below are `None` unless
     /// ten contacts began in the window, or the support pushed in each of its ten batches.
     pub mean_half_width_95_n: Option<f64>,
+    /// That mean over the first and over the second half of the window, N.
+    #[serde(default)]
+    pub mean_of_halves_n: [f64; 2],
     /// Mean of the force vector on the structure, along y and z, with friction, N: what the support
     /// carries.
     pub mean_vector_n: [f64; 2],
@@ -40,6 +43,9 @@ pub struct SupportForce {
     pub rms_n: f64,
     /// Half width of its 95 % interval, N.
     pub rms_half_width_95_n: Option<f64>,
+    /// That root over the first and over the second half of the window, N.
+    #[serde(default)]
+    pub rms_of_halves_n: [f64; 2],
     /// Length of those intervals, s.
     pub rms_averaged_over_s: f64,
 }
@@ -156,10 +162,12 @@ impl SupportTally {
         SupportForce {
             mean_n: mean,
             mean_half_width_95_n: mean_half,
+            mean_of_halves_n: sums.mean_of_halves(&all),
             mean_vector_n: [y.0, z.0],
             mean_vector_half_width_95_n: y.1.zip(z.1).map(|(y, z)| [y, z]),
             rms_n: rms,
             rms_half_width_95_n: rms_half,
+            rms_of_halves_n: sums.mean_of_halves(&self.square).map(f64::sqrt),
             rms_averaged_over_s: sums.bin,
         }
     }

@@ -1,6 +1,6 @@
 //! Wear statistics of supports: work of wear, sliding and friction, step by step.
 
-use super::batch::{BATCHES, batch_of, half_width};
+use super::batch::{BATCHES, batch_of, half_width, halves};
 use crate::contact::IMPACT_STEPS;
 use crate::scene::Scene;
 use crate::step::{Path, Step};
@@ -23,6 +23,9 @@ pub struct WearStatistics {
     /// Half width of its 95 % interval by batch means, W; `None` unless the support pushed in each
     /// of ten batches.
     pub work_rate_half_width_95_w: Option<f64>,
+    /// Work rate over the first and over the second half of the window, W.
+    #[serde(default)]
+    pub work_rate_of_halves_w: [f64; 2],
     /// The share of the work that impacts did: of a scheme on a grid, the first two steps of each
     /// contact. `None` for an elastic support, where no force is an impulse, and without work.
     pub impact_share: Option<f64>,
@@ -255,6 +258,7 @@ impl Tally {
             upper_figure: self.friction == 0.0,
             work_rate_w: work / length,
             work_rate_half_width_95_w: enough.then(|| half_width(&self.work.map(|x| x / batch))),
+            work_rate_of_halves_w: halves(&self.work).map(|work| 2.0 * work / length),
             impact_share: (self.rigid && work > 0.0).then(|| (self.impacts / work).min(1.0)),
             sliding_m: self.sliding,
             sliding_speed_m_per_s: (self.time > 0.0).then(|| self.sliding / self.time),

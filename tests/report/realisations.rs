@@ -1,4 +1,4 @@
-//! Pages of sweeps over realisations of random loads, in a real browser.
+//! Pages of runs and sweeps over realisations of random loads, in a real browser.
 use crate::browser::{opened, results};
 use crate::chromium::Browser;
 use serde_json::json;
@@ -56,5 +56,38 @@ fn the_page_of_keys_one_at_a_time_has_the_table_of_effects() {
     // A diagram for each of two supports, and no curves.
     let plots = "['#effects', '#sweep'].map((part) => document.querySelectorAll(`${part} .plot`).length)";
     assert_eq!(tab.evaluate(plots), json!([2, 0]));
+    tab.close();
+}
+
+#[test]
+fn the_page_of_a_run_under_several_seeds_has_the_means_and_their_errors() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let short = ["run", "tube-round-supports", "--set", "time.end=0.15", "--set", "time.statistics_from=0.05"];
+    let page = results(dir.path(), &[&short[..], &["--seeds", "2"]].concat());
+    let mut tab = opened(&mut browser, &page);
+    let rows = "[...document.querySelectorAll('#means tbody tr:not(.space)')]";
+    let count = tab.evaluate(&format!("{rows}.length"));
+    let summary = fs::read_to_string(page.with_file_name("summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let estimates = summary["realisations"]["estimates"].as_array().unwrap();
+    assert_eq!(count, json!(estimates.len()));
+    let heads = tab.evaluate("[...document.querySelectorAll('#means th')].map((th) => th.textContent.trim())");
+    let heads = heads.to_string();
+    assert!(["error (%)", "start (%)", "step (%)", "modes (%)"].iter().all(|head| heads.contains(head)), "{heads}");
+    // The work rate of the first support: its place, what, unit, mean, error and three parts.
+    let cells = format!(
+        "{rows}.map((tr) => [...tr.children].map((td) => td.textContent)).find((row) => row[1] === 'work rate')"
+    );
+    let cells = tab.evaluate(&cells);
+    let cells: Vec<&str> = cells.as_array().unwrap().iter().map(|cell| cell.as_str().unwrap()).collect();
+    assert_eq!((cells.len(), cells[0], cells[2]), (8, "plate-1", "W"));
+    assert!(cells[3].contains(" ± ") && cells[5..].iter().all(|cell| cell.contains(" ± ")), "{cells:?}");
+    let one = estimates.iter().find(|one| one["measure"] == "work_rate").unwrap();
+    let share = 100.0 * one["error"]["total"].as_f64().unwrap() / one["mean"].as_f64().unwrap();
+    let shown: f64 = cells[4].parse().unwrap();
+    assert!((shown / share - 1.0).abs() < 0.06, "{shown} instead of {share}");
+    let text = tab.evaluate("document.body.textContent").to_string();
+    assert!(text.contains("The work rate has an error of"), "the card tells the error");
     tab.close();
 }

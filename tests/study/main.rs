@@ -10,6 +10,7 @@ mod accuracy;
 mod batches;
 mod chart;
 mod episodes;
+mod error_parts;
 mod horizon;
 mod intervals;
 mod realisations;

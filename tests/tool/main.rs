@@ -5,6 +5,7 @@ mod commands;
 mod compare_seeds;
 mod derivatives;
 mod documents;
+mod error_parts;
 mod folders;
 mod formats;
 mod hazards;

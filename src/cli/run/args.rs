@@ -43,7 +43,8 @@ pub struct Args {
     /// find the number of modes too
     #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
     pub(super) accuracy: Option<f64>,
-    /// Do not repeat the run with half the step, nor, for a case reduced to modes, with more modes
+    /// Do not repeat the run with half the step, nor, for a case reduced to modes, with more modes;
+    /// of several realisations up to six are repeated so
     #[arg(long)]
     pub(super) no_verdict: bool,
     #[command(flatten)]

@@ -4,6 +4,8 @@ mod accurate;
 mod args;
 mod checked;
 mod derivative;
+mod error_checks;
+mod repeats;
 mod seeds;
 
 pub use args::Args;
@@ -21,6 +23,7 @@ use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::choice;
 use checked::CheckedRun;
+use repeats::Repeats;
 use serde_json::json;
 use std::fmt::Display;
 
@@ -35,11 +38,11 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
             Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
             None => checked::checked(args, case, ui)?,
         };
-    let study = wanted.map(|wanted| seeds::study(&case, &run, &method, wanted, !args.no_verdict, ui)).transpose()?;
-    let (study, scattered) = study.map_or((None, None), |study| (Some(study.realisations), study.shortfall));
-    let shortfall = shortfall.or(scattered);
+    let repeats = Repeats { case: &case, run: &run, method: &method, ui };
+    let mut study = wanted.map(|wanted| seeds::study(&repeats, wanted, !args.no_verdict)).transpose()?;
+    let shortfall = shortfall.or(study.as_mut().and_then(|study| study.shortfall.take()));
     if let Some(study) = &study {
-        seeds::write(study, &mut results)?;
+        study.write(&mut results)?;
     }
     let derivatives = match derivatives {
         Some(wanted) => wanted.write(&case, &mut results).map(|found| Some((wanted, found)))?,
@@ -52,7 +55,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         truncation: succeeded(truncation.as_ref()),
         modes: succeeded(modes.as_ref()),
         accuracy: succeeded(accuracy.as_ref()),
-        realisations: study.as_ref(),
+        realisations: study.as_ref().map(|study| &study.realisations),
         ..Checks::default()
     };
     // Last, since the summary records the tables beside it.
@@ -71,7 +74,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         wanted.show(&mut answer, &case, found);
     }
     if let Some(study) = &study {
-        seeds::show(&mut answer, study, &case);
+        study.show(&mut answer, &case);
     }
     answer.messages(checked_line("refinement", refinement.as_ref()));
     answer.messages(checked_line("truncation", truncation.as_ref()));

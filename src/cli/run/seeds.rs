@@ -1,25 +1,20 @@
 //! `run --seeds`: the run under further realisations of its random loads.
 
+use super::error_checks::ErrorChecks;
+use super::repeats::Repeats;
 use crate::case::Case;
-use crate::cli::estimate::DurationEstimate;
 use crate::cli::pipeline::Answer;
-use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
-use crate::output::realisations as output;
 use crate::output::results::Results;
-use crate::run::{Options, Run};
-use crate::scheme::{Method, Scheme};
-use crate::study::realisations::{NeededRealisations, Realisation, Realisations, realisations, widest};
-use crate::time::TimeOptions;
-use std::num::NonZero;
-use std::ops::RangeInclusive;
+use crate::output::{error_parts, realisations as output};
+use crate::study::realisations::{NeededRealisations, Realisation, Realisations, widest};
 
 /// How often the run is repeated.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Seeds {
     /// Repeat the run with N realisations of its random loads, on all cores: means with their 95 %
-    /// intervals, and what half the step changes in them. Realisation k has the seeds of the case
-    /// plus k - 1
+    /// intervals, and their errors of start, step, modes and sampling. Realisation k has the seeds
+    /// of the case plus k - 1
     #[arg(long = "seeds", value_name = "N", allow_negative_numbers = true)]
     pub(super) count: Option<u64>,
     /// Repeat the run until the 95 % intervals of the work rates of supports (without supports, of
@@ -99,37 +94,27 @@ pub fn checked(count: Option<u64>, case: &Case) -> Result<Option<u64>> {
 /// A study of realisations, and what it falls short of.
 pub struct Study {
     pub realisations: Realisations,
+    /// What kept parts of its errors from being known, in sentences.
+    pub failures: Vec<String>,
     pub shortfall: Option<Error>,
 }
 
-/// The study of the realisations of `case` that are wanted, of which `run` is the first, with
-/// `halved` also by half the step.
-pub fn study(case: &Case, run: &Run, method: &Method, wanted: Wanted, halved: bool, ui: &Ui) -> Result<Study> {
-    let scene = |number: u64| Ok(case.realisation(number)?.scene);
-    // The steps and rows of the first run.
-    let sample = Some(run.grid.end / run.grid.rows as f64);
-    let more = |label: &str, numbers: RangeInclusive<u64>, share: f64| -> Result<Vec<Realisation>> {
-        let count = (numbers.end() + 1).saturating_sub(*numbers.start()) as f64;
-        let cores = std::thread::available_parallelism().map_or(1, NonZero::get) as f64;
-        let work = count / share / cores.min(count.max(1.0));
-        let estimate = DurationEstimate::of_run(&case.scene, method, run.grid.step).times(work);
-        let options = Options::new(TimeOptions { step: share * run.grid.step, sample, ..case.time });
-        ui.with_estimate(label, estimate, |bar| {
-            realisations(numbers, &scene, method, &options, &mut |done| bar.set_share(done))
-        })
-    };
-    let mut members = vec![Realisation::of(1, run)];
+/// The study of the realisations that are wanted, of which the run is the first; with `verdict`
+/// also the errors of its means.
+pub fn study(repeats: &Repeats<'_>, wanted: Wanted, verdict: bool) -> Result<Study> {
+    let (ui, step) = (repeats.ui, repeats.run.grid.step);
+    let mut members = vec![Realisation::of(1, repeats.run)];
     let (count, needed) = match wanted {
         Wanted::Count(count) => (count, None),
         Wanted::Within { share, most } => {
-            members.extend(more("pilots", 2..=PILOTS, 1.0)?);
+            members.extend(repeats.run("pilots", 2..=PILOTS, step)?);
             let needed = NeededRealisations::from_pilots(&members, share);
             let count = needed.as_ref().map_or(PILOTS, |needed| needed.count);
             ui.message(&pilots_in_words(needed.as_ref(), share, count.min(most)));
             (count.min(most), Some((share, count)))
         }
     };
-    members.extend(more("realisations", members.len() as u64 + 1..=count, 1.0)?);
+    members.extend(repeats.run("realisations", members.len() as u64 + 1..=count, step)?);
     for member in members.iter().skip(1) {
         ui.refute(&format!("realisation {}", member.number), &member.findings);
     }
@@ -139,14 +124,12 @@ pub fn study(case: &Case, run: &Run, method: &Method, wanted: Wanted, halved: bo
         let reached = widest.pilot_share;
         (reached > share).then_some(Error::Scattered { share, reached, quantity, count, needed })
     });
-    if !halved || method.scheme == Scheme::Event {
-        return Ok(Study { realisations: Realisations::new(members), shortfall });
+    let realisations = Realisations::new(members);
+    if !verdict {
+        return Ok(Study { realisations, failures: Vec::new(), shortfall });
     }
-    let halves = more("half the step", 1..=count, 0.5)?;
-    for half in &halves {
-        ui.refute(&format!("realisation {} with half the step", half.number), &half.findings);
-    }
-    Ok(Study { realisations: Realisations::new(members).with_half_step(&halves), shortfall })
+    let checks = ErrorChecks::of(repeats, count)?;
+    Ok(Study { realisations: realisations.with_checks(checks.made), failures: checks.failures, shortfall })
 }
 
 /// What the pilots say, as a sentence.
@@ -166,15 +149,26 @@ fn pilots_in_words(needed: Option<&NeededRealisations>, share: f64, count: u64) 
     )
 }
 
-/// Writes `realisations.csv`.
-pub fn write(study: &Realisations, results: &mut Results) -> Result<()> {
-    output::write(&results.place(output::FILE)?, study)
-}
-
-/// Shows the table of the study and the remarks on it.
-pub fn show(answer: &mut Answer, study: &Realisations, case: &Case) {
-    if let Some(table) = output::table(study, &case.scene) {
-        answer.table(table, "summary.json");
+impl Study {
+    /// Writes `realisations.csv`, and `errors.csv` where errors are known.
+    pub fn write(&self, results: &mut Results) -> Result<()> {
+        output::write(&results.place(output::FILE)?, &self.realisations)?;
+        if error_parts::has_any(&self.realisations) {
+            error_parts::write(&results.place(error_parts::FILE)?, &self.realisations)?;
+        }
+        Ok(())
     }
-    answer.messages(output::remarks(study, &case.scene));
+
+    /// Shows its tables and the remarks on them.
+    pub fn show(&self, answer: &mut Answer, case: &Case) {
+        if let Some(table) = output::table(&self.realisations, &case.scene) {
+            answer.table(table, "summary.json");
+        }
+        answer.messages(output::remarks(&self.realisations, &case.scene));
+        if let Some(table) = error_parts::table(&self.realisations, &case.scene) {
+            answer.table(table, error_parts::FILE);
+        }
+        answer.messages(error_parts::remarks(&self.realisations, &case.scene));
+        answer.messages(self.failures.iter().cloned());
+    }
 }

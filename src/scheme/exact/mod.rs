@@ -29,6 +29,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     restitution: Realised::PerWall,
     realises: "e, per wall",
     purpose: "the exact reference, also in round holes without friction",
+    order: None,
     fails: "gives up, with an error, at more than a million events in a twentieth of the run",
     round: Coverage::Stepped("is exact"),
     elastic_round: Coverage::Refused("a scheme with a step: the force of an elastic hole has no series of its own"),

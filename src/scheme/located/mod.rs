@@ -82,6 +82,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     realises: "e, per wall",
     purpose: "the default at rigid flat walls: order 2 through impacts, since steps are divided where a wall is \
               struck; a body that rests stands on the face; round holes and friction too",
+    order: Some(2),
     fails: "a step with more than 64 parts ends without rebound (reported); an impact costs several steps; a body that \
             friction jams may have no motion at a coarse step (an error)",
     round: Coverage::Stepped("finds the instants of contact, and follows the circle while the body slides along it"),

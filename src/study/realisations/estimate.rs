@@ -1,5 +1,6 @@
-//! Means over realisations, their intervals, and what half the step changes.
+//! Means over realisations and their intervals.
 
+use super::error_parts::ErrorParts;
 use super::measure::{Figure, Measure};
 use super::realisation::Realisation;
 use crate::statistics::{ContactPlace, student_95};
@@ -14,31 +15,6 @@ pub enum Interval {
     /// 95 % of the mean of ten batches of the only realisation: it knows what scatters within the
     /// window, and nothing that is slower than a batch.
     TenBatchesOfOneRealisation,
-}
-
-/// Which of two errors of a mean is the larger.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Larger {
-    /// What half the step changes.
-    Step,
-    /// The half width of the interval: more or longer realisations would help first.
-    Sampling,
-}
-
-/// What half the step changes in a mean.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct StepChange {
-    /// Mean of the difference between the runs with half the step and those with the whole one,
-    /// under the same loads.
-    pub change: f64,
-    /// Half width of its own 95 % interval, from the differences; `None` for one realisation. A
-    /// change within it is not distinguished from 0: in an irregular motion the two runs of a pair
-    /// part, and their difference scatters too.
-    pub half_width_95: Option<f64>,
-    /// Whether |`change`| exceeds the half width of the mean; `None` where that has none.
-    pub larger: Option<Larger>,
 }
 
 /// The mean of one quantity of one place over the realisations.
@@ -59,8 +35,10 @@ pub struct Estimate {
     /// Half width of the 95 % interval of the mean; `None` where one realisation has too few
     /// contacts for batches, or the quantity is an extreme.
     pub half_width_95: Option<f64>,
-    /// What half the step changes; `None` where that was not computed.
-    pub half_step: Option<StepChange>,
+    /// Its error in parts; `None` unless
+    /// [`Realisations::with_checks`](super::Realisations::with_checks) was called, for one
+    /// realisation, and unless [`Measure::is_judged`].
+    pub error: Option<ErrorParts>,
 }
 
 /// Mean, standard deviation and half width of the 95 % interval of the mean: x̄, s and t s/√N.
@@ -93,22 +71,8 @@ pub(super) fn estimates(members: &[Realisation]) -> Vec<Estimate> {
             mean,
             standard_deviation,
             half_width_95: half.or(alone),
-            half_step: None,
+            error: None,
         })
     };
     figures.iter().filter_map(estimate).collect()
-}
-
-/// Adds what `halves`, the same realisations with half the step, change.
-pub(super) fn add_half_step(estimates: &mut [Estimate], members: &[Realisation], halves: &[Realisation]) {
-    for estimate in estimates {
-        let of = |member: &Realisation| member.value(&estimate.place, estimate.measure);
-        let pairs = members.iter().zip(halves);
-        let differences: Option<Vec<f64>> = pairs.map(|(whole, half)| Some(of(half)? - of(whole)?)).collect();
-        let Some(differences) = differences.filter(|all| all.len() == members.len()) else { continue };
-        let (change, _, half_width_95) = mean_of(&differences);
-        let larger = |half: f64| if change.abs() > half { Larger::Step } else { Larger::Sampling };
-        let larger = estimate.half_width_95.map(larger);
-        estimate.half_step = Some(StepChange { change, half_width_95, larger });
-    }
 }

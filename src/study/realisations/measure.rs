@@ -46,10 +46,14 @@ pub struct Figure {
     /// Half width of its 95 % interval from ten batches of the window; `None` where too few
     /// contacts began, and for extremes.
     pub batch_half_width_95: Option<f64>,
+    /// The same over the first and over the second half of the window; `None` unless
+    /// [`Measure::is_judged`].
+    pub halves: Option<[f64; 2]>,
 }
 
-/// A value and the half width of its interval by batches.
-type ValueAndHalfWidth = (f64, Option<f64>);
+/// A value, the half width of its interval by batches, and its values over the halves of the
+/// window.
+type Found = (f64, Option<f64>, Option<[f64; 2]>);
 
 impl Measure {
     /// All of them, in the order of tables.
@@ -86,30 +90,40 @@ impl Measure {
         }
     }
 
+    /// True for those whose error is given in parts: work rate, mean force and RMS force.
+    #[must_use]
+    pub fn is_judged(self) -> bool {
+        matches!(self, Self::WorkRate | Self::MeanForce | Self::RmsForce)
+    }
+
     /// The value at a wall.
-    fn of_wall(self, wall: &WallStatistics) -> Option<ValueAndHalfWidth> {
+    fn of_wall(self, wall: &WallStatistics) -> Option<Found> {
         let force = wall.force?;
         let elastic = force.rms_averaged_over_s.is_none();
         match self {
-            Self::MeanForce => Some((force.mean_n, force.mean_half_width_95_n)),
-            Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n)),
-            Self::PeakForce => elastic.then(|| (wall.episode_peak_force_n.max.unwrap_or(0.0), None)),
+            Self::MeanForce => Some((force.mean_n, force.mean_half_width_95_n, Some(force.mean_of_halves_n))),
+            Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n, Some(force.rms_of_halves_n))),
+            Self::PeakForce => elastic.then(|| (wall.episode_peak_force_n.max.unwrap_or(0.0), None, None)),
             Self::MeanForceY | Self::MeanForceZ | Self::WorkRate | Self::FrictionPower => None,
         }
     }
 
     /// The value at a support.
-    fn of_support(self, support: &SupportStatistics, wear: Option<&WearStatistics>) -> Option<ValueAndHalfWidth> {
+    fn of_support(self, support: &SupportStatistics, wear: Option<&WearStatistics>) -> Option<Found> {
         let force = support.force?;
         let vector =
-            |axis: usize| (force.mean_vector_n[axis], force.mean_vector_half_width_95_n.map(|half| half[axis]));
+            |axis: usize| (force.mean_vector_n[axis], force.mean_vector_half_width_95_n.map(|half| half[axis]), None);
         match self {
-            Self::MeanForce => Some((force.mean_n, force.mean_half_width_95_n)),
+            Self::MeanForce => Some((force.mean_n, force.mean_half_width_95_n, Some(force.mean_of_halves_n))),
             Self::MeanForceY => Some(vector(0)),
             Self::MeanForceZ => Some(vector(1)),
-            Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n)),
-            Self::WorkRate => wear.map(|wear| (wear.work_rate_w, wear.work_rate_half_width_95_w)),
-            Self::FrictionPower => wear.filter(|wear| wear.friction > 0.0).map(|wear| (wear.friction_power_w, None)),
+            Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n, Some(force.rms_of_halves_n))),
+            Self::WorkRate => {
+                wear.map(|wear| (wear.work_rate_w, wear.work_rate_half_width_95_w, Some(wear.work_rate_of_halves_w)))
+            }
+            Self::FrictionPower => {
+                wear.filter(|wear| wear.friction > 0.0).map(|wear| (wear.friction_power_w, None, None))
+            }
             Self::PeakForce => None,
         }
     }
@@ -118,10 +132,11 @@ impl Measure {
 /// Every measure of every place in `statistics`: flat walls, then supports, in the scene's order.
 pub(super) fn figures(statistics: &Statistics) -> Vec<Figure> {
     let mut figures = Vec::new();
-    let mut add = |name: &str, kind: PlaceKind, of: &dyn Fn(Measure) -> Option<ValueAndHalfWidth>| {
+    let mut add = |name: &str, kind: PlaceKind, of: &dyn Fn(Measure) -> Option<Found>| {
         for measure in Measure::ALL {
             let place = || ContactPlace { name: name.to_owned(), kind };
-            let figure = |(value, half)| Figure { place: place(), measure, value, batch_half_width_95: half };
+            let figure =
+                |(value, half, halves)| Figure { place: place(), measure, value, batch_half_width_95: half, halves };
             figures.extend(of(measure).map(figure));
         }
     };

@@ -4,8 +4,8 @@
 //! mean x̄, the standard deviation s of one of them, and the 95 % interval x̄ ± t s/√N of the mean,
 //! with t of Student's distribution with N − 1 degrees of freedom. It is an interval for the
 //! expectation over all realisations of this density and this duration; errors of the step, the
-//! modes and the data are not in it. What half the step changes is therefore computed for the same
-//! realisations, and stands beside it ([`Estimate::half_step`]).
+//! modes and the data are not in it. The first two, and that of a window that begins too early, are
+//! therefore estimated from the same realisations, and stand beside it ([`ErrorParts`]).
 //!
 //! ```
 //! use signorini::study::realisations::{Measure, Realisations, realisations};
@@ -25,6 +25,8 @@
 //! # Ok::<(), signorini::Error>(())
 //! ```
 
+mod check;
+mod error_parts;
 mod estimate;
 mod measure;
 mod paired;
@@ -32,9 +34,12 @@ mod realisation;
 mod runner;
 mod sample;
 mod stein;
+mod verdict;
 
+pub use check::{Check, MOST_CHECKED, Refined};
+pub use error_parts::{ErrorPart, ErrorParts};
 pub(crate) use estimate::mean_of;
-pub use estimate::{Estimate, Interval, Larger, StepChange};
+pub use estimate::{Estimate, Interval};
 pub use measure::{Figure, Measure};
 pub use paired::Difference;
 pub use realisation::Realisation;

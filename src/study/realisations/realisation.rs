@@ -34,7 +34,10 @@ impl Realisation {
     /// The value of `measure` at `place`.
     #[must_use]
     pub fn value(&self, place: &ContactPlace, measure: Measure) -> Option<f64> {
-        let same = |figure: &&Figure| figure.measure == measure && figure.place == *place;
-        self.figures.iter().find(same).map(|figure| figure.value)
+        self.figure(place, measure).map(|figure| figure.value)
+    }
+
+    pub(super) fn figure(&self, place: &ContactPlace, measure: Measure) -> Option<&Figure> {
+        self.figures.iter().find(|figure| figure.measure == measure && figure.place == *place)
     }
 }

@@ -1,6 +1,7 @@
 //! Several realisations, and the means over them.
 
-use super::estimate::{Estimate, Interval, add_half_step, estimates};
+use super::check::Check;
+use super::estimate::{Estimate, Interval, estimates};
 use super::realisation::Realisation;
 use serde::Serialize;
 
@@ -16,6 +17,8 @@ pub struct Realisations {
     pub refuted: Vec<u64>,
     /// The mean of every measure of every place.
     pub estimates: Vec<Estimate>,
+    /// The checks from which the parts of their errors come.
+    pub checks: Vec<Check>,
     /// The realisations.
     #[serde(skip)]
     pub members: Vec<Realisation>,
@@ -31,15 +34,14 @@ impl Realisations {
             _ => Interval::StudentOfRealisations,
         };
         let refuted = members.iter().filter(|member| !member.findings.is_empty()).map(|member| member.number);
-        Self { count: members.len(), interval, refuted: refuted.collect(), estimates: estimates(&members), members }
-    }
-
-    /// Adds what half the step changes, from `halves`: the same realisations in the same order,
-    /// with half the step.
-    #[must_use]
-    pub fn with_half_step(mut self, halves: &[Realisation]) -> Self {
-        add_half_step(&mut self.estimates, &self.members, halves);
-        self
+        Self {
+            count: members.len(),
+            interval,
+            refuted: refuted.collect(),
+            estimates: estimates(&members),
+            checks: Vec::new(),
+            members,
+        }
     }
 }
 
@@ -47,11 +49,11 @@ impl Realisations {
 mod tests {
     use super::*;
     use crate::statistics::{ContactPlace, PlaceKind};
-    use crate::study::realisations::{Figure, Larger, Measure};
+    use crate::study::realisations::{Figure, Measure};
 
     fn member(number: u64, value: f64, batch: Option<f64>) -> Realisation {
         let place = ContactPlace { name: "stop".to_owned(), kind: PlaceKind::Wall };
-        let figure = Figure { place, measure: Measure::MeanForce, value, batch_half_width_95: batch };
+        let figure = Figure { place, measure: Measure::MeanForce, value, batch_half_width_95: batch, halves: None };
         Realisation { number, figures: vec![figure], wear: Vec::new(), findings: Vec::new() }
     }
 
@@ -60,26 +62,20 @@ mod tests {
         // 1, 2, 3, 6: mean 3, deviation √(14/3), t₃ = 3.182446305284.
         let values = [1.0, 2.0, 3.0, 6.0];
         let members: Vec<_> = values.iter().enumerate().map(|(i, &x)| member(i as u64 + 1, x, Some(9.0))).collect();
-        let halves: Vec<_> = members.iter().map(|m| member(m.number, m.figures[0].value - 4.0, None)).collect();
-        let study = Realisations::new(members).with_half_step(&halves);
+        let study = Realisations::new(members);
         let estimate = &study.estimates[0];
         let deviation = (14.0_f64 / 3.0).sqrt();
         assert_eq!(study.interval, Interval::StudentOfRealisations);
         assert!((estimate.mean - 3.0).abs() < 1e-15);
         assert!((estimate.standard_deviation.unwrap() - deviation).abs() < 1e-15);
         assert!((estimate.half_width_95.unwrap() - 3.182_446_305_284 * deviation / 2.0).abs() < 1e-11);
-        // Every pair differs by the same 4, more than the half width of 3.44.
-        let step = estimate.half_step.unwrap();
-        assert_eq!((step.change, step.half_width_95, step.larger), (-4.0, Some(0.0), Some(Larger::Step)));
     }
 
     #[test]
     fn one_realisation_has_the_interval_of_its_batches() {
-        let study = Realisations::new(vec![member(1, 2.0, Some(0.25))]).with_half_step(&[member(1, 2.1, None)]);
+        let study = Realisations::new(vec![member(1, 2.0, Some(0.25))]);
         let estimate = &study.estimates[0];
         assert_eq!(study.interval, Interval::TenBatchesOfOneRealisation);
         assert_eq!((estimate.standard_deviation, estimate.half_width_95), (None, Some(0.25)));
-        let step = estimate.half_step.unwrap();
-        assert_eq!((step.half_width_95, step.larger), (None, Some(Larger::Sampling)));
     }
 }

@@ -78,7 +78,7 @@ mod tests {
     fn members(values: &[(f64, f64)]) -> Vec<Realisation> {
         let figure = |name: &str, kind, measure, value| {
             let place = ContactPlace { name: name.to_owned(), kind };
-            Figure { place, measure, value, batch_half_width_95: None }
+            Figure { place, measure, value, batch_half_width_95: None, halves: None }
         };
         let member = |(i, &(rate, force)): (usize, &(f64, f64))| Realisation {
             number: i as u64 + 1,

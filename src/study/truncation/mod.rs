@@ -130,6 +130,14 @@ impl Felt {
     }
 }
 
+/// The modes with which `reduction` is checked, twice its own or all there are; `None` where it has
+/// all.
+#[must_use]
+pub fn more_modes(reduction: &Reduction) -> Option<usize> {
+    let (modes, all) = (reduction.modes.count(), reduction.degrees_of_freedom);
+    (modes < all).then(|| (2 * modes).min(all))
+}
+
 /// The effect of more modes on a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -167,11 +175,8 @@ impl Truncation {
         time: &TimeOptions,
         progress: &mut dyn FnMut(f64),
     ) -> Result<Option<Self>> {
-        let modes = reduction.modes.count();
-        if modes >= reduction.degrees_of_freedom {
-            return Ok(None);
-        }
-        let more = whole.cut((2 * modes).min(reduction.degrees_of_freedom))?;
+        let Some(modes) = more_modes(reduction) else { return Ok(None) };
+        let more = whole.cut(modes)?;
         // The same rows for any scheme.
         let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
         let options = Options::new(rows);

@@ -136,6 +136,7 @@ if (DATA.wear) wearSection();
 if (DATA.continue) branchSection();
 if (DATA.orbit) orbitSections();
 if (lead && lead.probes.length) phaseSection();
+if (DATA.kind === "run" && DATA.summary.realisations) meansSection();
 if (DATA.kind === "run" && (DATA.summary.supports || []).length) supportSection();
 if (lead && runs.some((run) => run.contacts.count)) contactSection();
 if (DATA.margins) marginSection();

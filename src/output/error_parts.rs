@@ -1,0 +1,170 @@
+//! `errors.csv`: the errors of means over realisations in parts, and their table and remarks for
+//! the terminal.
+
+use super::csv::{self, digits};
+use super::realisations::{MOST_ROWS, find, shown, with_decimals, with_interval};
+use super::table::Table;
+use crate::error::Result;
+use crate::scene::Scene;
+use crate::study::realisations::{Check, ErrorPart, ErrorParts, Estimate, Measure, Realisations, Refined};
+use std::path::Path;
+
+/// Name of the file.
+pub const FILE: &str = "errors.csv";
+
+/// Most places for which the terminal has a sentence.
+const MOST_LINES: usize = 4;
+
+/// Width of the table.
+const WIDTH: usize = 78;
+
+/// The parts of an error that have a mean, with their names.
+type Part = (&'static str, fn(&ErrorParts) -> Option<ErrorPart>);
+const PARTS: [Part; 3] =
+    [("start", |error| Some(error.start)), ("step", |error| error.step), ("modes", |error| error.modes)];
+
+/// True where the error of any mean is known.
+#[must_use]
+pub fn has_any(study: &Realisations) -> bool {
+    study.estimates.iter().any(|one| one.error.is_some())
+}
+
+/// Writes one row for each judged mean: the place, the measure, the mean with the half width of its
+/// interval (the error of sampling), the total error, and the other parts with theirs. Cells of
+/// parts that are not known are empty.
+///
+/// # Errors
+/// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
+pub fn write(path: &Path, study: &Realisations) -> Result<()> {
+    let mut header = ["place", "kind", "measure", "unit", "mean", "half_width_95", "error"].map(str::to_owned).to_vec();
+    header.extend(PARTS.iter().flat_map(|(name, _)| [(*name).to_owned(), format!("{name}_half_width_95")]));
+    let row = |one: &Estimate| {
+        let error = one.error?;
+        let mut row = vec![one.place.name.clone(), one.place.kind.word().to_owned()];
+        row.extend([one.measure.words().replace(' ', "_"), one.unit.to_owned()]);
+        row.extend([Some(one.mean), one.half_width_95, Some(error.total)].map(digits));
+        for (_, part) in PARTS {
+            let part = part(&error);
+            row.extend([part.map(|part| part.mean), part.map(|part| part.half_width_95)].map(digits));
+        }
+        Some(row)
+    };
+    csv::table(path, &header, study.estimates.iter().filter_map(row))
+}
+
+/// The table for the terminal, in per cent of the means: a row for each support and wall, and each
+/// of its judged means; `None` where no error is known.
+#[must_use]
+pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
+    let judged: Vec<(&Estimate, ErrorParts)> = shown(study, scene, MOST_ROWS / 3)
+        .into_iter()
+        .flat_map(|place| [Measure::WorkRate, Measure::MeanForce, Measure::RmsForce].map(|what| (place, what)))
+        .filter_map(|(place, what)| find(study, place, what).and_then(|one| Some((one, one.error?))))
+        .collect();
+    let parts: Vec<Part> =
+        PARTS.into_iter().filter(|(_, part)| judged.iter().any(|(_, error)| part(error).is_some())).collect();
+    let mut header = vec!["place".to_owned(), "mean of".to_owned(), "error (%)".to_owned()];
+    header.extend(parts.iter().map(|(name, _)| format!("{name} (%)")));
+    header.push("sampling (%)".to_owned());
+    let row = |(one, error): &(&Estimate, ErrorParts)| {
+        let none = || "-".to_owned();
+        let mut row = vec![one.place.name.clone(), one.measure.words().to_owned()];
+        row.push(share(error.total, one).map_or_else(none, per_cent));
+        for (_, part) in &parts {
+            row.push(part(error).and_then(|part| interval(&part, one)).unwrap_or_else(none));
+        }
+        let sampling = share(error.sampling_half_width_95, one);
+        row.push(sampling.map_or_else(none, |half| format!("± {}", per_cent(half))));
+        row
+    };
+    let rows: Vec<Vec<String>> = judged.iter().map(row).collect();
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH).in_blocks())
+}
+
+/// The remarks below the table, a sentence each.
+#[must_use]
+pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
+    let mut remarks: Vec<String> = study.checks.iter().filter_map(refuted).collect();
+    if !has_any(study) {
+        return remarks;
+    }
+    remarks.push(format!(
+        "start: second half of the window less the first{}; the error is the sum of their sizes and the root of the \
+         sum of all squared ±",
+        study.checks.iter().filter(|check| check.refuted.is_empty()).map(how).collect::<String>()
+    ));
+    if let Some(check) = study.checks.iter().find(|check| check.count < study.count) {
+        remarks.push(format!("step and modes are from the first {} of {} realisations", check.count, study.count));
+    }
+    let main = [Measure::WorkRate, Measure::MeanForce];
+    let verdict = |place| main.into_iter().find_map(|what| verdict(find(study, place, what)?));
+    remarks.extend(shown(study, scene, MOST_LINES).into_iter().filter_map(verdict));
+    remarks
+}
+
+/// What a check compares, as a part of a sentence.
+fn how(check: &Check) -> String {
+    match check.refined {
+        Refined::HalfStep { order, .. } => {
+            let factor = if order == 1 { "twice" } else { "4/3 of" };
+            format!("; step: {factor} the change by half the step")
+        }
+        Refined::MoreModes { modes: [_, more] } => format!("; modes: the change by {more} modes"),
+    }
+}
+
+/// That nothing follows from a check with refuted runs.
+fn refuted(check: &Check) -> Option<String> {
+    let what = match check.refined {
+        Refined::HalfStep { .. } => "half the step".to_owned(),
+        Refined::MoreModes { modes: [_, more] } => format!("{more} modes"),
+    };
+    let (count, refuted) = (check.count, check.refuted.len());
+    (refuted > 0).then(|| {
+        format!("with {what} {refuted} of {count} realisations are refuted: that part of the errors is not known")
+    })
+}
+
+/// What is known of the error of a mean, in a sentence; `None` where there is none, and for a mean
+/// of 0.
+fn verdict(one: &Estimate) -> Option<String> {
+    let error = one.error?;
+    let mean = with_interval(one.mean, one.half_width_95);
+    let (place, what, unit) = (&one.place.name, one.measure.words(), one.unit);
+    let mut text = format!("{place}: {what} {mean} {unit}, error {} %: ", per_cent(share(error.total, one)?));
+    for (name, part) in PARTS {
+        let Some(part) = part(&error) else { continue };
+        text += &if part.is_seen() {
+            format!("{name} seen, {} %, ", interval(&part, one)?)
+        } else {
+            format!("{name} not seen, at most {} %, ", per_cent(share(part.at_most(), one)?))
+        };
+    }
+    Some(text + &format!("sampling ± {} %", per_cent(share(error.sampling_half_width_95, one)?)))
+}
+
+/// `x` in per cent of the mean of `one`; `None` where that is 0.
+fn share(x: f64, one: &Estimate) -> Option<f64> {
+    let share = 100.0 * x / one.mean.abs();
+    share.is_finite().then_some(share)
+}
+
+/// Per cent with two digits, and no more than two decimals.
+fn per_cent(x: f64) -> String {
+    let decimals = if x.abs() >= 9.95 {
+        0
+    } else if x.abs() >= 0.095 {
+        1
+    } else {
+        2
+    };
+    with_decimals(x, decimals)
+}
+
+/// A part in per cent of the mean, with its interval.
+fn interval(part: &ErrorPart, one: &Estimate) -> Option<String> {
+    let half = per_cent(share(part.half_width_95, one)?);
+    let decimals = half.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    Some(format!("{} ± {half}", with_decimals(share(part.mean, one)?, decimals)))
+}

@@ -1,0 +1,52 @@
+// The means over realisations of random loads, with their errors in parts.
+
+function meansSection() {
+  const { count, estimates, checks } = DATA.summary.realisations;
+  const judged = estimates.some(({ error }) => error);
+  const words = (measure) => measure.replace(/_/g, " ");
+  const name = (title, of) => ({ name: title, text: true, value: of, show: of });
+  /** A share of the mean, in per cent. */
+  const share = (row, x) => digits((100 * x) / Math.abs(row.mean), 2);
+  const part = (key) => ({
+    name: `${key} (%)`,
+    value: (row) => (row.error?.[key] ? Math.abs(row.error[key].mean / row.mean) : NaN),
+    show: (row) => {
+      const found = row.error?.[key];
+      return found ? `${share(row, found.mean)} ± ${share(row, found.half_width_95)}` : "–";
+    },
+  });
+  const errors = [
+    {
+      name: "error (%)",
+      value: (row) => (row.error ? Math.abs(row.error.total / row.mean) : NaN),
+      show: (row) => (row.error ? share(row, row.error.total) : "–"),
+    },
+    ...["start", "step", "modes"].filter((key) => estimates.some(({ error }) => error?.[key])).map(part),
+  ];
+  const again = checks.length ? `, step and modes from ${checks[0].count} of them run again` : "";
+  section(
+    "means",
+    "Means over realisations",
+    `Over ${count} realisations of the random loads, with 95 % intervals` +
+      (judged
+        ? `; the errors in per cent of the mean${again}. A part whose interval holds 0 is not seen, ` +
+          "which is no proof that there is none."
+        : "."),
+    sortable(
+      [
+        name("place", (row) => row.place),
+        name("mean of", (row) => words(row.measure)),
+        name("unit", (row) => row.unit),
+        {
+          name: "mean",
+          value: (row) => row.mean,
+          show: ({ mean, half_width_95: half }) =>
+            half === null ? digits(mean) : `${digits(mean)} ± ${digits(half, 2)}`,
+        },
+        ...(judged ? errors : []),
+      ],
+      estimates,
+      { height: 60 + ROW * Math.min(estimates.length, 16) },
+    ),
+  );
+}
