@@ -4,8 +4,8 @@ use super::Shots;
 use super::step_start::StepStart;
 use crate::error::{Error, Result};
 use crate::orbit::branch::arclength::{Vector, bordered, extended, scaled, unit};
-use crate::orbit::orbit_run::Recorded;
 use crate::orbit::newton::SOLVED;
+use crate::orbit::orbit_run::Recorded;
 
 /// A step has stayed on the branch if it ends within this many step lengths of its start.
 const NEAR: f64 = 2.0;
