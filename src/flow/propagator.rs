@@ -66,7 +66,7 @@ impl Propagator {
         while passed < span {
             hold.stop(body, q, scratch);
             hold.stop(body, v, scratch);
-            let from = Start { time: 0.0, q, v, extra: zero, until: span - passed };
+            let from = Start { time: 0.0, q, v, extra: zero, until: span - passed, reach: f64::INFINITY };
             series.begin(body, &from, touching, hold, std::iter::empty(), scratch);
             // A series that does not converge is cut to length 0: some values are not finite then.
             if series.end() <= 0.0 || series.end().is_nan() {

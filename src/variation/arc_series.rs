@@ -47,7 +47,7 @@ impl ArcSeries {
         hold.set(body, held.into_iter(), std::iter::empty());
         // An arc of length 0 has a series all the same.
         let until = if arc.end() > from { arc.end() } else { from + *duration };
-        let start = SeriesStart { time: from, q: &[q], v: &[v], extra: &[0.0], until };
+        let start = SeriesStart { time: from, q: &[q], v: &[v], extra: &[0.0], until, reach: f64::INFINITY };
         series.begin(body, &start, touching, hold, carriers.iter().copied(), &mut [0.0]);
         if arc.end() <= from {
             series.cut(arc.end());

@@ -9,9 +9,9 @@ use crate::scene::PlaneRows;
 use crate::step::Step;
 
 /// Number of parts of a stretch of exact motion, which lasts at most two radians of its fastest
-/// motion. Two sign changes of the sliding velocity within one part would be missed, but it is
-/// nearly 0 there.
-const PARTS: usize = 16;
+/// motion; one that an event ends early has fewer. Two sign changes of the sliding velocity within
+/// one part would be missed, but it is nearly 0 there.
+const PARTS: f64 = 16.0;
 
 /// Largest angle (rad) by which the normal of a round hole turns in one of the pieces into which a
 /// stretch is divided, each with an angle of its own, and the largest number of pieces.
@@ -139,7 +139,8 @@ pub(super) fn along(
             way: &|a, b| series.value_of(&moved, b) - series.value_of(&moved, a),
         };
         let mut sum = SlidingSums::default();
-        parts([from, to], PARTS, |a, b| sliding.add(a, b, &mut sum));
+        let count = parts_of(series, [from, to]);
+        parts([from, to], count as usize, |a, b| sliding.add(a, b, &mut sum));
         each(&lasting(blank, &sum));
     }
     if to >= step.end {
@@ -175,14 +176,14 @@ pub(super) fn around(
             speed: &speed,
             way: &way,
         };
-        let mut turn = 0.0;
-        parts([from, to], PARTS, |a, b| {
+        let (mut turn, count) = (0.0, parts_of(series, [from, to]));
+        parts([from, to], count as usize, |a, b| {
             let [y, z] = series.at_hole(hole, a).0;
             turn += way(a, b).abs() / y.hypot(z);
         });
-        let count = (PARTS as f64).max((turn / TURN).ceil()).min(MOST_PARTS) as usize;
+        let count = count.max((turn / TURN).ceil()).min(MOST_PARTS);
         let mut time = to - from;
-        parts([from, to], count, |a, b| {
+        parts([from, to], count as usize, |a, b| {
             let mut sum = SlidingSums::default();
             sliding.add(a, b, &mut sum);
             let [began, angle] = [a, 0.5 * (a + b)].map(|t| degrees(series.at_hole(hole, t).0));
@@ -203,6 +204,12 @@ pub(super) fn around(
 /// The angle of a vector (y, z), degrees from +y towards +z, from 0 to below 360.
 pub(super) fn degrees([y, z]: [f64; 2]) -> f64 {
     z.atan2(y).to_degrees().rem_euclid(360.0) % 360.0
+}
+
+/// The number of parts of a piece of a stretch: none is longer than one of [`PARTS`] of the length
+/// that the stretch would have without an event.
+fn parts_of(series: &Series, [from, to]: [f64; 2]) -> f64 {
+    (PARTS * ((to - from) / series.longest())).ceil().clamp(1.0, PARTS)
 }
 
 /// Calls `each` for `count` equal parts of a piece of time.

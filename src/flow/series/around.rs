@@ -1,7 +1,7 @@
 //! The force of a round hole over a stretch, as magnitude and along y and z.
 
+use super::Series;
 use super::circle::Circle;
-use super::{Series, value};
 
 impl Series {
     /// The circle of a round wall.
@@ -14,9 +14,14 @@ impl Series {
     pub(crate) fn at_hole(&self, wall: usize, t: f64) -> ([f64; 2], [f64; 2]) {
         let Some(circle) = self.circle(wall) else { return ([0.0; 2], [0.0; 2]) };
         let x = (t - self.start) / self.unit;
-        let rate = |w: &[f64]| (1..w.len()).rev().fold(0.0, |sum, k| sum * x + k as f64 * w[k]) / self.unit;
-        let w = [&circle.w[0][..self.terms], &circle.w[1][..self.terms]];
-        (w.map(|w| value(w, x)), w.map(rate))
+        let ([y, z], mut place, mut rate) = (circle.w.each_ref().map(|w| &w[..self.terms]), [0.0; 2], [0.0; 2]);
+        // One loop: each of the four sums waits for its own last term only.
+        for (k, (y, z)) in y.iter().zip(z).enumerate().skip(1).rev() {
+            let k = k as f64;
+            place = [place[0] * x + y, place[1] * x + z];
+            rate = [rate[0] * x + k * y, rate[1] * x + k * z];
+        }
+        ([place[0] * x + y[0], place[1] * x + z[0]], rate.map(|rate| rate / self.unit))
     }
 
     /// Force of a wall at `t`, N, as results count it: signed, of a round wall its magnitude.

@@ -69,6 +69,9 @@ pub struct Series {
     waves: Vec<Wave>,
     /// The fastest rate that the stretch was made for, 1/s.
     rate: f64,
+    /// The length that it would have without an event, s: its unit, unless events that follow one
+    /// another quickly were expected to end it long before.
+    longest: f64,
 }
 
 /// A wall that exerts a force during a stretch.
@@ -240,6 +243,11 @@ impl Series {
     #[inline]
     pub(crate) fn unit(&self) -> f64 {
         self.unit
+    }
+
+    /// The length that the stretch would have if no event ended or was expected to end it, s.
+    pub(crate) fn longest(&self) -> f64 {
+        self.longest
     }
 
     /// The end in x.

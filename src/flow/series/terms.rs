@@ -15,6 +15,9 @@ pub(crate) struct Start<'a> {
     pub extra: &'a [f64],
     /// The latest end of the stretch, s.
     pub until: f64,
+    /// The time within which an event is expected to end it, s; infinite if none is. The stretch
+    /// may be as short as that: it then takes fewer terms.
+    pub reach: f64,
 }
 
 /// An elastic wall that touches.
@@ -37,6 +40,10 @@ const RADIANS: f64 = 2.0;
 /// The same in a scene with round holes: |w|² has twice the rate of w, and with 2 radians the first
 /// term that the product leaves out would be 4³²/32! = 7e-17 of it; this makes it 7e-21.
 const ROUND_RADIANS: f64 = 1.5;
+
+/// However soon an event is expected, a stretch is not made shorter than this share of the longest:
+/// its series has hardly more terms than [`FEWEST`] then.
+const LEAST_REACH: f64 = 1.0 / 256.0;
 
 /// The series ends where a term of the acceleration is below this share of the first.
 const LAST: f64 = 1e-18;
@@ -86,6 +93,7 @@ impl Series {
             acting: Vec::with_capacity(2 * walls),
             waves: Vec::with_capacity(waves),
             rate: 0.0,
+            longest: 1.0,
         }
     }
 
@@ -94,8 +102,9 @@ impl Series {
         self.rate
     }
 
-    /// Starts a new stretch, as long as two radians of the fastest motion and `from.until` allow.
-    /// `carriers` are the walls behind the held rows: wall, number of the held row, share.
+    /// Starts a new stretch, as long as two radians of the fastest motion and `from.until` allow,
+    /// and no longer than `from.reach`. `carriers` are the walls behind the held rows: wall, number
+    /// of the held row, share.
     pub(crate) fn begin(
         &mut self,
         body: &mut SeriesBody,
@@ -113,10 +122,11 @@ impl Series {
         let radians = if self.circles.is_empty() { RADIANS } else { ROUND_RADIANS };
         let longest = if self.rate > 0.0 { radians / self.rate } else { f64::INFINITY };
         let span = from.until - from.time;
-        self.unit = span.min(longest);
+        self.longest = span.min(longest);
+        self.unit = self.longest.min(from.reach.max(LEAST_REACH * self.longest));
         self.start = from.time;
         // Start and span together would miss the given end by rounding, and with it a blow.
-        self.end = if span <= longest { from.until } else { from.time + self.unit };
+        self.end = if span <= self.unit { from.until } else { from.time + self.unit };
         self.terms = if slides { TERMS } else { terms_for(self.rate * self.unit) };
         self.acting.clear();
         self.acting.extend(touching.iter().enumerate().map(|(slot, t)| Acting {
@@ -132,7 +142,7 @@ impl Series {
         self.acting.extend(carriers.map(held));
         self.acting.sort_unstable_by_key(|acting| acting.wall);
         while let Some(shorter) = self.fill(body, from, touching, hold, work) {
-            self.unit = shorter;
+            (self.unit, self.longest) = (shorter, shorter);
             self.end = self.start + shorter;
         }
         if slides {
@@ -220,8 +230,25 @@ impl Series {
                     return Some(self.unit / bend.sqrt());
                 }
             }
+            if slides && k + 3 >= FEWEST && self.vanishes(k, touching.len() + hold.rows().len()) {
+                self.terms = k + 3;
+                break;
+            }
         }
         None
+    }
+
+    /// True if the terms of the motion and of the `slots` forces, whose last is that of order `k`,
+    /// have fallen below rounding: along circles, no bound on the terms is known before.
+    fn vanishes(&self, k: usize, slots: usize) -> bool {
+        let n = self.n;
+        let vanish = |size: &dyn Fn(usize) -> f64, last: usize| {
+            let least = LAST * (0..4).map(size).fold(0.0, f64::max);
+            (last - 2..=last).rev().all(|k| size(k) <= least)
+        };
+        vanish(&|k| self.motion[k * n..(k + 1) * n].iter().fold(0.0, |a: f64, x| a.max(x.abs())), k + 2)
+            && self.circles.iter().all(|circle| vanish(&|k| circle.size(k), k + 2))
+            && (0..slots).all(|slot| vanish(&|k| self.forces[slot * TERMS + k].abs(), k))
     }
 
     /// Computes term k of the displacements at the rows.
@@ -259,7 +286,7 @@ impl Series {
             observe(&|k| self.forces[slot * TERMS + k].abs(), top - 2);
         }
         self.scale(share);
-        self.rate = self.rate.max(RADIANS / self.unit);
+        self.rate = self.rate.max(RADIANS / self.longest);
     }
 
     /// Cuts the stretch to where no term of the motion at a hole exceeds [`MOST_TRAVEL`] of its
@@ -291,6 +318,7 @@ impl Series {
             power *= share;
         }
         self.unit *= share;
+        self.longest = self.unit;
         self.end = self.end.min(self.start + self.unit);
     }
 

@@ -30,7 +30,8 @@ fn sliding() -> (Series, Made) {
     let mut series = Series::new(&body);
     let mut hold = Hold::with_room(1);
     hold.set(&body, once(Held { row: 0, sign: -1.0, position: GAP + 0.6 - 0.8 * 3.0 }), empty());
-    let from = SeriesStart { time: TIME, q: &PLACE, v: &SPEED, extra: &[0.0; 2], until: TIME + SPAN };
+    let from =
+        SeriesStart { time: TIME, q: &PLACE, v: &SPEED, extra: &[0.0; 2], until: TIME + SPAN, reach: f64::INFINITY };
     series.begin(&mut body, &from, &[], &hold, once((0, 0, 1.0)), &mut [0.0; 4]);
     let mut made = Made { start: TIME, end: TIME + SPAN, before: SPEED.to_vec(), ..Made::rest(&scene, SPAN) };
     series.state(made.end, &mut made.q, &mut made.after);
@@ -93,7 +94,8 @@ fn a_body_that_flies_out_of_a_hole_is_accused_without_a_push() {
     let free = scene(99.0, CENTRE);
     let mut body = SeriesBody::new(&free).expect("a mass");
     let mut series = Series::new(&body);
-    let from = SeriesStart { time: TIME, q: &PLACE, v: &SPEED, extra: &[0.0; 2], until: TIME + SPAN };
+    let from =
+        SeriesStart { time: TIME, q: &PLACE, v: &SPEED, extra: &[0.0; 2], until: TIME + SPAN, reach: f64::INFINITY };
     series.begin(&mut body, &from, &[], &Hold::with_room(1), empty(), &mut [0.0; 4]);
     series.state(made.end, &mut made.q, &mut made.after);
     made.turned[0] = [0.0; 2];
@@ -109,7 +111,8 @@ fn a_body_at_rest_in_the_centre_of_a_hole_is_not_accused() {
     let scene = scene(GAP, [0.0; 2]);
     let mut body = SeriesBody::new(&scene).expect("a mass");
     let mut series = Series::new(&body);
-    let from = SeriesStart { time: 0.0, q: &[0.0; 2], v: &[0.0; 2], extra: &[0.0; 2], until: SPAN };
+    let from =
+        SeriesStart { time: 0.0, q: &[0.0; 2], v: &[0.0; 2], extra: &[0.0; 2], until: SPAN, reach: f64::INFINITY };
     series.begin(&mut body, &from, &[], &Hold::with_room(1), empty(), &mut [0.0; 4]);
     let mut judge = start(&scene, (&[], &[]));
     judge.observe(&Made::rest(&scene, SPAN).along(Path::Series(&series)));

@@ -124,7 +124,7 @@ fn a_damped_wall_in_touch_at_the_end_of_exact_motion_holds_its_energy() {
     arc.begin(&from, std::iter::empty(), None);
     let mut body = SeriesBody::new(&many).expect("a mass");
     let mut series = Series::new(&body);
-    let from = SeriesStart { time, q: &[0.25], v: &[1.0], extra: &[0.0], until: time + span };
+    let from = SeriesStart { time, q: &[0.25], v: &[1.0], extra: &[0.0], until: time + span, reach: f64::INFINITY };
     series.begin(&mut body, &from, &[], &Hold::with_room(1), std::iter::empty(), &mut [0.0; 4]);
     for (scene, path) in [(&one, Path::Exact(&arc)), (&many, Path::Series(&series))] {
         for (force, stored) in [(0.0, 0.0), (-1.0, 2.0)] {

@@ -21,7 +21,7 @@ fn stretch(scene: &Scene, (time, q, v): (f64, &[f64], &[f64]), span: f64, wall: 
     let mut series = Series::new(&body);
     let mut hold = Hold::with_room(1);
     let extra = vec![0.0; q.len()];
-    let from = SeriesStart { time, q, v, extra: &extra, until: time + span };
+    let from = SeriesStart { time, q, v, extra: &extra, until: time + span, reach: f64::INFINITY };
     let mut work = vec![0.0; 4];
     match wall {
         Some((stiffness, position)) if stiffness > 0.0 => {

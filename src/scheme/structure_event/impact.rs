@@ -56,7 +56,7 @@ impl StructureEvent {
         let pull = self.body.answer_size(row, &self.sizes.instant);
         // Where forces balance, the velocity has the rounding error of their terms over the last
         // stretch.
-        let own = noise(size(&self.body, row, &self.v) + pull * self.series.unit()) + self.turned_speed(row);
+        let own = noise(size(&self.body, row, &self.v) + pull * self.series.longest()) + self.turned_speed(row);
         if self.closed_rows.len() < 2 {
             return own;
         }

@@ -7,6 +7,7 @@
 //! | `rows.rs` | the rows of the walls: bounds, which are held, rounding errors |
 //! | `search.rs`, `root.rs` | the first event of a stretch |
 //! | `motion.rs` | the motion between events: series, forces, impulses |
+//! | `pace.rs` | how long a series is to be where events follow one another quickly |
 //! | `instant.rs` | what happens at one instant, and the episodes of contact |
 //! | `impact.rs` | impacts, at several walls at once |
 //! | `rest.rs` | which touching walls push where the speed is 0 |
@@ -22,6 +23,7 @@ mod hand;
 mod impact;
 mod instant;
 mod motion;
+mod pace;
 mod rest;
 mod root;
 mod round;
@@ -40,6 +42,7 @@ use crate::qp;
 use crate::scene::{Loads, Scene};
 use crate::step::Contract;
 use closed_row::ClosedRow;
+use pace::Pace;
 use rows::{DERIVATIVES, Sizes, WallRow};
 use std::sync::Arc;
 use stretch::{ImpactBurst, Stretch};
@@ -105,6 +108,7 @@ pub(super) struct StructureEvent {
     /// Times of the blows after the start, s, and the number given so far.
     blows: Vec<f64>,
     blow: usize,
+    pace: Pace,
     crowd: ImpactBurst,
     stretch: Option<Box<Stretch>>,
     /// The contract and the step (s) of the last step, if it was handed over.
@@ -167,13 +171,14 @@ impl StructureEvent {
         for _ in 0..CHANGES_AT_ONCE {
             let before = self.time;
             let limit = self.limit();
-            self.begin_series(limit);
+            self.begin_within(limit, self.pace.reach());
             self.clock.count().evaluations += 1;
             let hit = self.search();
             let (x, end) = match hit {
                 Some(hit) => (hit.x, (self.time + hit.x * self.series.unit()).min(self.series.end())),
                 None => (self.series.span(), self.series.end()),
             };
+            self.pace.note(end - before, hit.is_some(), self.series.longest());
             self.note_pressures(x);
             self.time = end;
             self.series.cut(end);

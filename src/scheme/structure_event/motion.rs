@@ -18,8 +18,14 @@ impl StructureEvent {
         self.body.next_corner(self.time).map_or(limit, |corner| limit.min(corner))
     }
 
-    /// Begins the series from here on, with the walls that touch and the rows that are held.
+    /// Begins the series from here on, with the walls that touch and the rows that are held, up to
+    /// `limit` (s) at the latest.
     pub(super) fn begin_series(&mut self, limit: f64) {
+        self.begin_within(limit, f64::INFINITY);
+    }
+
+    /// The same where an event is expected within `reach` (s).
+    pub(super) fn begin_within(&mut self, limit: f64, reach: f64) {
         if self.decided != self.time {
             self.places.iter_mut().for_each(WallRow::forget);
         }
@@ -36,7 +42,8 @@ impl StructureEvent {
             hold.place(body, &mut self.q, &mut self.scratch);
             hold.stop(body, &mut self.v, &mut self.scratch);
         }
-        let from = SeriesStart { time: self.time, q: &self.q, v: &self.v, extra: &self.shown.extra, until: limit };
+        let from =
+            SeriesStart { time: self.time, q: &self.q, v: &self.v, extra: &self.shown.extra, until: limit, reach };
         series.begin(body, &from, touching, hold, carriers.iter().copied(), &mut self.scratch);
         self.sizes.known = false;
     }

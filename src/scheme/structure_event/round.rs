@@ -98,7 +98,7 @@ impl StructureEvent {
     pub(super) fn turned_speed(&self, row: usize) -> f64 {
         let Some(round) = self.body.round(row) else { return 0.0 };
         let speed = round.size(&self.v);
-        noise(self.lean(row) * speed + speed * speed / round.gap * self.series.unit())
+        noise(self.lean(row) * speed + speed * speed / round.gap * self.series.longest())
     }
 
     /// Adds to `rhs` what the turning of the forces of held holes adds to the derivative of order

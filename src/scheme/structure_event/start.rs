@@ -1,6 +1,7 @@
 //! The exact scheme at the start of a scene.
 
 use super::StructureEvent;
+use super::pace::Pace;
 use super::rows::{Sizes, WallRow};
 use super::stretch::ImpactBurst;
 use crate::error::{Error, Result};
@@ -65,6 +66,7 @@ impl StructureEvent {
             decided: f64::NEG_INFINITY,
             blows,
             blow: 0,
+            pace: Pace::new(),
             crowd: ImpactBurst::default(),
             spent: [0; 3],
             turned: false,
