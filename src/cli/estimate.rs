@@ -249,6 +249,8 @@ fn steps_in_words(scene: &Scene, method: &Method, step: f64) -> String {
     if method.scheme != Scheme::Event {
         let count = (scene.duration / step).ceil();
         let unknowns = unknowns_in_words(scene);
+        // Of half a step, or of the duration over a number of steps, rounding leaves long digits.
+        let step = format!("{step:.3e}").parse().unwrap_or(step);
         return format!("{count:.1e} steps of {step:e} s{unknowns}, set by time.end and time.step");
     }
     let (rate, what) = fastest(scene);

@@ -23,5 +23,7 @@ pub(crate) use arc::Start;
 pub(crate) use propagator::{Propagator, held};
 pub(crate) use response::Jet;
 pub use series::Series;
-pub(crate) use series::{Change, Drive, Held, Hold, Round, SeriesBody, Start as SeriesStart, TERMS, Touching, value};
+pub(crate) use series::{
+    Change, Drive, HeldRow, HeldRows, Round, SeriesBody, Start as SeriesStart, TERMS, Touching, value,
+};
 pub(crate) use touch::{Support, Touch};

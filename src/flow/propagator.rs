@@ -4,7 +4,7 @@
 //! walls touching and the same rows held: M δq̈ + C δq̇ + K δq = Gᵀ δr. So its series is that of a
 //! motion that starts from the change.
 
-use super::series::{Held, Hold, Series, SeriesBody, Start, Touching};
+use super::series::{HeldRow, HeldRows, Series, SeriesBody, Start, Touching};
 use crate::scene::Scene;
 
 /// Propagates changes (δq, δq̇) of a structure's state.
@@ -14,15 +14,15 @@ pub(crate) struct Propagator {
     pub body: SeriesBody,
     series: Series,
     /// The rows that are held.
-    pub hold: Hold,
+    pub hold: HeldRows,
     pub touching: Vec<Touching>,
     zero: Vec<f64>,
     pub scratch: Vec<f64>,
 }
 
 /// A row in the equation of changes: it is held where it is.
-pub(crate) fn held(row: usize) -> Held {
-    Held { row, sign: 1.0, position: 0.0 }
+pub(crate) fn held(row: usize) -> HeldRow {
+    HeldRow { row, sign: 1.0, position: 0.0 }
 }
 
 impl Propagator {
@@ -32,7 +32,7 @@ impl Propagator {
         let (n, rows, walls) = (body.n, body.rows.count(), scene.walls.len());
         Some(Self {
             series: Series::new(&body),
-            hold: Hold::with_room(rows),
+            hold: HeldRows::with_room(rows),
             touching: Vec::with_capacity(walls),
             zero: vec![0.0; n],
             scratch: vec![0.0; rows],

@@ -1,6 +1,6 @@
 //! Closed-form motion of one degree of freedom as series.
 
-use crate::flow::{Arc, Held, Hold, Series, SeriesBody, SeriesStart, Touching};
+use crate::flow::{Arc, HeldRow, HeldRows, Series, SeriesBody, SeriesStart, Touching};
 use crate::scene::Scene;
 
 /// The series of an arc, stretch by stretch, from the states that its closed form has.
@@ -8,7 +8,7 @@ use crate::scene::Scene;
 pub(super) struct ArcSeries {
     body: SeriesBody,
     pub series: Series,
-    hold: Hold,
+    hold: HeldRows,
     touching: Vec<Touching>,
     carriers: Vec<(usize, usize, f64)>,
     duration: f64,
@@ -20,7 +20,7 @@ impl ArcSeries {
         let body = SeriesBody::new(scene)?;
         Some(Self {
             series: Series::new(&body),
-            hold: Hold::with_room(1),
+            hold: HeldRows::with_room(1),
             touching: Vec::with_capacity(scene.walls.len()),
             carriers: Vec::with_capacity(1),
             duration: scene.duration,
@@ -43,7 +43,7 @@ impl ArcSeries {
         }));
         carriers.clear();
         carriers.extend(arc.rests_on().map(|wall| (wall, 0, 1.0)));
-        let held = arc.resting_side().map(|side| Held { row: 0, sign: side.sign(), position: q });
+        let held = arc.resting_side().map(|side| HeldRow { row: 0, sign: side.sign(), position: q });
         hold.set(body, held.into_iter(), std::iter::empty());
         // An arc of length 0 has a series all the same.
         let until = if arc.end() > from { arc.end() } else { from + *duration };

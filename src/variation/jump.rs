@@ -18,7 +18,7 @@
 //! products of vectors.
 
 use super::key_terms::{Instant, KeyTerms};
-use crate::flow::{Hold, Propagator, held};
+use crate::flow::{HeldRows, Propagator, held};
 
 /// A row struck in flight.
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +41,7 @@ pub(super) struct Struck {
 pub(super) struct Jump {
     struck: Vec<Struck>,
     /// The rows J.
-    rows: Hold,
+    rows: HeldRows,
     /// (1 + eᵢ) dᵢ and wᵢ of each struck row, n entries each.
     shifts: Vec<f64>,
     kicks: Vec<f64>,
@@ -62,7 +62,7 @@ impl Jump {
     pub fn with_room(n: usize, rows: usize) -> Self {
         Self {
             struck: Vec::with_capacity(rows),
-            rows: Hold::with_room(rows),
+            rows: HeldRows::with_room(rows),
             shifts: Vec::with_capacity(n),
             kicks: Vec::with_capacity(n),
             seen: vec![0.0; rows],
@@ -115,7 +115,7 @@ impl Jump {
     pub fn kick(
         &mut self,
         flow: &mut Propagator,
-        after: &Hold,
+        after: &HeldRows,
         mut push: impl FnMut(&Propagator, &Struck, &[f64], &mut [f64]),
     ) {
         let Self { struck, shifts, kicks, zero, work, .. } = self;

@@ -1,7 +1,7 @@
 //! What a change of a key adds to the change of the motion.
 
 use super::tangent::{LoadTerms, SceneTangent};
-use crate::flow::{Drive, Held, Propagator, Series, Touching};
+use crate::flow::{Drive, HeldRow, Propagator, Series, Touching};
 use crate::scene::Row;
 
 /// The terms of one key along a run.
@@ -164,7 +164,7 @@ impl Drive for KeyTerms {
             - change.damping * rate * row.dot(next)
     }
 
-    fn acceleration(&self, base: &Series, k: usize, held: &Held) -> f64 {
+    fn acceleration(&self, base: &Series, k: usize, held: &HeldRow) -> f64 {
         let Some(&wall) = self.carriers.get(held.row) else { return 0.0 };
         if self.row(wall).entries().is_empty() {
             return 0.0;

@@ -7,7 +7,7 @@ use super::no_derivative::NoDerivative;
 use super::saltation::{REST, apply};
 use super::tangent::SceneTangent;
 use crate::error::{Error, Result};
-use crate::flow::{Arc, Hold, Propagator, Series};
+use crate::flow::{Arc, HeldRows, Propagator, Series};
 use crate::scene::Scene;
 use crate::step::{Contact, Path, Step};
 
@@ -43,7 +43,7 @@ pub(super) struct StructureVariation {
     pub during: Vec<bool>,
     pub after: Vec<bool>,
     /// The latter as constraints.
-    pub hold: Hold,
+    pub hold: HeldRows,
     /// For each row the wall that acts there, if one does.
     pub wall_of: Vec<usize>,
     /// A typical displacement, m.
@@ -82,7 +82,7 @@ impl StructureVariation {
             jump: Jump::with_room(n, rows),
             during: vec![false; rows],
             after: vec![false; rows],
-            hold: Hold::with_room(rows),
+            hold: HeldRows::with_room(rows),
             wall_of: vec![0; rows],
             length: scene.gap_scale(),
             began: false,

@@ -9,7 +9,7 @@
 //! wall itself adds, and with δr at held rows such that G δq̈ = −δG q̈. So its terms follow from
 //! those of the motion by the same recurrence, over the same stretch.
 
-use super::{Held, Hold, Series, SeriesBody, TERMS, Touching};
+use super::{HeldRow, HeldRows, Series, SeriesBody, TERMS, Touching};
 
 /// What a change of the scene adds to the equation of the change of a motion. Term k is the
 /// coefficient of xᵏ in the series of the stretch.
@@ -21,7 +21,7 @@ pub(crate) trait Drive {
     fn push(&self, base: &Series, k: usize, touching: &Touching) -> f64;
 
     /// Term `k` of −δG q̈ at a held row, m/s².
-    fn acceleration(&self, base: &Series, k: usize, held: &Held) -> f64;
+    fn acceleration(&self, base: &Series, k: usize, held: &HeldRow) -> f64;
 }
 
 /// The series of a change.
@@ -48,7 +48,7 @@ impl Change {
         &mut self,
         body: &mut SeriesBody,
         base: &Series,
-        (touching, hold): (&[Touching], &Hold),
+        (touching, hold): (&[Touching], &HeldRows),
         (q, v): (&[f64], &[f64]),
         drive: &impl Drive,
         scratch: &mut [f64],
@@ -101,7 +101,7 @@ impl Change {
 
     /// δr of a wall at x, N, and ∫ δr over the stretch up to x, N s: of a wall of `touching`, or
     /// all that acts at its row, if `hold` holds that; both are those of [`Change::fill`].
-    pub fn push(&self, body: &SeriesBody, (touching, hold): (&[Touching], &Hold), wall: usize, x: f64) -> [f64; 2] {
+    pub fn push(&self, body: &SeriesBody, (touching, hold): (&[Touching], &HeldRows), wall: usize, x: f64) -> [f64; 2] {
         let row = body.row_of.get(wall);
         let held = || hold.rows().iter().position(|held| Some(&held.row) == row).map(|held| touching.len() + held);
         let Some(slot) = touching.iter().position(|t| t.wall == wall).or_else(held) else { return [0.0; 2] };

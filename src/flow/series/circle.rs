@@ -7,7 +7,7 @@
 //!
 //! r_k is linear in the terms before it, with a matrix that is the same for all orders, since r_k
 //! itself acts along w_0, the row n·P at the start. So it is found as the force of a wall is, by
-//! [`Hold`](super::Hold), which demands this w_{k+2} instead of 0.
+//! [`HeldRows`](super::HeldRows), which demands this w_{k+2} instead of 0.
 
 /// w at a hole over a stretch.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::circle::Circle;
 use super::wave::Wave;
-use super::{Acting, Hold, Series, SeriesBody, TERMS};
+use super::{Acting, HeldRows, Series, SeriesBody, TERMS};
 
 /// The start of a series.
 pub(crate) struct Start<'a> {
@@ -110,7 +110,7 @@ impl Series {
         body: &mut SeriesBody,
         from: &Start,
         touching: &[Touching],
-        hold: &Hold,
+        hold: &HeldRows,
         carriers: impl Iterator<Item = (usize, usize, f64)>,
         work: &mut [f64],
     ) {
@@ -168,7 +168,7 @@ impl Series {
         body: &mut SeriesBody,
         from: &Start,
         touching: &[Touching],
-        hold: &Hold,
+        hold: &HeldRows,
         work: &mut [f64],
     ) -> Option<f64> {
         let n = self.n;
@@ -323,7 +323,7 @@ impl Series {
     }
 
     /// Computes the gaps to the circles that do not hold.
-    fn square(&mut self, body: &SeriesBody, hold: &Hold) {
+    fn square(&mut self, body: &SeriesBody, hold: &HeldRows) {
         self.squares = (2 * self.terms - 1).min(TERMS);
         for (hole, (circle, round)) in self.circles.iter().zip(&body.rounds).enumerate() {
             let row = self.fixed + hole;
@@ -350,7 +350,7 @@ impl Series {
 }
 
 /// The largest rate |ẇ|/γ (1/s) at which the normals of held holes turn.
-fn turning_rate(body: &SeriesBody, hold: &Hold, v: &[f64]) -> f64 {
+fn turning_rate(body: &SeriesBody, hold: &HeldRows, v: &[f64]) -> f64 {
     let rate = |round: &super::Round| {
         let [y, z] = round.pair(v);
         y.hypot(z) / round.gap

@@ -2,7 +2,7 @@
 
 use super::stretch::start;
 use super::*;
-use crate::flow::{Held, Hold, Series, SeriesBody, SeriesStart};
+use crate::flow::{HeldRow, HeldRows, Series, SeriesBody, SeriesStart};
 use crate::scene::Wall;
 use std::iter::{empty, once};
 
@@ -28,8 +28,8 @@ fn sliding() -> (Series, Made) {
     let mut body = SeriesBody::new(&scene).expect("a mass");
     body.turn(0, [0.6, 0.8]);
     let mut series = Series::new(&body);
-    let mut hold = Hold::with_room(1);
-    hold.set(&body, once(Held { row: 0, sign: -1.0, position: GAP + 0.6 - 0.8 * 3.0 }), empty());
+    let mut hold = HeldRows::with_room(1);
+    hold.set(&body, once(HeldRow { row: 0, sign: -1.0, position: GAP + 0.6 - 0.8 * 3.0 }), empty());
     let from =
         SeriesStart { time: TIME, q: &PLACE, v: &SPEED, extra: &[0.0; 2], until: TIME + SPAN, reach: f64::INFINITY };
     series.begin(&mut body, &from, &[], &hold, once((0, 0, 1.0)), &mut [0.0; 4]);
@@ -96,7 +96,7 @@ fn a_body_that_flies_out_of_a_hole_is_accused_without_a_push() {
     let mut series = Series::new(&body);
     let from =
         SeriesStart { time: TIME, q: &PLACE, v: &SPEED, extra: &[0.0; 2], until: TIME + SPAN, reach: f64::INFINITY };
-    series.begin(&mut body, &from, &[], &Hold::with_room(1), empty(), &mut [0.0; 4]);
+    series.begin(&mut body, &from, &[], &HeldRows::with_room(1), empty(), &mut [0.0; 4]);
     series.state(made.end, &mut made.q, &mut made.after);
     made.turned[0] = [0.0; 2];
     let made = made.pushing(0, [0.0; 2], 0.0);
@@ -113,7 +113,7 @@ fn a_body_at_rest_in_the_centre_of_a_hole_is_not_accused() {
     let mut series = Series::new(&body);
     let from =
         SeriesStart { time: 0.0, q: &[0.0; 2], v: &[0.0; 2], extra: &[0.0; 2], until: SPAN, reach: f64::INFINITY };
-    series.begin(&mut body, &from, &[], &Hold::with_room(1), empty(), &mut [0.0; 4]);
+    series.begin(&mut body, &from, &[], &HeldRows::with_room(1), empty(), &mut [0.0; 4]);
     let mut judge = start(&scene, (&[], &[]));
     judge.observe(&Made::rest(&scene, SPAN).along(Path::Series(&series)));
     assert_eq!((judge.findings(), judge.residuals().complementarity), (Vec::new(), 0.0));

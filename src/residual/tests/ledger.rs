@@ -112,7 +112,7 @@ fn along_exact_motion_a_damped_wall_stores_while_it_pushes() {
 
 #[test]
 fn a_damped_wall_in_touch_at_the_end_of_exact_motion_holds_its_energy() {
-    use crate::flow::{Arc, Hold, Series, SeriesBody, SeriesStart, Start};
+    use crate::flow::{Arc, HeldRows, Series, SeriesBody, SeriesStart, Start};
     // The motion is free, and the wall only told.
     let one = Scene::oscillator(4.0, 0.0, 0.0).with_wall(pad(0.5, 4.0));
     let many = Scene::structure(one.system.structure()).with_wall(pad(0.5, 4.0));
@@ -125,7 +125,7 @@ fn a_damped_wall_in_touch_at_the_end_of_exact_motion_holds_its_energy() {
     let mut body = SeriesBody::new(&many).expect("a mass");
     let mut series = Series::new(&body);
     let from = SeriesStart { time, q: &[0.25], v: &[1.0], extra: &[0.0], until: time + span, reach: f64::INFINITY };
-    series.begin(&mut body, &from, &[], &Hold::with_room(1), std::iter::empty(), &mut [0.0; 4]);
+    series.begin(&mut body, &from, &[], &HeldRows::with_room(1), std::iter::empty(), &mut [0.0; 4]);
     for (scene, path) in [(&one, Path::Exact(&arc)), (&many, Path::Series(&series))] {
         for (force, stored) in [(0.0, 0.0), (-1.0, 2.0)] {
             let mut judge = start(scene, Balance::Exact, &[0.25], &[1.0]);

@@ -1,7 +1,7 @@
 //! The exact motion of a structure over a stretch.
 
 use super::*;
-use crate::flow::{Held, Hold, Series, SeriesBody, SeriesStart, Touching};
+use crate::flow::{HeldRow, HeldRows, Series, SeriesBody, SeriesStart, Touching};
 use crate::scene::{Load, Wall};
 use std::iter::{empty, once};
 
@@ -19,7 +19,7 @@ pub(super) fn start(scene: &Scene, (q, v): (&[f64], &[f64])) -> Judge {
 fn stretch(scene: &Scene, (time, q, v): (f64, &[f64], &[f64]), span: f64, wall: Option<(f64, f64)>) -> (Series, Made) {
     let mut body = SeriesBody::new(scene).expect("a mass");
     let mut series = Series::new(&body);
-    let mut hold = Hold::with_room(1);
+    let mut hold = HeldRows::with_room(1);
     let extra = vec![0.0; q.len()];
     let from = SeriesStart { time, q, v, extra: &extra, until: time + span, reach: f64::INFINITY };
     let mut work = vec![0.0; 4];
@@ -29,7 +29,7 @@ fn stretch(scene: &Scene, (time, q, v): (f64, &[f64], &[f64]), span: f64, wall: 
             series.begin(&mut body, &from, &touching, &hold, empty(), &mut work);
         }
         Some((_, position)) => {
-            hold.set(&body, once(Held { row: 0, sign: -1.0, position }), empty());
+            hold.set(&body, once(HeldRow { row: 0, sign: -1.0, position }), empty());
             series.begin(&mut body, &from, &[], &hold, once((0, 0, 1.0)), &mut work);
         }
         None => series.begin(&mut body, &from, &[], &hold, empty(), &mut work),

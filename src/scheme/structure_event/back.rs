@@ -14,7 +14,7 @@ use super::StructureEvent;
 use super::round::PLACINGS;
 use super::rows::SIGNS;
 use crate::error::Result;
-use crate::flow::Held;
+use crate::flow::HeldRow;
 use crate::qp::DiskBound;
 use crate::scene::Hole;
 use crate::scheme::disks::DiskProgramme;
@@ -29,7 +29,7 @@ impl StructureEvent {
             self.put_into_holes();
         }
         for _ in 0..PLACINGS {
-            let behind: Vec<Held> = self.rows_where(|gap, _| gap < 0.0);
+            let behind: Vec<HeldRow> = self.rows_where(|gap, _| gap < 0.0);
             if behind.is_empty() {
                 return Ok(());
             }
@@ -72,7 +72,7 @@ impl StructureEvent {
 
     /// Moves the structure to the solution of the programme, and returns the walls that push it
     /// there: it stands on them up to the tolerance of the solver.
-    fn nearest(&mut self) -> Vec<Held> {
+    fn nearest(&mut self) -> Vec<HeldRow> {
         let Some(solver) = &self.solver else { return Vec::new() };
         let solution = solver.solution();
         self.q.copy_from_slice(&solution.x);
@@ -81,12 +81,12 @@ impl StructureEvent {
     }
 
     /// The sides of rows with a wall for which `is` holds of the gap (m) and the row.
-    fn rows_where(&self, is: impl Fn(f64, &Held) -> bool) -> Vec<Held> {
+    fn rows_where(&self, is: impl Fn(f64, &HeldRow) -> bool) -> Vec<HeldRow> {
         let mut found = Vec::new();
         for (row, place) in self.places.iter().enumerate() {
             let w = self.body.rows.dot(row, &self.q);
             for (side, sign) in SIGNS.into_iter().enumerate() {
-                let held = Held { row, sign, position: place.bound[side] };
+                let held = HeldRow { row, sign, position: place.bound[side] };
                 if place.bound[side].is_finite() && is(place.gap(side, w), &held) {
                     found.push(held);
                 }

@@ -6,7 +6,7 @@ use super::closed_row::{Cause, ClosedRow, Fate, LEVELS, side_of};
 use super::round::PLACINGS;
 use super::rows::SIGNS;
 use crate::error::Result;
-use crate::flow::Held;
+use crate::flow::HeldRow;
 use crate::scheme::exact::{ExactWall, Phase};
 use crate::step::Contact;
 
@@ -172,7 +172,7 @@ impl StructureEvent {
     /// Puts the structure onto the surfaces of the closed rows.
     fn place_seats(&mut self) {
         let Self { surface, body, closed_rows, places, q, scratch, .. } = self;
-        let held = |s: &ClosedRow| Held { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
+        let held = |s: &ClosedRow| HeldRow { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] };
         // A row that is just leaving must not be put back: it would never leave.
         let leaves = |s: &ClosedRow| {
             let gap = places[s.row].gap(side_of(s.sign), body.rows.dot(s.row, q));

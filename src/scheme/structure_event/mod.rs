@@ -37,7 +37,7 @@ use super::exact::{CHANGES_AT_ONCE, Clock, ExactWall, StepOutput};
 use super::frame::all_finite;
 use super::matrices::Matrices;
 use crate::error::{Error, Result};
-use crate::flow::{Hold, Series, SeriesBody, Touching};
+use crate::flow::{HeldRows, Series, SeriesBody, Touching};
 use crate::qp;
 use crate::scene::{Loads, Scene};
 use crate::step::Contract;
@@ -81,9 +81,9 @@ pub(super) struct StructureEvent {
     series: Series,
     /// Work space for looking ahead.
     flight: Series,
-    hold: Hold,
+    hold: HeldRows,
     /// The rows that touch at an instant, to put the structure onto their surfaces.
-    surface: Hold,
+    surface: HeldRows,
     /// Walls that hold rows: wall, number of the held row, share.
     carriers: Vec<(usize, usize, f64)>,
     touching: Vec<Touching>,

@@ -4,7 +4,7 @@
 use super::StructureEvent;
 use super::round::bend;
 use super::rows::{Sizes, WallRow, size};
-use crate::flow::{Held, SeriesStart, Touching};
+use crate::flow::{HeldRow, SeriesStart, Touching};
 use crate::scheme::exact::Phase;
 
 impl StructureEvent {
@@ -147,7 +147,7 @@ impl StructureEvent {
             let Self { hold, body, rhs, scratch, pushes, derivatives, .. } = self;
             pushes.clear();
             pushes.resize(hold.rows().len(), 0.0);
-            let wanted = |held: &Held| body.round(held.row).map_or(0.0, |round| -bend(round, derivatives, 0));
+            let wanted = |held: &HeldRow| body.round(held.row).map_or(0.0, |round| -bend(round, derivatives, 0));
             hold.balance(body, rhs, scratch, wanted, |k, push| pushes[k] += push);
             for &(wall, k, share) in &self.carriers {
                 let (Some(force), Some(held)) = (self.shown.force.get_mut(wall), self.hold.rows().get(k)) else {

@@ -12,7 +12,7 @@ use super::StructureEvent;
 use super::closed_row::{ClosedRow, Fate, LEVELS, side_of};
 use super::rows::{LeadingZeros, SIGNS};
 use crate::error::Result;
-use crate::flow::Held;
+use crate::flow::HeldRow;
 use crate::scheme::exact::noise;
 
 /// Relative tolerance within which a force that the search found to vanish must be 0; if it is
@@ -136,24 +136,23 @@ impl StructureEvent {
         }
         let held = |s: &ClosedRow| {
             let position = places.get(s.row).map_or(0.0, |place| place.bound[side_of(s.sign)]);
-            matches!(s.fate, Fate::Held(_)).then_some(Held { row: s.row, sign: s.sign, position })
+            matches!(s.fate, Fate::Held(_)).then_some(HeldRow { row: s.row, sign: s.sign, position })
         };
         let of = |level: usize| closed_rows.iter().filter(move |s| s.fate == Fate::Held(level)).filter_map(&held);
         // The speed that rounding leaves after a stop is removed here, so that it does not enter
         // the motion that follows.
         if closed_rows.iter().any(|s| s.fate == Fate::Open) {
-            let stopped = closed_rows.iter().filter(|s| matches!(s.fate, Fate::Open | Fate::Held(_))).map(|s| Held {
-                row: s.row,
-                sign: s.sign,
-                position: places[s.row].bound[side_of(s.sign)],
-            });
+            let stopped = closed_rows
+                .iter()
+                .filter(|s| matches!(s.fate, Fate::Open | Fate::Held(_)))
+                .map(|s| HeldRow { row: s.row, sign: s.sign, position: places[s.row].bound[side_of(s.sign)] });
             hold.set(body, std::iter::empty(), stopped);
             hold.stop(body, v, scratch);
         }
         // The rows held by their force itself share it. Of the others, a row that depends on those
         // before it carries no force; the row that has just been found to pull comes last, so that
         // of several equal rows it is the one without a force.
-        let pulled = |held: &Held| released == Some(held.row);
+        let pulled = |held: &HeldRow| released == Some(held.row);
         let idle = |level: usize| of(level).filter(move |held| !pulled(held)).chain(of(level).filter(pulled));
         hold.set(body, of(0), (1..LEVELS).flat_map(idle));
         hold.stop(body, v, scratch);

@@ -5,7 +5,7 @@ use super::pace::Pace;
 use super::rows::{Sizes, WallRow};
 use super::stretch::ImpactBurst;
 use crate::error::{Error, Result};
-use crate::flow::{Hold, Series, SeriesBody};
+use crate::flow::{HeldRows, Series, SeriesBody};
 use crate::qp::{self, Backend};
 use crate::scene::{Loads, Scene};
 use crate::scheme::exact::{Clock, StepOutput, barriers, known_loads};
@@ -48,8 +48,8 @@ impl StructureEvent {
             solver: None,
             series: Series::new(&body),
             flight: Series::new(&body),
-            hold: Hold::with_room(rows),
-            surface: Hold::with_room(rows),
+            hold: HeldRows::with_room(rows),
+            surface: HeldRows::with_room(rows),
             carriers: Vec::with_capacity(walls),
             touching: Vec::with_capacity(walls),
             closed_rows: Vec::with_capacity(rows),

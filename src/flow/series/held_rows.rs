@@ -4,7 +4,7 @@ use super::SeriesBody;
 
 /// A row held in place, and the side of the walls that hold it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Held {
+pub(crate) struct HeldRow {
     pub row: usize,
     /// The sign of the walls' force: +1 for lower walls, −1 for upper ones.
     pub sign: f64,
@@ -20,14 +20,14 @@ pub(crate) struct Held {
 /// Cᵀ λ_J with λ* = −W_II⁻¹ b_I and D the diagonal of W. All of it is linear in b_I, and is kept as
 /// one matrix.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Hold {
+pub(crate) struct HeldRows {
     /// The independent rows, then those that depend on them.
-    rows: Vec<Held>,
+    rows: Vec<HeldRow>,
     independent: usize,
     /// S in λ = −S b_I, by rows of as many entries as there are independent rows.
     inverse: Vec<f64>,
     /// The rows of the last setting, while they are set again.
-    last: Vec<Held>,
+    last: Vec<HeldRow>,
     /// Work space: a Cholesky factor by rows without gaps, C, and a vector.
     factor: Vec<f64>,
     relations: Vec<f64>,
@@ -51,7 +51,7 @@ const COARSE: f64 = 1e-3;
 /// one the same share of that.
 const PASSES: usize = 3;
 
-impl Hold {
+impl HeldRows {
     /// Reserves memory for `rows` rows, up to [`ROOM`]; more is allocated when more are held.
     pub fn with_room(rows: usize) -> Self {
         let rows = rows.min(ROOM);
@@ -73,8 +73,8 @@ impl Hold {
     pub fn set(
         &mut self,
         body: &SeriesBody,
-        rows: impl Iterator<Item = Held> + Clone,
-        idle: impl Iterator<Item = Held>,
+        rows: impl Iterator<Item = HeldRow> + Clone,
+        idle: impl Iterator<Item = HeldRow>,
     ) {
         self.rows.clear();
         self.factor.clear();
@@ -99,13 +99,13 @@ impl Hold {
     pub fn renew(&mut self, body: &SeriesBody, position: impl Fn(usize, f64) -> f64) {
         let mut rows = std::mem::take(&mut self.last);
         rows.clear();
-        rows.extend(self.rows.iter().map(|held| Held { position: position(held.row, held.position), ..*held }));
+        rows.extend(self.rows.iter().map(|held| HeldRow { position: position(held.row, held.position), ..*held }));
         self.set(body, rows.iter().copied(), std::iter::empty());
         self.last = rows;
     }
 
     /// Appends a row to the Cholesky factor of W, if it is independent of those before.
-    fn extend(&mut self, body: &SeriesBody, held: Held) {
+    fn extend(&mut self, body: &SeriesBody, held: HeldRow) {
         let (k, whole) = (self.rows.len(), body.delassus(held.row, held.row));
         let (mut pivot, start) = (whole, self.factor.len());
         for (j, other) in self.rows.iter().enumerate() {
@@ -154,7 +154,7 @@ impl Hold {
         factor.clear();
         work.clear();
         work.resize(rest.len(), 0.0);
-        let size = |held: &Held| body.delassus(held.row, held.row);
+        let size = |held: &HeldRow| body.delassus(held.row, held.row);
         for (j, held) in rest.iter().enumerate() {
             for i in 0..k {
                 let sum =
@@ -192,13 +192,13 @@ impl Hold {
 
     /// The rows held.
     #[inline]
-    pub fn rows(&self) -> &[Held] {
+    pub fn rows(&self) -> &[HeldRow] {
         &self.rows
     }
 
     /// The independent rows.
     #[inline]
-    pub fn independent(&self) -> &[Held] {
+    pub fn independent(&self) -> &[HeldRow] {
         &self.rows[..self.independent]
     }
 
@@ -217,7 +217,7 @@ impl Hold {
         body: &SeriesBody,
         force: &mut [f64],
         scratch: &mut [f64],
-        wanted: impl Fn(&Held) -> f64,
+        wanted: impl Fn(&HeldRow) -> f64,
         mut tell: impl FnMut(usize, f64),
     ) {
         for _ in 0..self.passes {
@@ -245,7 +245,7 @@ impl Hold {
 
     /// Changes `x` by the least change in the metric of M after which each held row has the value
     /// `wanted`.
-    pub fn change(&self, body: &SeriesBody, x: &mut [f64], scratch: &mut [f64], wanted: impl Fn(&Held) -> f64) {
+    pub fn change(&self, body: &SeriesBody, x: &mut [f64], scratch: &mut [f64], wanted: impl Fn(&HeldRow) -> f64) {
         for _ in 0..self.passes {
             for (b, held) in scratch.iter_mut().zip(self.independent()) {
                 *b = wanted(held) - body.rows.dot(held.row, x);
