@@ -4,6 +4,7 @@
 #[cfg(test)]
 mod tests;
 
+use crate::error::amount;
 use crate::scene::{LoadKind, Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::study::choice::choose;
@@ -249,17 +250,16 @@ fn steps_in_words(scene: &Scene, method: &Method, step: f64) -> String {
     if method.scheme != Scheme::Event {
         let count = (scene.duration / step).ceil();
         let unknowns = unknowns_in_words(scene);
-        // Of half a step, or of the duration over a number of steps, rounding leaves long digits.
-        let step = format!("{step:.3e}").parse().unwrap_or(step);
-        return format!("{count:.1e} steps of {step:e} s{unknowns}, set by time.end and time.step");
+        let step = amount(step, 4);
+        return format!("{count:.1e} steps of {step} s{unknowns}, set by time.end and time.step");
     }
     let (rate, what) = fastest(scene);
     if let System::Structure(_) = scene.system {
         let count = (0.5 * rate * scene.duration).ceil();
         format!("the exact scheme follows {what} in at least {count:.1e} stretches, and stops at every contact")
     } else {
-        let count = rate * scene.duration / TAU;
-        format!("the exact scheme goes from contact to contact; {what} has {count:.1e} periods in the run")
+        let count = amount(rate * scene.duration / TAU, 2);
+        format!("the exact scheme goes from contact to contact; {what} has {count} periods in the run")
     }
 }
 
@@ -283,9 +283,9 @@ fn fastest(scene: &Scene) -> (f64, String) {
     let loads = scene.loads.iter().enumerate().filter_map(|(i, load)| Some((i, harmonic(&load.kind)?)));
     match loads.max_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((index, frequency)) if TAU * frequency > mode => {
-            (TAU * frequency, format!("load {} of {frequency:.3e} Hz", index + 1))
+            (TAU * frequency, format!("load {} of {} Hz", index + 1, amount(frequency, 4)))
         }
-        _ => (mode, format!("the fastest mode, {:.3e} Hz,", mode / TAU)),
+        _ => (mode, format!("the fastest mode, {} Hz,", amount(mode / TAU, 4))),
     }
 }
 

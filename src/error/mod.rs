@@ -16,7 +16,7 @@ pub(crate) use cause::unnumbered;
 pub(crate) use escape::{escaped, escaped_lines};
 pub use subject::{Part, Subject};
 #[cfg(feature = "case")]
-pub(crate) use words::nearest;
+pub(crate) use words::{amount, nearest};
 
 use std::fmt;
 

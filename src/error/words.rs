@@ -14,6 +14,13 @@ pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str> + Clo
     best.map(|(_, name)| name).or_else(|| begun.next())
 }
 
+/// `x` with at most `digits` significant digits, as a person writes it: without trailing zeros, and
+/// with an exponent only where it is far from 1.
+pub(crate) fn amount(x: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x);
+    if x == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&escaped_lines(&Words(self).to_string()))

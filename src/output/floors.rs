@@ -1,7 +1,8 @@
 //! The floors of a chart: how near penalties can come to rigid walls, and why no nearer.
 
 use super::cheapest::percent;
-use super::work_precision::{law_label, significant};
+use super::work_precision::law_label;
+use crate::error::amount;
 use crate::study::work_precision::{Errors, Floor, Quantity, WorkPrecision};
 use serde_json::{Value, json};
 
@@ -31,7 +32,7 @@ pub(crate) fn sentences(chart: &WorkPrecision) -> Vec<String> {
     let sentence = |floor: &Floor| match (&floor.reference, reason(floor)) {
         (Ok(own), Some(reason)) => Some(format!(
             "{reason}; its own motion up to t = {} s: {}, known to {:.1e}",
-            significant(floor.end),
+            amount(floor.end, 4),
             own.how,
             own.uncertainty.displacement
         )),

@@ -1,6 +1,7 @@
 //! Which stretch of a run a picture shows: the whole and, of a long run, also its last periods.
 
 use super::figure::Figure;
+use crate::error::amount;
 use crate::run::Run;
 use crate::scene::{LoadKind, Scene};
 
@@ -63,7 +64,7 @@ impl Window {
     pub fn over_time(&self, figure: Figure) -> Figure {
         match self.last {
             Some(last) => {
-                let whole = format!("{} to {} s", short(self.whole.from), short(self.whole.to));
+                let whole = format!("{} to {} s", amount(self.whole.from, 4), amount(self.whole.to, 4));
                 figure.detail(last.from, last.to, [&whole, &self.last_words()])
             }
             None => figure,
@@ -75,13 +76,13 @@ impl Window {
     pub fn words(&self) -> Option<String> {
         self.last.map(|last| {
             let words = self.last_words().replace("Last", "last").replace(" Hz", "\u{a0}Hz");
-            format!("{words}, {} to {}\u{a0}s", short(last.from), short(last.to))
+            format!("{words}, {} to {}\u{a0}s", amount(last.from, 4), amount(last.to, 4))
         })
     }
 
     fn last_words(&self) -> String {
         let frequency = self.periods.map_or(0.0, |period| 1.0 / period);
-        format!("Last {LAST_PERIODS} periods of {} Hz", short(frequency))
+        format!("Last {LAST_PERIODS} periods of {} Hz", amount(frequency, 4))
     }
 }
 
@@ -102,9 +103,4 @@ fn response_period(run: &Run, probe: usize, span: Span) -> Option<f64> {
     let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
     let passages = values.windows(2).filter(|pair| matches!(pair, [a, b] if *a < mean && *b >= mean)).count();
     (passages > 1).then(|| (span.to - span.from) / passages as f64)
-}
-
-/// At most four digits, without trailing zeros.
-pub(super) fn short(x: f64) -> String {
-    format!("{x:.3e}").parse::<f64>().map_or_else(|_| x.to_string(), |x| x.to_string())
 }

@@ -3,7 +3,7 @@
 use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
 use super::floors;
-use crate::error::Result;
+use crate::error::{Result, amount};
 use crate::scene::Scene;
 use crate::scheme::{Method, PenaltyLaw, Scheme};
 use crate::study::work_precision::{
@@ -136,7 +136,7 @@ fn front(chart: &WorkPrecision, peers: &[Peer]) -> Vec<(f64, f64)> {
 /// chart says in one sentence, stands below the title.
 #[must_use]
 pub fn charts(title: &str, conclusion: &str, chart: &WorkPrecision, peers: &[Peer]) -> Vec<(&'static str, String)> {
-    let title = format!("{title}, t ≤ {} s", significant(chart.horizon.end));
+    let title = format!("{title}, t ≤ {} s", amount(chart.horizon.end, 4));
     let mut charts = vec![("work-precision", against_the_scene(&title, conclusion, chart, peers))];
     if !chart.floors.is_empty() {
         charts.push(("work-precision-penalties", against_their_springs(&title, chart)));
@@ -257,9 +257,4 @@ pub(super) fn law_label(law: PenaltyLaw) -> String {
         PenaltyLaw::Linear { stiffness, damping: 0.0 } => format!("k = {stiffness:e}"),
         PenaltyLaw::Linear { stiffness, damping } => format!("k = {stiffness:e}, c = {damping:e}"),
     }
-}
-
-/// At most four digits.
-pub(super) fn significant(x: f64) -> String {
-    format!("{x:.3e}").parse::<f64>().map_or_else(|_| x.to_string(), |x| x.to_string())
 }

@@ -72,7 +72,7 @@ fn a_step_that_passes_over_the_load_is_said() {
 fn a_step_that_passes_over_a_mode_is_said() {
     // ω = 10 rad/s: ten steps are 63 ms.
     let said = notes(&scene(), &MOREAU, 0.1);
-    assert!(said.contains("the natural frequency, 1.5915e0 Hz, takes 6.3 steps"), "{said}");
+    assert!(said.contains("the natural frequency, 1.5915 Hz, takes 6.3 steps"), "{said}");
     let chain = Chain { masses: vec![1.0; 8], springs: vec![1e4; 7], grounds: [1e4, 0.0] };
     let mut scene =
         Scene::structure(chain.structure().unwrap()).with_load(Load { at: Row::dof(7), ..Load::constant(1.0) });
@@ -126,7 +126,7 @@ fn frequencies_that_no_structure_has_are_said() {
         notes(&slow, &Scheme::Event, 1e-3)
     );
     let fast = Scene::oscillator(1.0, 0.0, 1e12).with_duration(1e-5);
-    assert!(notes(&fast, &MOREAU, 1e-8).contains("1.592e5 Hz, far from"));
+    assert!(notes(&fast, &MOREAU, 1e-8).contains("159200 Hz, far from"));
     assert_eq!(notes(&Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::constant(1.0)), &MOREAU, 1e-3), "");
 }
 

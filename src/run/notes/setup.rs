@@ -1,5 +1,6 @@
 //! What a reader must know about a scene and a step, independent of the run.
 
+use crate::error::amount;
 use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table};
 use crate::scheme::Scheme;
 use std::f64::consts::{PI, TAU};
@@ -49,8 +50,9 @@ fn unusual(scene: &Scene) -> Option<String> {
     let slowest = slowest(scene)? / TAU;
     (!(USUAL[0]..=USUAL[1]).contains(&slowest)).then(|| {
         format!(
-            "the slowest natural frequency is {slowest:.3e} Hz, far from what structures between walls have: \
-             are lengths in m, masses in kg, stiffnesses in N/m and moduli in Pa?"
+            "the slowest natural frequency is {} Hz, far from what structures between walls have: \
+             are lengths in m, masses in kg, stiffnesses in N/m and moduli in Pa?",
+            amount(slowest, 4)
         )
     })
 }
@@ -167,9 +169,9 @@ fn modes_resolved(scene: &Scene, step: f64) -> Option<String> {
     let steps = TAU / (omega * step);
     (steps < STEPS_A_PERIOD).then(|| {
         format!(
-            "a period of {what}, {:.4e} Hz, takes {steps:.1} steps of {step:.2e} s: fewer than {STEPS_A_PERIOD} \
+            "a period of {what}, {} Hz, takes {steps:.1} steps of {step:.2e} s: fewer than {STEPS_A_PERIOD} \
              do not resolve it",
-            omega / TAU
+            amount(omega / TAU, 5)
         )
     })
 }
