@@ -80,8 +80,9 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     kind: SchemeKind::Qp,
     restitution: Realised::PerWall,
     realises: "e, per wall",
-    purpose: "the default at rigid flat walls: order 2 through impacts, since steps are divided where a wall is \
-              struck; a body that rests stands on the face; round holes and friction too",
+    purpose: "the default at rigid flat walls and with friction at elastic round supports: order 2 through impacts, \
+              since steps are divided where a wall is struck; a body that rests stands on the face; round holes and \
+              friction too",
     order: Some(2),
     fails: "a step with more than 64 parts ends without rebound (reported); an impact costs several steps; a body that \
             friction jams may have no motion at a coarse step (an error)",
