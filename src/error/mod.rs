@@ -15,8 +15,9 @@ pub use cause::Cause;
 pub(crate) use cause::unnumbered;
 pub(crate) use escape::{escaped, escaped_lines};
 pub use subject::{Part, Subject};
+pub(crate) use words::amount;
 #[cfg(feature = "case")]
-pub(crate) use words::{amount, nearest};
+pub(crate) use words::nearest;
 
 use std::fmt;
 

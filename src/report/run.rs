@@ -23,8 +23,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     {
         page["title"] = json!(realisations::titled(title, count));
         let subtitle = page["subtitle"].as_str().unwrap_or_default();
-        let means =
-            format!("all drawings and numbers are of draw 1; means over {count}: Realisations, realisations.csv");
+        let means = format!("means over {count} stand first; all drawings and other numbers are of draw 1");
         page["subtitle"] = json!(if subtitle.is_empty() { means } else { format!("{subtitle} · {means}") });
     }
     page["runs"] = json!([run]);

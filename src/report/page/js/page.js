@@ -120,6 +120,8 @@ function firstInstant() {
 root.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 readInks();
 const menu = headSection();
+// What a study is made for stands before its first run.
+if (DATA.kind === "run" && DATA.summary.realisations) meansSection();
 if (lead && lead.probes.length && duration > 0) {
   if (DATA.compare && DATA.horizon) view.set(0, DATA.horizon);
   firstInstant();
@@ -136,7 +138,6 @@ if (DATA.wear) wearSection();
 if (DATA.continue) branchSection();
 if (DATA.orbit) orbitSections();
 if (lead && lead.probes.length) phaseSection();
-if (DATA.kind === "run" && DATA.summary.realisations) meansSection();
 if (DATA.kind === "run" && (DATA.summary.supports || []).length) supportSection();
 if (lead && runs.some((run) => run.contacts.count)) contactSection();
 if (DATA.margins) marginSection();
