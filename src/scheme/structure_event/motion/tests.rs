@@ -58,3 +58,42 @@ fn a_body_that_slides_in_a_hole_presses_with_its_centrifugal_force() {
         assert!((rate - push * speed / gap * along.abs()).abs() < 1e-10 * push * speed / gap, "{i}: {rate}");
     }
 }
+
+#[test]
+fn a_series_that_an_event_is_expected_to_end_is_the_beginning_of_the_long_one_with_fewer_terms() {
+    let sine = on(Load::harmonic(7.0, 1.5, 0.4), 1);
+    let flight = masses(&[1.3, 0.4, 1.0], &[(0, 1, -0.2), (1, 1, 0.9)], &[(0, 0, 80.0), (0, 1, -30.0), (1, 1, 50.0)])
+        .with_load(sine)
+        .with_initial(&[0.3, -0.2, 0.0], &[1.0, 2.0, -1.0]);
+    // Round a hole, pressed against it by a spring.
+    let slide = with(masses(&[1.3; 2], &[], &[(0, 0, -20.0), (1, 1, -20.0)]), hole(0.75, 0.5, [0.0; 2]))
+        .with_initial(&[0.75, 0.0], &[0.0, 0.6]);
+    for scene in [flight, slide] {
+        let mut event = started(&scene, 10.0);
+        event.advance(None).unwrap();
+        let limit = event.limit();
+        let state = |event: &StructureEvent, t: f64| {
+            let [mut q, mut v] = [(); 2].map(|()| vec![0.0; event.q.len()]);
+            event.series.state(t, &mut q, &mut v);
+            [q, v]
+        };
+        event.begin_series(limit);
+        let (start, longest, terms) = (event.time, event.series.unit(), event.series.terms());
+        let shares = [0.5, 0.125, 1.0 / 64.0, 1e-9];
+        let times = shares.map(|share: f64| [0.3, 1.0].map(|x| start + x * share.max(1.0 / 256.0) * longest));
+        let wanted = times.map(|times| times.map(|t| state(&event, t)));
+        for ((share, times), wanted) in shares.into_iter().zip(times).zip(wanted) {
+            event.begin_within(limit, share * longest);
+            assert!(near(event.series.unit(), share.max(1.0 / 256.0) * longest), "{share}: {}", event.series.unit());
+            assert!(near(event.series.longest(), longest) && event.series.terms() < terms, "{share}");
+            for (t, wanted) in times.into_iter().zip(wanted) {
+                for (found, wanted) in state(&event, t).into_iter().zip(wanted) {
+                    // Some roundings of the largest entry.
+                    let most = wanted.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                    let apart = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                    assert!(apart <= 1e-14 * most, "{share} {t}: {found:?} for {wanted:?}");
+                }
+            }
+        }
+    }
+}
