@@ -138,6 +138,11 @@ pub struct TimeGrid {
 const EVENT_ROWS: f64 = 1000.0;
 
 impl TimeGrid {
+    /// The time between two rows, s.
+    pub(crate) fn row_spacing(&self) -> f64 {
+        self.end / self.rows as f64
+    }
+
     /// The grid of a stepping scheme over [0, `duration`] seconds.
     ///
     /// # Errors

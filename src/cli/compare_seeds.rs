@@ -32,7 +32,7 @@ impl Studies {
     pub fn of(case: &Case, comparison: &Comparison, count: u64, ui: &Ui) -> Result<Self> {
         // The steps and rows of the comparison.
         let grid = TimeGrid::stepping(case.scene.duration, &case.time)?;
-        let options = Options::new(TimeOptions { sample: Some(grid.end / grid.rows as f64), ..case.time });
+        let options = Options::new(TimeOptions { sample: Some(grid.row_spacing()), ..case.time });
         let ran: Vec<(Method, &Run)> =
             comparison.rows.iter().filter_map(|row| Some((row.method, row.outcome.as_ref().ok()?))).collect();
         let methods: Vec<Method> = ran.iter().map(|(method, _)| *method).collect();

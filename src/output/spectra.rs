@@ -66,7 +66,7 @@ impl Quantity {
 /// [`crate::Error::Invalid`] for a run with too few rows.
 pub(super) fn of(case: &Case, run: &Run) -> Result<Vec<SpectrumFile>> {
     let (motion, scene) = (&run.trajectory, &case.scene);
-    let row = run.grid.end / run.grid.rows as f64;
+    let row = run.grid.row_spacing();
     // The first row in the window, up to rounding.
     let from = run.statistics.from_s - 1e-9 * row;
     let first = motion.time().partition_point(|t| *t < from);

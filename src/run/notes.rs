@@ -49,7 +49,7 @@ pub(crate) fn remarks<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>
         ));
     }
     if run.grid.rows_shortened {
-        let spacing = run.grid.end / run.grid.rows as f64;
+        let spacing = run.grid.row_spacing();
         notes.push(format!("the rows are {spacing:e} s apart, closer than asked for, so that the last is at the end"));
     }
     notes.extend(run.recorded().and_then(|trajectory| approach::untouched(scene, trajectory)));

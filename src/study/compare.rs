@@ -100,7 +100,7 @@ pub fn default_methods(chosen: Method, penalties: impl Iterator<Item = Method>) 
 pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: &dyn Fn(f64)) -> Result<Comparison> {
     // All runs, the exact one too, share one set of rows, so that they can be subtracted.
     let grid = TimeGrid::stepping(scene.duration, time)?;
-    let time = TimeOptions { sample: Some(grid.end / grid.rows as f64), ..*time };
+    let time = TimeOptions { sample: Some(grid.row_spacing()), ..*time };
     let structure = matches!(scene.system, System::Structure(_));
     let possible = if structure { affordable(scene) } else { Ok(()) };
     let done = |before: usize, reached: f64| progress(before as f64 + reached / scene.duration);

@@ -106,7 +106,7 @@ impl Verdict {
         time: &TimeOptions,
         progress: &mut dyn FnMut(f64),
     ) -> Result<Self> {
-        let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
+        let rows = TimeOptions { sample: Some(run.grid.row_spacing()), ..*time };
         let (check, again) = if method.scheme.is_exact() {
             (Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run, time)?)
         } else {

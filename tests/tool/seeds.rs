@@ -9,7 +9,7 @@ fn signorini(folder: &Path, args: &[&str]) -> Output {
 }
 
 /// Runs it and expects the exit code; gives stdout and stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
+pub fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
     let output = signorini(folder, args);
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
     let (out, err) = (text(&output.stdout), text(&output.stderr));

@@ -43,7 +43,7 @@ impl Repeats<'_> {
         let cores = std::thread::available_parallelism().map_or(1, NonZero::get) as f64;
         let estimate = DurationEstimate::of_run(like, self.method, step).times(count / cores.min(count.max(1.0)));
         // The rows of the first run.
-        let sample = Some(self.run.grid.end / self.run.grid.rows as f64);
+        let sample = Some(self.run.grid.row_spacing());
         let options = Options::new(TimeOptions { step, sample, ..self.case.time });
         self.ui.with_estimate(label, estimate, |bar| {
             realisations(numbers, scene, self.method, &options, &mut |done| bar.set_share(done))

@@ -134,7 +134,7 @@ pub(super) fn explain(scene: &Scene, outcome: &mut Outcome) {
     if !(rigid && matches!(outcome.method.scheme, Scheme::Penalty { .. })) {
         return;
     }
-    let sample = outcome.run.grid.end / outcome.run.grid.rows as f64;
+    let sample = outcome.run.grid.row_spacing();
     let time = TimeOptions { sample: Some(sample), ..TimeOptions::with_step(sample) };
     let judged =
         if outcome.accuracy.judged_by == JudgedBy::Halving { "its own refinements" } else { "its own springs" };

@@ -141,7 +141,7 @@ impl Quality {
             LastingForce { scheme, step, outcome: run.map(|run| seen(&run, step, joined, energy)) }
         };
         let mut lines: Vec<LastingForce> = jobs.par_iter().map(line).collect();
-        let outcome = exact.map(|run| seen(&run, run.grid.end / run.grid.rows as f64, joined, energy));
+        let outcome = exact.map(|run| seen(&run, run.grid.row_spacing(), joined, energy));
         lines.push(LastingForce { scheme: Scheme::Event, step: finest, outcome });
         Ok(Self { energy, lines })
     }

@@ -178,7 +178,7 @@ impl Truncation {
         let Some(modes) = more_modes(reduction) else { return Ok(None) };
         let more = whole.cut(modes)?;
         // The same rows for any scheme.
-        let rows = TimeOptions { sample: Some(run.grid.end / run.grid.rows as f64), ..*time };
+        let rows = TimeOptions { sample: Some(run.grid.row_spacing()), ..*time };
         let options = Options::new(rows);
         let against = run_with_progress(&more.scene, method, &options, progress)?;
         let between = Self::between(whole, [reduction, &more], [run, &against]);
