@@ -1,6 +1,10 @@
 //! Variation, periodic orbits, their branches and basins.
 
 #[cfg(feature = "cli")]
+#[path = "../support/command.rs"]
+mod command;
+
+#[cfg(feature = "cli")]
 mod basins;
 mod branches;
 mod orbits;

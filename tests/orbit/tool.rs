@@ -1,21 +1,12 @@
 //! `signorini orbit` and `signorini continue`: files that read back, exit codes, and what they say
 //! of wrong requests.
+use crate::command::said;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 const CASE: &str = "rigid-walls-sine";
 const SOFT: [&str; 3] = [CASE, "--set", "wall.*.restitution=0.8"];
-
-/// Runs it and expects the exit code; gives stdout and stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap();
-    let (out, err) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {out} {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    (out, err)
-}
 
 fn json(path: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()

@@ -3,6 +3,9 @@
 #[cfg(all(feature = "cli", unix))]
 #[path = "../support/chromium.rs"]
 mod chromium;
+#[cfg(feature = "cli")]
+#[path = "../support/command.rs"]
+mod command;
 
 #[cfg(all(feature = "cli", unix))]
 mod browser;

@@ -1,18 +1,9 @@
 //! The report: what it holds, that no text of a case becomes markup, and that it is written whole
 //! or not at all.
+use crate::command::said;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
-
-/// Runs the tool in `folder` and expects the exit code; gives stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap();
-    let err = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    err
-}
 
 /// The text between two marks, each of which must be there once.
 fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
@@ -301,7 +292,7 @@ fn a_report_of_existing_results_is_that_of_the_command() {
         said(dir.path(), &[request, &["--out", &out][..]].concat(), 0);
         let written = fs::read(dir.path().join(&out).join("report.html")).unwrap();
         fs::remove_file(dir.path().join(&out).join("report.html")).unwrap();
-        let told = said(dir.path(), &["report", &out], 0);
+        let told = said(dir.path(), &["report", &out], 0).1;
         assert!(told.contains("report.html"), "{told}");
         assert!(fs::read(dir.path().join(&out).join("report.html")).unwrap() == written, "{request:?}");
         said(dir.path(), &["report", &out, "--out", "elsewhere.html"], 0);
@@ -448,7 +439,7 @@ fn what_cannot_be_shown_is_one_clear_error() {
     let dir = tempfile::tempdir().unwrap();
     fs::create_dir(dir.path().join("empty")).unwrap();
     for (folder, word) in [("empty", "request.json"), ("absent", "request.json")] {
-        assert!(said(dir.path(), &["report", folder], 2).contains(word));
+        assert!(said(dir.path(), &["report", folder], 2).1.contains(word));
     }
     said(dir.path(), &["run", CASE, "--end", "0.2", "--no-verdict", "--out", "o"], 0);
     let folder = dir.path().join("o");
@@ -457,7 +448,7 @@ fn what_cannot_be_shown_is_one_clear_error() {
     let broken = |name: &str, text: &str, words: &[&str]| {
         let whole = fs::read(folder.join(name)).unwrap();
         fs::write(folder.join(name), text).unwrap();
-        let told = said(dir.path(), &["report", "o"], 2);
+        let told = said(dir.path(), &["report", "o"], 2).1;
         for word in words {
             assert!(told.contains(word), "{name}: {word}: {told}");
         }
@@ -472,9 +463,9 @@ fn what_cannot_be_shown_is_one_clear_error() {
     broken("summary.json", "{", &["summary.json", "not valid JSON"]);
     broken("request.json", r#"{"request":{"command":"figures"},"files":[]}"#, &["\"figures\"", "no report"]);
     // A folder in place of a file.
-    assert!(said(dir.path(), &["report", "o", "--out", "empty"], 2).contains("empty"));
+    assert!(said(dir.path(), &["report", "o", "--out", "empty"], 2).1.contains("empty"));
     fs::remove_file(folder.join("contacts.csv")).unwrap();
-    assert!(said(dir.path(), &["report", "o"], 2).contains("contacts.csv"));
+    assert!(said(dir.path(), &["report", "o"], 2).1.contains("contacts.csv"));
 }
 
 /// A name in compare.csv must not lead out of the folder.
@@ -486,7 +477,7 @@ fn a_comparison_reads_within_its_folder_only() {
     let table = dir.path().join("c/compare.csv");
     let text = fs::read_to_string(&table).unwrap();
     fs::write(&table, text.replacen("located,", "../c/event,", 1)).unwrap();
-    assert!(said(dir.path(), &["report", "c"], 2).contains("not the name of a method"));
+    assert!(said(dir.path(), &["report", "c"], 2).1.contains("not the name of a method"));
 }
 
 /// The curves of the page, in the light theme, are those of the SVG figures.
@@ -512,7 +503,7 @@ fn a_chart_says_what_one_percent_costs() {
     // fine one would be left out.
     let every = ["--levels", "3", "--repeats", "1", "--longest", "100"];
     let chart = [&["chart", CASE, "--end", "0.5", "--out", "c"], &every[..], &schemes[..]];
-    let told = said(dir.path(), &chart.concat(), 0);
+    let told = said(dir.path(), &chart.concat(), 0).1;
     let page = fs::read_to_string(dir.path().join("c/report.html")).unwrap();
     let chart = &data(&page)["chart"];
     let conclusion = chart["conclusion"].as_str().unwrap();
@@ -577,7 +568,7 @@ fn other_results_are_drawn_in_the_same_figures() {
         ("r0.7", "ball", "its run has other walls than that of the page"),
         ("r0.7", "none", "none: holds no request.json"),
     ] {
-        let told = said(folder, &["report", own, "--over", other, "--out", "x.html"], 2);
+        let told = said(folder, &["report", own, "--over", other, "--out", "x.html"], 2).1;
         assert!(told.contains(words), "{words}: {told}");
     }
     assert!(!folder.join("x.html").exists());

@@ -1,11 +1,12 @@
 //! The tool as a user meets it: commands, files, exit codes.
+use crate::command::command;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 /// Runs the tool in `folder`.
 fn signorini(folder: &Path, args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap()
+    command(folder, args).output().unwrap()
 }
 
 fn text(bytes: &[u8]) -> String {

@@ -1,22 +1,8 @@
 //! `run --derivative`: the columns of derivatives.csv, and what is refused.
 
+use crate::command::said;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn signorini(folder: &Path, args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).env_remove("COLUMNS").output().unwrap()
-}
-
-/// Runs it and expects the exit code; gives stdout and stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let output = signorini(folder, args);
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    let (out, err) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    (out, err)
-}
 
 /// A ball of 2 kg that falls from 1 m onto a floor.
 const BALL: &str = r#"

@@ -1,5 +1,5 @@
 //! The errors of means over realisations: the table, `errors.csv`, the summary, the exit code.
-use crate::seeds::said;
+use crate::command::said;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

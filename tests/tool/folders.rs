@@ -1,5 +1,6 @@
 //! Folders of results: one writer at a time, nothing lost by kills and power cuts, and damaged or
 //! special files in place of tables.
+use crate::command::command;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,9 +11,12 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(120);
 
 fn spawned(folder: &Path, args: &[&str]) -> Child {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    command.args(args).current_dir(folder).stdin(Stdio::null()).stdout(Stdio::null());
-    command.stderr(fs::File::create(folder.join("stderr.txt")).unwrap()).spawn().unwrap()
+    command(folder, args)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(fs::File::create(folder.join("stderr.txt")).unwrap())
+        .spawn()
+        .unwrap()
 }
 
 /// Runs the tool and expects the exit code; gives what it says on stderr.

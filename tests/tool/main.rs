@@ -1,6 +1,9 @@
 //! The command-line tool as a user meets it.
 #![cfg(feature = "cli")]
 
+#[path = "../support/command.rs"]
+mod command;
+
 mod commands;
 mod compare_seeds;
 mod derivatives;

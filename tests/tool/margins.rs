@@ -1,22 +1,12 @@
 //! Margins of a tube in a cross flow, in all that shows them: explanation, notes, JSON and pages.
+use crate::command::said;
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
-use std::process::Command;
 
 const CASE: [&str; 7] =
     ["tube-in-cross-flow", "--set", "flow.connors=3", "--set", "turbulence.1.velocity=1.2", "--set", "system.modes=4"];
 
 const SHORT: [&str; 4] = ["--set", "time.end=0.2", "--set", "time.statistics_from=0.1"];
-
-/// Runs the tool and gives stdout and stderr.
-fn said(folder: &Path, args: &[&str]) -> (String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    let output = command.args(args).current_dir(folder).env_remove("COLUMNS").output().unwrap();
-    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    assert_eq!(output.status.code(), Some(0), "{args:?}: {err}");
-    (out, err)
-}
 
 /// The margin of the slowest mode with supports active: 1.139646 m/s of the closed form by 1.2.
 fn is_known(margins: &Value) {
@@ -29,22 +19,22 @@ fn is_known(margins: &Value) {
 fn margins_are_in_the_explanation_the_notes_the_json_and_the_pages() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path();
-    let (out, _) = said(path, &[&["explain"], &CASE[..]].concat());
+    let (out, _) = said(path, &[&["explain"], &CASE[..]].concat(), 0);
     for words in
         ["fluid-elastic margins", "K = 3", "supports inactive: 4.0599 Hz", "margin 0.950", "work rates mean nothing"]
     {
         assert!(out.contains(words), "{words}: {out}");
     }
-    let (out, _) = said(path, &[&["explain", "--json"], &CASE[..]].concat());
+    let (out, _) = said(path, &[&["explain", "--json"], &CASE[..]].concat(), 0);
     is_known(&serde_json::from_str::<Value>(&out).unwrap()["scene"]["fluid_elastic"]);
 
-    let (_, err) = said(path, &[&["run"], &CASE[..], &SHORT, &["--no-verdict", "--out", "r"]].concat());
+    let (_, err) = said(path, &[&["run"], &CASE[..], &SHORT, &["--no-verdict", "--out", "r"]].concat(), 0);
     assert!(err.contains("note: unstable: work rates mean nothing"), "{err}");
     let summary: Value = serde_json::from_str(&fs::read_to_string(path.join("r/summary.json")).unwrap()).unwrap();
     is_known(&summary["scene"]["fluid_elastic"]);
 
     let years = ["--years", "1", "--histories", "1", "--json", "--out", "w"];
-    let (out, err) = said(path, &[&["wear"], &CASE[..], &SHORT, &years].concat());
+    let (out, err) = said(path, &[&["wear"], &CASE[..], &SHORT, &years].concat(), 0);
     assert!(err.contains("note: unstable: work rates mean nothing"), "{err}");
     is_known(&serde_json::from_str::<Value>(&out).unwrap()["fluid_elastic"]);
 

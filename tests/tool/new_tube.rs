@@ -1,17 +1,7 @@
 //! `signorini new tube`: a case file from the data of a tube, and what is refused.
+use crate::command::said;
 use signorini::BeamSection;
 use signorini::case::{Case, Model};
-use std::path::Path;
-use std::process::Command;
-
-/// Runs the tool and expects the exit code; gives what it says on stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap();
-    let err = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    err
-}
 
 #[test]
 fn the_file_has_the_tube_that_was_described_and_runs() {
@@ -29,7 +19,7 @@ fn the_file_has_the_tube_that_was_described_and_runs() {
     assert!((case.wear.limit.unwrap() - 0.4 * 2e-3).abs() < 1e-15);
     said(path, &["run", "tube.toml", "--end", "0.2", "--set", "time.statistics_from=0.1", "--no-verdict"], 0);
     // What is there is not replaced unasked.
-    let err = said(path, &["new", "tube"], 2);
+    let err = said(path, &["new", "tube"], 2).1;
     assert!(err.contains("tube.toml") && err.contains("already exists"), "{err}");
     said(path, &["new", "tube", "--out", "rod.toml", "--wall", "9.525e-3"], 0);
     let rod = Case::read(path.join("rod.toml")).unwrap();
@@ -50,7 +40,7 @@ fn values_that_make_no_tube_are_refused_by_name() {
         (&["tube", "--wall", "0.1"], ["--wall", "half the outer diameter"]),
         (&["bouncing-ball", "--length", "1"], ["--length", "signorini new tube"]),
     ] {
-        let err = said(dir.path(), &[&["new"], args].concat(), 2);
+        let err = said(dir.path(), &[&["new"], args].concat(), 2).1;
         assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
     }
     assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0);

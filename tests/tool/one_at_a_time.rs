@@ -1,18 +1,8 @@
 //! `sweep --one-at-a-time`: effects that equal differences of runs, and what is refused.
+use crate::command::said;
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
-
-/// Runs the tool and expects the exit code; gives stdout and stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    let output = command.args(args).current_dir(folder).env_remove("COLUMNS").output().unwrap();
-    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    (out, err)
-}
 
 /// The rows of a table, each by the names of its columns.
 fn rows(path: &Path) -> Vec<HashMap<String, String>> {

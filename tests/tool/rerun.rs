@@ -1,12 +1,12 @@
 //! A summary contains the whole request: the scene is rebuilt from it, and the run is the same to
 //! the last bit.
+use crate::command::command;
 use signorini::case::{Case, Embedded};
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 fn signorini(folder: &Path, args: &[&str]) -> (i32, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap();
+    let output = command(folder, args).output().unwrap();
     (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
 }
 

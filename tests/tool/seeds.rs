@@ -1,22 +1,8 @@
 //! `run --seeds`: the files, the numbers in them, and what is refused.
+use crate::command::{command, said};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn signorini(folder: &Path, args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).env_remove("COLUMNS").output().unwrap()
-}
-
-/// Runs it and expects the exit code; gives stdout and stderr.
-pub fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let output = signorini(folder, args);
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    let (out, err) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    (out, err)
-}
 
 /// 1 kg in two planes in a square of bars, with a stop on the side, shaken in both planes.
 const SQUARE: &str = r#"
@@ -151,7 +137,7 @@ fn one_realisation_says_that_its_interval_is_of_batches() {
 fn an_accuracy_holds_for_all_realisations() {
     let dir = folder();
     let args = ["run", "square.toml", "--end", "0.3", "--accuracy", "1e-2", "--seeds", "2", "--out", "accurate"];
-    let output = signorini(dir.path(), &args);
+    let output = command(dir.path(), &args).output().unwrap();
     let err = String::from_utf8(output.stderr).unwrap();
     assert!(matches!(output.status.code(), Some(0 | 1)) && !err.contains("panicked"), "{err}");
     assert!(err.contains("over 2 realisations") && err.contains("accuracy: asked for"), "{err}");

@@ -1,16 +1,6 @@
 //! `--set KEY=VALUE`: a value of the case by its key, on every command that takes a case.
+use crate::command::said;
 use signorini::case::{Case, CaseFile, Embedded, Key};
-use std::path::Path;
-use std::process::Command;
-
-/// Runs the tool and expects the exit code; gives stdout and stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap();
-    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    (out, err)
-}
 
 #[test]
 fn every_command_with_a_case_takes_it() {

@@ -1,19 +1,8 @@
 //! `[statistics]`: joined episodes and spectra of a run, in files, summary and on the terminal.
+use crate::command::said;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
-
-/// Runs it and expects the exit code; gives stdout and stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    let output = command.args(args).current_dir(folder).env_remove("COLUMNS").output().unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    let (out, err) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    (out, err)
-}
 
 fn summary(path: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(path.join("summary.json")).unwrap()).unwrap()

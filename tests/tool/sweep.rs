@@ -1,11 +1,12 @@
 //! `signorini sweep`: rows that equal runs, failures as rows, folders that are continued, shards
 //! that are merged.
+use crate::command::{command, said};
 use signorini::case::{Case, CaseFile};
 use signorini::sweep::{Axis, Follow, Kernel, Measure, Plan, Sample, Samples, Scope, Shard, Status, Sweep, Window};
 use signorini::{Load, Options, Scheme, Stepper, run};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
 fn source() -> Sweep {
@@ -451,21 +452,6 @@ fn a_measure_without_a_place_is_refused_by_name() {
     assert!(bare.contains("columns is contacts") && bare.contains("the case has no wall"), "{bare}");
 }
 
-fn tool(folder: &Path, args: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    command.args(args).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
-    command
-}
-
-/// Runs the tool and expects the exit code; gives stdout and stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let output = tool(folder, args).output().unwrap();
-    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    (out, err)
-}
-
 const FILE: &str = r#"
 case = "rigid-walls-sine"
 [set]
@@ -538,7 +524,7 @@ fn threads_shards_and_kills_change_no_byte() {
         // Longer and longer until it is done before it is killed.
         let mut patience = 2 + (round as u64 * 7919) % 23;
         loop {
-            let mut child = tool(&path, &args).spawn().unwrap();
+            let mut child = command(&path, &args).spawn().unwrap();
             if waited(&mut child, Duration::from_millis(patience)) {
                 break;
             }
@@ -635,7 +621,7 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     refused(&["empty"], "not a shard of a sweep, and contains none");
     // One that was begun and not finished.
     let mut child =
-        tool(&path, &["sweep", "study.toml", "--out", "a", "--shard", "2/3", "--threads", "1"]).spawn().unwrap();
+        command(&path, &["sweep", "study.toml", "--out", "a", "--shard", "2/3", "--threads", "1"]).spawn().unwrap();
     while !path.join("a/shard-2-of-3/request.json").exists() {
         std::thread::sleep(Duration::from_millis(1));
     }
@@ -653,7 +639,7 @@ fn two_processes_do_not_work_in_one_folder() {
     let (_dir, path) = place();
     let long = FILE.replace("periods = 20 }", "periods = 20000 }");
     fs::write(path.join("long.toml"), long).unwrap();
-    let mut first = tool(&path, &["sweep", "long.toml", "--out", "out", "--threads", "1"]).spawn().unwrap();
+    let mut first = command(&path, &["sweep", "long.toml", "--out", "out", "--threads", "1"]).spawn().unwrap();
     while !path.join("out/request.json").exists() {
         std::thread::sleep(Duration::from_millis(1));
     }

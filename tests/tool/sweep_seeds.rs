@@ -1,5 +1,6 @@
 //! `sweep --seeds`: rows that equal `run --seeds` bit for bit, realisations that failed, shards and
 //! interruptions, and what is refused.
+use crate::command::{command, said};
 use serde_json::Value;
 use signorini::case::CaseFile;
 use signorini::sweep::{Axis, Measure, Samples, Status, Sweep, Window};
@@ -7,23 +8,7 @@ use signorini::{Options, run};
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
 use std::time::Duration;
-
-fn tool(folder: &Path, args: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    command.args(args).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped()).env_remove("COLUMNS");
-    command
-}
-
-/// Runs the tool and expects the exit code; gives stdout and stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let output = tool(folder, args).output().unwrap();
-    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    (out, err)
-}
 
 /// The rows of a table, each by the names of its columns.
 fn rows(path: &Path) -> Vec<HashMap<String, String>> {
@@ -199,7 +184,7 @@ fn a_killed_sweep_goes_on_amidst_a_row() {
     for doubling in 0..12 {
         let end = format!("time.end={}", 1.6 * f64::from(1 << doubling));
         let args = ["sweep", "gaps.toml", "--set", &end, "--threads", "1", "--out"];
-        let mut child = tool(path, &[&args[..], &["killed"], &["--force"]].concat()).spawn().unwrap();
+        let mut child = command(path, &[&args[..], &["killed"], &["--force"]].concat()).spawn().unwrap();
         let journal = path.join("killed/rows.journal");
         // The blocks of the journal, one a run; the last may not be whole.
         let starts = |text: &str| -> Vec<usize> {

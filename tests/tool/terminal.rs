@@ -1,14 +1,13 @@
 //! What the tool prints: lines as wide as the terminal, the page to open, what differs and what is
 //! left out by name, and what a path should have been.
+use crate::command::command;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 /// Runs the tool in `folder`, on a terminal of `width` columns where one is given, and expects the
 /// exit code; gives stdout and stderr.
 fn on(width: Option<usize>, folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    command.args(args).current_dir(folder).env_remove("COLUMNS");
+    let mut command = command(folder, args);
     if let Some(width) = width {
         command.env("COLUMNS", width.to_string());
     }

@@ -1,16 +1,9 @@
 //! What the tool says of a run's accuracy and of its schemes: with units, and only what was seen.
+use crate::command::said;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-
-/// Runs the tool in `folder` and expects the exit code; gives stdout and stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_signorini")).args(args).current_dir(folder).output().unwrap();
-    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    (out, err)
-}
 
 fn line<'a>(text: &'a str, begins: &str) -> &'a str {
     text.lines().find(|line| line.starts_with(begins)).unwrap_or_else(|| panic!("{begins}: {text}"))

@@ -1,21 +1,12 @@
 //! `signorini wear`: gaps that grow by the closed form, histories that are those of their windows,
 //! limits, and what is refused.
+use crate::command::{command, said};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::time::Duration;
-
-/// Runs the tool and expects the exit code; gives stdout and stderr.
-fn said(folder: &Path, args: &[&str], code: i32) -> (String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
-    let output = command.args(args).current_dir(folder).env_remove("COLUMNS").output().unwrap();
-    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    assert_eq!(output.status.code(), Some(code), "{args:?}: {err}");
-    assert!(!err.contains("panicked"), "{args:?}: {err}");
-    (out, err)
-}
 
 /// The rows of a table, each by the names of its columns.
 fn rows(path: &Path) -> Vec<HashMap<String, String>> {
@@ -316,13 +307,7 @@ fn an_interrupted_study_goes_on_with_the_same_bytes() {
     let args = |out: &'static str| [&["wear"], &WHIRL[..], &["--out", out]].concat();
     let journal = path.join("killed/windows.journal");
     let blocks = |text: &[u8]| text.split(|byte| *byte == b'\n').filter(|line| line.starts_with(b"@")).count();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_signorini"))
-        .args(args("killed"))
-        .current_dir(path)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
+    let mut child = command(path, &args("killed")).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     while child.try_wait().unwrap().is_none() && blocks(&fs::read(&journal).unwrap_or_default()) < 2 {
         std::thread::sleep(Duration::from_millis(5));
     }
