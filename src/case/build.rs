@@ -98,29 +98,29 @@ impl Builder<'_> {
             wear,
             written: std::mem::take(&mut self.written),
         };
-        let flow = file.section("flow");
-        let Some(modes) = modes else {
-            if let Some(start) = start {
-                start::start_from(&mut case.scene, start);
-            }
-            case.check().map_err(|error| self.locate(error, &case.scene))?;
-            return flow.map_or(Ok(case), |flow| Err(self.without_flow(&flow)));
-        };
-        case.check().map_err(|error| self.locate(error, &case.scene))?;
-        let whole = Unreduced {
-            scene: case.scene.clone(),
-            damping: built.pending.filter(|damping| matches!(damping, Damping::Modal(_))),
-            static_correction: self.static_correction,
-            start: case.written.start,
-            planes: self.planes.modes(),
-            turbulence,
-        };
-        self.reduce(&mut case, whole, modes, flow.as_ref())?;
-        if let Some(start) = start {
-            start::start_from(&mut case.scene, start);
+        let set_start = |case: &mut Case| start.into_iter().for_each(|start| start::start_from(&mut case.scene, start));
+        if modes.is_none() {
+            set_start(&mut case);
         }
         case.check().map_err(|error| self.locate(error, &case.scene))?;
-        Ok(case)
+        match (modes, file.section("flow")) {
+            (Some(modes), flow) => {
+                let whole = Unreduced {
+                    scene: case.scene.clone(),
+                    damping: built.pending.filter(|damping| matches!(damping, Damping::Modal(_))),
+                    static_correction: self.static_correction,
+                    start: case.written.start,
+                    planes: self.planes.modes(),
+                    turbulence,
+                };
+                self.reduce(&mut case, whole, modes, flow.as_ref())?;
+                set_start(&mut case);
+                case.check().map_err(|error| self.locate(error, &case.scene))?;
+                Ok(case)
+            }
+            (None, Some(flow)) => Err(self.without_flow(&flow)),
+            (None, None) => Ok(case),
+        }
     }
 
     /// Reduces the case, whose scene is that of `whole`, to its slowest `modes`.

@@ -139,71 +139,48 @@ fn distance(results: &mut Results, case: &Case, comparison: &Comparison) -> Resu
 
 /// `compare.csv`: one row per method.
 fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
-    let header = [
-        "method",
-        "step_s",
-        "restitution",
-        "restitution_least",
-        "restitution_largest",
-        "error_over_gap",
-        "horizon_s",
-        "agrees_until_s",
-        "largest_displacement_m",
-        "penetration_m",
-        "peak_force_N",
-        "energy_residual",
-        "complementarity_residual",
-        "step_ns",
-        "refuted",
-        "failure",
+    let columns: [csv::Column<'_, &Row>; 16] = [
+        ("method", &|row| row.method.to_string()),
+        ("step_s", &|row| digits(ran(row).filter(|_| !row.method.scheme.is_exact()).map(|run| run.grid.step))),
+        ("restitution", &|row| digits(row.restitution.map(|e| e.median))),
+        ("restitution_least", &|row| digits(row.restitution.map(|e| e.least))),
+        ("restitution_largest", &|row| digits(row.restitution.map(|e| e.largest))),
+        ("error_over_gap", &|row| digits(row.error)),
+        ("horizon_s", &|row| digits(row.error.map(|_| comparison.horizon))),
+        ("agrees_until_s", &|row| digits(row.agrees_until)),
+        ("largest_displacement_m", &|row| digits(ran(row).map(|run| largest(run.trajectory.displacements())))),
+        ("penetration_m", &|row| digits(ran(row).map(|run| penetration(case, run)))),
+        ("peak_force_N", &|row| digits(ran(row).and_then(|run| peak(case, run)))),
+        ("energy_residual", &|row| digits(ran(row).map(|run| run.residuals.energy.residual))),
+        ("complementarity_residual", &|row| digits(ran(row).map(|run| run.residuals.complementarity))),
+        ("step_ns", &|row| digits(row.step_ns)),
+        ("refuted", &|row| {
+            let findings = ran(row).map_or(&[][..], |run| &run.findings);
+            findings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+        }),
+        ("failure", &|row| row.outcome.as_ref().err().map_or_else(String::new, ToString::to_string)),
     ];
-    let line = |row: &Row| {
-        let mut line = vec![row.method.to_string()];
-        let run = match &row.outcome {
-            Ok(run) => run,
-            Err(error) => {
-                line.resize(header.len() - 1, String::new());
-                line.push(error.to_string());
-                return line;
-            }
-        };
-        let exact = row.method.scheme.is_exact();
-        let e = row.restitution;
-        line.push(digits((!exact).then_some(run.grid.step)));
-        line.extend([e.map(|e| e.median), e.map(|e| e.least), e.map(|e| e.largest)].map(digits));
-        line.push(digits(row.error));
-        line.push(digits(row.error.map(|_| comparison.horizon)));
-        line.push(digits(row.agrees_until));
-        line.push(digits(Some(largest(run.trajectory.displacements()))));
-        line.push(digits(Some(penetration(case, run))));
-        line.push(digits(peak(case, run)));
-        line.extend([run.residuals.energy.residual, run.residuals.complementarity].map(|x| digits(Some(x))));
-        line.push(digits(row.step_ns));
-        line.push(run.findings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "));
-        line.push(String::new());
-        line
-    };
-    csv::table(&results.place("compare.csv")?, &header.map(str::to_owned), comparison.rows.iter().map(line))
+    csv::records(&results.place("compare.csv")?, &columns, &comparison.rows)
+}
+
+/// The run of a method, where it has one.
+fn ran(row: &Row) -> Option<&Run> {
+    row.outcome.as_ref().ok()
 }
 
 /// `compare-walls.csv`: one row per method and wall or round support, for any number of them; the
 /// impulse of a round support is Σ|p|.
 fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
-    let header = ["method", "wall", "impulse_N_s", "contacts", "peak_force_N"];
-    let runs = comparison.rows.iter().filter_map(|row| Some((row.method.to_string(), row.outcome.as_ref().ok()?)));
-    let rows = runs.flat_map(|(method, run)| {
-        let line = move |site: Site<'_>| {
-            vec![
-                method.clone(),
-                site.name().to_owned(),
-                digits(site.impulse(run)),
-                site.contacts(run).map_or_else(String::new, |count| count.to_string()),
-                digits(site.peak(run)),
-            ]
-        };
-        Site::all(case).map(line)
-    });
-    csv::table(&results.place("compare-walls.csv")?, &header.map(str::to_owned), rows)
+    let columns: [csv::Column<'_, (String, &Run, Site<'_>)>; 5] = [
+        ("method", &|(method, ..)| method.clone()),
+        ("wall", &|(_, _, site)| site.name().to_owned()),
+        ("impulse_N_s", &|(_, run, site)| digits(site.impulse(run))),
+        ("contacts", &|(_, run, site)| site.contacts(run).map_or_else(String::new, |count| count.to_string())),
+        ("peak_force_N", &|(_, run, site)| digits(site.peak(run))),
+    ];
+    let runs = comparison.rows.iter().filter_map(|row| Some((row.method.to_string(), ran(row)?)));
+    let rows = runs.flat_map(|(method, run)| Site::all(case).map(move |site| (method.clone(), run, site)));
+    csv::records(&results.place("compare-walls.csv")?, &columns, rows)
 }
 
 pub(super) fn largest(columns: &[Vec<f64>]) -> f64 {

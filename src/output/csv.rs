@@ -115,6 +115,18 @@ pub fn words<S: AsRef<str>>(names: &[S]) -> Vec<String> {
     words
 }
 
+/// A column of a table: its header, and the cell of a record.
+pub type Column<'a, R> = (&'static str, &'a dyn Fn(&R) -> String);
+
+/// Writes a table with a row for each of `records`, by its columns.
+///
+/// # Errors
+/// As [`trajectory`].
+pub fn records<R>(path: &Path, columns: &[Column<'_, R>], records: impl IntoIterator<Item = R>) -> Result<()> {
+    let header: Vec<String> = columns.iter().map(|column| column.0.to_owned()).collect();
+    table(path, &header, records.into_iter().map(|record| columns.iter().map(|column| column.1(&record)).collect()))
+}
+
 /// Writes a table of text cells under a header.
 ///
 /// # Errors

@@ -48,27 +48,35 @@ impl Episodes {
     /// # Errors
     /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
     pub fn write(&self, results: &mut Results, named: impl Fn(&str) -> String) -> Result<()> {
-        let header = ["place", "kind", "quantity", "unit", "episodes", "mean", "median", "q90", "q99", "max"];
-        let rows = self.rows().map(|(one, (name, unit, distribution))| {
-            let count = if distribution.is_some() { one.episodes } else { 0 };
-            let mut row = vec![one.place.name.clone(), one.place.kind.word().to_owned(), name.to_owned()];
-            row.extend([unit.to_owned(), count.to_string()]);
-            let number = |of: fn(&Distribution) -> f64| digits(distribution.map(of));
-            row.extend([number(|d| d.mean), number(|d| d.quantiles[0]), number(|d| d.quantiles[1])]);
-            row.extend([number(|d| d.quantiles[2]), number(|d| d.max)]);
-            row
+        type Record<'a> = (&'a EpisodeStatistics, Quantity<'a>);
+        let number = |record: &Record<'_>, of: fn(&Distribution) -> f64| digits(record.1.2.map(of));
+        let columns: [csv::Column<'_, Record<'_>>; 10] = [
+            ("place", &|(one, _)| one.place.name.clone()),
+            ("kind", &|(one, _)| one.place.kind.word().to_owned()),
+            ("quantity", &|(_, (name, ..))| (*name).to_owned()),
+            ("unit", &|(_, (_, unit, _))| (*unit).to_owned()),
+            ("episodes", &|(one, (.., known))| known.map_or(0, |_| one.episodes).to_string()),
+            ("mean", &|record| number(record, |d| d.mean)),
+            ("median", &|record| number(record, |d| d.quantiles[0])),
+            ("q90", &|record| number(record, |d| d.quantiles[1])),
+            ("q99", &|record| number(record, |d| d.quantiles[2])),
+            ("max", &|record| number(record, |d| d.max)),
+        ];
+        csv::records(&results.place(&named("episodes.csv"))?, &columns, self.rows())?;
+        type Class<'a> = (Record<'a>, f64, usize);
+        let columns: [csv::Column<'_, Class<'_>>; 6] = [
+            ("place", &|((one, _), ..)| one.place.name.clone()),
+            ("kind", &|((one, _), ..)| one.place.kind.word().to_owned()),
+            ("quantity", &|((_, (name, ..)), ..)| (*name).to_owned()),
+            ("unit", &|((_, (_, unit, _)), ..)| (*unit).to_owned()),
+            ("threshold", &|(_, threshold, _)| digits(Some(*threshold))),
+            ("episodes", &|(.., count)| count.to_string()),
+        ];
+        let rows = self.rows().flat_map(|record| {
+            let classes = record.1.2.into_iter().flat_map(|d| d.thresholds.iter().zip(&d.exceedances));
+            classes.map(move |(threshold, count)| (record, *threshold, *count))
         });
-        csv::table(&results.place(&named("episodes.csv"))?, &header.map(str::to_owned), rows)?;
-        let header = ["place", "kind", "quantity", "unit", "threshold", "episodes"];
-        let rows = self.rows().flat_map(|(one, (name, unit, distribution))| {
-            let classes = distribution.into_iter().flat_map(|d| d.thresholds.iter().zip(&d.exceedances));
-            classes.map(move |(threshold, count)| {
-                let mut row = vec![one.place.name.clone(), one.place.kind.word().to_owned(), name.to_owned()];
-                row.extend([unit.to_owned(), digits(Some(*threshold)), count.to_string()]);
-                row
-            })
-        });
-        csv::table(&results.place(&named("exceedances.csv"))?, &header.map(str::to_owned), rows)
+        csv::records(&results.place(&named("exceedances.csv"))?, &columns, rows)
     }
 
     /// Every quantity of every place; the peak force only where there is one.

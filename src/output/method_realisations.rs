@@ -40,34 +40,21 @@ impl MethodStudy {
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, studies: &[MethodStudy], reference: &str) -> Result<()> {
-    let header = [
-        "method",
-        "place",
-        "kind",
-        "measure",
-        "unit",
-        "mean",
-        "standard_deviation",
-        "half_width_95",
-        "less",
-        "difference",
-        "difference_half_width_95",
-        "refuted",
+    let columns: [csv::Column<'_, (&MethodStudy, &Estimate)>; 12] = [
+        ("method", &|(one, _)| one.method.clone()),
+        ("place", &|(_, mean)| mean.place.name.clone()),
+        ("kind", &|(_, mean)| mean.place.kind.word().to_owned()),
+        ("measure", &|(_, mean)| mean.measure.words().replace(' ', "_")),
+        ("unit", &|(_, mean)| mean.unit.to_owned()),
+        ("mean", &|(_, mean)| digits(Some(mean.mean))),
+        ("standard_deviation", &|(_, mean)| digits(mean.standard_deviation)),
+        ("half_width_95", &|(_, mean)| digits(mean.half_width_95)),
+        ("less", &|(one, mean)| one.less(mean).map_or("", |_| reference).to_owned()),
+        ("difference", &|(one, mean)| digits(one.less(mean).map(|less| less.mean))),
+        ("difference_half_width_95", &|(one, mean)| digits(one.less(mean).and_then(|less| less.half_width_95))),
+        ("refuted", &|(one, _)| one.study.refuted.len().to_string()),
     ];
-    let rows = studies.iter().flat_map(|one| {
-        one.study.estimates.iter().map(move |mean| {
-            let less = one.less(mean);
-            let words = [&one.method, &mean.place.name, mean.place.kind.word()].map(str::to_owned);
-            let measure = [mean.measure.words().replace(' ', "_"), mean.unit.to_owned()];
-            let numbers = [Some(mean.mean), mean.standard_deviation, mean.half_width_95].map(digits);
-            let against = less.map_or("", |_| reference).to_owned();
-            let difference = [less.map(|less| less.mean), less.and_then(|less| less.half_width_95)].map(digits);
-            let refuted = one.study.refuted.len().to_string();
-            let cells = words.into_iter().chain(measure).chain(numbers).chain([against]).chain(difference);
-            cells.chain([refuted]).collect::<Vec<_>>()
-        })
-    });
-    csv::table(path, &header.map(str::to_owned), rows)
+    csv::records(path, &columns, studies.iter().flat_map(|one| one.study.estimates.iter().map(move |mean| (one, mean))))
 }
 
 /// The studies as JSON, with the method that the differences are taken from.

@@ -5,11 +5,12 @@ use super::figure::{Class as Tone, Curve, Figure, HeatMap, Mark, Panel, Scale};
 use super::safe_steps::range_text;
 use crate::error::Result;
 use crate::scheme::Scheme;
-use crate::study::stability::class::Class;
+use crate::study::stability::class::{Class, Measurement};
 use crate::study::stability::family::{Parameter, SchemeFamily};
-use crate::study::stability::impact::{ImpactMap, KAPPAS, alike};
-use crate::study::stability::lasting::{Lasting, LastingForce, Quality};
+use crate::study::stability::impact::{Impact, ImpactMap, KAPPAS, alike};
+use crate::study::stability::lasting::{Lasting, LastingForce, Quality, Seen};
 use crate::study::stability::plan::{Maps, Row};
+use crate::study::stability::row::Cell;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -18,42 +19,25 @@ use std::path::Path;
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written.
 pub fn impacts(path: &Path, maps: &[ImpactMap]) -> Result<()> {
-    let header = [
-        "scheme",
-        "integrator_or_setting",
-        "kappa",
-        "phase",
-        "restitution",
-        "theory",
-        "depth_over_step_length",
-        "contact_steps",
-        "failure",
-    ];
-    let row = |map: &ImpactMap, i: usize| {
-        let kind = match map.scheme {
+    type Point<'a> = (&'a ImpactMap, &'a Result<Impact>);
+    let seen = |point: &Point<'_>, of: fn(&Impact) -> Option<f64>| number(point.1.as_ref().ok().and_then(of));
+    let columns: [csv::Column<'_, Point<'_>>; 9] = [
+        ("scheme", &|(map, _)| map.scheme.to_string().split(':').next().unwrap_or_default().to_owned()),
+        ("integrator_or_setting", &|(map, _)| match map.scheme {
             Scheme::MoreauJean { theta } => theta.to_string(),
             Scheme::GeneralizedAlpha { rho } => rho.to_string(),
             Scheme::Penalty { integrator, .. } => integrator.to_string(),
             _ => String::new(),
-        };
-        let name = map.scheme.to_string();
-        let mut row = vec![name.split(':').next().unwrap_or_default().to_owned(), kind, number(map.kappa)];
-        match map.impacts.get(i) {
-            Some(Ok(impact)) => row.extend([
-                number(Some(impact.phase)),
-                number(Some(impact.restitution)),
-                number(impact.theory),
-                number(Some(impact.depth)),
-                impact.contact_steps.to_string(),
-                String::new(),
-            ]),
-            Some(Err(error)) => row.extend(failure(5, error.to_string())),
-            None => row.extend(failure(5, String::new())),
-        }
-        row
-    };
-    let rows = maps.iter().flat_map(|map| (0..map.impacts.len()).map(move |i| row(map, i)));
-    csv::table(path, &header.map(str::to_owned), rows)
+        }),
+        ("kappa", &|(map, _)| number(map.kappa)),
+        ("phase", &|point| seen(point, |impact| Some(impact.phase))),
+        ("restitution", &|point| seen(point, |impact| Some(impact.restitution))),
+        ("theory", &|point| seen(point, |impact| impact.theory)),
+        ("depth_over_step_length", &|point| seen(point, |impact| Some(impact.depth))),
+        ("contact_steps", &|(_, impact)| cell(impact.as_ref().ok().map(|impact| impact.contact_steps))),
+        ("failure", &|(_, impact)| cell(impact.as_ref().err())),
+    ];
+    csv::records(path, &columns, maps.iter().flat_map(|map| map.impacts.iter().map(move |impact| (map, impact))))
 }
 
 /// Writes one row per cell of every map; a failed cell gives the reason.
@@ -61,64 +45,34 @@ pub fn impacts(path: &Path, maps: &[ImpactMap]) -> Result<()> {
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written.
 pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
-    let header = [
-        "scheme",
-        "parameter",
-        "value",
-        "case_value",
-        "step_s",
-        "step_times_omega",
-        "kappa",
-        "class",
-        "reason",
-        "energy_growth_per_impact",
-        "largest_speed_over_reference",
-        "rms_speed_over_reference",
-        "contacts",
-        "reference_contacts_least",
-        "reference_contacts_most",
-        "missed",
-        "spurious",
-        "depth_m",
-        "depth_over_bound",
-        "frozen_share",
-        "rest",
+    type Square<'a> = (&'a Row, &'a Cell);
+    let value =
+        |square: &Square<'_>, of: fn(&Measurement) -> Option<f64>| number(square.1.measured.as_ref().and_then(of));
+    let counted = |square: &Square<'_>, of: fn(&Measurement) -> usize| cell(square.1.measured.as_ref().map(of));
+    let columns: [csv::Column<'_, Square<'_>>; 21] = [
+        ("scheme", &|(row, _)| row.subject.family.to_string()),
+        ("parameter", &|(row, _)| row.subject.parameter.name().to_owned()),
+        ("value", &|(row, _)| number(Some(row.subject.value).filter(|value| value.is_finite()))),
+        ("case_value", &|(row, _)| row.subject.own.to_string()),
+        ("step_s", &|(_, cell)| number(Some(cell.step))),
+        ("step_times_omega", &|(_, cell)| number(Some(cell.step * maps.scale.omega))),
+        ("kappa", &|(row, cell)| number(row.subject.kappa(&maps.scale, cell.step))),
+        ("class", &|(_, cell)| cell.class.to_string()),
+        ("reason", &|(_, cell)| cell.reason.clone()),
+        ("energy_growth_per_impact", &|square| value(square, |m| m.growth)),
+        ("largest_speed_over_reference", &|square| value(square, |m| Some(m.speed))),
+        ("rms_speed_over_reference", &|square| value(square, |m| Some(m.rms_speed))),
+        ("contacts", &|square| counted(square, |m| m.contacts)),
+        ("reference_contacts_least", &|(row, square)| cell(square.measured.as_ref().map(|_| row.contacts.low))),
+        ("reference_contacts_most", &|(row, square)| cell(square.measured.as_ref().map(|_| row.contacts.high))),
+        ("missed", &|square| counted(square, |m| m.missed)),
+        ("spurious", &|square| counted(square, |m| m.spurious)),
+        ("depth_m", &|square| value(square, |m| Some(m.depth))),
+        ("depth_over_bound", &|square| value(square, |m| Some(m.passed))),
+        ("frozen_share", &|square| value(square, |m| Some(m.frozen))),
+        ("rest", &|(_, square)| cell(square.measured.as_ref().map(|m| m.rest))),
     ];
-    let rows = maps.rows.iter().flat_map(|row| row.cells.iter().map(move |cell| (row, cell)));
-    let line = |(row, cell): (&Row, &crate::study::stability::row::Cell)| {
-        let subject = &row.subject;
-        let mut line = vec![
-            subject.family.to_string(),
-            subject.parameter.name().to_owned(),
-            number(subject.value.is_finite().then_some(subject.value)),
-            subject.own.to_string(),
-            number(Some(cell.step)),
-            number(Some(cell.step * maps.scale.omega)),
-            number(subject.kappa(&maps.scale, cell.step)),
-            cell.class.to_string(),
-            cell.reason.clone(),
-        ];
-        let Some(m) = &cell.measured else {
-            line.extend(failure(11, String::new()));
-            return line;
-        };
-        line.extend([
-            number(m.growth),
-            number(Some(m.speed)),
-            number(Some(m.rms_speed)),
-            m.contacts.to_string(),
-            row.contacts.low.to_string(),
-            row.contacts.high.to_string(),
-            m.missed.to_string(),
-            m.spurious.to_string(),
-            number(Some(m.depth)),
-            number(Some(m.passed)),
-            number(Some(m.frozen)),
-            m.rest.to_string(),
-        ]);
-        line
-    };
-    csv::table(path, &header.map(str::to_owned), rows.map(line))
+    csv::records(path, &columns, maps.rows.iter().flat_map(|row| row.cells.iter().map(move |cell| (row, cell))))
 }
 
 /// Writes one row per scheme and step of [`Quality`]: energies as shares of the reference's largest
@@ -127,36 +81,24 @@ pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written.
 pub fn quality(path: &Path, quality: &Quality) -> Result<()> {
-    let header = [
-        "scheme",
-        "step_s",
-        "largest_energy",
-        "last_energy",
-        "lost_at_walls",
-        "unexplained_energy",
-        "wall",
-        "contact_start_s",
-        "contact_end_s",
-        "contact_impulse_N_s",
-        "ripple",
-        "failure",
+    let seen = |line: &LastingForce, of: fn(&Seen) -> f64| number(line.outcome.as_ref().ok().map(of));
+    let contact = |line: &LastingForce| line.outcome.as_ref().ok().and_then(|seen| seen.contact.clone());
+    let lasting = |line: &LastingForce, of: fn(&Lasting) -> f64| number(contact(line).map(|c| of(&c.1)));
+    let columns: [csv::Column<'_, &LastingForce>; 12] = [
+        ("scheme", &|line| line.scheme.to_string()),
+        ("step_s", &|line| number(Some(line.step))),
+        ("largest_energy", &|line| seen(line, |seen| seen.largest)),
+        ("last_energy", &|line| seen(line, |seen| seen.last)),
+        ("lost_at_walls", &|line| seen(line, |seen| seen.lost_at_walls)),
+        ("unexplained_energy", &|line| seen(line, |seen| seen.unexplained)),
+        ("wall", &|line| cell(contact(line).map(|contact| contact.0))),
+        ("contact_start_s", &|line| lasting(line, |c| c.start)),
+        ("contact_end_s", &|line| lasting(line, |c| c.end)),
+        ("contact_impulse_N_s", &|line| lasting(line, |c| c.impulse)),
+        ("ripple", &|line| lasting(line, |c| c.ripple)),
+        ("failure", &|line| cell(line.outcome.as_ref().err())),
     ];
-    let line = |line: &LastingForce| {
-        let mut row = vec![line.scheme.to_string(), number(Some(line.step))];
-        match &line.outcome {
-            Ok(seen) => {
-                row.extend([seen.largest, seen.last, seen.lost_at_walls, seen.unexplained].map(|x| number(Some(x))));
-                let contact = seen.contact.as_ref();
-                row.push(contact.map_or_else(String::new, |c| c.0.clone()));
-                let value = |of: fn(&Lasting) -> f64| number(contact.map(|c| of(&c.1)));
-                row.extend([value(|c| c.start), value(|c| c.end), value(|c| c.impulse), value(|c| c.ripple)]);
-                row.push(String::new());
-            }
-            Err(error) => row.extend(failure(9, error.to_string())),
-        }
-        row
-    };
-    csv::table(path, &header.map(str::to_owned), quality.lines.iter().map(line))
+    csv::records(path, &columns, &quality.lines)
 }
 
 /// Nine significant digits, enough for a measurement; empty where there is no value.
@@ -164,9 +106,9 @@ fn number(value: Option<f64>) -> String {
     value.map_or_else(String::new, |x| format!("{x:.8e}"))
 }
 
-/// Empty cells, then the reason.
-fn failure(empty: usize, reason: String) -> impl Iterator<Item = String> {
-    std::iter::repeat_n(String::new(), empty).chain([reason])
+/// Empty where there is no value.
+fn cell(value: Option<impl ToString>) -> String {
+    value.map_or_else(String::new, |value| value.to_string())
 }
 
 /// The restitution over the phase of the impact: one panel for the schemes that treat walls as

@@ -6,7 +6,7 @@ use super::table::Table;
 use crate::case::{Case, Model};
 use crate::error::Result;
 use crate::run::Run;
-use crate::statistics::{SupportForce, SupportStatistics, WearStatistics};
+use crate::statistics::{SectorStatistics, SupportForce, SupportStatistics, WearStatistics};
 use crate::wear::Worn;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -43,71 +43,42 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
     if run.statistics.wear.is_empty() {
         return Ok(());
     }
-    let header = [
-        "support",
-        "friction",
-        "work_rate_is",
-        "contacts",
-        "work_rate_W",
-        "work_rate_half_width_95_W",
-        "impact_share",
-        "friction_power_W",
-        "sliding_m",
-        "sliding_speed_m_per_s",
-        "mean_force_y_N",
-        "mean_force_z_N",
-        "mean_normal_force_N",
-        "mean_normal_force_half_width_95_N",
-        "contact_time_ratio",
-        "peak_force_N",
-        "wear_volume_m3",
-        "depth_one_scar_m",
-        "depth_all_round_m",
-        "support_wear_volume_m3",
+    let columns: [csv::Column<'_, Known<'_>>; 20] = [
+        ("support", &|one| one.wear.support.clone()),
+        ("friction", &|one| digits(Some(one.wear.friction))),
+        ("work_rate_is", &|one| kind(one.wear).to_owned()),
+        ("contacts", &|one| one.contact.contacts.to_string()),
+        ("work_rate_W", &|one| digits(Some(one.wear.work_rate_w))),
+        ("work_rate_half_width_95_W", &|one| digits(one.wear.work_rate_half_width_95_w)),
+        ("impact_share", &|one| digits(one.wear.impact_share)),
+        ("friction_power_W", &|one| digits(Some(one.wear.friction_power_w))),
+        ("sliding_m", &|one| digits(Some(one.wear.sliding_m))),
+        ("sliding_speed_m_per_s", &|one| digits(one.wear.sliding_speed_m_per_s)),
+        ("mean_force_y_N", &|one| digits(one.contact.force.map(|force| force.mean_vector_n[0]))),
+        ("mean_force_z_N", &|one| digits(one.contact.force.map(|force| force.mean_vector_n[1]))),
+        ("mean_normal_force_N", &|one| digits(one.contact.force.map(|force| force.mean_n))),
+        ("mean_normal_force_half_width_95_N", &|one| {
+            digits(one.contact.force.and_then(|force| force.mean_half_width_95_n))
+        }),
+        ("contact_time_ratio", &|one| digits(Some(one.wear.contact_time_ratio))),
+        ("peak_force_N", &|one| digits(one.contact.episode_peak_force_n.max)),
+        ("wear_volume_m3", &|one| digits(one.worn.and_then(|worn| worn.volume_m3))),
+        ("depth_one_scar_m", &|one| digits(one.worn.and_then(|worn| worn.depth_one_scar_m))),
+        ("depth_all_round_m", &|one| digits(one.worn.and_then(|worn| worn.depth_all_round_m))),
+        ("support_wear_volume_m3", &|one| digits(one.worn.and_then(|worn| worn.support_volume_m3))),
     ];
-    let row = |Known { wear: support, contact, worn }: Known<'_>| {
-        let force = contact.force;
-        let numbers = [
-            Some(support.work_rate_w),
-            support.work_rate_half_width_95_w,
-            support.impact_share,
-            Some(support.friction_power_w),
-            Some(support.sliding_m),
-            support.sliding_speed_m_per_s,
-            force.map(|force| force.mean_vector_n[0]),
-            force.map(|force| force.mean_vector_n[1]),
-            force.map(|force| force.mean_n),
-            force.and_then(|force| force.mean_half_width_95_n),
-            Some(support.contact_time_ratio),
-            contact.episode_peak_force_n.max,
-            worn.and_then(|worn| worn.volume_m3),
-            worn.and_then(|worn| worn.depth_one_scar_m),
-            worn.and_then(|worn| worn.depth_all_round_m),
-            worn.and_then(|worn| worn.support_volume_m3),
-        ];
-        let words = [
-            support.support.clone(),
-            digits(Some(support.friction)),
-            kind(support).to_owned(),
-            contact.contacts.to_string(),
-        ];
-        words.into_iter().chain(numbers.map(digits)).collect()
-    };
-    csv::table(&place("supports.csv")?, &header.map(str::to_owned), all(case, run).map(row))?;
-    let header = ["support", "from_deg", "to_deg", "work_rate_is", "work_rate_W", "impulse_share"];
-    let rows = run.statistics.wear.iter().flat_map(|support| {
-        support.sectors.iter().map(|sector| {
-            vec![
-                support.support.clone(),
-                digits(Some(sector.from_deg)),
-                digits(Some(sector.to_deg)),
-                kind(support).to_owned(),
-                digits(Some(sector.work_rate_w)),
-                digits(Some(sector.impulse_share)),
-            ]
-        })
-    });
-    csv::table(&place("sectors.csv")?, &header.map(str::to_owned), rows)
+    csv::records(&place("supports.csv")?, &columns, all(case, run))?;
+    let columns: [csv::Column<'_, (&WearStatistics, &SectorStatistics)>; 6] = [
+        ("support", &|(support, _)| support.support.clone()),
+        ("from_deg", &|(_, sector)| digits(Some(sector.from_deg))),
+        ("to_deg", &|(_, sector)| digits(Some(sector.to_deg))),
+        ("work_rate_is", &|(support, _)| kind(support).to_owned()),
+        ("work_rate_W", &|(_, sector)| digits(Some(sector.work_rate_w))),
+        ("impulse_share", &|(_, sector)| digits(Some(sector.impulse_share))),
+    ];
+    let supports = run.statistics.wear.iter();
+    let sectors = supports.flat_map(|support| support.sectors.iter().map(move |sector| (support, sector)));
+    csv::records(&place("sectors.csv")?, &columns, sectors)
 }
 
 /// The kind of work rate of a support.

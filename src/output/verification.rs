@@ -53,28 +53,20 @@ pub(crate) fn shortfall(lines: &[Verified]) -> Option<Error> {
 /// # Errors
 /// [`Error::Io`] where the file cannot be written.
 pub(crate) fn write(path: &Path, lines: &[Verified]) -> Result<()> {
-    let header = [
-        "case",
-        "changes",
-        "method",
-        "source",
-        "quantity",
-        "unit",
-        "expected",
-        "found",
-        "tolerance",
-        "holds",
-        "reason",
+    let columns: [csv::Column<'_, &Verified>; 11] = [
+        ("case", &|line| line.case.clone()),
+        ("changes", &|line| line.changes.clone()),
+        ("method", &|line| line.method.clone()),
+        ("source", &|line| line.source.clone()),
+        ("quantity", &|line| line.quantity.clone()),
+        ("unit", &|line| line.unit.clone()),
+        ("expected", &|line| digits(Some(line.expected))),
+        ("found", &|line| digits(line.found)),
+        ("tolerance", &|line| digits(Some(line.tolerance))),
+        ("holds", &|line| line.holds().to_string()),
+        ("reason", &|line| line.reason.clone()),
     ];
-    let rows = lines.iter().map(|line| {
-        let mut row = [&line.case, &line.changes, &line.method, &line.source, &line.quantity, &line.unit]
-            .map(String::clone)
-            .to_vec();
-        row.extend([Some(line.expected), line.found, Some(line.tolerance)].map(digits));
-        row.extend([line.holds().to_string(), line.reason.clone()]);
-        row
-    });
-    csv::table(path, &header.map(str::to_owned), rows)
+    csv::records(path, &columns, lines)
 }
 
 /// The manual without what was found, which is the same for every machine: `docs/verification.md`.

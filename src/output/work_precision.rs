@@ -33,17 +33,21 @@ pub fn table(path: &Path, chart: &WorkPrecision) -> Result<()> {
 /// # Errors
 /// As [`csv::table`].
 pub fn walls(path: &Path, scene: &Scene, chart: &WorkPrecision) -> Result<()> {
-    let header = ["method", "step_s", "wall", "impulse_error", "own_impulse_error"];
+    type Place<'a> = (&'a Method, Option<f64>, &'a Measured, usize, &'a str);
+    let error = |errors: Option<&Errors>, wall: usize| number(errors.and_then(|e| e.impulse.get(wall).copied()));
+    let columns: [csv::Column<'_, Place<'_>>; 5] = [
+        ("method", &|(method, ..)| method.to_string()),
+        ("step_s", &|(_, step, ..)| number(*step)),
+        ("wall", &|(.., wall)| (*wall).to_owned()),
+        ("impulse_error", &|(_, _, m, wall, _)| error(Some(&m.errors), *wall)),
+        ("own_impulse_error", &|(_, _, m, wall, _)| error(m.own.as_ref(), *wall)),
+    ];
     let points = chart.series.iter().flat_map(|s| s.measured().map(move |(step, m)| (&s.method, step, m)));
     let rows = points.flat_map(|(method, step, m)| {
-        let cell = |errors: Option<&Errors>, wall: usize| number(errors.and_then(|e| e.impulse.get(wall).copied()));
-        scene.walls.iter().enumerate().map(move |(index, wall)| {
-            let errors = [Some(&m.errors), m.own.as_ref()].map(|errors| cell(errors, index));
-            let [scene, own] = errors;
-            vec![method.to_string(), number(step), wall.name.clone(), scene, own]
-        })
+        let walls = scene.walls.iter().enumerate();
+        walls.map(move |(index, wall)| (method, step, m, index, wall.name.as_str()))
     });
-    csv::table(path, &header.map(str::to_owned), rows)
+    csv::records(path, &columns, rows)
 }
 
 fn number(x: Option<f64>) -> String {

@@ -137,27 +137,30 @@ impl Elimination {
     /// Computes x for the current states of the rows; `None` if the remaining matrix is not
     /// positive definite to rounding.
     fn pass(&mut self, rhs: &Rhs) -> Option<()> {
-        let (n, w) = (self.diagonal.len(), self.width);
         self.x.copy_from_slice(rhs.b);
         self.pivot.copy_from_slice(&self.diagonal);
         self.fixed.fill(false);
-        for (row, &(column, g, compliance)) in self.rows.iter().enumerate() {
-            let Some(side) = self.side[row] else { continue };
-            let bound = side.bound(rhs, row);
-            if compliance > 0.0 {
-                self.pivot[column] += g * g / compliance;
-                self.x[column] += g * bound / compliance;
-            } else {
-                self.fixed[column] = true;
-            }
+        self.apply_rows(rhs);
+        for i in 0..self.diagonal.len() {
+            self.eliminate(i)?;
         }
+        self.x.iter_mut().zip(&self.inverse).for_each(|(x, inverse)| *x *= inverse);
+        self.substitute_back();
+        Some(())
+    }
+
+    /// Stiffens the unknowns of elastic rows and takes those of rigid rows out of the equations.
+    fn apply_rows(&mut self, rhs: &Rhs) {
+        let (n, w) = (self.diagonal.len(), self.width);
+        for (row, &(column, g, compliance)) in self.rows.iter().enumerate().filter(|(_, row)| row.2 > 0.0) {
+            let Some(side) = self.side[row] else { continue };
+            self.pivot[column] += g * g / compliance;
+            self.x[column] += g * side.bound(rhs, row) / compliance;
+        }
+        let rigid = self.rows.iter().zip(&self.side).enumerate().filter(|(_, (row, _))| row.2 == 0.0);
+        let known = rigid.filter_map(|(row, (&(column, g, _), side))| Some((column, (*side)?.bound(rhs, row) / g)));
         // Known unknowns move to the right-hand side before anything is eliminated.
-        let known = |row: usize, side: &[Option<Side>]| {
-            let (column, g, compliance) = self.rows[row];
-            let side = side[row].filter(|_| compliance == 0.0)?;
-            Some((column, side.bound(rhs, row) / g))
-        };
-        for (column, known) in (0..self.rows.len()).filter_map(|row| known(row, &self.side)) {
+        for (column, known) in known.clone() {
             for i in column.saturating_sub(w)..column {
                 self.x[i] -= self.band[column * w + i + w - column] * known;
             }
@@ -165,54 +168,59 @@ impl Elimination {
                 self.x[i] -= self.band[i * w + column + w - i] * known;
             }
         }
-        for (column, known) in (0..self.rows.len()).filter_map(|row| known(row, &self.side)) {
+        for (column, known) in known {
             self.x[column] = known;
+            self.fixed[column] = true;
         }
-        for i in 0..n {
-            let first = i.saturating_sub(w);
-            let (before, line) = self.lower.split_at_mut(i * w);
-            let line = &mut line[..w];
-            if self.fixed[i] {
-                line.fill(0.0);
-                self.inverse[i] = 1.0;
+    }
+
+    /// Row `i` of L, of D and of L⁻¹ b; `None` where the pivot is not positive.
+    fn eliminate(&mut self, i: usize) -> Option<()> {
+        let w = self.width;
+        let first = i.saturating_sub(w);
+        let (before, line) = self.lower.split_at_mut(i * w);
+        let line = &mut line[..w];
+        if self.fixed[i] {
+            line.fill(0.0);
+            self.inverse[i] = 1.0;
+            return Some(());
+        }
+        line.copy_from_slice(&self.band[i * w..(i + 1) * w]);
+        // The line holds L D until it is divided.
+        for j in first..i {
+            let at = j + w - i;
+            if self.fixed[j] {
+                line[at] = 0.0;
                 continue;
             }
-            line.copy_from_slice(&self.band[i * w..(i + 1) * w]);
-            // The line holds L D until it is divided.
-            for j in first..i {
-                let at = j + w - i;
-                if self.fixed[j] {
-                    line[at] = 0.0;
-                    continue;
-                }
-                let from = first.max(j.saturating_sub(w));
-                let above = &before[j * w + from + w - j..(j + 1) * w];
-                let dot: f64 = line[from + w - i..at].iter().zip(above).map(|(a, b)| a * b).sum();
-                line[at] -= dot;
-            }
-            for (j, entry) in (first..i).zip(&mut line[first + w - i..]) {
-                let l = *entry * self.inverse[j];
-                self.pivot[i] -= *entry * l;
-                self.x[i] -= l * self.x[j];
-                *entry = l;
-            }
-            if self.pivot[i].is_nan() || self.pivot[i] <= 0.0 {
-                return None;
-            }
-            self.inverse[i] = 1.0 / self.pivot[i];
+            let from = first.max(j.saturating_sub(w));
+            let above = &before[j * w + from + w - j..(j + 1) * w];
+            let dot: f64 = line[from + w - i..at].iter().zip(above).map(|(a, b)| a * b).sum();
+            line[at] -= dot;
         }
-        self.x.iter_mut().zip(&self.inverse).for_each(|(x, inverse)| *x *= inverse);
-        for i in (0..n).rev() {
-            if self.fixed[i] {
-                continue;
-            }
+        for (j, entry) in (first..i).zip(&mut line[first + w - i..]) {
+            let l = *entry * self.inverse[j];
+            self.pivot[i] -= *entry * l;
+            self.x[i] -= l * self.x[j];
+            *entry = l;
+        }
+        if self.pivot[i].is_nan() || self.pivot[i] <= 0.0 {
+            return None;
+        }
+        self.inverse[i] = 1.0 / self.pivot[i];
+        Some(())
+    }
+
+    /// Solves Lᵀ x = D⁻¹ L⁻¹ b, from the last unknown to the first.
+    fn substitute_back(&mut self) {
+        let w = self.width;
+        for i in (0..self.diagonal.len()).rev().filter(|&i| !self.fixed[i]) {
             let first = i.saturating_sub(w);
             let (rest, known) = self.x.split_at_mut(i);
             for (l, x) in self.lower[i * w + first + w - i..(i + 1) * w].iter().zip(&mut rest[first..]) {
                 *x -= l * known[0];
             }
         }
-        Some(())
     }
 
     /// The force of a row: for a rigid row the residual of its unknown's equation in A x = b + Gᵀ

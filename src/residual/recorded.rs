@@ -38,72 +38,95 @@ pub fn momentum(scene: &Scene, trajectory: &Trajectory) -> Option<Momentum> {
     let columns: Vec<(&Vec<f64>, &Vec<f64>)> = (0..n).map(column).collect::<Option<_>>()?;
     let time = trajectory.time();
     let (first, last) = (*time.first()?, *time.last()?);
+    let mut sums = Sums::new(scene.system.degrees_of_freedom());
     let loads = Loads::new(&scene.loads);
-    // The residual of each balance. Loads' impulses are summed here, except the one at the start,
-    // which is in the state there.
-    let (mut open, mut exchanged) = (vec![0.0; n], vec![0.0_f64; n]);
-    let (mut q, mut force, mut before) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-    let (mut largest, mut spacing) = (0.0_f64, 0.0_f64);
-    for (row, &t) in time.iter().enumerate() {
-        q.iter_mut().zip(&columns).for_each(|(q, column)| *q = column.0.get(row).copied().unwrap_or(f64::NAN));
-        force.fill(0.0);
-        loads.add_force(t, 1.0, &mut force);
-        scene.system.add_stiffness(-1.0, &q, &mut force);
-        if row > 0 {
-            let h = t - time[row - 1];
-            spacing = spacing.max(h);
-            for i in 0..n {
-                open[i] -= 0.5 * h * (before[i] + force[i]);
-                exchanged[i] += 0.5 * h * (before[i].abs() + force[i].abs());
-            }
-        }
-        largest = force.iter().fold(largest, |largest, f| largest.max(f.abs()));
-        before.copy_from_slice(&force);
-    }
+    sums.integrate(scene, &loads, time, &columns);
     let change = |column: &[f64]| column.last().zip(column.first()).map_or(f64::NAN, |(last, first)| last - first);
     let [moved, sped]: [Vec<f64>; 2] =
         [columns.iter().map(|(q, _)| change(q)).collect(), columns.iter().map(|(_, v)| change(v)).collect()];
-    scene.system.add_mass(1.0, &sped, &mut open);
-    scene.system.add_damping(1.0, &moved, &mut open);
-    loads.blow(first, last, &mut force);
-    open.iter_mut().zip(&force).for_each(|(open, blow)| *open -= blow);
+    scene.system.add_mass(1.0, &sped, &mut sums.open);
+    scene.system.add_damping(1.0, &moved, &mut sums.open);
+    // Loads' impulses are summed here, except the one at the start, which is in the state there.
+    let mut blow = vec![0.0; n];
+    loads.blow(first, last, &mut blow);
+    sums.open.iter_mut().zip(&blow).for_each(|(open, blow)| *open -= blow);
     for (wall, impulses) in scene.walls.iter().zip(trajectory.contact_impulses()) {
-        let (sum, sizes) = impulses.iter().fold((0.0, 0.0), |(sum, sizes), p| (sum + p, sizes + f64::abs(*p)));
-        let most = impulses.iter().fold(0.0, |most, p| f64::max(most, p.abs()));
-        for &(i, weight) in wall.row().entries() {
-            if let (Some(open), Some(exchanged)) = (open.get_mut(i), exchanged.get_mut(i)) {
-                *open -= weight * sum;
-                *exchanged += weight.abs() * sizes;
-            }
-        }
-        // The impulse of a row is the force over it times the spacing.
-        largest = largest.max(if spacing > 0.0 { most / spacing } else { 0.0 });
+        sums.push(wall.row(), impulses, 1.0);
     }
-    // Friction of the flats of each support, and round supports.
-    let mut add = |row: &Row, column: &[f64], weight: f64| {
-        let (sum, sizes) = column.iter().fold((0.0, 0.0), |(sum, sizes), p| (sum + p, sizes + f64::abs(*p)));
-        let most = column.iter().fold(0.0, |most, p| f64::max(most, p.abs()));
-        for &(i, share) in row.entries() {
-            if let (Some(open), Some(exchanged)) = (open.get_mut(i), exchanged.get_mut(i)) {
-                *open -= weight * share * sum;
-                *exchanged += (weight * share).abs() * sizes;
-            }
-        }
-        largest = largest.max(if spacing > 0.0 { most / spacing } else { 0.0 });
-    };
     for (hole, [y, z]) in scene.holes().zip(trajectory.hole_impulses()) {
-        add(&hole.at.y, y, 1.0);
-        add(&hole.at.z, z, 1.0);
+        sums.push(&hole.at.y, y, 1.0);
+        sums.push(&hole.at.z, z, 1.0);
     }
+    // Friction of the flats of each support.
     for (index, wall) in scene.walls.iter().enumerate() {
         let (Some(column), Some(support)) = (trajectory.friction_impulses().get(index), scene.support_of(index)) else {
             continue;
         };
         let Face::Flat { direction: Some(degrees), .. } = wall.face else { continue };
         let [y, z] = heading(degrees);
-        add(&support.at.y, column, -z);
-        add(&support.at.z, column, y);
+        sums.push(&support.at.y, column, -z);
+        sums.push(&support.at.z, column, y);
     }
     let worst = |x: &[f64]| x.iter().fold(0.0, |worst, x| f64::max(worst, x.abs()));
-    Some(Momentum { residual_n_s: worst(&open), step_n_s: largest * spacing, exchanged_n_s: worst(&exchanged) })
+    Some(Momentum {
+        residual_n_s: worst(&sums.open),
+        step_n_s: sums.largest * sums.spacing,
+        exchanged_n_s: worst(&sums.exchanged),
+    })
+}
+
+/// The two sides of the balance, summed over the rows.
+struct Sums {
+    /// The residual of each degree of freedom, N s.
+    open: Vec<f64>,
+    /// The momentum exchanged on each, N s.
+    exchanged: Vec<f64>,
+    /// The largest force of the right-hand side in any row, N.
+    largest: f64,
+    /// The largest distance of two rows, s.
+    spacing: f64,
+}
+
+impl Sums {
+    fn new(n: usize) -> Self {
+        Self { open: vec![0.0; n], exchanged: vec![0.0; n], largest: 0.0, spacing: 0.0 }
+    }
+
+    /// Takes ∫(f − K q) dt off the residual; `columns` are q and v of each degree of freedom.
+    fn integrate(&mut self, scene: &Scene, loads: &Loads, time: &[f64], columns: &[(&Vec<f64>, &Vec<f64>)]) {
+        let n = columns.len();
+        let (mut q, mut force, mut before) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        let mut earlier = None;
+        for (row, &t) in time.iter().enumerate() {
+            q.iter_mut().zip(columns).for_each(|(q, column)| *q = column.0.get(row).copied().unwrap_or(f64::NAN));
+            force.fill(0.0);
+            loads.add_force(t, 1.0, &mut force);
+            scene.system.add_stiffness(-1.0, &q, &mut force);
+            if let Some(earlier) = earlier.replace(t) {
+                let h = t - earlier;
+                self.spacing = self.spacing.max(h);
+                let sums = self.open.iter_mut().zip(&mut self.exchanged);
+                for ((open, exchanged), (before, force)) in sums.zip(before.iter().zip(&force)) {
+                    *open -= 0.5 * h * (before + force);
+                    *exchanged += 0.5 * h * (before.abs() + force.abs());
+                }
+            }
+            self.largest = force.iter().fold(self.largest, |largest, f| largest.max(f.abs()));
+            before.copy_from_slice(&force);
+        }
+    }
+
+    /// Takes `impulses` (N s, one a row) along `weight` times `row` off the residual.
+    fn push(&mut self, row: &Row, impulses: &[f64], weight: f64) {
+        let (sum, sizes) = impulses.iter().fold((0.0, 0.0), |(sum, sizes), p| (sum + p, sizes + f64::abs(*p)));
+        let most = impulses.iter().fold(0.0, |most, p| f64::max(most, p.abs()));
+        for &(i, share) in row.entries() {
+            if let (Some(open), Some(exchanged)) = (self.open.get_mut(i), self.exchanged.get_mut(i)) {
+                *open -= weight * share * sum;
+                *exchanged += (weight * share).abs() * sizes;
+            }
+        }
+        // The impulse of a row is the force over it times the spacing.
+        self.largest = self.largest.max(if self.spacing > 0.0 { most / self.spacing } else { 0.0 });
+    }
 }

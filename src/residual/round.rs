@@ -101,28 +101,20 @@ impl Judge {
             // Rounding decides whether the hole is in reach: either is accepted.
             return;
         }
-        let crosses = match turning.normal {
-            Normal::Middle(share) => {
-                let apart = |at: [f64; 2], r: f64| (did.normal[0] - at[0] / r).hypot(did.normal[1] - at[1] / r);
-                let inside = reach - 2.0 * share * gap;
-                // Rounding may decide: then the hole's own normal says which it was.
-                if inside.abs() <= place_noise { apart(end, far) < apart(ahead, reach) } else { inside < 0.0 }
-            }
-            Normal::Ahead(_) => false,
-        };
+        let crosses = crosses(&turning, did.normal, [(ahead, reach), (end, far)], gap, place_noise);
         let (ahead, reach) = if crosses { (end, far) } else { (ahead, reach) };
         let normal = ahead.map(|x| x / reach);
         let wedged = self.contract.promise.friction.is_some() && step.wedged.contains(&place);
-        let bound =
-            |touches| bound(hole.restitution, (start, rate, normal), touches).max(if wedged { 0.0 } else { f64::MIN });
-        let left = |bound: f64| bound - (normal[0] * after[0] + normal[1] * after[1]);
-        // Rounding may decide whether the body touched at the start.
-        let distance = start[0].hypot(start[1]);
+        let left = |touches| {
+            let bound = bound(hole.restitution, (start, rate, normal), touches);
+            bound.max(if wedged { 0.0 } else { f64::MIN }) - (normal[0] * after[0] + normal[1] * after[1])
+        };
         let inside = gap * (1.0 - sagitta(&turning, gap, rate, self.h));
-        let brim = if crosses { -inside } else { distance - inside };
-        let mut slack = left(bound(brim >= 0.0));
+        let brim = if crosses { -inside } else { start[0].hypot(start[1]) - inside };
+        let mut slack = left(brim >= 0.0);
+        // Rounding may decide whether the body touched at the start.
         if brim.abs() <= place_noise {
-            let other = left(bound(brim < 0.0));
+            let other = left(brim < 0.0);
             slack = if other.abs() < slack.abs() { other } else { slack };
         }
         let noise = self.noise.velocity(speeds, self.noise.span) + place_noise / gap * speeds;
@@ -133,6 +125,22 @@ impl Judge {
             askew.observe(across, noise, self.noise.end, Some(place));
         }
     }
+}
+
+/// True if the body, `ahead` at the distance `reach` from the centre by the promise and `far` at the
+/// `end` of the step, comes through the middle of the hole, so that the step's end gives the normal.
+fn crosses(
+    turning: &Turning,
+    normal: [f64; 2],
+    [(ahead, reach), (end, far)]: [([f64; 2], f64); 2],
+    gap: f64,
+    place_noise: f64,
+) -> bool {
+    let Normal::Middle(share) = turning.normal else { return false };
+    let apart = |at: [f64; 2], r: f64| (normal[0] - at[0] / r).hypot(normal[1] - at[1] / r);
+    let inside = reach - 2.0 * share * gap;
+    // Rounding may decide: then the hole's own normal says which it was.
+    if inside.abs() <= place_noise { apart(end, far) < apart(ahead, reach) } else { inside < 0.0 }
 }
 
 /// The impulse of a hole in a step on a grid.

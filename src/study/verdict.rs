@@ -6,9 +6,9 @@ use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::Result;
 use crate::residual::{Finding, Refuted};
 use crate::run::{Options, Run, run_with_progress};
-use crate::scene::{Scene, System, Wall};
+use crate::scene::{Scene, System};
 use crate::scheme::{Method, Stepper};
-use crate::statistics::PlaceKind;
+use crate::statistics::{PlaceKind, Statistics};
 use crate::time::TimeOptions;
 use serde::Serialize;
 use std::fmt;
@@ -136,29 +136,6 @@ impl Verdict {
         let change = Change::between(scene, pair.0, pair.1, horizon_s);
         let first = run.trajectory.time().get(1);
         let compared = first.is_some_and(|first| *first <= horizon_s * (1.0 + 1e-12));
-        let mut walls = Vec::new();
-        for (index, (before, after)) in run.statistics.walls.iter().zip(&again.statistics.walls).enumerate() {
-            if scene.walls.get(index).is_some_and(Wall::is_round) {
-                continue;
-            }
-            walls.push(WallVerdict {
-                wall: before.wall.clone(),
-                kind: PlaceKind::Wall,
-                impulse_n_s: [&run.statistics, &again.statistics].map(|s| s.impulse(index)),
-                contacts: [before.contacts, after.contacts],
-                peak_force_n: [before.episode_peak_force_n.max, after.episode_peak_force_n.max],
-            });
-        }
-        for hole in scene.holes() {
-            let both = [&run.statistics, &again.statistics];
-            walls.push(WallVerdict {
-                wall: hole.name.to_owned(),
-                kind: PlaceKind::Support,
-                impulse_n_s: both.map(|s| s.impulse(hole.index)),
-                contacts: both.map(|s| s.walls.get(hole.index).map_or(0, |wall| wall.contacts)),
-                peak_force_n: [None, None],
-            });
-        }
         let work_rates =
             run.statistics.wear.iter().zip(&again.statistics.wear).map(|(before, after)| WorkRateVerdict {
                 support: before.support.clone(),
@@ -172,7 +149,7 @@ impl Verdict {
             length_m: scene.gap_scale(),
             is_gap: scene.gap().is_some(),
             horizon_s,
-            walls,
+            walls: wall_verdicts(scene, [&run.statistics, &again.statistics]),
             findings: again.findings,
         })
     }
@@ -273,6 +250,27 @@ impl fmt::Display for WorkRateVerdict {
             _ => Ok(()),
         }
     }
+}
+
+/// The verdicts of the walls that are not round, and then of the round supports, by the statistics
+/// of the run and of its check.
+fn wall_verdicts(scene: &Scene, both: [&Statistics; 2]) -> Vec<WallVerdict> {
+    let contacts = |index: usize| both.map(|s| s.walls.get(index).map_or(0, |wall| wall.contacts));
+    let flat = scene.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round()).map(|(index, wall)| WallVerdict {
+        wall: wall.name.clone(),
+        kind: PlaceKind::Wall,
+        impulse_n_s: both.map(|s| s.impulse(index)),
+        contacts: contacts(index),
+        peak_force_n: both.map(|s| s.walls.get(index).and_then(|wall| wall.episode_peak_force_n.max)),
+    });
+    let round = scene.holes().map(|hole| WallVerdict {
+        wall: hole.name.to_owned(),
+        kind: PlaceKind::Support,
+        impulse_n_s: both.map(|s| s.impulse(hole.index)),
+        contacts: contacts(hole.index),
+        peak_force_n: [None, None],
+    });
+    flat.chain(round).collect()
 }
 
 /// The change of a value in `unit`, as a share of the value after it.
