@@ -11,7 +11,7 @@ use super::report::Source;
 use super::schema::CASE;
 use super::start;
 use super::value::Section;
-use super::{Case, FileRead, PenaltyOptions, StatisticsOptions, TimeOptions, Truncated, Written};
+use super::{Case, FileRead, PenaltyOptions, Place, StatisticsOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result, Subject, escaped};
 use crate::scene::{Condensation, Damping, Row, Scene, State, Structure, System};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
@@ -50,28 +50,13 @@ impl Builder<'_> {
         let total = built.system.degrees_of_freedom();
         self.n = if let Planes::Two(n) = self.planes { n } else { total };
         let modes = self.modes_of_planes(modes)?;
-        let mut scene = Scene {
-            system: built.system,
-            walls: Vec::new(),
-            supports: Vec::new(),
-            loads: Vec::new(),
-            probes: Vec::new(),
-            initial: State { q: vec![0.0; total], v: vec![0.0; total] },
-            duration: self.required("duration", &time, "end"),
-        };
-        if let Some(initial) = file.section("initial") {
-            scene.initial = self.initial(&initial)?;
-        }
-        let walls = self.walls_and_supports(file, &mut scene.supports)?;
+        let duration = self.required("duration", &time, "end");
+        let (scene, places) = self.scene(file, built.system, duration)?;
         let (wear, sectors) = self.wear(file.section("wear").as_ref())?;
-        self.loads(&file.sections("load"), &mut scene)?;
         let mut turbulence = Vec::new();
         for (index, table) in file.sections("turbulence").iter().enumerate() {
             turbulence.extend(self.turbulence(index, table, scene.duration, modes.is_some())?);
         }
-        scene.probes = self.probes(&file.sections("probe"), &walls)?;
-        let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
-        scene.walls = all;
         let time = self.time(&time, sectors);
         let statistics = file.section("statistics").map(|section| self.statistics(&section));
         let penalty = file.section("penalty").map(|penalty| self.penalty(&penalty)).transpose()?.unwrap_or_default();
@@ -121,6 +106,30 @@ impl Builder<'_> {
             (None, Some(flow)) => Err(self.without_flow(&flow)),
             (None, None) => Ok(case),
         }
+    }
+
+    /// The scene of `system` with its initial state, walls, supports, loads and probes, and the place
+    /// of each wall.
+    fn scene(&mut self, file: &Section<'_>, system: System, duration: f64) -> Result<(Scene, Vec<Place>)> {
+        let total = system.degrees_of_freedom();
+        let mut scene = Scene {
+            system,
+            walls: Vec::new(),
+            supports: Vec::new(),
+            loads: Vec::new(),
+            probes: Vec::new(),
+            initial: State { q: vec![0.0; total], v: vec![0.0; total] },
+            duration,
+        };
+        if let Some(initial) = file.section("initial") {
+            scene.initial = self.initial(&initial)?;
+        }
+        let walls = self.walls_and_supports(file, &mut scene.supports)?;
+        self.loads(&file.sections("load"), &mut scene)?;
+        scene.probes = self.probes(&file.sections("probe"), &walls)?;
+        let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
+        scene.walls = all;
+        Ok((scene, places))
     }
 
     /// Reduces the case, whose scene is that of `whole`, to its slowest `modes`.

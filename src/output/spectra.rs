@@ -10,7 +10,6 @@ use crate::run::Run;
 use crate::scene::{Face, heading};
 use crate::statistics::Spectrum;
 use serde::Serialize;
-use std::collections::HashSet;
 
 /// Most panels of a figure.
 const MOST: usize = 4;
@@ -59,6 +58,36 @@ impl Quantity {
     }
 }
 
+impl SpectrumFile {
+    /// The spectra of `signals` (along the ways that they are called by) at a place, sampled at a
+    /// `spacing` (s); `None` without signals.
+    fn of(
+        name: String,
+        (place, quantity): (&str, Quantity),
+        signals: Vec<(&'static str, Vec<f64>)>,
+        spacing: f64,
+    ) -> Result<Option<Self>> {
+        let spectra = signals.into_iter().map(|(way, signal)| Ok((way, Spectrum::of(&signal, spacing)?)));
+        let spectra = spectra.collect::<Result<Vec<_>>>()?;
+        let Some((_, one)) = spectra.first() else { return Ok(None) };
+        let (segments, spacing_hz, degrees_of_freedom) = (one.segments, one.spacing, one.degrees_of_freedom());
+        let averaged_over_s = (quantity == Quantity::ContactForce).then_some(spacing);
+        let place = place.to_owned();
+        Ok(Some(Self { name, place, quantity, averaged_over_s, segments, spacing_hz, degrees_of_freedom, spectra }))
+    }
+}
+
+/// `spectrum-` and the stem, with a number where one of `files` is called so.
+fn new_name(files: &[SpectrumFile], stem: &str) -> String {
+    let taken = |name: &String| files.iter().any(|file| file.name == *name);
+    let plain = format!("spectrum-{stem}");
+    let number = (2..).find(|number| !taken(&format!("{plain}-{number}")));
+    match number {
+        Some(number) if taken(&plain) => format!("{plain}-{number}"),
+        _ => plain,
+    }
+}
+
 /// The spectra of every probe, of every wall that is no flat of a support, and of every support,
 /// over the window of the statistics. Friction at flats is not in theirs.
 ///
@@ -70,27 +99,10 @@ pub(super) fn of(case: &Case, run: &Run) -> Result<Vec<SpectrumFile>> {
     // The first row in the window, up to rounding.
     let from = run.statistics.from_s - 1e-9 * row;
     let first = motion.time().partition_point(|t| *t < from);
-    let mut files = Vec::new();
-    let mut taken = HashSet::new();
+    let mut files: Vec<SpectrumFile> = Vec::new();
     let mut add = |place: &str, quantity: Quantity, signals: Vec<(&'static str, Vec<f64>)>, spacing: f64| {
-        let stem = if place.is_empty() { "displacement" } else { place };
-        let names = std::iter::once(format!("spectrum-{stem}")).chain((2..).map(|i| format!("spectrum-{stem}-{i}")));
-        let Some(name) = names.into_iter().find(|name| taken.insert(name.clone())) else { return Ok(()) };
-        let spectra: Vec<(&'static str, Spectrum)> = signals
-            .into_iter()
-            .map(|(way, signal)| Ok((way, Spectrum::of(&signal, spacing)?)))
-            .collect::<Result<_>>()?;
-        let Some((_, one)) = spectra.first() else { return Ok(()) };
-        files.push(SpectrumFile {
-            name,
-            place: place.to_owned(),
-            quantity,
-            averaged_over_s: (quantity == Quantity::ContactForce).then_some(spacing),
-            segments: one.segments,
-            spacing_hz: one.spacing,
-            degrees_of_freedom: one.degrees_of_freedom(),
-            spectra,
-        });
+        let name = new_name(&files, if place.is_empty() { "displacement" } else { place });
+        files.extend(SpectrumFile::of(name, (place, quantity), signals, spacing)?);
         Result::Ok(())
     };
     for (probe, values) in motion.probes().iter().zip(motion.displacements()) {

@@ -216,6 +216,21 @@ pub fn is_aperiodic(scene: &Scene) -> bool {
 }
 
 fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
+    let mut findings = law_findings(scene, comparison);
+    findings.extend(clarabel_difference(scene, comparison));
+    match (&comparison.reference, &comparison.refined) {
+        (Err(error), None) => findings.push(format!("no reference: {error}")),
+        (Err(_), Some((method, run))) => {
+            findings.push(format!("no exact motion: errors are against {method} with steps of {:.2e} s", run.grid.step))
+        }
+        _ => {}
+    }
+    findings.extend(growth_finding(scene, comparison));
+    findings
+}
+
+/// Where the methods realise another restitution than the walls ask for.
+fn law_findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     let mut findings = Vec::new();
     let asked: Vec<f64> = scene.walls.iter().map(|wall| wall.law).filter_map(|law| law.restitution()).collect();
     let realised = |restitution| {
@@ -248,36 +263,31 @@ fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
             "{scheme} shows what goes wrong: by chance it realises an e between 1/3 and 3, and it gains energy"
         ));
     }
-    if let Some(line) = clarabel_difference(scene, comparison) {
-        findings.push(line);
-    }
-    match (&comparison.reference, &comparison.refined) {
-        (Err(error), None) => findings.push(format!("no reference: {error}")),
-        (Err(_), Some((method, run))) => {
-            findings.push(format!("no exact motion: errors are against {method} with steps of {:.2e} s", run.grid.step))
-        }
-        _ => {}
-    }
+    findings
+}
+
+/// Whether a perturbation of the start grows, and up to when errors are taken for that reason.
+fn growth_finding(scene: &Scene, comparison: &Comparison) -> Option<String> {
     let held = comparison.reference.is_ok() || comparison.refined.is_some();
     let by =
         comparison.growth_by.filter(|by| *by != Source::Saltation).map_or_else(String::new, |by| format!(" ({by})"));
     // A table need not repeat itself, and random loads do not.
     let [chaotic, predictable] =
         if is_aperiodic(scene) { ["sensitive", "not sensitive"] } else { ["chaos", "not chaotic"] };
-    match comparison.growth.filter(|_| held) {
-        Some(growth) if comparison.horizon < scene.duration => findings.push(format!(
+    let growth = comparison.growth.filter(|_| held)?;
+    Some(if comparison.horizon < scene.duration {
+        format!(
             "{chaotic}: a perturbation of the start grows {growth:.1e}-fold over the run{by}, and \
              {LARGEST_GROWTH:e}-fold by t = {:.3} s; errors are taken up \
              to then, later compare impulses, contact counts and RMS",
             comparison.horizon
-        )),
-        Some(growth) => findings.push(format!(
+        )
+    } else {
+        format!(
             "{predictable}: a perturbation of the start never grows beyond {growth:.1}-fold{by}, so errors are \
              taken over the whole run"
-        )),
-        None => {}
-    }
-    findings
+        )
+    })
 }
 
 /// How much solving through Clarabel changed, where a method was run both ways.
