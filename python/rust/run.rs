@@ -111,7 +111,8 @@ impl Run {
         Ok((view(slf, q), view(slf, v)))
     }
 
-    /// Force of a wall on the body, N; shape (rows,). An upper wall pushes down, ≤ 0.
+    /// Mean force of a wall on the body since the row before, N; shape (rows,): its impulse there
+    /// over the distance of the rows. An upper wall pushes down, ≤ 0.
     ///
     /// Parameters
     /// ----------
@@ -197,8 +198,8 @@ impl Run {
         self.run.trajectory.holes().to_vec()
     }
 
-    /// Force of a round support on the body along y and z, friction included, N; each of shape
-    /// (rows,).
+    /// Mean force of a round support on the body since the row before along y and z, friction
+    /// included, N; each of shape (rows,).
     ///
     /// Parameters
     /// ----------

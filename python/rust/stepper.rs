@@ -260,7 +260,8 @@ impl Stepper {
         PyArray1::from_vec(py, self.inner().stepper.state().v)
     }
 
-    /// Force of each wall over the last step, N; shape (walls,).
+    /// Force of each wall in the last step, N; shape (walls,): impulse over the length of the step,
+    /// which an impact makes as large as the step is short; of ``event`` the force at its end.
     #[getter]
     fn force<'py>(&mut self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_slice(py, &self.inner().force)

@@ -218,7 +218,7 @@ impl FigureSet<'_> {
         contact.start <= self.span.to && contact.end.is_none_or(|end| end >= self.span.from)
     }
 
-    /// Sum of the forces of `walls` at the rows, without rigid impacts, plus the peak of each
+    /// Sum of the mean forces of `walls` in the rows, without rigid impacts, plus the peak of each
     /// contact too short for the rows to show.
     fn force_points(&self, run: &Run, walls: &[usize]) -> Vec<(f64, f64)> {
         let t = &run.trajectory;
@@ -230,10 +230,11 @@ impl FigureSet<'_> {
             }
         }
         points.retain(|point| self.span.holds(point.0));
-        // The exact scheme gives its forces at every row. A step that met a rigid wall reports
-        // impulse/h, which is not a force to draw.
+        // The mean force of a row with an impact would dwarf the others: an exact impact is in the
+        // row whose interval holds it, one on a grid in a row nearby.
         let exact = run.scheme.is_exact();
-        let blur = if exact { 0.0 } else { 1.5 * spacing.max(2.0 * run.grid.step) };
+        let reach = if exact { 0.5 * spacing } else { 1.5 * spacing.max(2.0 * run.grid.step) };
+        let middle = |start: f64| if exact { start + reach } else { start };
         // In a penalty run the walls are springs, also those that the scene calls rigid.
         let springs = matches!(run.scheme, crate::scheme::Scheme::Penalty { .. });
         let rigid = |c: &Contact| !springs && self.scene.walls.get(c.wall).is_some_and(|w| w.law.is_rigid());
@@ -243,8 +244,8 @@ impl FigureSet<'_> {
             let end = c.end.unwrap_or(self.span.to);
             let sign = self.scene.walls.get(c.wall).map_or(0.0, |w| if w.side() == Side::Upper { -1.0 } else { 1.0 });
             match c.peak_force {
-                None => near(&mut points, c.start, blur).for_each(|point| point.1 = 0.0),
-                Some(peak) if rigid(c) => near(&mut points, c.start, blur)
+                None => near(&mut points, middle(c.start), reach).for_each(|point| point.1 = 0.0),
+                Some(peak) if rigid(c) => near(&mut points, middle(c.start), reach)
                     .filter(|point| point.1.abs() > peak)
                     .for_each(|point| point.1 = 0.0),
                 Some(peak) if end - c.start < 3.0 * spacing => {

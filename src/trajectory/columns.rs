@@ -47,9 +47,9 @@ impl Columns {
             time: column(),
             displacement: columns(scene.probes.len()),
             velocity: columns(scene.probes.len()),
-            force: columns(walls),
+            force: Vec::new(),
             impulse: columns(walls),
-            hole_force: holes.iter().map(|_| [column(), column()]).collect(),
+            hole_force: Vec::new(),
             hole_impulse: holes.iter().map(|_| [column(), column()]).collect(),
             friction: columns(if scene.turns_or_rubs() { walls } else { 0 }),
             holes,
@@ -60,12 +60,14 @@ impl Columns {
         }
     }
 
-    /// Writes the zeros that the columns of the walls lack up to the last row.
-    pub fn fill(&mut self) {
+    /// Writes the zeros that the columns of the walls lack up to the last row, and the forces: the
+    /// impulse of each row times `rate`, the number of rows a second.
+    pub fn fill(&mut self, rate: f64) {
         let rows = self.time.len();
-        for column in self.force.iter_mut().chain(&mut self.impulse).chain(&mut self.friction) {
-            column.resize(rows, 0.0);
-        }
+        self.impulse.iter_mut().chain(&mut self.friction).for_each(|column| column.resize(rows, 0.0));
+        let mean = |impulses: &Vec<f64>| impulses.iter().map(|p| p * rate).collect::<Vec<f64>>();
+        self.force = self.impulse.iter().map(mean).collect();
+        self.hole_force = self.hole_impulse.iter().map(|columns| columns.each_ref().map(mean)).collect();
     }
 
     /// True if there is a column for each wall, hole, support and probe, all of one length, and the

@@ -21,8 +21,10 @@ use serde::{Deserialize, Serialize};
 /// A motion sampled at given times; the contact impulses between the samples are recorded in full.
 ///
 /// Row 0 is the start, after any impulse at t = 0; the last row is exactly the end. States are
-/// right-continuous. For a scheme on a grid, the force in a row is that of the step which ends
-/// there; for the exact scheme it is the force at that instant.
+/// right-continuous. The force in a row is the impulse since the row before it over the distance of
+/// the rows, whatever the scheme: the mean force, so that the sum of a column times that distance is
+/// the impulse of the run. The forces of a step are those of [`Step`](crate::Step), and the largest
+/// force of a contact is that of its [`Contact`].
 ///
 /// ```
 /// use signorini::{Load, Options, Scene, Scheme, Wall, run};
@@ -101,7 +103,8 @@ impl Trajectory {
         &self.0.velocity
     }
 
-    /// Force of each wall on the body at each row, N: one column per wall, in the scene's order.
+    /// Mean force of each wall on the body since the previous row, N: one column per wall, in the
+    /// scene's order.
     #[must_use]
     pub fn contact_forces(&self) -> &[Vec<f64>] {
         &self.0.force
@@ -120,8 +123,8 @@ impl Trajectory {
         &self.0.holes
     }
 
-    /// Force of each round support on the body at each row along y and z, normal and friction
-    /// together, N: two columns per round support, in the scene's order.
+    /// Mean force of each round support on the body since the previous row along y and z, normal
+    /// and friction together, N: two columns per round support, in the scene's order.
     #[must_use]
     pub fn hole_forces(&self) -> &[[Vec<f64>; 2]] {
         &self.0.hole_force
@@ -171,7 +174,8 @@ impl Trajectory {
         Ok((&self.0.displacement[index], &self.0.velocity[index]))
     }
 
-    /// Force of a wall on the body at each row, N: ≥ 0 for a lower wall, ≤ 0 for an upper one.
+    /// Mean force of a wall on the body since the previous row, N: ≥ 0 for a lower wall, ≤ 0 for an
+    /// upper one.
     ///
     /// # Errors
     /// [`Error::Unknown`], listing the walls there are.

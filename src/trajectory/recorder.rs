@@ -22,9 +22,8 @@ pub struct Recorder {
     due: f64,
     /// Impulse per wall since the last row, N s.
     pending: Vec<f64>,
-    partial: Vec<f64>,
     /// True once a part of a step, or a step that was handed over, has ended at the last row, whose
-    /// state and force wait in `state` and `partial`.
+    /// state waits in `state`.
     ended: bool,
     planar: PlaneImpulses,
     worn: Worn,
@@ -47,14 +46,11 @@ impl Recorder {
             rate: rows as f64 / scene.duration,
             due: 0.0,
             pending: vec![0.0; m],
-            partial: vec![0.0; m],
             ended: false,
             planar: PlaneImpulses::new(scene),
             state: [vec![0.0; n], vec![0.0; n]],
         };
-        let force: Vec<f64> = scene.walls.iter().map(|w| w.law_force(w.row().dot(q), w.row().dot(v))).collect();
-        recorder.push(0.0, q, v, &force);
-        recorder.columns.fill();
+        recorder.push(0.0, q, v);
         recorder
     }
 
@@ -69,7 +65,7 @@ impl Recorder {
     pub fn observe(&mut self, step: &Step<'_>) {
         let (n, m) = (self.state[0].len(), self.pending.len());
         let moved = [step.q, step.v, step.velocity_before];
-        let pushed = [step.impulse, step.jump, step.force];
+        let pushed = [step.impulse, step.jump];
         if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != m) {
             return;
         }
@@ -94,18 +90,13 @@ impl Recorder {
                 // by rounding only.
                 let due = self.due;
                 if step.end > due - 0.5 * (step.end - step.start) {
-                    self.push(due, step.q, step.v, step.force);
+                    self.push(due, step.q, step.v);
                 }
             }
-            Path::Part { length } => {
+            Path::Part { .. } => {
                 self.wear(step);
                 for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
                     *sum += p;
-                }
-                // A part of no length has no force: that of the part before it is shown.
-                let mut force = std::mem::take(&mut self.partial);
-                if length > 0.0 {
-                    force.copy_from_slice(step.force);
                 }
                 // Rows are due where steps end, up to the rounding of both products.
                 let due = self.due;
@@ -116,10 +107,9 @@ impl Recorder {
                         self.state[0].copy_from_slice(step.q);
                         self.state[1].copy_from_slice(step.v);
                     } else {
-                        self.push(due, step.q, step.v, &force);
+                        self.push(due, step.q, step.v);
                     }
                 }
-                self.partial = force;
             }
             Path::Exact(_) | Path::Series(_) => self.observe_exact(step),
             Path::Handed { .. } => self.observe_handed(step),
@@ -193,12 +183,11 @@ impl Recorder {
             }
             self.ended = row == self.rows;
             if !self.ended {
-                self.push(due, &q, &v, step.force);
+                self.push(due, &q, &v);
             }
             self.state = [q, v];
             if self.ended {
                 // As after a part: one with an impact may follow.
-                self.partial.copy_from_slice(step.force);
                 break;
             }
         }
@@ -212,18 +201,6 @@ impl Recorder {
             self.restart(step);
             return;
         }
-        if step.start == 0.0 {
-            // The force at t = 0 is known only now, from the first arc: the body may rest on a
-            // rigid wall.
-            for (wall, column) in self.columns.force.iter_mut().enumerate() {
-                column[0] = path.contact_force(wall, 0.0);
-            }
-            if let Path::Series(series) = path {
-                for (&wall, [y, z]) in self.planar.walls.iter().zip(&mut self.columns.hole_force) {
-                    [y[0], z[0]] = series.hole_force(wall, 0.0);
-                }
-            }
-        }
         // States are right-continuous: a row at the very end of this arc belongs to the next arc,
         // or is the run's last.
         loop {
@@ -234,10 +211,8 @@ impl Recorder {
             }
             let [mut q, mut v] = std::mem::take(&mut self.state);
             path.state(due, &mut q, &mut v);
-            let mut force = std::mem::take(&mut self.partial);
-            for (wall, (sum, f)) in self.pending.iter_mut().zip(&mut force).enumerate() {
+            for (wall, sum) in self.pending.iter_mut().enumerate() {
                 *sum += path.contact_impulse(wall, from, due);
-                *f = path.contact_force(wall, due);
             }
             if !self.worn.is_empty() {
                 self.worn.add(step, [from, due]);
@@ -245,8 +220,8 @@ impl Recorder {
             if let Path::Series(series) = path {
                 self.planar.follow(series, [from, due]);
             }
-            self.push(due, &q, &v, &force);
-            (self.partial, self.state) = (force, [q, v]);
+            self.push(due, &q, &v);
+            self.state = [q, v];
             from = due;
         }
         self.wear_exactly(step, from);
@@ -258,7 +233,7 @@ impl Recorder {
             *sum += if from > step.start { path.contact_impulse(wall, from, step.end) + jump } else { whole };
         }
         if step.end >= self.end {
-            self.push(self.end, step.q, step.v, step.force);
+            self.push(self.end, step.q, step.v);
         }
     }
 
@@ -271,10 +246,8 @@ impl Recorder {
         for (column, row) in t.velocity.iter_mut().zip(&self.probes) {
             column[0] = row.dot(step.v);
         }
-        for (column, &f) in t.force.iter_mut().zip(step.force) {
-            column[0] = f;
-        }
-        for (column, &p) in t.impulse.iter_mut().zip(step.impulse) {
+        for (column, &p) in t.impulse.iter_mut().zip(step.impulse).filter(|(_, p)| **p != 0.0) {
+            column.resize(1, 0.0);
             column[0] += p;
         }
         for (column, hole) in t.hole_impulse.iter_mut().zip(&self.planar.walls) {
@@ -285,14 +258,14 @@ impl Recorder {
         }
     }
 
-    fn push(&mut self, time: f64, q: &[f64], v: &[f64], force: &[f64]) {
+    fn push(&mut self, time: f64, q: &[f64], v: &[f64]) {
         let t = &mut self.columns;
         t.time.push(time);
         for (index, row) in self.probes.iter().enumerate() {
             t.displacement[index].push(row.dot(q));
             t.velocity[index].push(row.dot(v));
         }
-        // A wall is touched in few rows: its zeros are written when its next force comes.
+        // A wall is touched in few rows: its zeros are written when its next impulse comes.
         let row = t.time.len() - 1;
         let late = |column: &mut Vec<f64>, value: f64| {
             if value != 0.0 {
@@ -300,19 +273,13 @@ impl Recorder {
                 column.push(value);
             }
         };
-        for ((column, impulses), (&force, sum)) in
-            t.force.iter_mut().zip(&mut t.impulse).zip(force.iter().zip(&mut self.pending))
-        {
-            late(column, force);
-            late(impulses, std::mem::take(sum));
+        for (column, sum) in t.impulse.iter_mut().zip(&mut self.pending) {
+            late(column, std::mem::take(sum));
         }
         for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
             column.push(work);
         }
         let known = &mut self.planar;
-        for (columns, force) in t.hole_force.iter_mut().zip(&known.force) {
-            columns.iter_mut().zip(force).for_each(|(column, force)| column.push(*force));
-        }
         for (columns, sum) in t.hole_impulse.iter_mut().zip(&mut known.holes) {
             columns.iter_mut().zip(sum).for_each(|(column, sum)| column.push(std::mem::take(sum)));
         }
@@ -327,11 +294,11 @@ impl Recorder {
     pub fn finish(self, open: &[Contact]) -> Trajectory {
         let mut whole = self;
         if whole.ended && whole.columns.time.len() as u64 == whole.rows {
-            let ([q, v], force) = (std::mem::take(&mut whole.state), std::mem::take(&mut whole.partial));
-            whole.push(whole.end, &q, &v, &force);
+            let [q, v] = std::mem::take(&mut whole.state);
+            whole.push(whole.end, &q, &v);
         }
-        let Self { mut columns, mut worn, .. } = whole;
-        columns.fill();
+        let Self { mut columns, mut worn, rate, .. } = whole;
+        columns.fill(rate);
         columns.contacts.extend_from_slice(open);
         if worn.is_empty() {
             columns.contacts.sort_by(|a, b| a.start.total_cmp(&b.start));

@@ -29,6 +29,7 @@ fn each_row_is_the_state_after_the_steps_before_it_whatever_their_number() {
                     let found = run.trajectory.contact_impulses()[0][row];
                     let force = run.trajectory.contact_force("upper").expect("a wall")[row];
                     assert_eq!(run.trajectory.contact_forces()[0][row], force);
+                    assert!((force * spacing - found).abs() <= 1e-14 * found.abs(), "{what}: {force} N");
                     assert!((found - impulse).abs() < 1e-7, "{what}, row {row}: {found} N s, not {impulse}");
                     pushed += impulse.abs();
                 }
