@@ -79,8 +79,9 @@ pub use scene::{
 };
 pub use scheme::{Counters, Handover, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{
-    ContactPlace, Distribution, EpisodeStatistics, ForceStatistics, Forces, HalfWidths, PlaceKind, SectorStatistics,
-    Spectrum, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics, WearStatistics, WearTally,
+    ContactPlace, Distribution, EpisodeStatistics, ForceStatistics, Forces, HalfWidths, LargestForce, PlaceKind,
+    SectorStatistics, Spectrum, Statistics, Summary, SupportForce, SupportStatistics, WallStatistics, WearStatistics,
+    WearTally,
 };
 pub use step::{
     Balance, Bound, Circle, Conserves, Contact, Contract, Elastic, Friction, Law, Normal, Path, Promise, PromisedForce,

@@ -84,6 +84,7 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
         "mean force (N)",
         "RMS force (N)",
         "largest force (N)",
+        "at (s)",
         "contact time (%)",
         "impact power (W)",
         "arrived - left (W)",
@@ -93,20 +94,35 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
         let force = |part: fn(&ForceStatistics) -> f64, digits| {
             wall.force.as_ref().map_or_else(|| "-".to_owned(), |force| fixed(part(force), digits))
         };
-        let none = if wall.contacts == 0 { "-" } else { "impacts" };
+        let (largest, at) = largest_force(run, wall)
+            .map_or_else(|| ("-".into(), "-".into()), |(force, at)| (fixed(force, 4), fixed(at, 4)));
         rows.push(vec![
             wall.wall.clone(),
             wall.contacts.to_string(),
             force(|f| f.impulse_n_s, 6),
             force(|f| f.mean_n, 4),
             force(|f| f.rms_n, 4),
-            wall.episode_peak_force_n.max.map_or_else(|| none.into(), |f| fixed(f, 4)),
+            largest,
+            at,
             fixed(100.0 * wall.contact_time_ratio, 3),
             fixed(wall.impact_power_w, 6),
             fixed(wall.arrived_less_departed_power_w, 6),
         ]);
     }
     Ok((!rows.is_empty()).then(|| Table::new(&headers, rows)))
+}
+
+/// The largest force of a wall, N, and its time, s: of an elastic wall with the start of its contact,
+/// of a rigid one the largest mean over a stretch, with its middle. `None` where it did not push.
+fn largest_force(run: &Run, wall: &WallStatistics) -> Option<(f64, f64)> {
+    let force = wall.force?;
+    let averaged = || force.largest.map(|largest| (largest.mean_n, largest.at_s));
+    let Some(peak) = wall.episode_peak_force_n.max.filter(|_| force.rms_averaged_over_s.is_none()) else {
+        return averaged();
+    };
+    let index = run.trajectory.walls().iter().position(|name| *name == wall.wall)?;
+    let own = run.trajectory.contacts().iter().filter(|contact| contact.wall == index);
+    own.filter(|contact| contact.peak_force == Some(peak)).map(|contact| (peak, contact.start)).next_back()
 }
 
 /// The remarks below the table of walls, a sentence each.
@@ -128,9 +144,9 @@ pub fn remarks(run: &Run) -> Vec<String> {
     }
     if let Some(stretch) = flats(run).find_map(|wall| wall.force?.rms_averaged_over_s) {
         remarks.push(format!(
-            "mean of |force| over time; RMS at rigid walls of the mean over stretches of {stretch:.3e} s, since \
-             that of impulse/h has no limit \
-             as h → 0 (--force-averaging); 95 % intervals of both are in the summary"
+            "mean of |force| over time; RMS and largest force at rigid walls of the mean over stretches of \
+             {stretch:.3e} s, since those of impulse/h have no limit as h → 0 (--force-averaging); 95 % intervals of \
+             mean and RMS are in the summary"
         ));
     }
     let window = run.statistics.to_s - run.statistics.from_s;

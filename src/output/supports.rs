@@ -6,7 +6,7 @@ use super::table::Table;
 use crate::case::{Case, Model};
 use crate::error::Result;
 use crate::run::Run;
-use crate::statistics::{SectorStatistics, SupportForce, SupportStatistics, WearStatistics};
+use crate::statistics::{LargestForce, SectorStatistics, SupportForce, SupportStatistics, WearStatistics};
 use crate::wear::Worn;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -43,7 +43,7 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
     if run.statistics.wear.is_empty() {
         return Ok(());
     }
-    let columns: [csv::Column<'_, Known<'_>>; 20] = [
+    let columns: [csv::Column<'_, Known<'_>>; 23] = [
         ("support", &|one| one.wear.support.clone()),
         ("friction", &|one| digits(Some(one.wear.friction))),
         ("work_rate_is", &|one| kind(one.wear).to_owned()),
@@ -62,6 +62,9 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
         }),
         ("contact_time_ratio", &|one| digits(Some(one.wear.contact_time_ratio))),
         ("peak_force_N", &|one| digits(one.contact.episode_peak_force_n.max)),
+        ("largest_mean_force_N", &|one| digits(largest(one).map(|largest| largest.mean_n))),
+        ("largest_mean_force_at_s", &|one| digits(largest(one).map(|largest| largest.at_s))),
+        ("largest_mean_force_over_s", &|one| digits(largest(one).map(|largest| largest.averaged_over_s))),
         ("wear_volume_m3", &|one| digits(one.worn.and_then(|worn| worn.volume_m3))),
         ("depth_one_scar_m", &|one| digits(one.worn.and_then(|worn| worn.depth_one_scar_m))),
         ("depth_all_round_m", &|one| digits(one.worn.and_then(|worn| worn.depth_all_round_m))),
@@ -79,6 +82,10 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
     let supports = run.statistics.wear.iter();
     let sectors = supports.flat_map(|support| support.sectors.iter().map(move |sector| (support, sector)));
     csv::records(&place("sectors.csv")?, &columns, sectors)
+}
+
+fn largest(support: &Known<'_>) -> Option<LargestForce> {
+    support.contact.force?.largest
 }
 
 /// The kind of work rate of a support.

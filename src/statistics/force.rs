@@ -1,6 +1,7 @@
 //! The force of a wall over time: impulse, mean and root mean square, step by step.
 
 use super::batch::{BATCHES, Sums};
+use super::largest_force::{LargestForce, LargestStretch};
 use super::support::{SupportForce, SupportTally};
 use crate::scene::Scene;
 use crate::step::{Path, Step};
@@ -44,6 +45,9 @@ pub struct ForceStatistics {
     /// that each batch of the window holds a whole number of them; more where the window would hold
     /// more than 1e6. `None` for an elastic wall.
     pub rms_averaged_over_s: Option<f64>,
+    /// The largest mean of |force| over any stretch of such a length; `None` where nothing pushed.
+    #[serde(default)]
+    pub largest: Option<LargestForce>,
 }
 
 /// The impulses and squared forces of one wall, by batches.
@@ -71,6 +75,8 @@ pub struct Forces {
     at: u64,
     walls: Vec<Tally>,
     supports: Vec<SupportTally>,
+    /// The largest forces of the walls, and then of the supports.
+    largest: Vec<LargestStretch>,
     /// True if a wall is round.
     round: bool,
 }
@@ -93,6 +99,7 @@ impl Forces {
             bin: length / bins as f64,
             bins,
             at: 0,
+            largest: vec![LargestStretch::new(length / bins as f64); scene.walls.len() + scene.supports.len()],
             walls,
             supports: SupportTally::all(scene),
             round: scene.holes().next().is_some(),
@@ -122,6 +129,7 @@ impl Forces {
                     self.add(wall, p, square);
                 }
             }
+            self.stretch(step, [from, to]);
             if !self.supports.is_empty() {
                 self.supports.iter_mut().for_each(|support| support.add(step, [from, to]));
             }
@@ -133,7 +141,26 @@ impl Forces {
             for (wall, &p) in step.jump.iter().enumerate() {
                 self.add(wall, p, 0.0);
             }
+            let Self { largest, supports, walls, .. } = self;
+            let jump = |wall: usize| step.jump.get(wall).map_or(0.0, |p| p.abs());
+            let own = (0..walls.len()).map(jump);
+            let all = supports.iter().map(|support| support.walls().map(jump).sum());
+            largest.iter_mut().zip(own.chain(all)).for_each(|(largest, p)| largest.jump(end, p));
             self.supports.iter_mut().for_each(|support| support.jump(step));
+        }
+    }
+
+    /// Adds what the walls gave between two times in a step (s), without the jump at its end, to
+    /// their largest stretches: exact motion in quarters, between which the force counts as even.
+    fn stretch(&mut self, step: &Step<'_>, [from, to]: [f64; 2]) {
+        let Self { largest, supports, walls, .. } = self;
+        let parts = if matches!(step.path, Path::Exact(_) | Path::Series(_)) { 4 } else { 1 };
+        let at = |k: u32| if k == parts { to } else { from + f64::from(k) * (to - from) / f64::from(parts) };
+        for ends in (0..parts).map(|k| [at(k), at(k + 1)]).filter(|ends| ends[1] > ends[0]) {
+            let push = |wall: usize| impulse(step, wall, ends).abs();
+            let own = (0..walls.len()).map(push);
+            let all = supports.iter().map(|support| support.walls().map(push).sum());
+            largest.iter_mut().zip(own.chain(all)).for_each(|(largest, p)| largest.add(ends, p));
         }
     }
 
@@ -208,6 +235,7 @@ impl Forces {
             rms_half_width_95_n: rms_half,
             rms_of_halves_n: sums.mean_of_halves(&squares).map(f64::sqrt),
             rms_averaged_over_s: tally.rigid.then_some(self.bin),
+            largest: self.largest.get(wall).and_then(LargestStretch::largest),
         })
     }
 
@@ -219,8 +247,24 @@ impl Forces {
         let mut closed = self.clone();
         closed.close_supports();
         let pushed = |wall: usize| self.walls.get(wall).map_or([0.0; BATCHES], |tally| tally.pushed);
-        closed.supports.iter().enumerate().map(|(i, support)| support.statistics(sums, contacts(i), pushed)).collect()
+        let largest = self.largest.iter().skip(self.walls.len()).map(LargestStretch::largest);
+        let all = closed.supports.iter().zip(largest).enumerate();
+        all.map(|(i, (support, largest))| support.statistics(sums, contacts(i), pushed, largest)).collect()
     }
+}
+
+/// Impulse (N s) of a wall between two times in a step (s), without the jump at its end.
+fn impulse(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> f64 {
+    match step.path {
+        _ if step.impulse[wall] == 0.0 => 0.0,
+        Path::Exact(_) | Path::Series(_) => step.path.contact_impulse(wall, from, to),
+        _ => even_force(step, wall) * (to - from),
+    }
+}
+
+/// The force (N) of a wall over a step on a grid, constant over it.
+fn even_force(step: &Step<'_>, wall: usize) -> f64 {
+    (step.impulse[wall] - step.jump[wall]) / (step.end - step.start)
 }
 
 /// Impulse (N s) of a wall over a piece of a step, without the jump at its end, and ∫ of the
@@ -230,9 +274,8 @@ fn piece(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> (f64, f64) {
         Path::Exact(arc) => arc.fastest_motion(),
         Path::Series(series) => series.rate(),
         Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => {
-            // A force constant over the step.
-            let force = (step.impulse[wall] - step.jump[wall]) / (step.end - step.start);
-            return (force * (to - from), force * force * (to - from));
+            let force = even_force(step, wall);
+            return (impulse(step, wall, [from, to]), force * force * (to - from));
         }
     };
     // Each part is half a radian of the fastest motion, so one radian of the squared force.
@@ -245,7 +288,7 @@ fn piece(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> (f64, f64) {
         square += GAUSS.iter().map(|&node| force(part, node).powi(2)).sum::<f64>() * 0.5 * span;
         part += 1.0;
     }
-    (step.path.contact_impulse(wall, from, to), square)
+    (impulse(step, wall, [from, to]), square)
 }
 
 #[cfg(test)]
@@ -290,5 +333,9 @@ mod tests {
         // 12 N s in 10 s; squares of 2, 4, 2 and 4 N s, each over 0.1 s and 10 s. Ten roundings.
         assert!((wall.mean_n - 1.2).abs() < 1e-15);
         assert!((wall.rms_n - 40.0_f64.sqrt()).abs() < 1e-14, "{}", wall.rms_n);
+        // The two that end at 5.36 s lie within one stretch of 0.1 s; so do those that end at 11.95
+        // s, later.
+        let largest = wall.largest.expect("pushes");
+        assert!((largest.mean_n - 40.0).abs() < 1e-9 && (largest.at_s - 5.31).abs() < 1e-9, "{largest:?}");
     }
 }

@@ -9,7 +9,8 @@
 //! # Files
 //!
 //! Contact statistics for wear models, over one window; `force.rs` sums up each wall's force over
-//! time, step by step, `support.rs` that of each support, `wear_tally.rs` the work of wear of
+//! time, step by step, `largest_force.rs` finds the stretch in which it is largest, `support.rs` does
+//! so for each support, `wear_tally.rs` the work of wear of
 //! every support; `batch.rs` and `student.rs` make intervals; `episodes.rs` joins contacts into
 //! episodes, `distribution.rs` counts them, `spectrum.rs` estimates spectra.
 
@@ -17,6 +18,7 @@ mod batch;
 mod distribution;
 mod episodes;
 mod force;
+mod largest_force;
 mod place;
 mod spectrum;
 mod student;
@@ -27,6 +29,7 @@ mod wear_tally;
 pub use distribution::Distribution;
 pub use episodes::EpisodeStatistics;
 pub use force::{ForceStatistics, Forces};
+pub use largest_force::LargestForce;
 pub use place::{ContactPlace, PlaceKind};
 #[cfg(feature = "case")]
 pub(crate) use spectrum::FEWEST as FEWEST_VALUES;

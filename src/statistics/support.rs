@@ -1,6 +1,7 @@
 //! The force of a support over time: that of all its flats together, or of a round hole.
 
 use super::batch::{BATCHES, Sums};
+use super::largest_force::LargestForce;
 use super::summary::Summary;
 use crate::scene::{Face, Scene, Support, Wall, heading};
 use crate::step::{Contact, Path, Step};
@@ -48,6 +49,10 @@ pub struct SupportForce {
     pub rms_of_halves_n: [f64; 2],
     /// Length of those intervals, s.
     pub rms_averaged_over_s: f64,
+    /// The largest mean of the |normal force|, at flats of all of them together, over any stretch of
+    /// such a length; `None` where nothing pushed.
+    #[serde(default)]
+    pub largest: Option<LargestForce>,
 }
 
 /// A wall of a support.
@@ -92,6 +97,13 @@ impl SupportTally {
             stretch: [0.0; 2],
         };
         scene.supports.iter().map(tally).collect()
+    }
+
+    /// Indices of its walls.
+    pub fn walls(&self) -> impl Iterator<Item = usize> {
+        self.sources.iter().map(|source| match source {
+            Source::Flat(wall, ..) | Source::Round(wall) => *wall,
+        })
     }
 
     /// Adds what a round wall and friction did in `step` between two times in it, s: the force of
@@ -150,11 +162,16 @@ impl SupportTally {
 
     /// Its statistics, where wall w pushed `pushed(w)` (Σ|p| of each batch, N s) and `contacts`
     /// began in the window.
-    pub fn statistics(&self, sums: Sums, contacts: usize, pushed: impl Fn(usize) -> [f64; BATCHES]) -> SupportForce {
+    pub fn statistics(
+        &self,
+        sums: Sums,
+        contacts: usize,
+        pushed: impl Fn(usize) -> [f64; BATCHES],
+        largest: Option<LargestForce>,
+    ) -> SupportForce {
         let mut all = [0.0; BATCHES];
-        for source in &self.sources {
-            let (Source::Flat(wall, ..) | Source::Round(wall)) = source;
-            all.iter_mut().zip(pushed(*wall)).for_each(|(sum, p)| *sum += p);
+        for wall in self.walls() {
+            all.iter_mut().zip(pushed(wall)).for_each(|(sum, p)| *sum += p);
         }
         let (mean, mean_half) = sums.mean(&all, &all, contacts);
         let [y, z] = [0, 1].map(|axis| sums.mean(&self.vector[axis], &all, contacts));
@@ -169,6 +186,7 @@ impl SupportTally {
             rms_half_width_95_n: rms_half,
             rms_of_halves_n: sums.mean_of_halves(&self.square).map(f64::sqrt),
             rms_averaged_over_s: sums.bin,
+            largest,
         }
     }
 }

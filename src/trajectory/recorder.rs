@@ -65,7 +65,7 @@ impl Recorder {
     pub fn observe(&mut self, step: &Step<'_>) {
         let (n, m) = (self.state[0].len(), self.pending.len());
         let moved = [step.q, step.v, step.velocity_before];
-        let pushed = [step.impulse, step.jump];
+        let pushed = [step.impulse, step.jump, step.force];
         if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != m) {
             return;
         }

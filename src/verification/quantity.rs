@@ -31,7 +31,7 @@ pub(super) fn contact(run: &Run, index: usize) -> Option<&Contact> {
     run.trajectory.contacts().get(index)
 }
 
-/// Size of the force of the first wall in the last row, N.
+/// Size of the mean force of the first wall in the last row, N.
 pub(super) fn last_force(run: &Run) -> Option<f64> {
     run.trajectory.contact_forces().first()?.last().map(|force| force.abs())
 }

@@ -290,9 +290,11 @@ fn every_row_of_an_exact_run_has_the_force_of_a_body_that_starts_at_rest_on_a_wa
         .with_load(Load::constant(-10.0));
     let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-2)).expect("a run");
     let force = exact.trajectory.contact_force("floor").expect("a wall");
-    // No time precedes the first row. Of the others, roundings of a second at 10 N over 10 ms.
+    // No time precedes the first row. In the others some roundings of 10 N s, 2e-15 N s each, count
+    // a hundredfold as a force over 10 ms.
     assert_eq!(force[0], 0.0);
-    assert!(force[1..].iter().all(|&f| (f - 10.0).abs() < 1e-12), "{:?}", &force[..3]);
+    let worst = force[1..].iter().fold(0.0, |worst, &f| f64::max(worst, (f - 10.0).abs()));
+    assert!(worst < 1e-11, "{worst}");
 }
 
 #[test]

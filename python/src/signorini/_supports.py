@@ -37,7 +37,9 @@ class SupportStatistics:
     ``work_rate`` is the work of wear ∫ F_n |v_t| dt per time, W, an upper figure where
     ``upper_figure`` is True (without friction); ``impact_share`` the share of it that impacts did.
     ``force_mean`` and ``force_rms`` are of the normal force and of the force vector, N,
-    ``force_largest`` the largest normal force of an elastic support, N. ``sliding_rate`` is the
+    ``force_largest`` the largest normal force of an elastic support, N, and ``force_largest_mean``
+    the largest mean of the normal force over a stretch of `force_averaging`, N, around the time
+    ``force_largest_mean_at``, s, of any support. ``sliding_rate`` is the
     distance slid in contact per time, m/s, ``sliding_speed`` the mean speed while in contact, m/s,
     ``friction_power`` what friction takes out of the motion, W, and ``contact_time_ratio`` the share
     of the time in contact. ``sectors`` is an array with the fields ``from_deg``, ``to_deg``,
@@ -53,6 +55,8 @@ class SupportStatistics:
     force_mean: Estimate | None
     force_rms: Estimate | None
     force_largest: float | None
+    force_largest_mean: float | None
+    force_largest_mean_at: float | None
     sliding_rate: float
     sliding_speed: float | None
     friction_power: float
@@ -83,6 +87,7 @@ def _estimate(value: float, half_width: float | None) -> Estimate:
 def _statistics(known: dict[str, Any]) -> SupportStatistics:
     wear, contact = known["wear"], known["contact"]
     force = contact["force"]
+    largest = force and force["largest"]
     fields = [("from_deg", "f8"), ("to_deg", "f8"), ("work_rate", "f8"), ("impulse_share", "f8")]
     keys = ("from_deg", "to_deg", "work_rate_w", "impulse_share")
     sectors = np.array([tuple(sector[key] for key in keys) for sector in wear["sectors"]], fields)
@@ -97,6 +102,8 @@ def _statistics(known: dict[str, Any]) -> SupportStatistics:
         force_mean=force and _estimate(force["mean_n"], force["mean_half_width_95_n"]),
         force_rms=force and _estimate(force["rms_n"], force["rms_half_width_95_n"]),
         force_largest=contact["episode_peak_force_n"]["max"],
+        force_largest_mean=largest and largest["mean_n"],
+        force_largest_mean_at=largest and largest["at_s"],
         sliding_rate=wear["sliding_m"] / known["window_s"],
         sliding_speed=wear["sliding_speed_m_per_s"],
         friction_power=wear["friction_power_w"],

@@ -208,6 +208,8 @@ function statisticsSection() {
       (w) => w.force && w.force.rms_half_width_95_n,
     ),
     column("largest force (N)", (w) => w.episode_peak_force_n.max),
+    column("largest mean force (N)", (w) => w.force?.largest?.mean_n),
+    column("at (s)", (w) => w.force?.largest?.at_s),
     column(
       "impulse of a contact (N s)",
       (w) => w.episode_impulse_n_s.mean,
