@@ -271,8 +271,13 @@ fn a_chart_has_its_conclusion_above_its_named_curves() {
     let points: Vec<[f64; 2]> = table
         .lines()
         .filter(|row| row.starts_with("moreau-jean,"))
-        .map(|row| [1, 4].map(|at| row.split(',').nth(at).unwrap().parse().unwrap()))
+        // On a busy machine the finest runs may be left out.
+        .filter_map(|row| {
+            let number = |at| row.split(',').nth(at)?.parse().ok();
+            Some([number(1)?, number(4)?])
+        })
         .collect();
+    assert!(points.len() >= 3, "{table}");
     let orders: Vec<String> = points
         .windows(2)
         .map(|two| (two[1][1] / two[0][1]).ln() / (two[1][0] / two[0][0]).ln())
