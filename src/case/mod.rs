@@ -55,6 +55,7 @@ mod place;
 mod planes;
 mod random;
 mod read;
+mod realisations;
 mod report;
 mod schema;
 mod start;

@@ -23,6 +23,7 @@ mod merge;
 mod new;
 mod orbit;
 mod pipeline;
+mod realisations;
 mod report;
 mod request;
 mod run;
