@@ -75,7 +75,7 @@ def test_the_year_of_the_limit_lies_on_the_curve_of_the_depth(three: sg.WearStud
 
 
 def test_an_interval_begins_with_the_study_of_the_first_windows(tool: Callable[..., Path]) -> None:
-    asked = {"until_interval": 0.9, "most_seeds": 20}
+    asked: dict[str, Any] = {"until_interval": 0.9, "most_seeds": 20}
     study = sg.wear(tube(), years=5, **asked)
     first = sg.realisations(tube(), **asked)
     assert study.first is not None and study.histories == first.count >= 6

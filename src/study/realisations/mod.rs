@@ -6,6 +6,8 @@
 //! expectation over all realisations of this density and this duration; errors of the step, the
 //! modes and the data are not in it. The first two, and that of a window that begins too early, are
 //! therefore estimated from the same realisations, and stand beside it ([`ErrorParts`]).
+//! [`RealisationPlan`] is a whole study: the number of realisations that an interval needs, the
+//! realisations, and the checks for the errors.
 //!
 //! ```
 //! use signorini::study::realisations::{Measure, Realisations, realisations};
