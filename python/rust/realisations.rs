@@ -17,7 +17,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// it may take.
 pub type Asked = (Option<u64>, Option<f64>, Option<u64>);
 
-/// How far a study is: runs that are done, in thousandths, and those of the batches that have begun.
+/// How far a study is: runs that are done, in thousandths, and the runs of all batches that have
+/// begun.
 #[derive(Default)]
 pub struct RunsDone {
     thousandths: AtomicU64,

@@ -66,8 +66,8 @@ pub struct Args {
     /// Most histories of --until-interval; exit code 1 where more are needed [default: 200]
     #[arg(long, value_name = "N", requires = "until_interval")]
     most_seeds: Option<u64>,
-    /// With --until-interval: do not repeat up to six of the first runs with half the step, nor with
-    /// more modes, for the errors of the first work rates
+    /// With --until-interval: do not repeat up to six of the first runs with half the step, nor
+    /// with more modes, for the errors of the first work rates
     #[arg(long, requires = "until_interval")]
     no_verdict: bool,
 }
