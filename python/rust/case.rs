@@ -13,13 +13,14 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 use signorini as sg;
 use signorini::case::{CaseFile, KeyValue};
+use signorini::study::choice::choose;
 use std::path::PathBuf;
 
 /// A case file: its scene, and the times at which it is run. See ``load``.
 #[pyclass(frozen, module = "signorini")]
 pub struct Case {
     pub file: CaseFile,
-    case: sg::case::Case,
+    pub case: sg::case::Case,
     scene: Py<Scene>,
 }
 
@@ -126,6 +127,18 @@ fn built(py: Python<'_>, file: CaseFile) -> PyResult<Case> {
     Ok(Case { file, case, scene })
 }
 
+impl Case {
+    /// How it is run: with `step` (s) in place of its own, by `scheme` in place of that chosen.
+    pub fn plan(&self, scheme: Option<&str>, step: Option<f64>) -> PyResult<Plan> {
+        let name = scheme.map_or_else(|| choose(&self.case.scene).method.to_string(), str::to_owned);
+        let method = self.case.method(&name).map_err(raise)?;
+        let time = sg::TimeOptions { step: step.unwrap_or(self.case.time.step), ..self.case.time };
+        let plan = Plan { method, time };
+        plan.check_step(step)?;
+        Ok(plan)
+    }
+}
+
 #[pymethods]
 impl Case {
     /// The name of the file without folder and extension.
@@ -203,14 +216,7 @@ impl Case {
         if let Some(tolerance) = accuracy {
             return Run::to_accuracy(scene, scheme, step, tolerance, time.sample, time.statistics_from);
         }
-        let mut plan =
-            Plan::new(&scene.get().scene, scheme, step.or(Some(time.step)), time.sample, time.statistics_from)?;
-        plan.time.force_averaging = time.force_averaging;
-        if let Some(name) = scheme {
-            plan.method = self.case.method(name).map_err(raise)?;
-        }
-        plan.check_step(step)?;
-        let run = Run::make(scene, plan)?;
+        let run = Run::make(scene, self.plan(scheme, step)?)?;
         if let Some(instability) = self.case.instability() {
             // Written here, without NUL.
             let text = std::ffi::CString::new(instability).unwrap_or_default();

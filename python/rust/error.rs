@@ -19,7 +19,8 @@ create_exception!(
     signorini,
     RefutedError,
     RunError,
-    "The run broke what its scheme promises: do not use its numbers. ``run`` holds it, for inspection, if there is one."
+    "A run broke what its scheme promises: do not use its numbers. ``run`` holds it, for inspection, if there is \
+     one; of several runs ``study`` holds what was found."
 );
 
 create_exception!(

@@ -15,6 +15,7 @@ mod origin;
 mod pickle;
 mod place;
 mod plan;
+mod realisations;
 mod run;
 mod scene;
 mod start;
@@ -23,6 +24,7 @@ mod study;
 mod sweep;
 mod values;
 mod wall;
+mod wear;
 mod work;
 
 use pyo3::prelude::*;
@@ -45,6 +47,8 @@ mod _core {
     #[pymodule_export]
     use super::orbit::_orbit;
     #[pymodule_export]
+    use super::realisations::_realisations;
+    #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]
     use super::scene::Scene;
@@ -58,6 +62,8 @@ mod _core {
     use super::values::Rayleigh;
     #[pymodule_export]
     use super::wall::Wall;
+    #[pymodule_export]
+    use super::wear::_wear;
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name")]

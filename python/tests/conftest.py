@@ -1,5 +1,10 @@
 """What the tests share."""
 
+import os
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
 import matplotlib
 import pytest
 
@@ -20,3 +25,20 @@ def scene() -> sg.Scene:
         loads=[sg.Load.harmonic(3.0, 5.0)],
         duration=2.0,
     )
+
+
+@pytest.fixture
+def tool(tmp_path: Path) -> Callable[..., Path]:
+    """Runs the command-line tool, and gives the folder of its results.
+
+    It is that of the environment's ``SIGNORINI_TOOL``, or what cargo has built for release.
+    """
+    name = os.environ.get("SIGNORINI_TOOL", Path(__file__).parents[2] / "target/release/signorini")
+    if not Path(name).exists():
+        pytest.skip(f"no tool at {name}: cargo build --release, or SIGNORINI_TOOL")
+
+    def run(*arguments: str) -> Path:
+        subprocess.run([name, *arguments, "--no-report", "--out", tmp_path / "out"], check=True, capture_output=True)
+        return tmp_path / "out"
+
+    return run

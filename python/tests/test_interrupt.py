@@ -48,6 +48,8 @@ CALLS = [
     "sg.bifurcation(case, 'load.1.harmonic.frequency', [4.9, 5.0], settle=4_000_000)",
     "sg.Stepper(scene, 'moreau-jean', 1e-4).advance(1e6)",
     "sg.Stepper(scene, 'moreau-jean', 1e-4).advance(1e6, lambda t, q, v: 0.0)",
+    "sg.realisations(sg.load('tube-round-supports', set={'time.end': 100.0}), seeds=4)",
+    "sg.wear(sg.load('tube-in-cross-flow', set={'time.end': 100.0}), years=40)",
     "sg.sweep(make, sg.grid(restitution=[0.7, 0.8]), 'moreau-jean', step=1e-4)",
     "scene.replace(loads=[sg.Load.function(lambda t: 0.0)]).run('moreau-jean', step=1e-4, sample=1e3)",
     # A reduction to modes, in seconds of work without a step.

@@ -4,8 +4,10 @@ use super::builder::Builder;
 use super::model::Model;
 use super::value::Section;
 use super::{Case, TimeOptions};
-use crate::error::Result;
-use crate::wear::{Archard, Bearing, Scar};
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+use crate::study::wear_history::{HISTORIES, WearingSupport, YEAR};
+use crate::wear::{Archard, Bearing, Growth, Opening, Scar};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -114,5 +116,70 @@ impl Case {
         let bearing = hole.map_or(Bearing::Flat, |hole| Bearing::Hole { gap: hole.gap });
         let scar = wear.scar.map(|(width, radius)| Scar { width, radius, bearing });
         Some(Archard { coefficient, support_coefficient, service: self.wear.service?, scar })
+    }
+}
+
+impl Case {
+    /// The supports of the case that wear.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a support with a wear coefficient and without a width, and under
+    /// `wear` for a case in which nothing wears.
+    pub fn wearing_supports(&self) -> Result<Vec<WearingSupport>> {
+        let mut wearing = Vec::new();
+        for (index, support) in self.scene.supports.iter().enumerate() {
+            let Some(law) = self.archard(index) else { continue };
+            if law.scar.is_none() {
+                let expected = "a support with a width: its depth is the worn volume over 2πRw";
+                return Err(Error::invalid("support", format!("{:?}", support.name), expected));
+            }
+            let growth = self.written.supports.get(index).map_or_else(Growth::default, |written| written.growth);
+            let (name, gaps) = (support.name.clone(), support.gaps(&self.scene.walls));
+            wearing.push(WearingSupport { name, gaps, growth, law });
+        }
+        if wearing.is_empty() {
+            let expected = "a case with supports, and coefficient and service in [wear]: depths follow from these";
+            return Err(Error::invalid("wear", &self.name, expected));
+        }
+        Ok(wearing)
+    }
+
+    /// The scene of realisation `number`, in which wear has opened each of `supports`.
+    ///
+    /// # Errors
+    /// As [`Case::realisation`].
+    pub fn worn(&self, number: u64, supports: &[WearingSupport], openings: &[Opening]) -> Result<Scene> {
+        let mut scene = self.realisation(number)?.scene;
+        supports.iter().zip(openings).for_each(|(support, opening)| support.open(&mut scene, opening));
+        Ok(scene)
+    }
+
+    /// How many histories of wear are followed: `asked`, or [`HISTORIES`] under random loads and
+    /// one without them.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] under `histories` for 0, and for several without random loads.
+    pub fn histories(&self, asked: Option<usize>) -> Result<usize> {
+        match asked {
+            Some(0) => Err(Error::invalid("histories", 0, "1 or more")),
+            Some(count) if count > 1 && !self.is_random() => {
+                let expected = "a case with a random load: without one all histories are the same";
+                Err(Error::invalid("histories", count, expected))
+            }
+            Some(count) => Ok(count),
+            None => Ok(if self.is_random() { HISTORIES } else { 1 }),
+        }
+    }
+
+    /// The time in service, s: `years`, or that of the case.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] under `years` where that is not above 0, and where neither is given.
+    pub fn service(&self, years: Option<f64>) -> Result<f64> {
+        match (years, self.wear.service) {
+            (Some(years), _) if years.is_finite() && years > 0.0 => Ok(years * YEAR),
+            (Some(years), _) => Err(Error::invalid("years", years, "a number above 0")),
+            (None, service) => service.ok_or_else(|| Error::invalid("years", "left out", "a number above 0")),
+        }
     }
 }

@@ -5,7 +5,8 @@
 //!
 //! Parses, calls, prints: one file per command, `pipeline.rs` for what all commands share (the
 //! folder of results, the report, what is printed), `ui.rs` for stdout and stderr, `estimate.rs`
-//! says how long work will take, `values.rs` lists the values that shells complete (feature `cli`).
+//! says how long work will take, `realisations.rs` makes the study of realisations of `run` and
+//! `wear`, `values.rs` lists the values that shells complete (feature `cli`).
 
 mod bar;
 mod case_args;
@@ -23,6 +24,7 @@ mod merge;
 mod new;
 mod orbit;
 mod pipeline;
+mod realisations;
 mod report;
 mod request;
 mod run;

@@ -2,27 +2,32 @@
 
 use super::estimate::DurationEstimate;
 use super::pipeline::Answer;
+use super::realisations::{self, failed_checks, not_checked, of_argument};
 use super::request::Request;
+use super::run::Seeds;
 use super::ui::Ui;
 use super::values;
 use crate::case::Case;
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::output::error_parts;
 use crate::output::request::{extended, request};
+use crate::output::results::Results;
 use crate::output::wear_history as output;
-use crate::output::wear_history::YEAR;
 use crate::output::wear_journal::WindowJournal;
-use crate::run::Options;
-use crate::scene::Scene;
+use crate::run::{Options, run_with_progress};
+use crate::scheme::Method;
 use crate::study::choice;
-use crate::study::wear_history::{WearPlan, WearingSupport};
-use crate::wear::{Growth, Opening};
-use serde_json::json;
+use crate::study::realisations::{RealisationCount, RealisationStudy};
+use crate::study::wear_history::{WearHistories, WearPlan, WearWindow, WearingSupport};
+use crate::wear::Opening;
+use serde_json::{Map, Value, json};
 use std::num::NonZero;
 
 const EXAMPLES: &str = "\
 Examples:
   signorini wear tube-in-cross-flow --years 40
   signorini wear tube-round-supports --years 10 --histories 12
+  signorini wear tube-in-cross-flow --until-interval 5%   as many histories as that takes
   signorini wear my-tube.toml --set wear.coefficient=2e-14
 
 The gap of a round support grows by the wear of tube and support, evenly all round: dγ/dt = k
@@ -30,11 +35,11 @@ W(γ)/(2πRw). With growth = \"shifted\" of the support its centre moves towards
 well; gaps of flats stay, or with growth = \"flats\" each flat recedes by its scar. The work rate W is
 that of a run with the gap of that time; its statistics begin at statistics_from. Under random loads
 several histories are followed, each run with seeds of its own.
-Writes history.csv (every history), years.csv (means with their 95 % intervals) and wear.svg;
-report.html shows them. After an interruption the same command goes on.";
-
-/// Histories under random loads.
-const HISTORIES: usize = 6;
+With --until-interval the first runs of the histories are a study of realisations, as that of `run
+--until-interval`, with the errors of the first work rates.
+Writes history.csv (every history), years.csv (means with their 95 % intervals) and wear.svg, for
+--until-interval also realisations.csv and errors.csv (the first runs); report.html shows the years.
+After an interruption the same command goes on, after the study of the first runs.";
 
 /// Windows of a history, about, for the estimate of the duration.
 const WINDOWS: f64 = 7.0;
@@ -54,6 +59,17 @@ pub struct Args {
     /// Histories under random loads [default: 6]
     #[arg(long, value_name = "N")]
     histories: Option<usize>,
+    /// In place of --histories: as many as bring the 95 % intervals of the work rates in the first
+    /// gaps within this share of them, 5% or 0.05: six say how many that takes (Stein)
+    #[arg(long, value_name = "SHARE", conflicts_with = "histories", allow_hyphen_values = true)]
+    until_interval: Option<String>,
+    /// Most histories of --until-interval; exit code 1 where more are needed [default: 200]
+    #[arg(long, value_name = "N", requires = "until_interval")]
+    most_seeds: Option<u64>,
+    /// With --until-interval: do not repeat up to six of the first runs with half the step, nor
+    /// with more modes, for the errors of the first work rates
+    #[arg(long, requires = "until_interval")]
+    no_verdict: bool,
 }
 
 /// Follows the histories and shows the years.
@@ -62,110 +78,144 @@ pub struct Args {
 /// A case without supports that wear, a scheme that refuses it, a run that fails.
 pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.request.read(ui)?;
-    let supports = wearing(&case)?;
-    let histories = args.histories(&case)?;
-    let service = args.service(&case)?;
+    let supports = case.wearing_supports()?;
+    let within = args.within(&case)?;
+    let histories = case.histories(args.histories).map_err(of_argument)?;
+    let service = case.service(args.years).map_err(of_argument)?;
     let method = match &args.scheme {
         Some(name) => args.request.method(name, &case)?,
         None => args.request.method(&choice::choose(&case.scene).method.to_string(), &case)?,
     };
     args.request.check_use(&[method])?;
-    let asked = extended(request("wear", &case, &[method]), json!({ "service_s": service, "histories": histories }));
-    let mut results = args.request.place.open(&case, "wear", asked)?;
-    let scene = |number: u64, openings: &[Opening]| {
-        let mut scene = case.realisation(number)?.scene;
-        supports.iter().zip(openings).for_each(|(support, opening)| open(&mut scene, &support.name, opening));
-        Ok(scene)
-    };
-    let options = Options::new(case.time);
-    let plan = WearPlan { supports: &supports, scene: &scene, method: &method, options: &options, histories, service };
-    let cores = std::thread::available_parallelism().map_or(1, NonZero::get).min(histories) as f64;
-    let runs = WINDOWS * histories as f64 / cores;
-    let estimate = DurationEstimate::of_run(&case.scene, &method, case.time.step).times(runs);
-    let mut journal = WindowJournal::open(&mut results, histories, args.request.place.force)?;
-    let kept = journal.kept()?;
-    let found = ui.with_estimate("wear", estimate, |bar| {
-        plan.follow(&kept, &mut |window| journal.keep(window), &mut |share| bar.set_share(share))
-    })?;
-    for (number, findings) in &found.refuted {
-        ui.refute(&format!("window {number}"), findings);
-    }
+    let mut results = args.request.place.open(&case, "wear", args.asked(&case, &method, service, histories))?;
+    let first = within.map(|count| first_windows(&case, &method, count, !args.no_verdict, ui)).transpose()?;
+    let histories = first.as_ref().map_or(histories, |study| study.realisations.count);
+    let plan = Followed { case: &case, supports: &supports, method: &method, histories, service };
+    let (found, there) = plan.follow(first.as_ref(), &mut results, args.request.place.force, ui)?;
     output::write(&mut results, &found)?;
+    if let Some(study) = &first {
+        realisations::write(study, &mut results)?;
+    }
     results.draw("wear", &output::figure(&case, &found))?;
     let notes = case.notes();
+    let answers = output::remarks(&case, &found);
     results.add_to_manifest("case_file", case.document.json()?);
     results.add_to_manifest("remarks", json!(notes));
-    let answers = output::remarks(&case, &found);
-    results.add_to_manifest("answers", json!(answers));
+    let errors = first.iter().flat_map(|study| error_parts::remarks(&study.realisations, &case.scene));
+    results.add_to_manifest("answers", json!(answers.iter().cloned().chain(errors).collect::<Vec<_>>()));
     results.add_to_manifest("supports", json!(found.supports));
+    results.add_to_manifest("histories", json!(histories));
     results.add_to_manifest("fluid_elastic", json!(case.fluid_elastic));
-    let mut answer = Answer::of(results, !args.request.place.no_report, output::document(&case, &found));
+    let mut document = output::document(&case, &found);
+    if let Some(study) = &first {
+        document["realisations"] = json!(study.realisations);
+    }
+    let mut answer = Answer::of(results, !args.request.place.no_report, document);
     answer.table(output::table(&found), "years.csv");
     answer.remarks(answers);
-    let there = match journal.found() {
-        0 => String::new(),
-        count => format!(", {count} of them there already"),
-    };
-    answer
-        .messages([format!("{} by {method}: {} runs of {:?} s{there}", case.name, found.windows, case.scene.duration)]);
+    if let Some(study) = &first {
+        let count = study.realisations.count;
+        answer.messages([format!(
+            "the first runs of the {count} histories, in the gaps of the start, have these errors"
+        )]);
+        realisations::show_errors(study, &mut answer, &case);
+        let shortfall = study.shortfall.clone().or_else(|| not_checked(failed_checks(study)));
+        if shortfall.is_some() {
+            answer.close_with(", kept in spite of the error below");
+        }
+        answer.fall_short(shortfall);
+    }
+    let runs = format!("{} by {method}: {} runs of {:?} s{there}", case.name, found.windows, case.scene.duration);
+    answer.messages([runs]);
     answer.messages(notes.iter().map(|note| format!("note: {note}")));
     Ok(answer)
 }
 
 impl Args {
-    fn histories(&self, case: &Case) -> Result<usize> {
-        match self.histories {
-            Some(0) => Err(Error::invalid("--histories", 0, "1 or more")),
-            Some(count) if count > 1 && !case.is_random() => {
-                let expected = "a case with a random load: without one all histories are the same";
-                Err(Error::invalid("--histories", count, expected))
-            }
-            Some(count) => Ok(count),
-            None => Ok(if case.is_random() { HISTORIES } else { 1 }),
-        }
+    /// The number of histories that an interval takes, where one is asked for.
+    fn within(&self, case: &Case) -> Result<Option<RealisationCount>> {
+        Seeds { count: None, until_interval: self.until_interval.clone(), most_seeds: self.most_seeds }.check(case)
     }
 
-    /// The time in service, s.
-    fn service(&self, case: &Case) -> Result<f64> {
-        match (self.years, case.wear.service) {
-            (Some(years), _) if years.is_finite() && years > 0.0 => Ok(years * YEAR),
-            (Some(years), _) => Err(Error::invalid("--years", years, "a number above 0")),
-            // A support that wears has a service.
-            (None, service) => service.ok_or_else(|| Error::invalid("--years", "left out", "a number above 0")),
-        }
+    /// The request, as it is recorded.
+    fn asked(&self, case: &Case, method: &Method, service: f64, histories: usize) -> Map<String, Value> {
+        let settings = match &self.until_interval {
+            None => json!({ "service_s": service, "histories": histories }),
+            Some(share) => json!({
+                "service_s": service,
+                "until_interval": share,
+                "most_seeds": self.most_seeds,
+                "verdict": !self.no_verdict,
+            }),
+        };
+        extended(request("wear", case, &[*method]), settings)
     }
 }
 
-/// The supports of the case that wear.
-fn wearing(case: &Case) -> Result<Vec<WearingSupport>> {
-    let refuse = |name: &str, expected: &str| Err(Error::invalid("support", format!("{name:?}"), expected));
-    let mut wearing = Vec::new();
-    for (index, support) in case.scene.supports.iter().enumerate() {
-        let Some(law) = case.archard(index) else { continue };
-        if law.scar.is_none() {
-            return refuse(&support.name, "a support with a width: its depth is the worn volume over 2πRw");
-        }
-        let growth = case.written.supports.get(index).map_or_else(Growth::default, |written| written.growth);
-        wearing.push(WearingSupport { name: support.name.clone(), gaps: support.gaps(&case.scene.walls), growth, law });
-    }
-    if wearing.is_empty() {
-        let expected = "a case with supports, and coefficient and service in [wear]: depths follow from these";
-        return Err(Error::invalid("wear", &case.name, expected));
-    }
-    Ok(wearing)
+/// The study of the first windows of the histories, as many as `count` says: realisations of the
+/// case, in its own gaps.
+fn first_windows(
+    case: &Case,
+    method: &Method,
+    count: RealisationCount,
+    verdict: bool,
+    ui: &Ui,
+) -> Result<RealisationStudy> {
+    let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step);
+    let end = case.scene.duration;
+    let run = ui.with_estimate("first run", estimate, |bar| {
+        run_with_progress(&case.scene, method, &Options::new(case.time), &mut |time| bar.set_share(time / end))
+    })?;
+    realisations::study(case, (&run, method), count, verdict, ui)
 }
 
-/// Opens the support `name` of `scene` by its wear.
-fn open(scene: &mut Scene, name: &str, opening: &Opening) {
-    let Some(support) = scene.supports.iter_mut().find(|support| support.name == name) else { return };
-    let round = support.hole(&scene.walls).is_some();
-    let walls = support.walls.clone();
-    for (wall, by) in walls.zip(&opening.recession) {
-        if let Some(wall) = scene.walls.get_mut(wall) {
-            wall.open(*by, opening.shift);
+/// What histories are followed.
+struct Followed<'a> {
+    case: &'a Case,
+    supports: &'a [WearingSupport],
+    method: &'a Method,
+    histories: usize,
+    service: f64,
+}
+
+impl Followed<'_> {
+    /// Follows the histories, whose first windows are those of the study `first`, beside the
+    /// journal of their windows in `results`, which begins `anew` where it may not go on. With them
+    /// how many windows were there already, in words.
+    fn follow(
+        &self,
+        first: Option<&RealisationStudy>,
+        results: &mut Results,
+        anew: bool,
+        ui: &Ui,
+    ) -> Result<(WearHistories, String)> {
+        let Self { case, supports, method, histories, service } = *self;
+        let mut journal = WindowJournal::open(results, histories, anew)?;
+        let mut kept = journal.kept()?;
+        let members = first.map_or(&[][..], |study| &study.realisations.members);
+        for member in members.iter().skip(kept.len()) {
+            let window = WearWindow::of(member, supports);
+            journal.keep(&window)?;
+            kept.push(window);
         }
-    }
-    if round {
-        support.centre.iter_mut().zip(opening.shift).for_each(|(centre, shift)| *centre += shift);
+        let scene = |number: u64, openings: &[Opening]| case.worn(number, supports, openings);
+        let options = Options::new(case.time);
+        let plan = WearPlan { supports, scene: &scene, method, options: &options, histories, service };
+        let cores = std::thread::available_parallelism().map_or(1, NonZero::get).min(histories) as f64;
+        let runs = WINDOWS * histories as f64 / cores;
+        let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step).times(runs);
+        let found = ui.with_estimate("wear", estimate, |bar| {
+            plan.follow(&kept, &mut |window| journal.keep(window), &mut |share| bar.set_share(share))
+        })?;
+        // The study has told of its own, but of the first.
+        let told = 2..=members.len() as u64;
+        for (number, findings) in found.refuted.iter().filter(|(number, _)| !told.contains(number)) {
+            ui.refute(&format!("window {number}"), findings);
+        }
+        let there = match journal.found() {
+            0 => String::new(),
+            count => format!(", {count} of them there already"),
+        };
+        Ok((found, there))
     }
 }

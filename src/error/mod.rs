@@ -144,6 +144,11 @@ pub enum Error {
         /// Realisations that are needed.
         needed: u64,
     },
+    /// Checks of a result failed, so that its error is not known; the result itself stands.
+    Unchecked {
+        /// What was refined in them, in words.
+        checks: Vec<String>,
+    },
     /// Adding modes still changes impulses or peaks at walls by more than was allowed.
     Truncated {
         /// The change that was allowed.

@@ -86,9 +86,14 @@ impl fmt::Display for Words<'_> {
             Error::Scattered { share, reached, quantity, count, needed } => write!(
                 f,
                 "an interval of ± {:.1} % was not reached: {count} of {needed} realisations leave ± {:.1} % \
-                 ({quantity}); --most-seeds allows more",
+                 ({quantity}); no more than {count} were allowed",
                 100.0 * share,
                 100.0 * reached
+            ),
+            Error::Unchecked { checks } => write!(
+                f,
+                "checks that failed, so that part of the error is not known: the run with {}",
+                checks.join("; the run with ")
             ),
             Error::Stopped => f.write_str("stopped before its end on request"),
             Error::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),

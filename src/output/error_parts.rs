@@ -110,17 +110,13 @@ fn how(check: &Check) -> String {
             let factor = if order == 1 { "twice" } else { "4/3 of" };
             format!("; step: {factor} the change by half the step")
         }
-        Refined::MoreModes { modes: [_, more] } => format!("; modes: the change by {more} modes"),
+        Refined::MoreModes { .. } => format!("; modes: the change by {}", check.refined),
     }
 }
 
 /// That nothing follows from a check with refuted runs.
 fn refuted(check: &Check) -> Option<String> {
-    let what = match check.refined {
-        Refined::HalfStep { .. } => "half the step".to_owned(),
-        Refined::MoreModes { modes: [_, more] } => format!("{more} modes"),
-    };
-    let (count, refuted) = (check.count, check.refuted.len());
+    let (what, count, refuted) = (check.refined, check.count, check.refuted.len());
     (refuted > 0).then(|| {
         format!("with {what} {refuted} of {count} realisations are refuted: that part of the errors is not known")
     })

@@ -27,8 +27,14 @@ pub(crate) fn titled(title: &str, count: u64) -> String {
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, study: &Realisations) -> Result<()> {
-    let (header, rows) = (header(), rows(study));
+    let (header, rows) = cells(study);
     csv::table(path, &header, rows.into_iter())
+}
+
+/// The header and the rows of [`write`].
+#[must_use]
+pub fn cells(study: &Realisations) -> (Vec<String>, Vec<Vec<String>>) {
+    (header(), rows(study))
 }
 
 /// The same for the studies of several methods, with a first column that names them.

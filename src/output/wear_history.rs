@@ -8,12 +8,9 @@ use super::results::Results;
 use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
-use crate::study::wear_history::{WearHistories, WearState, mean};
+use crate::study::wear_history::{WearHistories, WearState, YEAR, mean};
 use crate::wear::Growth;
 use serde_json::{Value, json};
-
-/// A year of 365.25 days, s.
-pub const YEAR: f64 = 31_557_600.0;
 
 /// A quantity of a support that changes over the years: its column, its words with the unit of
 /// tables (none where it is in the files alone), what one of these is in SI units, and its value.
@@ -49,6 +46,15 @@ impl Quantity {
 /// # Errors
 /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
 pub fn write(results: &mut Results, found: &WearHistories) -> Result<()> {
+    for (name, (header, rows)) in [("history.csv", history(found)), ("years.csv", years(found))] {
+        csv::table(&results.place(name)?, &header, rows.into_iter())?;
+    }
+    Ok(())
+}
+
+/// The header and the rows of `history.csv`.
+#[must_use]
+pub fn history(found: &WearHistories) -> (Vec<String>, Vec<Vec<String>>) {
     let mut header: Vec<String> = ["history", "year", "place"].map(str::to_owned).to_vec();
     header.extend(QUANTITIES.map(|quantity| format!("{}_{}", quantity.column, quantity.unit())));
     header.extend(["shift_y_m", "shift_z_m", "work_J"].map(str::to_owned));
@@ -64,25 +70,29 @@ pub fn write(results: &mut Results, found: &WearHistories) -> Result<()> {
             }
         }
     }
-    csv::table(&results.place("history.csv")?, &header, rows.into_iter())?;
+    (header, rows)
+}
+
+/// The header and the rows of `years.csv`.
+#[must_use]
+pub fn years(found: &WearHistories) -> (Vec<String>, Vec<Vec<String>>) {
     let mut header: Vec<String> = ["year", "place"].map(str::to_owned).to_vec();
     for quantity in &QUANTITIES {
         let (column, unit) = (quantity.column, quantity.unit());
         header.extend([format!("{column}_{unit}"), format!("{column}_half_width_95_{unit}")]);
     }
-    let row = |point, support: usize, name: &String, time: f64| {
-        let mut row = vec![csv::digits(Some(time / YEAR)), name.clone()];
-        for quantity in &QUANTITIES {
-            let (mean, half) = mean(point, support, quantity.value);
-            row.extend([csv::digits(Some(mean).filter(finite)), csv::digits(half.filter(finite))]);
+    let mut rows = Vec::new();
+    for point in &found.points {
+        for (support, name) in found.supports.iter().enumerate() {
+            let mut row = vec![csv::digits(Some(point.time_s / YEAR)), name.clone()];
+            for quantity in &QUANTITIES {
+                let (mean, half) = mean(point, support, quantity.value);
+                row.extend([csv::digits(Some(mean).filter(finite)), csv::digits(half.filter(finite))]);
+            }
+            rows.push(row);
         }
-        row
-    };
-    let rows = found.points.iter().flat_map(|point| {
-        let supports = found.supports.iter().enumerate();
-        supports.map(move |(support, name)| row(point, support, name, point.time_s))
-    });
-    csv::table(&results.place("years.csv")?, &header, rows)
+    }
+    (header, rows)
 }
 
 fn finite(x: &f64) -> bool {
@@ -217,6 +227,19 @@ const NEAR: f64 = 3.0;
 /// The histories as JSON.
 #[must_use]
 pub fn document(case: &Case, found: &WearHistories) -> Value {
+    json!({
+        "command": "wear",
+        "case": case.name,
+        "histories": found,
+        "limits": limits(case, found),
+        "fluid_elastic": case.fluid_elastic,
+        "remarks": remarks(case, found),
+    })
+}
+
+/// When the depth of each support reaches the limit of the case, as JSON; null where it does not.
+#[must_use]
+pub fn limits(case: &Case, found: &WearHistories) -> Vec<Value> {
     let limit = case.wear.limit;
     let limits = found.supports.iter().enumerate().map(|(support, name)| {
         let years =
@@ -229,12 +252,5 @@ pub fn document(case: &Case, found: &WearHistories) -> Value {
             "limit_one_scar_years": years(|state| state.depth_one_scar_m),
         })
     });
-    json!({
-        "command": "wear",
-        "case": case.name,
-        "histories": found,
-        "limits": limits.collect::<Vec<_>>(),
-        "fluid_elastic": case.fluid_elastic,
-        "remarks": remarks(case, found),
-    })
+    limits.collect()
 }

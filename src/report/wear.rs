@@ -16,7 +16,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "years": years.for_page(None),
             "answers": folder.manifest["answers"],
             "supports": names(&folder.manifest["supports"]),
-            "seeds": folder.manifest["request"]["histories"],
+            "seeds": folder.manifest["histories"],
         },
         "margins": folder.manifest["fluid_elastic"],
         "case": case_text(&folder.manifest["case_file"]),

@@ -115,7 +115,6 @@ impl Wall {
 
     /// Opens the wall by `by` (m): a flat one recedes, a round one grows in radius, about a centre
     /// that moves by `shift` (m).
-    #[cfg(feature = "cli")]
     pub(crate) fn open(&mut self, by: f64, shift: [f64; 2]) {
         match &mut self.face {
             Face::Flat { side, position, .. } => *position -= side.sign() * by,

@@ -195,7 +195,7 @@ fn intervals_that_make_no_sense_are_refused() {
         assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
     };
     for share in ["0", "1", "-5%", "100%", "nan", "five"] {
-        refused(&[&FLOW[..], &["--until-interval", share]].concat(), &["--until-interval", "5% or 0.05"]);
+        refused(&[&FLOW[..], &["--until-interval", share]].concat(), &["--until-interval", "above 0 and below 1"]);
     }
     refused(&[&FLOW[..], &["--until-interval", "5%", "--most-seeds", "5"]].concat(), &["--most-seeds", "6 or more"]);
     refused(&[&FLOW[..], &["--until-interval", "5%", "--seeds", "5"]].concat(), &["cannot be used with"]);

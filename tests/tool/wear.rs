@@ -301,6 +301,70 @@ fn a_shifted_hole_is_the_hole_of_its_gap_and_centre() {
 }
 
 #[test]
+fn an_interval_takes_as_many_histories_as_run_takes_realisations() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let short = [&TUBE[..], &["--set", "system.modes=6"]].concat();
+    let asked = ["--until-interval", "90%", "--years", "2"];
+    let (out, err) = said(path, &[&["wear"], &short[..], &asked, &["--out", "w"]].concat(), 0);
+    assert!(err.contains("pilots: after 6 realisations the work rate of support"), "{err}");
+    // The study of the first windows is that of `run`: the same files, the same tables of errors.
+    let (run, _) = said(path, &[&["run"], &short[..], &asked[..2], &["--out", "r"]].concat(), 0);
+    for file in ["realisations.csv", "errors.csv"] {
+        let read = |folder: &str| fs::read_to_string(path.join(folder).join(file)).unwrap();
+        assert!(read("w") == read("r"), "{file}");
+    }
+    let errors = |text: &str| {
+        let after = text.lines().skip_while(|line| !line.contains("mean of")).map(str::to_owned);
+        after.collect::<Vec<_>>()
+    };
+    assert!(errors(&out).len() > 6 && errors(&out) == errors(&run), "{out}\n{run}");
+    assert!(err.contains("plate-1: work rate ") && err.contains("step not seen, at most"), "{err}");
+    // A history for each realisation, which begins with its work rate.
+    let realisations = rows(&path.join("w/realisations.csv"));
+    let history = rows(&path.join("w/history.csv"));
+    let begins: Vec<_> = history.iter().filter(|row| number(row, "year") == 0.0).collect();
+    let supports: Vec<_> = realisations.iter().filter(|row| row["kind"] == "support").collect();
+    assert!(begins.len() >= 12 && begins.len() == supports.len());
+    for (begin, realisation) in begins.iter().zip(&supports) {
+        assert_eq!((&begin["history"], &begin["place"]), (&realisation["realisation"], &realisation["place"]));
+        assert_eq!(begin["work_rate_W"], realisation["work_rate_W"]);
+    }
+    // So many histories without the study are the same.
+    let count = begins.len() / 2;
+    let plain = ["--histories", &count.to_string(), "--years", "2", "--out", "h"];
+    said(path, &[&["wear"], &short[..], &plain].concat(), 0);
+    for file in ["history.csv", "years.csv"] {
+        assert!(fs::read(path.join("w").join(file)).unwrap() == fs::read(path.join("h").join(file)).unwrap(), "{file}");
+    }
+    assert!(!path.join("h/errors.csv").exists());
+}
+
+#[test]
+fn histories_that_an_interval_needs_beyond_the_most_are_told() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let short = [&TUBE[..], &["--set", "system.modes=6", "--years", "5", "--no-verdict", "--out", "w"]].concat();
+    let narrow = ["--until-interval", "0.01", "--most-seeds", "6"];
+    let (out, err) = said(path, &[&["wear"], &short[..], &narrow].concat(), 1);
+    assert!(err.contains("an interval of ± 1.0 % was not reached: 6 of"), "{err}");
+    assert!(out.contains("plate-1") && path.join("w/years.csv").exists() && !path.join("w/errors.csv").exists());
+    let refused = |args: &[&str], words: &[&str]| {
+        let (_, err) = said(path, &[&["wear"], args].concat(), 2);
+        assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
+    };
+    for share in ["0", "1", "100%", "-5%", "nan", "five"] {
+        refused(&[&TUBE[..], &["--until-interval", share]].concat(), &["--until-interval", "above 0 and below 1"]);
+    }
+    let five = ["--until-interval", "5%"];
+    refused(&[&TUBE[..], &five, &["--histories", "4"]].concat(), &["cannot be used with", "--histories"]);
+    refused(&[&TUBE[..], &five, &["--most-seeds", "5"]].concat(), &["--most-seeds", "6 or more"]);
+    refused(&[&TUBE[..], &["--most-seeds", "50"]].concat(), &["--until-interval"]);
+    refused(&[&TUBE[..], &["--no-verdict"]].concat(), &["--until-interval"]);
+    refused(&[&WHIRL[..], &five].concat(), &["--until-interval", "random load"]);
+}
+
+#[test]
 fn an_interrupted_study_goes_on_with_the_same_bytes() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path();

@@ -42,11 +42,13 @@ from ._document import case
 from ._fit import Fit, fit
 from ._flow import FlowMargin, FluidElastic
 from ._orbit import Orbit, orbit
+from ._realisations import Realisations, realisations
 from ._studies import Chart, Comparison, Stability, chart, compare, stability
-from ._supports import Estimate, SupportStatistics, Wear
+from ._supports import ErrorPart, ErrorParts, Estimate, SupportStatistics, Wear
 from ._sweep import Table, grid, run_many, sweep
 from ._tube import Archard, Support, flats, hole, tube
 from ._turbulence import Turbulence, turbulence
+from ._wear import LimitYears, WearStudy, wear
 
 __all__ = [
     "AccuracyWarning",
@@ -57,14 +59,18 @@ __all__ = [
     "Comparison",
     "Derivative",
     "DivergedError",
+    "ErrorPart",
+    "ErrorParts",
     "Estimate",
     "Fit",
     "FlowMargin",
     "FluidElastic",
+    "LimitYears",
     "Load",
     "NotSolvedError",
     "Orbit",
     "Rayleigh",
+    "Realisations",
     "RefutedError",
     "ResultWarning",
     "Run",
@@ -81,6 +87,7 @@ __all__ = [
     "Turbulence",
     "Wall",
     "Wear",
+    "WearStudy",
     "__version__",
     "bar",
     "beam",
@@ -100,10 +107,12 @@ __all__ = [
     "one_at_a_time",
     "orbit",
     "oscillator",
+    "realisations",
     "run_many",
     "stability",
     "support",
     "sweep",
     "tube",
     "turbulence",
+    "wear",
 ]

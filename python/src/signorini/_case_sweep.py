@@ -11,10 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-import numpy.typing as npt
-
 from . import _core
+from ._columns import Column, columns
 from ._core import Case, ResultWarning
 from ._progress import Progress
 
@@ -22,31 +20,12 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-Column = npt.NDArray[Any]
-
-
-def _column(cells: Sequence[str]) -> Column:
-    """The cells of a column: whole numbers, numbers (nan where there is none), or words."""
-    for kind in (np.int64, np.float64):
-        try:
-            filled = cells if kind is np.int64 else [cell or "nan" for cell in cells]
-            return np.array([kind(cell) for cell in filled], kind)
-        except ValueError:
-            continue
-    return _words(cells)
-
-
-def _words(cells: Sequence[str]) -> Column:
-    return np.array([cell or None for cell in cells], object)
-
 
 def _read(path: Path) -> dict[str, Column]:
     """A table of the engine, by columns."""
     with path.open(encoding="utf-8", newline="") as file:
         header, *rows = csv.reader(file)
-    columns = {name: [row[i] for row in rows] for i, name in enumerate(header)}
-    # Reasons are words, also where no row has one.
-    return {name: _words(cells) if name == "error" else _column(cells) for name, cells in columns.items()}
+    return columns(header, rows)
 
 
 @dataclass(frozen=True, eq=False)

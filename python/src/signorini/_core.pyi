@@ -43,12 +43,14 @@ __all__ = [
     "_modal",
     "_orbit",
     "_oscillator",
+    "_realisations",
     "_run_many",
     "_scene_at",
     "_stability",
     "_sweep",
     "_unit",
     "_value_at",
+    "_wear",
     "load",
 ]
 __version__: Final[str]
@@ -67,6 +69,7 @@ class NotSolvedError(RunError): ...
 
 class RefutedError(RunError):
     run: Run
+    study: object
 
 class AccuracyWarning(UserWarning): ...
 class ResultWarning(UserWarning): ...
@@ -385,6 +388,25 @@ def _bifurcation(
     threads: int,
 ) -> list[dict[str, Any]]: ...
 def _orbit(scene: Scene, settle: int, points: int) -> dict[str, Any]: ...
+def _realisations(
+    case: Case,
+    scheme: str | None,
+    step: float | None,
+    asked: tuple[int | None, float | None, int | None],
+    verdict: bool,
+    progress: Callable[[int, int], None],
+) -> dict[str, Any]: ...
+def _wear(
+    case: Case,
+    scheme: str | None,
+    step: float | None,
+    years: float | None,
+    histories: int | None,
+    within: tuple[float | None, int | None],
+    verdict: bool,
+    counted: Callable[[int, int], None],
+    progress: Callable[[int], None],
+) -> dict[str, Any]: ...
 def _columns(walls: Sequence[str]) -> list[str]: ...
 def _unit(key: str) -> str | None: ...
 def _run_many(

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from ._core import Run
     from ._orbit import Orbit
     from ._studies import Chart, Stability
+    from ._wear import WearStudy
 
 # Neighbours differ in lightness as well as in hue (after Okabe and Ito), and in dashes and markers.
 COLOURS = ("#000000", "#0072b2", "#d55e00", "#56b4e9", "#7b3294", "#e69f00", "#00614a", "#8a8a8a")
@@ -179,4 +180,28 @@ def bifurcation(made: Bifurcation, column: str, ax: Any = None) -> Any:
     _frame(ax, made.key if found is None else f"{made.key} ({unit(found)})", label(column))
     if any(made.table["direction"]):
         ax.legend(loc="best", fontsize="small", markerscale=4)
+    return ax
+
+
+def wear(made: WearStudy, quantity: str, ax: Any = None) -> Any:
+    """A quantity over the years, with its band: see `WearStudy.plot`."""
+    columns = {name.rpartition("_")[0]: name for name in made.years if name not in ("year", "place")}
+    known = [name for name in columns if "half_width" not in name]
+    if quantity not in known:
+        raise ValueError(f"quantity is {quantity!r}; expected {', '.join(known)}")
+    ax = _new(1, 4.0) if ax is None else ax
+    column = columns[quantity]
+    metres = column.endswith("_m")
+    scale = 1e3 if metres else 1.0
+    for number, place in enumerate(made.supports):
+        own = made.years["place"] == place
+        year, mean = made.years["year"][own], scale * made.years[column][own]
+        half = scale * made.years[columns[f"{quantity}_half_width_95"]][own]
+        colour = COLOURS[1 + number % (len(COLOURS) - 1)]
+        ax.plot(year, mean, color=colour, linewidth=1.2, marker="o", markersize=3, label=place)
+        ax.fill_between(year, mean - half, mean + half, color=colour, alpha=0.2, linewidth=0)
+    if made.limit is not None and quantity.startswith("depth") and scale * made.limit < ax.get_ylim()[1]:
+        ax.axhline(scale * made.limit, color="#8a8a8a", linewidth=1.5)
+    _frame(ax, "time in service (years)", f"{quantity.replace('_', ' ')} (mm)" if metres else label(column))
+    _legend(ax)
     return ax

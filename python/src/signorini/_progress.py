@@ -14,8 +14,8 @@ _INTERVAL = 0.2
 class Progress:
     """A line on stderr, if that is a terminal, after the first second."""
 
-    def __init__(self, total: int, wanted: bool, done: int = 0) -> None:
-        self.total, self.done, self.found = total, done, done
+    def __init__(self, total: int, wanted: bool, done: int = 0, of: str = "runs") -> None:
+        self.total, self.done, self.found, self.of = total, done, done, of
         self.wanted = wanted and sys.stderr is not None and sys.stderr.isatty()
         self.started = self.told = time.monotonic()
         self.shown = False
@@ -29,7 +29,12 @@ class Progress:
         done = min(self.done + further, self.total)
         rate = (done - self.found) / (now - self.started)
         left = f", {(self.total - done) / rate:.0f} s left" if rate > 0 else ""
-        print(f"\r{done} of {self.total} runs{left}\033[K", end="", file=sys.stderr, flush=True)
+        print(f"\r{done} of {self.total} {self.of}{left}\033[K", end="", file=sys.stderr, flush=True)
+
+    def reach(self, done: int, total: int) -> None:
+        """Show that ``done`` runs of ``total`` are done, where their number is not known before."""
+        self.total = total
+        self.tell(done - self.done)
 
     def step(self, further: int) -> None:
         """Count ``further`` runs as done."""

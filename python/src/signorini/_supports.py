@@ -15,16 +15,45 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Estimate:
-    """A mean over time, with its 95 % interval.
+class ErrorPart:
+    """What a refinement is expected to add to a mean, with the half width of its 95 % interval."""
 
-    ``half_width`` is None where the run is too short to tell; ``kind`` says what the interval is
-    made of: ``"batches"`` are ten equal parts of the window.
+    mean: float
+    half_width: float
+
+
+@dataclass(frozen=True)
+class ErrorParts:
+    """The error of a mean over realisations, in parts, in the unit of the mean.
+
+    ``start`` is the second half of the window less the first; ``step`` what further halvings of
+    the step change, ``modes`` what twice the modes change, None where there is no such part or it
+    is not known; ``sampling`` the half width of the interval of the mean. ``total`` is the sum of
+    the sizes of the means and the root of the sum of all squared half widths.
+    """
+
+    start: ErrorPart
+    step: ErrorPart | None
+    modes: ErrorPart | None
+    sampling: float
+    total: float
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A mean with its 95 % interval.
+
+    ``half_width`` is None where there is too little to tell; ``kind`` says what the interval is
+    made of: ``"batches"`` are ten equal parts of the window of a run, ``"seeds"`` independent
+    realisations of the random loads. Of the latter ``deviation`` is the standard deviation of one
+    realisation, and ``error`` the error in parts, where it is known.
     """
 
     value: float
     half_width: float | None
-    kind: Literal["batches"] | None
+    kind: Literal["batches", "seeds"] | None
+    deviation: float | None = None
+    error: ErrorParts | None = None
 
     def __str__(self) -> str:
         return f"{self.value:.4g}" if self.half_width is None else f"{self.value:.4g} ± {self.half_width:.2g}"

@@ -4,14 +4,13 @@ mod accurate;
 mod args;
 mod checked;
 mod derivative;
-mod error_checks;
-mod repeats;
 mod seeds;
 
 pub use args::Args;
-pub(super) use seeds::checked as checked_seeds;
+pub(super) use seeds::{Seeds, checked as checked_seeds};
 
 use super::pipeline::Answer;
+use super::realisations;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
@@ -23,7 +22,6 @@ use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::choice;
 use checked::CheckedRun;
-use repeats::Repeats;
 use serde_json::json;
 use std::fmt::Display;
 
@@ -38,12 +36,15 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
             Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
             None => checked::checked(args, case, ui)?,
         };
-    let repeats = Repeats { case: &case, run: &run, method: &method, ui };
-    let mut study = wanted.map(|wanted| seeds::study(&repeats, wanted, !args.no_verdict)).transpose()?;
-    let shortfall = shortfall.or(study.as_mut().and_then(|study| study.shortfall.take()));
+    let study = |count| realisations::study(&case, (&run, &method), count, !args.no_verdict, ui);
+    let study = wanted.map(study).transpose()?;
     if let Some(study) = &study {
-        study.write(&mut results)?;
+        realisations::write(study, &mut results)?;
     }
+    let unchecked = [failed("half the step", refinement.as_ref()), failed("more modes", truncation.as_ref())];
+    let unchecked = unchecked.into_iter().flatten().chain(study.iter().flat_map(realisations::failed_checks));
+    let shortfall =
+        shortfall.or(study.as_ref().and_then(|study| study.shortfall.clone())).or(realisations::not_checked(unchecked));
     let derivatives = match derivatives {
         Some(wanted) => wanted.write(&case, &mut results).map(|found| Some((wanted, found)))?,
         None => None,
@@ -74,7 +75,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         wanted.show(&mut answer, &case, found);
     }
     if let Some(study) = &study {
-        study.show(&mut answer, &case);
+        seeds::show(study, &mut answer, &case);
     }
     answer.messages(checked_line("refinement", refinement.as_ref()));
     answer.messages(checked_line("truncation", truncation.as_ref()));
@@ -89,6 +90,11 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
 
 fn succeeded<T>(check: Option<&Result<T>>) -> Option<&T> {
     check.and_then(|check| check.as_ref().ok())
+}
+
+/// What a check of the run refines, if the check failed.
+fn failed<T>(refined: &str, check: Option<&Result<T>>) -> Option<String> {
+    check.filter(|check| check.is_err()).map(|_| refined.to_owned())
 }
 
 /// What a check found, as a sentence.

@@ -2,6 +2,7 @@
 
 use super::realisation::Realisation;
 use serde::Serialize;
+use std::fmt;
 
 /// Most realisations that are run again.
 pub const MOST_CHECKED: u64 = 6;
@@ -40,6 +41,15 @@ impl Refined {
 
     pub(super) fn is_step(self) -> bool {
         matches!(self, Self::HalfStep { .. })
+    }
+}
+
+impl fmt::Display for Refined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::HalfStep { .. } => f.write_str("half the step"),
+            Self::MoreModes { modes: [_, more] } => write!(f, "{more} modes"),
+        }
     }
 }
 

@@ -6,6 +6,8 @@
 //! expectation over all realisations of this density and this duration; errors of the step, the
 //! modes and the data are not in it. The first two, and that of a window that begins too early, are
 //! therefore estimated from the same realisations, and stand beside it ([`ErrorParts`]).
+//! [`RealisationPlan`] is a whole study: the number of realisations that an interval needs, the
+//! realisations, and the checks for the errors.
 //!
 //! ```
 //! use signorini::study::realisations::{Measure, Realisations, realisations};
@@ -25,23 +27,29 @@
 //! # Ok::<(), signorini::Error>(())
 //! ```
 
+mod batch;
 mod check;
+mod count;
 mod error_parts;
 mod estimate;
 mod measure;
 mod paired;
+mod plan;
 mod realisation;
 mod runner;
 mod sample;
 mod stein;
 mod verdict;
 
+pub use batch::{Batch, Purpose, RandomScenes};
 pub use check::{Check, MOST_CHECKED, Refined};
+pub use count::{MOST_REALISATIONS, PILOTS, Pilots, RealisationCount};
 pub use error_parts::{ErrorPart, ErrorParts};
 pub(crate) use estimate::mean_of;
 pub use estimate::{Estimate, Interval};
 pub use measure::{Figure, Measure};
 pub use paired::Difference;
+pub use plan::{FailedCheck, RealisationPlan, RealisationStudy};
 pub use realisation::Realisation;
 pub use runner::realisations;
 pub use sample::Realisations;

@@ -34,6 +34,12 @@ use crate::scene::Scene;
 use crate::scheme::Method;
 use crate::wear::{Opening, WearWork};
 
+/// A year of 365.25 days, s.
+pub const YEAR: f64 = 31_557_600.0;
+
+/// Histories that are followed under random loads, unless another number is given.
+pub const HISTORIES: usize = 6;
+
 /// Largest growth of a gap in a step, as a share of the gap.
 const MOST_GROWTH: f64 = 0.5;
 

@@ -1,6 +1,7 @@
 //! A support that wears.
 
 use super::state::WearState;
+use crate::scene::Scene;
 use crate::wear::{Archard, Growth, Opening, WearWork};
 
 /// A support that wears.
@@ -27,6 +28,22 @@ impl WearingSupport {
     /// What the work `work` (J) has made of it.
     pub(super) fn opening(&self, work: &WearWork) -> Opening {
         self.growth.opening(&self.law, work)
+    }
+
+    /// Makes of it in `scene` what wear has made: its walls recede, and its centre moves. A scene
+    /// without this support stays as it is.
+    pub fn open(&self, scene: &mut Scene, opening: &Opening) {
+        let Some(support) = scene.supports.iter_mut().find(|support| support.name == self.name) else { return };
+        let round = support.hole(&scene.walls).is_some();
+        let walls = support.walls.clone();
+        for (wall, by) in walls.zip(&opening.recession) {
+            if let Some(wall) = scene.walls.get_mut(wall) {
+                wall.open(*by, opening.shift);
+            }
+        }
+        if round {
+            support.centre.iter_mut().zip(opening.shift).for_each(|(centre, shift)| *centre += shift);
+        }
     }
 
     /// The gap of each wall after the work `work` (J), m.

@@ -20,7 +20,8 @@ pub struct WearWindow {
 
 impl WearWindow {
     /// What `member` tells of `supports`.
-    pub(super) fn of(member: &Realisation, supports: &[WearingSupport]) -> Self {
+    #[must_use]
+    pub fn of(member: &Realisation, supports: &[WearingSupport]) -> Self {
         let rate = |support: &WearingSupport| {
             let found = member.wear.iter().find(|wear| wear.support == support.name);
             found.map_or_else(WearWork::default, |wear| WearWork {

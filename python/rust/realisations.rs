@@ -1,0 +1,123 @@
+//! Means over realisations of the random loads of a case.
+
+use crate::case::Case;
+use crate::error::{raise, wrong};
+use crate::json::loads;
+use crate::plan::Plan;
+use crate::work::compute_beside;
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use signorini as sg;
+use signorini::output::table::Table;
+use signorini::output::{error_parts, realisations as output};
+use signorini::study::realisations::{RealisationCount, RealisationPlan, RealisationStudy};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// How many realisations are asked for: a number, or the share of an interval with the most that
+/// it may take.
+pub type Asked = (Option<u64>, Option<f64>, Option<u64>);
+
+/// How far a study is: runs that are done, in thousandths, and the runs of all batches that have
+/// begun.
+#[derive(Default)]
+pub struct RunsDone {
+    thousandths: AtomicU64,
+    runs: AtomicU64,
+}
+
+impl RunsDone {
+    /// Calls Python's `progress` with the runs that are done and those that are known of.
+    pub fn tell(&self, progress: &Bound<'_, PyAny>) -> PyResult<()> {
+        let done = self.thousandths.load(Ordering::Relaxed) / 1000;
+        progress.call1((done, self.runs.load(Ordering::Relaxed))).map(drop)
+    }
+
+    /// Begins a batch of `count` runs; what is returned is called with the share of them done.
+    fn begin(&self, count: u64) -> impl FnMut(f64) {
+        let before = 1000 * self.runs.fetch_add(count, Ordering::Relaxed);
+        move |share| self.thousandths.store(before + (1000.0 * share * count as f64) as u64, Ordering::Relaxed)
+    }
+}
+
+/// The number of realisations of `case` that is asked for.
+///
+/// # Errors
+/// `ValueError` for numbers that make no sense, and for a case without random loads.
+pub fn count((seeds, until_interval, most): Asked, case: &sg::case::Case) -> PyResult<Option<RealisationCount>> {
+    let count = RealisationCount::new(seeds, until_interval, most).map_err(raise)?;
+    if let Some(count) = count {
+        case.check_random(count).and_then(|()| case.realisation(count.most())).map_err(raise)?;
+    }
+    Ok(count)
+}
+
+/// The study of `count` realisations of `case`, with the notes on its first run.
+pub fn study(
+    case: &sg::case::Case,
+    plan: &Plan,
+    count: RealisationCount,
+    verdict: bool,
+    done: &RunsDone,
+) -> sg::Result<(RealisationStudy, Vec<String>)> {
+    let Plan { method, time } = plan;
+    let mut first = done.begin(1);
+    let end = case.scene.duration;
+    let options = sg::Options::new(*time);
+    let run = sg::run_with_progress(&case.scene, method, &options, &mut |time| first(time / end))?;
+    let plan = RealisationPlan { scenes: case, run: &run, method, time: *time, count, verdict };
+    let study = plan.follow(&mut |batch| batch.run(&mut done.begin(batch.count())), &mut |_| {})?;
+    Ok((study, run.cautions.into_iter().chain(case.instability()).collect()))
+}
+
+/// A study as the Python half reads it: `document` and `table` hold its numbers, `text` its tables
+/// for people, `refuted` what makes its means wrong, `unknown` which parts of errors are not known.
+pub fn told(study: &RealisationStudy, notes: &[String], case: &sg::case::Case) -> Value {
+    let found = &study.realisations;
+    let tables = [output::table(found, &case.scene), error_parts::table(found, &case.scene)];
+    let member = |member: &sg::study::realisations::Realisation| {
+        member.findings.first().map(|finding| format!("realisation {}: {finding}", member.number))
+    };
+    let failed = study.failures.iter().map(|failed| (failed.refined, failed.error.to_string()));
+    let refuted = found.checks.iter().filter_map(|check| {
+        let all = check.members.iter().flat_map(|member| member.findings.first().map(|finding| (member, finding)));
+        let first = all.map(|(member, finding)| format!("realisation {} is refuted: {finding}", member.number)).next();
+        Some((check.refined, first?))
+    });
+    let unknown = failed.chain(refuted).map(|(refined, why)| format!("the check with {refined} failed: {why}"));
+    json!({
+        "document": found,
+        "table": output::cells(found),
+        "text": texts(tables),
+        "refuted": found.members.iter().filter_map(member).collect::<Vec<_>>(),
+        "unknown": unknown.collect::<Vec<_>>(),
+        "shortfall": study.shortfall.as_ref().map(ToString::to_string),
+        "notes": notes,
+    })
+}
+
+/// Tables for people, below one another.
+pub fn texts(tables: impl IntoIterator<Item = Option<Table>>) -> String {
+    let texts = tables.into_iter().flatten().map(|table| table.fit(None).text);
+    texts.collect::<Vec<_>>().join("\n\n")
+}
+
+#[pyfunction]
+pub fn _realisations<'py>(
+    case: &Bound<'py, Case>,
+    scheme: Option<&str>,
+    step: Option<f64>,
+    asked: Asked,
+    verdict: bool,
+    progress: Py<PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = case.py();
+    let plan = case.get().plan(scheme, step)?;
+    let case = &case.get().case;
+    let Some(count) = count(asked, case)? else {
+        return Err(wrong("seeds", "missing", "the number of realisations, or until_interval"));
+    };
+    let done = RunsDone::default();
+    let work = || study(case, &plan, count, verdict, &done);
+    let (study, notes) = compute_beside(py, work, &mut |py| done.tell(progress.bind(py)))?;
+    loads(py, &told(&study, &notes, case).to_string())
+}

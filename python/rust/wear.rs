@@ -1,0 +1,92 @@
+//! Wear over the years of the supports of a case.
+
+use crate::case::Case;
+use crate::error::raise;
+use crate::json::loads;
+use crate::plan::Plan;
+use crate::realisations::{RunsDone, count, study, texts, told};
+use crate::work::compute_beside;
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use signorini as sg;
+use signorini::output::wear_history as output;
+use signorini::study::wear_history::{WearHistories, WearPlan, WearWindow, WearingSupport};
+use signorini::wear::Opening;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Follows histories of wear: `histories` of them, or as many as the interval `within` takes, a
+/// share with the most that it may take, after a study of their first windows. Calls `counted` with
+/// the runs of that study, and `progress` with the per cent of the years that are done.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
+pub fn _wear<'py>(
+    case: &Bound<'py, Case>,
+    scheme: Option<&str>,
+    step: Option<f64>,
+    years: Option<f64>,
+    histories: Option<u64>,
+    within: (Option<f64>, Option<u64>),
+    verdict: bool,
+    counted: Py<PyAny>,
+    progress: Py<PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = case.py();
+    let plan = case.get().plan(scheme, step)?;
+    let case = &case.get().case;
+    let supports = case.wearing_supports().map_err(raise)?;
+    let service = case.service(years).map_err(raise)?;
+    // A number beside an interval is refused.
+    let within = count((histories.filter(|_| within.0.is_some()), within.0, within.1), case)?;
+    let done = RunsDone::default();
+    let first = within.map(|count| {
+        compute_beside(py, || study(case, &plan, count, verdict, &done), &mut |py| done.tell(counted.bind(py)))
+    });
+    let first = first.transpose()?;
+    let members = first.as_ref().map_or(&[][..], |(study, _)| &study.realisations.members);
+    let kept: Vec<WearWindow> = members.iter().map(|member| WearWindow::of(member, &supports)).collect();
+    let histories = match within {
+        Some(_) => kept.len(),
+        None => case.histories(histories.map(|count| count as usize)).map_err(raise)?,
+    };
+    let found = followed(py, case, &plan, (&supports, &kept), (histories, service), &progress)?;
+    let mut known = wear_told(case, &found, histories);
+    known["first"] = json!(first.as_ref().map(|(study, notes)| told(study, notes, case)));
+    loads(py, &known.to_string())
+}
+
+/// The histories, whose first windows are `kept`.
+fn followed(
+    py: Python<'_>,
+    case: &sg::case::Case,
+    plan: &Plan,
+    (supports, kept): (&[WearingSupport], &[WearWindow]),
+    (histories, service): (usize, f64),
+    progress: &Py<PyAny>,
+) -> PyResult<WearHistories> {
+    let options = sg::Options::new(plan.time);
+    let scene = |number: u64, openings: &[Opening]| case.worn(number, supports, openings);
+    let wear = WearPlan { supports, scene: &scene, method: &plan.method, options: &options, histories, service };
+    let done = AtomicU64::new(0);
+    let mut tell = |share: f64| done.store((100.0 * share) as u64, Ordering::Relaxed);
+    let mut watch = |py: Python<'_>| progress.bind(py).call1((done.load(Ordering::Relaxed),)).map(drop);
+    compute_beside(py, || wear.follow(kept, &mut |_| Ok(()), &mut tell), &mut watch)
+}
+
+/// The histories as the Python half reads them.
+fn wear_told(case: &sg::case::Case, found: &WearHistories, histories: usize) -> Value {
+    let refuted = found.refuted.iter();
+    let refuted = refuted.filter_map(|(number, findings)| Some(format!("window {number}: {}", findings.first()?)));
+    json!({
+        "supports": found.supports,
+        "histories": histories,
+        "windows": found.windows,
+        "limit": case.wear.limit,
+        "years": output::years(found),
+        "history": output::history(found),
+        "limits": output::limits(case, found),
+        "text": texts([Some(output::table(found))]),
+        "remarks": output::remarks(case, found),
+        "refuted": refuted.collect::<Vec<_>>(),
+        "notes": case.instability(),
+    })
+}

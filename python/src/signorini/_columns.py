@@ -1,0 +1,34 @@
+"""Columns of tables that the engine writes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Column = npt.NDArray[Any]
+
+
+def words(cells: Sequence[str]) -> Column:
+    """The cells of a column of words; None where there is none."""
+    return np.array([cell or None for cell in cells], object)
+
+
+def column(cells: Sequence[str]) -> Column:
+    """The cells of a column: whole numbers, numbers (nan where there is none), or words."""
+    for kind in (np.int64, np.float64):
+        try:
+            filled = cells if kind is np.int64 else [cell or "nan" for cell in cells]
+            return np.array([kind(cell) for cell in filled], kind)
+        except ValueError:
+            continue
+    return words(cells)
+
+
+def columns(header: Sequence[str], rows: Sequence[Sequence[str]]) -> dict[str, Column]:
+    """A table by columns; those of names and of reasons are words, also where no row has one."""
+    of_words = {"error", "place", "kind"}
+    cells = {name: [row[i] for row in rows] for i, name in enumerate(header)}
+    return {name: words(own) if name in of_words else column(own) for name, own in cells.items()}

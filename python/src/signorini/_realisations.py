@@ -1,0 +1,218 @@
+"""Means over realisations of the random loads of a case."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Literal
+
+from . import _core
+from ._columns import Column, columns
+from ._core import AccuracyWarning, Case, RefutedError, ResultWarning
+from ._progress import Progress
+from ._supports import ErrorPart, ErrorParts, Estimate
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+Means = Mapping[str, Mapping[str, Estimate]]
+
+
+@dataclass(frozen=True, eq=False)
+class Realisations:
+    """Means over ``count`` realisations of the random loads.
+
+    ``supports`` and ``walls`` map a name to the `Estimate` of each measure there:
+    ``study.supports["plate-1"]["work_rate"]`` is a mean work rate, W. The measures are
+    ``mean_force``, ``mean_force_y``, ``mean_force_z``, ``rms_force`` and ``peak_force`` (N),
+    ``work_rate`` and ``friction_power`` (W), as far as a place has them. ``table`` has the columns
+    of ``realisations.csv``: a row for each realisation and place. ``print`` shows the tables of
+    the tool.
+    """
+
+    count: int
+    supports: Means
+    walls: Means
+    table: Mapping[str, Column]
+    _rows: tuple[dict[str, Any], ...]
+    _text: str
+
+    def __repr__(self) -> str:
+        return f"<Realisations: {self.count} at {', '.join([*self.supports, *self.walls])}>"
+
+    def __str__(self) -> str:
+        return self._text
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The means as a pandas DataFrame, a row for each place and measure.
+
+        Returns
+        -------
+        pandas.DataFrame
+            With the columns of ``errors.csv`` and ``standard_deviation``.
+
+        Raises
+        ------
+        ImportError
+            Without pandas.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> case = sg.load("tube-round-supports", set={"time.end": 0.2, "time.statistics_from": 0.1})
+        >>> sg.realisations(case, seeds=2, verdict=False).to_pandas()["unit"][0]
+        'N'
+        """
+        try:
+            import pandas as pd
+        except ImportError:
+            raise ImportError("to_pandas needs pandas: pip install pandas") from None
+        return pd.DataFrame(list(self._rows))
+
+
+_PARTS = ("start", "step", "modes")
+
+
+def _part(known: dict[str, float]) -> ErrorPart:
+    return ErrorPart(known["mean"], known["half_width_95"])
+
+
+def _error(known: dict[str, Any]) -> ErrorParts:
+    step, modes = (None if known[name] is None else _part(known[name]) for name in ("step", "modes"))
+    return ErrorParts(_part(known["start"]), step, modes, known["sampling_half_width_95"], known["total"])
+
+
+def _estimate(known: dict[str, Any], seeds: bool) -> Estimate:
+    half = known["half_width_95"]
+    kind: Literal["seeds", "batches"] | None = None if half is None else "seeds" if seeds else "batches"
+    error = None if known["error"] is None else _error(known["error"])
+    return Estimate(known["mean"], half, kind, known["standard_deviation"], error)
+
+
+def _row(known: dict[str, Any]) -> dict[str, Any]:
+    """A mean as a row of a frame."""
+    nan = float("nan")
+    error = known["error"] or dict.fromkeys((*_PARTS, "total"))
+    names = ("place", "kind", "measure", "unit", "mean", "standard_deviation", "half_width_95")
+    row = {name: nan if known[name] is None else known[name] for name in names}
+    row["error"] = nan if error["total"] is None else error["total"]
+    for name in _PARTS:
+        part = error[name] or {"mean": nan, "half_width_95": nan}
+        row |= {name: part["mean"], f"{name}_half_width_95": part["half_width_95"]}
+    return row
+
+
+def made(known: dict[str, Any]) -> Realisations:
+    """The study that the compiled half told."""
+    document = known["document"]
+    places: dict[str, dict[str, dict[str, Estimate]]] = {"support": {}, "wall": {}}
+    for one in document["estimates"]:
+        own = places[one["kind"]].setdefault(one["place"], {})
+        own[one["measure"]] = _estimate(one, seeds=document["count"] > 1)
+    supports, walls = (
+        MappingProxyType({name: MappingProxyType(own) for name, own in of.items()}) for of in places.values()
+    )
+    table, rows = MappingProxyType(columns(*known["table"])), tuple(map(_row, document["estimates"]))
+    return Realisations(document["count"], supports, walls, table, rows, known["text"])
+
+
+def warn(known: dict[str, Any], stacklevel: int) -> None:
+    """Warn of what limits the use of a study."""
+    for note in known["notes"]:
+        warnings.warn(note, ResultWarning, stacklevel=stacklevel + 1)
+    for text in (*known["unknown"], *([known["shortfall"]] if known["shortfall"] else [])):
+        warnings.warn(text, AccuracyWarning, stacklevel=stacklevel + 1)
+
+
+def refuted(reasons: list[str], study: object) -> RefutedError:
+    """The error of a study whose runs the judge refutes; it holds the study."""
+    error = RefutedError(f"refuted by the judge, not to be used: {'; '.join(reasons)}")
+    error.study = study
+    return error
+
+
+def of_case(case: object, name: str) -> Case:
+    """``case``, unless it is something else."""
+    if not isinstance(case, Case):
+        raise TypeError(f"{case!r} in {name}; expected a Case, as of sg.tube, sg.case or sg.load: it knows its seeds")
+    return case
+
+
+def realisations(
+    case: Case,
+    scheme: str | None = None,
+    *,
+    seeds: int | None = None,
+    until_interval: float | None = None,
+    most_seeds: int | None = None,
+    step: float | None = None,
+    verdict: bool = True,
+    progress: bool = True,
+) -> Realisations:
+    """Run a case under several realisations of its random loads, on all cores.
+
+    Realisation k has the seeds of the case plus k - 1. The engine is that of ``signorini run
+    --seeds``, and the numbers are the same.
+
+    Parameters
+    ----------
+    case : Case
+        With a random load or turbulence.
+    scheme, step : optional
+        As in `Case.run`.
+    seeds : int, optional
+        How many realisations.
+    until_interval : float, optional
+        In place of ``seeds``: as many as bring the 95 % intervals of the work rates of supports
+        (without supports, of the mean forces) within this share of them. Six realisations say how
+        many that takes (Stein's procedure in two stages).
+    most_seeds : int, optional
+        The most that ``until_interval`` may take; 200 unless given.
+    verdict : bool
+        Whether up to six realisations are run again with half the step, and with twice the modes
+        where modes are left out, for the `Estimate.error` of each mean.
+    progress : bool
+        Whether a terminal shows the progress, after a second.
+
+    Returns
+    -------
+    Realisations
+
+    Raises
+    ------
+    ValueError
+        For a wrong request, such as a case without random loads.
+    TypeError
+        For something else than a case.
+    RunError
+        For a realisation that failed; `RefutedError` where the judge refutes one, whose ``study``
+        holds the study.
+
+    Warns
+    -----
+    AccuracyWarning
+        Where ``until_interval`` was not reached with ``most_seeds``, and where a check for the
+        errors failed, so that a part of them is not known.
+    ResultWarning
+        For each note that concerns the results, as in `Scene.run`.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> case = sg.load("tube-round-supports", set={"time.end": 0.2, "time.statistics_from": 0.1})
+    >>> study = sg.realisations(case, seeds=3)
+    >>> rate = study.supports["plate-1"]["work_rate"]
+    >>> rate.kind, rate.error.total > rate.half_width
+    ('seeds', True)
+    """
+    with Progress(0, progress) as shown:
+        asked = (seeds, until_interval, most_seeds)
+        known = _core._realisations(of_case(case, "realisations"), scheme, step, asked, verdict, shown.reach)
+    study = made(known)
+    if known["refuted"]:
+        raise refuted(known["refuted"], study)
+    warn(known, 2)
+    return study

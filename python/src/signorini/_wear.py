@@ -1,0 +1,224 @@
+"""Wear over the years at the supports of a case."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+from ._columns import Column, columns
+from ._core import Case, ResultWarning
+from ._progress import Progress
+from ._realisations import Realisations, made, of_case, refuted, warn
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True)
+class LimitYears:
+    """The years after which the mean depth at a support reaches the limit of the tube.
+
+    ``deepest`` where it is deepest, ``scar`` if all of the wear comes off one scar, ``even`` if it
+    comes off evenly all round; None where that is not within the years followed, or without limit.
+    """
+
+    deepest: float | None
+    scar: float | None
+    even: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class WearStudy:
+    """Histories of the wear at ``supports``, whose gaps grow by it.
+
+    ``years`` has the columns of ``years.csv``: means over the histories with the half widths of
+    their 95 % intervals (``gap_m``, ``depth_deepest_m``, ``depth_all_round_m``,
+    ``depth_one_scar_m``, ``work_rate_W`` and the same with ``half_width_95`` in the name), a row
+    for each ``year`` and ``place``. ``history`` has those of ``history.csv``, a row for each
+    history as well. ``limit`` is the depth up to which the tube may wear, m, or None, and
+    ``limit_years`` says when each support reaches it. ``histories`` is their number and
+    ``windows`` how many runs they took. ``first`` is the study of the first windows, with its
+    errors, where the number of histories follows from an interval. ``remarks`` say what the
+    figures mean; ``print`` shows the table of the tool with them.
+    """
+
+    supports: tuple[str, ...]
+    histories: int
+    windows: int
+    years: Mapping[str, Column]
+    history: Mapping[str, Column]
+    limit: float | None
+    limit_years: Mapping[str, LimitYears]
+    first: Realisations | None
+    remarks: tuple[str, ...]
+    _text: str
+
+    def __repr__(self) -> str:
+        end = float(self.years["year"][-1])
+        return f"<WearStudy: {self.histories} histories over {end:.4g} years at {', '.join(self.supports)}>"
+
+    def __str__(self) -> str:
+        return "\n".join([self._text, *self.remarks])
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The means over the years as a pandas DataFrame.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The columns of ``years``.
+
+        Raises
+        ------
+        ImportError
+            Without pandas.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> short = {"time.end": 0.2, "time.statistics_from": 0.1, "system.modes": 6}
+        >>> sg.wear(sg.load("tube-in-cross-flow", set=short), years=5, histories=2).to_pandas()["place"][0]
+        'plate-1'
+        """
+        try:
+            import pandas as pd
+        except ImportError:
+            raise ImportError("to_pandas needs pandas: pip install pandas") from None
+        return pd.DataFrame(dict(self.years))
+
+    def plot(self, quantity: str = "depth_deepest", ax: Any = None) -> Any:
+        """Draw a quantity over the years with matplotlib, a curve with its 95 % band per support.
+
+        Parameters
+        ----------
+        quantity : str
+            ``"depth_deepest"``, ``"depth_all_round"``, ``"depth_one_scar"``, ``"gap"`` or
+            ``"work_rate"``.
+        ax : matplotlib axes, optional
+            Made if left out.
+
+        Returns
+        -------
+        matplotlib axes
+
+        Raises
+        ------
+        ImportError
+            Without matplotlib.
+        ValueError
+            For another quantity.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> short = {"time.end": 0.2, "time.statistics_from": 0.1, "system.modes": 6}
+        >>> study = sg.wear(sg.load("tube-in-cross-flow", set=short), years=5, histories=2)
+        >>> study.plot("gap").get_ylabel()
+        'gap (mm)'
+        """
+        from . import _plot
+
+        return _plot.wear(self, quantity, ax)
+
+
+def _limit_years(known: dict[str, Any]) -> LimitYears:
+    return LimitYears(*(known[f"limit_{name}_years"] for name in ("deepest", "one_scar", "all_round")))
+
+
+def wear(
+    case: Case,
+    scheme: str | None = None,
+    *,
+    years: float | None = None,
+    histories: int | None = None,
+    until_interval: float | None = None,
+    most_seeds: int | None = None,
+    step: float | None = None,
+    verdict: bool = True,
+    progress: bool = True,
+) -> WearStudy:
+    """Follow the wear at loose supports over the years, whose gaps grow by the wear they cause.
+
+    The work rate is that of a run with the gap of that time; under random loads several histories
+    are followed, each run with seeds of its own. The engine is that of ``signorini wear``, and the
+    numbers are the same.
+
+    Parameters
+    ----------
+    case : Case
+        With supports that have a width, and wear coefficients: see `tube` and `Archard`.
+    scheme, step : optional
+        As in `Case.run`.
+    years : float, optional
+        In service, of 365.25 days; those of the case unless given.
+    histories : int, optional
+        Under random loads; 6 unless given.
+    until_interval : float, optional
+        In place of ``histories``: as many as bring the 95 % intervals of the work rates in the
+        first gaps within this share of them, as in `realisations`, whose study is ``first``.
+    most_seeds : int, optional
+        The most histories that ``until_interval`` may take; 200 unless given.
+    verdict : bool
+        With ``until_interval``: whether the errors of the work rates in the first gaps are found.
+    progress : bool
+        Whether a terminal shows the progress, after a second.
+
+    Returns
+    -------
+    WearStudy
+
+    Raises
+    ------
+    ValueError
+        For a wrong request, such as a case in which nothing wears.
+    TypeError
+        For something else than a case.
+    RunError
+        For a run that failed; `RefutedError` where the judge refutes one, whose ``study`` holds
+        the study.
+
+    Warns
+    -----
+    AccuracyWarning
+        As `realisations`.
+    ResultWarning
+        Where the flow of the case makes the tube unstable with all supports active, and, with
+        ``until_interval``, for each note on the first run.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> short = {"time.end": 0.2, "time.statistics_from": 0.1, "system.modes": 6}
+    >>> study = sg.wear(sg.load("tube-in-cross-flow", set=short), years=5, histories=2)
+    >>> study
+    <WearStudy: 2 histories over 5 years at plate-1, plate-2>
+    >>> float(study.years["gap_m"][0])
+    0.0002
+    """
+    case, within = of_case(case, "wear"), (until_interval, most_seeds)
+    with Progress(0, progress) as runs, Progress(100, progress, of="per cent of the years") as shown:
+        known = _core._wear(case, scheme, step, years, histories, within, verdict, runs.reach, shown.tell)
+    first = None if known["first"] is None else made(known["first"])
+    study = WearStudy(
+        tuple(known["supports"]),
+        known["histories"],
+        known["windows"],
+        MappingProxyType(columns(*known["years"])),
+        MappingProxyType(columns(*known["history"])),
+        known["limit"],
+        MappingProxyType({one["place"]: _limit_years(one) for one in known["limits"]}),
+        first,
+        tuple(known["remarks"]),
+        known["text"],
+    )
+    if known["refuted"]:
+        raise refuted(known["refuted"], study)
+    if first is not None:
+        warn(known["first"], 2)
+    elif known["notes"]:
+        warnings.warn(known["notes"], ResultWarning, stacklevel=2)
+    return study

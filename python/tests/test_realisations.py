@@ -1,0 +1,147 @@
+"""Means over realisations: those of the tool, and of runs with raised seeds."""
+
+import csv
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.stats import t as student
+
+import signorini as sg
+
+SHORT = {"time.end": 0.3, "time.statistics_from": 0.05, "system.modes": 6, "system.beam.elements": 12}
+SET = [word for key, value in SHORT.items() for word in ("--set", f"{key}={value}")]
+
+
+def tube(**more: Any) -> sg.Case:
+    return sg.load("tube-round-supports", set={**SHORT, **more})
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def assert_same(column: Any, cells: list[str]) -> None:
+    """Every cell of a file is the value of the column: the text reads back as the same number."""
+    for value, cell in zip(column, cells, strict=True):
+        if isinstance(value, str):
+            assert value == cell
+        else:
+            assert float(value) == float(cell) if cell else math.isnan(value)
+
+
+@pytest.fixture(scope="module")
+def three() -> sg.Realisations:
+    return sg.realisations(tube(), seeds=3)
+
+
+def test_numbers_are_those_of_the_tool(three: sg.Realisations, tool: Callable[..., Path]) -> None:
+    folder = tool("run", "tube-round-supports", *SET, "--seeds", "3")
+    table = rows(folder / "realisations.csv")
+    assert list(three.table) == list(table[0])
+    for name, column in three.table.items():
+        assert_same(column, [row[name] for row in table])
+    frame = three.to_pandas()
+    judged = frame[frame["error"].notna()]
+    errors = rows(folder / "errors.csv")
+    assert set(errors[0]) == set(frame.columns) - {"standard_deviation"}
+    for name in set(errors[0]) - {"measure"}:
+        assert_same(judged[name], [row[name] for row in errors])
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["realisations"]
+    for one in summary["estimates"]:
+        mine = getattr(three, f"{one['kind']}s")[one["place"]][one["measure"]]
+        assert (mine.value, mine.half_width, mine.deviation) == (
+            one["mean"], one["half_width_95"], one["standard_deviation"],
+        )  # fmt: skip
+        assert (mine.error is None) == (one["error"] is None)
+        if mine.error is not None:
+            assert mine.error.total == one["error"]["total"]
+            assert mine.error.modes is not None and mine.error.modes.half_width == one["error"]["modes"]["half_width_95"]
+
+
+def test_an_interval_takes_as_many_as_it_takes_the_tool(tool: Callable[..., Path]) -> None:
+    study = sg.realisations(tube(), until_interval=0.9, verdict=False)
+    folder = tool("run", "tube-round-supports", *SET, "--until-interval", "0.9", "--no-verdict")
+    table = rows(folder / "realisations.csv")
+    assert study.count == int(table[-1]["realisation"]) >= 6
+    assert_same(study.table["work_rate_W"], [row["work_rate_W"] for row in table])
+
+
+def test_realisations_are_runs_with_raised_seeds_and_means_have_the_intervals_of_student(
+    three: sg.Realisations,
+) -> None:
+    for name, own in three.supports.items():
+        runs = [tube(**{f"load.{i}.random.seed": 1 + k for i in (1, 2)}).run() for k in range(3)]
+        values = np.array([run.supports[name].work_rate.value for run in runs])
+        assert (three.table["work_rate_W"][three.table["place"] == name] == values).all()
+        rate = own["work_rate"]
+        assert rate.kind == "seeds" and rate.half_width is not None and rate.error is not None
+        half = student.ppf(0.975, 2) * values.std(ddof=1) / np.sqrt(3)
+        # Sums of three numbers, and a quantile that the library computes by itself.
+        assert rate.value == pytest.approx(values.mean(), rel=1e-14)
+        assert rate.half_width == pytest.approx(half, rel=1e-6)
+        assert rate.error.sampling == rate.half_width
+        parts = [part for part in (rate.error.start, rate.error.step, rate.error.modes) if part is not None]
+        halves = sum(part.half_width**2 for part in parts) + rate.half_width**2
+        total = sum(abs(part.mean) for part in parts) + np.sqrt(halves)
+        # Roundings of seven numbers.
+        assert len(parts) == 3 and abs(rate.error.total / total - 1.0) < 1e-14
+
+
+def test_without_a_verdict_there_are_no_errors_and_one_realisation_has_batches() -> None:
+    one = sg.realisations(tube(), seeds=1, verdict=False)
+    assert one.supports["plate-1"]["work_rate"].kind in ("batches", None)
+    assert one.supports["plate-1"]["work_rate"].error is None and one.count == 1
+    assert one.to_pandas()["error"].isna().all()
+    assert "plate-1" in str(one) and "plate-2" in repr(one)
+    assert isinstance(pd.DataFrame(dict(one.table)), pd.DataFrame)
+
+
+def test_an_interval_that_is_out_of_reach_is_a_warning() -> None:
+    with pytest.warns(sg.AccuracyWarning, match="an interval of ± 1.0 % was not reached: 7 of"):
+        study = sg.realisations(tube(), until_interval=0.01, most_seeds=7, verdict=False)
+    assert study.count == 7
+
+
+def test_a_refuted_realisation_is_an_error_with_the_study() -> None:
+    shaken = sg.case({
+        "system": {"oscillator": {"mass": 1.0, "damping": 0.0, "stiffness": 400.0}},
+        "wall": [{"name": "stop", "side": "upper", "position": 2e-3}],
+        "load": [{"random": {"rms": 3.0, "from": 1.0, "to": 2.0, "seed": 1}}],
+        "penalty": {"stiffness": [1e5]},
+        "time": {"end": 20.0, "step": 0.02},
+    })  # fmt: skip
+    # Explicit: stable at the wall up to 2/√(1e5 N/m / 1 kg), 6.3 ms.
+    with pytest.raises(sg.RefutedError, match="realisation 2: ") as caught:
+        sg.realisations(shaken, "penalty:integrator=central-difference", seeds=2)
+    assert isinstance(caught.value.study, sg.Realisations)
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        ({}, "seeds is missing; expected"),
+        ({"seeds": 0}, "seeds is 0; expected 1 or more"),
+        ({"seeds": 2, "until_interval": 0.1}, "until_interval is 0.1; expected no interval beside"),
+        ({"until_interval": 5.0}, "until_interval is 5.*above 0 and below 1"),
+        ({"until_interval": 0.1, "most_seeds": 3}, "most_seeds is 3; expected 6 or more"),
+        ({"seeds": 2, "scheme": "event"}, "event"),
+        ({"seeds": 2, "step": -1.0}, "step"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(asked: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        sg.realisations(tube(), **asked)
+
+
+def test_what_has_no_seeds_is_refused(scene: sg.Scene) -> None:
+    with pytest.raises(ValueError, match="seeds is 3; expected a case with a random load"):
+        sg.realisations(sg.load("rigid-walls-sine"), seeds=3)
+    with pytest.raises(TypeError, match="expected a Case"):
+        sg.realisations(scene, seeds=3)  # type: ignore[arg-type]

@@ -1,0 +1,122 @@
+"""Wear over the years: the tables of the tool, and what it takes from its first windows."""
+
+import csv
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import signorini as sg
+
+SHORT = {
+    "time.end": 0.3, "time.statistics_from": 0.05, "system.modes": 6, "wear.coefficient": 1e-13, "wear.limit": 0.001,
+}  # fmt: skip
+SET = [word for key, value in SHORT.items() for word in ("--set", f"{key}={value}")]
+
+
+def tube(**more: Any) -> sg.Case:
+    return sg.load("tube-in-cross-flow", set={**SHORT, **more})
+
+
+@pytest.fixture(scope="module")
+def three() -> sg.WearStudy:
+    return sg.wear(tube(), years=20, histories=3)
+
+
+def assert_same(columns: Any, path: Path) -> None:
+    """The columns are those of a file, number for number."""
+    with path.open(encoding="utf-8", newline="") as file:
+        header, *rows = csv.reader(file)
+    assert list(columns) == header
+    for index, column in enumerate(columns.values()):
+        for value, row in zip(column, rows, strict=True):
+            cell = row[index]
+            if isinstance(value, str):
+                assert value == cell
+            else:
+                assert float(value) == float(cell) if cell else math.isnan(value)
+
+
+def test_years_and_histories_are_those_of_the_tool(three: sg.WearStudy, tool: Callable[..., Path]) -> None:
+    folder = tool("wear", "tube-in-cross-flow", *SET, "--years", "20", "--histories", "3")
+    assert_same(three.years, folder / "years.csv")
+    assert_same(three.history, folder / "history.csv")
+
+
+def test_years_are_means_over_the_histories(three: sg.WearStudy) -> None:
+    assert (three.supports, three.histories) == (("plate-1", "plate-2"), 3)
+    assert three.years["year"][0] == 0.0 and three.years["year"][-1] == 20.0
+    for row, (year, place) in enumerate(zip(three.years["year"], three.years["place"], strict=True)):
+        own = (three.history["year"] == year) & (three.history["place"] == place)
+        assert own.sum() == 3
+        for name in ("gap_m", "depth_deepest_m", "depth_all_round_m", "work_rate_W"):
+            # A sum of three numbers.
+            assert three.years[name][row] == pytest.approx(three.history[name][own].mean(), rel=1e-14)
+    assert len(three.to_pandas()) == len(three.years["year"])
+    assert "plate-1" in str(three) and "evenly all round" in str(three)
+    assert three.first is None
+
+
+def test_the_year_of_the_limit_lies_on_the_curve_of_the_depth(three: sg.WearStudy) -> None:
+    # A thousandth of the wall of the tube, 1.65 mm.
+    assert three.limit == pytest.approx(1.65e-6, rel=1e-12)
+    for place, limit in three.limit_years.items():
+        own = three.years["place"] == place
+        for found, name in [(limit.deepest, "deepest"), (limit.scar, "one_scar"), (limit.even, "all_round")]:
+            depth = three.years[f"depth_{name}_m"][own]
+            assert (found is None) == bool(depth[-1] < three.limit)
+            if found is not None:
+                # Straight between the points, on either side.
+                assert np.interp(found, three.years["year"][own], depth) == pytest.approx(three.limit, rel=1e-12)
+    assert three.limit_years["plate-1"].scar is not None
+
+
+def test_an_interval_begins_with_the_study_of_the_first_windows(tool: Callable[..., Path]) -> None:
+    asked: dict[str, Any] = {"until_interval": 0.9, "most_seeds": 20}
+    study = sg.wear(tube(), years=5, **asked)
+    first = sg.realisations(tube(), **asked)
+    assert study.first is not None and study.histories == first.count >= 6
+    assert study.first.supports["plate-1"]["work_rate"] == first.supports["plate-1"]["work_rate"]
+    assert first.supports["plate-1"]["work_rate"].error is not None
+    folder = tool(
+        "wear", "tube-in-cross-flow", *SET, "--years", "5", "--until-interval", "90%", "--most-seeds", "20"
+    )  # fmt: skip
+    assert_same(study.years, folder / "years.csv")
+    assert_same(study.first.table, folder / "realisations.csv")
+
+
+def test_curves_have_their_band_and_the_limit(three: sg.WearStudy) -> None:
+    axes = three.plot()
+    assert axes.get_ylabel() == "depth deepest (mm)" and len(axes.get_lines()) == 3
+    own = three.years["place"] == "plate-2"
+    np.testing.assert_array_equal(axes.get_lines()[1].get_ydata(), 1e3 * three.years["depth_deepest_m"][own])
+    assert three.plot("work_rate").get_ylabel() == "work rate (W)"
+    with pytest.raises(ValueError, match="quantity is 'depth'; expected gap, depth_deepest"):
+        three.plot("depth")
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        ({"histories": 0}, "histories is 0; expected 1 or more"),
+        ({"years": 0.0}, "years is 0; expected a number above 0"),
+        ({"years": math.inf}, "years is inf; expected a number above 0"),
+        ({"histories": 4, "until_interval": 0.1}, "until_interval is 0.1; expected no interval beside"),
+        ({"until_interval": 5}, "until_interval is 5.*above 0 and below 1"),
+        ({"most_seeds": 9}, "most_seeds is 9; expected until_interval"),
+        ({"scheme": "event"}, "event"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(asked: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        sg.wear(tube(), **asked)
+
+
+def test_what_does_not_wear_is_refused(scene: sg.Scene) -> None:
+    with pytest.raises(ValueError, match="expected a case with supports, and coefficient and service"):
+        sg.wear(sg.load("rigid-walls-sine"))
+    with pytest.raises(TypeError, match="expected a Case"):
+        sg.wear(scene)  # type: ignore[arg-type]

@@ -1,0 +1,125 @@
+//! A study of realisations of a case, for the commands that make one: `run` and `wear`.
+
+use super::estimate::DurationEstimate;
+use super::pipeline::Answer;
+use super::ui::Ui;
+use crate::case::Case;
+use crate::error::{Error, Result, Subject};
+use crate::output::results::Results;
+use crate::output::{error_parts, realisations as output};
+use crate::run::Run;
+use crate::scheme::Method;
+use crate::study::realisations::{
+    Batch, Purpose, Realisation, RealisationCount, RealisationPlan, RealisationStudy, Refined,
+};
+use std::num::NonZero;
+
+/// The share that `text` of `argument` says: `5%` or `0.05`.
+///
+/// # Errors
+/// [`Error::Invalid`] under `argument` for a text that is no number.
+pub fn share(argument: &'static str, text: &str) -> Result<f64> {
+    let (number, unit) = match text.trim().strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    let wrong = |_| Error::invalid(argument, text, "a share above 0 and below 1: 5% or 0.05");
+    Ok(unit * number.trim().parse::<f64>().map_err(wrong)?)
+}
+
+/// The error of a request under the name of the command line's argument: `until_interval` is
+/// `--until-interval`.
+pub fn of_argument(error: Error) -> Error {
+    match error {
+        Error::Invalid { subject, value, expected } => {
+            let subject = Subject::of(format!("--{}", subject.to_string().replace('_', "-")));
+            Error::Invalid { subject, value, expected }
+        }
+        other => other,
+    }
+}
+
+/// The study of `count` realisations of `case`, of which `run` by `method` is the first; with
+/// `verdict` also the errors of its means. Its bars say how far it is, and what is refuted in it
+/// fails the command.
+pub fn study(
+    case: &Case,
+    (run, method): (&Run, &Method),
+    count: RealisationCount,
+    verdict: bool,
+    ui: &Ui,
+) -> Result<RealisationStudy> {
+    let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, verdict };
+    let study = plan.follow(&mut |batch| batch_with_bar(case, method, batch, ui), &mut |pilots| {
+        ui.message(&pilots.to_string());
+    })?;
+    study.refuted().for_each(|(run, findings)| ui.refute(&run, findings));
+    Ok(study)
+}
+
+/// Runs `batch` under a bar with its name.
+fn batch_with_bar(case: &Case, method: &Method, batch: &Batch<'_>, ui: &Ui) -> Result<Vec<Realisation>> {
+    let (label, other) = match batch.purpose {
+        Purpose::Pilots => ("pilots".to_owned(), None),
+        Purpose::Check(refined @ Refined::MoreModes { .. }) => (refined.to_string(), Some(batch.scene(1)?)),
+        Purpose::Check(refined) => (refined.to_string(), None),
+        Purpose::Means => ("realisations".to_owned(), None),
+    };
+    let cores = std::thread::available_parallelism().map_or(1, NonZero::get) as f64;
+    let count = batch.count() as f64;
+    let scene = other.as_ref().unwrap_or(&case.scene);
+    let estimate = DurationEstimate::of_run(scene, method, batch.step()).times(count / cores.min(count.max(1.0)));
+    ui.with_estimate(&label, estimate, |bar| batch.run(&mut |done| bar.set_share(done)))
+}
+
+/// The refinements of the checks of `study` that failed, in words.
+pub fn failed_checks(study: &RealisationStudy) -> impl Iterator<Item = String> {
+    study.failures.iter().map(|failed| failed.refined.to_string())
+}
+
+/// That the checks failed in which `refined` is refined; `None` where none did.
+pub fn not_checked(refined: impl Iterator<Item = String>) -> Option<Error> {
+    let mut checks: Vec<String> = refined.collect();
+    checks.sort();
+    checks.dedup();
+    (!checks.is_empty()).then_some(Error::Unchecked { checks })
+}
+
+/// Writes `realisations.csv`, and `errors.csv` where errors are known.
+pub fn write(study: &RealisationStudy, results: &mut Results) -> Result<()> {
+    output::write(&results.place(output::FILE)?, &study.realisations)?;
+    if error_parts::has_any(&study.realisations) {
+        error_parts::write(&results.place(error_parts::FILE)?, &study.realisations)?;
+    }
+    Ok(())
+}
+
+/// Shows the errors of the means of `study`: their table, the remarks on it, and which checks
+/// failed.
+pub fn show_errors(study: &RealisationStudy, answer: &mut Answer, case: &Case) {
+    if let Some(table) = error_parts::table(&study.realisations, &case.scene) {
+        answer.table(table, error_parts::FILE);
+    }
+    answer.messages(error_parts::remarks(&study.realisations, &case.scene));
+    answer.messages(
+        study
+            .failures
+            .iter()
+            .map(|failed| format!("the check of the means with {} failed: {}", failed.refined, failed.error)),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checks_that_failed_fail_the_command_and_each_is_named_once() {
+        let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
+        let all = names(&["half the step", "8 modes", "half the step"]);
+        let error = not_checked(all.into_iter()).expect("some failed");
+        assert!(!error.is_request(), "exit code 1: the run failed, and not the request");
+        assert!(error.to_string().ends_with("not known: the run with 8 modes; the run with half the step"), "{error}");
+        assert_eq!(not_checked(std::iter::empty()), None);
+    }
+}
