@@ -43,6 +43,13 @@ impl KeyTerms {
         self.loads.fill(&self.tangent.loads, base.terms(), base.start(), base.unit());
     }
 
+    /// Adds the change of the loads on one degree of freedom from `start` (s) on to the polynomial
+    /// `force` in x, N, whose unit is `unit` (s).
+    pub fn add_loads(&mut self, (start, unit): (f64, f64), force: &mut [f64]) {
+        self.loads.fill(&self.tangent.loads, force.len(), start, unit);
+        self.loads.add_to_one(&self.tangent.loads, force);
+    }
+
     /// δG q − δg, m: by how much the change of the wall alone brings the displacement `q` beyond
     /// it.
     pub fn offset(&self, wall: usize, q: &[f64]) -> f64 {

@@ -124,6 +124,20 @@ impl Keys {
             *passed += 1;
         }
     }
+
+    /// Reads the motion of one degree of freedom and its changes by each key at the times up to
+    /// `end` (s) that have not been passed; both of displacement and velocity.
+    pub fn read(&mut self, end: f64, own: impl Fn(f64) -> [f64; 2], change: impl Fn(usize, f64) -> [f64; 2]) {
+        let Self { terms, motion, .. } = self;
+        while let Some(&time) = motion.found.time.get(motion.passed).filter(|&&time| time <= end) {
+            let [q, v] = own(time);
+            for (key, terms) in terms.iter().enumerate() {
+                let [dq, dv] = change(key, time);
+                motion.note((motion.passed, key), (&[dq], &[dv]), (&[q], &[v]), terms);
+            }
+            motion.passed += 1;
+        }
+    }
 }
 
 impl MotionChanges {
@@ -148,25 +162,38 @@ impl MotionChanges {
         terms: &KeyTerms,
         (q, v): (&mut Vec<f64>, &mut Vec<f64>),
     ) {
-        let mut changes = [q.clone(), v.clone()];
-        let Self { found, passed, probes, keys } = self;
-        for number in *passed..found.time.len() {
-            let Some(&time) = found.time.get(number).filter(|&&time| time <= base.end()) else { return };
-            let [dq, dv] = &mut changes;
-            change.state_at((time - base.start()) / base.unit(), dq, dv);
+        if self.found.time.get(self.passed).is_none_or(|&time| time > base.end()) {
+            return;
+        }
+        let [mut dq, mut dv] = [q.clone(), v.clone()];
+        for number in self.passed..self.found.time.len() {
+            let Some(&time) = self.found.time.get(number).filter(|&&time| time <= base.end()) else { return };
+            change.state_at((time - base.start()) / base.unit(), &mut dq, &mut dv);
             base.state(time, q, v);
-            for (probe, row) in probes.iter().enumerate() {
-                let own = terms.tangent.probes.get(probe);
-                let along = |change: &[f64], x: &[f64]| row.dot(change) + own.map_or(0.0, |own| own.dot(x));
-                let index = number * probes.len() + probe;
-                let set = |list: &mut Vec<f64>, index: usize, value: f64| {
-                    list.get_mut(index).into_iter().for_each(|x| *x = value);
-                };
-                set(&mut found.displacement, index, row.dot(q));
-                set(&mut found.velocity, index, row.dot(v));
-                set(&mut found.displacement_by, index * *keys + column, along(dq, q));
-                set(&mut found.velocity_by, index * *keys + column, along(dv, v));
-            }
+            self.note((number, column), (&dq, &dv), (q, v), terms);
+        }
+    }
+
+    /// Notes the state (`q`, `v`) at time number `number` and its change by key number `column`.
+    fn note(
+        &mut self,
+        (number, column): (usize, usize),
+        (dq, dv): (&[f64], &[f64]),
+        (q, v): (&[f64], &[f64]),
+        terms: &KeyTerms,
+    ) {
+        let Self { found, probes, keys, .. } = self;
+        for (probe, row) in probes.iter().enumerate() {
+            let own = terms.tangent.probes.get(probe);
+            let along = |change: &[f64], x: &[f64]| row.dot(change) + own.map_or(0.0, |own| own.dot(x));
+            let index = number * probes.len() + probe;
+            let set = |list: &mut Vec<f64>, index: usize, value: f64| {
+                list.get_mut(index).into_iter().for_each(|x| *x = value);
+            };
+            set(&mut found.displacement, index, row.dot(q));
+            set(&mut found.velocity, index, row.dot(v));
+            set(&mut found.displacement_by, index * *keys + column, along(dq, q));
+            set(&mut found.velocity_by, index * *keys + column, along(dv, v));
         }
     }
 

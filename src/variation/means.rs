@@ -5,7 +5,7 @@
 //! both q and δq are polynomials, whose product is integrated term by term.
 
 use super::key_terms::KeyTerms;
-use crate::flow::{Change, Series, TERMS};
+use crate::flow::{Change, INVERSE, Series, TERMS};
 use crate::scene::Row;
 use crate::step::Step;
 
@@ -95,6 +95,28 @@ impl MeanChanges {
         }
     }
 
+    /// True without probes.
+    pub fn is_empty(&self) -> bool {
+        self.probes.is_empty()
+    }
+
+    /// Adds a flight of one degree of freedom, with its change by key number `column`: ∫q and ∫q²,
+    /// and ∫δq and ∫q δq.
+    pub fn add_flight(&mut self, column: usize, own: [f64; 2], by: [f64; 2], terms: &KeyTerms) {
+        for (number, probe) in self.probes.iter_mut().enumerate() {
+            let weight = probe.row.dot(&[1.0]);
+            let of_key = terms.tangent.probes.get(number).map_or(0.0, |row| row.dot(&[1.0]));
+            if column == 0 {
+                probe.own[0] += weight * own[0];
+                probe.own[1] += weight * weight * own[1];
+            }
+            if let Some(changes) = probe.by.get_mut(column) {
+                changes[0] += weight * by[0] + of_key * own[0];
+                changes[1] += 2.0 * weight * (weight * by[1] + of_key * own[1]);
+            }
+        }
+    }
+
     /// Adds the impulses of `step`.
     pub fn add_impulses(&mut self, step: &Step<'_>) {
         self.impulse.resize(step.impulse.len(), 0.0);
@@ -127,14 +149,3 @@ impl MeanChanges {
 fn dot(a: &[f64; TERMS], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
-
-/// 1/(k + 1).
-const INVERSE: [f64; 2 * TERMS] = {
-    let mut inverse = [0.0; 2 * TERMS];
-    let mut k = 0;
-    while k < inverse.len() {
-        inverse[k] = 1.0 / (k + 1) as f64;
-        k += 1;
-    }
-    inverse
-};

@@ -47,7 +47,7 @@
 //! `keys.rs`, `key_terms.rs` and `contact_changes.rs`, `ends.rs` and `means.rs`; `arc_series.rs`
 //! writes closed-form motion as series, of which `flight.rs` takes one at a time. Knows no scheme.
 
-mod arc_series;
+mod arc_changes;
 mod blows;
 mod contact_changes;
 mod ends;
@@ -63,6 +63,7 @@ mod no_derivative;
 mod oscillator;
 mod product;
 pub mod saltation;
+mod stretch;
 mod structure;
 mod tangent;
 

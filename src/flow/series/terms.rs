@@ -46,11 +46,11 @@ const ROUND_RADIANS: f64 = 1.5;
 const LEAST_REACH: f64 = 1.0 / 256.0;
 
 /// The series ends where a term of the acceleration is below this share of the first.
-const LAST: f64 = 1e-18;
+pub(super) const LAST: f64 = 1e-18;
 
 /// Minimum number of terms, so that oscillations of the load are included besides its constant and
 /// ramp.
-const FEWEST: usize = 8;
+pub(super) const FEWEST: usize = 8;
 
 /// If the last term is above this share of the largest, the fastest rate was underestimated and the
 /// stretch is cut.
