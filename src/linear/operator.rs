@@ -32,6 +32,26 @@ impl Operator {
         }
     }
 
+    /// The operator of `times` vectors side by side, entry i of vector k at i · `times` + k: A ⊗ I.
+    pub(crate) fn side_by_side(&self, times: usize) -> Self {
+        match self {
+            Self::Band(band) => Self::Band(band.side_by_side(times)),
+            Self::Sparse(matrix) => {
+                let entries = matrix.entries();
+                let all = entries.flat_map(|(i, j, x)| (0..times).map(move |k| (i * times + k, j * times + k, x)));
+                Self::Sparse(Symmetric::from_entries(matrix.size() * times, all.collect::<Vec<_>>()))
+            }
+        }
+    }
+
+    /// The diagonal of a matrix that has no other entries.
+    pub(crate) fn as_diagonal(&self) -> Option<&[f64]> {
+        match self {
+            Self::Band(band) => band.as_diagonal(),
+            Self::Sparse(_) => None,
+        }
+    }
+
     /// xᵀA x, for an x of length n; 0 for others.
     #[inline]
     pub(crate) fn form(&self, x: &[f64]) -> f64 {

@@ -80,8 +80,8 @@ impl ArcChanges {
         for tangent in tangents {
             let own = tangent.body();
             inner |= own != [0.0; 3] || elastic(tangent, |wall| wall.stiffness != 0.0 || wall.damping != 0.0);
-            let pushes = !tangent.loads.is_empty()
-                || elastic(tangent, |wall| wall.stiffness != 0.0 || wall.position != 0.0);
+            let pushes =
+                !tangent.loads.is_empty() || elastic(tangent, |wall| wall.stiffness != 0.0 || wall.position != 0.0);
             let force = pushes.then_some(forces);
             forces += usize::from(pushes);
             keys.push(LineTerms { body: own, force, ..LineTerms::default() });
@@ -97,6 +97,11 @@ impl ArcChanges {
             keys,
             ends: Vec::with_capacity(2 + forces + 3),
         })
+    }
+
+    /// m (kg), c (N s/m) and k (N/m) of the body.
+    pub fn body(&self) -> [f64; 3] {
+        self.body
     }
 
     /// Propagates `columns`, the changes by `keys` and further ones of the start alone, over `arc`,
@@ -147,13 +152,7 @@ impl ArcChanges {
 
     /// Computes the responses over `arc`, stretch by stretch, and reads what lies within. Returns
     /// the state at its end.
-    fn fly(
-        &mut self,
-        (arc, stretches): (&Arc, usize),
-        constant: f64,
-        keys: &mut Keys,
-        columns: &[f64],
-    ) -> [f64; 2] {
+    fn fly(&mut self, (arc, stretches): (&Arc, usize), constant: f64, keys: &mut Keys, columns: &[f64]) -> [f64; 2] {
         let (unit, terms) = (self.responses.unit(), self.responses.terms());
         for number in 0..stretches {
             let from = arc.start() + number as f64 * unit;

@@ -12,11 +12,11 @@ use crate::step::Step;
 
 /// A row that leaves an impact with less than this share of e times its approach speed has come to
 /// rest: the scheme has skipped the remaining impacts of an accumulation.
-const STUCK: f64 = 0.5;
+pub(super) const STUCK: f64 = 0.5;
 
 /// A row whose departure speed differs from e times its approach speed by more than this share was
 /// struck more than once.
-const ONCE: f64 = 1e-6;
+pub(super) const ONCE: f64 = 1e-6;
 
 /// A change that is this small a share of its terms is rounding: where a body touches, it keeps the
 /// body on the wall.
@@ -291,6 +291,16 @@ impl Keys {
                     self.contacts.set_start(wall, number, [moved, f64::NAN]);
                 }
                 self.contacts.add_impulse(wall, number, jumped * moved);
+            }
+            for contact in step.closed.iter().filter(|contact| contact.start < step.end) {
+                let (Some(of), [s], &[later]) = (walls.get(contact.wall), struck, &moves[..]) else { continue };
+                // A single impact ends lasting contacts elsewhere at its instant.
+                if s.held || (of.row == s.row && of.restitution.is_some()) {
+                    continue;
+                }
+                let faster = jump.velocity_after(flow, (dv, later), terms, at);
+                let speed = flow.body.rows.dot(of.row, &faster) + terms.along(contact.wall, at.after);
+                self.contacts.set_end(contact.wall, number, [later, of.sign * speed]);
             }
             let impulses = jump.impulses(flow, (dq, dv), terms, at);
             for (wall, of) in walls.iter().enumerate().filter(|(wall, _)| at.impulse[*wall] != 0.0) {

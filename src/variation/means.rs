@@ -5,7 +5,7 @@
 //! both q and δq are polynomials, whose product is integrated term by term.
 
 use super::key_terms::KeyTerms;
-use crate::flow::{Change, INVERSE, Series, TERMS};
+use crate::flow::{Changes, INVERSE, Series, TERMS};
 use crate::scene::Row;
 use crate::step::Step;
 
@@ -75,7 +75,7 @@ impl MeanChanges {
     }
 
     /// Adds the stretch of `base`, with its change by key number `column`.
-    pub fn add_stretch(&mut self, column: usize, (base, change): (&Series, &Change), terms: &KeyTerms) {
+    pub fn add_stretch(&mut self, column: usize, (base, changes): (&Series, &Changes), terms: &KeyTerms) {
         let (unit, x, count) = (base.unit(), base.span(), base.terms().min(TERMS));
         for (number, probe) in self.probes.iter_mut().enumerate() {
             let (scale, mut by) = (x * unit, [0.0; TERMS]);
@@ -85,7 +85,8 @@ impl MeanChanges {
             let of_key = terms.tangent.probes.get(number);
             let mut power = 1.0;
             for (k, by) in by.iter_mut().enumerate().take(count) {
-                *by = power * (probe.row.dot(change.term(k)) + of_key.map_or(0.0, |row| row.dot(base.term(k))));
+                *by = power
+                    * (changes.seen(probe.row.entries(), k, column) + of_key.map_or(0.0, |row| row.dot(base.term(k))));
                 power *= x;
             }
             if let Some(changes) = probe.by.get_mut(column) {

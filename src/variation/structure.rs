@@ -58,7 +58,7 @@ pub(super) struct StructureVariation {
     /// The keys by which the first columns are derivatives.
     pub keys: Keys,
     /// The changes over closed-form motion; only beside keys.
-    arcs: Option<Box<ArcChanges>>,
+    pub arcs: Option<Box<ArcChanges>>,
 }
 
 impl StructureVariation {
@@ -161,19 +161,23 @@ impl StructureVariation {
     /// Propagates the columns over a stretch without events.
     fn pass(&mut self, series: &Series, columns: &mut [f64]) {
         let Self { flow, keys, wall_of, .. } = self;
-        let n = flow.body.n;
-        for (column, change) in columns.chunks_exact_mut(2 * n).enumerate().take(keys.terms.len()) {
-            keys.pass(column, (flow, wall_of), series, change.split_at_mut(n));
+        if !keys.terms.is_empty() {
+            return keys.pass((flow, wall_of), series, columns);
         }
-        keys.passed(series.end());
-        for change in columns.chunks_exact_mut(2 * n).skip(keys.terms.len()) {
+        let n = flow.body.n;
+        for change in columns.chunks_exact_mut(2 * n) {
             let (q, v) = change.split_at_mut(n);
             flow.flow(series.end() - series.start(), q, v);
         }
     }
 
     /// What happens at the end of `step`.
-    fn end(&mut self, step: &Step<'_>, stretch: &Stretch<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
+    fn end(
+        &mut self,
+        step: &Step<'_>,
+        stretch: &Stretch<'_>,
+        columns: &mut [f64],
+    ) -> std::result::Result<(), NoDerivative> {
         stretch.end_state(&mut self.q, &mut self.v, &mut self.a);
         self.after.fill(false);
         for (at, &force) in self.walls.iter_mut().zip(step.force) {
@@ -181,6 +185,9 @@ impl StructureVariation {
             self.after[at.row] |= force != 0.0 && at.restitution.is_some();
         }
         self.began = true;
+        if self.bounce(step, columns) {
+            return Ok(());
+        }
         let blown = self.take_blow(step, columns)?;
         // A blow ends the contact that it disturbs, and begins another.
         let (ended, others): (Vec<&Contact>, Vec<&Contact>) =

@@ -11,16 +11,19 @@
 //! side, four in a block.
 
 use super::TERMS;
-use super::terms::{FEWEST, LAST};
+use super::terms::FEWEST;
 use crate::elementary::sin_cos;
 use crate::scene::Harmonic;
 
 /// Number of responses in a block.
 const LANES: usize = 4;
 
-/// The longest stretch, in radians of the fastest motion: no term of its series is more than five
-/// times the motion.
-const RADIANS: f64 = 3.0;
+/// The longest stretch, in radians of the fastest motion: no term of its series is more than eight
+/// times the motion, and the first one left out of [`TERMS`] is 1e-16 of it.
+const RADIANS: f64 = 3.5;
+
+/// The series ends where a term of the acceleration is below this share of the first.
+const LAST: f64 = 1e-16;
 
 /// A response and its rate at the end of the flight, and the integrals of the response, alone and
 /// times the motion.
@@ -140,7 +143,7 @@ impl Responses {
                 to.for_each(|((term, a), share)| term[number % LANES] = scale * share * a);
             }
         }
-        let weights = if product { weights(&motion[..*terms], unit) } else { [0.0; TERMS] };
+        let weights = if product { weights(motion, *terms, unit) } else { [0.0; TERMS] };
         for block in blocks.iter_mut() {
             block.extend(unit, count, [spring, dash]);
             block.add_up(&weights, unit, *terms);
@@ -240,8 +243,7 @@ pub(crate) fn add_sine(wave: &Harmonic, (start, unit): (f64, f64), out: &mut [f6
     }
 }
 
-/// The number of terms after which all are below rounding at x = 1, for a motion of `radians`: as
-/// for structures.
+/// The number of terms after which all are below rounding at x = 1, for a motion of `radians`.
 fn terms_for(radians: f64) -> usize {
     let (mut term, mut k) = (1.0, 0);
     while term > LAST && k + 3 < TERMS {
@@ -251,12 +253,14 @@ fn terms_for(radians: f64) -> usize {
     (k + 3).max(FEWEST)
 }
 
-/// `unit` ∫₀¹ q xᵏ of the polynomial `q`.
-fn weights(q: &[f64], unit: f64) -> [f64; TERMS] {
+/// `unit` ∫₀¹ q xᵏ of the polynomial `q` of `terms` terms.
+fn weights(q: &[f64; TERMS], terms: usize, unit: f64) -> [f64; TERMS] {
     let mut weights = [0.0; TERMS];
-    for (k, a) in q.iter().enumerate() {
-        let a = unit * a;
-        weights[..q.len()].iter_mut().zip(&INVERSE[k..]).for_each(|(weight, inverse)| *weight += a * inverse);
+    for (k, a) in q.iter().enumerate().take(terms) {
+        let (a, inverse) = (unit * a, &INVERSE[k..k + TERMS]);
+        for (weight, inverse) in weights.iter_mut().zip(inverse) {
+            *weight += a * inverse;
+        }
     }
     weights
 }

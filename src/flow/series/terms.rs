@@ -46,7 +46,7 @@ const ROUND_RADIANS: f64 = 1.5;
 const LEAST_REACH: f64 = 1.0 / 256.0;
 
 /// The series ends where a term of the acceleration is below this share of the first.
-pub(super) const LAST: f64 = 1e-18;
+const LAST: f64 = 1e-18;
 
 /// Minimum number of terms, so that oscillations of the load are included besides its constant and
 /// ramp.

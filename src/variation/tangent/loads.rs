@@ -5,6 +5,7 @@
 //! δψ = δA sin θ + A (t δω + δφ) cos θ.
 
 use super::stencil::Stencil;
+use crate::elementary::sin_cos;
 use crate::flow::INVERSE;
 use crate::scene::{Load, LoadKind, Row, Scene, Table};
 use std::f64::consts::TAU;
@@ -198,7 +199,7 @@ fn fill_sine(
     (start, unit): (f64, f64),
     values: &mut [[f64; 2]],
 ) {
-    let (sin, cos) = (omega * start + phase).sin_cos();
+    let (sin, cos) = sin_cos(omega * start + phase);
     let (sines, cosines) = ([sin, cos, -sin, -cos], [cos, -sin, -cos, sin]);
     let (mut power, mut before) = (1.0, 0.0);
     for (k, value) in values.iter_mut().enumerate() {
