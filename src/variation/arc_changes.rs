@@ -1,18 +1,15 @@
 //! Changes of the motion of one degree of freedom by keys, flight by flight.
 //!
-//! A key changes m, c, k, the loads, and what the elastic walls that touch add to them: r = −k_a (G
-//! q − g) − c_a G q̇ with G = 1 changes by
-//!
-//! δr = −k_a δq − c_a δq̇ − A q − B q̇ + E,   A = δk_a + k_a δG, B = δc_a + c_a δG, E = δk_a g + k_a δg,
-//!
-//! and the force on the body, G r, by δG r more. So the change at the end of a flight is a
-//! combination of the [`Responses`] of the flight.
+//! A key changes m, c, k, the loads, and what the elastic walls that touch add to them
+//! (`touch_change.rs`). So the change at the end of a flight is a combination of the [`Responses`]
+//! of the flight.
 
 use super::key_terms::KeyTerms;
 use super::keys::Keys;
 use super::stretch::ArcEnd;
 use super::tangent::{SceneTangent, WallTangent};
-use crate::flow::{Arc, INVERSE, Response, Responses, TERMS, Touch, add_sine};
+use super::touch_change::TouchChange;
+use crate::flow::{Arc, INVERSE, Response, Responses, TERMS, add_sine};
 use crate::scene::{Forcing, Scene, System};
 
 /// The changes of a motion by keys over an arc.
@@ -43,28 +40,6 @@ struct LineTerms {
     constant: f64,
     /// The number of its force among those of all keys, if it changes the force.
     force: Option<usize>,
-}
-
-/// The law of an elastic wall that touches, and its change: A, B and E.
-struct TouchChange {
-    touch: Touch,
-    /// δG.
-    row: f64,
-    own: [f64; 3],
-}
-
-impl TouchChange {
-    fn new(touch: &Touch, wall: &WallTangent) -> Self {
-        let row = wall.row.dot(&[1.0]);
-        let stiffness = wall.stiffness + touch.stiffness * row;
-        let damping = wall.damping + touch.damping * row;
-        let constant = wall.stiffness * touch.position + touch.stiffness * wall.position;
-        Self { touch: *touch, row, own: [stiffness, damping, constant] }
-    }
-
-    fn all<'a>(arc: &'a Arc, tangent: &'a SceneTangent) -> impl Iterator<Item = Self> + 'a {
-        arc.touching_walls().filter_map(|touch| Some(Self::new(touch, tangent.wall(touch.wall)?)))
-    }
 }
 
 impl ArcChanges {

@@ -1,7 +1,11 @@
 //! The ends of lasting contacts.
 
+use super::contact_changes::ContactChanges;
+use super::jump::{Jump, Struck};
+use super::key_terms::{Instant, KeyTerms};
 use super::stretch::Stretch;
-use super::structure::StructureVariation;
+use super::structure::{At, StructureVariation};
+use crate::flow::Propagator;
 use crate::step::Step;
 
 impl StructureVariation {
@@ -19,6 +23,28 @@ impl StructureVariation {
                 let faster = flow.body.rows.dot(at.row, &change[n..]) + terms.along(wall, v) + pull * later;
                 keys.contacts.set_end(wall, number, [later, at.sign * faster]);
             }
+        }
+    }
+}
+
+impl ContactChanges {
+    /// Notes by how much the ends and departure speeds of lasting contacts at other walls change
+    /// that end with the impact of `s`, which key number `number` moves by `later` (s): of one that
+    /// follows a blow it is not known.
+    pub fn note_ends_elsewhere(
+        &mut self,
+        (flow, jump): (&mut Propagator, &Jump),
+        (walls, s): (&[At], &Struck),
+        (step, number): (&Step<'_>, usize),
+        (dv, later): (&[f64], f64),
+        (terms, at): (&KeyTerms, &Instant<'_>),
+    ) {
+        for contact in step.closed.iter().filter(|contact| contact.start < step.end && !s.held) {
+            let elsewhere = |of: &&At| of.row != s.row || of.restitution.is_none();
+            let Some(of) = walls.get(contact.wall).filter(elsewhere) else { continue };
+            let faster = jump.velocity_after(flow, (dv, later), terms, at);
+            let speed = flow.body.rows.dot(of.row, &faster) + terms.along(contact.wall, at.after);
+            self.set_end(contact.wall, number, [later, of.sign * speed]);
         }
     }
 }

@@ -292,15 +292,8 @@ impl Keys {
                 }
                 self.contacts.add_impulse(wall, number, jumped * moved);
             }
-            for contact in step.closed.iter().filter(|contact| contact.start < step.end) {
-                let (Some(of), [s], &[later]) = (walls.get(contact.wall), struck, &moves[..]) else { continue };
-                // A single impact ends lasting contacts elsewhere at its instant.
-                if s.held || (of.row == s.row && of.restitution.is_some()) {
-                    continue;
-                }
-                let faster = jump.velocity_after(flow, (dv, later), terms, at);
-                let speed = flow.body.rows.dot(of.row, &faster) + terms.along(contact.wall, at.after);
-                self.contacts.set_end(contact.wall, number, [later, of.sign * speed]);
+            if let ([s], &[later]) = (struck, &moves[..]) {
+                self.contacts.note_ends_elsewhere((flow, jump), (walls, s), (step, number), (dv, later), (terms, at));
             }
             let impulses = jump.impulses(flow, (dq, dv), terms, at);
             for (wall, of) in walls.iter().enumerate().filter(|(wall, _)| at.impulse[*wall] != 0.0) {

@@ -45,8 +45,8 @@
 //! `product.rs` multiplies along a run, `exponents.rs` holds Lyapunov exponents. With respect to
 //! keys: `tangent/` is the derivative of the scene, `key_variation.rs` that of a run, with
 //! `keys.rs`, `key_terms.rs` and `contact_changes.rs`, `ends.rs` and `means.rs`; `arc_changes.rs`
-//! is that of closed-form motion, of which `flight.rs` takes one flight at a time; `stretch.rs` is
-//! the motion of a step of either kind. Knows no scheme.
+//! (with `touch_change.rs`) is that of closed-form motion, of which `flight.rs` takes one flight at
+//! a time; `stretch.rs` is the motion of a step of either kind. Knows no scheme.
 
 mod arc_changes;
 mod blows;
@@ -68,6 +68,7 @@ pub mod saltation;
 mod stretch;
 mod structure;
 mod tangent;
+mod touch_change;
 
 pub use contact_changes::ContactDerivative;
 pub use exponents::{Exponent, Exponents};

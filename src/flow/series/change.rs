@@ -118,14 +118,15 @@ impl Changes {
                 damping.add_product(-per_second, rate, force);
             }
             for (slot, t) in touching.iter().enumerate() {
-                let row = body.rows.row(t.row);
-                for c in 0..count {
-                    let seen = |x: &[f64]| row.iter().map(|&(j, g)| g * x[j * count + c]).sum::<f64>();
-                    let own = t.stiffness * seen(now) + t.damping * per_second * seen(rate);
-                    let push = drives.get(c).map_or(0.0, |drive| drive.push(base, k, t)) - own;
-                    forces[(slot * TERMS + k) * count + c] = push;
-                    row.iter().for_each(|&(j, g)| force[j * count + c] += g * push);
-                }
+                let pushes = &mut forces[(slot * TERMS + k) * count..(slot * TERMS + k + 1) * count];
+                let own = |c: usize| drives.get(c).map_or(0.0, |drive| drive.push(base, k, t));
+                push_back(
+                    body.rows.row(t.row),
+                    [t.stiffness, t.damping * per_second],
+                    [now, rate],
+                    (force, pushes),
+                    own,
+                );
             }
             let factor = unit * unit / ((k + 1) * (k + 2)) as f64;
             if let (Some(inverse), true) = (inverse, hold.rows().is_empty()) {
@@ -194,5 +195,22 @@ impl Changes {
     pub fn seen(&self, row: &[(usize, f64)], k: usize, change: usize) -> f64 {
         let term = self.motion.get(k * self.n * self.count..).unwrap_or_default();
         row.iter().map(|&(j, g)| g * term.get(j * self.count + change).copied().unwrap_or(0.0)).sum()
+    }
+}
+
+/// Adds the forces of an elastic wall at `row` to those of all changes, and sets them: `own` less k_a
+/// times `now` and c_a times `rate` there.
+fn push_back(
+    row: &[(usize, f64)],
+    [stiffness, damping]: [f64; 2],
+    [now, rate]: [&[f64]; 2],
+    (force, pushes): (&mut [f64], &mut [f64]),
+    own: impl Fn(usize) -> f64,
+) {
+    let count = pushes.len();
+    for (c, push) in pushes.iter_mut().enumerate() {
+        let seen = |x: &[f64]| row.iter().map(|&(j, g)| g * x[j * count + c]).sum::<f64>();
+        *push = own(c) - stiffness * seen(now) - damping * seen(rate);
+        row.iter().for_each(|&(j, g)| force[j * count + c] += g * *push);
     }
 }
