@@ -323,17 +323,14 @@ fn a_push_that_an_impact_elsewhere_ends_ends_at_its_instant() {
     // Rounding of a few products.
     assert!((push.contact.end.unwrap() - own[0]).abs() < 1e-12);
     assert!((push.contact.departure_speed.unwrap() - own[1]).abs() < 1e-12);
-    for index in 0..6 {
+    for (index, number) in numbers.into_iter().enumerate() {
         // The five-point difference over 1e-3 of itself errs by 1e-12, and by 1e-13 of rounding
         // over that step.
-        let h = 1e-3 * numbers[index];
-        let [a, b, c, d] = [1.0, -1.0, 2.0, -2.0].map(|by| struck(at(index, numbers[index] + by * h)));
+        let h = 1e-3 * number;
+        let [a, b, c, d] = [1.0, -1.0, 2.0, -2.0].map(|by| struck(at(index, number + by * h)));
         for (part, ours) in [push.end_by[index], push.departure_speed_by[index]].into_iter().enumerate() {
             let expected = (8.0 * (a[part] - b[part]) - (c[part] - d[part])) / (12.0 * h);
-            assert!(
-                (ours - expected).abs() <= 1e-9 * (own[part] / numbers[index]).abs(),
-                "{index} {part}: {ours} {expected}"
-            );
+            assert!((ours - expected).abs() <= 1e-9 * (own[part] / number).abs(), "{index} {part}: {ours} {expected}");
         }
     }
 }
