@@ -72,13 +72,13 @@ mod tests {
     fn products_side_by_side_are_those_of_each_vector() {
         let far = (0..20).map(|i| (i, i, 4.0 + i as f64)).chain((9..20).map(|i| (i, i - 9, -1.0 - 0.1 * i as f64)));
         let near = |width: usize| {
-            let entries =
-                (0..6).flat_map(move |i| (i.saturating_sub(width)..=i).map(move |j| (i, j, 1.0 + (i * j) as f64)));
+            let entries = (0_usize..6)
+                .flat_map(move |i| (i.saturating_sub(width)..=i).map(move |j| (i, j, 1.0 + (i * j) as f64)));
             Symmetric::from_entries(6, entries.collect::<Vec<_>>())
         };
         for matrix in [near(0), near(1), near(2), Symmetric::from_entries(20, far.collect::<Vec<_>>())] {
             let (n, times, operator) = (matrix.size(), 3, Operator::new(&matrix));
-            let x: Vec<f64> = (0..n * times).map(|i| (0.7 * i as f64).sin()).collect();
+            let x: Vec<f64> = (0..n * times).map(|i| f64::sin(0.7 * i as f64)).collect();
             let mut out = vec![1.0; n * times];
             operator.side_by_side(times).add_product(-2.0, &x, &mut out);
             for k in 0..times {
