@@ -25,8 +25,8 @@ impl Arc {
         -touch.stiffness * (q - touch.position) - touch.damping * v
     }
 
-    /// The rate of that force at the end, N/s, where velocity (m/s) and acceleration (m/s²) there are
-    /// known.
+    /// The rate of that force at the end, N/s, where velocity (m/s) and acceleration (m/s²) there
+    /// are known.
     pub(crate) fn force_rate_at_end(&self, wall: usize, [v, a]: [f64; 2]) -> f64 {
         if let Some(support) = self.support.filter(|s| s.wall == wall) {
             return support.side.sign() * self.pressing(support, self.span())[1];

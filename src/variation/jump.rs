@@ -210,8 +210,8 @@ impl Jump {
 }
 
 impl Jump {
-    /// By how much the velocity just after the instant (m/s, n entries) changes by the change `v` of
-    /// that before it and a key, where the instant comes `later` (s).
+    /// By how much the velocity just after the instant (m/s, n entries) changes by the change `v`
+    /// of that before it and a key, where the instant comes `later` (s).
     pub fn velocity_after(
         &self,
         flow: &mut Propagator,

@@ -2,8 +2,9 @@
 //!
 //! r = −k_a (G q − g) − c_a G q̇ with G = 1 changes by
 //!
-//! δr = −k_a δq − c_a δq̇ − A q − B q̇ + E,   A = δk_a + k_a δG, B = δc_a + c_a δG, E = δk_a g + k_a
-//! δg,
+//! δr = −k_a δq − c_a δq̇ − A q − B q̇ + E,
+//!
+//! A = δk_a + k_a δG, B = δc_a + c_a δG, E = δk_a g + k_a δg,
 //!
 //! and the force on the body, G r, by δG r more.
 

@@ -43,8 +43,8 @@ pub(crate) struct Changes {
     damping: Option<Operator>,
     /// 1/M likewise, where M is diagonal.
     inverse: Option<Vec<f64>>,
-    /// Terms of δq one after the other, n · count entries each: degree of freedom i of change c at i
-    /// · count + c.
+    /// Terms of δq one after the other, n · count entries each: degree of freedom i of change c is
+    /// entry i · count + c.
     motion: Vec<f64>,
     /// Terms of δr, N, of the touching elastic walls, then of the held rows: TERMS · count entries
     /// each.
@@ -144,7 +144,8 @@ impl Changes {
         }
     }
 
-    /// Writes δq (m) and δq̇ (m/s) of all changes at x to `columns`, as [`Changes::fill`] takes them.
+    /// Writes δq (m) and δq̇ (m/s) of all changes at x to `columns`, as [`Changes::fill`] takes
+    /// them.
     pub fn state_at(&mut self, x: f64, columns: &mut [f64]) {
         let (n, count) = (self.n, self.count);
         let Self { motion, now: [q, v], terms, unit, .. } = self;
@@ -198,8 +199,8 @@ impl Changes {
     }
 }
 
-/// Adds the forces of an elastic wall at `row` to those of all changes, and sets them: `own` less k_a
-/// times `now` and c_a times `rate` there.
+/// Adds the forces of an elastic wall at `row` to those of all changes, and sets them: `own` less
+/// k_a times `now` and c_a times `rate` there.
 fn push_back(
     row: &[(usize, f64)],
     [stiffness, damping]: [f64; 2],

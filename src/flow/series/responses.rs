@@ -1,7 +1,7 @@
 //! The motion of one degree of freedom as a series in plain numbers, and its responses.
 //!
-//! Over a flight m q̈ + c q̇ + k q = f a change of the start, of m, c, k and of f changes the motion
-//! by
+//! Over a flight m q̈ + c q̇ + k q = f a change of the start, of m, c, k and of f changes the
+//! motion by
 //!
 //! δq = C δq₀ + S δq̇₀ − R₀ δk − R₁ δc − R₂ δm + F,
 //!
@@ -92,8 +92,8 @@ impl Responses {
         }
     }
 
-    /// Divides a flight of `span` (s), under loads of up to `fastest` (rad/s), into stretches of one
-    /// length, the unit of x (s); returns their number.
+    /// Divides a flight of `span` (s), under loads of up to `fastest` (rad/s), into stretches of
+    /// one length, the unit of x (s); returns their number.
     pub fn divide(&mut self, span: f64, fastest: f64) -> usize {
         let [mass, damping, stiffness] = self.body;
         let (own, rub) = ((stiffness / mass).sqrt(), damping / mass);
@@ -210,7 +210,8 @@ impl Block {
         }
     }
 
-    /// Sets the state at the end of the stretch, and adds its integrals, those times q by `weights`.
+    /// Sets the state at the end of the stretch, and adds its integrals, those times q by
+    /// `weights`.
     fn add_up(&mut self, weights: &[f64; TERMS], unit: f64, count: usize) {
         let Self { terms, state, integrals } = self;
         let ([mut value, mut rate], [mut area, mut product]) = ([[0.0; LANES]; 2], [[0.0; LANES]; 2]);
