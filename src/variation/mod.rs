@@ -46,7 +46,8 @@
 //! respect to keys: `tangent/` is the derivative of the scene, `key_variation.rs` that of a run,
 //! with `keys.rs`, `key_terms.rs` and `contact_changes.rs`, `ends.rs` and `means.rs`;
 //! `arc_changes.rs` (with `touch_change.rs`) is that of closed-form motion, of which `flight.rs`
-//! takes one flight at a time; `stretch.rs` is the motion of a step of either kind. Knows no scheme.
+//! takes one flight at a time; `stretch.rs` is the motion of a step of either kind. Knows no
+//! scheme.
 
 mod arc_changes;
 mod blows;
