@@ -3,7 +3,7 @@
 use super::force::LocalForce;
 use super::response::{Jet, Response};
 use super::touch::{Support, Touch};
-use crate::scene::{Forcing, Oscillator, Side};
+use crate::scene::{Forcing, Oscillator};
 
 /// A stretch of exact motion on which the set of touching walls does not change.
 ///
@@ -126,6 +126,16 @@ impl Arc {
     #[must_use]
     pub fn end(&self) -> f64 {
         self.end
+    }
+
+    /// Its length, s, without the rounding errors of both ends.
+    pub(crate) fn span(&self) -> f64 {
+        self.span
+    }
+
+    /// Displacement (m) and velocity (m/s) at the start, as given.
+    pub(crate) fn start_state(&self) -> [f64; 2] {
+        if self.is_rest() { [self.initial[0], 0.0] } else { self.initial }
     }
 
     /// The rigid wall that the body rests against; `None` in flight.
@@ -305,11 +315,6 @@ impl Arc {
     /// The same, with their laws.
     pub(crate) fn touching_walls(&self) -> impl Iterator<Item = &Touch> {
         self.touching.iter()
-    }
-
-    /// The side of the wall that the body rests against; `None` in flight.
-    pub(crate) fn resting_side(&self) -> Option<Side> {
-        self.support.map(|support| support.side)
     }
 
     /// An interval that the motion does not leave during the arc, m.

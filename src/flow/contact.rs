@@ -25,6 +25,15 @@ impl Arc {
         -touch.stiffness * (q - touch.position) - touch.damping * v
     }
 
+    /// The rate of that force at the end, N/s, where velocity (m/s) and acceleration (m/s²) there
+    /// are known.
+    pub(crate) fn force_rate_at_end(&self, wall: usize, [v, a]: [f64; 2]) -> f64 {
+        if let Some(support) = self.support.filter(|s| s.wall == wall) {
+            return support.side.sign() * self.pressing(support, self.span())[1];
+        }
+        self.touching.iter().find(|a| a.wall == wall).map_or(0.0, |touch| -touch.stiffness * v - touch.damping * a)
+    }
+
     /// Impulse of wall `wall` on the body over [from, to] within the arc, N s, in closed form.
     ///
     /// For an elastic wall it follows from the momentum balance, K ∫q = ∫f + Σk_a g T − mΔv − CΔq,

@@ -24,6 +24,7 @@ pub(crate) use propagator::{Propagator, held};
 pub(crate) use response::Jet;
 pub use series::Series;
 pub(crate) use series::{
-    Change, Drive, HeldRow, HeldRows, Round, SeriesBody, Start as SeriesStart, TERMS, Touching, value,
+    Changes, Drive, HeldRow, HeldRows, INVERSE, Response, Responses, Round, SeriesBody, Start as SeriesStart, TERMS,
+    Touching, add_sine, value,
 };
 pub(crate) use touch::{Support, Touch};

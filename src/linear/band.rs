@@ -44,10 +44,10 @@ impl Band {
     #[inline]
     pub(super) fn add_product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         let (x, out) = (&x[..self.n], &mut out[..self.n]);
-        if let [(0, own), (1, off)] = self.diagonals.as_slice()
-            && self.n > 1
+        if let [(0, own), (d, off)] = self.diagonals.as_slice()
+            && self.n >= 2 * d
         {
-            return add_tridiagonal(scale, own, off, x, out);
+            return add_two_diagonals(scale, own, (*d, off), x, out);
         }
         for (d, values) in &self.diagonals {
             if *d == 0 {
@@ -62,6 +62,19 @@ impl Band {
             for ((y, a), x) in out.iter_mut().zip(values).zip(&x[*d..]) {
                 *y += scale * a * x;
             }
+        }
+    }
+
+    pub(super) fn side_by_side(&self, times: usize) -> Self {
+        let repeated = |values: &Vec<f64>| values.iter().flat_map(|&x| std::iter::repeat_n(x, times)).collect();
+        let diagonals = self.diagonals.iter().map(|(d, values)| (d * times, repeated(values)));
+        Self { n: self.n * times, diagonals: diagonals.collect() }
+    }
+
+    pub(super) fn as_diagonal(&self) -> Option<&[f64]> {
+        match self.diagonals.as_slice() {
+            [(0, values)] => Some(values),
+            _ => None,
         }
     }
 
@@ -91,16 +104,21 @@ fn sum_of_products(a: &[f64], x: &[f64], y: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest.map(|((a, x), y)| a * x * y).sum::<f64>()
 }
 
-/// [`Band::add_product`] for a tridiagonal matrix of n > 1 rows, in one pass over `out`: the same
-/// operations on each entry in the same order.
+/// [`Band::add_product`] for a matrix of n ≥ 2d rows with entries on the diagonal and at the
+/// distance d from it (tridiagonal for d = 1), in one pass over `out`: the same operations on each
+/// entry in the same order.
 #[inline]
-fn add_tridiagonal(scale: f64, own: &[f64], off: &[f64], x: &[f64], out: &mut [f64]) {
+fn add_two_diagonals(scale: f64, own: &[f64], (d, off): (usize, &[f64]), x: &[f64], out: &mut [f64]) {
     let n = out.len();
-    let (own, off, x) = (&own[..n], &off[..n - 1], &x[..n]);
-    out[0] = out[0] + scale * own[0] * x[0] + scale * off[0] * x[1];
-    let inside = own[1..].iter().zip(off.windows(2)).zip(x.windows(3));
-    for (y, ((own, off), x)) in out[1..].iter_mut().zip(inside) {
-        *y = *y + scale * own * x[1] + scale * off[0] * x[0] + scale * off[1] * x[2];
+    let (own, off, x) = (&own[..n], &off[..n - d], &x[..n]);
+    for i in 0..d {
+        out[i] = out[i] + scale * own[i] * x[i] + scale * off[i] * x[i + d];
     }
-    out[n - 1] = out[n - 1] + scale * own[n - 1] * x[n - 1] + scale * off[n - 2] * x[n - 2];
+    let inside = own[d..].iter().zip(&off[d..]).zip(off).zip(&x[d..]).zip(x).zip(&x[2 * d..]);
+    for (y, (((((own, above), below), x), before), after)) in out[d..].iter_mut().zip(inside) {
+        *y = *y + scale * own * x + scale * below * before + scale * above * after;
+    }
+    for i in n - d..n {
+        out[i] = out[i] + scale * own[i] * x[i] + scale * off[i - d] * x[i - d];
+    }
 }

@@ -23,6 +23,7 @@ struct Inner {
     checked: OnceLock<Result<()>>,
     mass: OnceLock<std::result::Result<Factor, NotDefinite>>,
     frequencies: OnceLock<[f64; 2]>,
+    ratios: OnceLock<[f64; 2]>,
     operators: OnceLock<Arc<[Operator; 3]>>,
 }
 
@@ -41,6 +42,11 @@ impl SharedStructure {
     pub(crate) fn operators(&self) -> Arc<[Operator; 3]> {
         let new = || Arc::new([&self.mass, &self.damping, &self.stiffness].map(Operator::new));
         Arc::clone(self.0.operators.get_or_init(new))
+    }
+
+    /// The largest λ of C x = λ M x (1/s) and of K x = λ M x (1/s²), found once, by `find`.
+    pub(crate) fn ratios(&self, find: impl FnOnce() -> [f64; 2]) -> [f64; 2] {
+        *self.0.ratios.get_or_init(find)
     }
 
     /// As [`System::frequencies`](super::System::frequencies), computed once.

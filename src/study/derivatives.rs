@@ -78,13 +78,9 @@ impl Derivatives {
         while stepper.time() < scene.duration && ended.is_none() {
             ended = variation.propagate(&stepper.step()?).err();
         }
-        Ok(Self {
-            contacts: variation.contacts().to_vec(),
-            motion: variation.motion().clone(),
-            means: ended.is_none().then(|| variation.means()),
-            ended,
-            growth: variation.growth(),
-        })
+        let means = ended.is_none().then(|| variation.means());
+        let (contacts, motion) = variation.take_results();
+        Ok(Self { contacts, motion, means, ended, growth: variation.growth() })
     }
 
     /// The contacts that ended while no change of the start had grown by more than

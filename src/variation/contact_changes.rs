@@ -5,7 +5,8 @@
 //! δt = −(G δq + δG q − δg)/G q̇⁻, its approach speed changes as G q̇⁻ does at the moved instant,
 //! and its impulse p as in Newton's law there. The impulse ∫r dt of a lasting contact changes by
 //! ∫δr dt and, at each event within it at which its force jumps from r⁻ to r⁺, by (r⁻ − r⁺) δt. It
-//! ends where its force vanishes, so that the end moves by −δr/ṙ.
+//! ends where its force vanishes, so that the end moves by −δr/ṙ, or with the instant of an impact
+//! elsewhere that ends it.
 
 use crate::step::Contact;
 
@@ -17,8 +18,8 @@ pub struct ContactDerivative {
     pub contact: Contact,
     /// Of the time at which it begins, s per unit of the key.
     pub start_by: Vec<f64>,
-    /// Of the time at which it ends, s per unit of the key. NaN where a blow or an impact elsewhere
-    /// ends a lasting contact: this derivative is not known.
+    /// Of the time at which it ends, s per unit of the key. NaN where a blow, or several impacts
+    /// elsewhere at one instant, end a lasting contact: this derivative is not known.
     pub end_by: Vec<f64>,
     /// Of the approach speed, m/s per unit of the key.
     pub approach_speed_by: Vec<f64>,
@@ -40,6 +41,8 @@ pub(super) struct ContactChanges {
     noted: usize,
     /// Of the impulses of each wall up to now, N s: for each wall the keys.
     total: Vec<Vec<f64>>,
+    /// Of the force of each wall at the end of the last stretch in contact, N.
+    force: Vec<Vec<f64>>,
 }
 
 #[derive(Debug)]
@@ -49,14 +52,13 @@ struct Open {
     impulse: Vec<f64>,
     end: Vec<f64>,
     departure: Vec<f64>,
-    /// Of its force at the end of the stretch, N.
-    force: Vec<f64>,
 }
 
 impl ContactChanges {
     pub fn new(keys: usize, walls: usize) -> Self {
-        let total = vec![vec![0.0; keys]; walls];
-        Self { keys, open: (0..walls).map(|_| None).collect(), ended: Vec::new(), noted: 0, total }
+        let of_walls = || vec![vec![0.0; keys]; walls];
+        let open = (0..walls).map(|_| None).collect();
+        Self { keys, open, ended: Vec::new(), noted: 0, total: of_walls(), force: of_walls() }
     }
 
     /// Begins a contact of `wall`, unless one is open.
@@ -64,14 +66,8 @@ impl ContactChanges {
         let zero = || vec![0.0; self.keys];
         if let Some(open) = self.open.get_mut(wall).filter(|open| open.is_none()) {
             let unknown = || vec![f64::NAN; self.keys];
-            *open = Some(Open {
-                start: zero(),
-                speed: zero(),
-                impulse: zero(),
-                end: unknown(),
-                departure: unknown(),
-                force: zero(),
-            });
+            *open = Some(Open { start: zero(), speed: zero(), impulse: zero(), end: unknown(), departure: unknown() });
+            self.force.get_mut(wall).into_iter().for_each(|force| force.fill(0.0));
         }
     }
 
@@ -93,16 +89,12 @@ impl ContactChanges {
 
     /// Sets the change of the force (N) of the open contact of `wall`.
     pub fn set_force(&mut self, wall: usize, key: usize, change: f64) {
-        let open = self.open.get_mut(wall).and_then(Option::as_mut);
-        if let Some(force) = open.and_then(|open| open.force.get_mut(key)) {
-            *force = change;
-        }
+        self.force.get_mut(wall).and_then(|force| force.get_mut(key)).into_iter().for_each(|force| *force = change);
     }
 
     /// That change, N.
     pub fn force(&self, wall: usize, key: usize) -> f64 {
-        let open = self.open.get(wall).and_then(Option::as_ref);
-        open.and_then(|open| open.force.get(key)).copied().unwrap_or(f64::NAN)
+        self.force.get(wall).and_then(|force| force.get(key)).copied().unwrap_or(f64::NAN)
     }
 
     /// The changes of the impulses of each wall up to now, N s, open contacts included.
@@ -121,7 +113,7 @@ impl ContactChanges {
 
     /// Ends the contact of a wall.
     pub fn end(&mut self, contact: &Contact) {
-        let Some(Open { start, speed, impulse, end, departure, .. }) =
+        let Some(Open { start, speed, impulse, end, departure }) =
             self.open.get_mut(contact.wall).and_then(Option::take)
         else {
             return;
@@ -141,6 +133,13 @@ impl ContactChanges {
     pub fn note_growth(&mut self, growth: f64) {
         self.ended.iter_mut().skip(self.noted).for_each(|one| one.growth = growth);
         self.noted = self.ended.len();
+    }
+
+    /// As [`Self::ended`], for good.
+    pub fn take_ended(&mut self) -> Vec<ContactDerivative> {
+        let mut ended = std::mem::take(&mut self.ended);
+        ended.truncate(std::mem::take(&mut self.noted));
+        ended
     }
 
     /// The contacts that have ended and whose growth is noted, in the order of their ends: those of

@@ -1,27 +1,50 @@
 //! The ends of lasting contacts.
 
-use super::structure::StructureVariation;
-use crate::flow::Series;
+use super::contact_changes::ContactChanges;
+use super::jump::{Jump, Struck};
+use super::key_terms::{Instant, KeyTerms};
+use super::stretch::Stretch;
+use super::structure::{At, StructureVariation};
+use crate::flow::Propagator;
 use crate::step::Step;
 
 impl StructureVariation {
     /// Notes by how much the ends and departure speeds of lasting contacts change that end at the
     /// end of `step`, where their forces vanish and nothing else happens: the end moves by −δr/ṙ.
-    pub fn note_ends(&mut self, step: &Step<'_>, series: &Series, columns: &[f64]) {
+    pub fn note_ends(&mut self, step: &Step<'_>, stretch: &Stretch<'_>, columns: &[f64]) {
         let Self { flow, walls, v, a, keys, .. } = self;
         let n = v.len();
         for contact in step.closed.iter().filter(|contact| contact.start < step.end) {
             let wall = contact.wall;
-            let acts = series.acting().find(|acting| acting.0 == wall);
-            let (Some(at), Some((_, force, share))) = (walls.get(wall), acts) else { continue };
-            let x = series.span();
-            let slope = force.iter().enumerate().skip(1).rev().fold(0.0, |sum, (k, c)| sum * x + k as f64 * c);
-            let (rate, pull) = (share * slope / series.unit(), flow.body.rows.dot(at.row, a));
+            let Some((at, rate)) = walls.get(wall).zip(stretch.force_rate_at_end(wall)) else { continue };
+            let pull = flow.body.rows.dot(at.row, a);
             for (number, (terms, change)) in keys.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
                 let later = -keys.contacts.force(wall, number) / rate;
                 let faster = flow.body.rows.dot(at.row, &change[n..]) + terms.along(wall, v) + pull * later;
                 keys.contacts.set_end(wall, number, [later, at.sign * faster]);
             }
+        }
+    }
+}
+
+impl ContactChanges {
+    /// Notes by how much the ends and departure speeds of lasting contacts at other walls change
+    /// that end with the impact of `s`, which key number `number` moves by `later` (s): of one that
+    /// follows a blow it is not known.
+    pub fn note_ends_elsewhere(
+        &mut self,
+        (flow, jump): (&mut Propagator, &Jump),
+        (walls, s): (&[At], &Struck),
+        (step, number): (&Step<'_>, usize),
+        (dv, later): (&[f64], f64),
+        (terms, at): (&KeyTerms, &Instant<'_>),
+    ) {
+        for contact in step.closed.iter().filter(|contact| contact.start < step.end && !s.held) {
+            let elsewhere = |of: &&At| of.row != s.row || of.restitution.is_none();
+            let Some(of) = walls.get(contact.wall).filter(elsewhere) else { continue };
+            let faster = jump.velocity_after(flow, (dv, later), terms, at);
+            let speed = flow.body.rows.dot(of.row, &faster) + terms.along(contact.wall, at.after);
+            self.set_end(contact.wall, number, [later, of.sign * speed]);
         }
     }
 }

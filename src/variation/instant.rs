@@ -5,17 +5,18 @@ use super::key_terms::Instant;
 use super::keys::Keys;
 use super::no_derivative::NoDerivative;
 use super::oscillator::ON_THE_FACE;
+use super::stretch::Stretch;
 use super::structure::{At, StructureVariation, name_of};
-use crate::flow::{Propagator, Series, held};
+use crate::flow::{Propagator, held};
 use crate::step::Step;
 
 /// A row that leaves an impact with less than this share of e times its approach speed has come to
 /// rest: the scheme has skipped the remaining impacts of an accumulation.
-const STUCK: f64 = 0.5;
+pub(super) const STUCK: f64 = 0.5;
 
 /// A row whose departure speed differs from e times its approach speed by more than this share was
 /// struck more than once.
-const ONCE: f64 = 1e-6;
+pub(super) const ONCE: f64 = 1e-6;
 
 /// A change that is this small a share of its terms is rounding: where a body touches, it keeps the
 /// body on the wall.
@@ -56,10 +57,10 @@ impl StructureVariation {
         Ok(())
     }
 
-    /// Elastic wall `w` begins to push in the stretch of `series` or after it. If the state is on
+    /// Elastic wall `w` begins to push in the `stretch` or after it. If the state is on
     /// its face and moves into it, the force of its dashpot jumps; a push that begins elsewhere
     /// begins with a force of 0.
-    pub fn enter(&mut self, w: usize, series: &Series, columns: &mut [f64]) {
+    pub fn enter(&mut self, w: usize, stretch: &Stretch<'_>, columns: &mut [f64]) {
         self.keys.contacts.begin(w);
         if !self.began {
             return;
@@ -67,7 +68,7 @@ impl StructureVariation {
         let (at, n) = (self.walls[w], self.q.len());
         let [place, rate] = [&self.q, &self.v].map(|x| self.flow.body.rows.dot(at.row, x));
         let on_face = -at.sign * rate > 0.0 && (place - at.position).abs() <= ON_THE_FACE * self.length;
-        self.note_push((w, at), [place, rate], on_face, series, columns);
+        self.note_push((w, at), [place, rate], on_face, stretch, columns);
         if at.damping == 0.0 || !on_face {
             return;
         }
@@ -91,7 +92,7 @@ impl StructureVariation {
         (w, at): (usize, At),
         [place, rate]: [f64; 2],
         on_face: bool,
-        series: &Series,
+        stretch: &Stretch<'_>,
         columns: &[f64],
     ) {
         let Self { flow, walls, q, v, a, work, keys, .. } = self;
@@ -120,8 +121,8 @@ impl StructureVariation {
                 continue;
             }
             keys.contacts.add_impulse(w, number, at.damping * rate * later);
-            let holds = |wall: &(usize, f64)| walls.get(wall.0).is_some_and(|at| at.restitution.is_some());
-            for (wall, share) in series.acting_shares().filter(holds) {
+            for (wall, _) in stretch.acting_walls().filter(|acting| acting.1) {
+                let share = stretch.share(wall).unwrap_or(0.0);
                 let reaction = walls.get(wall).and_then(|at| reactions.get(at.row)).copied().unwrap_or(0.0);
                 keys.contacts.add_impulse(wall, number, -share * reaction * later);
             }
@@ -147,7 +148,7 @@ impl StructureVariation {
     }
 
     /// The impacts at the end of `step`, after its blows if it is `blown`.
-    pub fn impact(&mut self, step: &Step<'_>, series: &Series, blown: bool, columns: &mut [f64]) -> Done {
+    pub fn impact(&mut self, step: &Step<'_>, stretch: &Stretch<'_>, blown: bool, columns: &mut [f64]) -> Done {
         let Self { flow, walls, names, jump, during, after, wall_of, v, a, keys, .. } = self;
         let (mut struck, mut passing): (Vec<Struck>, Vec<usize>) = (Vec::new(), Vec::new());
         for row in 0..during.len() {
@@ -181,13 +182,13 @@ impl StructureVariation {
         if struck.len() > 1 && (turned || released || jump.is_coupled(flow)) {
             return Err(together(names, step));
         }
-        self.kick(step, series);
+        self.kick(step, stretch);
         let Self { flow, walls, names, jump, during, q, v, a, wall_of, keys, .. } = self;
         let at = Instant { time: step.end, q, before: v, after: step.v, acceleration: a, impulse: step.jump, wall_of };
         let fixed = blown || (step.index == 0 && step.end <= step.start);
         let mut free = struck.iter().filter(|s| fixed && !during[s.row]);
         free.try_for_each(|s| keys.check_touch((flow, names), s.row, &at, columns, false))?;
-        if !keys.note_impacts((flow, jump), (walls, &struck), (step, series), &at, columns) {
+        if !keys.note_impacts((flow, jump), (walls, &struck), (step, stretch), &at, columns) {
             return Err(together(names, step));
         }
         jump.apply_to(flow, columns, &keys.terms, &at);
@@ -195,10 +196,10 @@ impl StructureVariation {
     }
 
     /// Computes the vectors wᵢ of the impacts that `jump` has begun.
-    fn kick(&mut self, step: &Step<'_>, series: &Series) {
+    fn kick(&mut self, step: &Step<'_>, stretch: &Stretch<'_>) {
         let Self { flow, walls, jump, during, after, hold, .. } = self;
         hold.set(&flow.body, (0..after.len()).filter(|&row| after[row]).map(held), std::iter::empty());
-        let before = |wall: usize| series.contact_force(wall, series.end());
+        let before = |wall: usize| stretch.force_at_end(wall);
         jump.kick(flow, hold, |flow, s, shift, force| {
             for (wall, at) in walls.iter().enumerate() {
                 let push = match (at.restitution, at.during, at.after) {
@@ -250,14 +251,14 @@ impl Keys {
         &mut self,
         (flow, jump): (&mut Propagator, &Jump),
         (walls, struck): (&[At], &[Struck]),
-        (step, series): (&Step<'_>, &Series),
+        (step, stretch): (&Step<'_>, &Stretch<'_>),
         at: &Instant<'_>,
         columns: &[f64],
     ) -> bool {
         let n = at.q.len();
         let sum =
             |row: usize| walls.iter().zip(step.jump).filter(|(wall, _)| wall.row == row).map(|w| w.1).sum::<f64>();
-        let before = |wall: usize| series.contact_force(wall, series.end());
+        let before = |wall: usize| stretch.force_at_end(wall);
         for (number, (terms, change)) in self.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
             let (dq, dv) = change.split_at(n);
             let later = |s: &Struck, wall: usize| s.moves_by(flow.body.rows.dot(s.row, dq) + terms.offset(wall, at.q));
@@ -290,6 +291,9 @@ impl Keys {
                     self.contacts.set_start(wall, number, [moved, f64::NAN]);
                 }
                 self.contacts.add_impulse(wall, number, jumped * moved);
+            }
+            if let ([s], &[later]) = (struck, &moves[..]) {
+                self.contacts.note_ends_elsewhere((flow, jump), (walls, s), (step, number), (dv, later), (terms, at));
             }
             let impulses = jump.impulses(flow, (dq, dv), terms, at);
             for (wall, of) in walls.iter().enumerate().filter(|(wall, _)| at.impulse[*wall] != 0.0) {

@@ -209,6 +209,27 @@ impl Jump {
     }
 }
 
+impl Jump {
+    /// By how much the velocity just after the instant (m/s, n entries) changes by the change `v`
+    /// of that before it and a key, where the instant comes `later` (s).
+    pub fn velocity_after(
+        &self,
+        flow: &mut Propagator,
+        (v, later): (&[f64], f64),
+        key: &KeyTerms,
+        at: &Instant<'_>,
+    ) -> Vec<f64> {
+        let mut moved: Vec<f64> = v.iter().zip(at.acceleration).map(|(v, a)| v + later * a).collect();
+        let mut wanted = vec![0.0; self.seen.len()];
+        for held in self.rows.rows() {
+            wanted[held.row] = self.wanted(flow, held.row, &moved, Some(key), at);
+        }
+        key.add_to_velocity(flow, at, &mut moved);
+        self.rows.change(&flow.body, &mut moved, &mut flow.scratch, |held| wanted[held.row]);
+        moved
+    }
+}
+
 impl Struck {
     /// δt, s, of the impact: `beyond` is G δq + δG q − δg. A row without speed is struck by a blow,
     /// whose instant does not move.

@@ -8,6 +8,8 @@ use crate::scene::Row;
 #[derive(Debug)]
 pub(super) struct KeyTerms {
     pub tangent: SceneTangent,
+    /// δm of one degree of freedom, kg.
+    mass: f64,
     loads: LoadTerms,
     /// The walls behind the held rows, by row.
     carriers: Vec<usize>,
@@ -32,7 +34,8 @@ pub(super) struct Instant<'a> {
 
 impl KeyTerms {
     pub fn new(tangent: SceneTangent, places: &[(Row, f64)], rows: usize) -> Self {
-        Self { tangent, loads: LoadTerms::default(), carriers: vec![0; rows], places: places.to_vec() }
+        let mass = tangent.body()[0];
+        Self { mass, tangent, loads: LoadTerms::default(), carriers: vec![0; rows], places: places.to_vec() }
     }
 
     /// Prepares the terms over the stretch of `base`, in which the walls of `wall_of` act at their
@@ -41,6 +44,13 @@ impl KeyTerms {
         self.carriers.clear();
         self.carriers.extend_from_slice(wall_of);
         self.loads.fill(&self.tangent.loads, base.terms(), base.start(), base.unit());
+    }
+
+    /// Adds the change of the loads on one degree of freedom from `start` (s) on to the polynomial
+    /// `force` in x, N, whose unit is `unit` (s).
+    pub fn add_loads(&mut self, (start, unit): (f64, f64), force: &mut [f64]) {
+        self.loads.fill(&self.tangent.loads, force.len(), start, unit);
+        self.loads.add_to_one(&self.tangent.loads, force);
     }
 
     /// δG q − δg, m: by how much the change of the wall alone brings the displacement `q` beyond
@@ -57,6 +67,11 @@ impl KeyTerms {
     /// δe.
     pub fn restitution(&self, wall: usize) -> f64 {
         self.tangent.walls.get(wall).map_or(0.0, |wall| wall.restitution)
+    }
+
+    /// δm of one degree of freedom, kg; of a structure it means nothing.
+    pub fn mass_of_one(&self) -> f64 {
+        self.mass
     }
 
     /// True where the key changes two walls in different ways.
@@ -128,6 +143,12 @@ impl KeyTerms {
 }
 
 impl Drive for KeyTerms {
+    fn pushes(&self) -> bool {
+        let SceneTangent { mass, damping, stiffness, walls, loads, .. } = &self.tangent;
+        let matrices = [mass, damping, stiffness].iter().any(|matrix| matrix.is_some());
+        matrices || !loads.is_empty() || walls.iter().any(|wall| !wall.row.entries().is_empty())
+    }
+
     fn add_force(&self, base: &Series, k: usize, force: &mut [f64]) {
         let (rate, unit) = ((k + 1) as f64, base.unit());
         let SceneTangent { mass, damping, stiffness, walls, loads, .. } = &self.tangent;

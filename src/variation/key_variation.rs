@@ -160,6 +160,12 @@ impl KeyVariation {
         self.variation.keys.contacts.ended()
     }
 
+    /// The same, and [`Self::motion`], for good: the variation has none of them afterwards.
+    pub(crate) fn take_results(&mut self) -> (Vec<ContactDerivative>, MotionDerivative) {
+        let keys = &mut self.variation.keys;
+        (keys.contacts.take_ended(), std::mem::take(&mut keys.motion.found))
+    }
+
     /// The displacements and velocities of the probes at the times asked for, with their
     /// derivatives.
     #[must_use]

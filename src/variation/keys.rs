@@ -4,7 +4,7 @@ use super::contact_changes::ContactChanges;
 use super::key_terms::KeyTerms;
 use super::means::MeanChanges;
 use super::tangent::SceneTangent;
-use crate::flow::{Change, Propagator, Series, SeriesBody};
+use crate::flow::{Changes, Propagator, Series, SeriesBody};
 use crate::scene::{Loads, Row, Scene};
 
 /// The terms of the keys, and the derivatives read along the run.
@@ -17,8 +17,10 @@ pub(super) struct Keys {
     pub loads: Loads,
     /// The largest |δq| (m) and |δq̇| (m/s) of each key so far.
     pub sizes: Vec<[f64; 2]>,
-    change: Change,
+    changes: Changes,
+    /// Displacement and velocity of the motion, and the columns at a time that is asked for.
     work: [Vec<f64>; 2],
+    read: Vec<f64>,
 }
 
 /// Displacements and velocities of probes at given times, and their derivatives. NaN where the time
@@ -58,8 +60,9 @@ impl Keys {
             means: MeanChanges::new(&[], 0),
             loads: Loads::new(&[]),
             sizes: Vec::new(),
-            change: Change::new(body),
+            changes: Changes::new(body, 0),
             work: [vec![0.0; body.n], vec![0.0; body.n]],
+            read: Vec::new(),
         }
     }
 
@@ -85,43 +88,54 @@ impl Keys {
         a != b && self.terms.iter().any(|terms| terms.differ(a, b))
     }
 
-    /// Propagates the column of key number `column` over a stretch without events.
-    pub fn pass(
-        &mut self,
-        column: usize,
-        (flow, wall_of): (&mut Propagator, &[usize]),
-        base: &Series,
-        (q, v): (&mut [f64], &mut [f64]),
-    ) {
-        let Self { terms, contacts, motion, means, change, sizes, work: [work_q, work_v], .. } = self;
-        let Some((terms, sizes)) = terms.get_mut(column).zip(sizes.get_mut(column)) else { return };
-        for (size, change) in sizes.iter_mut().zip([&*q, &*v]) {
-            *size = change.iter().fold(*size, |most, x| most.max(x.abs()));
-        }
-        terms.begin(base, wall_of);
+    /// Propagates `columns`, those of the keys and then changes of the start alone, over a stretch
+    /// without events.
+    pub fn pass(&mut self, (flow, wall_of): (&mut Propagator, &[usize]), base: &Series, columns: &mut [f64]) {
+        let Self { terms, contacts, motion, means, changes, sizes, work: [q, v], read, .. } = self;
         let Propagator { body, hold, touching, scratch, .. } = flow;
-        // Rounding errors must not move a row from its wall.
-        let wall = |row: usize| wall_of.get(row).copied().unwrap_or(0);
-        base.state(base.start(), work_q, work_v);
-        hold.change(body, q, scratch, |held| -terms.offset(wall(held.row), work_q));
-        hold.change(body, v, scratch, |held| -terms.along(wall(held.row), work_v));
-        change.fill(body, base, (touching, hold), (q, v), terms, scratch);
-        motion.read(column, base, change, terms, (work_q, work_v));
-        means.add_stretch(column, (base, change), terms);
-        let end = base.span();
-        for (wall, share) in base.acting_shares() {
-            let [force, impulse] = change.push(body, (touching, hold), wall, end);
-            contacts.add_impulse(wall, column, share * impulse);
-            contacts.set_force(wall, column, share * force);
+        let n = body.n;
+        if changes.count() != columns.len() / (2 * n) {
+            *changes = Changes::new(body, columns.len() / (2 * n));
         }
-        change.state_at(end, q, v);
+        base.state(base.start(), q, v);
+        for (column, change) in columns.chunks_exact_mut(2 * n).enumerate() {
+            let (dq, dv) = change.split_at_mut(n);
+            for (size, change) in sizes.get_mut(column).into_iter().flatten().zip([&*dq, &*dv]) {
+                *size = change.iter().fold(*size, |most, x| most.max(x.abs()));
+            }
+            if let Some(terms) = terms.get_mut(column) {
+                terms.begin(base, wall_of);
+            }
+            // Rounding errors must not move a row from its wall.
+            let (wall, terms) = (|row: usize| wall_of.get(row).copied().unwrap_or(0), terms.get(column));
+            hold.change(body, dq, scratch, |held| terms.map_or(0.0, |terms| -terms.offset(wall(held.row), q)));
+            hold.change(body, dv, scratch, |held| terms.map_or(0.0, |terms| -terms.along(wall(held.row), v)));
+        }
+        changes.fill(body, base, (touching, hold), columns, terms, scratch);
+        motion.read((base, changes), terms, (q, v), (read, columns.len()));
+        let end = base.span();
+        for (column, terms) in terms.iter().enumerate() {
+            means.add_stretch(column, (base, changes), terms);
+            for (wall, share) in base.acting_shares() {
+                let [force, impulse] = changes.push(body, (touching, hold), (column, wall), end);
+                contacts.add_impulse(wall, column, share * impulse);
+                contacts.set_force(wall, column, share * force);
+            }
+        }
+        changes.state_at(end, columns);
     }
 
-    /// Notes that all keys have passed `time` (s).
-    pub fn passed(&mut self, time: f64) {
-        let MotionChanges { found, passed, .. } = &mut self.motion;
-        while found.time.get(*passed).is_some_and(|&t| t <= time) {
-            *passed += 1;
+    /// Reads the motion of one degree of freedom and its changes by each key at the times up to
+    /// `end` (s) that have not been passed; both of displacement and velocity.
+    pub fn read(&mut self, end: f64, own: impl Fn(f64) -> [f64; 2], change: impl Fn(usize, f64) -> [f64; 2]) {
+        let Self { terms, motion, .. } = self;
+        while let Some(&time) = motion.found.time.get(motion.passed).filter(|&&time| time <= end) {
+            let [q, v] = own(time);
+            for (key, terms) in terms.iter().enumerate() {
+                let [dq, dv] = change(key, time);
+                motion.note((motion.passed, key), (&[dq], &[dv]), (&[q], &[v]), terms);
+            }
+            motion.passed += 1;
         }
     }
 }
@@ -142,31 +156,42 @@ impl MotionChanges {
     /// Reads the changes at the times that lie in the stretch of `base`.
     fn read(
         &mut self,
-        column: usize,
-        base: &Series,
-        change: &Change,
-        terms: &KeyTerms,
-        (q, v): (&mut Vec<f64>, &mut Vec<f64>),
+        (base, changes): (&Series, &mut Changes),
+        terms: &[KeyTerms],
+        (q, v): (&mut [f64], &mut [f64]),
+        (columns, size): (&mut Vec<f64>, usize),
     ) {
-        let mut changes = [q.clone(), v.clone()];
-        let Self { found, passed, probes, keys } = self;
-        for number in *passed..found.time.len() {
-            let Some(&time) = found.time.get(number).filter(|&&time| time <= base.end()) else { return };
-            let [dq, dv] = &mut changes;
-            change.state_at((time - base.start()) / base.unit(), dq, dv);
+        while let Some(&time) = self.found.time.get(self.passed).filter(|&&time| time <= base.end()) {
+            columns.resize(size, 0.0);
+            changes.state_at((time - base.start()) / base.unit(), columns);
             base.state(time, q, v);
-            for (probe, row) in probes.iter().enumerate() {
-                let own = terms.tangent.probes.get(probe);
-                let along = |change: &[f64], x: &[f64]| row.dot(change) + own.map_or(0.0, |own| own.dot(x));
-                let index = number * probes.len() + probe;
-                let set = |list: &mut Vec<f64>, index: usize, value: f64| {
-                    list.get_mut(index).into_iter().for_each(|x| *x = value);
-                };
-                set(&mut found.displacement, index, row.dot(q));
-                set(&mut found.velocity, index, row.dot(v));
-                set(&mut found.displacement_by, index * *keys + column, along(dq, q));
-                set(&mut found.velocity_by, index * *keys + column, along(dv, v));
+            for (key, (terms, change)) in terms.iter().zip(columns.chunks_exact(2 * q.len())).enumerate() {
+                self.note((self.passed, key), change.split_at(q.len()), (q, v), terms);
             }
+            self.passed += 1;
+        }
+    }
+
+    /// Notes the state (`q`, `v`) at time number `number` and its change by key number `column`.
+    fn note(
+        &mut self,
+        (number, column): (usize, usize),
+        (dq, dv): (&[f64], &[f64]),
+        (q, v): (&[f64], &[f64]),
+        terms: &KeyTerms,
+    ) {
+        let Self { found, probes, keys, .. } = self;
+        for (probe, row) in probes.iter().enumerate() {
+            let own = terms.tangent.probes.get(probe);
+            let along = |change: &[f64], x: &[f64]| row.dot(change) + own.map_or(0.0, |own| own.dot(x));
+            let index = number * probes.len() + probe;
+            let set = |list: &mut Vec<f64>, index: usize, value: f64| {
+                list.get_mut(index).into_iter().for_each(|x| *x = value);
+            };
+            set(&mut found.displacement, index, row.dot(q));
+            set(&mut found.velocity, index, row.dot(v));
+            set(&mut found.displacement_by, index * *keys + column, along(dq, q));
+            set(&mut found.velocity_by, index * *keys + column, along(dv, v));
         }
     }
 

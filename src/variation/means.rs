@@ -5,7 +5,7 @@
 //! both q and δq are polynomials, whose product is integrated term by term.
 
 use super::key_terms::KeyTerms;
-use crate::flow::{Change, Series, TERMS};
+use crate::flow::{Changes, INVERSE, Series, TERMS};
 use crate::scene::Row;
 use crate::step::Step;
 
@@ -75,7 +75,7 @@ impl MeanChanges {
     }
 
     /// Adds the stretch of `base`, with its change by key number `column`.
-    pub fn add_stretch(&mut self, column: usize, (base, change): (&Series, &Change), terms: &KeyTerms) {
+    pub fn add_stretch(&mut self, column: usize, (base, changes): (&Series, &Changes), terms: &KeyTerms) {
         let (unit, x, count) = (base.unit(), base.span(), base.terms().min(TERMS));
         for (number, probe) in self.probes.iter_mut().enumerate() {
             let (scale, mut by) = (x * unit, [0.0; TERMS]);
@@ -85,12 +85,35 @@ impl MeanChanges {
             let of_key = terms.tangent.probes.get(number);
             let mut power = 1.0;
             for (k, by) in by.iter_mut().enumerate().take(count) {
-                *by = power * (probe.row.dot(change.term(k)) + of_key.map_or(0.0, |row| row.dot(base.term(k))));
+                *by = power
+                    * (changes.seen(probe.row.entries(), k, column) + of_key.map_or(0.0, |row| row.dot(base.term(k))));
                 power *= x;
             }
             if let Some(changes) = probe.by.get_mut(column) {
                 changes[0] += scale * dot(&by, &INVERSE);
                 changes[1] += scale * 2.0 * dot(&by, &probe.weights);
+            }
+        }
+    }
+
+    /// True without probes.
+    pub fn is_empty(&self) -> bool {
+        self.probes.is_empty()
+    }
+
+    /// Adds a flight of one degree of freedom, with its change by key number `column`: ∫q and ∫q²,
+    /// and ∫δq and ∫q δq.
+    pub fn add_flight(&mut self, column: usize, own: [f64; 2], by: [f64; 2], terms: &KeyTerms) {
+        for (number, probe) in self.probes.iter_mut().enumerate() {
+            let weight = probe.row.dot(&[1.0]);
+            let of_key = terms.tangent.probes.get(number).map_or(0.0, |row| row.dot(&[1.0]));
+            if column == 0 {
+                probe.own[0] += weight * own[0];
+                probe.own[1] += weight * weight * own[1];
+            }
+            if let Some(changes) = probe.by.get_mut(column) {
+                changes[0] += weight * by[0] + of_key * own[0];
+                changes[1] += 2.0 * weight * (weight * by[1] + of_key * own[1]);
             }
         }
     }
@@ -127,14 +150,3 @@ impl MeanChanges {
 fn dot(a: &[f64; TERMS], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
-
-/// 1/(k + 1).
-const INVERSE: [f64; 2 * TERMS] = {
-    let mut inverse = [0.0; 2 * TERMS];
-    let mut k = 0;
-    while k < inverse.len() {
-        inverse[k] = 1.0 / (k + 1) as f64;
-        k += 1;
-    }
-    inverse
-};

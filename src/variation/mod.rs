@@ -41,14 +41,17 @@
 //!
 //! The derivative of a motion with respect to its start, from the steps of the exact scheme:
 //! `saltation.rs` states what each event makes of a small change, `oscillator.rs` and
-//! `structure.rs` (with `jump.rs`, `instant.rs` and `blows.rs`) read it from the steps,
-//! `product.rs` multiplies along a run, `exponents.rs` holds Lyapunov exponents. With respect to
-//! keys: `tangent/` is the derivative of the scene, `key_variation.rs` that of a run, with
-//! `keys.rs`, `key_terms.rs` and `contact_changes.rs`, `ends.rs` and `means.rs`; `arc_series.rs`
-//! writes closed-form motion as series, of which `flight.rs` takes one at a time. Knows no scheme.
+//! `structure.rs` (with `jump.rs`, `instant.rs`, `bounce.rs` and `blows.rs`) read it from the
+//! steps, `product.rs` multiplies along a run, `exponents.rs` holds Lyapunov exponents. With
+//! respect to keys: `tangent/` is the derivative of the scene, `key_variation.rs` that of a run,
+//! with `keys.rs`, `key_terms.rs` and `contact_changes.rs`, `ends.rs` and `means.rs`;
+//! `arc_changes.rs` (with `touch_change.rs`) is that of closed-form motion, of which `flight.rs`
+//! takes one flight at a time; `stretch.rs` is the motion of a step of either kind. Knows no
+//! scheme.
 
-mod arc_series;
+mod arc_changes;
 mod blows;
+mod bounce;
 mod contact_changes;
 mod ends;
 mod exponents;
@@ -63,8 +66,10 @@ mod no_derivative;
 mod oscillator;
 mod product;
 pub mod saltation;
+mod stretch;
 mod structure;
 mod tangent;
+mod touch_change;
 
 pub use contact_changes::ContactDerivative;
 pub use exponents::{Exponent, Exponents};

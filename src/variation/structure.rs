@@ -1,10 +1,10 @@
 //! Several degrees of freedom: changes of the state propagated over each step.
 
-use super::arc_series::ArcSeries;
+use super::arc_changes::ArcChanges;
 use super::jump::Jump;
 use super::keys::Keys;
 use super::no_derivative::NoDerivative;
-use super::saltation::{REST, apply};
+use super::stretch::{ArcEnd, Stretch};
 use super::tangent::SceneTangent;
 use crate::error::{Error, Result};
 use crate::flow::{Arc, HeldRows, Propagator, Series};
@@ -57,8 +57,8 @@ pub(super) struct StructureVariation {
     pub work: Vec<f64>,
     /// The keys by which the first columns are derivatives.
     pub keys: Keys,
-    /// The series of closed-form motion; only beside keys.
-    arcs: Option<ArcSeries>,
+    /// The changes over closed-form motion; only beside keys.
+    pub arcs: Option<Box<ArcChanges>>,
 }
 
 impl StructureVariation {
@@ -101,7 +101,7 @@ impl StructureVariation {
     pub fn with_keys(scene: &Scene, tangents: &[SceneTangent], times: &[f64]) -> Result<Self> {
         let mut variation = Self::new(scene)?;
         variation.keys = Keys::new(scene, &variation.flow.body, tangents, times);
-        variation.arcs = if scene.is_line() { ArcSeries::new(scene) } else { None };
+        variation.arcs = if scene.is_line() { ArcChanges::new(scene, tangents).map(Box::new) } else { None };
         Ok(variation)
     }
 
@@ -115,21 +115,17 @@ impl StructureVariation {
     pub fn propagate(&mut self, step: &Step<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         let n = self.degrees_of_freedom();
         let fits = step.q.len() == n && step.force.len() == self.walls.len();
-        match (step.path, self.arcs.take()) {
-            (Path::Series(series), _) if fits => {
-                self.begin(series, columns)?;
+        match step.path {
+            Path::Series(series) if fits => {
+                let stretch = Stretch::Series(series);
+                self.begin(&stretch, columns)?;
                 self.pass(series, columns);
-                self.end(step, series, columns)
+                self.end(step, &stretch, columns)
             }
-            (Path::Exact(arc), Some(mut arcs)) if fits => {
-                arcs.begin(arc, arc.start());
-                let begun = self.begin(&arcs.series, columns);
-                if begun.is_ok() {
-                    self.pass_arc(arc, &mut arcs, columns);
-                }
-                let ended = begun.and_then(|()| self.end(step, &arcs.series, columns));
-                self.arcs = Some(arcs);
-                ended
+            Path::Exact(arc) if fits && self.arcs.is_some() => {
+                self.begin(&Stretch::Arc(arc, ArcEnd::default()), columns)?;
+                let end = self.pass_arc(arc, columns);
+                self.end(step, &Stretch::Arc(arc, end), columns)
             }
             _ => Err(NoDerivative::Unresolved { time: step.end }),
         }
@@ -138,42 +134,25 @@ impl StructureVariation {
     /// Propagates `columns` over `arc`, without what happens at its ends. It does nothing to a
     /// structure.
     pub fn fly(&mut self, arc: &Arc, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
-        let Some(mut arcs) = self.arcs.take() else { return Ok(()) };
-        arcs.begin(arc, arc.start());
-        let read = self.read(&arcs.series);
-        if read.is_ok() {
-            self.pass_arc(arc, &mut arcs, columns);
-        }
-        self.arcs = Some(arcs);
-        read
+        self.read(&Stretch::Arc(arc, ArcEnd::default()))?;
+        self.pass_arc(arc, columns);
+        Ok(())
     }
 
-    /// Propagates the columns over the series of an arc, which has begun; those without a key over
-    /// the whole arc at once, in closed form.
-    fn pass_arc(&mut self, arc: &Arc, arcs: &mut ArcSeries, columns: &mut [f64]) {
-        while arc.end() > arc.start() {
-            self.pass_keys(&arcs.series, columns);
-            if arcs.series.end() >= arc.end() {
-                break;
-            }
-            arcs.begin(arc, arcs.series.end());
-        }
-        let propagator = if arc.is_rest() { REST } else { arc.propagator() };
-        for change in columns.chunks_exact_mut(2).skip(self.keys.terms.len()) {
-            if let &mut [q, v] = change {
-                change.copy_from_slice(&apply(propagator, [q, v]));
-            }
-        }
+    /// Propagates the columns over an arc. Returns the motion at its end.
+    fn pass_arc(&mut self, arc: &Arc, columns: &mut [f64]) -> ArcEnd {
+        let Self { arcs, keys, .. } = self;
+        arcs.as_mut().map(|arcs| arcs.pass(arc, keys, columns)).unwrap_or_default()
     }
 
     /// What happens at the beginning of a stretch, or has happened just before it.
-    fn begin(&mut self, series: &Series, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
-        series.state(series.start(), &mut self.q, &mut self.v);
-        self.read(series)?;
-        self.come_to_rest(series.start(), columns)?;
+    fn begin(&mut self, stretch: &Stretch<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
+        stretch.start_state(&mut self.q, &mut self.v);
+        self.read(stretch)?;
+        self.come_to_rest(stretch.start(), columns)?;
         for w in 0..self.walls.len() {
             if self.walls[w].during && !self.walls[w].after {
-                self.enter(w, series, columns);
+                self.enter(w, stretch, columns);
             }
         }
         Ok(())
@@ -181,35 +160,34 @@ impl StructureVariation {
 
     /// Propagates the columns over a stretch without events.
     fn pass(&mut self, series: &Series, columns: &mut [f64]) {
-        self.pass_keys(series, columns);
-        let Self { flow, keys, .. } = self;
+        let Self { flow, keys, wall_of, .. } = self;
+        if !keys.terms.is_empty() {
+            return keys.pass((flow, wall_of), series, columns);
+        }
         let n = flow.body.n;
-        for change in columns.chunks_exact_mut(2 * n).skip(keys.terms.len()) {
+        for change in columns.chunks_exact_mut(2 * n) {
             let (q, v) = change.split_at_mut(n);
             flow.flow(series.end() - series.start(), q, v);
         }
     }
 
-    /// The same for the columns of keys alone.
-    fn pass_keys(&mut self, series: &Series, columns: &mut [f64]) {
-        let Self { flow, keys, wall_of, .. } = self;
-        let n = flow.body.n;
-        for (column, change) in columns.chunks_exact_mut(2 * n).enumerate().take(keys.terms.len()) {
-            keys.pass(column, (flow, wall_of), series, change.split_at_mut(n));
-        }
-        keys.passed(series.end());
-    }
-
     /// What happens at the end of `step`.
-    fn end(&mut self, step: &Step<'_>, series: &Series, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
-        series.state(series.end(), &mut self.q, &mut self.v);
-        series.acceleration_at_end(&mut self.a);
+    fn end(
+        &mut self,
+        step: &Step<'_>,
+        stretch: &Stretch<'_>,
+        columns: &mut [f64],
+    ) -> std::result::Result<(), NoDerivative> {
+        stretch.end_state(&mut self.q, &mut self.v, &mut self.a);
         self.after.fill(false);
         for (at, &force) in self.walls.iter_mut().zip(step.force) {
             at.after = force != 0.0 && at.restitution.is_none();
             self.after[at.row] |= force != 0.0 && at.restitution.is_some();
         }
         self.began = true;
+        if self.bounce(step, columns) {
+            return Ok(());
+        }
         let blown = self.take_blow(step, columns)?;
         // A blow ends the contact that it disturbs, and begins another.
         let (ended, others): (Vec<&Contact>, Vec<&Contact>) =
@@ -219,15 +197,15 @@ impl StructureVariation {
             self.keys.motion.forget(step.end);
         }
         if step.jump.iter().any(|&p| p != 0.0) {
-            self.impact(step, series, blown, columns)?;
+            self.impact(step, stretch, blown, columns)?;
         } else {
             self.check_grazes(step)?;
             if !blown {
-                self.note_ends(step, series, columns);
+                self.note_ends(step, stretch, columns);
             }
             for w in 0..self.walls.len() {
                 if self.walls[w].after && !self.walls[w].during {
-                    self.enter(w, series, columns);
+                    self.enter(w, stretch, columns);
                 }
             }
         }
@@ -235,18 +213,18 @@ impl StructureVariation {
         Ok(())
     }
 
-    /// Records which rows are held and which elastic walls push during `series`.
-    fn read(&mut self, series: &Series) -> std::result::Result<(), NoDerivative> {
+    /// Records which rows are held and which elastic walls push during `stretch`.
+    fn read(&mut self, stretch: &Stretch<'_>) -> std::result::Result<(), NoDerivative> {
         self.during.fill(false);
         self.walls.iter_mut().for_each(|at| at.during = false);
-        for (wall, holds) in series.acting_walls() {
+        for (wall, holds) in stretch.acting_walls() {
             let Some(at) = self.walls.get_mut(wall) else { continue };
             at.during = !holds;
             if holds {
                 if self.during[at.row] && self.keys.differ(wall, self.wall_of[at.row]) {
                     let both = [self.wall_of[at.row], wall];
                     let walls = both.map(|wall| name_of(&self.names, wall)).to_vec();
-                    return Err(NoDerivative::Together { time: series.start(), walls });
+                    return Err(NoDerivative::Together { time: stretch.start(), walls });
                 }
                 self.during[at.row] = true;
                 self.wall_of[at.row] = wall;

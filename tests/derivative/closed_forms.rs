@@ -279,3 +279,58 @@ fn a_blow_at_another_time_moves_all_that_follows() {
     let ended = Derivatives::new(&pressed(0.05).unwrap(), &[key], &[]).unwrap().ended;
     assert!(matches!(&ended, Some(NoDerivative::Blow { wall, .. }) if wall == "buffer"), "{ended:?}");
 }
+
+/// A block dives into a damped buffer until it strikes a rigid stop behind its face: the push ends
+/// with that impact, whose rebound would let it pull. In the buffer s = v/ω_d e^{−δt} sin ω_d t, so
+/// that the stop at the depth d is struck at the first root of s = d.
+#[test]
+fn a_push_that_an_impact_elsewhere_ends_ends_at_its_instant() {
+    let (m, k, c, face, depth, e, v) = (1.0, 50.0, 8.0, 0.1, 0.02, 0.7, 0.5);
+    let scene = |[k, c, depth, e, v, m]: [f64; 6]| {
+        Ok(Scene::oscillator(m, 0.0, 0.0)
+            .with_wall(Wall::upper("buffer", face).with_elasticity(k, c))
+            .with_wall(Wall::upper("stop", face + depth).with_restitution(e))
+            .with_initial(&[0.0], &[v])
+            .with_duration(0.3))
+    };
+    let numbers = [k, c, depth, e, v, m];
+    let at = |index: usize, x: f64| {
+        let mut changed = numbers;
+        changed[index] = x;
+        changed
+    };
+    // Instant of the impact, and the speed at which the block leaves the buffer, by bisection.
+    let struck = |[k, c, depth, e, v, m]: [f64; 6]| {
+        let decay = c / (2.0 * m);
+        let omega = (k / m - decay * decay).sqrt();
+        let state = |t: f64| {
+            let (sin, cos) = (omega * t).sin_cos();
+            let size = v / omega * (-decay * t).exp();
+            [size * sin, size * (omega * cos - decay * sin)]
+        };
+        let (mut low, mut high) = (0.0, 0.08);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if state(middle)[0] < depth { low = middle } else { high = middle }
+        }
+        [face / v + low, e * state(low)[1]]
+    };
+    let keys: Vec<SceneTangent> =
+        (0..6).map(|index| SceneTangent::new("key", numbers[index], |x| scene(at(index, x))).unwrap()).collect();
+    let found = Derivatives::new(&scene(numbers).unwrap(), &keys, &[]).unwrap();
+    let push = found.contacts.iter().find(|one| one.contact.wall == 0).expect("a push");
+    let own = struck(numbers);
+    // Rounding of a few products.
+    assert!((push.contact.end.unwrap() - own[0]).abs() < 1e-12);
+    assert!((push.contact.departure_speed.unwrap() - own[1]).abs() < 1e-12);
+    for (index, number) in numbers.into_iter().enumerate() {
+        // The five-point difference over 1e-3 of itself errs by 1e-12, and by 1e-13 of rounding
+        // over that step.
+        let h = 1e-3 * number;
+        let [a, b, c, d] = [1.0, -1.0, 2.0, -2.0].map(|by| struck(at(index, number + by * h)));
+        for (part, ours) in [push.end_by[index], push.departure_speed_by[index]].into_iter().enumerate() {
+            let expected = (8.0 * (a[part] - b[part]) - (c[part] - d[part])) / (12.0 * h);
+            assert!((ours - expected).abs() <= 1e-9 * (own[part] / number).abs(), "{index} {part}: {ours} {expected}");
+        }
+    }
+}

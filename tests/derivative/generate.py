@@ -5,7 +5,10 @@ series of 46 terms. The derivative is a central difference of two runs with the 
 of itself, so that its error is about 1e-20 of it.
 
     python3 -m venv /tmp/venv && /tmp/venv/bin/pip install gmpy2 numpy
-    /tmp/venv/bin/python tests/derivative/generate.py 1100 > tests/derivative/scenes.csv
+    /tmp/venv/bin/python tests/derivative/generate.py 0 1150 > tests/derivative/scenes.csv
+    /tmp/venv/bin/python tests/derivative/generate.py 10000 10060 >> tests/derivative/scenes.csv
+
+Scenes from number 10000 on are chains of five and six masses.
 
 A line has the number of the scene, the derivatives of displacement and velocity of the first
 degree of freedom at the end, and those of start, approach speed and impulse of its first contacts.
@@ -63,6 +66,8 @@ def draw_scene(number):
     """The scene of this number, and the key by which it is differentiated."""
     draw = Draw(number)
     n = 1 if draw.unit() < 0.6 else 2 + int(3.0 * draw.unit())
+    if number >= 10000:
+        n = 5 + number % 2
     s = {"n": n, "mass": [], "spring": [], "dash": [], "walls": []}
     for i in range(n):
         s["mass"].append(draw.between(0.5, 2.0))
@@ -419,7 +424,7 @@ def line_of(number):
 
 def main():
     with multiprocessing.Pool(1) as pool:
-        for line in pool.imap(line_of, range(int(sys.argv[1])), chunksize=4):
+        for line in pool.imap(line_of, range(int(sys.argv[1]), int(sys.argv[2])), chunksize=4):
             if line:
                 print(line, flush=True)
 

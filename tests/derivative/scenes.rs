@@ -77,7 +77,10 @@ impl Numbers {
     /// The scene of this number, as generate.py draws it, and its key.
     fn draw(number: u64) -> (Self, Key) {
         let draw = &mut Draw(number);
-        let n = if draw.unit() < 0.6 { 1 } else { 2 + (3.0 * draw.unit()) as usize };
+        let mut n = if draw.unit() < 0.6 { 1 } else { 2 + (3.0 * draw.unit()) as usize };
+        if number >= 10_000 {
+            n = 5 + (number % 2) as usize;
+        }
         let (mut mass, mut spring, mut dash) = (Vec::new(), Vec::new(), Vec::new());
         for _ in 0..n {
             mass.push(draw.between(0.5, 2.0));

@@ -12,7 +12,7 @@ pub(crate) struct SeriesBody {
     pub n: usize,
     /// Behind a cell, since a column is computed when it is first needed.
     mass: RefCell<Factor>,
-    inertia: Operator,
+    pub(super) inertia: Operator,
     /// √Mᵢᵢ, n entries.
     root_mass: Vec<f64>,
     /// C; `None` where it is zero.
@@ -92,8 +92,11 @@ impl SeriesBody {
         let waves = loads.iter().flat_map(|(_, forcing)| &forcing.harmonics);
         let load = waves.map(|wave| wave.omega).fold(0.0, f64::max);
         let damped = damping.entries().any(|entry| entry.2 != 0.0);
-        let rub = if damped { largest_ratio(mass, &mut factor, damping) } else { 0.0 };
-        let omega = largest_ratio(mass, &mut factor, stiffness).max(scene.system.frequencies()[1].powi(2));
+        let [rub, omega] = structure.ratios(|| {
+            let rub = if damped { largest_ratio(mass, &mut factor, damping) } else { 0.0 };
+            [rub, largest_ratio(mass, &mut factor, stiffness)]
+        });
+        let omega = omega.max(scene.system.frequencies()[1].powi(2));
         let absolute = |m: &Symmetric| Symmetric::from_entries(n, m.entries().map(|(i, j, x)| (i, j, x.abs())));
         let mut body = Self {
             n,

@@ -20,15 +20,17 @@ mod body;
 mod change;
 mod circle;
 mod held_rows;
+mod responses;
 mod round;
 mod terms;
 mod wave;
 
 use crate::scene::Row;
 pub(crate) use body::SeriesBody;
-pub(crate) use change::{Change, Drive};
+pub(crate) use change::{Changes, Drive};
 use circle::Circle;
 pub(crate) use held_rows::{HeldRow, HeldRows};
+pub(crate) use responses::{INVERSE, Response, Responses, add_sine};
 pub(crate) use round::Round;
 pub(crate) use terms::{Start, Touching};
 use wave::Wave;
@@ -119,6 +121,12 @@ impl Series {
     pub(crate) fn state_at(&self, x: f64, q: &mut [f64], v: &mut [f64]) {
         let n = self.n;
         let (q, v) = (&mut q[..n], &mut v[..n]);
+        if x == 0.0 {
+            q.copy_from_slice(self.term(0));
+            let inverse = 1.0 / self.unit;
+            v.iter_mut().enumerate().for_each(|(i, v)| *v = self.motion.get(n + i).map_or(0.0, |a| a * inverse));
+            return;
+        }
         q.fill(0.0);
         v.fill(0.0);
         for k in (0..self.terms).rev() {

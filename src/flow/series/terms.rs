@@ -50,7 +50,7 @@ const LAST: f64 = 1e-18;
 
 /// Minimum number of terms, so that oscillations of the load are included besides its constant and
 /// ramp.
-const FEWEST: usize = 8;
+pub(super) const FEWEST: usize = 8;
 
 /// If the last term is above this share of the largest, the fastest rate was underestimated and the
 /// stretch is cut.

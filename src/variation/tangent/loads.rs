@@ -5,6 +5,8 @@
 //! δψ = δA sin θ + A (t δω + δφ) cos θ.
 
 use super::stencil::Stencil;
+use crate::elementary::sin_cos;
+use crate::flow::INVERSE;
 use crate::scene::{Load, LoadKind, Row, Scene, Table};
 use std::f64::consts::TAU;
 
@@ -179,6 +181,16 @@ impl LoadTerms {
     }
 }
 
+impl LoadTerms {
+    /// Adds the change of the loads on one degree of freedom to the polynomial `force`, N.
+    pub fn add_to_one(&self, loads: &[LoadChange], force: &mut [f64]) {
+        for (load, values) in loads.iter().zip(self.values.chunks_exact(self.terms.max(1))) {
+            let (at, row) = (load.load.at.dot(&[1.0]), load.row.dot(&[1.0]));
+            force.iter_mut().zip(values).for_each(|(force, [change, own])| *force += at * change + row * own);
+        }
+    }
+}
+
 /// The terms of a sine and of its change. The factor t of δω is start + unit x, so that its term k
 /// is start times term k of the cosine and unit times term k − 1.
 fn fill_sine(
@@ -187,12 +199,12 @@ fn fill_sine(
     (start, unit): (f64, f64),
     values: &mut [[f64; 2]],
 ) {
-    let (sin, cos) = (omega * start + phase).sin_cos();
+    let (sin, cos) = sin_cos(omega * start + phase);
     let (sines, cosines) = ([sin, cos, -sin, -cos], [cos, -sin, -cos, sin]);
     let (mut power, mut before) = (1.0, 0.0);
     for (k, value) in values.iter_mut().enumerate() {
         if k > 0 {
-            power *= omega * unit / k as f64;
+            power *= omega * unit * INVERSE.get(k - 1).copied().unwrap_or(0.0);
         }
         let (sine, cosine) = (power * sines[k % 4], power * cosines[k % 4]);
         let late = change[1] * (start * cosine + unit * before) + change[2] * cosine;
