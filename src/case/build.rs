@@ -108,8 +108,8 @@ impl Builder<'_> {
         }
     }
 
-    /// The scene of `system` with its initial state, walls, supports, loads and probes, and the place
-    /// of each wall.
+    /// The scene of `system` with its initial state, walls, supports, loads and probes, and the
+    /// place of each wall.
     fn scene(&mut self, file: &Section<'_>, system: System, duration: f64) -> Result<(Scene, Vec<Place>)> {
         let total = system.degrees_of_freedom();
         let mut scene = Scene {

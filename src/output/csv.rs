@@ -16,7 +16,8 @@ const BLOCK: usize = 1 << 16;
 /// impulse of each wall and, along y and z, of each round support, and the work of wear of each
 /// support since the start. Forces of walls are signed (lower wall ≥ 0, upper wall ≤ 0). The
 /// impulse in a row is that since the row before it, so that a column sums to the impulse of the
-/// run, and the force is that impulse over the distance of the rows. Columns carry the names of probes, walls and supports as [`words`] writes them.
+/// run, and the force is that impulse over the distance of the rows. Columns carry the names of
+/// probes, walls and supports as [`words`] writes them.
 ///
 /// # Errors
 /// [`Error::Io`] where the file cannot be written; it is written whole or not at all.

@@ -127,8 +127,9 @@ impl Judge {
     }
 }
 
-/// True if the body, `ahead` at the distance `reach` from the centre by the promise and `far` at the
-/// `end` of the step, comes through the middle of the hole, so that the step's end gives the normal.
+/// True if the body comes through the middle of the hole, so that the step's end gives the normal:
+/// by the promise it is `ahead`, at the distance `reach` from the centre, and at the `end` of the
+/// step `far` from it.
 fn crosses(
     turning: &Turning,
     normal: [f64; 2],

@@ -49,8 +49,8 @@ pub struct SupportForce {
     pub rms_of_halves_n: [f64; 2],
     /// Length of those intervals, s.
     pub rms_averaged_over_s: f64,
-    /// The largest mean of the |normal force|, at flats of all of them together, over any stretch of
-    /// such a length; `None` where nothing pushed.
+    /// The largest mean of the |normal force|, at flats of all of them together, over any stretch
+    /// of such a length; `None` where nothing pushed.
     #[serde(default)]
     pub largest: Option<LargestForce>,
 }

@@ -22,9 +22,9 @@ use serde::{Deserialize, Serialize};
 ///
 /// Row 0 is the start, after any impulse at t = 0; the last row is exactly the end. States are
 /// right-continuous. The force in a row is the impulse since the row before it over the distance of
-/// the rows, whatever the scheme: the mean force, so that the sum of a column times that distance is
-/// the impulse of the run. The forces of a step are those of [`Step`](crate::Step), and the largest
-/// force of a contact is that of its [`Contact`].
+/// the rows, whatever the scheme: the mean force, so that the sum of a column times that distance
+/// is the impulse of the run. The forces of a step are those of [`Step`](crate::Step), and the
+/// largest force of a contact is that of its [`Contact`].
 ///
 /// ```
 /// use signorini::{Load, Options, Scene, Scheme, Wall, run};
