@@ -113,8 +113,8 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
 }
 
 /// The largest force of a wall, N, and its time, s: of an elastic wall with the start of its
-/// contact, of a rigid one the largest mean over a stretch, with its middle. `None` where it did not
-/// push.
+/// contact, of a rigid one the largest mean over a stretch, with its middle. `None` where it did
+/// not push.
 fn largest_force(run: &Run, wall: &WallStatistics) -> Option<(f64, f64)> {
     let force = wall.force?;
     let averaged = || force.largest.map(|largest| (largest.mean_n, largest.at_s));
