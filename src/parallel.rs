@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::interrupt::Carried;
+use std::num::NonZero;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
@@ -14,6 +15,12 @@ const WAITING: usize = 64;
 
 /// Takes a result of the work; returns false where no more are wanted.
 pub type Take<'a, T> = dyn FnMut(T) -> bool + 'a;
+
+/// The number of processor cores, 1 where it is not known.
+#[must_use]
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, NonZero::get)
+}
 
 /// Does `work` for the numbers from 0 to below `count` on `threads` threads. Each thread takes the
 /// next number when it has finished one, so that numbers begin in their order. `work` passes its

@@ -5,7 +5,7 @@ use super::outcome::{Batch, Outcome};
 use super::width::Width;
 use super::work::Work;
 use crate::error::{Error, Result, Subject};
-use std::num::NonZero;
+use crate::parallel::cores;
 use std::sync::Mutex;
 
 /// Number of oscillators that a thread takes at a time.
@@ -74,7 +74,7 @@ impl Plan {
             Work { lanes, outcomes, strobes, settle: self.settle, keep: self.keep }.run(self.width);
         };
         let threads = match self.threads {
-            0 => std::thread::available_parallelism().map_or(1, NonZero::get),
+            0 => cores(),
             some => some,
         };
         std::thread::scope(|scope| {

@@ -4,13 +4,14 @@ use super::compare_seeds::Studies;
 use super::drawing::PlotSpan;
 use super::estimate::DurationEstimate;
 use super::pipeline::Answer;
+use super::realisations::not_checked;
 use super::request::Request;
 use super::run::checked_seeds;
 use super::run_notes::run_notes;
 use super::ui::Ui;
 use super::{values, verdicts};
 use crate::case::Case;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::output::compare as output;
 use crate::output::compare_table::{all_quantities, conclusion, overview, remark};
 use crate::output::document::under_head;
@@ -73,7 +74,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         asked.insert("seeds".to_owned(), json!(count));
     }
     let mut results = args.request.place.open(&case, "compare", asked)?;
-    let (comparison, verdicts) = compared(args, &case, &methods, ui)?;
+    let (comparison, (verdicts, failures)) = compared(args, &case, &methods, ui)?;
     refute(&comparison, &verdicts, ui);
     any_succeeded(&comparison)?;
     let studies = count.map(|count| Studies::of(&case, &comparison, count, ui)).transpose()?;
@@ -107,6 +108,10 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         studies.show(&mut answer, &case);
     }
     add_messages(&mut answer, args, &case, &comparison, &verdicts, &notes);
+    let failed = failures.iter();
+    answer
+        .messages(failed.map(|(method, error)| format!("- the check of {method} with half the step failed: {error}")));
+    answer.fall_short(not_checked(failures.iter().map(|(method, _)| format!("half the step of {method}"))));
     Ok(answer)
 }
 
@@ -161,8 +166,11 @@ impl Args {
     }
 }
 
-/// The comparison, and what half the step changes in each of its rows.
-fn compared(args: &Args, case: &Case, methods: &[Method], ui: &Ui) -> Result<(Comparison, Vec<Option<Verdict>>)> {
+/// What half the step changes in each row of a comparison, and the checks that failed.
+type Checks = (Vec<Option<Verdict>>, Vec<(Method, Error)>);
+
+/// The comparison, and its checks.
+fn compared(args: &Args, case: &Case, methods: &[Method], ui: &Ui) -> Result<(Comparison, Checks)> {
     // The exact run is among the methods asked for, or is added to them.
     let count = methods.iter().filter(|method| method.scheme != Scheme::Event).count() as f64 + 2.0;
     let checks = if args.no_verdict { 0.0 } else { (count - 1.0) * verdict::COST };
@@ -171,7 +179,7 @@ fn compared(args: &Args, case: &Case, methods: &[Method], ui: &Ui) -> Result<(Co
         let done = |runs: f64| bar.set_share(runs / (count + checks));
         let comparison = compare(&case.scene, methods, &case.time, &done)?;
         let verdicts = if args.no_verdict {
-            vec![None; comparison.rows.len()]
+            (vec![None; comparison.rows.len()], Vec::new())
         } else {
             verdicts::check(case, &comparison, &|rows| done(count + rows as f64 * verdict::COST))
         };

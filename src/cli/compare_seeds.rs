@@ -14,7 +14,6 @@ use crate::study::compare::Comparison;
 use crate::study::realisations::{Difference, Realisation, Realisations, realisations};
 use crate::time::{TimeGrid, TimeOptions};
 use serde_json::Value;
-use std::num::NonZero;
 
 /// The methods under all realisations.
 pub struct Studies {
@@ -36,10 +35,8 @@ impl Studies {
         let ran: Vec<(Method, &Run)> =
             comparison.rows.iter().filter_map(|row| Some((row.method, row.outcome.as_ref().ok()?))).collect();
         let methods: Vec<Method> = ran.iter().map(|(method, _)| *method).collect();
-        let cores = std::thread::available_parallelism().map_or(1, NonZero::get) as f64;
-        let others = (count - 1) as f64;
         let estimate = DurationEstimate::of_comparison(&case.scene, &methods, case.time.step);
-        let estimate = estimate.times(others / cores.min(others.max(1.0)));
+        let estimate = estimate.on_all_cores((count - 1) as f64);
         let mut studies = Self { count, reference: String::new(), methods: Vec::new(), failures: Vec::new() };
         let scene = |number: u64| Ok(case.realisation(number)?.scene);
         ui.with_estimate("realisations", estimate, |bar| -> Result<()> {

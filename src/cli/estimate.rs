@@ -5,6 +5,7 @@
 mod tests;
 
 use crate::error::amount;
+use crate::parallel::cores;
 use crate::scene::{LoadKind, Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::study::choice::choose;
@@ -75,6 +76,12 @@ impl DurationEstimate {
     pub fn times(mut self, count: f64) -> Self {
         self.runs.iter_mut().for_each(|run| run.count *= count);
         self
+    }
+
+    /// The same for `count` such runs that share all cores.
+    #[must_use]
+    pub fn on_all_cores(self, count: f64) -> Self {
+        self.times(count / (cores() as f64).min(count.max(1.0)))
     }
 
     /// That of a comparison of `methods` with each other and with the exact scheme.

@@ -12,7 +12,6 @@ use crate::scheme::Method;
 use crate::study::realisations::{
     Batch, Purpose, Realisation, RealisationCount, RealisationPlan, RealisationStudy, Refined,
 };
-use std::num::NonZero;
 
 /// The share that `text` of `argument` says: `5%` or `0.05`.
 ///
@@ -65,10 +64,8 @@ fn batch_with_bar(case: &Case, method: &Method, batch: &Batch<'_>, ui: &Ui) -> R
         Purpose::Check(refined) => (refined.to_string(), None),
         Purpose::Means => ("realisations".to_owned(), None),
     };
-    let cores = std::thread::available_parallelism().map_or(1, NonZero::get) as f64;
-    let count = batch.count() as f64;
     let scene = other.as_ref().unwrap_or(&case.scene);
-    let estimate = DurationEstimate::of_run(scene, method, batch.step()).times(count / cores.min(count.max(1.0)));
+    let estimate = DurationEstimate::of_run(scene, method, batch.step()).on_all_cores(batch.count() as f64);
     ui.with_estimate(&label, estimate, |bar| batch.run(&mut |done| bar.set_share(done)))
 }
 

@@ -10,6 +10,7 @@ use crate::output::request::request;
 use crate::output::safe_steps::{SafeStep, conclusion, rows, safe_steps, table};
 use crate::output::table::Table;
 use crate::output::{document, stability as output};
+use crate::parallel::cores;
 use crate::scheme::{PenaltyLaw, Scheme};
 use crate::study::stability::family::{MapRequest, SchemeFamily};
 use crate::study::stability::impact;
@@ -103,8 +104,7 @@ fn lasting_contacts(case: &Case, maps: &Maps, ui: &Ui) -> Result<Quality> {
     let schemes = schemes(case);
     // Each at four times, one and a quarter of the step, in parallel; judged and recorded.
     let runs = 2.0 * MULTIPLES.iter().map(|multiple| 1.0 / multiple).sum::<f64>() * schemes.len() as f64;
-    let threads = std::thread::available_parallelism().map_or(1.0, |count| count.get() as f64);
-    let estimate = DurationEstimate::of_contacts(&case.scene, case.time.step, runs / threads);
+    let estimate = DurationEstimate::of_contacts(&case.scene, case.time.step, runs / cores() as f64);
     let quality =
         ui.with_estimate("contacts", estimate, |_| Quality::of(&case.scene, &schemes, &case.time, &maps.scale))?;
     for line in &quality.lines {

@@ -1,26 +1,34 @@
 //! The refinement verdict of a comparison: every method with half its step.
 
 use crate::case::Case;
-use crate::scheme::Scheme;
+use crate::error::Error;
+use crate::scheme::{Method, Scheme};
 use crate::study::compare::Comparison;
 use crate::study::verdict::Verdict;
 
-/// The verdict on every method that ran; `progress` is called with the number of rows done. The
-/// step matters for the scheme, not for the solver, so a scheme is checked once, by the first of
-/// its solvers.
-pub(super) fn check(case: &Case, comparison: &Comparison, progress: &dyn Fn(u64)) -> Vec<Option<Verdict>> {
-    let mut verdicts: Vec<Option<Verdict>> = Vec::new();
+/// The verdict on every method that ran, and the methods whose check failed, with the reason;
+/// `progress` is called with the number of rows done. The step matters for the scheme, not for the
+/// solver, so a scheme is checked once, by the first of its solvers.
+pub(super) fn check(
+    case: &Case,
+    comparison: &Comparison,
+    progress: &dyn Fn(u64),
+) -> (Vec<Option<Verdict>>, Vec<(Method, Error)>) {
+    let (mut verdicts, mut failures): (Vec<Option<Verdict>>, _) = (Vec::new(), Vec::new());
     for (index, row) in comparison.rows.iter().enumerate() {
         let same = comparison.rows.iter().take(index).position(|r| r.method.scheme == row.method.scheme);
         let verdict = match (same.and_then(|i| verdicts.get(i)), &row.outcome) {
             (Some(verdict), _) => verdict.clone(),
-            (None, Ok(run)) => Verdict::of(&case.scene, &row.method, run, &case.time, &mut |_| {}).ok(),
+            (None, Ok(run)) => {
+                let verdict = Verdict::of(&case.scene, &row.method, run, &case.time, &mut |_| {});
+                verdict.map_err(|error| failures.push((row.method, error))).ok()
+            }
             (None, Err(_)) => None,
         };
         verdicts.push(verdict);
         progress(index as u64 + 1);
     }
-    verdicts
+    (verdicts, failures)
 }
 
 /// The effect of half the step, method by method, in one line; each summary has all the numbers.

@@ -21,7 +21,6 @@ use crate::study::realisations::{RealisationCount, RealisationStudy};
 use crate::study::wear_history::{WearHistories, WearPlan, WearWindow, WearingSupport};
 use crate::wear::Opening;
 use serde_json::{Map, Value, json};
-use std::num::NonZero;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -201,9 +200,8 @@ impl Followed<'_> {
         let scene = |number: u64, openings: &[Opening]| case.worn(number, supports, openings);
         let options = Options::new(case.time);
         let plan = WearPlan { supports, scene: &scene, method, options: &options, histories, service };
-        let cores = std::thread::available_parallelism().map_or(1, NonZero::get).min(histories) as f64;
-        let runs = WINDOWS * histories as f64 / cores;
-        let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step).times(runs);
+        let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step).times(WINDOWS);
+        let estimate = estimate.on_all_cores(histories as f64);
         let found = ui.with_estimate("wear", estimate, |bar| {
             plan.follow(&kept, &mut |window| journal.keep(window), &mut |share| bar.set_share(share))
         })?;

@@ -3,6 +3,7 @@
 use super::found::RowsFound;
 use super::plan::Plan;
 use super::shard::Shard;
+use crate::parallel::cores;
 use std::time::{Duration, Instant};
 
 /// Estimate of the time and size of a sweep.
@@ -42,7 +43,7 @@ impl Plan {
             }
         }
         let all = self.runs() as f64 / (tried as f64).max(1.0);
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = cores();
         // A chain runs on one thread.
         let abreast = (threads as f64).min((self.chains * self.runs_of_row()) as f64);
         let seconds = started.elapsed().as_secs_f64() * all / abreast;

@@ -15,6 +15,7 @@ use crate::error::Result;
 use crate::output::format::Format;
 use crate::output::journal::Journal;
 use crate::output::results::Results;
+use crate::parallel::cores;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -97,8 +98,7 @@ impl Plan {
         let request = folder::of_shard(self.request(), options.shard);
         let mut results = Results::open(&folder, request, options.force, formats)?;
         folder::record_request(&mut results, &Study::of(self)?, options.shard);
-        let all = std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = options.threads.unwrap_or(all).max(1);
+        let threads = options.threads.unwrap_or_else(cores).max(1);
         let rows = options.shard.chains(self.chains) * self.chain_rows();
         let runs = rows * self.runs_of_row();
         let state = if options.force { State::Empty } else { folder::state(&folder, rows) };

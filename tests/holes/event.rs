@@ -141,7 +141,7 @@ fn a_pendulum_slides_as_elliptic_functions_say() {
     // 37 rows a period: rows end inside stretches, and the speed turns inside of one.
     let run = made(&pendulum().with_duration(2.0 * PERIOD), 74.0);
     // The mean force holds the weight.
-    let [y, z] = run.trajectory.hole_forces()[0].each_ref().map(|column| column.iter().sum::<f64>() / 148.0);
+    let [y, z] = run.trajectory.hole_forces()[0].each_ref().map(|column| column.iter().sum::<f64>() / 74.0);
     assert!(near(y, -6.0, 1e-12) && z.abs() < 1e-12, "{y} {z}");
     for work in works(&run, 2.0 * PERIOD) {
         assert!(near(work, 2.0 * WORK, 1e-13), "{work}");

@@ -2,11 +2,10 @@
 
 use super::realisation::Realisation;
 use crate::error::Result;
-use crate::parallel::{Take, on_threads};
+use crate::parallel::{Take, cores, on_threads};
 use crate::run::{Options, run_with_progress};
 use crate::scene::Scene;
 use crate::scheme::Method;
-use std::num::NonZero;
 use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -28,7 +27,6 @@ pub fn realisations(
         return Ok(Vec::new());
     }
     let count = last - first + 1;
-    let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
     let failed = AtomicBool::new(false);
     // Share of each run that is done, as the bits of a float.
     let shares: Vec<AtomicU64> = (0..count).map(|_| AtomicU64::new(0)).collect();
@@ -42,7 +40,7 @@ pub fn realisations(
         Ok(())
     };
     let mut outcomes = Vec::new();
-    on_threads(count, cores, &work, &mut |outcome| {
+    on_threads(count, cores(), &work, &mut |outcome| {
         outcomes.extend(outcome);
         let done: f64 = shares.iter().map(|share| f64::from_bits(share.load(Ordering::Relaxed))).sum();
         progress(done / count as f64);
