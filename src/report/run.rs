@@ -64,6 +64,17 @@ fn notes(summary: &Value, run: &Value) -> Value {
     json!(notes)
 }
 
+/// The largest force of a wall, and its unit: of an elastic one at an instant, of a rigid one the
+/// largest mean over a stretch.
+fn largest_force(wall: &Value) -> Option<(f64, String)> {
+    if wall["force"]["rms_averaged_over_s"].is_null() {
+        return Some((wall["episode_peak_force_n"]["max"].as_f64()?, "N".to_owned()));
+    }
+    let largest = &wall["force"]["largest"];
+    let over = largest["averaged_over_s"].as_f64()?;
+    Some((largest["mean_n"].as_f64()?, format!("N over {} ms", short(1e3 * over))))
+}
+
 /// The key figures.
 fn facts(summary: &Value) -> Value {
     let walls = summary["statistics"]["walls"].as_array().map_or(&[][..], Vec::as_slice);
@@ -75,8 +86,8 @@ fn facts(summary: &Value) -> Value {
         facts.push(fact("contacts", contacts.to_string(), ""));
         let impulse = walls.iter().filter_map(|wall| number(&wall["force"]["impulse_n_s"])).map(f64::abs);
         facts.push(fact("Σ|impulse|", short(impulse.sum()), "N s"));
-        let peak = walls.iter().filter_map(|wall| number(&wall["episode_peak_force_n"]["max"])).reduce(f64::max);
-        facts.extend(peak.map(|peak| fact("largest force", short(peak), "N")));
+        let largest = walls.iter().filter_map(largest_force).reduce(|a, b| if b.0 > a.0 { b } else { a });
+        facts.extend(largest.map(|(force, unit)| fact("largest force", short(force), &unit)));
         let power: f64 = walls.iter().filter_map(|wall| number(&wall["impact_power_w"])).sum();
         facts.push(fact("impact power", short(1e3 * power), "mW"));
     }

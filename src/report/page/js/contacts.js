@@ -207,9 +207,11 @@ function statisticsSection() {
       (w) => w.force && w.force.rms_n,
       (w) => w.force && w.force.rms_half_width_95_n,
     ),
-    column("largest force (N)", (w) => w.episode_peak_force_n.max),
-    column("largest mean force (N)", (w) => w.force?.largest?.mean_n),
-    column("at (s)", (w) => w.force?.largest?.at_s),
+    // Of an elastic wall at an instant, of a rigid one the largest mean over a stretch.
+    column("largest force (N)", (w) =>
+      w.force?.rms_averaged_over_s ? w.force.largest?.mean_n : w.episode_peak_force_n.max,
+    ),
+    column("largest mean force at (s)", (w) => w.force?.largest?.at_s),
     column(
       "impulse of a contact (N s)",
       (w) => w.episode_impulse_n_s.mean,

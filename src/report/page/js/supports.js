@@ -133,7 +133,6 @@ function supportTable(rows) {
     ),
     number("along y (N)", (row) => row.force?.mean_vector_n[0]),
     number("along z (N)", (row) => row.force?.mean_vector_n[1]),
-    number("largest force (N)", (row) => row.episode_peak_force_n?.max),
     number("largest mean force (N)", (row) => row.force?.largest?.mean_n),
     number("at (s)", (row) => row.force?.largest?.at_s),
     rows.some((row) => row.worn) ? number("worn (mm³)", worn("volume_m3", 1e9)) : null,
