@@ -77,6 +77,8 @@ pub struct Forces {
     supports: Vec<SupportTally>,
     /// The largest forces of the walls, and then of the supports.
     largest: Vec<LargestStretch>,
+    /// |p| of each wall over a piece of a step, N s.
+    pushed: Vec<f64>,
     /// True if a wall is round.
     round: bool,
 }
@@ -100,6 +102,7 @@ impl Forces {
             bins,
             at: 0,
             largest: vec![LargestStretch::new(length / bins as f64); scene.walls.len() + scene.supports.len()],
+            pushed: vec![0.0; scene.walls.len()],
             walls,
             supports: SupportTally::all(scene),
             round: scene.holes().next().is_some(),
@@ -141,11 +144,8 @@ impl Forces {
             for (wall, &p) in step.jump.iter().enumerate() {
                 self.add(wall, p, 0.0);
             }
-            let Self { largest, supports, walls, .. } = self;
-            let jump = |wall: usize| step.jump.get(wall).map_or(0.0, |p| p.abs());
-            let own = (0..walls.len()).map(jump);
-            let all = supports.iter().map(|support| support.walls().map(jump).sum());
-            largest.iter_mut().zip(own.chain(all)).for_each(|(largest, p)| largest.jump(end, p));
+            self.pushed.iter_mut().zip(step.jump).for_each(|(pushed, p)| *pushed = p.abs());
+            self.push_stretches(|largest, p| largest.jump(end, p));
             self.supports.iter_mut().for_each(|support| support.jump(step));
         }
     }
@@ -153,15 +153,22 @@ impl Forces {
     /// Adds what the walls gave between two times in a step (s), without the jump at its end, to
     /// their largest stretches: exact motion in quarters, between which the force counts as even.
     fn stretch(&mut self, step: &Step<'_>, [from, to]: [f64; 2]) {
-        let Self { largest, supports, walls, .. } = self;
         let parts = if matches!(step.path, Path::Exact(_) | Path::Series(_)) { 4 } else { 1 };
         let at = |k: u32| if k == parts { to } else { from + f64::from(k) * (to - from) / f64::from(parts) };
         for ends in (0..parts).map(|k| [at(k), at(k + 1)]).filter(|ends| ends[1] > ends[0]) {
-            let push = |wall: usize| impulse(step, wall, ends).abs();
-            let own = (0..walls.len()).map(push);
-            let all = supports.iter().map(|support| support.walls().map(push).sum());
-            largest.iter_mut().zip(own.chain(all)).for_each(|(largest, p)| largest.add(ends, p));
+            for (wall, pushed) in self.pushed.iter_mut().enumerate() {
+                *pushed = impulse(step, wall, ends).abs();
+            }
+            self.push_stretches(|largest, p| largest.add(ends, p));
         }
+    }
+
+    /// Does `push` with the largest force of each wall and support, and with what it pushed.
+    fn push_stretches(&mut self, push: impl Fn(&mut LargestStretch, f64)) {
+        let Self { largest, supports, pushed, .. } = self;
+        let of_support = |support: &SupportTally| support.walls().filter_map(|wall| pushed.get(wall)).sum();
+        let all = pushed.iter().copied().chain(supports.iter().map(of_support));
+        largest.iter_mut().zip(all).for_each(|(largest, p)| push(largest, p));
     }
 
     /// Moves on to the interval that contains `t` (s); returns its end, s.

@@ -98,13 +98,20 @@ impl LargestStretch {
     /// Measures the stretches that end at the last point, `t`, and that end before it and begin at
     /// a point; then forgets the points that no later stretch reaches.
     fn measure(&mut self, t: f64) {
+        // No stretch has more than all that is kept, which is seldom more than the largest so far.
+        let all = self.sum() - self.points.front().map_or(0.0, |first| first.before);
+        let may_be_largest = all > self.largest.0;
         while let Some(first) = self.points.get(self.measured).copied().filter(|p| p.time + self.length <= t) {
             self.measured += 1;
-            let impulse = self.sum_at(first.time + self.length, |point| point.after) - first.before;
-            self.note(impulse, first.time + 0.5 * self.length);
+            if may_be_largest {
+                let impulse = self.sum_at(first.time + self.length, |point| point.after) - first.before;
+                self.note(impulse, first.time + 0.5 * self.length);
+            }
         }
-        let impulse = self.sum() - self.sum_at(t - self.length, |point| point.before);
-        self.note(impulse, t - 0.5 * self.length);
+        if may_be_largest {
+            let impulse = self.sum() - self.sum_at(t - self.length, |point| point.before);
+            self.note(impulse, t - 0.5 * self.length);
+        }
         while self.points.get(1).is_some_and(|next| next.time <= t - self.length) {
             self.points.pop_front();
             self.measured = self.measured.saturating_sub(1);
