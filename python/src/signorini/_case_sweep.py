@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._columns import Column, columns
+from ._columns import Column, columns, frame
 from ._core import Case, ResultWarning
 from ._progress import Progress
 
@@ -76,11 +76,7 @@ class SweepResult(Mapping[str, Column]):
         >>> sg.sweep(case, {"wall.*.restitution": [0.5, 0.8]}, measures=["contacts"]).to_pandas().shape
         (2, 6)
         """
-        try:
-            import pandas as pd
-        except ImportError:
-            raise ImportError("to_pandas needs pandas: pip install pandas") from None
-        return pd.DataFrame(dict(self.columns))
+        return frame(dict(self.columns))
 
     def to_xarray(self) -> xr.Dataset:
         """The numbers as an xarray Dataset over the varied keys.

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Column = npt.NDArray[Any]
 
@@ -32,3 +35,12 @@ def columns(header: Sequence[str], rows: Sequence[Sequence[str]]) -> dict[str, C
     of_words = {"error", "place", "kind"}
     cells = {name: [row[i] for row in rows] for i, name in enumerate(header)}
     return {name: words(own) if name in of_words else column(own) for name, own in cells.items()}
+
+
+def frame(table: Mapping[str, Column] | Sequence[Mapping[str, Any]]) -> pd.DataFrame:
+    """A table, by columns or by rows, as a pandas DataFrame; an `ImportError` without pandas."""
+    try:
+        import pandas as pd
+    except ImportError:
+        raise ImportError("to_pandas needs pandas: pip install pandas") from None
+    return pd.DataFrame(table)

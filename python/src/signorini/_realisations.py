@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 from . import _core
-from ._columns import Column, columns
+from ._columns import Column, columns, frame
 from ._core import AccuracyWarning, Case, RefutedError, ResultWarning
 from ._progress import Progress
 from ._supports import ErrorPart, ErrorParts, Estimate
@@ -66,11 +66,7 @@ class Realisations:
         >>> sg.realisations(case, seeds=2, verdict=False).to_pandas()["unit"][0]
         'N'
         """
-        try:
-            import pandas as pd
-        except ImportError:
-            raise ImportError("to_pandas needs pandas: pip install pandas") from None
-        return pd.DataFrame(list(self._rows))
+        return frame(list(self._rows))
 
 
 _PARTS = ("start", "step", "modes")

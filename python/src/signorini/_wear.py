@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._columns import Column, columns
+from ._columns import Column, columns, frame
 from ._core import Case, ResultWarning
 from ._progress import Progress
 from ._realisations import Realisations, made, of_case, refuted, warn
@@ -84,11 +84,7 @@ class WearStudy:
         >>> sg.wear(sg.load("tube-in-cross-flow", set=short), years=5, histories=2).to_pandas()["place"][0]
         'plate-1'
         """
-        try:
-            import pandas as pd
-        except ImportError:
-            raise ImportError("to_pandas needs pandas: pip install pandas") from None
-        return pd.DataFrame(dict(self.years))
+        return frame(dict(self.years))
 
     def plot(self, quantity: str = "depth_deepest", ax: Any = None) -> Any:
         """Draw a quantity over the years with matplotlib, a curve with its 95 % band per support.
