@@ -48,10 +48,7 @@ impl Linear {
         for _ in 0..MOST_GUESSES {
             self.solve(places, touches, (free, y));
             if touches.iter().all(|touch| touch.holds(y, noise)) {
-                // A force of −1e-20 N is none.
-                for touch in touches.iter_mut().filter(|touch| touch.impulse[0] < 0.0) {
-                    touch.impulse = [0.0; 2];
-                }
+                touches.iter_mut().for_each(FrictionContact::drop_rounding);
                 return true;
             }
             let mut changed = false;

@@ -233,6 +233,31 @@ fn states_that_are_wrong_lead_to_those_that_hold() {
 }
 
 #[test]
+fn a_contact_that_sticks_within_rounding_has_no_more_friction_than_coulomb_allows() {
+    let mut scene = Scene::random(&mut Draws(3, 0), (3, 1), (0.5, 0.0), 1.0);
+    let Scene { places, sweeps, .. } = &mut scene;
+    let FrictionContacts { touches, free, .. } = sweeps;
+    // An elastic wall over a part so short that it gives 2e-12 N s.
+    let law = (0.5, 1e12);
+    let mut touch = FrictionContact::new(places, (0, [0, 1]), ([0.6, 0.8], -2.0), law, [0.0; 2]);
+    touch.state = State::Stick;
+    // Sticking asks for three times the friction that is allowed, 3e-12 N s, which changes the
+    // velocity by less than the rounding of slides of some m/s elsewhere.
+    let asked = 3.0 * 0.5 * 2e-12 * touch.own[2];
+    free.clear();
+    free.extend(touch.tangent.map(|t| -asked * t));
+    touches.push(touch);
+    let noise = 1e-11;
+    assert!(asked < noise);
+    let mut y = free.clone();
+    touches.remove(0);
+    assert!(Linear::default().settle(places, touches, (free, &mut y), noise));
+    let [p, f] = touches[0].impulse;
+    // The compliance is 1e12 of the response: p is 2e-12 N s to that.
+    assert!((p - 2e-12).abs() < 1e-22 && f == 0.5 * p, "{p} {f}");
+}
+
+#[test]
 fn rounding_is_a_share_of_the_velocities_and_of_what_the_contacts_change() {
     let mut scene = Scene::random(&mut Draws(1, 0), (4, 2), (0.5, 0.0), 1.0);
     let touches = &mut scene.sweeps.touches;
