@@ -35,7 +35,7 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("system", Table, "", [REQUIRED, "exactly one of the tables `oscillator`, `chain`, `bar`, \
         `beam`, `matrices`, `modal`", "none, two"]),
     entry("system.planes", Number, "", ["1", "1, or 2: the same chain, oscillator or beam in the \
-        planes y and z, see below; matrices hold both planes", "beside `bar`, `modal`; other \
+        planes y and z, see below; matrices and modes hold both planes", "beside `bar`; other \
         numbers"]),
     entry("system.modes", Number, "", ["all of them", "how many modes to keep, a whole number from \
         1: in two planes of each, slowest first", "beside `oscillator`; more than the degrees of \
@@ -111,8 +111,8 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("system.modal.damping_ratios", Any, "", ["0", "a number above -1, or a list of them, one \
         for each mode: shares of critical damping", "beside `[system.damping]`"]),
     entry("system.modal.shapes", Any, "", ["none", "{ tip = [a number for each mode], .. } for the \
-        points that walls, loads and probes need, or the path of a CSV file in quotes, a row for \
-        each point", "another length"]),
+        points that walls, loads and probes need, in two planes tip-y and tip-z; or the path of a \
+        CSV file in quotes, a row for each point", "another length"]),
     entry("system.damping", Table, "", ["no damping", "beside `chain`, `bar`, `beam`, `matrices`, \
         `modal`; exactly one of the following", "beside `oscillator`"]),
     entry("system.damping.rayleigh", Inline, "", ["", "C = mass · M + stiffness · K", ""]),

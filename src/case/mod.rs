@@ -17,8 +17,8 @@
 //! (`key_entry.rs`) with its type, unit, default and accepted values, which `schema.rs` looks up;
 //! `value.rs` reads TOML with the position of each value, `check.rs` checks it against the keys,
 //! `build.rs` builds the case table by table from what `builder.rs` holds, `system.rs`, `beam.rs`,
-//! `model.rs`, `place.rs`, `planes.rs` and `direction.rs` read the structure, the locations on it
-//! and their directions, `loads.rs`, `random.rs`, `turbulence.rs` and `base.rs` the loads,
+//! `model.rs`, `place.rs`, `points.rs`, `planes.rs` and `direction.rs` read the structure, the
+//! locations on it and their directions, `loads.rs`, `random.rs`, `turbulence.rs` and `base.rs` the loads,
 //! `truncated.rs` keeps the full scene of a case reduced to modes, `realisations.rs` and `wear.rs`
 //! give the scenes of realisations and of worn supports, `wording.rs` finds the key of
 //! each value of the scene, `written.rs` keeps what the scene itself no longer shows;
@@ -54,6 +54,7 @@ mod notes;
 mod penalty;
 mod place;
 mod planes;
+mod points;
 mod random;
 mod read;
 mod realisations;

@@ -108,7 +108,8 @@ pub enum Place {
         /// Where it ends.
         to: f64,
     },
-    /// Points of modes with weights: one point of weight 1, or a sum of several.
+    /// Points of modes with weights: one point of weight 1, or a sum of several. In two planes each
+    /// has a shape along +y, NAME-y, and one along +z, NAME-z.
     Points(Vec<(String, f64)>),
     /// For matrices of both planes: pairs (degree of freedom, weight) of the displacement along +y,
     /// and of that along +z.

@@ -3,6 +3,7 @@
 use super::builder::Builder;
 use super::model::{Model, Place};
 use super::planes::Planes;
+use super::points::listed;
 use super::value::{Entry, Name, Section, Value};
 use crate::error::{Error, Part, Result, Subject};
 use crate::scene::Row;
@@ -20,9 +21,6 @@ pub(super) struct Site {
 /// Most walls, and most probes, of a scene; each of them has its own results.
 pub(super) const MOST_PLACES: usize = 4096;
 
-/// Most points of modes that a message lists.
-const MOST_POINTS: usize = 20;
-
 /// True for the name of a plane.
 fn is_plane(name: &str) -> bool {
     name == "y" || name == "z"
@@ -34,13 +32,17 @@ impl Builder<'_> {
         let each = if spread { "" } else { ", or \"each\"" };
         let last = self.n.saturating_sub(1);
         if let Model::Modal(modal) = &self.model {
-            let names: Vec<&str> = modal.points.iter().map(|point| point.name.as_str()).take(MOST_POINTS).collect();
+            let names = self.points_of(modal);
             let first = names.first().copied().unwrap_or("tip");
-            let of = if names.is_empty() { "shapes names none".to_owned() } else { format!("of {}", names.join(", ")) };
-            return format!(
-                "at = {{ point = {first:?} }} ({of}), {{ points = [[{first:?}, 1.0], [.., -1.0]] }}, {{ dof = 0 \
-                 to {last} }}, a mode{each}"
-            );
+            let of = if names.is_empty() { "shapes names none".to_owned() } else { format!("of {}", listed(&names)) };
+            let points = format!("at = {{ point = {first:?} }} ({of}), {{ points = [[{first:?}, 1.0], [.., -1.0]] }}");
+            return if self.planes == Planes::Named {
+                format!(
+                    "{points}, with the shapes {first}-y and {first}-z, or {{ row = [[0, 1.0]] }} without direction"
+                )
+            } else {
+                format!("{points}, {{ dof = 0 to {last} }}, a mode{each}")
+            };
         }
         let dof = match self.planes {
             Planes::Named => {
@@ -108,12 +110,7 @@ impl Builder<'_> {
                 return Err(self.source.error(later, &title, &format!("expected one of {}", self.takes(load))));
             }
         };
-        let row = self.model.row(&place).map_err(|error| self.at_value(&key, error, &entries[0].1))?;
-        let free = |row: &[(usize, f64)]| row.iter().any(|entry| entry.1 != 0.0);
-        let moves = match &place {
-            Place::Rows { y, z } => free(y) || free(z),
-            _ => free(row.entries()),
-        };
+        let (row, moves) = self.row_there(&place).map_err(|error| self.at_value(&key, error, &entries[0].1))?;
         if !moves {
             let title = format!("{key}: nothing moves there");
             return Err(self.source.error(
@@ -125,11 +122,24 @@ impl Builder<'_> {
         Ok(vec![Site { suffix: String::new(), place, row }])
     }
 
+    /// The row of a place, empty where both planes have one of their own, and whether it can move.
+    fn row_there(&self, place: &Place) -> Result<(Row, bool)> {
+        if self.planes == Planes::Named && !matches!(place, Place::Row(_)) {
+            let rows = self.planes.rows(&self.model, place)?;
+            return Ok((Row::new(Vec::new()), !(rows.y.is_blind() && rows.z.is_blind())));
+        }
+        let row = self.model.row(place)?;
+        let moves = !row.is_blind();
+        Ok((row, moves))
+    }
+
     fn place(&mut self, key: &str, kind: &Name<'_>, value: &Spanned<Value<'_>>, load: bool) -> Result<Place> {
         let on_line = matches!(self.model, Model::Bar(_) | Model::Beam(_));
         match kind.get_ref().as_ref() {
             "dof" if self.planes == Planes::Named => {
-                let title = format!("{key}: a degree of freedom of matrices in two planes has no direction");
+                let kind_of_dof =
+                    if let Model::Modal(_) = self.model { "mode" } else { "degree of freedom of matrices" };
+                let title = format!("{key}: a {kind_of_dof} in two planes has no direction");
                 Err(self.source.error(kind.span(), &title, &format!("expected {}", self.takes(load))))
             }
             "dof" => Ok(Place::Dof(self.dof(&format!("{key}: dof"), value, self.n)?)),
@@ -175,38 +185,6 @@ impl Builder<'_> {
                 Err(self.source.error(kind.span(), &title, &format!("expected {}", self.takes(load))))
             }
         }
-    }
-
-    /// One point of modes by its name, or pairs of a name and a weight.
-    fn points(&self, key: &str, value: &Spanned<Value<'_>>) -> Result<Place> {
-        let Model::Modal(modal) = &self.model else { return Ok(Place::Points(Vec::new())) };
-        let known = |word: &Spanned<Value<'_>>| match word.get_ref() {
-            Value::Word(name) if modal.points.iter().any(|point| point.name == *name) => Ok(name.to_string()),
-            _ => {
-                let names: Vec<&str> = modal.points.iter().map(|point| point.name.as_str()).take(MOST_POINTS).collect();
-                let more = if modal.points.len() > MOST_POINTS { ", .." } else { "" };
-                let wanted = format!("a point of shapes: {}{more}", names.join(", "));
-                Err(self.refuse(
-                    word.span(),
-                    key,
-                    if names.is_empty() { "the name of a point, which shapes must define" } else { &wanted },
-                ))
-            }
-        };
-        if key.ends_with(": point") {
-            return Ok(Place::Points(vec![(known(value)?, 1.0)]));
-        }
-        let mut points: Vec<(String, f64)> = Vec::new();
-        for (name, weight) in
-            self.pairs(key, value, "pairs of a point and a weight, each once: [[\"tip\", 1.0], [\"base\", -1.0]]")?
-        {
-            let point = known(name)?;
-            if points.iter().any(|other| other.0 == point) {
-                return Err(self.refuse(name.span(), key, "each point once"));
-            }
-            points.push((point, self.finite(&format!("{key}: weight"), weight, "a finite number")?));
-        }
-        Ok(Place::Points(points))
     }
 
     /// The rows along y and along z of matrices of both planes.

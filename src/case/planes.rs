@@ -14,7 +14,7 @@ pub enum Planes {
     /// The same system in the planes y and z, with this many degrees of freedom in each: all of y,
     /// then all of z.
     Two(usize),
-    /// Two planes within matrices: each place names its rows.
+    /// Two planes within matrices or modes: each place names its rows.
     Named,
 }
 
@@ -45,6 +45,13 @@ impl Planes {
         match (self, place) {
             (_, Place::Rows { y, z }) => Ok(PlaneRows { y: Row::new(y.clone()), z: Row::new(z.clone()) }),
             (Self::Two(n), place) => Ok(PlaneRows::doubled(&model.row(place)?, n)),
+            (Self::Named, Place::Points(points)) => {
+                let along = |plane: &str| {
+                    let of_plane = |(name, weight): &(String, f64)| (format!("{name}-{plane}"), *weight);
+                    model.row(&Place::Points(points.iter().map(of_plane).collect()))
+                };
+                Ok(PlaneRows { y: along("y")?, z: along("z")? })
+            }
             (_, place) => Ok(PlaneRows { y: model.row(place)?, z: Row::new(Vec::new()) }),
         }
     }

@@ -62,7 +62,7 @@ impl Builder<'_> {
         }
         let planes = match (two, &model) {
             (false, _) => Planes::One,
-            (true, Model::Matrices(_)) => Planes::Named,
+            (true, Model::Matrices(_) | Model::Modal(_)) => Planes::Named,
             (true, _) => {
                 let n = structure.mass.size();
                 structure = structure.in_two_planes();
@@ -147,14 +147,11 @@ impl Builder<'_> {
         let Some(planes) = planes else { return Ok(false) };
         match (*planes.get_ref(), kind) {
             (1.0, _) => Ok(false),
-            (2.0, "oscillator" | "chain" | "beam" | "matrices") => Ok(true),
+            (2.0, "oscillator" | "chain" | "beam" | "matrices" | "modal") => Ok(true),
             (2.0, kind) => {
                 let title = format!("`system.planes` is 2 beside a {kind}");
-                let why = match kind {
-                    "bar" => "a bar moves along itself; a tube in bending is a beam",
-                    _ => "of modes each point has the direction of its shape: name one point for y and one for z",
-                };
-                Err(self.source.error(planes.span(), &title, &format!("expected no planes: {why}")))
+                let help = "expected no planes: a bar moves along itself; a tube in bending is a beam";
+                Err(self.source.error(planes.span(), &title, help))
             }
             _ => Err(self.refuse_as(planes.span(), "system.planes")),
         }

@@ -13,8 +13,8 @@ const SHIFT: f64 = 1e-12;
 
 impl System {
     /// The slowest and the fastest circular frequency (rad/s) of the system without damping and
-    /// walls. They are estimates, within the true range, for reference scales. A rigid-body motion
-    /// has the frequency 0.
+    /// walls. They are estimates, within the true range, for reference scales, and exact where M
+    /// and K are diagonal, as of modes. A rigid-body motion has the frequency 0.
     #[must_use]
     pub fn frequencies(&self) -> [f64; 2] {
         match self {
@@ -26,6 +26,10 @@ impl System {
 
 /// The same of `structure`, whose M has the factor `mass`.
 pub(super) fn frequencies(structure: &Structure, mass: Option<Factor>) -> [f64; 2] {
+    if let Some(squares) = structure.uncoupled_squares() {
+        let bound = |start: f64, of: fn(f64, f64) -> f64| squares.iter().fold(start, |x, y| of(x, *y)).max(0.0).sqrt();
+        return [bound(f64::INFINITY, f64::min), bound(0.0, f64::max)];
+    }
     let fastest = fastest_squared(structure, mass);
     let shift = SHIFT * fastest;
     let shifted = Symmetric::sum(&[(1.0, &structure.stiffness), (shift, &structure.mass)]);
@@ -33,6 +37,17 @@ pub(super) fn frequencies(structure: &Structure, mass: Option<Factor>) -> [f64; 
     let inverse = power(&shifted, Factor::new(&shifted).ok(), &structure.mass).filter(|x| *x > 0.0);
     let slowest = inverse.map_or(0.0, |x| (1.0 / x - shift).max(0.0));
     [if slowest > 1e3 * shift { slowest.sqrt() } else { 0.0 }, fastest.sqrt()]
+}
+
+impl Structure {
+    /// ω² (1/s²) of each degree of freedom, where M and K couple none, as in modal coordinates.
+    pub(crate) fn uncoupled_squares(&self) -> Option<Vec<f64>> {
+        if self.mass.half_bandwidth() > 0 || self.stiffness.half_bandwidth() > 0 {
+            return None;
+        }
+        let (m, k) = (self.mass.diagonal_entries(), self.stiffness.diagonal_entries());
+        Some(m.into_iter().zip(k).map(|(m, k)| k / m).collect())
+    }
 }
 
 /// ω² of the fastest motion, 1/s².

@@ -185,8 +185,9 @@ fn system(system: &System) -> String {
         System::Structure(s) => {
             let n = s.mass.size();
             let degrees = if n == 1 { "degree" } else { "degrees" };
+            let about = if s.uncoupled_squares().is_some() { "" } else { "about " };
             format!(
-                "{n} {degrees} of freedom: natural frequencies from {:.6} to about {:.6} Hz",
+                "{n} {degrees} of freedom: natural frequencies from {:.6} to {about}{:.6} Hz",
                 slowest / std::f64::consts::TAU,
                 fastest / std::f64::consts::TAU
             )

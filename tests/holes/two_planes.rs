@@ -211,6 +211,58 @@ fn matrices_of_both_planes_are_the_chain_in_two_planes() {
     }
 }
 
+/// Modal data of both planes for a tube in two planes, each pair of modes of one frequency turned
+/// by `turn` (deg), so that they move in both planes.
+fn modal_data(tube: &Case, turn: f64, rest: &str) -> Case {
+    let System::Structure(structure) = &tube.scene.system else { panic!("a structure") };
+    let omega: Vec<f64> = structure.stiffness.diagonal_entries().iter().map(|k| k.sqrt()).collect();
+    let along = |row: &Row| -> Vec<f64> {
+        let mut shape = vec![0.0; omega.len()];
+        row.entries().iter().for_each(|&(i, x)| shape[i] = x);
+        let [sin, cos] = [turn.to_radians().sin(), turn.to_radians().cos()];
+        let turned = |pair: &[f64]| [cos * pair[0] + sin * pair[1], cos * pair[1] - sin * pair[0]];
+        shape.chunks(2).flat_map(turned).collect()
+    };
+    assert!(omega.chunks(2).all(|pair| (pair[0] / pair[1] - 1.0).abs() < 1e-9), "{omega:?}");
+    let shapes = |support: &signorini::Support| {
+        let [y, z] = [&support.at.y, &support.at.z].map(along);
+        format!("{0}-y = {y:?}, {0}-z = {z:?}", support.name)
+    };
+    let shapes: Vec<String> = tube.scene.supports.iter().map(shapes).collect();
+    case(&format!(
+        "[system]\nplanes = 2\n[system.modal]\nomega = {omega:?}\ndamping_ratios = 0.01\n\
+         shapes = {{ {} }}\n{rest}[time]\nend = 0.1\nstep = 1e-4\n",
+        shapes.join(", ")
+    ))
+}
+
+#[test]
+fn modal_data_of_both_planes_is_the_tube_whose_modes_they_are() {
+    let rest = |a: &str, b: &str| {
+        format!(
+            "[[support]]\nname = \"a\"\nat = {{ {a} }}\nshape = \"round\"\ngap = 2e-4\nrestitution = 0.5\n\
+             friction = 0.2\n\
+             [[support]]\nname = \"b\"\nat = {{ {b} }}\nshape = \"flats\"\nsides = 3\ngap = 1e-4\nrestitution = 0.5\n\
+             [[load]]\nat = {{ {a} }}\ndirection = 30\nharmonic = {{ amplitude = 60.0, frequency = 21.0 }}\n\
+             [[load]]\nat = {{ {b} }}\ndirection = 100\nharmonic = {{ amplitude = 40.0, frequency = 37.0 }}\n"
+        )
+    };
+    let points = rest("point = \"a\"", "point = \"b\"");
+    let whole = tube("planes = 2\n", &rest("position = 1.0", "position = 2.0"));
+    for turn in [0.0, 35.0] {
+        let modal = modal_data(&whole, turn, &points);
+        for scheme in [Scheme::MoreauJean { theta: 0.5 }, Scheme::Located] {
+            let [a, b] = [&whole, &modal].map(|case| made(&case.scene, &scheme, 1e-4));
+            assert!(a.trajectory.contacts().len() > 10, "{scheme:?}");
+            for probe in ["a-y", "a-z", "b-y", "b-z"] {
+                let [a, b] = [&a, &b].map(|run| run.trajectory.probe(probe).unwrap().0);
+                // Other rounding of the same sums, which each of some 30 impacts lets grow.
+                assert!(apart(a, b) < 1e-6, "{scheme:?} {turn} {probe}: {:e}", apart(a, b));
+            }
+        }
+    }
+}
+
 #[test]
 fn one_plane_is_what_it_was() {
     // planes = 1 is the default, and leaves an oscillator its three numbers.

@@ -262,20 +262,38 @@ fn every_wrong_case_file_is_refused_at_its_place() {
 }
 
 #[test]
+fn a_point_of_modes_in_two_planes_has_a_shape_in_each() {
+    let case = |shapes: &str, at: &str| {
+        let text = format!(
+            "[system]\nplanes = 2\n[system.modal]\nfrequencies = [1.0, 2.0]\nshapes = {{ {shapes} }}\n\
+             [[support]]\nname = \"s\"\nat = {at}\nshape = \"round\"\ngap = 1e-3\nrestitution = 0.5\n\
+             [time]\nend = 1.0\nstep = 1e-3\n"
+        );
+        Case::parse(&text, "wrong.toml", "").map(|_| ()).map_err(|error| error.to_string())
+    };
+    let both = "tip-y = [1.0, 2.0], tip-z = [0.5, 0.0], end-y = [1.0, 1.0]";
+    assert_eq!(case(both, "{ point = \"tip\" }"), Ok(()));
+    assert_eq!(case(both, "{ points = [[\"tip\", -2.0]] }"), Ok(()));
+    for (shapes, at, words) in [
+        (both, "{ point = \"tip-y\" }", "a point with the shapes NAME-y and NAME-z: tip"),
+        (both, "{ point = \"end\" }", "a point with the shapes NAME-y and NAME-z: tip"),
+        ("tip = [1.0, 2.0]", "{ point = \"tip\" }", "in two planes shapes must define both"),
+        (both, "{ dof = 0 }", "a mode in two planes has no direction"),
+        (both, "\"each\"", "at = { point = \"tip\" } (of tip)"),
+        ("tip-y = [0.0, 0.0], tip-z = [0.0, 0.0]", "{ point = \"tip\" }", "nothing moves there"),
+    ] {
+        let said = case(shapes, at).unwrap_err();
+        assert!(said.contains("--> wrong.toml:8:") && said.contains(words), "{at}: {said}");
+    }
+}
+
+#[test]
 fn a_system_that_has_no_two_planes_says_what_to_do() {
     let rest = "[time]\nend = 1.0\nstep = 1e-3\n";
-    for (system, words) in [
-        (
-            "[system.bar]\nlength = 1.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\n\
-                elements = 4\nleft = \"free\"\nright = \"clamped\"\n",
-            "a tube in bending is a beam",
-        ),
-        ("[system.modal]\nfrequencies = [1.0, 2.0]\nshapes = { tip = [1.0, 2.0] }\n", "one point for y and one for z"),
-    ] {
-        let said =
-            Case::parse(&format!("[system]\nplanes = 2\n{system}{rest}"), "wrong.toml", "").unwrap_err().to_string();
-        assert!(said.contains("--> wrong.toml:2:10\n") && said.contains(words), "{said}");
-    }
+    let bar = "[system.bar]\nlength = 1.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\n\
+               elements = 4\nleft = \"free\"\nright = \"clamped\"\n";
+    let said = Case::parse(&format!("[system]\nplanes = 2\n{bar}{rest}"), "wrong.toml", "").unwrap_err().to_string();
+    assert!(said.contains("--> wrong.toml:2:10\n") && said.contains("a tube in bending is a beam"), "{said}");
     let oscillator = "[system]\nplanes = 1\n[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0\n";
     for (wrong, words) in [
         ("[[support]]\nname = \"s\"\nshape = \"flats\"\nsides = 4\ngap = 1e-3\n", "expected planes = 2"),

@@ -98,11 +98,8 @@ fn slowest(scene: &Scene) -> Option<f64> {
 
 /// ω and k of each coordinate of a structure whose M and K are diagonal, as in modal coordinates.
 fn diagonal(structure: &Structure) -> Option<Vec<(f64, f64)>> {
-    if structure.mass.half_bandwidth() > 0 || structure.stiffness.half_bandwidth() > 0 {
-        return None;
-    }
-    let (m, k) = (structure.mass.diagonal_entries(), structure.stiffness.diagonal_entries());
-    Some(m.into_iter().zip(k).map(|(m, k)| ((k / m).sqrt(), k)).collect())
+    let squares = structure.uncoupled_squares()?;
+    Some(squares.into_iter().map(f64::sqrt).zip(structure.stiffness.diagonal_entries()).collect())
 }
 
 /// A note on a load that changes faster than the step resolves.
