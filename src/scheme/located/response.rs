@@ -150,6 +150,16 @@ impl PlaneBound {
         dot(end, end) > limit
     }
 
+    /// What the answer of the contacts gave up of the bound along a round wall, m/s. Where impulses
+    /// that balance one another contradict a rebound, contacts give it up; here it is no rebound,
+    /// but what keeps the body on the circle.
+    fn given_up(&self, touch: &FrictionContact) -> f64 {
+        match self.guide {
+            Guide::Chord { return_rate } => touch.bound + dot(touch.normal, self.rate) + return_rate,
+            _ => 0.0,
+        }
+    }
+
     /// True if the middle of the path along a round wall says little of its normal.
     fn turns_far(&self, way: [f64; 2]) -> bool {
         let middle = [0, 1].map(|i: usize| self.from[i] + 0.5 * way[i]);
@@ -209,7 +219,8 @@ impl Response {
         for (row, rate) in sweeps.free.iter_mut().enumerate() {
             *rate = places.seen(row, &free);
         }
-        let found = find_normals((places, sweeps), holds, &part.delta, (length, theta));
+        let found = find_normals((places, sweeps), holds, &part.delta, (length, theta))
+            && holds.iter().zip(&sweeps.touches).all(|(hold, touch)| length * hold.given_up(touch) <= body.touch);
         for (hold, touch) in holds.iter().zip(&sweeps.touches) {
             let [p, friction] = touch.impulse;
             if p == 0.0 {
