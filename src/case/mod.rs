@@ -18,9 +18,9 @@
 //! `value.rs` reads TOML with the position of each value, `check.rs` checks it against the keys,
 //! `build.rs` builds the case table by table from what `builder.rs` holds, `system.rs`, `beam.rs`,
 //! `model.rs`, `place.rs`, `points.rs`, `planes.rs` and `direction.rs` read the structure, the
-//! locations on it and their directions, `loads.rs`, `random.rs`, `turbulence.rs` and `base.rs` the loads,
-//! `truncated.rs` keeps the full scene of a case reduced to modes, `realisations.rs` and `wear.rs`
-//! give the scenes of realisations and of worn supports, `wording.rs` finds the key of
+//! locations on it and their directions, `loads.rs`, `random.rs`, `turbulence.rs` and `base.rs` the
+//! loads, `truncated.rs` keeps the full scene of a case reduced to modes, `realisations.rs` and
+//! `wear.rs` give the scenes of realisations and of worn supports, `wording.rs` finds the key of
 //! each value of the scene, `written.rs` keeps what the scene itself no longer shows;
 //! `case_file.rs` is the document that a case keeps, `key.rs` the path of a value, by which it is
 //! changed before it is built (`changes.rs`), `tangent.rs` differentiates the scene by a key,

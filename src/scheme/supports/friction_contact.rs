@@ -153,9 +153,9 @@ impl FrictionContact {
         }
     }
 
-    /// Takes back what rounding has left outside of Coulomb's cone: a force of −1e-20 N is none, and
-    /// friction beyond μp, without which t·ẇ⁺ changes by rounding alone, is μp. Beside fast slides
-    /// elsewhere, that excess may be as large as a force over a part of 1e-14 s.
+    /// Takes back what rounding has left outside of Coulomb's cone: a force of −1e-20 N is none,
+    /// and friction beyond μp, without which t·ẇ⁺ changes by rounding alone, is μp. Beside fast
+    /// slides elsewhere, that excess may be as large as a force over a part of 1e-14 s.
     pub fn drop_rounding(&mut self) {
         let [p, f] = self.impulse;
         let p = if p < 0.0 { 0.0 } else { p };
