@@ -52,6 +52,20 @@ pub fn _unit(key: &str) -> Option<&'static str> {
 /// its use.
 type Rows<'py> = (Bound<'py, PyArray2<f64>>, Vec<Option<String>>, Vec<Option<String>>);
 
+/// The number of walls of each scene, which must have the names of those of the first.
+fn common_walls(scenes: &[Scene]) -> PyResult<usize> {
+    let names = |scene: &Scene| scene.scene.walls.iter().map(|wall| wall.name.clone()).collect::<Vec<_>>();
+    let walls = scenes.first().map_or_else(Vec::new, names);
+    match scenes.iter().map(names).find(|other| *other != walls) {
+        None => Ok(walls.len()),
+        Some(other) => Err(PyValueError::new_err(format!(
+            "walls are {}; expected {}, as in the first scene: rows of one table have one set of columns",
+            other.join(", "),
+            walls.join(", ")
+        ))),
+    }
+}
+
 /// Runs scenes on threads without the interpreter's lock.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
@@ -65,17 +79,7 @@ pub fn _run_many<'py>(
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Rows<'py>> {
-    let names = |scene: &Scene| scene.scene.walls.iter().map(|wall| wall.name.clone()).collect::<Vec<_>>();
-    let walls = scenes.first().map_or_else(Vec::new, names);
-    if let Some(other) = scenes.iter().map(names).find(|other| *other != walls) {
-        let text = format!(
-            "walls are {}; expected {}, as in the first scene: rows of one table have one set of columns",
-            other.join(", "),
-            walls.join(", ")
-        );
-        return Err(PyValueError::new_err(text));
-    }
-    let width = COLUMNS.len() * walls.len();
+    let width = COLUMNS.len() * common_walls(&scenes)?;
     let plans = scenes
         .iter()
         .map(|scene| {

@@ -170,6 +170,7 @@ impl<S: Simd, const W: usize> Constants<S, W> {
     /// next time.
     #[inline(always)]
     pub fn stretch(&self, a: &mut State<S, W>, active: Mask<S>) -> Ended<S> {
+        // In one piece: masks and lanes of every line go into the next ones.
         let (zero, one) = (a.t.all(0.0), a.t.all(1.0));
         let rest = (self.steps - a.t).max(zero);
         let whole = rest.min(one);

@@ -13,7 +13,7 @@ use super::start;
 use super::value::Section;
 use super::{Case, FileRead, PenaltyOptions, Place, StatisticsOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result, Subject, escaped};
-use crate::scene::{Condensation, Damping, Row, Scene, State, Structure, System};
+use crate::scene::{Condensation, Damping, Row, Scene, State, Structure, System, Turbulence};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
 use crate::study::truncation::{Start, Unreduced};
 use toml::Spanned;
@@ -53,10 +53,7 @@ impl Builder<'_> {
         let duration = self.required("duration", &time, "end");
         let (scene, places) = self.scene(file, built.system, duration)?;
         let (wear, sectors) = self.wear(file.section("wear").as_ref())?;
-        let mut turbulence = Vec::new();
-        for (index, table) in file.sections("turbulence").iter().enumerate() {
-            turbulence.extend(self.turbulence(index, table, scene.duration, modes.is_some())?);
-        }
+        let turbulence = self.fields(file, scene.duration, modes.is_some())?;
         let time = self.time(&time, sectors);
         let statistics = file.section("statistics").map(|section| self.statistics(&section));
         let penalty = file.section("penalty").map(|penalty| self.penalty(&penalty)).transpose()?.unwrap_or_default();
@@ -65,11 +62,12 @@ impl Builder<'_> {
         if self.written.start == Start::Equilibrium {
             scene.initial.q = equilibrium(&scene).map_err(|error| self.locate(error, &scene))?;
         }
+        let text = |key: &str| file.word(key).map(|text| escaped(text.get_ref()).into_owned());
         let mut case = Case {
             name: self.document.name().to_owned(),
             document: self.document.clone(),
-            title: file.word("title").map(|title| escaped(title.get_ref()).into_owned()),
-            source: file.word("source").map(|source| escaped(source.get_ref()).into_owned()),
+            title: text("title"),
+            source: text("source"),
             model: self.model.clone(),
             planes: self.planes,
             places,
@@ -90,15 +88,7 @@ impl Builder<'_> {
         case.check().map_err(|error| self.locate(error, &case.scene))?;
         match (modes, file.section("flow")) {
             (Some(modes), flow) => {
-                let whole = Unreduced {
-                    scene: case.scene.clone(),
-                    damping: built.pending.filter(|damping| matches!(damping, Damping::Modal(_))),
-                    static_correction: self.static_correction,
-                    start: case.written.start,
-                    planes: self.planes.modes(),
-                    turbulence,
-                };
-                self.reduce(&mut case, whole, modes, flow.as_ref())?;
+                self.reduce(&mut case, modes, (built.pending, turbulence), flow.as_ref())?;
                 set_start(&mut case);
                 case.check().map_err(|error| self.locate(error, &case.scene))?;
                 Ok(case)
@@ -106,6 +96,15 @@ impl Builder<'_> {
             (None, Some(flow)) => Err(self.without_flow(&flow)),
             (None, None) => Ok(case),
         }
+    }
+
+    /// The fields of all tables `[[turbulence]]` in a run until `end` (s).
+    fn fields(&mut self, file: &Section<'_>, end: f64, modes: bool) -> Result<Vec<Turbulence>> {
+        let mut fields = Vec::new();
+        for (index, table) in file.sections("turbulence").iter().enumerate() {
+            fields.extend(self.turbulence(index, table, end, modes)?);
+        }
+        Ok(fields)
     }
 
     /// The scene of `system` with its initial state, walls, supports, loads and probes, and the
@@ -132,8 +131,23 @@ impl Builder<'_> {
         Ok((scene, places))
     }
 
-    /// Reduces the case, whose scene is that of `whole`, to its slowest `modes`.
-    fn reduce(&mut self, case: &mut Case, whole: Unreduced, modes: usize, flow: Option<&Section<'_>>) -> Result<()> {
+    /// Reduces the case to its slowest `modes`, under the fields of `turbulence`, with the
+    /// `damping` that is given by ratios of these modes.
+    fn reduce(
+        &mut self,
+        case: &mut Case,
+        modes: usize,
+        (damping, turbulence): (Option<Damping>, Vec<Turbulence>),
+        flow: Option<&Section<'_>>,
+    ) -> Result<()> {
+        let whole = Unreduced {
+            scene: case.scene.clone(),
+            damping: damping.filter(|damping| matches!(damping, Damping::Modal(_))),
+            static_correction: self.static_correction,
+            start: case.written.start,
+            planes: self.planes.modes(),
+            turbulence,
+        };
         let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
         case.scene = reduction.scene.clone();
         case.fluid_elastic = flow.map(|flow| self.flow(flow, &whole, &reduction.modes)).transpose()?;

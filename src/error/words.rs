@@ -73,23 +73,10 @@ impl fmt::Display for Words<'_> {
                  {wall:?}, t = {time:.6} s: more than the exact scheme follows; \
                  a stepping scheme (moreau-jean, paoli-schatzman) does not resolve them one by one"
             ),
-            Error::Inaccurate { tolerance, reached, steps, .. } if reached.is_infinite() => write!(
-                f,
-                "an error of {tolerance:e} is out of reach: the coarsest runs that could see the motion take \
-                 {steps} steps and more"
-            ),
-            Error::Inaccurate { tolerance, reached, quantity, until, steps } => write!(
-                f,
-                "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
-                 the displacement keeps it until t = {until:.6} s"
-            ),
-            Error::Scattered { share, reached, quantity, count, needed } => write!(
-                f,
-                "an interval of ± {:.1} % was not reached: {count} of {needed} realisations leave ± {:.1} % \
-                 ({quantity}); no more than {count} were allowed",
-                100.0 * share,
-                100.0 * reached
-            ),
+            Error::Inaccurate { .. }
+            | Error::Scattered { .. }
+            | Error::Truncated { .. }
+            | Error::Unpredictable { .. } => not_reached(self.0, f),
             Error::Unchecked { checks } => write!(
                 f,
                 "checks that failed, so that part of the error is not known: the run with {}",
@@ -99,18 +86,42 @@ impl fmt::Display for Words<'_> {
             Error::Refuted { runs } => write!(f, "refuted by the judge, not to be used: {}", runs.join("; ")),
             Error::Unverified { values } => write!(f, "not within their tolerances: {}", values.join("; ")),
             Error::NoOrbit { reason } => write!(f, "no periodic orbit: {reason}"),
-            Error::Truncated { tolerance, reached, quantity, modes } => write!(
-                f,
-                "a truncation within {tolerance:e} was not reached: going to {modes} modes still changed \
-                 {reached:.1e} ({quantity})"
-            ),
-            Error::Unpredictable { tolerance, reached, horizon, end } => write!(
-                f,
-                "an error of {tolerance:e} is kept until t = {horizon:.6} s only ({reached:.1e} reached): \
-                 rounding grows to a quarter of it soon \
-                 after, and no step predicts the motion up to {end} s"
-            ),
         }
+    }
+}
+
+/// Says what was asked for and how near it came.
+fn not_reached(error: &Error, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    match error {
+        Error::Inaccurate { tolerance, reached, steps, .. } if reached.is_infinite() => write!(
+            f,
+            "an error of {tolerance:e} is out of reach: the coarsest runs that could see the motion take \
+             {steps} steps and more"
+        ),
+        Error::Inaccurate { tolerance, reached, quantity, until, steps } => write!(
+            f,
+            "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
+             the displacement keeps it until t = {until:.6} s"
+        ),
+        Error::Scattered { share, reached, quantity, count, needed } => write!(
+            f,
+            "an interval of ± {:.1} % was not reached: {count} of {needed} realisations leave ± {:.1} % \
+             ({quantity}); no more than {count} were allowed",
+            100.0 * share,
+            100.0 * reached
+        ),
+        Error::Truncated { tolerance, reached, quantity, modes } => write!(
+            f,
+            "a truncation within {tolerance:e} was not reached: going to {modes} modes still changed \
+             {reached:.1e} ({quantity})"
+        ),
+        Error::Unpredictable { tolerance, reached, horizon, end } => write!(
+            f,
+            "an error of {tolerance:e} is kept until t = {horizon:.6} s only ({reached:.1e} reached): \
+             rounding grows to a quarter of it soon \
+             after, and no step predicts the motion up to {end} s"
+        ),
+        _ => Ok(()),
     }
 }
 

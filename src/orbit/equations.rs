@@ -166,13 +166,12 @@ impl<'a> Equations<'a> {
         arc: &mut Arc,
         unknowns: &[f64],
         residual: &mut DVector<f64>,
-        jacobian: Option<(&mut DMatrix<f64>, Closure)>,
+        mut jacobian: Option<(&mut DMatrix<f64>, Closure)>,
     ) {
         let events = &self.signature.events;
         let period = problem.forcing_period();
         let Scales { length, speed } = self.scales;
         let force = self.scales.force(problem);
-        let mut jacobian = jacobian;
         if let Some((matrix, _)) = &mut jacobian {
             matrix.fill(0.0);
         }

@@ -6,6 +6,7 @@ use super::problem::Problem;
 use super::signature::Kind;
 use super::watch::Watch;
 use crate::error::{Error, Result};
+use crate::flow::Arc;
 use crate::scene::State;
 use crate::scheme::{Scheme, Stepper};
 use crate::step::{Contact, Path};
@@ -67,6 +68,47 @@ impl Judged {
     pub fn holds(&self) -> bool {
         self.same_events && self.closure <= self.tolerance
     }
+
+    /// No motion between `walls` walls.
+    fn at_rest(walls: usize) -> Self {
+        Self {
+            closure: f64::INFINITY,
+            tolerance: CLOSES,
+            same_events: false,
+            walls: vec![WallShare::default(); walls],
+            contacts: Vec::new(),
+            motion: Vec::new(),
+        }
+    }
+
+    /// Adds the motion along `arc` until `end` (s), in instants that are at most `spacing` (s)
+    /// apart, and the impulses of the walls, with their `jump` (N s) at the end.
+    fn add_arc(&mut self, arc: &Arc, (end, spacing): (f64, f64), jump: &[f64]) {
+        let instants = ((end - arc.start()) / spacing).ceil().max(1.0) as u64;
+        for index in 0..=instants {
+            let time = if index == instants { end } else { arc.start() + spacing * index as f64 };
+            let (displacement, velocity) = arc.state(time);
+            let forces: Vec<f64> = (0..self.walls.len()).map(|wall| arc.contact_force(wall, time)).collect();
+            for (share, force) in self.walls.iter_mut().zip(&forces) {
+                share.peak_force = share.peak_force.max(force.abs());
+            }
+            self.motion.push(Instant { time, displacement, velocity, forces });
+        }
+        for (index, share) in self.walls.iter_mut().enumerate() {
+            share.impulse += jump.get(index).unwrap_or(&0.0) + arc.contact_impulse(index, arc.start(), end);
+        }
+    }
+
+    /// Adds contacts that ended.
+    fn add_contacts(&mut self, closed: &[Contact]) {
+        for contact in closed {
+            self.contacts.push(*contact);
+            if let Some(share) = self.walls.get_mut(contact.wall) {
+                share.contacts += 1;
+                share.approach_speed = share.approach_speed.max(contact.approach_speed);
+            }
+        }
+    }
 }
 
 impl Problem {
@@ -78,16 +120,9 @@ impl Problem {
     /// Those of a run; [`Error::NoOrbit`] for an orbit without a stretch of free flight.
     pub fn judge(&self, orbit: &Orbit, points: u32) -> Result<Judged> {
         self.check(orbit)?;
+        let mut judged = Judged::at_rest(self.boundaries().len());
         if !self.admissible(orbit)?.holds() {
-            let walls = vec![WallShare::default(); self.boundaries().len()];
-            return Ok(Judged {
-                closure: f64::INFINITY,
-                tolerance: CLOSES,
-                same_events: false,
-                walls,
-                contacts: Vec::new(),
-                motion: Vec::new(),
-            });
+            return Ok(judged);
         }
         let whole = orbit.unfolded(self.mirror());
         let [length, speed] = self.scales();
@@ -98,53 +133,27 @@ impl Problem {
         let mut stepper = Stepper::new(&scene, &Scheme::Event, 2.0 * end)?;
         stepper.set_state(start, &State { q: vec![state[0]], v: vec![state[1]] })?;
         let mut watch = Watch::new(self.scene(), self.forcing_period());
-        let mut walls = vec![WallShare::default(); self.boundaries().len()];
-        let (mut contacts, mut motion) = (Vec::new(), Vec::new());
         let spacing = whole.period() / f64::from(points.max(1));
-        let mut closure = f64::INFINITY;
-        while closure.is_infinite() {
+        while judged.closure.is_infinite() {
             let step = stepper.step()?;
             let Path::Exact(arc) = step.path else { continue };
             watch.observe(&step);
             let last = step.end >= end;
-            let until = if last { end } else { step.end };
-            let instants = ((until - arc.start()) / spacing).ceil().max(1.0);
-            for index in 0..=instants as u64 {
-                let time = if index == instants as u64 { until } else { arc.start() + spacing * index as f64 };
-                let (displacement, velocity) = arc.state(time);
-                let forces: Vec<f64> = (0..walls.len()).map(|wall| arc.contact_force(wall, time)).collect();
-                for (share, force) in walls.iter_mut().zip(&forces) {
-                    share.peak_force = share.peak_force.max(force.abs());
-                }
-                motion.push(Instant { time, displacement, velocity, forces });
-            }
-            for (index, share) in walls.iter_mut().enumerate() {
-                let jump = if last { 0.0 } else { step.jump.get(index).copied().unwrap_or(0.0) };
-                share.impulse += jump + arc.contact_impulse(index, arc.start(), until);
-            }
-            for contact in step.closed.iter().filter(|_| !last) {
-                contacts.push(*contact);
-                if let Some(share) = walls.get_mut(contact.wall) {
-                    share.contacts += 1;
-                    share.approach_speed = share.approach_speed.max(contact.approach_speed);
-                }
-            }
             if last {
+                judged.add_arc(arc, (end, spacing), &[]);
                 let (q, v) = arc.state(end);
-                closure = ((q - state[0]).abs() / length).max((v - state[1]).abs() / speed);
+                judged.closure = ((q - state[0]).abs() / length).max((v - state[1]).abs() / speed);
+            } else {
+                judged.add_arc(arc, (step.end, spacing), step.jump);
+                judged.add_contacts(step.closed);
             }
         }
         let end_phase = end / self.forcing_period();
         let seen: Vec<_> = watch.passages.iter().filter(|passage| passage.phase < end_phase).collect();
         let largest = self.floquet(orbit)?.multipliers.iter().fold(0.0_f64, |top, m| top.max(m[0].hypot(m[1])));
-        Ok(Judged {
-            closure,
-            tolerance: CLOSES.max(UNITS * f64::EPSILON * largest),
-            same_events: self.same_events(&whole, start, &seen),
-            walls,
-            contacts,
-            motion,
-        })
+        judged.tolerance = CLOSES.max(UNITS * f64::EPSILON * largest);
+        judged.same_events = self.same_events(&whole, start, &seen);
+        Ok(judged)
     }
 
     fn same_events(&self, whole: &Orbit, start: f64, seen: &[&super::watch::Passage]) -> bool {

@@ -143,6 +143,18 @@ impl ActiveSet {
         ULPS * reach * (system.weight[row] + parts.sum::<f64>())
     }
 
+    /// The largest push before a force in play would change sign, and which would.
+    fn blocking(&self) -> (f64, Option<usize>) {
+        let mut blocking = (f64::INFINITY, None);
+        for (i, ((side, change), force)) in self.sides.iter().zip(&self.change).zip(&self.force).enumerate() {
+            let rate = side.sign() * change;
+            if rate < 0.0 && force.abs() / -rate < blocking.0 {
+                blocking = (force.abs() / -rate, Some(i));
+            }
+        }
+        blocking
+    }
+
     /// Brings a violated row into play, dropping rows whose force falls to zero on the way.
     #[allow(clippy::too_many_arguments)]
     fn enter(
@@ -167,14 +179,7 @@ impl ActiveSet {
                 *change = -system.entry(j, row) * side.sign();
             }
             triangular(&self.factor, self.m, k, &mut self.change);
-            // Largest push before a force in play would change sign.
-            let mut blocking = (f64::INFINITY, None);
-            for (i, side) in self.sides.iter().enumerate() {
-                let rate = side.sign() * self.change[i];
-                if rate < 0.0 && self.force[i].abs() / -rate < blocking.0 {
-                    blocking = (self.force[i].abs() / -rate, Some(i));
-                }
-            }
+            let blocking = self.blocking();
             // Push that brings the row onto its bound: its violation over the Schur complement of
             // W.
             let y = self.rows.iter().zip(&self.force).fold(system.y[row], |y, (&j, f)| y + system.entry(row, j) * f)

@@ -54,6 +54,7 @@ pub fn clamp(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> Result<f64, F
 /// The remaining cases: a bound is violated, or an argument is invalid.
 #[inline]
 fn contact(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> Result<f64, Failure> {
+    // In one piece, the step of one degree of freedom: the bounds of its rows, then their forces.
     let free = b / a;
     if rows.len() != r.len() {
         return Err(Failure::Shape { what: "forces", expected: rows.len(), found: r.len() });

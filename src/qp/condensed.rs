@@ -115,27 +115,41 @@ impl Condensed {
         } else {
             pivoting.clear();
         }
-        // What neither settles is left to a dual active-set method, which cannot cycle and can name
-        // the bounds that cross.
+        counters.pivots += self.find_active_set(rhs, bounded, (scale, largest), r)?;
+        if self.always {
+            found?;
+        }
+        let all: Vec<usize> = (0..r.len()).collect();
+        self.system.respond(rhs.b, &all, r, x);
+        super::finite("solution", x, |v| v.is_finite())
+    }
+
+    /// Solves for the forces `r`, where pivoting and the interior-point method do not settle, by a
+    /// dual active-set method, which cannot cycle and can name the bounds that cross. Signs are
+    /// tested relative to `scale`, violations to the `largest` displacement. Returns the number of
+    /// exchanges.
+    fn find_active_set(
+        &mut self,
+        rhs: &Rhs,
+        bounded: &[usize],
+        (scale, largest): (f64, f64),
+        r: &mut [f64],
+    ) -> Result<u64, Failure> {
+        let Self { system, pivoting, .. } = self;
         let mut play = ActiveSet::new(r.len());
         pivoting.called().for_each(|(row, side)| play.push(system, row, side));
         // Far above the few exchanges per row ever seen. Without a limit, a defect of the method
         // would hang; with it, the solve fails.
         let limit = 100 + 50 * r.len() as u64;
-        counters.pivots += play.solve(system, rhs.lo, rhs.hi, largest, limit, r)?;
-        if self.always {
-            found?;
-        }
-        let forces = r.clone();
+        let pivots = play.solve(system, rhs.lo, rhs.hi, largest, limit, r)?;
+        let forces = r.to_vec();
         pivoting.clear();
         play.rows().for_each(|(row, side)| pivoting.call(row, side));
         // Pivoting from this active set divides the forces among dependent rows, if it settles.
         if pivoting.solve(system, rhs, bounded, scale, passes(r.len()), r).is_none() {
             r.copy_from_slice(&forces);
         }
-        let all: Vec<usize> = (0..r.len()).collect();
-        system.respond(rhs.b, &all, r, x);
-        super::finite("solution", x, |v| v.is_finite())
+        Ok(pivots)
     }
 
     /// Solves from the last programme's active set: by elimination in a band where that pays, by

@@ -109,6 +109,23 @@ impl Pivoting {
         self.block.rows()
     }
 
+    /// Lets the rows of `bounded` begin at the bounds at which they stood. Rows that had a bound in
+    /// the last programme and have none in this one have none to stand on.
+    fn stand(&mut self, rhs: &Rhs, bounded: &[usize]) {
+        let stays = |row: usize, side: Side| if side == Side::Lower { rhs.lo[row] } else { rhs.hi[row] }.is_finite();
+        for row in self.bounded.drain(..) {
+            self.side[row] = self.side[row].filter(|&side| stays(row, side));
+        }
+        self.bounded.extend_from_slice(bounded);
+        self.next.clear();
+        for &row in bounded {
+            self.side[row] = self.side[row].filter(|&side| stays(row, side));
+            if self.side[row].is_some() {
+                self.next.push(row);
+            }
+        }
+    }
+
     /// Starts from the states of the rows and ends with the exact r (m entries). `bounded` are the
     /// rows with a bound, increasing. Signs of gaps are tested relative to `scale`, or to the row's
     /// free motion where that is larger. Returns the number of exchanges; `None` if it did not
@@ -122,20 +139,7 @@ impl Pivoting {
         passes: usize,
         r: &mut [f64],
     ) -> Option<u64> {
-        // Rows that had a bound in the last programme and have none in this one have none to stand
-        // on.
-        let stays = |row: usize, side: Side| if side == Side::Lower { rhs.lo[row] } else { rhs.hi[row] }.is_finite();
-        for row in self.bounded.drain(..) {
-            self.side[row] = self.side[row].filter(|&side| stays(row, side));
-        }
-        self.bounded.extend_from_slice(bounded);
-        self.next.clear();
-        for &row in bounded {
-            self.side[row] = self.side[row].filter(|&side| stays(row, side));
-            if self.side[row].is_some() {
-                self.next.push(row);
-            }
-        }
+        self.stand(rhs, bounded);
         r.fill(0.0);
         let (mut least, mut patience, mut pivots, mut joins) = (usize::MAX, PATIENCE, 0, 0);
         // Rounding of forces passed on between rows is allowed for only where pivoting fails

@@ -27,6 +27,28 @@ const SHOWN: [&str; 11] = [
     "displacement_max_m",
 ];
 
+/// Keeps every `every`th of the orbits, and the special points.
+fn keep_every(table: &mut Cells, every: usize) {
+    let kept = |row: usize| row.is_multiple_of(every) || !table.text(row, "label").is_empty();
+    let kept: Vec<bool> = (0..table.rows.len()).map(kept).collect();
+    let mut kept = kept.into_iter();
+    table.rows.retain(|_| kept.next().unwrap_or(true));
+}
+
+/// The points drawn beneath the branches, with a note where not all of them are.
+fn beneath(folder: &Folder<'_>, notes: &mut Vec<String>) -> Result<Value> {
+    let points = folder.numbers(overlay::FILE)?;
+    let [x, y] = &points.columns[..] else {
+        return Err(points.wrong("expected two columns, the key and the approach speed"));
+    };
+    let every = x.len().div_ceil(MOST_BENEATH).max(1);
+    if every > 1 {
+        notes.push(format!("of {} points beneath the branches every {every}th is drawn", x.len()));
+    }
+    let picked = |column: &[f64]| column::f32(column.iter().copied().step_by(every));
+    Ok(json!({ "x": picked(x), "y": picked(y), "name": &folder.manifest["request"]["over"] }))
+}
+
 /// What the page of branches shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let document = folder.json("branches.json")?;
@@ -39,11 +61,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "of {} orbits every {every}th and the special points are shown; branches.csv has all",
             table.rows.len()
         ));
-        let kept: Vec<bool> = (0..table.rows.len())
-            .map(|row| row.is_multiple_of(every) || !table.text(row, "label").is_empty())
-            .collect();
-        let mut kept = kept.into_iter();
-        table.rows.retain(|_| kept.next().unwrap_or(true));
+        keep_every(&mut table, every);
     }
     let mut shown: Vec<&str> = SHOWN.to_vec();
     shown.push(key);
@@ -71,17 +89,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         notes.push("there is no orbits.csv, from which the motion along each orbit is drawn".to_owned());
     }
     if folder.has(overlay::FILE) {
-        let points = folder.numbers(overlay::FILE)?;
-        let [x, y] = &points.columns[..] else {
-            return Err(points.wrong("expected two columns, the key and the approach speed"));
-        };
-        let every = x.len().div_ceil(MOST_BENEATH).max(1);
-        if every > 1 {
-            notes.push(format!("of {} points beneath the branches every {every}th is drawn", x.len()));
-        }
-        let picked = |column: &[f64]| column::f32(column.iter().copied().step_by(every));
-        let name = &folder.manifest["request"]["over"];
-        out["beneath"] = json!({ "x": picked(x), "y": picked(y), "name": name });
+        out["beneath"] = beneath(folder, &mut notes)?;
     }
     if folder.has("loci.csv") {
         out["loci"] = loci(&folder.cells("loci.csv")?);

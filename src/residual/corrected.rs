@@ -10,6 +10,7 @@ use crate::step::{Balance, Step};
 impl Judge {
     /// Checks a step on a grid whose displacement and velocity its walls corrected.
     pub(super) fn observe_corrected(&mut self, step: &Step<'_>) {
+        // In one piece, the balance of one step, from its terms to its residual.
         let Balance::GeneralizedAlpha { alpha_m, alpha_f, beta, gamma } = self.contract.balance else { return };
         let Some(mut previous) = self.previous.take() else { return };
         let h = self.h;

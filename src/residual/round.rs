@@ -62,6 +62,7 @@ impl Judge {
         beyond: bool,
         askew: &mut Residual,
     ) {
+        // In one piece: which bound holds depends on where the hole is in reach.
         let (place, gap) = (hole.index, hole.gap);
         let force = did.impulse.hypot(did.friction) / self.h;
         let pressure = did.impulse / self.h;

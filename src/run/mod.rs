@@ -23,13 +23,6 @@ use crate::scheme::{Method, Stepper};
 use observers::Observers;
 use std::time::Instant;
 
-/// Maximum number of steps between two reports of progress.
-const PROGRESS_STRIDE: u64 = 1 << 14;
-
-/// At the beginning reports come more often: one part in this many of the steps so far lies between
-/// two, since a step may take a nanosecond or a second.
-const PROGRESS_SHARE: u64 = 8;
-
 /// Runs `scene` by `method`, a [`Scheme`](crate::Scheme) or a [`Method`], to its end.
 ///
 /// ```
@@ -89,26 +82,7 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let recorder = R::begin(&stepper, grid.rows, &start, &options.time);
     let mut observers = Observers::<J, R>::new(judge, recorder, &stepper);
     let mut divergence = Divergence::new(&stepper, grid.step, &start);
-    let (mut count, mut report) = (0, 1);
-    let diverged = loop {
-        let (made, time) = match observers.follow(&mut stepper, grid.steps - count.min(grid.steps)) {
-            Ok(made) => made,
-            Err(error) => break Some(divergence.overflow(&error).ok_or(error)?),
-        };
-        count += made;
-        if let Some(diverged) = divergence.at(time, stepper.velocity()) {
-            break Some(diverged);
-        }
-        if count >= report {
-            report = count + (count / PROGRESS_SHARE).clamp(1, PROGRESS_STRIDE);
-            progress(time);
-        }
-        let ended = if exact { time >= scene.duration } else { count >= grid.steps };
-        if ended {
-            break None;
-        }
-    };
-    observers.catch_up();
+    let (count, diverged) = observers.follow_to_end(&mut stepper, &grid, &mut divergence, progress)?;
     let Observers { judge, recorder, .. } = observers;
     let from = options.time.statistics_from;
     // The statistics of a run that diverged refer to the time up to there.

@@ -1,8 +1,8 @@
 //! Collects from the steps of a row what its measures and samples need.
 
 use super::forcing;
-use super::measure::Measure;
-use super::motion::Motion;
+use super::measure::{Measure, Scope};
+use super::motion::{Motion, Seen};
 use super::request::{Sweep, Window};
 use super::sample::Sample;
 use super::sample::Samples;
@@ -131,69 +131,63 @@ impl RowObserver {
         (statistics, exponent): (&Statistics, Option<Exponent>),
         values: &mut Vec<Option<f64>>,
     ) {
-        let length = scene.duration - self.from;
-        let mut of_walls = |value: &dyn Fn(usize, &WallStatistics) -> Option<f64>| {
-            values.extend(statistics.walls.iter().enumerate().map(|(index, wall)| value(index, wall)));
-        };
-        let impulses = |index: usize| self.began_here().filter(move |c| c.wall == index).map(|c| c.impulse);
-        let speeds = |index: usize| self.began_here().filter(move |c| c.wall == index).map(|c| c.approach_speed);
-        match measure {
-            Measure::Contacts => of_walls(&|_, wall| Some(wall.contacts as f64)),
-            Measure::Impacts => of_walls(&|index, _| {
-                Some(self.began_here().filter(|c| c.wall == index && c.end == Some(c.start)).count() as f64)
-            }),
-            Measure::ContactRate => of_walls(&|_, wall| Some(wall.contact_rate_per_s)),
-            Measure::ContactTimeRatio => of_walls(&|_, wall| Some(wall.contact_time_ratio)),
-            Measure::Impulse => of_walls(&|_, wall| wall.force.map(|force| force.impulse_n_s)),
-            Measure::ImpulseMean => of_walls(&|_, wall| wall.episode_impulse_n_s.mean),
-            Measure::ImpulseMax => of_walls(&|_, wall| wall.episode_impulse_n_s.max),
-            Measure::ImpulseRms => of_walls(&|index, wall| {
-                let square: f64 = impulses(index).map(|p| p * p).sum();
-                (wall.contacts > 0).then(|| (square / wall.contacts as f64).sqrt())
-            }),
-            Measure::ForceMean => of_walls(&|_, wall| wall.force.map(|force| force.mean_n)),
-            Measure::ForceRms => of_walls(&|_, wall| wall.force.map(|force| force.rms_n)),
-            Measure::PeakForceMean => of_walls(&|_, wall| wall.episode_peak_force_n.mean),
-            Measure::PeakForceMax => of_walls(&|_, wall| wall.episode_peak_force_n.max),
-            Measure::ImpactPower => of_walls(&|_, wall| Some(wall.impact_power_w)),
-            Measure::ArrivedLessDepartedPower => of_walls(&|_, wall| Some(wall.arrived_less_departed_power_w)),
-            Measure::ApproachSpeedMean => {
-                of_walls(&|index, wall| (wall.contacts > 0).then(|| speeds(index).sum::<f64>() / wall.contacts as f64))
+        match measure.scope() {
+            Scope::Wall => {
+                values.extend(statistics.walls.iter().enumerate().map(|(i, wall)| self.at_wall(measure, i, wall)));
             }
-            Measure::ApproachSpeedMax => of_walls(&|index, _| speeds(index).reduce(f64::max)),
-            Measure::ApproachSpeedLeast => of_walls(&|index, _| speeds(index).reduce(f64::min)),
-            Measure::WorkRate
-            | Measure::ImpactShare
-            | Measure::SlidingRate
-            | Measure::FrictionPower
-            | Measure::SupportForceMean
-            | Measure::SupportForceRms
-            | Measure::SupportForceLargest
-            | Measure::WornVolume
-            | Measure::DepthOneScar
-            | Measure::DepthAllRound => {
+            Scope::Support => {
                 let supports = 0..statistics.supports.len();
                 values.extend(supports.map(|index| at_support(measure, statistics, index, case)));
             }
-            Measure::DisplacementMax => self.of_probes(values, |seen| seen.highest.abs().max(seen.lowest.abs())),
-            Measure::DisplacementHighest => self.of_probes(values, |seen| seen.highest),
-            Measure::DisplacementLowest => self.of_probes(values, |seen| seen.lowest),
-            Measure::DisplacementRms => self.of_probes(values, |seen| (seen.square / length).sqrt()),
-            Measure::VelocityMax => self.of_probes(values, |seen| seen.speed),
-            Measure::ImpactsPerPeriod => values.push(match sweep.window {
-                Window::Periods { keep, .. } => {
-                    Some(self.began_here().filter(|c| c.end == Some(c.start)).count() as f64 / f64::from(keep))
-                }
-                _ => None,
-            }),
-            Measure::Lyapunov => values.push(exponent.map(|exponent| exponent.per_s)),
-            Measure::LyapunovError => values.push(exponent.and_then(|exponent| exponent.error_per_s)),
-            // The row itself fills this in: it is run in another way.
-            Measure::Attractor => values.push(None),
-            Measure::Period => {
-                let repeats = self.strobe.as_ref().and_then(|strobe| strobe.repeats(scene.gap_scale()));
-                values.push(repeats.map(|periods| periods as f64));
+            Scope::Probe => {
+                let length = scene.duration - self.from;
+                let seen = self.motion.iter().flat_map(|motion| &motion.seen);
+                values.extend(seen.map(|seen| at_probe(measure, seen, length)));
             }
+            Scope::Row => values.push(self.of_row(measure, sweep, scene, exponent)),
+        }
+    }
+
+    /// The value of a measure at wall number `index`.
+    fn at_wall(&self, measure: Measure, index: usize, wall: &WallStatistics) -> Option<f64> {
+        let here = || self.began_here().filter(|contact| contact.wall == index);
+        let speeds = || here().map(|contact| contact.approach_speed);
+        // Of the contacts, where there are any.
+        let mean = |sum: f64| (wall.contacts > 0).then(|| sum / wall.contacts as f64);
+        match measure {
+            Measure::Contacts => Some(wall.contacts as f64),
+            Measure::Impacts => Some(here().filter(|contact| contact.end == Some(contact.start)).count() as f64),
+            Measure::ContactRate => Some(wall.contact_rate_per_s),
+            Measure::ContactTimeRatio => Some(wall.contact_time_ratio),
+            Measure::Impulse => Some(wall.force?.impulse_n_s),
+            Measure::ImpulseMean => wall.episode_impulse_n_s.mean,
+            Measure::ImpulseMax => wall.episode_impulse_n_s.max,
+            Measure::ImpulseRms => mean(here().map(|contact| contact.impulse.powi(2)).sum()).map(f64::sqrt),
+            Measure::ForceMean => Some(wall.force?.mean_n),
+            Measure::ForceRms => Some(wall.force?.rms_n),
+            Measure::PeakForceMean => wall.episode_peak_force_n.mean,
+            Measure::PeakForceMax => wall.episode_peak_force_n.max,
+            Measure::ImpactPower => Some(wall.impact_power_w),
+            Measure::ArrivedLessDepartedPower => Some(wall.arrived_less_departed_power_w),
+            Measure::ApproachSpeedMean => mean(speeds().sum()),
+            Measure::ApproachSpeedMax => speeds().reduce(f64::max),
+            Measure::ApproachSpeedLeast => speeds().reduce(f64::min),
+            _ => None,
+        }
+    }
+
+    /// The value of a measure of the whole row.
+    fn of_row(&self, measure: Measure, sweep: &Sweep, scene: &Scene, exponent: Option<Exponent>) -> Option<f64> {
+        match (measure, sweep.window) {
+            (Measure::ImpactsPerPeriod, Window::Periods { keep, .. }) => {
+                let impacts = self.began_here().filter(|contact| contact.end == Some(contact.start)).count();
+                Some(impacts as f64 / f64::from(keep))
+            }
+            (Measure::Lyapunov, _) => Some(exponent?.per_s),
+            (Measure::LyapunovError, _) => exponent?.error_per_s,
+            (Measure::Period, _) => Some(self.strobe.as_ref()?.repeats(scene.gap_scale())? as f64),
+            // The row itself fills the attractor in: it is run in another way.
+            _ => None,
         }
     }
 
@@ -208,10 +202,6 @@ impl RowObserver {
         });
         let exact = |per_s: f64| Exponent { per_s, error_per_s: per_s.is_finite().then_some(0.0) };
         Some(orbit.map_or_else(|| exponents.largest(), exact))
-    }
-
-    fn of_probes(&self, values: &mut Vec<Option<f64>>, value: impl Fn(&super::motion::Seen) -> f64) {
-        values.extend(self.motion.iter().flat_map(|motion| &motion.seen).map(|seen| Some(value(seen))));
     }
 
     /// The last `most` of the instants.
@@ -239,6 +229,18 @@ impl RowObserver {
         };
         all.drain(..all.len().saturating_sub(most));
         all
+    }
+}
+
+/// The value of a measure at a probe that was `seen` over `length` seconds.
+fn at_probe(measure: Measure, seen: &Seen, length: f64) -> Option<f64> {
+    match measure {
+        Measure::DisplacementMax => Some(seen.highest.abs().max(seen.lowest.abs())),
+        Measure::DisplacementHighest => Some(seen.highest),
+        Measure::DisplacementLowest => Some(seen.lowest),
+        Measure::DisplacementRms => Some((seen.square / length).sqrt()),
+        Measure::VelocityMax => Some(seen.speed),
+        _ => None,
     }
 }
 

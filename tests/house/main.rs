@@ -1,8 +1,9 @@
-//! The source itself: layers, circles of imports, the public interface, the width of lines, what
-//! the packages hold.
+//! The source itself: layers, circles of imports, the public interface, the width of lines and
+//! length of functions, what the packages hold.
 
 mod circles;
 mod layers;
+mod length;
 mod package;
 mod public_api;
 mod schemes;

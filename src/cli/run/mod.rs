@@ -13,7 +13,7 @@ use super::pipeline::Answer;
 use super::realisations;
 use super::ui::Ui;
 use crate::case::Case;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::output::episodes::Episodes;
 use crate::output::run::{self as output, Picture};
 use crate::output::summary::{Checks, Reasons};
@@ -21,6 +21,7 @@ use crate::output::supports;
 use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::choice;
+use crate::study::realisations::RealisationStudy;
 use checked::CheckedRun;
 use serde_json::json;
 use std::fmt::Display;
@@ -42,9 +43,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         realisations::write(study, &mut results)?;
     }
     let unchecked = [failed("half the step", refinement.as_ref()), failed("more modes", truncation.as_ref())];
-    let unchecked = unchecked.into_iter().flatten().chain(study.iter().flat_map(realisations::failed_checks));
-    let shortfall =
-        shortfall.or(study.as_ref().and_then(|study| study.shortfall.clone())).or(realisations::not_checked(unchecked));
+    let shortfall = first_shortfall(shortfall, study.as_ref(), unchecked);
     let derivatives = match derivatives {
         Some(wanted) => wanted.write(&case, &mut results).map(|found| Some((wanted, found)))?,
         None => None,
@@ -77,10 +76,10 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     if let Some(study) = &study {
         seeds::show(study, &mut answer, &case);
     }
-    answer.messages(checked_line("refinement", refinement.as_ref()));
-    answer.messages(checked_line("truncation", truncation.as_ref()));
-    answer.messages(checked_line("modes", modes.as_ref()));
-    answer.messages(checked_line("accuracy", accuracy.as_ref()));
+    let [refinement, truncation] =
+        [checked_line("refinement", refinement.as_ref()), checked_line("truncation", truncation.as_ref())];
+    let [modes, accuracy] = [checked_line("modes", modes.as_ref()), checked_line("accuracy", accuracy.as_ref())];
+    answer.messages([refinement, truncation, modes, accuracy].into_iter().flatten());
     if shortfall.is_some() {
         answer.close_with(", kept in spite of the error below");
     }
@@ -90,6 +89,17 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
 
 fn succeeded<T>(check: Option<&Result<T>>) -> Option<&T> {
     check.and_then(|check| check.as_ref().ok())
+}
+
+/// Why the answer falls short of the request: by the run itself, by the study of its realisations,
+/// or by what was not checked.
+fn first_shortfall(
+    own: Option<Error>,
+    study: Option<&RealisationStudy>,
+    unchecked: [Option<String>; 2],
+) -> Option<Error> {
+    let unchecked = unchecked.into_iter().flatten().chain(study.into_iter().flat_map(realisations::failed_checks));
+    own.or(study.and_then(|study| study.shortfall.clone())).or(realisations::not_checked(unchecked))
 }
 
 /// What a check of the run refines, if the check failed.

@@ -91,6 +91,7 @@ impl Changes {
         drives: &[impl Drive],
         scratch: &mut [f64],
     ) {
+        // In one piece, the recursion of the terms: each part works on slices of the one before.
         (self.terms, self.unit) = (base.terms(), base.unit());
         let (n, count, unit) = (self.n, self.count, self.unit);
         let size = n * count;

@@ -171,6 +171,7 @@ impl Series {
         hold: &HeldRows,
         work: &mut [f64],
     ) -> Option<f64> {
+        // In one piece, the recursion of the terms: each part works on slices of the one before.
         let n = self.n;
         let slides = hold.rows().iter().any(|held| held.row >= self.fixed);
         self.forces[..(touching.len() + hold.rows().len()) * TERMS].fill(0.0);

@@ -116,6 +116,16 @@ impl<'a> Statics<'a> {
         Seen { row: Row::new(row), inner, response }
     }
 
+    /// The part of C that acts on massless degrees of freedom, by their rows: C_ba and C_bb.
+    fn damping_of_massless(&self) -> Vec<(usize, Either<usize, usize>, f64)> {
+        let entries = self.structure.damping.entries().filter(|entry| entry.2 != 0.0);
+        let both = entries.flat_map(|(i, j, x)| {
+            let twin = (i != j).then_some((j, i));
+            [Some((i, j)), twin].into_iter().flatten().map(move |(i, j)| (i, j, x))
+        });
+        both.filter_map(|(i, j, x)| Some((self.number[i].err()?, self.number[j], x))).collect()
+    }
+
     /// M_aa, C̄ and K̄.
     pub fn reduced(&mut self, kept: &[usize]) -> Result<Structure> {
         let n = kept.len();
@@ -127,18 +137,7 @@ impl<'a> Statics<'a> {
         let (mass, mut c, mut k) = (Symmetric::from_entries(n, outer(mass)), outer(damping), outer(stiffness));
         let mut diagonal = vec![0.0; n];
         k.iter().filter(|entry| entry.0 == entry.1).for_each(|&(i, _, x)| diagonal[i] = x);
-        // The part of C that acts on massless degrees of freedom, by their rows: C_ba and C_bb.
-        let touching: Vec<(usize, Either<usize, usize>, f64)> = self
-            .structure
-            .damping
-            .entries()
-            .filter(|entry| entry.2 != 0.0)
-            .flat_map(|(i, j, x)| {
-                let twin = (i != j).then_some((j, i));
-                [Some((i, j)), twin].into_iter().flatten().map(move |(i, j)| (i, j, x))
-            })
-            .filter_map(|(i, j, x)| Some((self.number[i].err()?, self.number[j], x)))
-            .collect();
+        let touching = self.damping_of_massless();
         let mut column: Vec<Range<usize>> = Vec::with_capacity(n);
         self.coupling.sort_by_key(|entry| entry.0);
         let mut start = 0;

@@ -72,6 +72,16 @@ enum Start {
     Left,
 }
 
+/// ΦᵀCΦ, diagonal where C couples no modes, for which `modes` of equal frequency may be turned.
+fn modal_damping(modes: &mut Modes, damping: &Symmetric) -> Symmetric {
+    if let Some(diagonal) = modes.uncouple(damping) {
+        return Symmetric::diagonal(&diagonal);
+    }
+    let (k, c) = (modes.count(), modes.project(damping));
+    let lower = (0..k).flat_map(|i| (0..=i).map(move |j| (i, j)));
+    Symmetric::from_entries(k, lower.map(|(i, j)| (i, j, c[(i, j)])))
+}
+
 /// A residual compliance below this share of the whole is rounding and counts as 0.
 const NOTHING: f64 = 1e-12;
 
@@ -109,16 +119,7 @@ impl Scene {
         };
         let n = structure.mass.size();
         let (mut kept, next_omega) = split(structure, modes)?;
-        let damping = match kept.uncouple(&structure.damping) {
-            Some(diagonal) => Symmetric::diagonal(&diagonal),
-            None => {
-                let c = kept.project(&structure.damping);
-                Symmetric::from_entries(
-                    modes,
-                    (0..modes).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| (i, j, c[(i, j)])),
-                )
-            }
-        };
+        let damping = modal_damping(&mut kept, &structure.damping);
         let stiffness: Vec<f64> = kept.omega.iter().map(|omega| omega * omega).collect();
         let row = |row: &Row| Row::new(kept.seen(row).into_iter().enumerate().collect());
         let mut scene = Self {

@@ -84,6 +84,7 @@ impl Event {
     /// largest e decides, and the first wall that has it takes the impulse. Closed walls on both
     /// sides hold the body in place.
     fn resolve_rigid(&mut self, hit: Option<usize>, extra: f64, held: Option<usize>) {
+        // In one piece, the decisions of one instant: each needs those above it.
         let resolution = self.resolution;
         let side = if self.v < 0.0 { Side::Lower } else { Side::Upper };
         let (mut struck, mut restitution) = (None, -1.0);

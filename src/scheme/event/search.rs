@@ -18,6 +18,7 @@ const PEAK_STEPS: usize = 60;
 impl Event {
     /// Searches the arc over `span` (s) for its first event.
     pub(super) fn search(&mut self, span: f64) -> Result<Hit> {
+        // In one piece, the innermost loop: its parts share the window with its jet and bounds.
         if let Some(support) = self.support {
             return self.search_rest(support, span);
         }

@@ -127,20 +127,9 @@ impl StructureEvent {
             let both = closed == [true, true];
             let sign = match closed {
                 [true, true] if place.held != 0.0 => place.held,
-                [true, true] => {
-                    if rate > 0.0 {
-                        -1.0
-                    } else {
-                        1.0
-                    }
-                }
-                [lower, _] => {
-                    if lower {
-                        1.0
-                    } else {
-                        -1.0
-                    }
-                }
+                [true, true] if rate > 0.0 => -1.0,
+                [true, _] => 1.0,
+                [false, _] => -1.0,
             };
             self.closed_rows.push(ClosedRow {
                 row,

@@ -133,16 +133,8 @@ const DOUBT: f64 = 4.0;
 const MOST_DOUBT: f64 = 1e4;
 
 impl StructureEvent {
-    /// Moves on to the next event, end of a series, multiple of the stride, or the end of the
-    /// scene, whichever is first, under a constant extra force (N, n entries; `None` means 0). A
-    /// step of no length happens where the structure starts on a wall and moves into it. Past the
-    /// end of the scene the motion goes on.
-    ///
-    /// # Errors
-    /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow; [`Error::Qp`] if a
-    /// programme is not solved.
-    pub fn advance(&mut self, extra: Option<&[f64]>) -> Result<()> {
-        self.shown.begin(self.time, &self.v);
+    /// Takes the extra force of the step; what was decided under another one no longer holds.
+    fn take_extra(&mut self, extra: Option<&[f64]>) {
         let changed = match extra {
             Some(extra) => self.shown.extra != extra,
             None => self.shown.extra.iter().any(|&f| f != 0.0),
@@ -154,6 +146,19 @@ impl StructureEvent {
             }
             self.decided = f64::NEG_INFINITY;
         }
+    }
+
+    /// Moves on to the next event, end of a series, multiple of the stride, or the end of the
+    /// scene, whichever is first, under a constant extra force (N, n entries; `None` means 0). A
+    /// step of no length happens where the structure starts on a wall and moves into it. Past the
+    /// end of the scene the motion goes on.
+    ///
+    /// # Errors
+    /// [`Error::TooManyEvents`]; [`Error::NotFinite`] if the numbers overflow; [`Error::Qp`] if a
+    /// programme is not solved.
+    pub fn advance(&mut self, extra: Option<&[f64]>) -> Result<()> {
+        self.shown.begin(self.time, &self.v);
+        self.take_extra(extra);
         self.steps += 1;
         self.handed = None;
         if self.stretch.is_none() {

@@ -22,6 +22,7 @@ impl StructureEvent {
     /// [`Error::Invalid`] for a wall of the φ² penalty, which has no linear law, and for a function
     /// of time as load. Holes must be rigid.
     pub(in crate::scheme) fn new(scene: &Arc<Scene>, stride: f64) -> Result<Self> {
+        // In one piece: most of it is the list of the fields.
         known_loads(scene)?;
         let barriers = barriers(scene)?;
         let (walls, round) = (barriers.len(), scene.holes().next().is_some());
@@ -32,11 +33,7 @@ impl StructureEvent {
         body.row_of.iter().enumerate().for_each(|(wall, &row)| walls_of[row].push(wall));
         let places: Vec<WallRow> = walls_of.iter().map(|walls| WallRow::new(scene, walls)).collect();
         let loads = Loads::new(&scene.loads);
-        let (mut v, mut blow) = (scene.initial.v.clone(), vec![0.0; n]);
-        if loads.initial_blow(&mut blow) {
-            body.solve(&mut blow);
-            v.iter_mut().zip(&blow).for_each(|(v, change)| *v += change);
-        }
+        let v = velocity_after_blow(scene, &loads, &mut body);
         let mut blows: Vec<f64> = body.blow_times();
         blows.retain(|&t| t > 0.0);
         let zero = || vec![0.0; n];
@@ -127,4 +124,14 @@ impl StructureEvent {
         *self = event;
         Ok(())
     }
+}
+
+/// The initial velocity after the blows at t = 0, m/s.
+fn velocity_after_blow(scene: &Scene, loads: &Loads, body: &mut SeriesBody) -> Vec<f64> {
+    let (mut v, mut blow) = (scene.initial.v.clone(), vec![0.0; body.n]);
+    if loads.initial_blow(&mut blow) {
+        body.solve(&mut blow);
+        v.iter_mut().zip(&blow).for_each(|(v, change)| *v += change);
+    }
+    v
 }
