@@ -10,7 +10,7 @@ use super::values;
 use crate::case::Case;
 use crate::error::Result;
 use crate::output::error_parts;
-use crate::output::request::{extended, request};
+use crate::output::request::{extended, program, request};
 use crate::output::results::Results;
 use crate::output::wear_history as output;
 use crate::output::wear_journal::WindowJournal;
@@ -18,7 +18,7 @@ use crate::run::{Options, run_with_progress};
 use crate::scheme::Method;
 use crate::study::choice;
 use crate::study::realisations::{RealisationCount, RealisationStudy};
-use crate::study::wear_history::{WearHistories, WearPlan, WearWindow, WearingSupport};
+use crate::study::wear_history::{WearHistories, WearPlan, WearWindow, WearingSupport, YEAR};
 use crate::wear::Opening;
 use serde_json::{Map, Value, json};
 
@@ -38,7 +38,11 @@ With --until-interval the first runs of the histories are a study of realisation
 --until-interval`, with the errors of the first work rates.
 Writes history.csv (every history), years.csv (means with their 95 % intervals) and wear.svg, for
 --until-interval also realisations.csv and errors.csv (the first runs); report.html shows the years.
-After an interruption the same command goes on, after the study of the first runs.";
+After an interruption the same command goes on, after the study of the first runs. With more --years
+it goes on from finished results as well: the same results as those of so many years at once.";
+
+/// The key of the request that may grow: a study goes on to further years.
+const YEARS: &str = "years";
 
 /// Windows of a history, about, for the estimate of the duration.
 const WINDOWS: f64 = 7.0;
@@ -86,7 +90,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         None => args.request.method(&choice::choose(&case.scene).method.to_string(), &case)?,
     };
     args.request.check_use(&[method])?;
-    let mut results = args.request.place.open(&case, "wear", args.asked(&case, &method, service, histories))?;
+    let asked = args.asked(&case, &method, service, histories);
+    let mut results = args.request.place.open_growing(&case, "wear", asked, Some(YEARS))?;
     let first = within.map(|count| first_windows(&case, &method, count, !args.no_verdict, ui)).transpose()?;
     let histories = first.as_ref().map_or(histories, |study| study.realisations.count);
     let plan = Followed { case: &case, supports: &supports, method: &method, histories, service };
@@ -138,15 +143,18 @@ impl Args {
 
     /// The request, as it is recorded.
     fn asked(&self, case: &Case, method: &Method, service: f64, histories: usize) -> Map<String, Value> {
-        let settings = match &self.until_interval {
-            None => json!({ "service_s": service, "histories": histories }),
+        let mut settings = match &self.until_interval {
+            None => json!({ "histories": histories }),
             Some(share) => json!({
-                "service_s": service,
                 "until_interval": share,
                 "most_seeds": self.most_seeds,
                 "verdict": !self.no_verdict,
             }),
         };
+        // As they were asked for: years in seconds and back may differ in the last digit.
+        settings[YEARS] = json!(self.years.unwrap_or(service / YEAR));
+        // Windows are kept, and those of another version may differ.
+        settings["program"] = json!(program());
         extended(request("wear", case, &[*method]), settings)
     }
 }
@@ -191,27 +199,33 @@ impl Followed<'_> {
         let Self { case, supports, method, histories, service } = *self;
         let mut journal = WindowJournal::open(results, histories, anew)?;
         let mut kept = journal.kept()?;
+        let mut ran = 0;
         let members = first.map_or(&[][..], |study| &study.realisations.members);
         for member in members.iter().skip(kept.len()) {
             let window = WearWindow::of(member, supports);
             journal.keep(&window)?;
             kept.push(window);
+            ran += 1;
         }
         let scene = |number: u64, openings: &[Opening]| case.worn(number, supports, openings);
         let options = Options::new(case.time);
         let plan = WearPlan { supports, scene: &scene, method, options: &options, histories, service };
         let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step).times(WINDOWS);
         let estimate = estimate.on_all_cores(histories as f64);
-        let found = ui.with_estimate("wear", estimate, |bar| {
-            plan.follow(&kept, &mut |window| journal.keep(window), &mut |share| bar.set_share(share))
-        })?;
+        let mut keep = |window: &WearWindow| {
+            ran += 1;
+            journal.keep(window)
+        };
+        let found =
+            ui.with_estimate("wear", estimate, |bar| plan.follow(&kept, &mut keep, &mut |share| bar.set_share(share)))?;
         // The study has told of its own, but of the first.
         let told = 2..=members.len() as u64;
         for (number, findings) in found.refuted.iter().filter(|(number, _)| !told.contains(number)) {
             ui.refute(&format!("window {number}"), findings);
         }
-        let there = match journal.found() {
+        let there = match found.windows - ran {
             0 => String::new(),
+            _ if ran == 0 => ", all of them there already".to_owned(),
             count => format!(", {count} of them there already"),
         };
         Ok((found, there))

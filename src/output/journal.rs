@@ -39,12 +39,9 @@ pub(crate) struct Journal {
     synced: Instant,
 }
 
-/// True if `folder` has unfinished results that go on from the journal `name`.
-pub(crate) fn is_begun(folder: &Path, name: &str) -> bool {
-    let unfinished = |manifest: &serde_json::Value| {
-        !manifest::is_finished(manifest) && manifest::files(manifest).any(|file| file == name)
-    };
-    manifest::read(folder).is_some_and(|manifest| unfinished(&manifest))
+/// True if `folder` has results, finished or not, that go on from the journal `name`.
+pub(crate) fn is_there(folder: &Path, name: &str) -> bool {
+    manifest::read(folder).is_some_and(|manifest| manifest::files(&manifest).any(|file| file == name))
 }
 
 impl Journal {

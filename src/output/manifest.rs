@@ -37,14 +37,15 @@ pub(super) fn unknown_results(folder: &Path) -> Option<&'static str> {
     RESULTS.into_iter().find(|name| folder.join(name).exists())
 }
 
-/// Checks that `folder` holds no results of another request than `request`.
+/// Checks that `folder` holds no results of another request than `request`; with `growing`, a key,
+/// they may be those of the same request with a smaller number there.
 ///
 /// # Errors
 /// [`Error::Io`], marked as a wrong request; it says when the other results were made and what
 /// differs.
-pub(crate) fn check(folder: &Path, request: &Map<String, Value>) -> Result<()> {
+pub(crate) fn check(folder: &Path, request: &Map<String, Value>, growing: Option<&str>) -> Result<()> {
     let refused = match read(folder) {
-        Some(other) => differences(other.get("request"), request).map(|what| {
+        Some(other) => differences(grown(&other, request, growing).as_ref(), request).map(|what| {
             format!("holds results of another request, made {}:{what}", made(&other).unwrap_or("at some time"))
         }),
         None => unknown_results(folder)
@@ -57,6 +58,19 @@ pub(crate) fn check(folder: &Path, request: &Map<String, Value>) -> Result<()> {
         }
         None => Ok(()),
     }
+}
+
+/// The request of the manifest `other`, with the number that `request` has under the key `growing`
+/// in place of a smaller one.
+fn grown(other: &Value, request: &Map<String, Value>, growing: Option<&str>) -> Option<Value> {
+    let mut there = other.get("request")?.clone();
+    if let Some((key, asked)) = growing.and_then(|key| Some((key, request.get(key)?)))
+        && let Some(value) = there.get_mut(key)
+        && value.as_f64().zip(asked.as_f64()).is_some_and(|(there, asked)| there < asked)
+    {
+        *value = asked.clone();
+    }
+    Some(there)
 }
 
 /// The manifest in `folder`, if there is one that can be read.

@@ -54,6 +54,11 @@ pub fn request(command: &str, case: &Case, methods: &[Method]) -> Map<String, Va
     request
 }
 
+/// This program with its version, where results of another version are those of another request.
+pub(crate) fn program() -> String {
+    format!("signorini {}", env!("CARGO_PKG_VERSION"))
+}
+
 /// A request with further keys.
 #[must_use]
 pub fn extended(mut request: Map<String, Value>, more: Value) -> Map<String, Value> {

@@ -8,16 +8,19 @@
 //! results as they were. One amidst it leaves a manifest that says so, and the same request
 //! replaces everything that it lists.
 
+mod stage;
 #[cfg(test)]
 mod tests;
 
-use super::atomic::{STAGE, check_folder, remove_abandoned, sync_files, sync_folder};
+use super::atomic::{check_folder, remove_abandoned, sync_files, sync_folder};
 use super::format::Format;
 use super::lock::Lock;
 use super::manifest::{self, UNFINISHED};
 use super::record::{DOCUMENTS, Record, TABLES};
+use super::request::program;
 use crate::error::{Error, Result};
 use serde_json::{Map, Value, json};
+use stage::Stage;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
 use std::fs;
@@ -44,9 +47,11 @@ pub struct Results {
     told: Map<String, Value>,
     /// The file from which this request goes on after an interruption.
     journal: Option<String>,
+    /// True where it stays beside the finished results.
+    journal_stays: bool,
     /// Folders in which folders were made that lead to this one.
     entered: Vec<PathBuf>,
-    _stage: Stage,
+    stage: Stage,
     _lock: Lock,
 }
 
@@ -54,34 +59,6 @@ pub struct Results {
 struct Before {
     made: Option<String>,
     files: Vec<String>,
-}
-
-/// The folder of files that are not yet in their places; it is removed in the end, whatever is left
-/// in it.
-#[derive(Debug)]
-struct Stage(PathBuf);
-
-impl Stage {
-    /// That of `folder`, empty, whatever a process left there that was killed.
-    fn of(folder: &Path) -> Self {
-        let stage = Self(folder.join(STAGE));
-        stage.clear();
-        stage
-    }
-
-    fn clear(&self) {
-        let _ = match fs::symlink_metadata(&self.0) {
-            Ok(meta) if meta.is_dir() => fs::remove_dir_all(&self.0),
-            Ok(_) => fs::remove_file(&self.0),
-            Err(_) => Ok(()),
-        };
-    }
-}
-
-impl Drop for Stage {
-    fn drop(&mut self) {
-        self.clear();
-    }
 }
 
 impl Results {
@@ -94,7 +71,22 @@ impl Results {
     /// [`Error::Io`], marked as a wrong request; it says when the other results were made and what
     /// differs, or that another process is at work in the folder.
     pub fn open(folder: &Path, request: Map<String, Value>, force: bool, formats: Vec<Format>) -> Result<Self> {
-        let check = || if force { Ok(()) } else { manifest::check(folder, &request) };
+        Self::open_growing(folder, request, None, force, formats)
+    }
+
+    /// As [`Results::open`]; with `growing`, a key of the request, the folder may also hold results
+    /// of the same request with a smaller number there, from which this one goes on.
+    ///
+    /// # Errors
+    /// As [`Results::open`].
+    pub(crate) fn open_growing(
+        folder: &Path,
+        request: Map<String, Value>,
+        growing: Option<&str>,
+        force: bool,
+        formats: Vec<Format>,
+    ) -> Result<Self> {
+        let check = || if force { Ok(()) } else { manifest::check(folder, &request, growing) };
         check()?;
         let absent = folder.ancestors().take_while(|ancestor| !ancestor.as_os_str().is_empty() && !ancestor.exists());
         let entered = absent.filter_map(Path::parent).map(Path::to_owned).collect();
@@ -120,8 +112,9 @@ impl Results {
             documents: BTreeMap::new(),
             told: Map::new(),
             journal: None,
+            journal_stays: false,
             entered,
-            _stage: Stage::of(folder),
+            stage: Stage::of(folder),
             _lock: lock,
         })
     }
@@ -153,7 +146,7 @@ impl Results {
     }
 
     fn staged(&self, name: &str) -> PathBuf {
-        self.folder.join(STAGE).join(name)
+        self.stage.place(name)
     }
 
     /// Writes the picture `svg` in each format asked for, as `name` with the extension of the
@@ -181,12 +174,13 @@ impl Results {
     #[must_use]
     pub fn manifest(&self) -> Value {
         let mut manifest = Map::new();
-        manifest.insert("program".to_owned(), json!(format!("signorini {}", env!("CARGO_PKG_VERSION"))));
+        manifest.insert("program".to_owned(), json!(program()));
         let made = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
         manifest.insert("made".to_owned(), json!(made));
         manifest.extend(self.told.clone());
         manifest.insert("request".to_owned(), json!(self.request));
-        manifest.insert("files".to_owned(), json!(self.files));
+        let journal = self.journal.iter().filter(|_| self.journal_stays);
+        manifest.insert("files".to_owned(), json!(self.files.iter().chain(journal).collect::<Vec<_>>()));
         manifest.insert(TABLES.to_owned(), json!(self.tables));
         manifest.insert(DOCUMENTS.to_owned(), json!(self.documents));
         Value::Object(manifest)
@@ -214,7 +208,7 @@ impl Results {
                 _ => continue,
             };
             if !records.contains_key(name) {
-                let path = self.folder.join(STAGE).join(name);
+                let path = self.stage.place(name);
                 let record = fs::File::open(&path).and_then(Record::of).map_err(|error| failure(&path, error))?;
                 records.insert(name.clone(), record);
             }
@@ -232,16 +226,31 @@ impl Results {
         self.write_unfinished()
     }
 
+    /// As [`Results::begin`], with a journal that stays beside the finished results: a larger
+    /// request can go on from there.
+    ///
+    /// # Errors
+    /// As [`Results::begin`].
+    pub(crate) fn begin_and_keep(&mut self, journal: &str) -> Result<()> {
+        self.journal_stays = true;
+        self.begin(journal)
+    }
+
     /// The manifest from the first change in the folder to the last: with the files of the earlier
     /// results, which are still to be removed.
     fn write_unfinished(&self) -> Result<()> {
-        let earlier = self.before.iter().flat_map(|before| &before.files).filter(|name| !self.files.contains(name));
+        let earlier = self.before.iter().flat_map(|before| &before.files).filter(|name| !self.is_own(name));
         let files: Vec<&String> = self.files.iter().chain(&self.journal).chain(earlier).collect();
         let mut manifest = self.manifest();
         manifest["files"] = json!(files);
         manifest[UNFINISHED] = json!(true);
         manifest::write(&self.folder, &manifest)?;
         self.entered.iter().try_for_each(|folder| sync_folder(folder))
+    }
+
+    /// True if `name` is a file of these results, or their journal.
+    fn is_own(&self, name: &String) -> bool {
+        self.files.contains(name) || self.journal.as_ref() == Some(name)
     }
 
     /// Takes over the results of this request in the folder, as they are: those of the tables
@@ -283,11 +292,10 @@ impl Results {
         // Results that are taken over are not replaced.
         let (before, taken_over) = (self.before.take(), self.finished);
         if let Some(before) = &before {
-            let stays = |name: &String| self.files.contains(name) || self.journal.as_ref() == Some(name);
-            before.files.iter().filter(|name| !stays(name)).for_each(|name| self.take_away(name));
+            before.files.iter().filter(|name| !self.is_own(name)).for_each(|name| self.take_away(name));
         }
         manifest::write(&self.folder, &self.manifest())?;
-        if let Some(journal) = self.journal.take() {
+        if let Some(journal) = self.journal.take_if(|_| !self.journal_stays) {
             // If it cannot be removed, the next process finds the results finished.
             let _ = fs::remove_file(self.folder.join(journal));
         }

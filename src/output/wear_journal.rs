@@ -1,7 +1,7 @@
 //! `windows.journal`: the windows of histories of wear that were run, so that an interrupted study
-//! goes on.
+//! goes on, and a finished one to further years.
 
-use super::journal::{Journal, is_begun};
+use super::journal::{Journal, is_there};
 use super::results::Results;
 use crate::error::Result;
 use crate::study::wear_history::WearWindow;
@@ -17,29 +17,22 @@ const MOST_WINDOWS: u64 = 4096;
 #[derive(Debug)]
 pub struct WindowJournal {
     journal: Journal,
-    /// Number of windows that an earlier process had run.
-    found: u64,
 }
 
 impl WindowJournal {
     /// Opens the journal in the folder of `results`, for `histories` histories: as it is, where the
-    /// folder holds what is left of this request and it does not begin `anew`.
+    /// folder holds results of this request, whole or not, or of fewer years, and it does not begin
+    /// `anew`.
     ///
     /// # Errors
     /// [`crate::Error::Io`] where it cannot be read or written.
     pub fn open(results: &mut Results, histories: usize, anew: bool) -> Result<Self> {
         let folder = results.folder().to_owned();
         let windows = MOST_WINDOWS.saturating_mul(histories as u64);
-        let anew = anew || !is_begun(&folder, JOURNAL);
+        let anew = anew || !is_there(&folder, JOURNAL);
         let journal = Journal::open(&folder, JOURNAL, windows, anew, |number| place(number, windows))?;
-        results.begin(JOURNAL)?;
-        Ok(Self { found: journal.done(), journal })
-    }
-
-    /// Number of windows that an earlier process had run.
-    #[must_use]
-    pub fn found(&self) -> u64 {
-        self.found
+        results.begin_and_keep(JOURNAL)?;
+        Ok(Self { journal })
     }
 
     /// The windows that earlier processes have run, from number 1 up to the first that is not

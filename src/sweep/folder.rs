@@ -58,7 +58,7 @@ impl Plan {
         let mut request = request::extended(
             request::request("sweep", &self.base, &methods),
             json!({
-                "program": program(),
+                "program": request::program(),
                 "case_text".to_owned() + FINGERPRINT: sweep.case.text().ok().map(|text| sha256(text.as_bytes())),
                 "scheme": sweep.scheme,
                 "vary": axes,
@@ -82,10 +82,6 @@ impl Plan {
         }
         request
     }
-}
-
-fn program() -> String {
-    format!("signorini {}", env!("CARGO_PKG_VERSION"))
 }
 
 fn described(axis: &Axis, column: &str) -> Value {

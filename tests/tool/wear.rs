@@ -390,7 +390,99 @@ fn an_interrupted_study_goes_on_with_the_same_bytes() {
     for file in ["history.csv", "years.csv", "wear.svg"] {
         assert!(fs::read(path.join("killed").join(file)).unwrap() == fs::read(path.join("whole").join(file)).unwrap());
     }
-    assert!(!journal.exists());
+    // It stays, so that more years go on from it.
+    assert!(journal.exists());
+}
+
+/// 1 kg in two planes in a square of bars that recede, shaken in both.
+const SHAKEN: &str = r#"[system]
+planes = 2
+
+[system.oscillator]
+mass = 1.0
+damping = 2.0
+stiffness = 400.0
+
+[[support]]
+name = "bars"
+shape = "flats"
+sides = 4
+gap = 2e-3
+restitution = 0.5
+width = 25e-3
+radius = 9.525e-3
+growth = "flats"
+
+[[load]]
+direction = "both"
+random = { rms = 3.0, from = 1.0, to = 20.0, seed = 7 }
+
+[wear]
+coefficient = 1e-15
+support_coefficient = 1e-15
+service = 3.15576e8
+
+[time]
+end = 1.0
+step = 1e-3
+statistics_from = 0.2
+"#;
+
+#[test]
+fn more_years_go_on_from_those_that_are_there_and_are_those_of_a_study_from_the_start() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    fs::write(path.join("shaken.toml"), SHAKEN).unwrap();
+    let short = ["wear", "shaken.toml"];
+    let same = |a: &str, b: &str| {
+        for file in ["history.csv", "years.csv", "wear.svg"] {
+            assert!(fs::read(path.join(a).join(file)).unwrap() == fs::read(path.join(b).join(file)).unwrap(), "{file}");
+        }
+    };
+    let runs = |err: &str| {
+        let (_, after) = err.split_once("shaken by ").unwrap();
+        let number = |text: &str| text.trim().parse::<u64>().unwrap();
+        let all = number(after.split_once(": ").unwrap().1.split_once(" runs").unwrap().0);
+        match after.split_once("s, ").and_then(|(_, rest)| rest.split_once(" of them there already")) {
+            Some(("all", _)) => (all, all),
+            Some((there, _)) => (all, number(there)),
+            None => (all, 0),
+        }
+    };
+    let ask = |out: &str, years: &str, more: &[&str]| {
+        let (_, err) = said(path, &[&short[..], &["--years", years, "--out", out], more].concat(), 0);
+        runs(&err)
+    };
+    for (name, more) in [("h", &["--histories", "2"][..]), ("i", &["--until-interval", "90%", "--no-verdict"])] {
+        let grown = format!("{name}-grown");
+        let (first, there) = ask(&grown, "50", more);
+        assert_eq!(there, 0);
+        assert_eq!(ask(&grown, "50", more), (first, first), "nothing is run again");
+        let (_, there) = ask(&grown, "90", more);
+        // All but the runs of the last step, which was cut to end in year 50, and of its end.
+        let manifest = fs::read_to_string(path.join(&grown).join("request.json")).unwrap();
+        let histories = serde_json::from_str::<serde_json::Value>(&manifest).unwrap()["histories"].as_u64().unwrap();
+        assert!(there >= first - 2 * histories && there > histories, "{there} of {first}");
+        assert_eq!(ask(name, "90", more).1, 0);
+        same(name, &grown);
+    }
+    // An interruption while it goes on, which leaves what it has run and what is there.
+    let journal = path.join("h-grown/windows.journal");
+    let whole = fs::read(&journal).unwrap();
+    let end = whole.windows(2).rposition(|two| two == b"\n@").unwrap();
+    fs::write(&journal, &whole[..end]).unwrap();
+    let (all, there) = ask("h-grown", "90", &["--histories", "2"]);
+    assert!(there < all);
+    same("h", "h-grown");
+    let refused = |args: &[&str], words: &str| {
+        let (_, err) = said(path, &[&short[..], &["--out", "h-grown"], args].concat(), 2);
+        assert!(err.contains(words) && err.contains("--force"), "{args:?}: {err}");
+    };
+    refused(&["--histories", "2", "--years", "50"], "years: 90 there, 50 asked");
+    refused(&["--histories", "3", "--years", "99"], "histories: 2 there, 3 asked");
+    refused(&["--histories", "2", "--years", "99", "--set", "support.bars.gap=1e-3"], "0.001 asked");
+    refused(&["--histories", "2", "--years", "99", "--set", "load.1.random.seed=8"], "8 asked");
+    same("h", "h-grown");
 }
 
 #[test]

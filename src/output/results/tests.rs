@@ -108,3 +108,42 @@ fn an_interrupted_request_names_its_journal_and_earlier_files() {
     assert_eq!(later[TABLES], manifest[TABLES]);
     assert_eq!(super::manifest::files(&later).collect::<Vec<_>>(), ["new.csv", "picture.svg"]);
 }
+
+/// A journal that stays is one of the files of the results, until another request replaces them.
+#[test]
+fn a_larger_request_goes_on_from_the_journal_of_finished_results() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let open = |end: f64, force: bool| Results::open_growing(path, request(end), Some("end_s"), force, Vec::new());
+    let mut results = open(2.0, false).unwrap();
+    fs::write(path.join("journal"), "1").unwrap();
+    results.begin_and_keep("journal").unwrap();
+    write_whole(&results.place("a.csv").unwrap(), b"x\n").unwrap();
+    results.finish().unwrap();
+    // What is added later changes nothing of that.
+    write_whole(&results.place("b.csv").unwrap(), b"x\n").unwrap();
+    results.finish().unwrap();
+    drop(results);
+    let files = || {
+        let manifest = super::manifest::read(path).unwrap();
+        super::manifest::files(&manifest).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(files(), ["a.csv", "b.csv", "journal"]);
+    // The request has a fingerprint of the same number, which may not differ.
+    let refused = open(3.0, false).unwrap_err().to_string();
+    assert!(refused.contains("walls: other data there") && !refused.contains("end_s"), "{refused}");
+    let refused = open(1.0, false).unwrap_err().to_string();
+    assert!(refused.contains("end_s: 2 there, 1 asked"), "{refused}");
+    let mut grown = request(2.0);
+    grown.insert("end_s".to_owned(), json!(3.0));
+    let mut results = Results::open_growing(path, grown, Some("end_s"), false, Vec::new()).unwrap();
+    results.begin_and_keep("journal").unwrap();
+    assert_eq!(files(), ["journal", "a.csv", "b.csv"]);
+    write_whole(&results.place("a.csv").unwrap(), b"x\n").unwrap();
+    results.finish().unwrap();
+    assert_eq!(files(), ["a.csv", "journal"]);
+    assert!(path.join("journal").exists() && !path.join("b.csv").exists());
+    drop(results);
+    fill(path, 1.0, true, "c.csv").unwrap();
+    assert!(!path.join("journal").exists());
+}

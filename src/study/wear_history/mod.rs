@@ -27,7 +27,7 @@ pub use state::{WearHistories, WearPoint, WearState, mean};
 pub use support::WearingSupport;
 pub use window::WearWindow;
 
-use super::realisations::{mean_of, realisations};
+use super::realisations::{Realisation, mean_of, realisations};
 use crate::error::{Error, Result};
 use crate::run::Options;
 use crate::scene::Scene;
@@ -71,8 +71,10 @@ type Works = Vec<Vec<WearWork>>;
 
 impl WearPlan<'_> {
     /// Follows the histories. The windows that were `kept` by an earlier call, numbers 1, 2, … in
-    /// order, are not run again; `keep` is called with each that is run, and `progress` with the
-    /// share of the service that is done.
+    /// order, are not run again where these histories have the same supports in them: all of those
+    /// of the same call, and those of a call for a shorter service up to its last step, which ends
+    /// with that service. So what is found does not depend on what was kept. `keep` is called with
+    /// each window that is run, and `progress` with the share of the service that is done.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a service that is not above 0, for no history, and for a support
@@ -133,7 +135,7 @@ impl WearPlan<'_> {
     }
 
     /// The rates in a window of each history after the work `work` (J), which is run unless all of
-    /// them were kept.
+    /// them were kept, with the supports as they are after that work.
     fn rates(
         &self,
         work: &Works,
@@ -142,16 +144,17 @@ impl WearPlan<'_> {
         keep: &mut dyn FnMut(&WearWindow) -> Result<()>,
     ) -> Result<Works> {
         let (first, last) = (found.windows + 1, found.windows + self.histories as u64);
-        let windows = match kept.get(found.windows as usize..last as usize) {
+        let openings: Vec<Vec<Opening>> = work.iter().map(|history| self.openings(history)).collect();
+        let same = |windows: &&[WearWindow]| windows.iter().map(|window| &window.openings).eq(&openings);
+        let windows = match kept.get(found.windows as usize..last as usize).filter(same) {
             Some(windows) => windows.to_vec(),
             None => {
-                let scene = |number: u64| {
-                    let history = work.get((number - first) as usize).map_or(&[][..], Vec::as_slice);
-                    let openings = self.supports.iter().zip(history).map(|(support, work)| support.opening(work));
-                    (self.scene)(number, &openings.collect::<Vec<_>>())
-                };
+                let of = |number: u64| openings.get((number - first) as usize).map_or(&[][..], Vec::as_slice);
+                let scene = |number: u64| (self.scene)(number, of(number));
                 let members = realisations(first..=last, &scene, self.method, self.options, &mut |_| {})?;
-                let windows: Vec<_> = members.iter().map(|member| WearWindow::of(member, self.supports)).collect();
+                let window =
+                    |member: &Realisation| WearWindow::after(member, self.supports, of(member.number).to_vec());
+                let windows: Vec<_> = members.iter().map(window).collect();
                 windows.iter().try_for_each(keep)?;
                 windows
             }
@@ -160,6 +163,11 @@ impl WearPlan<'_> {
         let refuted = windows.iter().filter(|window| !window.findings.is_empty());
         found.refuted.extend(refuted.map(|window| (window.number, window.findings.clone())));
         Ok(windows.into_iter().map(|window| window.rates).collect())
+    }
+
+    /// What the work (J) of a history has made of each support.
+    fn openings(&self, history: &[WearWork]) -> Vec<Opening> {
+        self.supports.iter().zip(history).map(|(support, work)| support.opening(work)).collect()
     }
 
     fn point(&self, time: f64, work: &Works, rates: &Works) -> WearPoint {
