@@ -207,9 +207,9 @@ mod tests {
     fn a_run_checks_its_scene_and_factors_its_matrices_once() {
         assert_eq!(counted("chain-200"), (2, vec![200; 5]));
         // The whole tube: M, C and K; two factors to find its modes, and one for the static
-        // remainder. The reduced scene: the same as for the chain but for C, which is diagonal
-        // there, and the matrix of a step twice, once to estimate how long the run will take.
-        let [whole, modes] = [vec![120; 6], vec![20; 5]];
+        // remainder. The reduced scene, whose matrices are diagonal: M and K, and the matrix of a
+        // step twice, once to estimate how long the run will take.
+        let [whole, modes] = [vec![120; 6], vec![20; 4]];
         assert_eq!(counted("tube-loose-supports"), (4, [whole, modes].concat()));
     }
 }

@@ -99,6 +99,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     output::write(&mut results, &found)?;
     if let Some(study) = &first {
         realisations::write(study, &mut results)?;
+        results.add_to_manifest("realisations", json!(study.realisations));
     }
     results.draw("wear", &output::figure(&case, &found))?;
     let notes = case.notes();

@@ -17,6 +17,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "answers": folder.manifest["answers"],
             "supports": names(&folder.manifest["supports"]),
             "seeds": folder.manifest["histories"],
+            "first": folder.manifest["realisations"],
         },
         "margins": folder.manifest["fluid_elastic"],
         "case": case_text(&folder.manifest["case_file"]),

@@ -148,7 +148,10 @@ fn pages_open_and_their_controls_work_in_a_browser() {
         ),
         results(dir.path(), &["run", "bars.toml", "--no-verdict"]),
         results(dir.path(), &["run", "tube-round-supports", "--end", "0.3", "--no-verdict"]),
-        results(dir.path(), &["wear", "tube-in-cross-flow", "--end", "0.3", "--histories", "2", "--years", "20"]),
+        results(
+            dir.path(),
+            &["wear", "tube-in-cross-flow", "--end", "0.3", "--until-interval", "99%", "--years", "20"],
+        ),
     ];
     for page in pages.iter().chain([&run]) {
         let mut tab = opened(&mut browser, page);
@@ -174,13 +177,18 @@ fn pages_open_and_their_controls_work_in_a_browser() {
     assert_ne!(tab.evaluate(drawing), still);
     tab.close();
 
-    // Wear over the years: a plot for each unit, and a row for each time.
+    // Wear over the years: a plot for each unit, and a row for each time; the means of the first
+    // runs, six at each of two supports.
     let mut tab = opened(&mut browser, &pages[6]);
     let shown = "[document.querySelectorAll('#wear .plot').length, \
         document.querySelectorAll('#years tbody tr:not(.space)').length > 1, \
+        document.querySelectorAll('#means tbody tr:not(.space)').length, \
         document.querySelector('#wear li').textContent].join(' ')";
     let shown = tab.evaluate(shown);
-    assert!(shown.as_str().unwrap().starts_with("2 true The tube reaches the limit of 0.660 mm at support"), "{shown}");
+    assert!(
+        shown.as_str().unwrap().starts_with("2 true 12 The tube reaches the limit of 0.660 mm at support"),
+        "{shown}"
+    );
     tab.close();
 
     // A click on a row of a sweep gives the command that keeps its run where the page looks for it.

@@ -1,7 +1,7 @@
 // The means over realisations of random loads, with their errors in parts.
 
-function meansSection() {
-  const { count, estimates, checks } = DATA.summary.realisations;
+/** Under `title`, those of `realisations`, of which `runs` says which they are. */
+function meansSection({ count, estimates, checks }, title, runs) {
   const judged = estimates.some(({ error }) => error);
   const words = (measure) => measure.replace(/_/g, " ");
   const name = (title, of) => ({ name: title, text: true, value: of, show: of });
@@ -26,8 +26,8 @@ function meansSection() {
   const again = checks.length ? `, step and modes from ${checks[0].count} of them run again` : "";
   section(
     "means",
-    "Means over realisations",
-    `Over ${count} realisations of the random loads, with 95 % intervals` +
+    title,
+    `Over ${runs(count)}, with 95 % intervals` +
       (judged
         ? `; the errors in per cent of the mean${again}. A part whose interval holds 0 is not seen, ` +
           "which is no proof that there is none."

@@ -121,7 +121,12 @@ root.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark"
 readInks();
 const menu = headSection();
 // What a study is made for stands before its first run.
-if (DATA.kind === "run" && DATA.summary.realisations) meansSection();
+if (DATA.kind === "run" && DATA.summary.realisations)
+  meansSection(
+    DATA.summary.realisations,
+    "Means over realisations",
+    (count) => `${count} realisations of the random loads`,
+  );
 if (lead && lead.probes.length && duration > 0) {
   if (DATA.compare && DATA.horizon) view.set(0, DATA.horizon);
   firstInstant();
@@ -134,7 +139,15 @@ if (lead && lead.probes.length) motionSection();
 if (DATA.chart) chartSection();
 if (DATA.stability) stabilitySection();
 if (DATA.sweep) sweepSection();
-if (DATA.wear) wearSection();
+if (DATA.wear) {
+  wearSection();
+  if (DATA.wear.first)
+    meansSection(
+      DATA.wear.first,
+      "Work rates and forces of the first runs",
+      (count) => `the first runs of the ${count} histories, in the gaps of the start`,
+    );
+}
 if (DATA.continue) branchSection();
 if (DATA.orbit) orbitSections();
 if (lead && lead.probes.length) phaseSection();

@@ -27,7 +27,10 @@ function wearColumns(table) {
 }
 
 function wearSection() {
-  const { answers, seeds } = DATA.wear;
+  const { answers, seeds, supports } = DATA.wear;
+  // A name stays as it is.
+  const sentence = (answer) =>
+    supports.some((name) => answer.startsWith(name)) ? answer : answer.charAt(0).toUpperCase() + answer.slice(1);
   const table = tableOf(DATA.wear.years);
   const columns = wearColumns(table);
   const measures = Object.keys(columns).filter((name) => name !== "year" && !isHalfWidth(name));
@@ -42,7 +45,7 @@ function wearSection() {
     seeds > 1
       ? `Means over ${seeds} histories, and as bands their 95 % intervals, by Student's t.`
       : "One history: without random loads all are the same.",
-    el("ul", {}, answers.map((answer) => el("li", {}, answer.charAt(0).toUpperCase() + answer.slice(1)))),
+    el("ul", {}, answers.map((answer) => el("li", {}, sentence(answer)))),
     measureCurves(columns, "year", measures, tell, () => {}),
   );
   const rows = Array.from({ length: columns.year.length }, (_, i) => i);
