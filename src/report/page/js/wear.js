@@ -30,7 +30,7 @@ function wearSection() {
   const { answers, seeds, supports } = DATA.wear;
   // A name stays as it is.
   const sentence = (answer) =>
-    supports.some((name) => answer.startsWith(name)) ? answer : answer.charAt(0).toUpperCase() + answer.slice(1);
+    supports.some(({ name }) => answer.startsWith(name)) ? answer : answer.charAt(0).toUpperCase() + answer.slice(1);
   const table = tableOf(DATA.wear.years);
   const columns = wearColumns(table);
   const measures = Object.keys(columns).filter((name) => name !== "year" && !isHalfWidth(name));
