@@ -46,6 +46,9 @@ pub enum Measure {
     ForceMean,
     /// Root mean square of the force over time, N; see [`ForceStatistics`](crate::ForceStatistics).
     ForceRms,
+    /// The largest mean of |force| over any stretch of `force_averaging`, N; see
+    /// [`LargestForce`](crate::LargestForce).
+    ForceLargest,
     /// Mean over episodes of the largest |force|, N, over those whose force is finite.
     PeakForceMean,
     /// Largest of them, N.
@@ -73,7 +76,7 @@ pub enum Measure {
     /// Root mean square of the support's force over time, N; see
     /// [`SupportForce`](crate::SupportForce).
     SupportForceRms,
-    /// Largest force of an episode, N, of those whose force is finite.
+    /// The largest mean of the support's normal force over any stretch of `force_averaging`, N.
     SupportForceLargest,
     /// Volume worn off the tube within the service of the case, m³, by Archard's law.
     WornVolume,
@@ -107,7 +110,7 @@ pub enum Measure {
 }
 
 /// Name, scope, and unit as column names write it.
-const MEASURES: [(Measure, &str, Scope, Option<&str>); 37] = [
+const MEASURES: [(Measure, &str, Scope, Option<&str>); 38] = [
     (Measure::Contacts, "contacts", Scope::Wall, None),
     (Measure::Impacts, "impacts", Scope::Wall, None),
     (Measure::ContactRate, "contact_rate", Scope::Wall, Some("per_s")),
@@ -118,6 +121,7 @@ const MEASURES: [(Measure, &str, Scope, Option<&str>); 37] = [
     (Measure::ImpulseRms, "impulse_rms", Scope::Wall, Some("N_s")),
     (Measure::ForceMean, "force_mean", Scope::Wall, Some("N")),
     (Measure::ForceRms, "force_rms", Scope::Wall, Some("N")),
+    (Measure::ForceLargest, "force_largest", Scope::Wall, Some("N")),
     (Measure::PeakForceMean, "peak_force_mean", Scope::Wall, Some("N")),
     (Measure::PeakForceMax, "peak_force_max", Scope::Wall, Some("N")),
     (Measure::ImpactPower, "impact_power", Scope::Wall, Some("W")),
@@ -231,7 +235,13 @@ impl Measure {
     pub(super) fn sees_force(self) -> bool {
         matches!(
             self,
-            Self::Impulse | Self::ForceMean | Self::ForceRms | Self::SupportForceMean | Self::SupportForceRms
+            Self::Impulse
+                | Self::ForceMean
+                | Self::ForceRms
+                | Self::ForceLargest
+                | Self::SupportForceMean
+                | Self::SupportForceRms
+                | Self::SupportForceLargest
         )
     }
 
