@@ -22,19 +22,22 @@ impl Judge {
         let (start, h) = (motion.start, self.h);
         let (place, gap, law) = (hole.index, hole.gap, hole.law);
         let (r0, r1, c) = (start[0].hypot(start[1]), end[0].hypot(end[1]), law.damping());
+        let noise = self.noise.place(self.way(hole, motion));
         // The vector along which the ring pushes, its pressure, and how that changes with depth.
+        // Where rounding decides the pressure there are two, and either is accepted.
         let (at, expected, slope) = match (law.spring(), self.contract.promise.elastic.law) {
             (Some(WallSpring { stiffness, damping }), Law::Depth(theta)) => {
                 let at = [0, 1].map(|i: usize| (1.0 - theta) * start[i] + theta * end[i]);
                 let distance = at[0].hypot(at[1]);
                 // Where the dashpot's plate is at the step's start: on the body or the circle.
-                let plate = if self.contract.promise.hole == Some(Bound::Along) && r0 >= gap {
-                    (at[0] * start[0] + at[1] * start[1]) / distance
-                } else {
-                    r0.max(gap)
+                let (body, circle) = ((at[0] * start[0] + at[1] * start[1]) / distance, r0.max(gap));
+                let plates = match self.contract.promise.hole == Some(Bound::Along) {
+                    true if (r0 - gap).abs() <= noise => [body, circle],
+                    true if r0 >= gap => [body; 2],
+                    _ => [circle; 2],
                 };
-                let pressure = stiffness * (distance - gap) + damping * (distance - plate) / (theta * h);
-                (at, pressure, stiffness + damping / (theta * h))
+                let pressure = |plate: f64| stiffness * (distance - gap) + damping * (distance - plate) / (theta * h);
+                (at, plates.map(pressure), stiffness + damping / (theta * h))
             }
             (_, Law::Gradient) => {
                 let at = [0, 1].map(|i: usize| 0.5 * (start[i] + end[i]));
@@ -43,15 +46,14 @@ impl Judge {
                 // Over the way from w to w⁺ the force does the work of the pressure over
                 // |w⁺| − |w|.
                 let share = 2.0 * at[0].hypot(at[1]) / (r0 + r1);
-                (at, mean * share, law.tangent(s0.max(s1).max(f64::MIN_POSITIVE)) + 2.0 * c / h)
+                (at, [mean * share; 2], law.tangent(s0.max(s1).max(f64::MIN_POSITIVE)) + 2.0 * c / h)
             }
             _ => return,
         };
         let distance = at[0].hypot(at[1]);
         let pressure = did.impulse / h;
-        let error = (pressure - expected.max(0.0)).abs();
-        let noise = self.noise.place(self.way(hole, motion));
-        self.walls.observe_law(&self.noise, place, error, slope * noise);
+        let [error, other] = expected.map(|expected| (pressure - expected.max(0.0)).abs());
+        self.walls.observe_law(&self.noise, place, error.min(other), slope * noise);
         if pressure != 0.0 {
             let across = pressure * (did.normal[0] - at[0] / distance).hypot(did.normal[1] - at[1] / distance);
             let noise = pressure * noise / distance + self.noise.wall_force(place);
