@@ -5,8 +5,8 @@ use super::drawing::Formats;
 use super::pipeline::Answer;
 use super::sweep::{picture_messages, show_effects, show_means, status_document, status_messages};
 use crate::error::Result;
-use crate::sweep::{Merged, effects, merge_in, write_effects, write_summary};
-use serde_json::{Value, json};
+use crate::sweep::{Merged, asked, effects, merge_in, write_effects, write_summary};
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Join the shards of a sweep: gives the same tables as the sweep that was not divided
@@ -52,7 +52,7 @@ pub fn answer(args: &Args) -> Result<Answer> {
     write_effects(&mut results, &effects)?;
     let document = write_summary(&mut results, document)?;
     let mut answer = Answer::of(results, !args.no_report, document);
-    show_effects(&mut answer, &effects, request.get("seeds").and_then(Value::as_u64));
+    show_effects(&mut answer, &effects, asked(&request));
     show_means(&mut answer, &args.out, &request)?;
     answer.messages(unverified.iter().map(|folder| {
         format!("{}: of a version that recorded no digests: its tables are not verified", folder.display())

@@ -4,6 +4,8 @@ use super::folder::{Cells, Folder};
 use super::html::FILE;
 use crate::error::{Error, Result};
 use crate::output::manifest::MANIFEST;
+use crate::study::realisations::RealisationCount;
+use crate::sweep::{asked, in_words};
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::Path;
@@ -66,6 +68,14 @@ pub(super) fn names(list: &Value) -> Vec<Value> {
     list.as_array().into_iter().flatten().map(|name| json!({ "name": name })).collect()
 }
 
+/// The arguments of `run` for so many realisations.
+fn seeds_asked(count: RealisationCount) -> String {
+    match count {
+        RealisationCount::Exactly(count) => format!("--seeds {count}"),
+        RealisationCount::Within { share, most } => format!("--until-interval {share} --most-seeds {most}"),
+    }
+}
+
 /// What the page of a sweep shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     if let Some(reason) = too_large(folder)? {
@@ -76,14 +86,15 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let attractors = if folder.has(ATTRACTORS) { Some(folder.cells(ATTRACTORS)?) } else { None };
     let effects = if folder.has(EFFECTS) { Some(folder.cells(EFFECTS)?) } else { None };
     let request = &folder.manifest["request"];
+    let seeds = request.as_object().and_then(asked);
     let axes: Vec<Value> = request["vary"].as_array().cloned().unwrap_or_default();
     let summary = if folder.has("summary.json") { folder.json("summary.json")? } else { Value::Null };
     let program = folder.manifest["program"].as_str().unwrap_or_default();
     Ok(json!({
         "program": program,
         "title": summary["title"],
-        "subtitle": match request["seeds"].as_u64() {
-            Some(count) => format!("{} rows × {count} realisations", table.rows.len()),
+        "subtitle": match seeds {
+            Some(count) => format!("{} rows × {}", table.rows.len(), in_words(count)),
             None => format!("{} rows", table.rows.len()),
         },
         "command": summary["command_line"],
@@ -96,7 +107,8 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "walls": names(&request["wall_names"]),
             "scheme": request["methods"][0],
             "kept": kept(folder.path, &table),
-            "seeds": request["seeds"],
+            "seeds": seeds.map(in_words),
+            "seeds_asked": seeds.map(seeds_asked),
             "unjudged": summary["status"]["unjudged"].as_u64().unwrap_or(0),
         },
         "case": folder.manifest["case_text"],

@@ -5,19 +5,21 @@ use super::found::RowsFound;
 use super::plan::{Plan, Point};
 use super::request::Kernel;
 use super::row::Row;
+use super::run_set::RunSet;
 use super::shard::Shard;
 use crate::error::Result;
 use crate::interrupt::Carried;
 use crate::parallel::{Take, on_threads};
 
 impl Plan {
-    /// Computes the chains of `shard` on `threads` threads, each from the row after those `found`.
+    /// Computes the `runs` of the chains of `shard` on `threads` threads, each from the row after
+    /// those `found`.
     /// Every row, those of a chain in their order, goes through `convert` on its own thread, and
     /// then to `receive` on this one. Chains begin in their order, so the rows of a journal are
     /// nearly sorted.
     pub(super) fn compute<T: Send>(
         &self,
-        shard: Shard,
+        (shard, runs): (Shard, &RunSet),
         threads: usize,
         found: &RowsFound,
         convert: &(dyn Fn(Row) -> T + Sync),
@@ -25,19 +27,18 @@ impl Plan {
     ) -> Result<()> {
         let interrupt = Carried::here();
         let work = |group: u64, send: &mut Take<'_, T>| {
-            self.group(group, shard, found, &mut |row| {
+            self.group(group, (shard, runs), found, &mut |row| {
                 interrupt.check()?;
                 Ok(send(convert(row)))
             })
         };
-        on_threads(self.groups(shard), threads, &work, receive)
+        on_threads(self.groups(shard, runs), threads, &work, receive)
     }
 
-    /// Number of groups of chains of `shard`; a group is computed by one thread. Each realisation
-    /// of a chain is a group.
-    pub(super) fn groups(&self, shard: Shard) -> u64 {
-        let chains = shard.chains(self.chains);
-        if self.sweep.kernel == Kernel::Batch { chains.div_ceil(TOGETHER) } else { chains * self.runs_of_row() }
+    /// Number of groups of `runs`, those of chains of `shard`; a group is computed by one thread.
+    /// Each realisation of a chain is a group.
+    pub(super) fn groups(&self, shard: Shard, runs: &RunSet) -> u64 {
+        if self.sweep.kernel == Kernel::Batch { shard.chains(self.chains).div_ceil(TOGETHER) } else { runs.count() }
     }
 
     /// Computes the rows of group number `group` that were not `found`, one after another, and
@@ -48,7 +49,7 @@ impl Plan {
     pub(super) fn group(
         &self,
         group: u64,
-        shard: Shard,
+        (shard, runs): (Shard, &RunSet),
         found: &RowsFound,
         take: &mut dyn FnMut(Row) -> Result<bool>,
     ) -> Result<()> {
@@ -63,10 +64,11 @@ impl Plan {
             }
             return Ok(());
         }
-        let (done, mut start) = found.chain(group);
-        let (chain, realisation) = (shard.chain(group / self.runs_of_row()), group % self.runs_of_row() + 1);
+        let (own, index) = runs.at(group);
+        let (done, mut start) = found.chain(own * self.runs_of_row() + index);
+        let chain = shard.chain(own);
         for along in done..self.chain_rows() {
-            let realisation = self.sweep.realisations.map(|_| realisation);
+            let realisation = self.sweep.realisations.map(|_| index + 1);
             let row = self.row(&Point { realisation, ..self.point(chain, along) }, start.as_ref());
             // A row that failed leaves no state: the next one starts from the case's initial state.
             start = row.end.clone().filter(|_| self.sweep.followed().is_some());

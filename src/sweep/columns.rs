@@ -1,8 +1,10 @@
 //! The data of pictures: the axes of a sweep, and the columns of its tables by name.
 
 use super::measure::Measure;
-use super::table::{HALF_WIDTH, ONE_AT_A_TIME, SEEDS, TABLE, Table};
+use super::seeds::asked;
+use super::table::{HALF_WIDTH, ONE_AT_A_TIME, TABLE, Table};
 use crate::output::figure::Scale;
+use crate::study::realisations::RealisationCount;
 use serde_json::{Map, Value};
 use std::path::Path;
 
@@ -23,8 +25,8 @@ pub(super) struct Source<'a> {
     pub axes: Vec<SweepAxis>,
     pub random: bool,
     pub one_at_a_time: bool,
-    /// Number of realisations of the random loads of every row.
-    pub seeds: Option<u64>,
+    /// How many realisations of the random loads every row has.
+    pub seeds: Option<RealisationCount>,
     pub columns: Vec<String>,
     pub sample_columns: Vec<String>,
     /// The names of the walls.
@@ -58,7 +60,7 @@ impl<'a> Source<'a> {
                 .map_or_else(Vec::new, |axes| axes.iter().map(along).collect()),
             random: request.get("random").is_some_and(|random| !random.is_null()),
             one_at_a_time: request.get(ONE_AT_A_TIME).and_then(Value::as_bool).unwrap_or(false),
-            seeds: request.get(SEEDS).and_then(Value::as_u64),
+            seeds: asked(request),
             columns: list("columns"),
             sample_columns: list("sample_columns"),
             walls: list("wall_names"),

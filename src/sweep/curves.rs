@@ -2,6 +2,7 @@
 
 use super::columns::{Source, SweepAxis, half_width_of, place_of, place_suffix, short};
 use super::picture::{Drawn, MOST_PANELS, Picture};
+use super::seeds::in_words;
 use super::table::{TABLE, Table, label, quantity};
 use crate::error::Result;
 use crate::output::colours::{DOWN, Places, UP};
@@ -88,7 +89,7 @@ impl Picture {
 
 /// The title of a picture that leaves out so many curves; it says what the bands are.
 fn titled(source: &Source<'_>, left_out: usize) -> String {
-    let seeds = source.seeds.map(|count| format!("means of {count} realisations, 95 % intervals"));
+    let seeds = source.seeds.map(|count| format!("means of {}, 95 % intervals", in_words(count)));
     let left_out = (left_out > 0).then(|| format!("{left_out} more left out"));
     let told: Vec<String> = [seeds, left_out].into_iter().flatten().collect();
     if told.is_empty() { source.title.to_owned() } else { format!("{}: {}", source.title, told.join("; ")) }

@@ -14,7 +14,8 @@ pub struct Estimate {
     pub tried: u64,
     /// Number of these that failed.
     pub failed: u64,
-    /// Time of the whole sweep, s of wall-clock time on that number of threads.
+    /// Time of the whole sweep, s of wall-clock time on that number of threads; where the intervals
+    /// of rows decide how many runs there are, of the first ones.
     pub seconds: f64,
     /// The cores of this machine.
     pub threads: usize,
@@ -30,9 +31,10 @@ impl Plan {
         let started = Instant::now();
         let (mut tried, mut bytes, mut failed) = (0, 0, 0);
         let found = RowsFound::default();
-        for group in 0..self.groups(Shard::WHOLE) {
+        let runs = self.first_runs(Shard::WHOLE);
+        for group in 0..self.groups(Shard::WHOLE, &runs) {
             // Fails only where the function that it gets does.
-            let _ = self.group(group, Shard::WHOLE, &found, &mut |row| {
+            let _ = self.group(group, (Shard::WHOLE, &runs), &found, &mut |row| {
                 tried += 1;
                 failed += u64::from(!row.status.is_good());
                 bytes += self.line(&row).len() + self.sample_lines(&row).len();
@@ -45,7 +47,7 @@ impl Plan {
         let all = self.runs() as f64 / (tried as f64).max(1.0);
         let threads = cores();
         // A chain runs on one thread.
-        let abreast = (threads as f64).min((self.chains * self.runs_of_row()) as f64);
+        let abreast = (threads as f64).min(runs.count() as f64);
         let seconds = started.elapsed().as_secs_f64() * all / abreast;
         Estimate { tried, failed, seconds, threads, bytes: bytes as f64 * all }
     }

@@ -6,10 +6,11 @@ use super::part::{MOST_WHOLE, Part};
 use super::picture::{Kind, Picture};
 use super::random::Random;
 use super::request::{Kernel, MOST_SAMPLES, Sweep, Window};
-use super::table::SEEDS;
+use super::table::{MOST_SEEDS, SEEDS, UNTIL_INTERVAL};
 use super::vary::axis;
 use crate::case::{CaseFile, Embedded, Section, Source, read_text, read_values};
 use crate::error::{Error, Result};
+use crate::study::realisations::RealisationCount;
 use std::path::Path;
 
 /// Maximum size of a sweep file, bytes.
@@ -121,7 +122,12 @@ impl Sweep {
         }
         sweep.kernel = run.word("kernel").map_or(Ok(Kernel::Scalar), |word| word.parse())?;
         sweep.judged = run.whole_number("judged", MOST_WHOLE)?;
-        sweep.realisations = run.whole_number(SEEDS, MOST_WHOLE)?;
+        let seeds = run.whole_number(SEEDS, MOST_WHOLE)?;
+        let (share, most) = (run.number(UNTIL_INTERVAL), run.whole_number(MOST_SEEDS, MOST_WHOLE)?);
+        sweep.realisations = match (share, most) {
+            (None, None) => seeds.map(RealisationCount::Exactly),
+            _ => RealisationCount::new(seeds, share, most)?,
+        };
         Ok(sweep)
     }
 }
@@ -249,6 +255,9 @@ wall = "upper"
             ("factors = [1.0, -1.0]", "factors = [1.0]", "one factor a key"),
             ("\"period\"]", "\"perod\"]", "did you mean period?"),
             ("samples = \"impacts\"", "samples = \"impact\"", "did you mean impacts?"),
+            ("[run]\n", "[run]\nuntil_interval = 5\n", "until_interval is 5; expected a share above 0 and below 1"),
+            ("[run]\n", "[run]\nuntil_interval = 0.05\nseeds = 6\n", "no interval beside a number"),
+            ("[run]\n", "[run]\nmost_seeds = 50\n", "until_interval beside it"),
             ("keep = { periods = 6 }", "keep = { periods = 0 }", "one forcing period or more"),
             ("keep = { periods = 6 }", "keep = { periods = 4294967293 }", "less than 2^32 - 1 periods in all"),
             ("keep = { periods = 6 }", "keep = { seconds = 6 }", "both units"),

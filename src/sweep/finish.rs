@@ -116,7 +116,8 @@ impl Files {
         let table = create(TABLE, plan.header())?;
         let samples = plan.sweep.samples.map(|_| create(SAMPLES, plan.sample_header())).transpose()?;
         let runs = plan.run_header.as_ref();
-        let realisations = runs.map(|header| Ok((create(REALISATIONS, header)?, Fold::of(header)))).transpose()?;
+        let fold = |header| Fold::of(header, plan.until.clone());
+        let realisations = runs.map(|header| Ok((create(REALISATIONS, header)?, fold(header)))).transpose()?;
         Ok(Self {
             table,
             samples,
@@ -170,13 +171,19 @@ fn put(file: &mut WholeFile, bytes: &[u8]) -> Result<()> {
     written.map_err(|error| Error::io(file.path().display(), format!("{error}\n{help}"), false))
 }
 
-/// Adds the tables, written from the journal, to `results`.
-pub(super) fn write_tables(plan: &Plan, results: &mut Results, journal: &mut Journal, rows: u64) -> Result<Tables> {
+/// Adds the tables of so many rows, each with its number of runs, written from the journal, to
+/// `results`.
+pub(super) fn write_tables(
+    plan: &Plan,
+    results: &mut Results,
+    journal: &mut Journal,
+    (rows, runs): (u64, &dyn Fn(u64) -> u64),
+) -> Result<Tables> {
     let mut files = Files::create(plan, results)?;
     let missing = |folder: &Path| Error::io(folder.display(), "a row is missing in the journal", false);
-    let count = plan.runs_of_row();
     for row in 0..rows {
-        let runs = (row * count..(row + 1) * count)
+        let first = row * plan.runs_of_row();
+        let runs = (first..first + runs(row))
             .map(|place| Block::read(journal, place as usize)?.ok_or_else(|| missing(results.folder())))
             .collect::<Result<Vec<_>>>()?;
         files.add(&runs)?;

@@ -3,6 +3,7 @@
 
 use super::status::Status;
 use super::table::REALISATION;
+use super::until_interval::UntilInterval;
 use crate::output::csv::digits;
 use crate::study::realisations::mean_of;
 use csv::StringRecord;
@@ -16,14 +17,16 @@ pub(super) struct Fold {
     realisation: usize,
     status: usize,
     error: usize,
+    until: Option<UntilInterval>,
 }
 
 impl Fold {
-    /// The fold of lines under `header`.
-    pub fn of(header: &[String]) -> Self {
+    /// The fold of lines under `header`; `until` where the intervals of rows decide how many there
+    /// are.
+    pub fn of(header: &[String], until: Option<UntilInterval>) -> Self {
         let find = |name: &str| header.iter().position(|column| column == name).unwrap_or(usize::MAX);
         let (realisation, status, error) = (find(REALISATION), find("status"), find("error"));
-        Self { header: header.to_vec(), realisation, status, error }
+        Self { header: header.to_vec(), realisation, status, error, until }
     }
 
     /// The cells of the row with these `runs`, one or more: what tells the row apart, the number of
@@ -35,7 +38,10 @@ impl Fold {
         let lead = runs.first().into_iter().flat_map(|run| run.iter().take(self.status).enumerate());
         let mut cells: Vec<String> =
             lead.filter(|(at, _)| *at != self.realisation).map(|(_, cell)| cell.to_owned()).collect();
-        cells.extend([good.len().to_string(), self.status_of(runs, good.len()), self.reasons(runs, &good)]);
+        let shortfall = self.until.as_ref().and_then(|until| until.shortfall(runs)).map(|error| error.to_string());
+        let status = self.status_of(runs, good.len(), shortfall.is_some());
+        let reasons: Vec<String> = self.reasons(runs, &good).into_iter().chain(shortfall).collect();
+        cells.extend([good.len().to_string(), status, reasons.join("; ")]);
         for column in self.measures() {
             let values: Option<Vec<f64>> = good.iter().map(|run| number(run, column)).collect();
             let mean = values.filter(|values| !values.is_empty()).map(|values| mean_of(&values));
@@ -54,9 +60,9 @@ impl Fold {
     }
 
     /// The status of a row of which `good` runs have valid measures: `partial` where some have and
-    /// some have not, else that of the first which is not `ok`.
-    fn status_of(&self, runs: &[StringRecord], good: usize) -> String {
-        if good > 0 && good < runs.len() {
+    /// some have not, and where these are `too_few`, else that of the first which is not `ok`.
+    fn status_of(&self, runs: &[StringRecord], good: usize, too_few: bool) -> String {
+        if good > 0 && (good < runs.len() || too_few) {
             return Status::Partial.name().to_owned();
         }
         let told = runs.iter().map(|run| self.word(run)).find(|word| *word != Status::Ok.name());
@@ -65,7 +71,7 @@ impl Fold {
 
     /// What the runs say of themselves, by status: how many, which, and what the first of them
     /// says; then the measures that only some of them have.
-    fn reasons(&self, runs: &[StringRecord], good: &[&StringRecord]) -> String {
+    fn reasons(&self, runs: &[StringRecord], good: &[&StringRecord]) -> Vec<String> {
         let reason = |run: &&StringRecord| run.get(self.error).unwrap_or_default().to_owned();
         let tells = |run: &&StringRecord| !Status::is_good_word(self.word(run)) || !reason(run).is_empty();
         let mut groups: Vec<Vec<&StringRecord>> = Vec::new();
@@ -91,7 +97,7 @@ impl Fold {
             self.measures().filter(lacks).filter_map(|column| Some(self.header.get(column)?.as_str())).collect();
         let lacking = (!lacking.is_empty())
             .then(|| format!("some realisations have no value, so there is no mean, of {}", lacking.join(", ")));
-        groups.iter().filter_map(told).chain(lacking).collect::<Vec<_>>().join("; ")
+        groups.iter().filter_map(told).chain(lacking).collect()
     }
 
     /// The numbers of realisations.
@@ -113,7 +119,7 @@ mod tests {
     fn folded(runs: &[[&str; 7]]) -> Vec<String> {
         let header = ["row", "realisation", "gap_m", "status", "error", "work_rate_a_W", "impact_share_a"];
         let runs: Vec<StringRecord> = runs.iter().map(|run| StringRecord::from(run.to_vec())).collect();
-        Fold::of(&header.map(str::to_owned)).row(&runs)
+        Fold::of(&header.map(str::to_owned), None).row(&runs)
     }
 
     #[test]

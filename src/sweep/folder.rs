@@ -10,7 +10,7 @@ use super::picture::Picture;
 use super::plan::Plan;
 use super::request::Window;
 use super::shard::Shard;
-use super::table::{ONE_AT_A_TIME, REALISATIONS, SAMPLES, SEEDS, TABLE};
+use super::table::{MOST_SEEDS, ONE_AT_A_TIME, REALISATIONS, SAMPLES, SEEDS, TABLE, UNTIL_INTERVAL};
 use crate::batch::Width;
 use crate::case::{open_regular, sha256};
 use crate::error::{Error, Result};
@@ -20,6 +20,7 @@ use crate::output::manifest::{self, FINGERPRINT};
 use crate::output::record::{Record, TABLES};
 use crate::output::request;
 use crate::output::results::Results;
+use crate::study::realisations::RealisationCount;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -77,8 +78,15 @@ impl Plan {
         if sweep.layout == Layout::OneAtATime {
             request.insert(ONE_AT_A_TIME.to_owned(), json!(true));
         }
-        if let Some(count) = sweep.realisations {
-            request.insert(SEEDS.to_owned(), json!(count));
+        match sweep.realisations {
+            Some(RealisationCount::Exactly(count)) => {
+                request.insert(SEEDS.to_owned(), json!(count));
+            }
+            Some(RealisationCount::Within { share, most }) => {
+                request.insert(UNTIL_INTERVAL.to_owned(), json!(share));
+                request.insert(MOST_SEEDS.to_owned(), json!(most));
+            }
+            None => {}
         }
         request
     }

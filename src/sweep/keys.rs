@@ -49,6 +49,8 @@ const KEYS: &[KeyEntry] = &[
     entry("run.judged", Number, "", ["", "how many rows are judged, a whole number", ""]),
     entry("run.seeds", Number, "", ["", "how many realisations of its random loads each row has, a \
         whole number from 2", ""]),
+    entry("run.until_interval", Number, "", ["", "a share above 0 and below 1, such as 0.05", ""]),
+    entry("run.most_seeds", Number, "", ["200", "a whole number from 6", ""]),
     entry("run.design", Word, "", ["grid", "\"grid\" or \"one-at-a-time\"", ""]),
     entry("run.kernel", Word, "", ["scalar", "\"scalar\" or \"batch\"", ""]),
     entry("measure", Table, "", ["", "what is measured", ""]),

@@ -2,10 +2,12 @@
 
 use super::columns::{Source, half_width_of, short};
 use super::picture::Picture;
+use super::seeds::in_words;
 use super::table::{SEEDS, TABLE, Table, label};
 use crate::error::Result;
 use crate::output::realisations::with_interval;
 use crate::output::table;
+use crate::study::realisations::RealisationCount;
 use serde_json::{Map, Value};
 use std::path::Path;
 
@@ -55,7 +57,7 @@ pub(crate) fn means(folder: &Path, request: &Map<String, Value>) -> Result<Optio
                 line.number(mean).map_or_else(|| "-".to_owned(), |mean| with_interval(mean, half))
             }
         };
-        whole &= line.number(seeds) == Some(count as f64);
+        whole &= matches!(count, RealisationCount::Exactly(count) if line.number(seeds) == Some(count as f64));
         let mut cells: Vec<String> = columns.iter().map(cell).collect();
         cells.insert(1, line.text(seeds).to_owned());
         rows.push(cells);
@@ -71,8 +73,9 @@ pub(crate) fn means(folder: &Path, request: &Map<String, Value>) -> Result<Optio
     }
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let remark = format!(
-        "± is the half width of the 95 % interval of the mean over {count} realisations of the random loads, by \
-         Student's t; their seeds are the same in every row"
+        "± is the half width of the 95 % interval of the mean over {} of the random loads, by Student's t; their seeds \
+         are the same in every row",
+        in_words(count)
     );
     Ok(Some((table::Table::new(&header, rows).in_blocks(), remark)))
 }

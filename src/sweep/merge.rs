@@ -5,14 +5,16 @@ use super::attractors::{ATTRACTORS, Joined};
 use super::finish::{Columns, Tables};
 use super::folder::{self, Study, wrong};
 use super::picture::Picture;
+use super::seeds::asked;
 use super::shard::Shard;
-use super::table::{REALISATIONS, SAMPLES, SEEDS, TABLE, cells_of};
+use super::table::{REALISATIONS, SAMPLES, TABLE, cells_of};
 use crate::case::open_regular;
 use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
 use crate::output::format::Format;
 use crate::output::manifest;
 use crate::output::results::Results;
+use crate::study::realisations::RealisationCount;
 use serde_json::{Map, Value};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Take, Write};
@@ -129,7 +131,12 @@ pub(crate) fn merge_in(
     };
     // The tables, and how many lines of each a row has, where that is known.
     let mut names = vec![(TABLE, Some(1))];
-    names.extend(number(SEEDS).map(|seeds| (REALISATIONS, Some(seeds))));
+    // Where the interval of a row decides, nothing else says how many it has.
+    let runs = asked(&request).map(|count| match count {
+        RealisationCount::Exactly(count) => Some(count),
+        RealisationCount::Within { .. } => None,
+    });
+    names.extend(runs.map(|runs| (REALISATIONS, runs)));
     names.extend(request.get("sample_columns").filter(|columns| columns.is_array()).map(|_| (SAMPLES, None)));
     let mut unverified = Vec::new();
     for part in &parts {

@@ -15,6 +15,7 @@
 //! | `plan`, `headers` | the rows, by number, and the columns of the tables |
 //! | `row`, `status` | one row: built, run, measured |
 //! | `realisations`, `fold` | rows with several realisations of their random loads, and the means over them |
+//! | `until_interval`, `run_set`, `seeds` | how many that are, where intervals decide; which are run together |
 //! | `batched` | rows of one degree of freedom side by side, by [`batch`](crate::batch) |
 //! | `basin`, `attractors` | rows that find the attractor to which their start leads, and the numbers of attractors |
 //! | `row_observer`, `motion`, `strobe` | collect from the steps of a row what its measures need |
@@ -42,8 +43,9 @@
 //! `random/` the values that vary, `plan.rs` numbers the rows, which `check.rs` checks before they
 //! run, `row.rs` computes one row, measured by `row_observer.rs`, `batched.rs` computes many
 //! oscillators side by side, `realisations.rs` numbers the runs of rows with several realisations
-//! of their random loads and `fold.rs` makes a row of them, `basin.rs` finds the attractor of each
-//! row and `attractors.rs` numbers them, `chains.rs` computes rows on threads, `run.rs` runs a
+//! of their random loads, `until_interval.rs` says how many their intervals take, `run_set.rs`
+//! which are run together, and `fold.rs` makes a row of them, `basin.rs` finds the attractor of
+//! each row and `attractors.rs` numbers them, `chains.rs` computes rows on threads, `run.rs` runs a
 //! sweep into a folder, `block.rs`, `found.rs` and `folder.rs` keep unfinished sweeps on disk,
 //! `estimate.rs` and `finished.rs` say how long a sweep takes and took, `merge.rs` joins shards,
 //! `picture.rs` draws (feature `cli`).
@@ -88,13 +90,16 @@ mod request;
 mod row;
 mod row_observer;
 mod run;
+mod run_set;
 mod sample;
+mod seeds;
 mod shard;
 mod status;
 mod strobe;
 mod table;
 mod target;
 mod tornado;
+mod until_interval;
 mod values;
 mod vary;
 
@@ -117,6 +122,7 @@ pub use request::{Kernel, MOST_SAMPLES, Sweep, Window};
 pub use row::Row;
 pub use run::{Progress, SweepOptions};
 pub use sample::{Sample, Samples};
+pub(crate) use seeds::{asked, in_words};
 pub use shard::Shard;
 pub use status::Status;
 pub use target::Target;

@@ -7,6 +7,7 @@ use super::picture::Pictures;
 use super::request::{Kernel, Sweep, Window};
 use super::table::REALISATION;
 use super::target::Target;
+use super::until_interval::UntilInterval;
 use crate::case::{Case, Key, KeyValue, Template};
 use crate::error::{Error, Result};
 use crate::output::results::Results;
@@ -37,6 +38,8 @@ pub struct Plan {
     header: Vec<String>,
     /// Names of the columns of `realisations.csv`, where rows have several realisations.
     pub(super) run_header: Option<Vec<String>>,
+    /// How many realisations rows have whose own intervals decide.
+    pub(super) until: Option<UntilInterval>,
     sample_header: Vec<String>,
     /// The values of the axes in the case itself, where axes are varied one at a time.
     centre: Vec<KeyValue>,
@@ -76,6 +79,7 @@ impl Sweep {
         let axis_columns = self.axis_columns();
         let header = self.header(&base, &axis_columns)?;
         let run_header = self.run_header(&base, &axis_columns);
+        let until = run_header.as_ref().and_then(|header| UntilInterval::of(&self, &base.scene, header));
         let mut sample_header = vec!["row".to_owned()];
         sample_header.extend(self.realisations.map(|_| REALISATION.to_owned()));
         sample_header.extend(self.samples.iter().flat_map(|samples| samples.columns(&base.scene)));
@@ -93,6 +97,7 @@ impl Sweep {
             chains,
             header,
             run_header,
+            until,
             sample_header,
             centre,
             axis_columns,

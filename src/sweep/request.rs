@@ -10,6 +10,7 @@ use super::sample::Samples;
 use super::target::Target;
 use crate::case::{CaseFile, KeyValue};
 use crate::error::{Error, Result};
+use crate::study::realisations::RealisationCount;
 use std::str::FromStr;
 
 /// The duration of a row, and the window of its measures.
@@ -102,7 +103,7 @@ pub struct Sweep {
     pub(super) most_samples: usize,
     pub(super) judged: Option<u64>,
     pub(super) kernel: Kernel,
-    pub(super) realisations: Option<u64>,
+    pub(super) realisations: Option<RealisationCount>,
     pub(super) title: String,
     pub(super) picture: Picture,
 }
@@ -239,8 +240,23 @@ impl Sweep {
     /// row, so that rows differ by what varies alone.
     #[must_use]
     pub fn realisations(mut self, count: u64) -> Self {
-        self.realisations = Some(count);
+        self.realisations = Some(RealisationCount::Exactly(count));
         self
+    }
+
+    /// The same sweep with every row run under as many realisations of its random loads as bring
+    /// the 95 % intervals of its work rates (without work, of its mean forces) within the share
+    /// `share` of them, but at most `most`, or [`MOST_REALISATIONS`]: six of each row say how many
+    /// (Stein), with the same seeds in every row. These measures decide as far as they are asked
+    /// for.
+    ///
+    /// [`MOST_REALISATIONS`]: crate::study::realisations::MOST_REALISATIONS
+    ///
+    /// # Errors
+    /// As [`RealisationCount::new`].
+    pub fn until_interval(mut self, share: f64, most: Option<u64>) -> Result<Self> {
+        self.realisations = RealisationCount::new(None, Some(share), most)?;
+        Ok(self)
     }
 
     /// True if the scheme varies.

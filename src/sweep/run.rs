@@ -9,13 +9,15 @@ use super::folder::{self, State, Study};
 use super::found::RowsFound;
 use super::plan::Plan;
 use super::row::Row;
+use super::run_set::RunSet;
 use super::shard::Shard;
-use super::table::EFFECTS;
+use super::table::{EFFECTS, REALISATIONS, cells_of};
 use crate::error::Result;
 use crate::output::format::Format;
 use crate::output::journal::Journal;
 use crate::output::results::Results;
 use crate::parallel::cores;
+use crate::study::realisations::PILOTS;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -39,7 +41,8 @@ pub struct SweepOptions {
 pub struct Progress {
     /// Runs done, including those of earlier processes.
     pub done: u64,
-    /// Number of runs: rows, or realisations of all rows.
+    /// Number of runs: rows, or realisations of all rows; where the intervals of rows decide, as
+    /// many as are known to be needed.
     pub runs: u64,
     /// Runs of this process per second; 0 before the first.
     pub rate: f64,
@@ -52,12 +55,20 @@ impl Plan {
     /// # Errors
     /// Errors of single rows are not returned: they are in [`Row::status`] and [`Row::error`].
     pub fn rows(&self, threads: usize) -> Result<Vec<Row>> {
-        let mut rows = Vec::new();
-        self.compute(Shard::WHOLE, threads.max(1), &RowsFound::default(), &|row| row, &mut |row| {
-            rows.extend(row);
+        let mut rows: Vec<Row> = Vec::new();
+        let add = |runs: &RunSet, rows: &mut Vec<Row>| {
+            self.compute((Shard::WHOLE, runs), threads.max(1), &RowsFound::default(), &|row| row, &mut |row| {
+                rows.extend(row);
+                Ok(())
+            })?;
+            rows.sort_by_key(|row: &Row| self.run_number(row));
             Ok(())
-        })?;
-        rows.sort_by_key(|row: &Row| self.run_number(row));
+        };
+        add(&self.first_runs(Shard::WHOLE), &mut rows)?;
+        let pilots = |row: u64| Ok(rows.iter().filter(|run| run.number == row).map(|run| self.cells(run)).collect());
+        if let Some(counts) = self.counts(self.count(), pilots)? {
+            add(&RunSet::further(&counts), &mut rows)?;
+        }
         self.number(&mut rows);
         Ok(rows)
     }
@@ -100,7 +111,6 @@ impl Plan {
         folder::record_request(&mut results, &Study::of(self)?, options.shard);
         let threads = options.threads.unwrap_or_else(cores).max(1);
         let rows = options.shard.chains(self.chains) * self.chain_rows();
-        let runs = rows * self.runs_of_row();
         let state = if options.force { State::Empty } else { folder::state(&folder, rows) };
         let mut damaged = None;
         let anew = matches!(state, State::Empty);
@@ -108,6 +118,8 @@ impl Plan {
             State::Finished { tables, records } => {
                 // What an interruption after the last row has left.
                 let _ = std::fs::remove_file(folder.join(JOURNAL));
+                let runs =
+                    records.iter().find(|(name, _)| name == REALISATIONS).map_or(rows, |(_, record)| record.rows);
                 results.keep(records);
                 let finished = Finished { folder, rows, runs, found: runs, tables, damaged, seconds: 0.0, threads };
                 return Ok((finished, results));
@@ -119,26 +131,65 @@ impl Plan {
             State::Empty | State::Begun => {}
         }
         let place = |run: u64| options.shard.place(self, run);
-        let journal = Journal::open(&folder, JOURNAL, runs, anew, place)?;
+        let journal = Journal::open(&folder, JOURNAL, rows * self.runs_of_row(), anew, place)?;
         results.begin(JOURNAL)?;
         let found = journal.done();
-        let mut journal = self.fill(journal, options.shard, threads, &|done| {
+        let (mut journal, counts) = self.fill(journal, options.shard, threads, &|done, runs| {
             let new = done - found;
             let rate = if new > 0 { new as f64 / started.elapsed().as_secs_f64() } else { 0.0 };
             progress(Progress { done, runs, rate });
         })?;
-        let tables = write_tables(self, &mut results, &mut journal, rows)?;
+        let count = |row: u64| counts.as_ref().and_then(|counts| counts.get(row as usize)).copied();
+        let count = |row: u64| count(row).unwrap_or(self.runs_of_row());
+        let tables = write_tables(self, &mut results, &mut journal, (rows, &count))?;
+        let runs = (0..rows).map(count).sum();
         results.finish()?;
         let seconds = started.elapsed().as_secs_f64();
         Ok((Finished { folder, rows, runs, found, tables, damaged, seconds, threads }, results))
     }
 
-    /// Computes the rows that are not yet in the journal.
-    fn fill(&self, mut journal: Journal, shard: Shard, threads: usize, progress: &dyn Fn(u64)) -> Result<Journal> {
-        let found = RowsFound::of(self, &mut journal, shard)?;
+    /// Computes the rows that are not yet in the journal; with it returns how many runs each of
+    /// them has, where their intervals decide. `progress` is called with the numbers of runs that
+    /// are done and that are known to be needed.
+    fn fill(
+        &self,
+        mut journal: Journal,
+        shard: Shard,
+        threads: usize,
+        progress: &dyn Fn(u64, u64),
+    ) -> Result<(Journal, Option<Vec<u64>>)> {
+        let rows = shard.chains(self.chains) * self.chain_rows();
+        let first = self.first_runs(shard);
+        let runs = first.count() * self.chain_rows();
+        self.add_runs(&mut journal, (shard, &first), threads, &|done| progress(done, runs.max(done)))?;
+        let counts = self.counts(rows, |row| {
+            let pilots = row * self.runs_of_row()..row * self.runs_of_row() + PILOTS;
+            let line = |place: u64| Ok(Block::read(&mut journal, place as usize)?.map(|block| cells_of(&block.line)));
+            pilots.map(line).filter_map(Result::transpose).collect()
+        })?;
+        if let Some(counts) = &counts {
+            let runs = counts.iter().sum();
+            self.add_runs(&mut journal, (shard, &RunSet::further(counts)), threads, &|done| progress(done, runs))?;
+        }
+        Ok((journal, counts))
+    }
+
+    /// Computes those of the runs that are not yet in the journal.
+    fn add_runs(
+        &self,
+        journal: &mut Journal,
+        (shard, runs): (Shard, &RunSet),
+        threads: usize,
+        progress: &dyn Fn(u64),
+    ) -> Result<()> {
+        let found = RowsFound::of(self, journal, shard)?;
         let mut reported = Instant::now();
-        let outcome =
-            self.compute(shard, threads, &found, &|row| (self.run_number(&row), self.block(row)), &mut |finished| {
+        let outcome = self.compute(
+            (shard, runs),
+            threads,
+            &found,
+            &|row| (self.run_number(&row), self.block(row)),
+            &mut |finished| {
                 if let Some((run, block)) = finished {
                     journal.add(run, shard.place(self, run).unwrap_or(usize::MAX), &block.bytes())?;
                 }
@@ -147,16 +198,70 @@ impl Plan {
                     progress(journal.done());
                 }
                 Ok(())
-            });
+            },
+        );
         // Rows received before writing failed are kept.
         let flushed = journal.flush();
         outcome.and(flushed)?;
         progress(journal.done());
-        Ok(journal)
+        Ok(())
     }
 
     fn block(&self, row: Row) -> Block {
         let (line, samples) = (self.line(&row), self.sample_lines(&row));
         Block { end: row.end.filter(|_| self.sweep.followed().is_some()), line, samples }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Axis, Measure, Sweep};
+    use super::*;
+    use crate::case::CaseFile;
+
+    /// 1 kg before a stop under a random force.
+    const STOP: &str = "\
+[system.oscillator]
+mass = 1.0
+damping = 2.0
+stiffness = 400.0
+[[wall]]
+name = \"stop\"
+side = \"upper\"
+position = 5e-3
+restitution = 0.5
+[[load]]
+random = { rms = 3.0, from = 1.0, to = 20.0, seed = 7 }
+[time]
+end = 1.0
+step = 1e-3
+";
+
+    #[test]
+    fn pilots_and_others_go_on_from_any_run_to_the_same_lines() {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::write(dir.path().join("stop.toml"), STOP).unwrap();
+        let axis = Axis::list("wall.stop.position", &[1e-3.into(), 5e-3.into()]).unwrap();
+        let sweep = Sweep::new(CaseFile::read(dir.path().join("stop.toml")).unwrap()).vary(axis);
+        let plan = sweep.measure([Measure::ForceMean]).until_interval(0.2, None).unwrap().plan().unwrap();
+        let places = plan.count() * plan.runs_of_row();
+        let filled = |anew: bool| {
+            let place = |run: u64| Shard::WHOLE.place(&plan, run);
+            let journal = Journal::open(dir.path(), JOURNAL, places, anew, place).unwrap();
+            let found = journal.done();
+            let (mut journal, counts) = plan.fill(journal, Shard::WHOLE, 2, &|_, _| {}).unwrap();
+            let line = |place: u64| Block::read(&mut journal, place as usize).unwrap().map(|block| block.line);
+            (found, counts.unwrap(), (0..places).map(line).collect::<Vec<_>>())
+        };
+        let (_, counts, lines) = filled(true);
+        let all: u64 = counts.iter().sum();
+        assert!(all > 2 * PILOTS && counts.iter().all(|count| *count >= PILOTS), "{counts:?}");
+        let path = dir.path().join(JOURNAL);
+        let whole = std::fs::read(&path).unwrap();
+        let starts: Vec<usize> = (0..whole.len()).filter(|&at| whole[at..].starts_with(b"@")).collect();
+        for kept in [1, PILOTS, 2 * PILOTS - 1, 2 * PILOTS, 2 * PILOTS + 1, all - 1] {
+            std::fs::write(&path, &whole[..starts[kept as usize]]).unwrap();
+            assert_eq!(filled(false), (kept, counts.clone(), lines.clone()));
+        }
     }
 }

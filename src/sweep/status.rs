@@ -25,7 +25,8 @@ pub enum Status {
     NotSolved,
     /// The judge found that the scheme violated what it promises.
     Refuted,
-    /// Some realisations of its random loads have no valid measures; its means are over the others.
+    /// Some realisations of its random loads have no valid measures, and its means are over the
+    /// others; or its interval needs more than were allowed.
     Partial,
     /// It failed in another way.
     Failed,

@@ -20,6 +20,10 @@ pub(super) const EFFECTS: &str = "effects.csv";
 pub(super) const REALISATION: &str = "realisation";
 pub(super) const SEEDS: &str = "seeds";
 
+/// The entries of a request whose rows have as many realisations as their intervals take.
+pub(super) const UNTIL_INTERVAL: &str = "until_interval";
+pub(super) const MOST_SEEDS: &str = "most_seeds";
+
 /// The entry of a request whose axes are varied one at a time.
 pub(super) const ONE_AT_A_TIME: &str = "one_at_a_time";
 

@@ -3,6 +3,7 @@
 use super::columns::{Source, short};
 use super::effects::{Effect, effects};
 use super::picture::{Drawn, MOST_PANELS, Picture};
+use super::seeds::in_words;
 use super::table::label;
 use crate::error::Result;
 use crate::output::figure::{Bar, Bars, Tornado};
@@ -20,7 +21,7 @@ impl Picture {
         groups.retain(|group| group.first().is_some_and(|one| wanted.contains(&one.column)));
         let left_out = groups.split_off(MOST_PANELS.min(groups.len()));
         let mut left_out: Vec<String> = left_out.iter().flat_map(|g| g.first()).map(|one| one.column.clone()).collect();
-        let seeds = source.seeds.map(|count| format!(": means of {count} realisations")).unwrap_or_default();
+        let seeds = source.seeds.map(|count| format!(": means of {}", in_words(count))).unwrap_or_default();
         let mut tornado = Tornado::new(format!("{}{seeds}", source.title));
         let mut drawn = false;
         for group in groups {

@@ -3,6 +3,7 @@
 use crate::command::{command, said};
 use serde_json::Value;
 use signorini::case::CaseFile;
+use signorini::study::realisations::RealisationCount;
 use signorini::sweep::{Axis, Measure, Samples, Status, Sweep, Window};
 use signorini::{Options, run};
 use std::collections::HashMap;
@@ -108,7 +109,7 @@ fn a_row_is_run_with_seeds_bit_for_bit() {
     assert_eq!(samples.len(), 9 * 5, "five instants of each run");
     assert!(samples.iter().all(|sample| ["1", "2", "3"].contains(&sample["realisation"].as_str())));
     let page = fs::read_to_string(path.join("sweep/report.html")).unwrap();
-    assert!(page.contains("3 rows × 3 realisations") && page.contains("\"seeds\":3"));
+    assert!(page.contains("3 rows × 3 realisations") && page.contains("\"seeds_asked\":\"--seeds 3\""));
     let figure = fs::read_to_string(path.join("sweep/sweep.svg")).unwrap();
     assert!(figure.contains("means of 3 realisations, 95 % intervals"), "the title says what the bands are");
     // A band for each of three measures at each of two supports.
@@ -122,7 +123,7 @@ fn realisations_have_the_duration_of_their_row() {
     let axis = Axis::list("support.*.gap", &[2e-4.into(), 3e-4.into()]).unwrap();
     let sweep = Sweep::new(file.clone()).vary(axis).over(Window::Seconds { settle: 0.1, keep: 0.25 }).realisations(2);
     let plan = sweep.measure([Measure::WorkRate]).sample(Samples::Impacts, 1).plan().unwrap();
-    assert_eq!((plan.count(), plan.runs(), plan.realisations()), (2, 4, Some(2)));
+    assert_eq!((plan.count(), plan.runs(), plan.realisations()), (2, 4, Some(RealisationCount::Exactly(2))));
     let rows = plan.rows(2).unwrap();
     let told: Vec<_> = rows.iter().map(|row| (row.number, row.realisation.unwrap(), row.status)).collect();
     assert_eq!(told, [(0, 1), (0, 2), (1, 1), (1, 2)].map(|(row, k)| (row, k, Status::Ok)));

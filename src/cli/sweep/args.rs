@@ -3,6 +3,7 @@
 use crate::case::{MOST_TABLE_BYTES, read_text};
 use crate::cli::case_args::{Changes, case_file};
 use crate::cli::pipeline::Destination;
+use crate::cli::realisations::{of_argument, share};
 use crate::cli::ui::Ui;
 use crate::cli::values;
 use crate::error::{Error, Result};
@@ -27,13 +28,15 @@ Examples:
       --points 256 --measure impact_power
   signorini sweep tube-round-supports --vary 'support.*.gap=1e-4,2e-4,4e-4' --seeds 6 \\
       --measure work_rate          means over six realisations of the random loads
+  signorini sweep tube-round-supports --vary 'support.*.gap=1e-4,2e-4,4e-4' \
+      --until-interval 5% --measure work_rate      as many of each row as that takes
   signorini sweep bifurcation.toml --plan          how many rows, how long, how many bytes
   signorini sweep bifurcation.toml --shard 3/128   one part of 128; `signorini merge` joins them
 
 A sweep file is TOML with a key `case`; docs/sweep.md has its format, and all measures.
 After an interruption at any instant, the same command continues, and ends with the same bytes.
 Results: sweep.csv, one row per point, with the reason if it failed; samples.csv, the instants;
-realisations.csv, with --seeds; attractors.csv, of a basin; a picture; summary.json; report.html.";
+realisations.csv, with --seeds or --until-interval; attractors.csv, of a basin; a picture; summary.json; report.html.";
 
 /// Many runs of one case: curves, maps, bifurcation diagrams and random designs as one table
 #[derive(Debug, clap::Args)]
@@ -84,6 +87,15 @@ pub struct Args {
     /// of them. Realisation k has the seeds of the case plus k - 1, as with `run --seeds`
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seeds: Option<u64>,
+    /// In place of --seeds: run every row under as many realisations as bring the 95 % intervals of
+    /// its work rates (without work, of its mean forces) within this share of them, 5% or 0.05: six
+    /// of each row say how many that takes (Stein)
+    #[arg(long, value_name = "SHARE", conflicts_with = "seeds", allow_hyphen_values = true)]
+    until_interval: Option<String>,
+    /// Most realisations of a row with --until-interval; a row that needs more is partial [default:
+    /// 200]
+    #[arg(long, value_name = "N", requires = "until_interval")]
+    most_seeds: Option<u64>,
     /// Vary each key by itself, from the case: --vary KEY=FROM:TO runs the case, then the case with
     /// that key at FROM and at TO; effects.csv and the picture sort the keys by what they change
     #[arg(long, conflicts_with_all = ["random", "follow"])]
@@ -146,6 +158,10 @@ impl Args {
         }
         if let Some(count) = self.seeds {
             sweep = sweep.realisations(count);
+        }
+        if let Some(text) = &self.until_interval {
+            let share = share("--until-interval", text)?;
+            sweep = sweep.until_interval(share, self.most_seeds).map_err(of_argument)?;
         }
         if let Some(scheme) = &self.scheme {
             sweep = sweep.by(scheme);

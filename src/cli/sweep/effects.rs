@@ -3,13 +3,14 @@
 use super::Answer;
 use crate::output::realisations::with_interval;
 use crate::output::table::Table;
-use crate::sweep::Effect;
+use crate::study::realisations::RealisationCount;
+use crate::sweep::{Effect, in_words};
 
 /// Most lines of the table.
 const MOST_LINES: usize = 40;
 
 /// Shows the effects, by measure and place, the largest first; nothing where there are none.
-pub fn show_effects(answer: &mut Answer, effects: &[Effect], seeds: Option<u64>) {
+pub fn show_effects(answer: &mut Answer, effects: &[Effect], seeds: Option<RealisationCount>) {
     if effects.is_empty() {
         return;
     }
@@ -32,8 +33,9 @@ pub fn show_effects(answer: &mut Answer, effects: &[Effect], seeds: Option<u64>)
     answer.table(Table::new(header, rows).in_blocks(), "effects.csv");
     answer.messages([match seeds {
         Some(count) => format!(
-            "effect: the mean over {count} realisations of the measure at the upper bound less that at the lower one, \
-             under the same seeds; ± is the half width of its 95 % interval, by Student's t"
+            "effect: the mean over {} of the measure at the upper bound less that at the lower one, under the same \
+             seeds; ± is the half width of its 95 % interval, by Student's t",
+            in_words(count)
         ),
         None => "effect: the measure at the upper bound less that at the lower one, the other keys as in the case"
             .to_owned(),

@@ -12,8 +12,9 @@ use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
 use crate::output::results::Results;
+use crate::study::realisations::RealisationCount;
 use crate::sweep::{
-    Finished, Pictures, Plan, Progress, Shard, Status, SweepOptions, Tables, effects, means, write_effects,
+    Finished, Pictures, Plan, Progress, Shard, Status, SweepOptions, Tables, effects, in_words, means, write_effects,
     write_summary,
 };
 use serde_json::{Map, Value, json};
@@ -51,7 +52,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         found if found == finished.runs => ", all of them there already".to_owned(),
         found => format!(", {found} of them there already"),
     };
-    let seeds = plan.realisations().map_or_else(String::new, |count| format!(" × {count} realisations"));
+    let seeds = plan.realisations().map_or_else(String::new, |count| format!(" × {}", in_words(count)));
     answer.messages([format!("{} rows{seeds} in {}{found}", finished.rows, time_in_words(finished.seconds))]);
     answer.messages(status_messages(&finished.folder, &finished.tables, finished.rows)?);
     answer.messages(picture_messages(&pictures));
@@ -98,7 +99,7 @@ pub(super) fn show_means(answer: &mut Answer, folder: &Path, request: &Map<Strin
 fn planned(plan: &Plan) -> Answer {
     let estimate = plan.estimate(TRIAL);
     let chains = plan.count() / plan.chain_rows();
-    let seeds = plan.realisations().map_or_else(String::new, |count| format!(" × {count} realisations"));
+    let seeds = plan.realisations().map_or_else(String::new, |count| format!(" × {}", in_words(count)));
     let mut answer = Answer::new(json!({
         "rows": plan.count(),
         "runs": plan.runs(),
@@ -116,8 +117,10 @@ fn planned(plan: &Plan) -> Answer {
         answer.prose(format!("{chains} chains of {} rows, each on one thread", plan.chain_rows()));
     }
     let failed = if estimate.failed > 0 { format!(", {} of which failed", estimate.failed) } else { String::new() };
+    let pilots = matches!(plan.realisations(), Some(RealisationCount::Within { .. }));
     answer.prose(format!(
-        "about {} on {} threads, from {} {} tried{failed}",
+        "{}about {} on {} threads, from {} {} tried{failed}",
+        if pilots { "for the first six, which say how many more, " } else { "" },
         time_in_words(estimate.seconds),
         estimate.threads,
         estimate.tried,

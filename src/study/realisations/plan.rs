@@ -117,7 +117,7 @@ impl RealisationPlan<'_> {
 }
 
 /// That `members` are fewer than `needed`, and leave an interval wider than `share` of its mean.
-fn shortfall(members: &[Realisation], share: f64, needed: u64) -> Option<Error> {
+pub(crate) fn shortfall(members: &[Realisation], share: f64, needed: u64) -> Option<Error> {
     let count = members.len() as u64;
     let widest = widest(members).filter(|widest| needed > count && widest.pilot_share > share)?;
     let quantity = format!("{} of {} {:?}", widest.measure.words(), widest.place.kind.word(), widest.place.name);

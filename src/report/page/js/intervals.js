@@ -55,6 +55,6 @@ function bandOf(curve, half) {
 
 /** What the numbers of rows with realisations are; those of effects are in a table alone. */
 const seedsText = (seeds, effects) =>
-  ` Of every row there are ${seeds} realisations of the random loads: shown are their means, and ` +
+  ` Of every row there are ${seeds} of the random loads: shown are their means, and ` +
   (effects ? "the half widths of their" : "as bands their") +
   " 95 % intervals, by Student's t.";

@@ -1,7 +1,7 @@
 // Sweeps: curves over one axis, maps over two, bifurcation diagrams.
 
 function sweepSection() {
-  const { axes, effects, samples, scheme, seeds, unjudged } = DATA.sweep;
+  const { axes, effects, samples, scheme, seeds, seeds_asked: asked, unjudged } = DATA.sweep;
   const table = tableOf(DATA.sweep.table);
   const { columns } = table;
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
@@ -44,7 +44,7 @@ function sweepSection() {
       }),
     );
     const by =
-      (scheme ? ` --scheme ${shellWord(scheme)}` : "") + (seeds ? ` --seeds ${seeds}` : "");
+      (scheme ? ` --scheme ${shellWord(scheme)}` : "") + (asked ? ` ${asked}` : "");
     const file = shellWord(`${DATA.name}.toml`);
     const row = columns.row[i];
     command.textContent =
