@@ -90,7 +90,7 @@ fn main() {
     for (name, restitution, end) in cases {
         let mut scene = scene(name, restitution, end);
         // The exact scheme follows round holes without friction.
-        scene.walls.iter_mut().for_each(|wall| wall.friction = 0.0);
+        scene.walls.iter_mut().for_each(|wall| wall.friction = 0.0.into());
         let exact = shown(&scene, Scheme::Event, end);
         let label = restitution.map_or(String::new(), |e| format!(", e = {e}"));
         let located = largest_step(&scene, Scheme::Located, &exact, [1e-1 * end, 1e-6 * end]);

@@ -170,8 +170,9 @@ pub(super) const KEYS: &[KeyEntry] = &[
         `moreau-jean`, `implicit-euler` and `penalty`"]),
     entry("support.damping", Number, "N_s_per_m", ["0", "a number, 0 or more: of an elastic \
         support", "as for a wall"]),
-    entry("support.friction", Number, "", ["0", "a number from 0 to 10: the coefficient of Coulomb \
-        friction", "negative, nan"]),
+    entry("support.friction", Any, "", ["0", "a number from 0 to 10, or { static = .., kinetic = .. } \
+        of both: the coefficient of Coulomb friction, and that of a contact that sticks where it is \
+        larger", "negative, nan, inf; one of both alone; `static` below `kinetic`"]),
     entry("support.width", Number, "m", ["no depth of wear is told", "a number above 0: along the \
         tube, for the depth of wear", "one of `width` and `radius` without the other"]),
     entry("support.radius", Number, "m", ["half the `outer_diameter` of a beam", "a number above \
@@ -340,6 +341,8 @@ pub(super) const KEYS: &[KeyEntry] = &[
     inner("system.beam.left.rotational", "N_m_per_rad"),
     inner("system.beam.right.stiffness", "N_per_m"),
     inner("system.beam.right.rotational", "N_m_per_rad"),
+    inner("support.friction.static", ""),
+    inner("support.friction.kinetic", ""),
     inner("load.base.influence.row", ""),
     inner("initial.displacement.dofs", "m"),
     inner("initial.displacement.y", "m"),

@@ -3,14 +3,17 @@
 use super::builder::Builder;
 use super::model::{Model, Place};
 use super::place::MOST_PLACES;
-use super::value::Section;
+use super::value::{Section, Value};
 use super::walls::NewWall;
 use super::written::{Support, WearData};
 use crate::error::{Error, Result, Subject};
-use crate::scene::{self, Face, Flat, Flats, PlaneRows, Wall, WallLaw};
+use crate::scene::{self, Face, Flat, Flats, FrictionCoefficients, PlaneRows, Wall, WallLaw};
 use crate::wear::Growth;
 use std::ops::Range;
 use toml::Spanned;
+
+/// What stands at the friction of a support.
+const BOTH_COEFFICIENTS: &str = "friction = a number, or { static = .., kinetic = .. }, numbers from 0 to 10";
 
 /// A support that is read: its name in messages and as the subject of errors, and its table.
 pub(super) struct Owner {
@@ -44,7 +47,7 @@ impl Builder<'_> {
         let centre = self.centre(&owner, support.numbers("centre"))?;
         let place = self.place_in_two_planes(&owner, support)?;
         let at = self.planes.rows(&self.model, &place)?;
-        let friction = self.optional(owner.subject.clone().part("friction"), support, "friction").unwrap_or(0.0);
+        let friction = self.friction(&owner, support)?;
         let wear = self.wear_data(&owner, support)?;
         let shape = support.required_word("shape");
         let (made, flats, walls) = match *shape.get_ref() {
@@ -75,7 +78,7 @@ impl Builder<'_> {
         &mut self,
         owner: &Owner,
         (name, at, centre): (&str, PlaneRows, [f64; 2]),
-        friction: f64,
+        friction: FrictionCoefficients,
         support: &Section<'_>,
     ) -> Result<Flats> {
         let law = self.law_of(&owner.name, support)?;
@@ -143,6 +146,46 @@ impl Builder<'_> {
             self.note(owner.subject.clone().part(key), support.span_of(key));
         }
         Ok((gap, law))
+    }
+
+    /// The coefficients of friction: a number, or a table of both.
+    fn friction(&mut self, owner: &Owner, support: &Section<'_>) -> Result<FrictionCoefficients> {
+        let Some(value) = support.get("friction") else { return Ok(FrictionCoefficients::default()) };
+        let subject = owner.subject.clone().part("friction");
+        self.note(subject.clone(), Some(value.span()));
+        let entries = match value.get_ref() {
+            Value::Number(both) => return Ok((*both).into()),
+            Value::Table(entries) => entries,
+            other => {
+                let title = format!("`support.friction` takes a number or a table, not {}", other.kind());
+                return Err(self.source.error(value.span(), &title, &format!("expected {BOTH_COEFFICIENTS}")));
+            }
+        };
+        let [mut sticking, mut sliding] = [None; 2];
+        for (name, value) in entries {
+            let (part, coefficient) = match name.get_ref().as_ref() {
+                "static" => ("static", &mut sticking),
+                "kinetic" => ("kinetic", &mut sliding),
+                other => {
+                    let title = format!("unknown key `{other}` in `support.friction`");
+                    return Err(self.source.error(name.span(), &title, &format!("expected {BOTH_COEFFICIENTS}")));
+                }
+            };
+            let Value::Number(x) = value.get_ref() else {
+                let title = format!("`support.friction.{part}` takes a number, not {}", value.get_ref().kind());
+                return Err(self.source.error(value.span(), &title, "expected a number from 0 to 10"));
+            };
+            *coefficient = Some(*x);
+            self.note(subject.clone().part(part), Some(value.span()));
+        }
+        let missing = |key: &str| {
+            let title = format!("{}: friction has no {key} coefficient", owner.name);
+            self.source.error(value.span(), &title, &format!("expected {BOTH_COEFFICIENTS}"))
+        };
+        Ok(FrictionCoefficients {
+            sticking: sticking.ok_or_else(|| missing("static"))?,
+            sliding: sliding.ok_or_else(|| missing("kinetic"))?,
+        })
     }
 
     /// The place that a support surrounds.

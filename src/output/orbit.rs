@@ -214,7 +214,7 @@ mod tests {
         let at = PlaneRows::doubled(&Row::new(vec![(0, 0.5), (1, 2.0)]), 3);
         let flats = [20.0, 110.0, 200.0, 290.0].map(|direction| crate::scene::Flat { direction, gap: 1e-3 }).to_vec();
         let law = WallLaw::Rigid { restitution: 1.0 };
-        let support = Flats { name: "s".to_owned(), at, flats, centre: [2e-3, 0.0], law, friction: 0.0 };
+        let support = Flats { name: "s".to_owned(), at, flats, centre: [2e-3, 0.0], law, friction: 0.0.into() };
         let mut scene = Scene::oscillator(1.0, 0.0, 1.0);
         scene.walls = support.walls().unwrap();
         scene.probes = vec![

@@ -141,7 +141,7 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
              not know what is slower than a batch; --seeds 5 or more gives that of independent realisations"
             .to_owned(),
     }];
-    if scene.supports.iter().any(|support| support.friction(&scene.walls) == 0.0) {
+    if scene.supports.iter().any(|support| support.friction(&scene.walls).sliding == 0.0) {
         remarks.push("work rates without friction are upper figures".to_owned());
     }
     remarks

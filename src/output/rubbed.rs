@@ -71,7 +71,7 @@ impl Rubbed<'_> {
         let mut figure = self.window.over_time(Figure::new(title, "Time (s)"));
         let places = Places::of(self.scene);
         for support in supports.iter().filter_map(|(index, _)| Some((*index, self.scene.supports.get(*index)?))) {
-            let remark = if support.1.friction(&self.scene.walls) == 0.0 { frictionless } else { "" };
+            let remark = if support.1.friction(&self.scene.walls).sliding == 0.0 { frictionless } else { "" };
             let mut panel = Panel::new(label).heading(format!("{}{remark}", support.1.name));
             for labelled in self.runs {
                 let Some(points) = points(&labelled.run.trajectory, support.0) else { continue };

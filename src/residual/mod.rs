@@ -180,7 +180,7 @@ impl Judge {
             sums: MomentumSums::new(scene, &q, &v),
             previous: PreviousStep::new(scene, contract, (&q, &v), &load, &walls.last_force),
             walls,
-            supports: Supports::new(scene, masses),
+            supports: Supports::new(scene, masses, (&q, &v)),
             q,
             load,
             load_end: zero(),

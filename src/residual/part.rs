@@ -81,15 +81,17 @@ impl Judge {
         let Some(mut supports) = self.supports.take() else { return };
         let scene = std::sync::Arc::clone(&self.scene);
         let after = Step { velocity_after: step.v, impulse: step.jump, ..*step };
-        for hole in scene.holes().filter(|hole| hole.law.is_rigid()) {
-            self.rebound_at_hole(step, &hole, &mut supports);
+        for hole in scene.holes() {
+            if hole.law.is_rigid() {
+                self.rebound_at_hole(step, &hole, &mut supports);
+            }
             let ([y, z], place) = (step.normal[hole.index], hole.index);
             let impulse = [step.jump[place], if step.jump[place] == 0.0 { 0.0 } else { step.friction[place] }];
             let rub = FrictionImpulse { place, friction: hole.friction, impulse, tangent: [-z, y] };
-            self.check_friction(&after, hole.at, &rub, &mut supports.rubs);
+            self.check_friction_at_end(&after, hole.at, &rub, &mut supports);
         }
         let at_end = Step { friction: &supports.friction_at_end(step), ..after };
-        self.rub_flats(&at_end, &mut supports.rubs);
+        self.rub_flats_at_end(&at_end, &mut supports);
         for (index, _, [push, rub]) in pushes(&scene, &at_end) {
             let force = [push[0] + rub[0], push[1] + rub[1]];
             if let (Some([y, z]), Some(size)) = (supports.impulse.get_mut(index), supports.size.get_mut(index)) {

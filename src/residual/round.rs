@@ -29,9 +29,9 @@ impl Judge {
                 impulse: [did.impulse, did.friction],
                 tangent: [-did.normal[1], did.normal[0]],
             };
-            self.check_friction(step, hole.at, &rub, &mut supports.rubs);
+            self.check_friction(step, hole.at, &rub, &mut supports);
         }
-        self.rub_flats(step, &mut supports.rubs);
+        self.rub_flats(step, &mut supports);
         supports.pushed.copy_from_slice(step.impulse);
         for at in places_of_flats(&scene) {
             self.extent.speed = self.extent.speed.max(terms(at, step.velocity_after));

@@ -23,6 +23,11 @@ pub(super) struct Supports {
     /// The mass that each wall feels, kg, and its impulse in the step before, N s.
     pub mass: Vec<f64>,
     pub pushed: Vec<f64>,
+    /// How fast the body slid along each wall at the end of the step or part before, along t and
+    /// less rounding, m/s; infinite where the wall did not push.
+    pub slid: Vec<f64>,
+    /// The same before the last part.
+    slid_before: Vec<f64>,
     /// Impulse of each wall along y and z, without the normal ones of flats, N s; and the sum of
     /// the magnitudes.
     pub impulse: Vec<[f64; 2]>,
@@ -37,18 +42,22 @@ pub(super) struct Supports {
 }
 
 impl Supports {
-    /// `None` for a scene without round holes and friction.
-    /// Walls feel these masses.
-    pub fn new(scene: &Scene, masses: &[f64]) -> Option<Box<Self>> {
+    /// `None` for a scene without round holes and friction. The run begins at this displacement (m)
+    /// and velocity (m/s), and walls feel these masses.
+    pub fn new(scene: &Scene, masses: &[f64], (q, v): (&[f64], &[f64])) -> Option<Box<Self>> {
         if !scene.turns_or_rubs() {
             return None;
         }
+        let stands = |index| if scene.stands_on(index, q, v) { 0.0 } else { f64::INFINITY };
+        let slid = (0..scene.walls.len()).map(stands);
         Some(Box::new(Self {
             askew: Residual::default(),
             struck: Residual::default(),
             rubs: ComplementarityFront::default(),
             mass: masses.iter().copied().take(scene.walls.len()).collect(),
             pushed: vec![0.0; scene.walls.len()],
+            slid: slid.collect(),
+            slid_before: Vec::new(),
             impulse: vec![[0.0; 2]; scene.walls.len()],
             size: vec![0.0; scene.walls.len()],
             recorded: None,
@@ -60,6 +69,7 @@ impl Supports {
 
     /// The friction over a part: a wall with an impulse at its end has its friction there.
     pub fn friction_over(&mut self, step: &Step<'_>) -> Vec<f64> {
+        self.slid_before.clone_from(&self.slid);
         let mut rubbed = std::mem::take(&mut self.rubbed);
         rubbed.clear();
         rubbed.extend(step.friction.iter().zip(step.jump).map(|(f, jump)| if *jump == 0.0 { *f } else { 0.0 }));
@@ -81,6 +91,9 @@ impl Supports {
                 kept.clear();
                 kept.extend_from_slice(v);
             }
+        } else {
+            // And no rigid wall to tell of: each slides or sticks as before.
+            self.slid.clone_from(&self.slid_before);
         }
     }
 

@@ -1,5 +1,6 @@
 //! Supports made of flats, around a structure that moves in two planes.
 
+use super::friction::FrictionCoefficients;
 use super::planes::{PlaneRows, heading};
 use super::support::Support;
 use super::system::{finite, nonnegative};
@@ -37,7 +38,7 @@ pub struct Flat {
 ///     flats: [0.0, 90.0, 180.0, 270.0].map(|direction| Flat { direction, gap: 0.2e-3 }).to_vec(),
 ///     centre: [0.0, 0.0],
 ///     law: WallLaw::Rigid { restitution: 0.5 },
-///     friction: 0.0,
+///     friction: 0.0.into(),
 /// };
 /// let walls = square.walls()?;
 /// // The one opposite to the first.
@@ -57,8 +58,8 @@ pub struct Flats {
     pub centre: [f64; 2],
     /// The contact law of every flat.
     pub law: WallLaw,
-    /// Coefficient of Coulomb friction of every flat.
-    pub friction: f64,
+    /// The coefficients of Coulomb friction of every flat.
+    pub friction: FrictionCoefficients,
 }
 
 impl Flats {
@@ -138,7 +139,7 @@ mod tests {
             flats: directions.iter().map(|&direction| Flat { direction, gap: 1e-3 }).collect(),
             centre: [0.3e-3, -0.2e-3],
             law: WallLaw::Rigid { restitution: 1.0 },
-            friction: 0.0,
+            friction: 0.0.into(),
         }
     }
 

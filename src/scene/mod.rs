@@ -7,7 +7,8 @@
 //! freedom), `shared.rs` (these matrices checked once, with the factor of M, and shared by all
 //! users), `checked.rs` (a validated scene), `wall.rs`, `law.rs` (all that differs between rigid,
 //! elastic and penalised walls), `planes.rs` (a structure doubled into two planes, and directions
-//! there), `support.rs` (walls around a place), `load.rs`, `random/` (random forces as tables),
+//! there), `support.rs` (walls around a place), `friction.rs` (their coefficients
+//! of friction), `load.rs`, `random/` (random forces as tables),
 //! `turbulence/` (random forces along a line, on modes), `fluid_elastic.rs` (the stability of a
 //! tube in that flow), `held.rs` (a structure held at places), `clear.rs` (a start moved out of
 //! walls), `function.rs`, `forcing.rs`, `scene_key.rs` (the path of a number of a scene), `row.rs`
@@ -24,6 +25,7 @@ mod damping;
 mod flats;
 mod fluid_elastic;
 mod forcing;
+mod friction;
 mod function;
 mod grid_forcing;
 mod held;
@@ -54,6 +56,7 @@ pub use damping::Damping;
 pub use flats::{Flat, Flats, MOST_FLATS};
 pub use fluid_elastic::{Connors, FlowMargin, FlowPiece, FluidElastic};
 pub use forcing::{Forcing, Harmonic};
+pub use friction::FrictionCoefficients;
 pub use function::TimeFunction;
 pub(crate) use grid_forcing::GridForcing;
 pub use law::{WallLaw, WallSpring};

@@ -1,7 +1,8 @@
 //! Supports: walls around one place of a structure that moves in two planes.
 
+use super::friction::FrictionCoefficients;
 use super::planes::{PlaneRows, heading};
-use super::system::{finite, nonnegative, positive};
+use super::system::{finite, positive};
 use super::wall::{Face, Wall};
 use super::{Row, Scene, WallLaw};
 use crate::error::{Error, Result, Subject};
@@ -9,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::ops::Range;
 
-/// Largest coefficient of friction that is accepted.
-const MOST_FRICTION: f64 = 10.0;
+/// Rounding of a velocity along a wall, relative to that of the place.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Rounding allowance: share of its gap by which a start may lie outside of a round wall.
 const TOUCHING: f64 = 1e-12;
@@ -47,8 +48,8 @@ pub struct Hole<'a> {
     pub restitution: f64,
     /// The contact law along the normal.
     pub law: WallLaw,
-    /// The coefficient of Coulomb friction μ.
-    pub friction: f64,
+    /// The coefficients of Coulomb friction.
+    pub friction: FrictionCoefficients,
 }
 
 impl Support {
@@ -93,10 +94,10 @@ impl Support {
         self.members(walls).find_map(|(index, wall)| wall.hole(index))
     }
 
-    /// The largest coefficient of friction of its walls, among those of the scene.
+    /// The largest coefficients of friction of its walls, among those of the scene.
     #[must_use]
-    pub fn friction(&self, walls: &[Wall]) -> f64 {
-        self.members(walls).fold(0.0, |most, (_, wall)| wall.friction.max(most))
+    pub fn friction(&self, walls: &[Wall]) -> FrictionCoefficients {
+        self.members(walls).fold(FrictionCoefficients::default(), |most, (_, wall)| wall.friction.max(most))
     }
 
     /// The same support, seen by a structure in other coordinates, where `row` turns each row into
@@ -141,7 +142,7 @@ impl Scene {
     /// True if a wall of the scene is round or has friction: not every scheme steps such scenes.
     #[must_use]
     pub fn turns_or_rubs(&self) -> bool {
-        self.walls.iter().any(|wall| wall.friction > 0.0 || wall.is_round())
+        self.walls.iter().any(|wall| wall.friction.acts() || wall.is_round())
     }
 
     /// The round walls, in the scene's order.
@@ -159,6 +160,21 @@ impl Scene {
     #[must_use]
     pub fn support_of(&self, wall: usize) -> Option<&Support> {
         self.supports.iter().find(|support| support.walls.contains(&wall))
+    }
+
+    /// True if a body of the displacement `q` (m) and the velocity `v` (m/s) stands on wall number
+    /// `index`: it touches the wall and does not slide along it. A contact of a run that begins so
+    /// counts as one that stuck before.
+    pub(crate) fn stands_on(&self, index: usize, q: &[f64], v: &[f64]) -> bool {
+        let (Some(wall), Some(support)) = (self.walls.get(index), self.support_of(index)) else { return false };
+        let [y, z] = match (&wall.face, wall.offset(q)) {
+            (Face::Flat { direction, .. }, _) => heading(direction.unwrap_or_default()),
+            (_, offset) => offset.unwrap_or_default(),
+        };
+        let rate = support.at.dot(v);
+        let along = (y * rate[1] - z * rate[0]).abs();
+        along <= ROUNDING * y.hypot(z) * rate[0].hypot(rate[1])
+            && wall.gap(wall.coordinate(q)) <= self.touching_distance()
     }
 
     /// Checks the supports; `check_row` checks a row of one.
@@ -186,12 +202,8 @@ impl Scene {
                 Some(support) => Subject::support(&support.name),
                 None => Subject::wall(&wall.name),
             };
-            nonnegative(owner.clone().part("friction"), wall.friction)?;
-            if wall.friction > MOST_FRICTION {
-                let expected = format!("from 0 to {MOST_FRICTION}");
-                return Err(Error::invalid(owner.part("friction"), format!("{:?}", wall.friction), expected));
-            }
-            if wall.friction > 0.0 && support.is_none() {
+            wall.friction.validate(&owner)?;
+            if wall.friction.acts() && support.is_none() {
                 let expected = "0, or a wall of a support, around a place that moves in two planes";
                 return Err(Error::invalid(owner.part("friction"), wall.friction, expected));
             }

@@ -1,5 +1,6 @@
 //! Walls: the bounds on displacements.
 
+use super::friction::FrictionCoefficients;
 use super::law::WallLaw;
 use super::planes::PlaneRows;
 use super::row::Row;
@@ -50,9 +51,9 @@ pub struct Wall {
     pub face: Face,
     /// The contact law, of a round wall along its normal.
     pub law: WallLaw,
-    /// Coefficient of Coulomb friction μ, from 0 to 10; above 0 in two planes only.
+    /// Its coefficients of Coulomb friction, from 0 to 10; above 0 in two planes only.
     #[serde(default)]
-    pub friction: f64,
+    pub friction: FrictionCoefficients,
 }
 
 /// Where a wall stands, and what it bounds: its *coordinate*.
@@ -110,7 +111,12 @@ impl Wall {
     }
 
     fn new(name: &str, face: Face) -> Self {
-        Self { name: name.to_owned(), face, law: WallLaw::Rigid { restitution: 1.0 }, friction: 0.0 }
+        Self {
+            name: name.to_owned(),
+            face,
+            law: WallLaw::Rigid { restitution: 1.0 },
+            friction: FrictionCoefficients::default(),
+        }
     }
 
     /// Opens the wall by `by` (m): a flat one recedes, a round one grows in radius, about a centre
@@ -166,10 +172,10 @@ impl Wall {
         self
     }
 
-    /// The same wall with Coulomb friction of this coefficient.
+    /// The same wall with Coulomb friction of these coefficients, or of this one.
     #[must_use]
-    pub fn with_friction(mut self, coefficient: f64) -> Self {
-        self.friction = coefficient;
+    pub fn with_friction(mut self, coefficients: impl Into<FrictionCoefficients>) -> Self {
+        self.friction = coefficients.into();
         self
     }
 

@@ -25,7 +25,7 @@ pub(super) fn check(scene: &Scene, Method { scheme, backend }: Method) -> Result
         Err(Error::invalid("scheme", format!("{scheme}, with {what} {name:?}"), expected.to_owned()))
     };
     let ring = scene.holes().find(|hole| !hole.law.is_rigid());
-    if let Some(wall) = scene.walls.iter().find(|wall| wall.friction > 0.0) {
+    if let Some(wall) = scene.walls.iter().find(|wall| wall.friction.acts()) {
         if let Coverage::Refused(expected) = entry.friction {
             return refuse("friction at the wall", &wall.name, expected);
         }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 pub struct WearStatistics {
     /// The support's name.
     pub support: String,
-    /// Its coefficient of friction.
+    /// Its kinetic coefficient of friction.
     pub friction: f64,
     /// True without friction: then the work rate is an upper figure. A structure that slides
     /// without friction is held back by its own damping alone, and may whirl round in the support.
@@ -132,7 +132,7 @@ impl WearTally {
         let from = from.min(scene.duration);
         let tally = |support: &crate::scene::Support| Tally {
             name: support.name.clone(),
-            friction: support.friction(&scene.walls),
+            friction: support.friction(&scene.walls).sliding,
             pushed: [0.0; BATCHES],
             work: [0.0; BATCHES],
             impacts: 0.0,

@@ -112,6 +112,18 @@ pub enum Normal {
 /// have ε = 0 too ([`Step::resting`]) if the approach a at the mass m that the wall feels keeps 2 e
 /// m a ≤ (1 − e) p⁻: the rebounds at e a, e² a, … under that push then all end within the step, and
 /// the body rests. (With the wall's e it would leave and come back step after step.)
+///
+/// Where a wall's static coefficient μ_s is above its kinetic one μ_k
+/// ([`FrictionCoefficients`](crate::FrictionCoefficients)), μ is μ_k; but μ_s over a step or part
+/// at whose end the contact sticks, if before that it
+///
+/// - stuck: it pushed, and did not slide at the end. At the start of a run a wall that the body
+///   touches and does not slide along counts as one that stuck;
+/// - or slid, and friction acts along the sliding velocity that it had: it passes rest within the
+///   step, where static friction holds what would turn.
+///
+/// A contact that was open has μ_k, and so has an impact at an instant: a body that comes to stick
+/// by it may have μ_s after that. What begins to slide has μ_k over all of that step or part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Friction {

@@ -29,7 +29,7 @@ pub struct Choice {
 #[must_use]
 pub fn choose(scene: &Scene) -> Choice {
     let moreau_jean = Scheme::MoreauJean { theta: 0.5 };
-    let rubs = scene.walls.iter().any(|wall| wall.friction > 0.0);
+    let rubs = scene.walls.iter().any(|wall| wall.friction.acts());
     let (scheme, reason) = if rubs && scene.holes().any(|hole| !hole.law.is_rigid()) {
         let reason = "the one scheme for friction at an elastic round support, whose force and normal it takes in the \
                       middle of each part of a step";

@@ -299,7 +299,7 @@ fn who_cannot_step_a_ring_says_so() {
         assert!(error.is_request() && error.to_string().contains("elastic round support \"ring\""), "{error}");
     }
     let mut rubs = scene.clone();
-    rubs.walls[0].friction = 0.2;
+    rubs.walls[0].friction = 0.2.into();
     let error = Stepper::new(&rubs, &JEAN, 1e-4).unwrap_err();
     assert!(error.to_string().contains("no friction, or rigid"), "{error}");
     // What makes no sense is refused where it stands.

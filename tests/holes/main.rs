@@ -21,6 +21,7 @@ mod pendulum;
 mod position;
 mod recorded;
 mod start;
+mod static_friction;
 mod steps;
 #[cfg(feature = "cli")]
 mod two_planes;

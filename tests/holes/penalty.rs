@@ -217,7 +217,7 @@ fn other_integrators_and_friction_are_refused() {
         assert!(error.is_request() && error.to_string().contains("expected discrete-gradient"), "{error}");
     }
     let mut rubs = free();
-    rubs.walls[0].friction = 0.2;
+    rubs.walls[0].friction = 0.2.into();
     let error = Stepper::new(&rubs, &penalty(linear(1e6, 0.0)), 1e-4).unwrap_err();
     let expected = "moreau-jean or located, the schemes for friction";
     assert!(error.is_request() && error.to_string().contains(expected), "{error}");

@@ -28,7 +28,7 @@ fn body(mass: [f64; 3], stiffness: f64, (q, v): ([f64; 2], [f64; 2])) -> Scene {
 fn among(mut scene: Scene, directions: &[f64], gap: f64, law: WallLaw) -> Scene {
     let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
     let flats = directions.iter().map(|&direction| Flat { direction, gap }).collect();
-    let flats = Flats { name: "plate".to_owned(), at, flats, centre: [0.0; 2], law, friction: 0.0 };
+    let flats = Flats { name: "plate".to_owned(), at, flats, centre: [0.0; 2], law, friction: 0.0.into() };
     scene.supports.push(flats.support(scene.walls.len()));
     scene.walls.extend(flats.walls().unwrap());
     scene

@@ -93,7 +93,7 @@ fn kind(scene: &Scene) -> String {
     let n = scene.initial.q.len();
     let holes = scene.holes().count();
     let elastic = scene.holes().filter(|hole| !hole.law.is_rigid()).count();
-    let friction = if scene.walls.iter().any(|wall| wall.friction > 0.0) { ", friction" } else { "" };
+    let friction = if scene.walls.iter().any(|wall| wall.friction.acts()) { ", friction" } else { "" };
     let flats = scene.walls.len() - holes;
     match (n, scene.supports.is_empty()) {
         (1, _) => format!("one degree of freedom, {flats} walls"),

@@ -1,7 +1,7 @@
 //! Supports in case files: what the scene makes of them, and their way through a summary.
 use signorini::case::{Case, CaseFile};
 use signorini::wear::{Bearing, Scar};
-use signorini::{Face, Options, Scheme, Wall, WallLaw, run};
+use signorini::{Face, FrictionCoefficients, Options, Scheme, Wall, WallLaw, run};
 
 /// An oscillator in two planes with a round support, flats, and [wear].
 const BOTH: &str = r#"[system]
@@ -50,13 +50,15 @@ fn a_case_file_makes_the_supports_of_its_scene() {
     let round = hole.hole(walls).unwrap();
     assert_eq!((round.index, round.gap, round.law), (0, 2e-3, WallLaw::Rigid { restitution: 0.4 }));
     assert_eq!((hole.centre, round.centre), ([1e-4, -2e-4], [1e-4, -2e-4]));
-    assert_eq!((hole.friction(walls), bars.friction(walls)), (0.3, 0.1));
+    assert_eq!((hole.friction(walls), bars.friction(walls)), (0.3.into(), 0.1.into()));
     let flats = bars.members(walls).map(|(index, wall)| match wall.face {
         Face::Flat { direction, .. } => (index, direction.unwrap()),
         Face::Round { .. } => panic!("{wall:?}"),
     });
     assert_eq!(flats.collect::<Vec<_>>(), [(1, 45.0), (2, 135.0), (3, 225.0), (4, 315.0)]);
-    assert!(walls[1..].iter().all(|wall| wall.law == WallLaw::Rigid { restitution: 0.6 } && wall.friction == 0.1));
+    assert!(
+        walls[1..].iter().all(|wall| wall.law == WallLaw::Rigid { restitution: 0.6 } && wall.friction == 0.1.into())
+    );
     // Each place has its probes, named after its first support: both stand at the only mass.
     let names: Vec<&str> = case.scene.probes.iter().map(|probe| probe.name.as_str()).collect();
     assert_eq!(names, ["hole-y", "hole-z"]);
@@ -90,7 +92,8 @@ fn a_hole_alone_gets_probes_and_a_beam_its_radius() {
 #[test]
 fn a_summary_holds_the_supports_of_its_case() {
     // Read again from its JSON: the same case, also after a change of all restitutions.
-    for text in [BOTH.to_owned(), BOTH.replace("turn = 45", "turn = 30\nwidth = 0.03\nradius = 0.01")] {
+    let pair = BOTH.replace("friction = 0.1", "friction = { static = 0.4, kinetic = 0.1 }");
+    for text in [BOTH.to_owned(), BOTH.replace("turn = 45", "turn = 30\nwidth = 0.03\nradius = 0.01"), pair] {
         let case = parsed(&text);
         let changed = case.with("support.*.restitution", 0.25).unwrap();
         for case in [case, changed] {
@@ -113,9 +116,33 @@ fn keys_reach_supports_and_wear() {
     }
     let case = file.case().unwrap();
     assert_eq!(case.scene.supports[0].hole(&case.scene.walls).unwrap().gap, 3e-3);
-    assert!(case.scene.walls.iter().all(|wall| wall.friction == 0.0));
+    assert!(case.scene.walls.iter().all(|wall| wall.friction == 0.0.into()));
     assert_eq!((case.time.sectors, case.wear.service), (6, Some(1e7)));
     assert_eq!("wear.coefficient".parse::<signorini::case::Key>().unwrap().unit(), Some("per_Pa"));
+}
+
+#[test]
+fn friction_is_a_number_or_both_coefficients_and_keys_reach_each() {
+    let with = |friction: &str| parsed(&BOTH.replace("friction = 0.1", friction)).scene;
+    let both = FrictionCoefficients { sticking: 0.4, sliding: 0.1 };
+    let scene = with("friction = { static = 0.4, kinetic = 0.1 }");
+    assert!(scene.walls[1..].iter().all(|wall| wall.friction == both));
+    assert_eq!(scene.supports[1].friction(&scene.walls), both);
+    assert_eq!(with("friction = { kinetic = 0.1, static = 0.1 }"), with("friction = 0.1"));
+    // As tables of results have it, and as keys change it.
+    let mut file =
+        CaseFile::from_text(&BOTH.replace("friction = 0.1", "friction = { static = 0.4, kinetic = 0.1 }"), "", "");
+    let key = |text: &str| text.parse::<signorini::case::Key>().unwrap();
+    file.set(&key("support.bars.friction.static"), &0.5.into()).unwrap();
+    assert_eq!(file.case().unwrap().scene.walls[1].friction, FrictionCoefficients { sticking: 0.5, ..both });
+    assert_eq!((key("support.*.friction.kinetic").word(), key("support.*.friction.static").unit()), ("kinetic", None));
+    let error = file.set(&key("support.hole.friction.static"), &0.5.into()).unwrap_err().to_string();
+    assert!(error.contains("a list or a table before .static; the file has 0.3 there"), "{error}");
+    let written = |friction: FrictionCoefficients| serde_json::to_value(friction).unwrap();
+    assert_eq!(written(both), serde_json::json!({ "static": 0.4, "kinetic": 0.1 }));
+    for friction in [both, 0.1.into()] {
+        assert_eq!(serde_json::from_value::<FrictionCoefficients>(written(friction)).unwrap(), friction);
+    }
 }
 
 #[test]

@@ -15,7 +15,7 @@ fn rubbing(acceleration: f64, duration: f64) -> Result<Scene> {
         flats: vec![Flat { direction: 90.0, gap: 0.0 }],
         centre: [0.0, 0.0],
         law: WallLaw::Rigid { restitution: 0.0 },
-        friction: 0.1,
+        friction: 0.1.into(),
     };
     let mut scene = Scene::structure(Structure { mass, damping, stiffness }).with_duration(duration);
     for wall in flats.walls()? {

@@ -117,7 +117,7 @@ fn a_support_carries_what_its_flats_do() {
         flats: [0.0, 90.0, 180.0, 270.0].map(|direction| Flat { direction, gap: 1e-3 }).to_vec(),
         centre: [0.0, 0.0],
         law: WallLaw::Rigid { restitution: 0.5 },
-        friction: 0.0,
+        friction: 0.0.into(),
     };
     let mut scene = Scene::structure(structure).with_duration(1.0);
     for wall in flats.walls().unwrap() {

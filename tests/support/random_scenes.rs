@@ -103,7 +103,7 @@ fn oscillator(draws: &mut Draws) -> Scene {
 
 /// Makes some of the holes elastic; where there is friction, some of the flats too.
 fn soften(draws: &mut Draws, scene: &mut Scene) {
-    for wall in scene.walls.iter_mut().filter(|wall| wall.is_round() || wall.friction > 0.0) {
+    for wall in scene.walls.iter_mut().filter(|wall| wall.is_round() || wall.friction.acts()) {
         if draws.chance(0.2) {
             let damping = [0.0, draws.between(0.0, 20.0)][draws.below(2)];
             wall.law = WallLaw::Elastic { stiffness: 10_f64.powf(draws.between(2.0, 5.0)), damping };

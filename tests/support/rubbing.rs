@@ -52,7 +52,7 @@ pub fn with_flats(scene: Scene, name: &str, at: PlaneRows, flats: &[(f64, f64)],
         flats: flats.iter().map(|&(direction, gap)| Flat { direction, gap }).collect(),
         centre: [0.0, 0.0],
         law: WallLaw::Rigid { restitution: e },
-        friction,
+        friction: friction.into(),
     };
     let walls = flats.walls().expect("flats");
     scene.with_support(name, flats.at, flats.centre, walls)

@@ -107,9 +107,11 @@ pub(super) fn supports(case: &Case) -> Vec<String> {
             [0.0, 0.0] => String::new(),
             [y, z] => format!(", its centre at ({y}, {z}) m"),
         };
-        let rubs = match there.friction(&case.scene.walls) {
+        let friction = there.friction(&case.scene.walls);
+        let rubs = match friction.sliding {
+            0.0 if friction.acts() => format!("friction {friction}, so that its work rate is an upper figure"),
             0.0 => "without friction, so that its work rate is an upper figure".to_owned(),
-            friction => format!("friction {friction}"),
+            _ => format!("friction {friction}"),
         };
         let (name, place) = (&support.name, &support.place);
         let Some((Flats { flats, .. }, _)) = &support.flats else {

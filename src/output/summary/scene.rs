@@ -174,7 +174,9 @@ fn supports(case: &Case) -> impl Iterator<Item = Value> {
 }
 
 fn support(support: &Support, place: Option<&Place>, walls: &[Wall]) -> Value {
-    let (Support { name, centre, .. }, friction) = (support, support.friction(walls));
+    let (Support { name, centre, .. }, both) = (support, support.friction(walls));
+    // As in a case file.
+    let friction = if both.drops() { json!(both) } else { json!(both.sliding) };
     let hole = support.hole(walls);
     let mut out = match &hole {
         None => {

@@ -59,7 +59,7 @@ impl Impact {
                 }
                 Place::Resting | Place::Struck => -e * rate,
             };
-            let (laws, at) = ((contact.point.friction, 0.0), (wall, contact.point.rows));
+            let (laws, at) = ((contact.point.friction.sliding, 0.0), (wall, contact.point.rows));
             sweeps.touches.push(FrictionContact::new(places, at, (contact.normal, bound), laws, [0.0; 2]));
         }
         for (row, rate) in sweeps.free.iter_mut().enumerate() {

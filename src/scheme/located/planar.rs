@@ -33,7 +33,8 @@ impl LocatedPlanar {
     pub fn new(scene: &Checked, contract: Contract, h: f64) -> Result<Self> {
         let mut body = Body::<Matrices>::new(scene, h)?;
         body.restart(0.0);
-        let contacts = PlaneContacts::new(scene, &body)?;
+        let mut contacts = PlaneContacts::new(scene, &body)?;
+        contacts.begin(scene, &scene.initial.q, &scene.initial.v);
         let zero = || vec![0.0; body.n];
         Ok(Self {
             frame: Frame::new(scene)?,
@@ -125,11 +126,11 @@ impl Motion for LocatedPlanar {
         Step { wedged: &self.division.contacts.impact.wedged, ..self.frame.step(index, self.episodes.closed()) }
     }
 
-    fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+    fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
         self.frame.restart(time, q, v);
         self.body.restart(time);
         self.division.restart();
-        self.division.contacts.forget();
+        self.division.contacts.begin(scene, q, v);
         self.episodes.forget();
         self.forced = false;
         Ok(())

@@ -20,6 +20,8 @@ pub(super) struct PlaneContact {
     pub lasts: bool,
     /// True if it pushes over the part that was computed last.
     pub pushes: bool,
+    /// True if it pushed over the last part of some length, or at the instant after that.
+    pub pushed: bool,
     /// Outward normal, and the rate of the place along it and along the tangent, m/s.
     pub normal: [f64; 2],
     pub rate: [f64; 2],
@@ -29,8 +31,8 @@ pub(super) struct PlaneContact {
     /// The acceleration that pressed the body against the wall in the last part of some length,
     /// m/s².
     pub pressed: f64,
-    /// The middle (s) of the last two parts in which it stuck, and what was left of the friction
-    /// there, μp − |f| as a mean force, N.
+    /// The middle (s) of the last two parts in which it stuck, and what was left of the
+    /// static friction there, μp − |f| as a mean force, N.
     pub stuck: [Option<(f64, f64)>; 2],
 }
 
@@ -43,6 +45,7 @@ impl PlaneContact {
             place: Place::Away,
             lasts: false,
             pushes: false,
+            pushed: false,
             normal: point.normal,
             rate: [0.0; 2],
             rounding: 0.0,
@@ -54,7 +57,7 @@ impl PlaneContact {
 
     /// Forgets the last part.
     pub fn forget(&mut self) {
-        (self.lasts, self.pressed, self.stuck) = (false, 0.0, [None; 2]);
+        (self.lasts, self.pushed, self.pressed, self.stuck) = (false, false, 0.0, [None; 2]);
     }
 
     /// Finds where the body is at the wall: touching it or not, with this outward normal and rate
@@ -87,8 +90,13 @@ impl PlaneContact {
 
     /// The sign of the sliding velocity of a contact with friction; 0 where it does not slide.
     pub fn slides(&self) -> f64 {
-        let slides = self.point.friction > 0.0 && self.rate[1].abs() > self.least;
+        let slides = self.point.friction.acts() && self.rate[1].abs() > self.least;
         if slides { self.rate[1].signum() } else { 0.0 }
+    }
+
+    /// μ at the begin of a part: the static one where it pushed before and does not slide.
+    pub fn friction(&self) -> f64 {
+        self.point.friction.limit(self.pushed && self.slides() == 0.0)
     }
 
     /// True if the rebounds of a body that strikes the wall with the restitution `e` end within a
@@ -109,12 +117,13 @@ impl PlaneContact {
         let sliding = normal[0] * rate[1] - normal[1] * rate[0];
         self.stuck = match push {
             Some(push) if self.rate[1].abs().max(sliding.abs()) <= self.least => {
-                let left = self.point.friction * push.impulse.abs() - push.friction.abs();
+                let left = self.point.friction.sticking * push.impulse.abs() - push.friction.abs();
                 [self.stuck[1], Some((middle, left / length))]
             }
             _ => [None; 2],
         };
         self.lasts = false;
+        self.pushed = push.is_some();
         self.pressed = dot(normal, change) / length;
         let Some((_, gap)) = self.round else { return };
         let gained = normal[0] * change[1] - normal[1] * change[0];

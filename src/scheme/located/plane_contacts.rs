@@ -5,7 +5,9 @@
 //! slides at the start of a part slides with full friction until its sliding velocity, which is
 //! linear in time, vanishes: the part ends there (`Event::Reversal`), and from rest the law decides
 //! whether the body sticks or slides back. It begins to slide where the straight line through what
-//! its last two parts left of the friction vanishes (`Event::Slip`).
+//! its last two parts left of the static friction vanishes (`Event::Slip`). The static coefficient
+//! is that of a contact which pushed just before and does not slide; a part at whose end it slides
+//! is one with its kinetic friction throughout.
 
 use super::super::Counters;
 use super::super::body::Body;
@@ -74,6 +76,14 @@ impl PlaneContacts {
             stopped: 0,
             unsettled: 0,
         })
+    }
+
+    /// Begins at the displacement `q` (m) and the velocity `v` (m/s).
+    pub fn begin(&mut self, scene: &Scene, q: &[f64], v: &[f64]) {
+        self.forget();
+        for (index, contact) in self.all.iter_mut().enumerate() {
+            contact.pushed = scene.stands_on(index, q, v);
+        }
     }
 
     /// The displacement of a place of a velocity or a displacement.
@@ -161,7 +171,8 @@ impl PlaneContacts {
             wall,
             rows: contact.point.rows,
             guide,
-            friction: contact.point.friction,
+            friction: contact.friction(),
+            kinetic: contact.point.friction.sliding,
             compliance: 0.0,
             slides: 0.0,
             sign: if contact.round.is_some() { 1.0 } else { body.walls[wall].sign },
@@ -293,7 +304,7 @@ impl Contacts<Matrices> for PlaneContacts {
         for (wall, face) in body.walls.iter().enumerate() {
             let contact = &self.all[wall];
             let rests = contact.place == Place::Resting;
-            if rests || (contact.pushes && contact.point.friction > 0.0) {
+            if rests || (contact.pushes && contact.point.friction.acts()) {
                 let ahead = self.ahead(body, frame, Event::Reversal(wall), (delta, length));
                 let slides = contact.slides() != 0.0;
                 if slides && ahead.left < -ahead.met {
@@ -407,6 +418,9 @@ impl Contacts<Matrices> for PlaneContacts {
         self.stopped += u64::from(stops);
         let rebounds = self.rebounds && !stops;
         self.impact.strike(body, &self.all, frame, rebounds);
+        for (contact, jump) in self.all.iter_mut().zip(&frame.jump) {
+            contact.pushed |= *jump != 0.0;
+        }
         for contact in self.all.iter_mut().filter(|contact| contact.lasts) {
             let after = dot(contact.normal, self.impact.places.pair(contact.point.rows, &frame.v));
             contact.lasts = contact.place == Place::Resting && after.abs() <= contact.rate[0].abs() + contact.least;

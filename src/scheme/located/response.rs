@@ -96,8 +96,9 @@ pub(super) struct PlaneBound {
     pub wall: usize,
     pub rows: [usize; 2],
     pub guide: Guide,
-    /// μ, and the compliance of an elastic wall, m/s per N s.
+    /// μ, that once it slides, and the compliance of an elastic wall, m/s per N s.
     pub friction: f64,
+    pub kinetic: f64,
     pub compliance: f64,
     /// As [`FrictionContact::slides`].
     pub slides: f64,
@@ -282,16 +283,20 @@ fn find_normals(
     (length, theta): (f64, f64),
 ) -> bool {
     let mut ways: Vec<[f64; 2]> = holds.iter().map(|hold| hold.rate.map(|rate| length * rate)).collect();
+    // Contacts that begin to slide with some normals keep their kinetic friction with all others.
+    let mut frictions: Vec<f64> = holds.iter().map(|hold| hold.friction).collect();
     let mut warm = vec![[0.0; 2]; holds.len()];
     for turn in 0..MOST_TURNS {
-        let touches = holds.iter().zip(ways.iter().zip(&warm)).map(|(hold, (way, warm))| {
-            let (laws, contact) = ((hold.friction, hold.compliance), (hold.wall, hold.rows));
-            let touch = FrictionContact::new(places, contact, hold.bound(*way, length), laws, *warm);
-            FrictionContact { slides: hold.slides, ..touch }
-        });
+        let touches =
+            holds.iter().zip(&frictions).zip(ways.iter().zip(&warm)).map(|((hold, friction), (way, warm))| {
+                let (laws, contact) = ((*friction, hold.compliance), (hold.wall, hold.rows));
+                let touch = FrictionContact::new(places, contact, hold.bound(*way, length), laws, *warm);
+                FrictionContact { slides: hold.slides, kinetic: hold.kinetic, ..touch }
+            });
         sweeps.touches.clear();
         sweeps.touches.extend(touches);
         sweeps.solve(places);
+        frictions.iter_mut().zip(&sweeps.touches).for_each(|(friction, touch)| *friction = touch.friction);
         let mut delta = delta.to_vec();
         places.lift(&sweeps.impulse, &mut delta);
         let (mut turned, mut far) = (0.0_f64, false);

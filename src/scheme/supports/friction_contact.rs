@@ -14,9 +14,16 @@
 //! answers it: open (N ≤ 0, no impulse); stick, t·ẇ⁺ = 0; slip either way, f = ∓μp. For large μ and
 //! b ≠ 0 several may: the first in this order is taken. Where rounding leaves none, p is taken
 //! without friction until a pivoting method takes over.
+//!
+//! Where the static μ is larger than the kinetic one, a contact that stuck in the step before has
+//! the static μ. If it slides in the answer, it has the kinetic μ for the rest of the step, and all
+//! contacts are answered again ([`FrictionContacts::solve`](super::FrictionContacts::solve)). One
+//! that slid before has the kinetic μ, unless its sliding velocity turns in the answer: then it
+//! passes rest within the step, and static friction is tried first.
 
 use super::contact_rows::ContactRows;
 use super::normal::dot;
+use crate::scene::FrictionCoefficients;
 
 /// Rounding of velocities, relative to the largest: a state is accepted within this.
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -57,6 +64,12 @@ pub(in crate::scheme) struct FrictionContact {
     /// μ, and κ in m/s per N s.
     pub friction: f64,
     pub compliance: f64,
+    /// μ_k and μ_s, of which `friction` is one.
+    pub kinetic: f64,
+    pub holding: f64,
+    /// The sign of t·ẇ of a contact that slid in the step before; 0 where it stuck or did not push,
+    /// and once static friction has failed to hold it in this step.
+    pub came: f64,
     /// a − κ, b, c.
     pub own: [f64; 3],
     pub state: State,
@@ -91,6 +104,9 @@ impl FrictionContact {
             bound,
             friction,
             compliance,
+            kinetic: friction,
+            holding: friction,
+            came: 0.0,
             own,
             state: State::Open,
             impulse,
@@ -151,6 +167,51 @@ impl FrictionContact {
             State::Stick => {}
             State::Ahead | State::Back => self.impulse[1] = -self.state.sign() * self.friction * self.impulse[0],
         }
+    }
+
+    /// The same contact with the friction that it has after a step in which it `did` this.
+    pub fn after(self, friction: FrictionCoefficients, did: State) -> Self {
+        Self {
+            friction: friction.limit(did == State::Stick),
+            kinetic: friction.sliding,
+            holding: friction.sticking,
+            came: did.sign(),
+            ..self
+        }
+    }
+
+    /// Changes the coefficient of friction if its answer has another: the kinetic one, for the rest
+    /// of the step, where it slides in spite of static friction; the static one where its sliding
+    /// velocity turns. Returns whether it changed. The velocities are `y`.
+    pub fn changes_friction(&mut self, y: &[f64]) -> bool {
+        let ([p, f], slides) = (self.impulse, matches!(self.state, State::Ahead | State::Back));
+        if slides && self.friction == 0.0 {
+            // The answer is the same either way.
+            self.state = if self.excess(y)[1] < 0.0 { State::Back } else { State::Ahead };
+        }
+        if self.friction > self.kinetic {
+            // What holds a body that turns acts against the new velocity, hence along the old one.
+            let pulls = self.came * f < 0.0 && f.abs() > self.kinetic * p;
+            if slides || pulls {
+                (self.friction, self.came) = (self.kinetic, 0.0);
+                return true;
+            }
+        } else if slides && self.state.sign() * self.came < 0.0 && self.holding > self.friction {
+            self.friction = self.holding;
+            return true;
+        }
+        false
+    }
+
+    /// Finds its state from the velocities `y` and its impulse, within a velocity of `noise` (m/s).
+    pub fn recognise(&mut self, y: &[f64], noise: f64) {
+        let ([p, _], [_, t]) = (self.impulse, self.excess(y));
+        self.state = match t {
+            _ if p == 0.0 => State::Open,
+            _ if self.friction > 0.0 && t.abs() <= noise => State::Stick,
+            t if t < 0.0 => State::Back,
+            _ => State::Ahead,
+        };
     }
 
     /// Takes back what rounding has left outside of Coulomb's cone: a force of −1e-20 N is none,
@@ -264,6 +325,62 @@ mod tests {
             touch.impulse = [(0.7 * turn).sin(), rubs * (1.7 * turn).cos()];
             places.add(touch.rows, touch.push(touch.impulse), &mut y);
             assert_eq!(touch.guess(&y), fresh.state, "{touch:?}");
+        }
+    }
+
+    #[test]
+    fn which_coefficient_a_contact_has_follows_from_what_it_did_and_does() {
+        let both = FrictionCoefficients { sticking: 0.5, sliding: 0.2 };
+        let (_, touch) = one([1.0, 0.0], both.sticking);
+        // What it did, and one answer after the other with a push of 1 N s: state and friction
+        // impulse, and the coefficient and whether it changed after that.
+        for (did, answers) in [
+            (State::Open, &[(State::Stick, 0.1, 0.2, false)][..]),
+            (State::Open, &[(State::Ahead, -0.2, 0.2, false)]),
+            (State::Stick, &[(State::Stick, 0.4, 0.5, false)]),
+            // A slide begins; a stop in the same step is one with kinetic friction.
+            (State::Stick, &[(State::Back, 0.5, 0.2, true), (State::Stick, 0.1, 0.2, false)]),
+            (State::Ahead, &[(State::Ahead, -0.2, 0.2, false)]),
+            (State::Ahead, &[(State::Stick, -0.1, 0.2, false)]),
+            // It turns, and is held, or slides back all the same.
+            (State::Ahead, &[(State::Back, 0.2, 0.5, true), (State::Stick, 0.4, 0.5, false)]),
+            (State::Back, &[(State::Ahead, -0.2, 0.5, true), (State::Stick, -0.4, 0.5, false)]),
+            (
+                State::Ahead,
+                &[(State::Back, 0.2, 0.5, true), (State::Back, 0.5, 0.2, true), (State::Back, 0.2, 0.2, false)],
+            ),
+            // Held by what it would have been pushed on with.
+            (State::Ahead, &[(State::Back, 0.2, 0.5, true), (State::Stick, -0.4, 0.2, true)]),
+        ] {
+            let mut touch = touch.after(both, did);
+            for &(state, f, friction, changes) in answers {
+                (touch.state, touch.impulse) = (state, [1.0, f]);
+                assert_eq!(
+                    (touch.changes_friction(&[0.0; 2]), touch.friction),
+                    (changes, friction),
+                    "{did:?} {state:?}"
+                );
+            }
+        }
+        // Without kinetic friction the velocity tells which way it slides.
+        let mut touch = touch.after(FrictionCoefficients { sliding: 0.0, ..both }, State::Ahead);
+        (touch.state, touch.impulse) = (State::Ahead, [1.0, 0.0]);
+        assert!(!touch.changes_friction(&[0.0, 0.1]) && touch.changes_friction(&[0.0, -0.1]) && touch.friction == 0.5);
+    }
+
+    #[test]
+    fn a_state_is_known_by_the_velocity_and_the_push() {
+        for (friction, p, t, state) in [
+            (0.5, 0.0, 0.0, State::Open),
+            (0.5, 1.0, 1e-9, State::Stick),
+            (0.5, 1.0, 1e-6, State::Ahead),
+            (0.5, 1.0, -1e-6, State::Back),
+            (0.0, 1.0, 1e-9, State::Ahead),
+        ] {
+            let (_, mut touch) = one([1.0, 0.0], 0.5);
+            (touch.friction, touch.impulse) = (friction, [p, 0.0]);
+            touch.recognise(&[0.0, t], 1e-8);
+            assert_eq!(touch.state, state, "{friction} {p} {t}");
         }
     }
 

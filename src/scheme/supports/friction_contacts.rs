@@ -16,7 +16,7 @@
 
 use super::contact_rows::ContactRows;
 use super::friction_contact::{FrictionContact, ROUNDING, State};
-use super::linear::Linear;
+use super::linear::{Linear, renew};
 use super::normal::dot;
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{Backend, Coulomb, CoulombContact, Problem, Rhs, Solver};
@@ -84,9 +84,21 @@ impl FrictionContacts {
         self.problem.0.clone_from(a);
     }
 
-    /// Solves for the impulses of all contacts, from the velocities `free`. Returns whether one
-    /// pushes.
+    /// Solves for the impulses of all contacts, from the velocities `free`. Where the answer has
+    /// another coefficient of friction, it is solved again with that, at most twice for each
+    /// contact. Returns whether one pushes.
     pub fn solve(&mut self, places: &ContactRows) -> bool {
+        loop {
+            let pushes = self.solve_once(places);
+            let Self { touches, y, .. } = self;
+            let changes = |any, touch: &mut FrictionContact| touch.changes_friction(y) | any;
+            if !(pushes && touches.iter_mut().fold(false, changes)) {
+                return pushes;
+            }
+        }
+    }
+
+    fn solve_once(&mut self, places: &ContactRows) -> bool {
         let Self { touches, free, y, impulse, .. } = self;
         impulse.fill(0.0);
         y.copy_from_slice(free);
@@ -105,7 +117,11 @@ impl FrictionContacts {
             [touch] => touch.answer(places, y).1,
             _ => self.sweep(places),
         };
-        let settled = settled || self.pivot().is_some() || self.complement(places).is_some();
+        let settled = settled || {
+            let found = self.pivot().is_some() || self.complement(places).is_some();
+            self.recognise(places);
+            found
+        };
         self.unsettled += u64::from(!settled);
         for touch in &self.touches {
             for (row, push) in touch.rows.into_iter().zip(touch.push(touch.impulse)) {
@@ -163,10 +179,9 @@ impl FrictionContacts {
     /// whether that happened.
     fn sweep(&mut self, places: &ContactRows) -> bool {
         let Self { touches, free, y, states, linear, .. } = self;
-        let size = |y: &[f64]| y.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
         let rigid = touches.iter().filter(|touch| touch.compliance == 0.0);
         let bounds = rigid.fold(0.0_f64, |most, touch| most.max(touch.bound.abs()));
-        let largest = size(free).max(bounds);
+        let largest = largest_of(free).max(bounds);
         let mut due = 2;
         let most_sweeps = MOST_SWEEPS[usize::from(touches.iter().any(|touch| touch.friction > 0.0))];
         for sweep in 1..=most_sweeps {
@@ -195,6 +210,15 @@ impl FrictionContacts {
 }
 
 impl FrictionContacts {
+    /// Finds the states of the contacts from their impulses.
+    #[cold]
+    fn recognise(&mut self, places: &ContactRows) {
+        let Self { touches, free, y, .. } = self;
+        renew(places, touches, free, y);
+        let noise = ROUNDING * most(largest_of(free), touches);
+        touches.iter_mut().for_each(|touch| touch.recognise(y, noise));
+    }
+
     /// Solves for the impulses of contacts without friction as a quadratic programme in the change
     /// of velocity that they cause; `None` where a contact has friction, or the programme fails. So
     /// rare that it may allocate.
@@ -265,6 +289,11 @@ impl FrictionContacts {
         self.gave_up += u64::from(!gave_up.is_empty());
         Some(())
     }
+}
+
+/// The largest of these velocities, m/s.
+fn largest_of(y: &[f64]) -> f64 {
+    y.iter().fold(0.0_f64, |most, y| most.max(y.abs()))
 }
 
 /// The largest of `rate` and the changes of velocity that the contacts make, m/s: contacts that

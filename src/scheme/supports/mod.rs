@@ -7,7 +7,9 @@
 //! over the walls and holes that the step reaches; P are the two rows of a place. [`walls_in_play`]
 //! has their bounds on n·ẇ⁺. Friction follows Coulomb's law on the impulses and the velocity at the
 //! end of the step ([`crate::step::Friction`]): with velocities at θ in its place, a body that
-//! sticks would bounce along the surface.
+//! sticks would bounce along the surface. Whether the static or the kinetic coefficient applies
+//! follows from what the contact did in the step before, and from the answer
+//! ([`friction_contact`]).
 //!
 //! In the cross-section a contact has one tangent, so its law is piecewise linear and has an exact
 //! answer ([`friction_contact`]); sweeps over the contacts and one linear system answer all of
@@ -92,7 +94,8 @@ impl Supports {
         let places = ContactRows::new(body.n, &rows, &mut factor);
         let contacts = points.len();
         let zero = || vec![0.0; body.n];
-        let round = scene.walls.iter().map(Wall::is_round).collect();
+        let mut memory = WarmStart::new(scene.walls.iter().map(Wall::is_round).collect(), places.count());
+        memory.begin(scene, &scene.initial.q, &scene.initial.v);
         Ok(Self {
             theta,
             frame: Frame::new(scene)?,
@@ -103,7 +106,7 @@ impl Supports {
             free: zero(),
             met: vec![None; contacts],
             given: vec![0.0; contacts],
-            memory: WarmStart::new(round, places.count()),
+            memory,
             episodes: Episodes::new(scene, scene.wall_masses(), contract),
             forced: false,
             places,
@@ -118,11 +121,12 @@ impl Supports {
         reach.set_reach(frame, body.h);
         sweeps.touches.clear();
         for index in 0..body.walls.len() {
+            let last = (memory.warm[index], memory.did[index]);
             if !reach.is_round(index) {
-                sweeps.touches.extend(reach.wall(index, (body, frame), places, memory.warm[index]));
+                sweeps.touches.extend(reach.wall(index, (body, frame), places, last));
                 continue;
             }
-            let found = reach.hole(index, (frame, body.h), places, memory.warm[index]);
+            let found = reach.hole(index, (frame, body.h), places, last);
             met[index] = found.map(|(_, met)| met);
             let Some((touch, met)) = found else { continue };
             frame.normal[index] = met.normal;
@@ -267,13 +271,13 @@ impl Motion for Supports {
         }
     }
 
-    fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+    fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
         self.take_back_impulses();
         self.frame.restart(time, q, v);
         self.body.restart(time);
         self.frame.normal.fill([0.0; 2]);
         self.episodes.forget();
-        self.memory.forget();
+        self.memory.begin(scene, q, v);
         self.forced = false;
         Ok(())
     }

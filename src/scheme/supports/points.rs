@@ -1,6 +1,6 @@
 //! The contact points: where walls push.
 
-use crate::scene::{Face, PlaneRows, Row, Scene, heading};
+use crate::scene::{Face, FrictionCoefficients, PlaneRows, Row, Scene, heading};
 
 /// Where a wall pushes, and how.
 #[derive(Debug, Clone, Copy)]
@@ -9,7 +9,7 @@ pub(in crate::scheme) struct ContactPoint {
     pub rows: [usize; 2],
     /// Outward normal of a flat wall.
     pub normal: [f64; 2],
-    pub friction: f64,
+    pub friction: FrictionCoefficients,
 }
 
 /// The contact points of all walls, and the rows of their places: two of each support and of each
@@ -33,7 +33,7 @@ pub(in crate::scheme) fn contact_points(scene: &Scene) -> (Vec<ContactPoint>, Ve
             (Some(point), _) => point,
             (None, Face::Flat { at, side, .. }) => {
                 rows.push(at);
-                ContactPoint { rows: [rows.len() - 1; 2], normal: [-side.sign(), 0.0], friction: 0.0 }
+                ContactPoint { rows: [rows.len() - 1; 2], normal: [-side.sign(), 0.0], friction: 0.0.into() }
             }
             (None, Face::Round { at, .. }) => {
                 ContactPoint { rows: place(&mut rows, at), normal: [0.0; 2], friction: wall.friction }

@@ -8,7 +8,7 @@ use super::super::body::Body;
 use super::super::frame::Frame;
 use super::super::matrices::Matrices;
 use super::contact_rows::ContactRows;
-use super::friction_contact::FrictionContact;
+use super::friction_contact::{FrictionContact, State};
 use super::normal::{AHEAD, HoleState, TURNING, dot, hole_state};
 use super::points::ContactPoint;
 use crate::scene::{Checked, Hole};
@@ -72,13 +72,13 @@ impl WallsInPlay {
         }
     }
 
-    /// A wall, if it is in play; `warm` is its impulse in the last step.
+    /// A wall, if it is in play; `warm` is its impulse in the last step, and what it `did` there.
     pub fn wall(
         &mut self,
         wall: usize,
         (body, frame): (&Body<Matrices>, &Frame<Matrices>),
         places: &ContactRows,
-        warm: [f64; 2],
+        (warm, did): ([f64; 2], State),
     ) -> Option<FrictionContact> {
         let (face, point, ht) = (body.walls[wall], self.points[wall], body.h * self.theta);
         let (bound, compliance) = match (face.law.spring(), face.law.restitution()) {
@@ -104,24 +104,26 @@ impl WallsInPlay {
             }
             _ => return None,
         };
-        let (contact, law) = ((wall, point.rows), (point.friction, compliance));
-        Some(FrictionContact::new(places, contact, (point.normal, bound), law, warm))
+        let (contact, law) = ((wall, point.rows), (point.friction.sticking, compliance));
+        let touch = FrictionContact::new(places, contact, (point.normal, bound), law, warm);
+        Some(touch.after(point.friction, did))
     }
 
     /// True if the rebounds of a body that arrives at a wall with friction at this speed (m/s) end
     /// within the step, under the push of the last step, N s: [`Friction`].
     fn rests(&self, wall: usize, restitution: f64, approach: f64, push: f64) -> bool {
         let rebounds = 2.0 * restitution * self.masses[wall] * approach;
-        self.points[wall].friction > 0.0 && push > 0.0 && rebounds <= (1.0 - restitution) * push
+        self.points[wall].friction.acts() && push > 0.0 && rebounds <= (1.0 - restitution) * push
     }
 
-    /// A round wall, if it is in play; `warm` is its impulse in the last step.
+    /// A round wall, if it is in play; `warm` is its impulse in the last step, and what it `did`
+    /// there.
     pub fn hole(
         &self,
         index: usize,
         (frame, h): (&Frame<Matrices>, f64),
         places: &ContactRows,
-        warm: [f64; 2],
+        (warm, did): ([f64; 2], State),
     ) -> Option<(FrictionContact, HoleState)> {
         let (round, point) = (self.rounds[index]?, self.points[index]);
         let from = |q: &Vec<f64>| {
@@ -134,7 +136,8 @@ impl WallsInPlay {
         }
         let rate = places.pair(point.rows, frame.struck());
         let met = hole_state((round.gap, round.restitution), from(&frame.q), rate, h)?;
-        let (contact, law) = ((index, point.rows), (point.friction, 0.0));
-        Some((FrictionContact::new(places, contact, (met.normal, met.bound), law, warm), met))
+        let (contact, law) = ((index, point.rows), (point.friction.sticking, 0.0));
+        let touch = FrictionContact::new(places, contact, (met.normal, met.bound), law, warm);
+        Some((touch.after(point.friction, did), met))
     }
 }

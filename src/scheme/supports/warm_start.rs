@@ -1,7 +1,8 @@
 //! What a step of a scene with supports leaves to the next one.
 
-use super::friction_contact::FrictionContact;
+use super::friction_contact::{FrictionContact, State};
 use super::normal::dot;
+use crate::scene::Scene;
 
 /// Normals of flats at one place that are opposite to rounding.
 const OPPOSITE: f64 = -1.0 + 1e-9;
@@ -13,6 +14,8 @@ pub(super) struct WarmStart {
     round: Vec<bool>,
     /// Impulses p and f of each wall and hole, N s, from which the next step starts.
     pub warm: Vec<[f64; 2]>,
+    /// What each wall and hole did; one that did not push was open.
+    pub did: Vec<State>,
     /// Normal of the last contact that pushed at each row's place, if any.
     last: Vec<Option<[f64; 2]>>,
     /// Steps in which a body stood still between opposite sides.
@@ -24,13 +27,31 @@ pub(super) struct WarmStart {
 impl WarmStart {
     /// For walls of which some are `round`, on `rows` rows.
     pub fn new(round: Vec<bool>, rows: usize) -> Self {
-        Self { warm: vec![[0.0; 2]; round.len()], round, last: vec![None; rows], frozen: 0, turned: 0.0 }
+        Self {
+            warm: vec![[0.0; 2]; round.len()],
+            did: vec![State::Open; round.len()],
+            round,
+            last: vec![None; rows],
+            frozen: 0,
+            turned: 0.0,
+        }
+    }
+
+    /// Begins at the displacement `q` (m) and the velocity `v` (m/s).
+    pub fn begin(&mut self, scene: &Scene, q: &[f64], v: &[f64]) {
+        self.forget();
+        for (index, did) in self.did.iter_mut().enumerate() {
+            if scene.stands_on(index, q, v) {
+                *did = State::Stick;
+            }
+        }
     }
 
     /// Forgets the last step.
     pub fn forget(&mut self) {
         self.last.fill(None);
         self.warm.fill([0.0; 2]);
+        self.did.fill(State::Open);
     }
 
     /// Keeps what the next step needs of the contacts in play, and counts; `turn` gives the angle
@@ -47,6 +68,7 @@ impl WarmStart {
         self.forget();
         for touch in touches.iter().filter(|touch| touch.impulse[0] > 0.0) {
             self.warm[touch.index] = touch.impulse;
+            self.did[touch.index] = touch.state;
             if touch.compliance == 0.0 {
                 self.last[touch.rows[0]] = Some(touch.normal);
             }
@@ -56,7 +78,6 @@ impl WarmStart {
 
 #[cfg(test)]
 mod tests {
-    use super::super::friction_contact::State;
     use super::*;
 
     /// Contacts 0 and 1 are walls, 2 and 3 holes, each on rows of its own.
@@ -70,6 +91,9 @@ mod tests {
             bound: 0.0,
             friction: 0.3,
             compliance: 0.0,
+            kinetic: 0.3,
+            holding: 0.3,
+            came: 0.0,
             own: [1.0, 0.0, 1.0],
             state: State::Ahead,
             impulse,
@@ -126,10 +150,11 @@ mod tests {
         let mut memory = memory();
         memory.keep(&[touch(1, 0.0, [2.0, -0.5]), touch(3, 0.0, [3.0, 0.7]), touch(2, 0.0, [0.0; 2])], |_| 0.0);
         assert_eq!(memory.warm, [[0.0; 2], [2.0, -0.5], [0.0; 2], [3.0, 0.7]]);
+        assert_eq!(memory.did, [State::Open, State::Ahead, State::Open, State::Ahead]);
         memory.keep(&[touch(0, 0.0, [1.0, 0.0])], |_| 0.0);
         assert_eq!(memory.warm, [[1.0, 0.0], [0.0; 2], [0.0; 2], [0.0; 2]]);
         memory.forget();
-        assert_eq!(memory.warm, [[0.0; 2]; 4]);
+        assert_eq!((&memory.warm, &memory.did), (&vec![[0.0; 2]; 4], &vec![State::Open; 4]));
     }
 
     #[test]

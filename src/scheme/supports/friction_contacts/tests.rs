@@ -278,7 +278,7 @@ fn rounding_is_a_share_of_the_velocities_and_of_what_the_contacts_change() {
 #[test]
 fn a_step_whose_velocities_are_no_numbers_counts_as_not_settled() {
     let mut scene = Scene::random(&mut Draws(1, 0), (3, 1), (0.5, 0.0), 1.0);
-    scene.sweeps.touches[0].friction = 0.2;
+    scene.sweeps.touches[0] = scene.sweeps.touches[0].after(0.2.into(), State::Open);
     scene.sweeps.free.fill(f64::NAN);
     assert!(scene.solve());
     assert_eq!((scene.sweeps.solves, scene.sweeps.unsettled), (1, 1));
