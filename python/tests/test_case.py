@@ -109,6 +109,8 @@ HOLE: dict[str, Any] = {"name": "plate", "gap": 2e-4, "at": 1.0}
         ({"supports": [sg.hole("plate", 2e-4)]}, "plate"),
         ({"supports": [sg.hole("plate", 2e-4, at=4.0)]}, "4"),
         ({"supports": [sg.hole(**HOLE, friction=11.0)]}, "0 to 10"),
+        ({"supports": [sg.hole(**HOLE, friction={"static": 0.1, "kinetic": 0.2})]}, "at least the kinetic coefficient"),
+        ({"supports": [sg.hole(**HOLE, friction={"static": 0.1})]}, "no kinetic coefficient"),
         ({"supports": [sg.hole(**HOLE, centre=(1e-4,))]}, "two numbers in m"),
         ({"supports": [sg.hole(**HOLE), sg.hole(**HOLE)]}, "a name of its own for each support"),
         ({"supports": [sg.hole(**HOLE, restitution=0.5, stiffness=1e6)]}, "restitution"),

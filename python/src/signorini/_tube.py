@@ -27,6 +27,7 @@ class Support:
 
 
 Joint = Mapping[str, int]
+Friction = Mapping[str, float]
 
 
 def _at(at: Place | Joint) -> Any:
@@ -43,7 +44,7 @@ def hole(
     restitution: float | None = None,
     stiffness: float | None = None,
     damping: float | None = None,
-    friction: float | None = None,
+    friction: float | Friction | None = None,
     width: float | None = None,
     coefficient: float | None = None,
     support_coefficient: float | None = None,
@@ -66,8 +67,9 @@ def hole(
         Of a rigid hole, 0 to 1; the default is 1.
     stiffness, damping : float, optional
         N/m and N s/m of an elastic hole.
-    friction : float, optional
-        Coefficient of Coulomb friction; none unless given.
+    friction : float or mapping, optional
+        Coefficient of Coulomb friction; none unless given. With a larger one of a contact that
+        sticks, ``{"static": 0.3, "kinetic": 0.2}``.
     width : float, optional
         Along the tube, m, for the depth of wear.
     coefficient, support_coefficient : float, optional
@@ -112,7 +114,7 @@ def flats(
     restitution: float | None = None,
     stiffness: float | None = None,
     damping: float | None = None,
-    friction: float | None = None,
+    friction: float | Friction | None = None,
     width: float | None = None,
     coefficient: float | None = None,
     support_coefficient: float | None = None,
