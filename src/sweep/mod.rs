@@ -28,6 +28,7 @@
 //! | `picture`, `curves`, `maps`, `instants`, `tornado` | the pictures |
 //! | `table`, `columns` | reading the tables |
 //! | `effects` | the effect of each key on each measure |
+//! | `shares` | the share of each key in the variance of each measure |
 //! | `means` | the means over realisations, for the terminal |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
 //!
@@ -94,6 +95,7 @@ mod run_set;
 mod sample;
 mod seeds;
 mod shard;
+mod shares;
 mod status;
 mod strobe;
 mod table;
@@ -124,6 +126,7 @@ pub use run::{Progress, SweepOptions};
 pub use sample::{Sample, Samples};
 pub(crate) use seeds::{asked, in_words};
 pub use shard::Shard;
+pub(crate) use shares::{Shares, shares, write_shares};
 pub use status::Status;
 pub use target::Target;
 pub use values::Values;

@@ -11,7 +11,8 @@ use super::plan::Plan;
 use super::row::Row;
 use super::run_set::RunSet;
 use super::shard::Shard;
-use super::table::{EFFECTS, REALISATIONS, cells_of};
+use super::shares::{shares, write_shares};
+use super::table::{EFFECTS, REALISATIONS, SHARES, cells_of};
 use crate::error::Result;
 use crate::output::format::Format;
 use crate::output::journal::Journal;
@@ -74,8 +75,8 @@ impl Plan {
     }
 
     /// Runs the sweep into `folder`: `sweep.csv`, `samples.csv` if instants are requested,
-    /// `realisations.csv` if rows have several, `effects.csv` if keys vary one at a time, and
-    /// `request.json`. After an interruption at any instant, the same call continues, and ends with
+    /// `realisations.csv` if rows have several, `effects.csv` if keys vary one at a time,
+    /// `shares.csv` if they are drawn at random, and `request.json`. After an interruption at any instant, the same call continues, and ends with
     /// the same bytes, whatever the number of threads. Finished tables are read: where one is no
     /// longer as it was written, all rows are computed again. `progress` is called from time to
     /// time.
@@ -85,10 +86,15 @@ impl Plan {
     /// another process is writing to, and if writing fails.
     pub fn run_into(&self, folder: &Path, options: SweepOptions, progress: &dyn Fn(Progress)) -> Result<Finished> {
         let (finished, mut results) = self.run_in(folder, options, Vec::new(), progress, &|_| ())?;
-        let effects = effects(&finished.folder, &self.request())?;
-        if !effects.is_empty() && options.shard == Shard::WHOLE && !finished.folder.join(EFFECTS).exists() {
-            write_effects(&mut results, &effects)?;
-            results.finish()?;
+        let there = |name: &str| finished.folder.join(name).exists();
+        if options.shard == Shard::WHOLE && !there(EFFECTS) && !there(SHARES) {
+            let request = self.request();
+            let (effects, shares) = (effects(&finished.folder, &request)?, shares(&finished.folder, &request)?);
+            if !effects.is_empty() || !shares.is_empty() {
+                write_effects(&mut results, &effects)?;
+                write_shares(&mut results, &shares)?;
+                results.finish()?;
+            }
         }
         Ok(finished)
     }

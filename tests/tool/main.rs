@@ -23,6 +23,7 @@ mod set_values;
 mod statistics;
 mod sweep;
 mod sweep_seeds;
+mod sweep_shares;
 mod sweep_until_interval;
 mod terminal;
 mod verdicts;

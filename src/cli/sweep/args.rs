@@ -100,7 +100,8 @@ pub struct Args {
     /// that key at FROM and at TO; effects.csv and the picture sort the keys by what they change
     #[arg(long, conflicts_with_all = ["random", "follow"])]
     one_at_a_time: bool,
-    /// Draw the values of all --vary at random: uniform, lhs (Latin hypercube), sobol
+    /// Draw the values of all --vary at random: uniform, lhs (Latin hypercube), sobol; shares.csv
+    /// has each key's share of the variance of each measure
     #[arg(long, value_name = "KIND", requires = "points")]
     random: Option<Design>,
     /// Points of the random design

@@ -2,9 +2,11 @@
 
 mod args;
 mod effects;
+mod shares;
 
 pub use args::Args;
 pub(super) use effects::show_effects;
+pub(super) use shares::show_shares;
 
 use super::command_line::command_line;
 use super::estimate::time_in_words;
@@ -14,8 +16,8 @@ use crate::error::Result;
 use crate::output::results::Results;
 use crate::study::realisations::RealisationCount;
 use crate::sweep::{
-    Finished, Pictures, Plan, Progress, Shard, Status, SweepOptions, Tables, effects, in_words, means, write_effects,
-    write_summary,
+    Finished, Pictures, Plan, Progress, Shard, Status, SweepOptions, Tables, effects, in_words, means, shares,
+    write_effects, write_shares, write_summary,
 };
 use serde_json::{Map, Value, json};
 use std::cell::Cell;
@@ -43,9 +45,12 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let pictures = if whole { plan.draw(&mut results)? } else { Pictures::default() };
     let effects = if whole { effects(&finished.folder, &plan.request())? } else { Vec::new() };
     write_effects(&mut results, &effects)?;
+    let shares = if whole { shares(&finished.folder, &plan.request())? } else { Vec::new() };
+    write_shares(&mut results, &shares)?;
     let document = write_summary(&mut results, document(&plan, &finished, &pictures.drawn))?;
     let mut answer = Answer::of(results, whole && !args.place.no_report, document);
     show_effects(&mut answer, &effects, plan.realisations());
+    show_shares(&mut answer, &shares);
     show_means(&mut answer, &finished.folder, &plan.request())?;
     let found = match finished.found {
         0 => String::new(),

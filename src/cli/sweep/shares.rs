@@ -1,0 +1,35 @@
+//! The table of the shares of keys in the variance of measures.
+
+use super::Answer;
+use crate::output::table::Table;
+use crate::sweep::Shares;
+
+/// Most lines of the table.
+const MOST_LINES: usize = 40;
+
+/// Rows for each coefficient below which shares are told with a caution.
+const FEW: usize = 3;
+
+/// Shows the shares, a line for each measure and place; nothing for a sweep without random values.
+pub fn show_shares(answer: &mut Answer, shares: &[Shares]) {
+    let found: Vec<&Shares> = shares.iter().filter(|one| !one.parts.is_empty()).collect();
+    if let Some(first) = found.first() {
+        let header: Vec<&str> =
+            ["measure"].into_iter().chain(first.parts.iter().map(|(key, _)| key.as_str())).collect();
+        let percent = |(_, share): &(String, f64)| format!("{:.1}", 100.0 * share);
+        let row = |one: &&Shares| [one.column.clone()].into_iter().chain(one.parts.iter().map(percent)).collect();
+        answer.table(Table::new(&header, found.iter().take(MOST_LINES).map(row).collect()), "shares.csv");
+        let text = "the share of each key in the variance of the measure over the rows, in %, by polynomials of the \
+                    third degree; interactions: what no sum of such polynomials gives; a share within some % of 0 may \
+                    be chance";
+        answer.messages([text.to_owned()]);
+        let few = found.iter().filter(|one| one.rows < FEW * one.coefficients).map(|one| (one.rows, one.coefficients));
+        answer.messages(few.min().map(|(rows, coefficients)| {
+            format!("note: {rows} rows for {coefficients} coefficients: the shares scatter; more --points tell more")
+        }));
+    }
+    let lacking = shares.iter().filter(|one| one.rows <= one.coefficients).map(|one| (one.rows, one.coefficients));
+    answer.messages(lacking.min().map(|(rows, coefficients)| {
+        format!("note: no shares of the keys from {rows} rows with a value: they take more than {coefficients}")
+    }));
+}

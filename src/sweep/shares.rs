@@ -1,0 +1,240 @@
+//! The share of each key in the variance of each measure, from a sweep whose values are drawn at
+//! random.
+//!
+//! Each key is scaled to x ∈ [−1, 1] over the range that was drawn, in its logarithm where that is
+//! how it was drawn. With the Legendre polynomials P₁, P₂, P₃ the additive model
+//!
+//! y ≈ β₀ + Σ_k f_k(x_k),   f_k = Σ_d β_kd P_d,
+//!
+//! is fitted to the rows by least squares; s² = RSS/(N − p) is the variance of what it leaves, with
+//! N rows and p = 1 + 3K coefficients. Of the sum of squares TSS = Σ(y − ȳ)²
+//!
+//! key k has         (Σᵢ f_k(yᵢ − ȳ) − 3 s²)/TSS,
+//! all else has      (N − 1) s²/TSS,
+//!
+//! which add up to 1. The terms with s² take out what the coefficients fit by chance, as in the
+//! adjusted R², so that the share of a key without any effect scatters about 0. Where y is a mean
+//! over realisations of random loads, the mean of its variances, (half width of the 95 % interval
+//! over Student's t)², is the share of the realisations; what is left is that of interactions of
+//! keys and of terms beyond the third degree.
+
+use super::columns::{Source, SweepAxis, half_width_of, place_of};
+use super::measure::Measure;
+use super::picture::Picture;
+use super::status::Status;
+use super::table::{SEEDS, SHARES, TABLE, Table, line_of};
+use crate::error::{Error, Result};
+use crate::output::atomic::WholeFile;
+use crate::output::csv::digits;
+use crate::output::figure::Scale;
+use crate::output::results::Results;
+use crate::statistics::student_95;
+use nalgebra::{DMatrix, DVector};
+use serde_json::{Map, Value};
+use std::io::Write;
+use std::path::Path;
+
+/// The highest degree of the polynomials of a key.
+const DEGREE: usize = 3;
+
+/// The columns of `shares.csv`.
+const HEADER: [&str; 6] = ["key", "place", "measure", "unit", "share", "rows"];
+
+/// What is no key in the column `key`.
+const INTERACTIONS: &str = "interactions";
+const REALISATIONS: &str = "realisations";
+
+/// The shares in the variance of one measure at one place.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Shares {
+    /// The column of the measure, and its parts.
+    pub column: String,
+    pub place: String,
+    pub measure: String,
+    /// Each key, then what is no key, with its share; empty where there are too few rows, or the
+    /// measure is the same in all of them.
+    pub parts: Vec<(String, f64)>,
+    /// Rows that have a value, and the coefficients that are fitted to them.
+    pub rows: usize,
+    pub coefficients: usize,
+}
+
+/// A row: the keys, the measure, and the variance of a mean over realisations.
+type Point = (Vec<f64>, f64, Option<f64>);
+
+impl Shares {
+    fn lines(&self) -> impl Iterator<Item = Vec<String>> {
+        let unit = self.measure.parse::<Measure>().ok().and_then(Measure::unit).unwrap_or_default();
+        self.parts.iter().map(move |(key, share)| {
+            let words = [key, &self.place, &self.measure, unit].map(str::to_owned);
+            words.into_iter().chain([digits(Some(*share)), self.rows.to_string()]).collect()
+        })
+    }
+}
+
+/// The shares of the keys of a sweep that draws their values at random, by its table in `folder`,
+/// for each measure and place; empty for another sweep.
+///
+/// # Errors
+/// [`Error::Io`] for a table that cannot be read.
+pub(crate) fn shares(folder: &Path, request: &Map<String, Value>) -> Result<Vec<Shares>> {
+    let source = Source::new(folder, request, "");
+    if !source.random {
+        return Ok(Vec::new());
+    }
+    let coefficients = 1 + DEGREE * source.axes.len();
+    let mut all = Vec::new();
+    for (measure, columns) in Picture::default().measures(None, &source)? {
+        for column in columns {
+            let points = points(&source, &column, &measure)?;
+            let keys = source.axes.iter().map(|axis| axis.key.clone());
+            let parts = if points.len() > coefficients { parts(&points, keys) } else { None };
+            all.push(Shares {
+                place: place_of(&column, &measure),
+                parts: parts.unwrap_or_default(),
+                rows: points.len(),
+                measure: measure.clone(),
+                column,
+                coefficients,
+            });
+        }
+    }
+    Ok(all)
+}
+
+/// The rows that have a value in `column`, with their keys scaled to [−1, 1].
+fn points(source: &Source<'_>, column: &str, measure: &str) -> Result<Vec<Point>> {
+    let table = Table::open(&source.folder.join(TABLE))?;
+    let axes = source.axes.iter().map(|axis| table.column(&axis.column)).collect::<Result<Vec<_>>>()?;
+    let (value, status) = (table.column(column)?, table.column("status")?);
+    let (half, seeds) = (table.column(&half_width_of(column, measure)).ok(), table.column(SEEDS).ok());
+    let mut points: Vec<Point> = Vec::new();
+    table.each(|line| {
+        let key = |(axis, &index): (&SweepAxis, &usize)| {
+            line.number(index).map(|x| if axis.scale == Scale::Log { x.ln() } else { x })
+        };
+        let keys: Option<Vec<f64>> = source.axes.iter().zip(&axes).map(key).collect();
+        if let (true, Some(keys), Some(y)) = (Status::is_good_word(line.text(status)), keys, line.number(value)) {
+            let variance = half.zip(seeds).and_then(|(half, seeds)| {
+                let (half, count) = (line.number(half)?, line.number(seeds)?);
+                (count >= 2.0).then(|| (half / student_95(count as u64 - 1)).powi(2))
+            });
+            points.push((keys, y, variance));
+        }
+    })?;
+    for axis in 0..axes.len() {
+        let of = |point: &Point| point.0.get(axis).copied().unwrap_or(0.0);
+        let (low, high) =
+            points.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let scaled = |x: f64| if high > low { (2.0 * x - low - high) / (high - low) } else { 0.0 };
+        points.iter_mut().filter_map(|point| point.0.get_mut(axis)).for_each(|x| *x = scaled(*x));
+    }
+    Ok(points)
+}
+
+/// P₁, P₂ and P₃.
+fn legendre(x: f64) -> [f64; DEGREE] {
+    [x, 0.5 * (3.0 * x * x - 1.0), 0.5 * x * (5.0 * x * x - 3.0)]
+}
+
+/// Each of the `keys`, and what is no key, with its share; `None` where the measure is the same in
+/// all rows, or a key is. There are more `points` than coefficients.
+fn parts(points: &[Point], keys: impl Iterator<Item = String>) -> Option<Vec<(String, f64)>> {
+    let (n, axes) = (points.len(), points.first()?.0.len());
+    let p = 1 + DEGREE * axes;
+    let terms = |point: &Point| std::iter::once(1.0).chain(point.0.iter().flat_map(|&x| legendre(x))).collect();
+    let rows: Vec<Vec<f64>> = points.iter().map(terms).collect();
+    let matrix = DMatrix::from_fn(n, p, |i, j| rows[i][j]);
+    let y = DVector::from_iterator(n, points.iter().map(|point| point.1));
+    let beta = matrix.tr_mul(&matrix).cholesky()?.solve(&matrix.tr_mul(&y));
+    let about_mean = y.add_scalar(-y.mean());
+    let (total, left) = (about_mean.norm_squared(), (&y - &matrix * &beta).norm_squared());
+    if total <= 0.0 {
+        return None;
+    }
+    let noise = left / (n - p) as f64;
+    let of_key = |axis: usize| {
+        let first = 1 + DEGREE * axis;
+        let own = matrix.columns(first, DEGREE) * beta.rows(first, DEGREE);
+        (own.dot(&about_mean) - DEGREE as f64 * noise) / total
+    };
+    let mut parts: Vec<(String, f64)> = keys.enumerate().map(|(axis, key)| (key, of_key(axis))).collect();
+    let rest = (n - 1) as f64 * noise / total;
+    let variances: Option<Vec<f64>> = points.iter().map(|point| point.2).collect();
+    let of_realisations = variances.map(|all| all.iter().sum::<f64>() / n as f64 * (n - 1) as f64 / total);
+    parts.push((INTERACTIONS.to_owned(), rest - of_realisations.unwrap_or(0.0)));
+    parts.extend(of_realisations.map(|share| (REALISATIONS.to_owned(), share)));
+    Some(parts)
+}
+
+/// Adds `shares.csv` to `results`, where there are any.
+///
+/// # Errors
+/// [`Error::Io`] where it cannot be written.
+pub(crate) fn write_shares(results: &mut Results, shares: &[Shares]) -> Result<()> {
+    if shares.iter().all(|one| one.parts.is_empty()) {
+        return Ok(());
+    }
+    let mut file = WholeFile::create(&results.place(SHARES)?)?;
+    let header = HEADER.map(str::to_owned).to_vec();
+    for cells in std::iter::once(header).chain(shares.iter().flat_map(Shares::lines)) {
+        let written = file.write_all(&line_of(&cells));
+        written.map_err(|error| Error::io(file.path().display(), error.to_string(), false))?;
+    }
+    file.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hash::{mix, unit};
+
+    /// Points of three keys, the last without effect, with noise of this standard deviation (by Box
+    /// and Muller), of which realisations tell the variance where `told`.
+    fn drawn(n: u64, seed: u64, y: impl Fn(f64, f64) -> f64, noise: f64, told: bool) -> Vec<Point> {
+        let number = |k: u64, j: u64| unit(mix(seed, k, j));
+        let point = |k: u64| {
+            let keys: Vec<f64> = (0..3).map(|j| 2.0 * number(k, j) - 1.0).collect();
+            let normal = (-2.0 * (1.0 - number(k, 3)).ln()).sqrt() * (std::f64::consts::TAU * number(k, 4)).cos();
+            let value = y(keys[0], keys[1]) + noise * normal;
+            (keys, value, told.then_some(noise * noise))
+        };
+        (0..n).map(point).collect()
+    }
+
+    fn found(points: &[Point]) -> Vec<f64> {
+        let keys = ["a", "b", "c"].map(str::to_owned);
+        parts(points, keys.into_iter()).unwrap().into_iter().map(|(_, share)| share).collect()
+    }
+
+    #[test]
+    fn shares_of_a_sum_are_those_of_its_terms() {
+        // x₁ + 2 x₂² on [−1, 1]: variances 1/3 and 4 (1/5 − 1/9) = 16/45, and 0.04 of the noise.
+        let variances = [1.0 / 3.0, 16.0 / 45.0, 0.0, 0.0, 0.04];
+        let total: f64 = variances.iter().sum();
+        let mut mean = [0.0; 5];
+        for seed in 0..50 {
+            let shares = found(&drawn(200, seed, |a, b| a + 2.0 * b * b, 0.2, true));
+            assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{shares:?}");
+            mean.iter_mut().zip(&shares).for_each(|(mean, share)| *mean += share / 50.0);
+        }
+        for (mean, variance) in mean.iter().zip(variances) {
+            // The share of one design scatters by some 0.04, the mean of fifty by 0.006.
+            assert!((mean - variance / total).abs() < 0.02, "{mean} {}", variance / total);
+        }
+    }
+
+    #[test]
+    fn what_the_model_is_made_for_is_exact_and_the_rest_is_of_interactions() {
+        let cubic = found(&drawn(40, 1, |a, b| a * a * a - 2.0 * a + b, 0.0, false));
+        assert!(cubic[3].abs() < 1e-12 && cubic[2].abs() < 1e-12, "{cubic:?}");
+        // The product of two keys has no part that depends on one of them.
+        let mean = (0..50).map(|seed| found(&drawn(200, seed, |a, b| a * b, 0.0, false))[3]).sum::<f64>() / 50.0;
+        assert!((mean - 1.0).abs() < 0.02, "{mean}");
+    }
+
+    #[test]
+    fn a_measure_that_never_changes_has_no_shares() {
+        assert_eq!(parts(&drawn(40, 1, |_, _| 3.0, 0.0, false), std::iter::empty()), None);
+    }
+}

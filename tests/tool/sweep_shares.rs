@@ -1,0 +1,74 @@
+//! `sweep --random`: the shares of keys in the variance of measures.
+use crate::command::said;
+use std::fs;
+use std::path::Path;
+
+/// A linear oscillator before a stop that it does not reach: its displacement is in proportion to
+/// the amplitude of the load, whatever the restitution.
+const LINEAR: &str = "\
+[system.oscillator]
+mass = 1.0
+damping = 2.0
+stiffness = 400.0
+[[wall]]
+name = \"stop\"
+side = \"upper\"
+position = 10.0
+restitution = 0.5
+[[load]]
+harmonic = { amplitude = 3.0, frequency = 2.0 }
+[time]
+end = 3.0
+step = 1e-3
+";
+
+fn sweep(folder: &Path, points: &str, more: &[&str]) -> (String, String) {
+    fs::write(folder.join("linear.toml"), LINEAR).unwrap();
+    let keys = ["--vary", "load.1.harmonic.amplitude=1:5", "--vary", "wall.stop.restitution=0.2:0.9"];
+    let own = ["--random", "lhs", "--points", points, "--measure", "displacement_max,contacts", "--force"];
+    said(folder, &[&["sweep", "linear.toml"], &keys[..], &own, more].concat(), 0)
+}
+
+/// The lines of `shares.csv`: key, measure and share.
+fn shares(folder: &Path) -> Vec<(String, String, f64)> {
+    let mut table = csv::Reader::from_path(folder.join("out/linear/sweep/shares.csv")).unwrap();
+    assert_eq!(table.headers().unwrap(), vec!["key", "place", "measure", "unit", "share", "rows"]);
+    let line = |row: csv::StringRecord| (row[0].to_owned(), row[2].to_owned(), row[4].parse().unwrap());
+    table.records().map(|row| line(row.unwrap())).collect()
+}
+
+#[test]
+fn the_shares_of_a_random_design_are_those_of_the_law() {
+    let dir = tempfile::tempdir().unwrap();
+    let (out, err) = sweep(dir.path(), "40", &[]);
+    let found = shares(dir.path());
+    // All of the variance is the amplitude's; no contact occurs, so that their number has none.
+    assert_eq!(found.len(), 3, "{found:?}");
+    let expected = [("load.1.harmonic.amplitude", 1.0), ("wall.stop.restitution", 0.0), ("interactions", 0.0)];
+    for ((key, measure, share), (name, value)) in found.iter().zip(expected) {
+        assert_eq!((key.as_str(), measure.as_str()), (name, "displacement_max"));
+        // The motion is computed to rounding, and the fit holds a straight line exactly.
+        assert!((share - value).abs() < 1e-9, "{key}: {share}");
+    }
+    assert!(out.contains("displacement_max") && out.contains("100.0"), "{out}");
+    assert!(err.contains("the share of each key in the variance"), "{err}");
+    // Of shards the same.
+    let whole = fs::read(dir.path().join("out/linear/sweep/shares.csv")).unwrap();
+    for shard in ["1/2", "2/2"] {
+        sweep(dir.path(), "40", &["--shard", shard, "--out", "parts"]);
+    }
+    assert!(!dir.path().join("parts/shares.csv").exists());
+    said(dir.path(), &["merge", "parts", "--out", "joined"], 0);
+    assert_eq!(fs::read(dir.path().join("joined/shares.csv")).unwrap(), whole);
+}
+
+#[test]
+fn too_few_rows_have_no_shares_and_few_a_note() {
+    let dir = tempfile::tempdir().unwrap();
+    let (_, err) = sweep(dir.path(), "7", &[]);
+    assert!(!dir.path().join("out/linear/sweep/shares.csv").exists());
+    assert!(err.contains("no shares of the keys from 7 rows with a value: they take more than 7"), "{err}");
+    let (_, err) = sweep(dir.path(), "12", &[]);
+    assert_eq!(shares(dir.path()).len(), 3);
+    assert!(err.contains("note: 12 rows for 7 coefficients"), "{err}");
+}
