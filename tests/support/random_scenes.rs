@@ -7,8 +7,8 @@ use crate::random_structures::{self, Draws};
 use crate::rubbing;
 use signorini::linear::Symmetric;
 use signorini::{
-    Density, Face, Integrator, Load, LoadKind, PenaltyLaw, RandomForce, Scene, Scheme, Structure, System, Table, Wall,
-    WallLaw,
+    Density, Face, FrictionCoefficients, Integrator, Load, LoadKind, PenaltyLaw, RandomForce, Scene, Scheme, Structure,
+    System, Table, Wall, WallLaw,
 };
 use std::f64::consts::TAU;
 
@@ -40,7 +40,8 @@ pub fn random_scene(seed: u64, units: Units) -> Drawn {
             // A draw of its own where there is friction leaves the rest of the scene as it was
             // before elastic walls had friction.
             if friction > 0.0 {
-                soften(&mut Draws::new(!seed), &mut scene)
+                soften(&mut Draws::new(!seed), &mut scene);
+                drop_friction(&mut Draws::new(!seed.rotate_left(32)), &mut scene);
             } else {
                 soften(draws, &mut scene)
             }
@@ -107,6 +108,17 @@ fn soften(draws: &mut Draws, scene: &mut Scene) {
         if draws.chance(0.2) {
             let damping = [0.0, draws.between(0.0, 20.0)][draws.below(2)];
             wall.law = WallLaw::Elastic { stiffness: 10_f64.powf(draws.between(2.0, 5.0)), damping };
+        }
+    }
+}
+
+/// Gives a quarter of the scenes static coefficients above the kinetic ones, some of which are 0.
+fn drop_friction(draws: &mut Draws, scene: &mut Scene) {
+    if draws.chance(0.25) {
+        let (more, share) = (draws.between(1.0, 3.0), [1.0, 1.0, 0.0][draws.below(3)]);
+        for wall in &mut scene.walls {
+            let friction = wall.friction.sliding;
+            wall.friction = FrictionCoefficients { sticking: more * friction, sliding: share * friction };
         }
     }
 }
