@@ -76,10 +76,10 @@ impl Plan {
 
     /// Runs the sweep into `folder`: `sweep.csv`, `samples.csv` if instants are requested,
     /// `realisations.csv` if rows have several, `effects.csv` if keys vary one at a time,
-    /// `shares.csv` if they are drawn at random, and `request.json`. After an interruption at any instant, the same call continues, and ends with
-    /// the same bytes, whatever the number of threads. Finished tables are read: where one is no
-    /// longer as it was written, all rows are computed again. `progress` is called from time to
-    /// time.
+    /// `shares.csv` if they are drawn at random, and `request.json`. After an interruption at any
+    /// instant, the same call continues, and ends with the same bytes, whatever the number of
+    /// threads. Finished tables are read: where one is no longer as it was written, all rows are
+    /// computed again. `progress` is called from time to time.
     ///
     /// # Errors
     /// [`Error::Io`](crate::Error::Io) for a folder with results of another request, one that
