@@ -10,15 +10,14 @@ use super::columns::{Source, place_of};
 use super::layout::Layout;
 use super::measure::Measure;
 use super::picture::Picture;
-use super::status::Status;
-use super::table::{EFFECTS, REALISATION, REALISATIONS, SEEDS, TABLE, Table, line_of};
+use super::runs::Runs;
+use super::table::{EFFECTS, SEEDS, TABLE, Table, line_of};
 use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
 use crate::output::csv::digits;
 use crate::output::results::Results;
 use crate::study::realisations::mean_of;
 use serde_json::{Map, Value};
-use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 
@@ -59,41 +58,6 @@ impl Effect {
         let [at_low, at_high] = self.at;
         let numbers = [self.base, at_low, at_high, self.effect, self.half_width_95].map(digits);
         words.into_iter().chain(numbers).chain([self.count.to_string()]).collect()
-    }
-}
-
-/// The values of the measures of the runs that did not fail, by row and realisation.
-struct Runs(BTreeMap<(u64, u64), Vec<Option<f64>>>);
-
-impl Runs {
-    /// The runs in the tables of `source`, with the values of `columns`.
-    fn read(source: &Source<'_>, columns: &[String]) -> Result<Self> {
-        let name = if source.seeds.is_some() { REALISATIONS } else { TABLE };
-        let table = Table::open(&source.folder.join(name))?;
-        let indices = columns.iter().map(|column| table.column(column)).collect::<Result<Vec<_>>>()?;
-        let (row, status) = (table.column("row")?, table.column("status")?);
-        let realisation = table.column(REALISATION).ok();
-        let mut runs = BTreeMap::new();
-        table.each(|line| {
-            let number = |index: usize| line.number(index).unwrap_or(0.0) as u64;
-            if Status::is_good_word(line.text(status)) {
-                let values = indices.iter().map(|&index| line.number(index)).collect();
-                runs.insert((number(row), realisation.map_or(0, number)), values);
-            }
-        })?;
-        Ok(Self(runs))
-    }
-
-    /// The values of measure number `index` in `row`, by realisation.
-    fn of(&self, row: u64, index: usize) -> BTreeMap<u64, f64> {
-        let own = self.0.range((row, 0)..=(row, u64::MAX));
-        own.filter_map(|((_, k), values)| Some((*k, (*values.get(index)?)?))).collect()
-    }
-
-    /// The mean of them.
-    fn mean(&self, row: u64, index: usize) -> Option<f64> {
-        let values: Vec<f64> = self.of(row, index).into_values().collect();
-        (!values.is_empty()).then(|| mean_of(&values).0)
     }
 }
 
@@ -177,6 +141,7 @@ pub(crate) fn write_effects(results: &mut Results, effects: &[Effect]) -> Result
 
 #[cfg(test)]
 mod tests {
+    use super::super::table::REALISATIONS;
     use super::*;
     use crate::hash;
     use serde_json::json;

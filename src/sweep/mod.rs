@@ -27,7 +27,7 @@
 //! | `finish`, `finished`, `record` | the tables |
 //! | `picture`, `curves`, `maps`, `instants`, `tornado` | the pictures |
 //! | `table`, `columns` | reading the tables |
-//! | `effects` | the effect of each key on each measure |
+//! | `runs`, `effects` | the runs by row and realisation; the effect of each key on each measure |
 //! | `shares` | the share of each key in the variance of each measure |
 //! | `means` | the means over realisations, for the terminal |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
@@ -92,6 +92,7 @@ mod row;
 mod row_observer;
 mod run;
 mod run_set;
+mod runs;
 mod sample;
 mod seeds;
 mod shard;
