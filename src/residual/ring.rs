@@ -24,7 +24,7 @@ impl Judge {
         let (r0, r1, c) = (start[0].hypot(start[1]), end[0].hypot(end[1]), law.damping());
         let noise = self.noise.place(self.way(hole, motion));
         // The vector along which the ring pushes, its pressure, and how that changes with depth.
-        // Where rounding decides the pressure there are two, and either is accepted.
+        // Where rounding decides, the pressure is accepted between two.
         let (at, expected, slope) = match (law.spring(), self.contract.promise.elastic.law) {
             (Some(WallSpring { stiffness, damping }), Law::Depth(theta)) => {
                 let at = [0, 1].map(|i: usize| (1.0 - theta) * start[i] + theta * end[i]);
@@ -32,6 +32,8 @@ impl Judge {
                 // Where the dashpot's plate is at the step's start: on the body or the circle.
                 let (body, circle) = ((at[0] * start[0] + at[1] * start[1]) / distance, r0.max(gap));
                 let plates = match self.contract.promise.hole == Some(Bound::Along) {
+                    // The way goes through the centre, which has no normal.
+                    true if distance <= noise && r0 >= gap - noise => [-r0, r0],
                     true if (r0 - gap).abs() <= noise => [body, circle],
                     true if r0 >= gap => [body; 2],
                     _ => [circle; 2],
@@ -52,8 +54,15 @@ impl Judge {
         };
         let distance = at[0].hypot(at[1]);
         let pressure = did.impulse / h;
-        let [error, other] = expected.map(|expected| (pressure - expected.max(0.0)).abs());
-        self.walls.observe_law(&self.noise, place, error.min(other), slope * noise);
+        let [one, other] = expected.map(|expected| expected.max(0.0));
+        let (least, most) = (one.min(other), one.max(other));
+        // A pressure that is no number is not between them.
+        let error = match pressure {
+            _ if pressure < least => least - pressure,
+            _ if pressure <= most => 0.0,
+            _ => pressure - most,
+        };
+        self.walls.observe_law(&self.noise, place, error, slope * noise);
         if pressure != 0.0 {
             let across = pressure * (did.normal[0] - at[0] / distance).hypot(did.normal[1] - at[1] / distance);
             let noise = pressure * noise / distance + self.noise.wall_force(place);
