@@ -28,7 +28,7 @@ Examples:
       --points 256 --measure impact_power
   signorini sweep tube-round-supports --vary 'support.*.gap=1e-4,2e-4,4e-4' --seeds 6 \\
       --measure work_rate          means over six realisations of the random loads
-  signorini sweep tube-round-supports --vary 'support.*.gap=1e-4,2e-4,4e-4' \
+  signorini sweep tube-round-supports --vary 'support.*.gap=1e-4,2e-4,4e-4' \\
       --until-interval 5% --measure work_rate      as many of each row as that takes
   signorini sweep bifurcation.toml --plan          how many rows, how long, how many bytes
   signorini sweep bifurcation.toml --shard 3/128   one part of 128; `signorini merge` joins them
@@ -36,7 +36,8 @@ Examples:
 A sweep file is TOML with a key `case`; docs/sweep.md has its format, and all measures.
 After an interruption at any instant, the same command continues, and ends with the same bytes.
 Results: sweep.csv, one row per point, with the reason if it failed; samples.csv, the instants;
-realisations.csv, with --seeds or --until-interval; attractors.csv, of a basin; a picture; summary.json; report.html.";
+realisations.csv, with --seeds or --until-interval; effects.csv, with --one-at-a-time; shares.csv,
+with --random; attractors.csv, of a basin; a picture; summary.json; report.html.";
 
 /// Many runs of one case: curves, maps, bifurcation diagrams and random designs as one table
 #[derive(Debug, clap::Args)]
