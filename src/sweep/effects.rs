@@ -71,9 +71,7 @@ pub(crate) fn effects(folder: &Path, request: &Map<String, Value>) -> Result<Vec
     if !source.one_at_a_time {
         return Ok(Vec::new());
     }
-    let groups = Picture::default().measures(None, &source)?;
-    let columns: Vec<(String, String)> =
-        groups.into_iter().flat_map(|(measure, names)| names.into_iter().map(move |n| (measure.clone(), n))).collect();
+    let columns = Picture::default().measure_columns(&source)?;
     let names: Vec<String> = columns.iter().map(|(_, name)| name.clone()).collect();
     let (runs, bounds) = (Runs::read(&source, &names)?, bounds(&source)?);
     let mut all = Vec::new();

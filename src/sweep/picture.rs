@@ -227,6 +227,16 @@ impl Picture {
         })
     }
 
+    /// Each measure with each of its columns.
+    ///
+    /// # Errors
+    /// As [`Picture::measures`].
+    pub(super) fn measure_columns(&self, source: &Source<'_>) -> Result<Vec<(String, String)>> {
+        let of_measure =
+            |(measure, names): (String, Vec<String>)| names.into_iter().map(move |name| (measure.clone(), name));
+        Ok(self.measures(None, source)?.into_iter().flat_map(of_measure).collect())
+    }
+
     /// The columns named `asked`, or those of all measures, one list for each.
     pub(super) fn measures(&self, asked: Option<&String>, source: &Source<'_>) -> Result<Vec<(String, Vec<String>)>> {
         let from = source.columns.iter().position(|column| column == "error").map_or(0, |index| index + 1);

@@ -60,7 +60,7 @@ pub(crate) struct Shares {
 }
 
 /// A row: the keys, the measure, and the number of realisations of which it is the mean.
-type Point = (Vec<f64>, f64, Option<f64>);
+type Point = (Vec<f64>, f64, f64);
 
 impl Shares {
     fn lines(&self) -> impl Iterator<Item = Vec<String>> {
@@ -83,57 +83,59 @@ pub(crate) fn shares(folder: &Path, request: &Map<String, Value>) -> Result<Vec<
         return Ok(Vec::new());
     }
     let coefficients = 1 + DEGREE * source.axes.len();
-    let mut all = Vec::new();
-    for (measure, columns) in Picture::default().measures(None, &source)? {
-        for column in columns {
-            let points = points(&source, &column)?;
-            let counts: Option<Vec<f64>> = points.iter().map(|point| point.2).collect();
-            let variance = match counts.filter(|counts| !counts.is_empty()) {
-                None => None,
-                Some(counts) => {
-                    let share = counts.iter().map(|count| 1.0 / count).sum::<f64>() / counts.len() as f64;
-                    Runs::read(&source, std::slice::from_ref(&column))?.scatter(0).map(|scatter| scatter * share)
-                }
-            };
-            let keys = source.axes.iter().map(|axis| axis.key.clone());
-            let parts = if points.len() > coefficients { parts(&points, keys, variance) } else { None };
-            all.push(Shares {
-                place: place_of(&column, &measure),
-                parts: parts.unwrap_or_default(),
-                rows: points.len(),
-                measure: measure.clone(),
-                column,
-                coefficients,
-            });
+    let columns = Picture::default().measure_columns(&source)?;
+    let names: Vec<String> = columns.iter().map(|(_, name)| name.clone()).collect();
+    let of_columns = points(&source, &names)?;
+    let runs = source.seeds.is_some().then(|| Runs::read(&source, &names)).transpose()?;
+    let shares = columns.into_iter().zip(of_columns).enumerate().map(|(index, ((measure, column), points))| {
+        let over_count = |points: &[Point]| points.iter().map(|point| 1.0 / point.2).sum::<f64>() / points.len() as f64;
+        let scatter = runs.as_ref().and_then(|runs| runs.scatter(index));
+        let variance = scatter.map(|scatter| scatter * over_count(&points));
+        let keys = source.axes.iter().map(|axis| axis.key.clone());
+        let parts = if points.len() > coefficients { parts(&points, keys, variance) } else { None };
+        Shares {
+            place: place_of(&column, &measure),
+            parts: parts.unwrap_or_default(),
+            rows: points.len(),
+            measure,
+            column,
+            coefficients,
         }
-    }
-    Ok(all)
+    });
+    Ok(shares.collect())
 }
 
-/// The rows that have a value in `column`, with their keys scaled to [−1, 1].
-fn points(source: &Source<'_>, column: &str) -> Result<Vec<Point>> {
+/// The rows that have a value in each of `columns`, with their keys scaled to [−1, 1].
+fn points(source: &Source<'_>, columns: &[String]) -> Result<Vec<Vec<Point>>> {
     let table = Table::open(&source.folder.join(TABLE))?;
     let axes = source.axes.iter().map(|axis| table.column(&axis.column)).collect::<Result<Vec<_>>>()?;
-    let (value, status) = (table.column(column)?, table.column("status")?);
-    let seeds = table.column(SEEDS).ok();
-    let mut points: Vec<Point> = Vec::new();
+    let values = columns.iter().map(|column| table.column(column)).collect::<Result<Vec<_>>>()?;
+    let (status, seeds) = (table.column("status")?, table.column(SEEDS).ok());
+    let mut all: Vec<Vec<Point>> = vec![Vec::new(); columns.len()];
     table.each(|line| {
         let key = |(axis, &index): (&SweepAxis, &usize)| {
             line.number(index).map(|x| if axis.scale == Scale::Log { x.ln() } else { x })
         };
         let keys: Option<Vec<f64>> = source.axes.iter().zip(&axes).map(key).collect();
-        if let (true, Some(keys), Some(y)) = (Status::is_good_word(line.text(status)), keys, line.number(value)) {
-            points.push((keys, y, seeds.and_then(|seeds| line.number(seeds)).filter(|count| *count >= 1.0)));
+        let (true, Some(keys)) = (Status::is_good_word(line.text(status)), keys) else { return };
+        let count = seeds.and_then(|seeds| line.number(seeds)).unwrap_or(1.0);
+        for (points, &value) in all.iter_mut().zip(&values) {
+            points.extend(line.number(value).map(|y| (keys.clone(), y, count)));
         }
     })?;
-    for axis in 0..axes.len() {
+    all.iter_mut().for_each(|points| scale(points, axes.len()));
+    Ok(all)
+}
+
+/// Scales each of so many keys to [−1, 1] over the points.
+fn scale(points: &mut [Point], axes: usize) {
+    for axis in 0..axes {
         let of = |point: &Point| point.0.get(axis).copied().unwrap_or(0.0);
         let (low, high) =
             points.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         let scaled = |x: f64| if high > low { (2.0 * x - low - high) / (high - low) } else { 0.0 };
         points.iter_mut().filter_map(|point| point.0.get_mut(axis)).for_each(|x| *x = scaled(*x));
     }
-    Ok(points)
 }
 
 /// P₁, P₂ and P₃.
@@ -201,7 +203,7 @@ mod tests {
             let keys: Vec<f64> = (0..3).map(|j| 2.0 * number(k, j) - 1.0).collect();
             let normal = (-2.0 * (1.0 - number(k, 3)).ln()).sqrt() * (std::f64::consts::TAU * number(k, 4)).cos();
             let value = y(keys[0], keys[1]) + noise * normal;
-            (keys, value, None)
+            (keys, value, 1.0)
         };
         (0..n).map(point).collect()
     }
