@@ -85,8 +85,11 @@ impl Judge {
             if hole.law.is_rigid() {
                 self.rebound_at_hole(step, &hole, &mut supports);
             }
-            let ([y, z], place) = (step.normal[hole.index], hole.index);
-            let impulse = [step.jump[place], if step.jump[place] == 0.0 { 0.0 } else { step.friction[place] }];
+            let (place, offset) = (hole.index, hole.offset(step.q));
+            let (struck, distance) = (step.jump[place] != 0.0, offset[0].hypot(offset[1]));
+            let impulse = if struck { [step.jump[place], step.friction[place]] } else { [0.0; 2] };
+            // A hole that pushed over the part only did so along the normal there, halfway.
+            let [y, z] = if struck || distance == 0.0 { step.normal[place] } else { offset.map(|x| x / distance) };
             let rub = FrictionImpulse { place, friction: hole.friction, impulse, tangent: [-z, y] };
             self.check_friction_at_end(&after, hole.at, &rub, &mut supports);
         }
