@@ -48,6 +48,7 @@ mod division;
 mod impact;
 mod part;
 mod planar;
+mod plane_bound;
 mod plane_contact;
 mod plane_contacts;
 mod response;

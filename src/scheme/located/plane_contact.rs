@@ -28,8 +28,9 @@ pub(super) struct PlaneContact {
     /// Rounding error of a rate, m/s, and below which one counts as 0.
     pub rounding: f64,
     pub least: f64,
-    /// The acceleration that pressed the body against the wall in the last part of some length,
-    /// m/s².
+    /// The acceleration of the place in the last part of some length, and the one that pressed the
+    /// body against the wall there, m/s².
+    pub acceleration: [f64; 2],
     pub pressed: f64,
     /// The middle (s) of the last two parts in which it stuck, and what was left of the
     /// static friction there, μp − |f| as a mean force, N.
@@ -50,6 +51,7 @@ impl PlaneContact {
             rate: [0.0; 2],
             rounding: 0.0,
             least: 0.0,
+            acceleration: [0.0; 2],
             pressed: 0.0,
             stuck: [None; 2],
         }
@@ -57,7 +59,8 @@ impl PlaneContact {
 
     /// Forgets the last part.
     pub fn forget(&mut self) {
-        (self.lasts, self.pushed, self.pressed, self.stuck) = (false, false, 0.0, [None; 2]);
+        (self.lasts, self.pushed, self.stuck) = (false, false, [None; 2]);
+        (self.acceleration, self.pressed) = ([0.0; 2], 0.0);
     }
 
     /// Finds where the body is at the wall: touching it or not, with this outward normal and rate
@@ -124,7 +127,8 @@ impl PlaneContact {
         };
         self.lasts = false;
         self.pushed = push.is_some();
-        self.pressed = dot(normal, change) / length;
+        self.acceleration = change.map(|change| change / length);
+        self.pressed = dot(normal, self.acceleration);
         let Some((_, gap)) = self.round else { return };
         let gained = normal[0] * change[1] - normal[1] * change[0];
         self.pressed += sliding * sliding / gap;

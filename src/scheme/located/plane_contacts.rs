@@ -19,8 +19,9 @@ use super::contacts::{Ahead, Contacts, Event, Place, Solved};
 use super::crossing::GapPath;
 use super::impact::Impact;
 use super::part::{Part, THETA, size_of};
+use super::plane_bound::{Guide, PlaneBound, Plate, Ring};
 use super::plane_contact::PlaneContact;
-use super::response::{Guide, PlaneBound, Plate, Response, Ring};
+use super::response::Response;
 use super::round_path::RoundPath;
 use crate::error::Result;
 use crate::scene::{Row, Scene};
@@ -178,6 +179,7 @@ impl PlaneContacts {
             sign: if contact.round.is_some() { 1.0 } else { body.walls[wall].sign },
             from: self.offset(wall, centre, &frame.q),
             rate: self.pair(wall, &frame.v),
+            acceleration: contact.acceleration,
         }
     }
 
@@ -355,7 +357,7 @@ impl Contacts<Matrices> for PlaneContacts {
                 // The direction of the friction over the part.
                 let hold = self.holds.iter().find(|hold| hold.wall == wall);
                 let change = self.pair(wall, delta);
-                let normal = hold.map_or(contact.normal, |hold| hold.normal_over(&change, length, THETA));
+                let normal = hold.map_or(contact.normal, |hold| hold.normal(hold.way(change, (length, THETA))));
                 let along = |[y, z]: [f64; 2]| contact.rate[1].signum() * (normal[0] * z - normal[1] * y);
                 let (start, change) = (along(self.pair(wall, &frame.v)), along(change));
                 Ahead { left: start + change, rate: change / length, met: body.touch / body.h }

@@ -1,172 +1,31 @@
-//! The motion over a part of a step under contacts in two planes.
+//! The motion over a part of a step under contacts in two planes, whose normals depend on it
+//! ([`PlaneBound`]).
 //!
-//! Over a part of length s, contacts in which the body rests or slides give Σ Pᵀ(−p n + f t). A
-//! flat wall bounds n·ẇ⁺. Along a round wall the impulse acts along the middle of the path,
-//!
-//! n ∥ w + w⁺,   n·ẇ⁺ ≤ −n·ẇ,
-//!
-//! so that (w⁺ + w)·(w⁺ − w) = 0: the body stays on the circle, and p does no work. n is found with
-//! w⁺, by repetition from w + ½sẇ. A step of implicit-euler takes n ∥ w⁺ and n·w⁺ ≤ γ instead.
-//!
-//! An elastic round wall pushes along n ∥ w_θ = (1 − θ)w + θw⁺ with the force of its spring and
-//! dashpot there. Since n·w_θ = |w_θ|, that force is linear in n·ẇ⁺, as at a flat elastic wall. The
-//! dashpot feels the rate along n: a difference of distances from the centre would be wrong by
-//! ¼s|ẇ|²/γ where the body slides along the ring.
+//! With normals that are given, the impulses are those of a problem of contacts with friction. The
+//! angle φ of each normal is a root of its residual r(φ), the angle between the normal of the path
+//! found with φ and φ itself. Repetition, φ + r, is the first step; then each contact takes the
+//! secant through its last two residuals. Most parts need one or two of these: a normal turns by
+//! little from the path without contacts.
 
 use super::super::body::Body;
 use super::super::matrices::Matrices;
 use super::super::space::Space;
-use super::super::supports::{CROSSING, ContactRows, FrictionContact, FrictionContacts, dot};
+use super::super::supports::{ContactRows, FrictionContact, FrictionContacts, dot};
 use super::part::{Part, Push, indefinite};
+use super::plane_bound::{Guide, PlaneBound};
 use crate::linear::{Factor, Symmetric};
 use crate::qp::Failure;
-use crate::scene::{Row, WallSpring};
+use crate::scene::Row;
 
-/// Most repetitions with the normals of the one before.
+/// Most normals of each contact that are tried.
 const MOST_TURNS: u32 = 60;
 
 /// Normals that change by no more than this are found, rad.
 const TURNED: f64 = 4.0 * f64::EPSILON;
 
-/// How a contact bounds the motion.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Guide {
-    /// A flat wall: n, and the bound on n·ẇ⁺, m/s.
-    Flat([f64; 2], f64),
-    /// A round wall along which the body slides; what rounding has left behind it returns at
-    /// `return_rate` (m/s).
-    Chord { return_rate: f64 },
-    /// A round wall of this gap (m) that is not passed at the end.
-    End { gap: f64 },
-    /// An elastic round wall.
-    Ring(Ring),
-}
-
-/// Where the plate of a dashpot of an elastic round wall begins, m.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Plate {
-    /// At this distance from the centre.
-    Distance(f64),
-    /// On the body, which it touches.
-    Body,
-}
-
-/// The force of an elastic round wall over a part of a step.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Ring {
-    pub spring: WallSpring,
-    /// γ, m.
-    pub gap: f64,
-    /// Its dashpot's plate at the start.
-    pub plate: Plate,
-    /// θ of the part.
-    pub theta: f64,
-}
-
-impl Ring {
-    /// n, and the bound on n·ẇ⁺ beyond which the ring pushes, for a body that starts at `from` (m)
-    /// with `rate` (m/s) and moves by `way` (m) over `length` seconds.
-    fn bound(&self, [from, rate, way]: [[f64; 2]; 3], length: f64) -> ([f64; 2], f64) {
-        let normal = unit([0, 1].map(|i: usize| from[i] + self.theta * way[i]));
-        let (w, speed, st) = (dot(normal, from), dot(normal, rate), self.theta * length);
-        let plate = match self.plate {
-            Plate::Distance(distance) => distance,
-            Plate::Body => w,
-        };
-        let force = self.spring.force(w + st * speed, self.gap, plate, st);
-        (normal, speed - length * force * self.compliance(length))
-    }
-
-    /// n·ẇ⁺ beyond the bound over the impulse, m/s per N s.
-    pub fn compliance(&self, length: f64) -> f64 {
-        let st = self.theta * length;
-        1.0 / (st * st * self.spring.over(st))
-    }
-}
-
-/// The unit vector along `x`.
-fn unit(x: [f64; 2]) -> [f64; 2] {
-    let size = dot(x, x).sqrt();
-    if size > 0.0 { x.map(|x| x / size) } else { [1.0, 0.0] }
-}
-
-/// A contact that bounds the motion over a part.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct PlaneBound {
-    pub wall: usize,
-    pub rows: [usize; 2],
-    pub guide: Guide,
-    /// μ, that once it slides, and the compliance of an elastic wall, m/s per N s.
-    pub friction: f64,
-    pub kinetic: f64,
-    pub compliance: f64,
-    /// As [`FrictionContact::slides`].
-    pub slides: f64,
-    /// The sign of the wall's impulse.
-    pub sign: f64,
-    /// Displacement from the centre of a round wall, m, and rate of the place, m/s, at the start.
-    pub from: [f64; 2],
-    pub rate: [f64; 2],
-}
-
-impl PlaneBound {
-    /// n and the bound on n·ẇ⁺ if the place moves by `way` (m) over `length` seconds; the same for
-    /// a flat wall always.
-    fn bound(&self, way: [f64; 2], length: f64) -> ([f64; 2], f64) {
-        match self.guide {
-            Guide::Flat(normal, bound) => (normal, bound),
-            Guide::Chord { return_rate } => {
-                let normal = unit([0, 1].map(|i: usize| 2.0 * self.from[i] + way[i]));
-                (normal, -dot(normal, self.rate) - return_rate)
-            }
-            Guide::End { gap } => {
-                let normal = unit([0, 1].map(|i: usize| self.from[i] + way[i]));
-                (normal, (gap - dot(normal, self.from)) / length)
-            }
-            Guide::Ring(ring) => ring.bound([self.from, self.rate, way], length),
-        }
-    }
-
-    /// n over a part of `length` seconds of the weight θ that changes the rate of the place by
-    /// `change` (m/s).
-    pub fn normal_over(&self, change: &[f64; 2], length: f64, theta: f64) -> [f64; 2] {
-        self.bound([0, 1].map(|i: usize| length * (self.rate[i] + theta * change[i])), length).0
-    }
-
-    /// True if a path of `way` (m) over `length` seconds ends outside of a round wall, or is one
-    /// along which an elastic one pushes.
-    fn is_passed(&self, way: [f64; 2], length: f64) -> bool {
-        let limit = match self.guide {
-            Guide::Flat(..) => return false,
-            Guide::Chord { .. } => dot(self.from, self.from),
-            Guide::End { gap } => gap * gap,
-            Guide::Ring(ring) => {
-                // A dashpot may push where the middle of the path is clear of the ring.
-                let (normal, bound) = ring.bound([self.from, self.rate, way], length);
-                let rate = dot(normal, self.rate);
-                return rate + (dot(normal, way) / length - rate) / ring.theta > bound;
-            }
-        };
-        let end = [0, 1].map(|i: usize| self.from[i] + way[i]);
-        dot(end, end) > limit
-    }
-
-    /// What the answer of the contacts gave up of the bound along a round wall, m/s. Where impulses
-    /// that balance one another contradict a rebound, contacts give it up; here it is no rebound,
-    /// but what keeps the body on the circle.
-    fn given_up(&self, touch: &FrictionContact) -> f64 {
-        match self.guide {
-            Guide::Chord { return_rate } => touch.bound + dot(touch.normal, self.rate) + return_rate,
-            _ => 0.0,
-        }
-    }
-
-    /// True if the middle of the path along a round wall says little of its normal.
-    fn turns_far(&self, way: [f64; 2]) -> bool {
-        let middle = [0, 1].map(|i: usize| self.from[i] + 0.5 * way[i]);
-        matches!(self.guide, Guide::Chord { .. }) && dot(middle, middle) < CROSSING.powi(2) * dot(self.from, self.from)
-    }
-}
+/// The least and the most that the secant may take of a residual.
+const SHORT: f64 = 0.1;
+const LONG: f64 = 4.0;
 
 /// The response of the structure over parts of one length.
 #[derive(Debug)]
@@ -220,7 +79,7 @@ impl Response {
         for (row, rate) in sweeps.free.iter_mut().enumerate() {
             *rate = places.seen(row, &free);
         }
-        let found = find_normals((places, sweeps), holds, &part.delta, (length, theta))
+        let found = find_normals((places, sweeps), holds, (length, theta))
             && holds.iter().zip(&sweeps.touches).all(|(hold, touch)| length * hold.given_up(touch) <= body.touch);
         for (hold, touch) in holds.iter().zip(&sweeps.touches) {
             let [p, friction] = touch.impulse;
@@ -273,49 +132,81 @@ impl Response {
     }
 }
 
+/// The search for the angle of a normal.
+#[derive(Debug, Clone, Copy, Default)]
+struct Secant {
+    /// The last change of the angle, and the residual before it, rad.
+    change: f64,
+    residual: f64,
+}
+
+impl Secant {
+    /// The next change of the angle, after a `residual` (rad).
+    fn next(&mut self, residual: f64) -> f64 {
+        let slope = (residual - self.residual) / self.change;
+        let size = if self.change == 0.0 { 1.0 } else { -1.0 / slope };
+        // Other contacts have a part in the change of the residual, and rounding where both are
+        // small.
+        let size = if size.is_finite() { size.clamp(SHORT, LONG) } else { 1.0 };
+        *self = Self { change: size * residual, residual };
+        self.change
+    }
+}
+
 /// Solves for the impulses of `holds` with the normals that they find themselves, over a part of
-/// `length` seconds of the weight θ that changes the velocity by `delta` without them. Returns
-/// whether the normals were found.
+/// this length (s) and weight θ. Returns whether the normals were found.
 fn find_normals(
     (places, sweeps): (&ContactRows, &mut FrictionContacts),
     holds: &[PlaneBound],
-    delta: &[f64],
-    (length, theta): (f64, f64),
+    span: (f64, f64),
 ) -> bool {
-    let mut ways: Vec<[f64; 2]> = holds.iter().map(|hold| hold.rate.map(|rate| length * rate)).collect();
+    let length = span.0;
+    let mut normals: Vec<[f64; 2]> = holds.iter().map(|hold| hold.first_normal(span)).collect();
+    let mut secants = vec![Secant::default(); holds.len()];
     // Contacts that begin to slide with some normals keep their kinetic friction with all others.
     let mut frictions: Vec<f64> = holds.iter().map(|hold| hold.friction).collect();
     let mut warm = vec![[0.0; 2]; holds.len()];
-    for turn in 0..MOST_TURNS {
+    for _ in 0..MOST_TURNS {
         let touches =
-            holds.iter().zip(&frictions).zip(ways.iter().zip(&warm)).map(|((hold, friction), (way, warm))| {
+            holds.iter().zip(&frictions).zip(normals.iter().zip(&warm)).map(|((hold, friction), (normal, warm))| {
                 let (laws, contact) = ((*friction, hold.compliance), (hold.wall, hold.rows));
-                let touch = FrictionContact::new(places, contact, hold.bound(*way, length), laws, *warm);
+                let bound = hold.bound(*normal, length);
+                let touch = FrictionContact::new(places, contact, (*normal, bound), laws, *warm);
                 FrictionContact { slides: hold.slides, kinetic: hold.kinetic, ..touch }
             });
         sweeps.touches.clear();
         sweeps.touches.extend(touches);
         sweeps.solve(places);
         frictions.iter_mut().zip(&sweeps.touches).for_each(|(friction, touch)| *friction = touch.friction);
-        let mut delta = delta.to_vec();
-        places.lift(&sweeps.impulse, &mut delta);
         let (mut turned, mut far) = (0.0_f64, false);
-        for ((hold, way), (touch, warm)) in holds.iter().zip(&mut ways).zip(sweeps.touches.iter().zip(&mut warm)) {
-            let change = places.pair(hold.rows, &delta);
-            let found = [0, 1].map(|i: usize| length * (hold.rate[i] + theta * change[i]));
+        let found = holds.iter().zip(&sweeps.touches).zip(normals.iter_mut().zip(&mut secants).zip(&mut warm));
+        for ((hold, touch), ((normal, secant), warm)) in found {
+            let rate = sweeps.rate(hold.rows);
+            let way = hold.way([0, 1].map(|i: usize| rate[i] - hold.rate[i]), span);
+            let next = hold.normal(way);
             *warm = touch.impulse;
-            let (normal, _) = hold.bound(found, length);
-            if touch.impulse[0] > 0.0 || hold.is_passed(found, length) {
-                turned = turned.max((normal[0] - touch.normal[0]).hypot(normal[1] - touch.normal[1]));
+            let residual = angle(*normal, next);
+            if touch.impulse[0] > 0.0 || hold.is_passed(way, length) {
+                turned = turned.max(residual.abs());
             }
-            far |= touch.impulse[0] > 0.0 && hold.turns_far(found);
-            // Normals that swing to and fro meet in the middle.
-            let share = if turn % 4 == 3 && turn >= MOST_TURNS / 4 { 0.5 } else { 1.0 };
-            *way = [0, 1].map(|i: usize| way[i] + share * (found[i] - way[i]));
+            far |= touch.impulse[0] > 0.0 && hold.turns_far(way);
+            let change = secant.next(residual);
+            *normal = if change == residual { next } else { turn(*normal, change) };
         }
         if turned <= TURNED || far {
             return !far;
         }
     }
     false
+}
+
+/// The angle from the unit vector `a` to `b`, rad.
+fn angle(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] * b[1] - a[1] * b[0]).atan2(dot(a, b))
+}
+
+/// The unit vector `a` turned by `angle` (rad).
+fn turn(a: [f64; 2], angle: f64) -> [f64; 2] {
+    let (sin, cos) = angle.sin_cos();
+    [cos * a[0] - sin * a[1], sin * a[0] + cos * a[1]]
 }

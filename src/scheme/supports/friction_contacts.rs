@@ -98,6 +98,11 @@ impl FrictionContacts {
         }
     }
 
+    /// The velocities of two rows under the impulses that were found, m/s.
+    pub fn rate(&self, rows: [usize; 2]) -> [f64; 2] {
+        rows.map(|row| self.y[row])
+    }
+
     fn solve_once(&mut self, places: &ContactRows) -> bool {
         let Self { touches, free, y, impulse, .. } = self;
         impulse.fill(0.0);
