@@ -36,6 +36,15 @@ pub(super) enum Event {
     Slip(usize),
 }
 
+impl Event {
+    /// The wall.
+    pub fn wall(self) -> usize {
+        match self {
+            Self::Crossing(wall) | Self::Reversal(wall) | Self::Slip(wall) => wall,
+        }
+    }
+}
+
 /// How far an event is from the end of a part.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ahead {

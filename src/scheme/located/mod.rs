@@ -51,6 +51,7 @@ mod planar;
 mod plane_bound;
 mod plane_contact;
 mod plane_contacts;
+mod plane_path;
 mod response;
 mod round_path;
 mod row_contacts;

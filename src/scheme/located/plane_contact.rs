@@ -4,7 +4,9 @@
 //! part leaves a speed across the circle, half the angle by which the normal turns times the change
 //! of the sliding velocity, which the next part reflects.
 
-use super::super::supports::{ContactPoint, dot};
+use super::super::body::Body;
+use super::super::matrices::Matrices;
+use super::super::supports::{ContactPoint, ContactRows, dot};
 use super::contacts::Place;
 use super::part::{Push, ROUNDING};
 use crate::scene::Wall;
@@ -12,6 +14,8 @@ use crate::scene::Wall;
 /// A wall, and where the body is at it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlaneContact {
+    /// Index of the wall.
+    pub wall: usize,
     pub point: ContactPoint,
     /// Centre (m) and gap (m) of a round wall.
     pub round: Option<([f64; 2], f64)>,
@@ -41,6 +45,7 @@ impl PlaneContact {
     /// Wall number `index`, which pushes at this point.
     pub fn new(index: usize, point: ContactPoint, wall: &Wall) -> Self {
         Self {
+            wall: index,
             point,
             round: wall.hole(index).map(|hole| (hole.centre, hole.gap)),
             place: Place::Away,
@@ -61,6 +66,24 @@ impl PlaneContact {
     pub fn forget(&mut self) {
         (self.lasts, self.pushed, self.stuck) = (false, false, [None; 2]);
         (self.acceleration, self.pressed) = ([0.0; 2], 0.0);
+    }
+
+    /// Displacement of the place from the centre of a round wall, m; of a flat one from rest.
+    pub fn offset(&self, places: &ContactRows, q: &[f64]) -> [f64; 2] {
+        let ([y, z], [cy, cz]) = (places.pair(self.point.rows, q), self.round.map_or([0.0; 2], |(centre, _)| centre));
+        [y - cy, z - cz]
+    }
+
+    /// The gap, m, and the outward normal.
+    pub fn gap(&self, (body, places): (&Body<Matrices>, &ContactRows), q: &Vec<f64>) -> (f64, [f64; 2]) {
+        match self.round {
+            None => (-body.walls[self.wall].depth(body.seen(self.wall, q)), self.point.normal),
+            Some((_, gap)) => {
+                let from = self.offset(places, q);
+                let distance = dot(from, from).sqrt();
+                (gap - distance, if distance > 0.0 { from.map(|x| x / distance) } else { [1.0, 0.0] })
+            }
+        }
     }
 
     /// Finds where the body is at the wall: touching it or not, with this outward normal and rate

@@ -16,13 +16,12 @@ use super::super::matrices::Matrices;
 use super::super::space::indefinite;
 use super::super::supports::{contact_points, dot};
 use super::contacts::{Ahead, Contacts, Event, Place, Solved};
-use super::crossing::GapPath;
 use super::impact::Impact;
 use super::part::{Part, THETA, size_of};
 use super::plane_bound::{Guide, PlaneBound, Plate, Ring};
 use super::plane_contact::PlaneContact;
+use super::plane_path::PlanePath;
 use super::response::Response;
-use super::round_path::RoundPath;
 use crate::error::Result;
 use crate::scene::{Row, Scene};
 
@@ -34,9 +33,6 @@ const PARTS_WITHOUT_REBOUND: u32 = 256;
 
 /// Speeds that count as rest where rebounds are given up, in multiples of those where they are not.
 const SLOW: f64 = 1e4;
-
-/// A part shorter than this share of the step is not worth the begin of a slide.
-const SOON: f64 = 1e-9;
 
 /// The walls of a scene in two planes.
 #[derive(Debug)]
@@ -98,40 +94,25 @@ impl PlaneContacts {
         dot(if contact.round.is_some() { normal } else { contact.point.normal }, self.pair(wall, v))
     }
 
-    /// Displacement from the centre of a round wall, m.
-    fn offset(&self, wall: usize, centre: [f64; 2], q: &[f64]) -> [f64; 2] {
-        let [y, z] = self.pair(wall, q);
-        [y - centre[0], z - centre[1]]
-    }
-
     /// The gap of a wall, m, and its outward normal.
     fn gap(&self, wall: usize, body: &Body<Matrices>, q: &Vec<f64>) -> (f64, [f64; 2]) {
-        match self.all[wall].round {
-            None => (-body.walls[wall].depth(body.seen(wall, q)), self.all[wall].point.normal),
-            Some((centre, gap)) => {
-                let from = self.offset(wall, centre, q);
-                let distance = dot(from, from).sqrt();
-                (gap - distance, if distance > 0.0 { from.map(|x| x / distance) } else { [1.0, 0.0] })
-            }
-        }
+        self.all[wall].gap((body, &self.impact.places), q)
+    }
+
+    /// The path of a part of `length` seconds that changes the velocity by `delta` (m/s).
+    fn path<'a>(
+        &'a self,
+        body: &'a Body<Matrices>,
+        frame: &'a Frame<Matrices>,
+        (delta, length): (&'a Vec<f64>, f64),
+    ) -> PlanePath<'a> {
+        let Self { all: contacts, holds, impact, .. } = self;
+        PlanePath { contacts, holds, places: &impact.places, body, frame, delta, length }
     }
 
     /// True if the motion of a whole step is that without walls, apart from crossings.
-    pub fn is_free(&self, body: &Body<Matrices>, frame: &Frame<Matrices>, delta: &[f64]) -> bool {
-        let elastic = |(wall, face): (usize, &super::super::flat_row::FlatRow)| {
-            if let Some((centre, gap)) = self.all[wall].round {
-                let (from, rate, change) =
-                    (self.offset(wall, centre, &frame.q), self.pair(wall, &frame.v), self.pair(wall, delta));
-                let end = [0, 1].map(|i: usize| from[i] + body.h * (rate[i] + THETA * change[i]));
-                return face.law.is_rigid() || dot(from, from).max(dot(end, end)) <= gap * gap;
-            }
-            let (w, change) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
-            let end =
-                w + body.h * (change + 0.5 * dot(self.all[wall].point.normal, self.pair(wall, delta)) * -face.sign);
-            face.law.is_rigid() || (face.depth(w) <= 0.0 && face.depth(end) <= 0.0)
-        };
-        self.all.iter().all(|contact| matches!(contact.place, Place::Away | Place::Leaving))
-            && body.walls.iter().enumerate().all(elastic)
+    pub fn is_free(&self, body: &Body<Matrices>, frame: &Frame<Matrices>, delta: &Vec<f64>) -> bool {
+        self.path(body, frame, (delta, body.h)).is_free()
     }
 
     /// δ of a whole step without walls, from the momentum `b`.
@@ -167,7 +148,6 @@ impl PlaneContacts {
         guide: Guide,
     ) -> PlaneBound {
         let contact = &self.all[wall];
-        let centre = contact.round.map_or([0.0; 2], |(centre, _)| centre);
         PlaneBound {
             wall,
             rows: contact.point.rows,
@@ -177,7 +157,7 @@ impl PlaneContacts {
             compliance: 0.0,
             slides: 0.0,
             sign: if contact.round.is_some() { 1.0 } else { body.walls[wall].sign },
-            from: self.offset(wall, centre, &frame.q),
+            from: contact.offset(&self.impact.places, &frame.q),
             rate: self.pair(wall, &frame.v),
             acceleration: contact.acceleration,
         }
@@ -187,8 +167,8 @@ impl PlaneContacts {
     fn spring(&self, wall: usize, state: (&Body<Matrices>, &Frame<Matrices>), span: (f64, f64)) -> PlaneBound {
         let (body, frame) = state;
         let (face, contact, (length, theta)) = (body.walls[wall], &self.all[wall], span);
-        if let (Some((centre, gap)), Some(spring)) = (contact.round, face.law.spring()) {
-            let from = self.offset(wall, centre, &frame.q);
+        if let (Some((_, gap)), Some(spring)) = (contact.round, face.law.spring()) {
+            let from = contact.offset(&self.impact.places, &frame.q);
             let distance = from[0].hypot(from[1]);
             let plate =
                 if theta == THETA && distance >= gap { Plate::Body } else { Plate::Distance(distance.max(gap)) };
@@ -295,90 +275,13 @@ impl Contacts<Matrices> for PlaneContacts {
         &self,
         body: &Body<Matrices>,
         frame: &Frame<Matrices>,
-        (delta, length): (&Vec<f64>, f64),
+        motion: (&Vec<f64>, f64),
     ) -> Option<(f64, Event)> {
-        let mut first: Option<(f64, Event)> = None;
-        let mut add = |at: f64, event: Event| {
-            if first.is_none_or(|(earliest, _)| at < earliest) {
-                first = Some((at, event));
-            }
-        };
-        for (wall, face) in body.walls.iter().enumerate() {
-            let contact = &self.all[wall];
-            let rests = contact.place == Place::Resting;
-            if rests || (contact.pushes && contact.point.friction.acts()) {
-                let ahead = self.ahead(body, frame, Event::Reversal(wall), (delta, length));
-                let slides = contact.slides() != 0.0;
-                if slides && ahead.left < -ahead.met {
-                    let start = contact.rate[1].abs();
-                    add(length * start / (start - ahead.left), Event::Reversal(wall));
-                }
-                // In the first and the last of a step's roundings it is not worth a part.
-                let slips = contact.slips().map(|time| time - frame.start);
-                if let Some(at) = slips.filter(|at| !slides && *at > SOON * body.h && *at < length - SOON * body.h) {
-                    add(at, Event::Slip(wall));
-                }
-            }
-            if rests {
-                continue;
-            }
-            let damped = face.law.damping() > 0.0;
-            if !face.law.is_rigid() && !damped {
-                continue;
-            }
-            let crossing = match contact.round {
-                None => {
-                    let path = self.gap_path(body, frame, wall, (delta, length));
-                    if damped && path.gap <= body.touch {
-                        continue;
-                    }
-                    path.crossing(body.touch)
-                }
-                Some(_) if damped && self.gap(wall, body, &frame.q).0 <= body.touch => continue,
-                Some(_) => self.round_path(frame, wall, (delta, length)).and_then(|path| path.crossing(body.touch)),
-            };
-            if let Some(at) = crossing {
-                add(at, Event::Crossing(wall));
-            }
-        }
-        first
+        self.path(body, frame, motion).first_event()
     }
 
-    fn ahead(
-        &self,
-        body: &Body<Matrices>,
-        frame: &Frame<Matrices>,
-        event: Event,
-        (delta, length): (&Vec<f64>, f64),
-    ) -> Ahead {
-        match event {
-            Event::Reversal(wall) => {
-                let contact = &self.all[wall];
-                // The direction of the friction over the part.
-                let hold = self.holds.iter().find(|hold| hold.wall == wall);
-                let change = self.pair(wall, delta);
-                let normal = hold.map_or(contact.normal, |hold| hold.normal(hold.way(change, (length, THETA))));
-                let along = |[y, z]: [f64; 2]| contact.rate[1].signum() * (normal[0] * z - normal[1] * y);
-                let (start, change) = (along(self.pair(wall, &frame.v)), along(change));
-                Ahead { left: start + change, rate: change / length, met: body.touch / body.h }
-            }
-            Event::Slip(wall) => {
-                let at = self.all[wall].slips().map_or(length, |time| time - frame.start);
-                Ahead { left: at - length, rate: -1.0, met: SOON * body.h }
-            }
-            Event::Crossing(wall) => {
-                let (left, rate) = match self.round_path(frame, wall, (delta, length)) {
-                    None => {
-                        let path = self.gap_path(body, frame, wall, (delta, length));
-                        return Ahead { left: path.end(), rate: path.rate + path.change, met: body.touch };
-                    }
-                    Some(path) => path.end(),
-                };
-                // The search aims at half of the touching distance, so that rounding leaves the
-                // body in front of the wall.
-                Ahead { left: left - 0.5 * body.touch, rate, met: 0.5 * body.touch }
-            }
-        }
+    fn ahead(&self, body: &Body<Matrices>, frame: &Frame<Matrices>, event: Event, motion: (&Vec<f64>, f64)) -> Ahead {
+        self.path(body, frame, motion).ahead(event)
     }
 
     fn forget(&mut self) {
@@ -435,28 +338,5 @@ impl Contacts<Matrices> for PlaneContacts {
         counters.qp_solves += self.whole.solves() + self.short.solves() + self.impact.instants;
         counters.qp_unsettled += self.unsettled + unsettled;
         counters.wedged_steps += wedged + self.stopped;
-    }
-}
-
-impl PlaneContacts {
-    /// The gap of a flat wall along a path.
-    fn gap_path(
-        &self,
-        body: &Body<Matrices>,
-        frame: &Frame<Matrices>,
-        wall: usize,
-        (delta, length): (&Vec<f64>, f64),
-    ) -> GapPath {
-        let face = body.walls[wall];
-        let [rate, change] = [&frame.v, delta].map(|v| face.sign * body.seen(wall, v));
-        GapPath { gap: -face.depth(body.seen(wall, &frame.q)), rate, change, span: length }
-    }
-
-    /// The path of the place of a round wall; `None` for a flat one.
-    fn round_path(&self, frame: &Frame<Matrices>, wall: usize, (delta, length): (&Vec<f64>, f64)) -> Option<RoundPath> {
-        let (centre, gap) = self.all[wall].round?;
-        let from = self.offset(wall, centre, &frame.q);
-        let [rate, change] = [&frame.v, delta].map(|v| self.pair(wall, v));
-        Some(RoundPath { from, rate, change, span: length, gap })
     }
 }

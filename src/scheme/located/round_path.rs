@@ -43,6 +43,12 @@ impl RoundPath {
         (self.gap - distance, if distance > 0.0 { -dot(place, rate) / distance } else { 0.0 })
     }
 
+    /// True if both of its ends are within the wall.
+    pub fn stays_within(&self) -> bool {
+        let (end, _) = self.at(1.0);
+        dot(self.from, self.from).max(dot(end, end)) <= self.gap * self.gap
+    }
+
     /// The gap at the end, m, and its rate, m/s.
     pub fn end(&self) -> (f64, f64) {
         self.gap_at(1.0)
