@@ -21,12 +21,15 @@
 //! - What then is not settled is left to Clarabel (`cones.rs`), from whose answer Newton's method
 //!   starts again: an interior-point method alone leaves forces off by per cents where a disk is
 //!   passed by a small share of its radius, since the radius sets its scale.
+//! - Where Newton's method does not settle from there either, the strips are answered without the
+//!   disks, by pivoting (`strips.rs`); that is the solution if it passes no disk.
 
 mod cones;
 mod newton;
 mod one;
 mod semidefinite;
 mod solver;
+mod strips;
 mod system;
 
 pub use solver::{DiskCounters, DiskSolver};

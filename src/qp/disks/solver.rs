@@ -2,7 +2,7 @@
 
 use super::newton::Newton;
 use super::system::System;
-use super::{DiskBound, DiskProblem, cones};
+use super::{DiskBound, DiskProblem, cones, strips};
 use crate::qp::{Failure, Solution, finite, shape};
 
 /// Sweeps over all blocks before the first attempt of Newton's method; each further attempt has
@@ -122,7 +122,7 @@ impl DiskSolver {
             self.counters.iterations += cones::find(&self.problem, &mut self.system)?;
             let polished = self.newton.settle(&mut self.system) || self.settle();
             self.counters.newton = self.newton.steps;
-            if !polished {
+            if !polished && strips::find(&self.problem, &mut self.system, b, self.scale).is_none() {
                 self.system.forget();
                 return Err(Failure::NotSolved { status: "the disks in play do not settle" });
             }

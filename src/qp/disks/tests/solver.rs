@@ -41,6 +41,39 @@ fn programmes_in_any_units_are_solved_to_rounding() {
 }
 
 #[test]
+fn more_strips_than_unknowns_that_nearly_meet_in_a_point_are_solved() {
+    for seed in 0..60 {
+        let mut draws = Draws::new(seed);
+        let coupling = draws.between(-0.5, 0.5);
+        let a = [(0, 0, draws.between(0.5, 1.5)), (1, 0, coupling), (1, 1, draws.between(0.5, 1.5))];
+        let count = 3 + draws.below(3);
+        let rows: Vec<[(usize, f64); 2]> =
+            (0..count).map(|_| [(0, draws.between(-1.0, 1.0)), (1, draws.between(-1.0, 1.0))]).collect();
+        let place = [[(0, 1.0)], [(1, 1.0)]];
+        let problem = DiskProblem {
+            a: Symmetric::from_entries(2, a),
+            g: Rows::new(2, rows.iter().map(|row| &row[..]).chain(place.iter().map(|row| &row[..]))),
+            blocks: [vec![1; count], vec![2]].concat(),
+            compliance: vec![0.0; count + 1],
+        };
+        // The bounds pass the point at up to this distance, on the side that keeps it.
+        let (point, near) = ([0.7, -0.4], 10.0_f64.powf(draws.between(-9.0, -3.0)));
+        let mut bound = |row: &[(usize, f64); 2]| {
+            let at: f64 = row.iter().map(|&(i, x)| x * point[i]).sum();
+            strip(f64::NEG_INFINITY, at + near * draws.between(0.0, 1.0))
+        };
+        let mut bounds: Vec<DiskBound> = rows.iter().map(&mut bound).collect();
+        bounds.push(DiskBound::Disk { centre: point, radius: 2.0 });
+        let case = Case { problem, b: vec![draws.between(-1.0, 1.0), draws.between(-1.0, 1.0)], bounds };
+        let mut solver = DiskSolver::new(case.problem.clone(), 1.0).expect("a sound programme");
+        let found = solver.solve(&case.b, &case.bounds).unwrap_or_else(|fault| panic!("{seed}: {fault}"));
+        // Rows within 1e-3 of parallel lose three digits.
+        let miss = case.miss(&found.x, &found.multiplier);
+        assert!(miss < 1e-11, "{seed}: {miss:e}");
+    }
+}
+
+#[test]
 fn blocks_that_hardly_feel_each_other_are_solved_to_rounding_in_any_units() {
     // Sweeps over two disks leave a power of their coupling, which may be too much to pass for
     // rounding in one unit, and nothing in another.
