@@ -175,7 +175,12 @@ fn every_scheme_keeps_its_contract_on_random_scenes() {
             match outcome {
                 Outcome::Kept => made += 1,
                 Outcome::Refused => {}
-                Outcome::Failed(text) => count(&mut failed, scheme, &text, seed),
+                Outcome::Failed(text) => {
+                    if cases == 1 {
+                        println!("seed {seed} ({}), {scheme}, step {step:e}: {text}\n{scene:?}", kind(&scene));
+                    }
+                    count(&mut failed, scheme, &text, seed);
+                }
                 Outcome::Defect(text) => {
                     made += 1;
                     defects += 1;
