@@ -1,29 +1,12 @@
 //! `compare --seeds`: means of methods that equal those of their runs, and paired differences.
 use crate::command::said;
+use crate::shaken::before_a_stop;
 use std::fs;
 use std::path::Path;
 
-/// An oscillator under a random force with a rigid stop.
-const STOP: &str = "\
-[system.oscillator]
-mass = 1.0
-damping = 2.0
-stiffness = 400.0
-[[wall]]
-name = \"stop\"
-side = \"upper\"
-position = 5e-3
-restitution = 0.5
-[[load]]
-random = { rms = 3.0, from = 1.0, to = 20.0, seed = 7 }
-[time]
-end = 2.0
-step = 1e-3
-";
-
 fn place() -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("stop.toml"), STOP).unwrap();
+    fs::write(dir.path().join("stop.toml"), before_a_stop(5e-3)).unwrap();
     dir
 }
 

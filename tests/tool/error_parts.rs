@@ -1,37 +1,15 @@
 //! The errors of means over realisations: the table, `errors.csv`, the summary, the exit code.
 use crate::command::said;
+use crate::shaken::square_of_bars;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// 1 kg in two planes in a square of bars with friction, shaken in both planes.
-const SQUARE: &str = r#"
-[system]
-planes = 2
-
-[system.oscillator]
-mass = 1.0
-damping = 2.0
-stiffness = 400.0
-
-[[support]]
-name = "bars"
-shape = "flats"
-sides = 4
-gap = 2e-3
-restitution = 0.5
-friction = 0.2
-
-[[load]]
-direction = "both"
-random = { rms = 3.0, from = 1.0, to = 20.0, seed = 7 }
-
-[time]
-end = 2.0
-step = 1e-3
-sample = 1e-2
-statistics_from = 0.5
-"#;
+/// Bars with friction.
+fn square() -> String {
+    let time = "[time]\nend = 2.0\nstep = 1e-3\nsample = 1e-2\nstatistics_from = 0.5\n";
+    square_of_bars("friction = 0.2\n", time)
+}
 
 /// A pinned tube in four modes before a stop, in one plane.
 const TUBE: &str = r#"
@@ -71,7 +49,7 @@ statistics_from = 0.1
 
 fn folder() -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("square.toml"), SQUARE).unwrap();
+    fs::write(dir.path().join("square.toml"), square()).unwrap();
     fs::write(dir.path().join("tube.toml"), TUBE).unwrap();
     dir
 }

@@ -20,6 +20,7 @@ mod pictures;
 mod rerun;
 mod seeds;
 mod set_values;
+mod shaken;
 mod statistics;
 mod sweep;
 mod sweep_seeds;

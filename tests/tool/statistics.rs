@@ -1,5 +1,6 @@
 //! `[statistics]`: joined episodes and spectra of a run, in files, summary and on the terminal.
 use crate::command::said;
+use crate::shaken::square_of_bars;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -48,36 +49,11 @@ sample = 5e-3
 force_averaging = 5e-3
 "#;
 
-/// 1 kg in two planes in a square of bars.
-const SQUARE: &str = r#"
-[system]
-planes = 2
-
-[system.oscillator]
-mass = 1.0
-damping = 2.0
-stiffness = 400.0
-
-[[support]]
-name = "bars"
-shape = "flats"
-sides = 4
-gap = 2e-3
-restitution = 0.5
-
-[[load]]
-direction = "both"
-random = { rms = 3.0, from = 1.0, to = 20.0, seed = 7 }
-
-[time]
-end = 10.0
-step = 1e-3
-statistics_from = 1.0
-
-[statistics]
-rest = 0.01
-spectra = true
-"#;
+/// Ten seconds in the square, with spectra.
+fn square() -> String {
+    let time = "[time]\nend = 10.0\nstep = 1e-3\nstatistics_from = 1.0\n";
+    square_of_bars("", &format!("{time}\n[statistics]\nrest = 0.01\nspectra = true\n"))
+}
 
 #[test]
 fn the_force_of_a_spring_has_the_spectrum_of_its_displacement() {
@@ -118,8 +94,9 @@ fn the_force_of_a_spring_has_the_spectrum_of_its_displacement() {
 
 #[test]
 fn a_support_has_episodes_and_spectra_of_its_own() {
-    let round = SQUARE.replace("shape = \"flats\"\nsides = 4", "shape = \"round\"\nfriction = 0.2");
-    for (case, flats) in [(SQUARE, 4), (&round, 0)] {
+    let square = square();
+    let round = square.replace("shape = \"flats\"\nsides = 4", "shape = \"round\"\nfriction = 0.2");
+    for (case, flats) in [(&square, 4), (&round, 0)] {
         support(case, flats);
     }
 }

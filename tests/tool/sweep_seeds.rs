@@ -1,6 +1,7 @@
 //! `sweep --seeds`: rows that equal `run --seeds` bit for bit, realisations that failed, shards and
 //! interruptions, and what is refused.
 use crate::command::{command, said};
+use crate::shaken::before_a_stop;
 use serde_json::Value;
 use signorini::case::CaseFile;
 use signorini::study::realisations::RealisationCount;
@@ -243,30 +244,12 @@ fn a_changed_table_of_realisations_is_noticed() {
     assert!(err.contains("seeds"), "{err}");
 }
 
-/// An oscillator under a random force with a stop that some realisations reach: an explicit rule
-/// beyond its stability limit diverges there.
-const STOP: &str = "\
-[system.oscillator]
-mass = 1.0
-damping = 2.0
-stiffness = 400.0
-[[wall]]
-name = \"stop\"
-side = \"upper\"
-position = 20e-3
-restitution = 0.5
-[[load]]
-random = { rms = 3.0, from = 1.0, to = 20.0, seed = 7 }
-[time]
-end = 2.0
-step = 1e-3
-";
-
 #[test]
 fn realisations_that_failed_are_named_with_reason_and_count() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path();
-    fs::write(path.join("stop.toml"), STOP).unwrap();
+    fs::write(path.join("stop.toml"), before_a_stop(20e-3)).unwrap();
+    // An explicit rule beyond its stability limit diverges where a realisation reaches the stop.
     let penalty = "penalty:stiffness=1e12,integrator=central-difference";
     let vary = "wall.stop.position=5e-3,20e-3,40e-3";
     let args = ["sweep", "stop.toml", "--vary", vary, "--seeds", "3", "--scheme", penalty, "--out", "out"];
@@ -310,7 +293,7 @@ values = [0.5, 0.6]
 fn seeds_that_make_no_sense_are_refused_by_name() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path();
-    fs::write(path.join("stop.toml"), STOP).unwrap();
+    fs::write(path.join("stop.toml"), before_a_stop(20e-3)).unwrap();
     let refused = |args: &[&str], words: &[&str]| {
         let (_, err) = said(path, &[&["sweep"], args].concat(), 2);
         assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");

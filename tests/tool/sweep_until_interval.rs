@@ -1,6 +1,7 @@
 //! `sweep --until-interval`: rows that equal `run --until-interval` bit for bit, threads and
 //! shards, rows out of reach, and what is refused.
 use crate::command::said;
+use crate::shaken::square_of_bars;
 use serde_json::Value;
 use signorini::case::CaseFile;
 use signorini::sweep::{Axis, Measure, Shard, Status, Sweep, SweepOptions};
@@ -8,28 +9,10 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-/// 1 kg in two planes in a square of bars, shaken in both.
-const SQUARE: &str = r#"
-[system]
-planes = 2
-[system.oscillator]
-mass = 1.0
-damping = 2.0
-stiffness = 400.0
-[[support]]
-name = "bars"
-shape = "flats"
-sides = 4
-gap = 2e-3
-restitution = 0.5
-[[load]]
-direction = "both"
-random = { rms = 3.0, from = 1.0, to = 20.0, seed = 7 }
-[time]
-end = 1.0
-step = 1e-3
-statistics_from = 0.2
-"#;
+/// A second in the square.
+fn square() -> String {
+    square_of_bars("", "[time]\nend = 1.0\nstep = 1e-3\nstatistics_from = 0.2\n")
+}
 
 const GAPS: [&str; 3] = ["1e-3", "2e-3", "1e-2"];
 const SWEEP: [&str; 6] =
@@ -37,7 +20,7 @@ const SWEEP: [&str; 6] =
 
 fn folder() -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("square.toml"), SQUARE).unwrap();
+    fs::write(dir.path().join("square.toml"), square()).unwrap();
     dir
 }
 

@@ -1,6 +1,7 @@
 //! `signorini wear`: gaps that grow by the closed form, histories that are those of their windows,
 //! limits, and what is refused.
 use crate::command::{command, said};
+use crate::shaken::square_of_bars;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::fs;
@@ -394,45 +395,18 @@ fn an_interrupted_study_goes_on_with_the_same_bytes() {
     assert!(journal.exists());
 }
 
-/// 1 kg in two planes in a square of bars that recede, shaken in both.
-const SHAKEN: &str = r#"[system]
-planes = 2
-
-[system.oscillator]
-mass = 1.0
-damping = 2.0
-stiffness = 400.0
-
-[[support]]
-name = "bars"
-shape = "flats"
-sides = 4
-gap = 2e-3
-restitution = 0.5
-width = 25e-3
-radius = 9.525e-3
-growth = "flats"
-
-[[load]]
-direction = "both"
-random = { rms = 3.0, from = 1.0, to = 20.0, seed = 7 }
-
-[wear]
-coefficient = 1e-15
-support_coefficient = 1e-15
-service = 3.15576e8
-
-[time]
-end = 1.0
-step = 1e-3
-statistics_from = 0.2
-"#;
+/// A square of bars that recede.
+fn shaken() -> String {
+    let wear = "[wear]\ncoefficient = 1e-15\nsupport_coefficient = 1e-15\nservice = 3.15576e8\n";
+    let time = "[time]\nend = 1.0\nstep = 1e-3\nstatistics_from = 0.2\n";
+    square_of_bars("width = 25e-3\nradius = 9.525e-3\ngrowth = \"flats\"\n", &format!("{wear}\n{time}"))
+}
 
 #[test]
 fn more_years_go_on_from_those_that_are_there_and_are_those_of_a_study_from_the_start() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path();
-    fs::write(path.join("shaken.toml"), SHAKEN).unwrap();
+    fs::write(path.join("shaken.toml"), shaken()).unwrap();
     let short = ["wear", "shaken.toml"];
     let same = |a: &str, b: &str| {
         for file in ["history.csv", "years.csv", "wear.svg"] {
