@@ -2,11 +2,14 @@
 //! the terminal.
 
 use super::csv::{self, digits};
-use super::realisations::{MOST_ROWS, find, shown, with_decimals, with_interval};
+use super::realisations::{self, MOST_ROWS, find, shown, with_decimals, with_interval};
+use super::results::Results;
 use super::table::Table;
 use crate::error::Result;
 use crate::scene::Scene;
-use crate::study::realisations::{Check, ErrorPart, ErrorParts, Estimate, Measure, Realisations, Refined};
+use crate::study::realisations::{
+    Check, ErrorPart, ErrorParts, Estimate, Measure, RealisationStudy, Realisations, Refined,
+};
 use std::path::Path;
 
 /// Name of the file.
@@ -50,6 +53,18 @@ pub fn write(path: &Path, study: &Realisations) -> Result<()> {
         Some(row)
     };
     csv::table(path, &header, study.estimates.iter().filter_map(row))
+}
+
+/// Writes `realisations.csv` of a study, and `errors.csv` where errors are known.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_study(results: &mut Results, study: &RealisationStudy) -> Result<()> {
+    realisations::write(&results.place(realisations::FILE)?, &study.realisations)?;
+    if has_any(&study.realisations) {
+        write(&results.place(FILE)?, &study.realisations)?;
+    }
+    Ok(())
 }
 
 /// The table for the terminal, in per cent of the means: a row for each support and wall, and each

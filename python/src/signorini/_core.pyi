@@ -404,6 +404,7 @@ def _wear(
     histories: int | None,
     within: tuple[float | None, int | None],
     verdict: bool,
+    folder: str | PathLike[str] | None,
     counted: Callable[[int, int], None],
     progress: Callable[[int], None],
 ) -> dict[str, Any]: ...
