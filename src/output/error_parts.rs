@@ -2,7 +2,7 @@
 //! the terminal.
 
 use super::csv::{self, digits};
-use super::realisations::{self, MOST_ROWS, find, shown, with_decimals, with_interval};
+use super::realisations::{self, MOST_ROWS, WIDTH, find, shown, with_decimals, with_interval};
 use super::results::Results;
 use super::table::Table;
 use crate::error::Result;
@@ -17,9 +17,6 @@ pub const FILE: &str = "errors.csv";
 
 /// Most places for which the terminal has a sentence.
 const MOST_LINES: usize = 4;
-
-/// Width of the table.
-const WIDTH: usize = 78;
 
 /// The parts of an error that have a mean, with their names.
 type Part = (&'static str, fn(&ErrorParts) -> Option<ErrorPart>);
