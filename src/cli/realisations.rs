@@ -47,12 +47,21 @@ pub fn study(
     verdict: bool,
     ui: &Ui,
 ) -> Result<RealisationStudy> {
-    let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, verdict };
-    let study = plan.follow(&mut |batch| batch_with_bar(case, method, batch, ui), &mut |pilots| {
-        ui.message(&pilots.to_string());
-    })?;
+    let study = unjudged(case, (run, method), count, verdict, ui)?;
     study.refuted().for_each(|(run, findings)| ui.refute(&run, findings));
     Ok(study)
+}
+
+/// As [`study`]; what is refuted in it is left to the caller.
+pub fn unjudged(
+    case: &Case,
+    (run, method): (&Run, &Method),
+    count: RealisationCount,
+    verdict: bool,
+    ui: &Ui,
+) -> Result<RealisationStudy> {
+    let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, verdict };
+    plan.follow(&mut |batch| batch_with_bar(case, method, batch, ui), &mut |pilots| ui.message(&pilots.to_string()))
 }
 
 /// Runs `batch` under a bar with its name.
