@@ -1,8 +1,9 @@
 //! Many runs side by side: a row of numbers for each; motions are not kept.
 
 use crate::case::{Case, value};
-use crate::error::raise;
+use crate::error::{raise, wrong};
 use crate::plan::Plan;
+use crate::realisations::Asked;
 use crate::scene::Scene;
 use crate::work::{compute_beside, kept};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -12,9 +13,10 @@ use signorini as sg;
 use signorini::WallStatistics;
 use signorini::case::KeyValue;
 use signorini::parallel::{Take, on_threads};
-use signorini::sweep::{Axis, Finished, Shard, Sweep, SweepOptions, Values};
+use signorini::study::realisations::RealisationCount;
+use signorini::sweep::{Axis, Finished, Random, Shard, Sweep, SweepOptions, Values};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 /// A number of a wall; nan where there is none.
 type Number = fn(&WallStatistics) -> f64;
@@ -147,8 +149,49 @@ fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Noted> {
 /// Notes before the rows run, the number of rows, how many failed, and the first of these.
 type Outcome = (Vec<String>, u64, u64, Option<String>);
 
-/// Varies the keys of a case over a grid, or one at a time between two bounds, and writes the
-/// tables into `folder`.
+/// True for the word that stands after the bounds of a value whose logarithm is drawn.
+fn is_log(value: &Bound<'_, PyAny>) -> bool {
+    value.extract::<String>().is_ok_and(|word| word == "log")
+}
+
+/// A random design: its kind, its number of rows and its seed.
+type Drawn = (String, Option<u64>, Option<u64>);
+
+/// The values of `key`: a list, or where they are `drawn` between two bounds these, the word "log"
+/// after them where their logarithm is.
+fn values_of(key: &str, values: &[Bound<'_, PyAny>], drawn: bool) -> PyResult<Values> {
+    let log = drawn && values.len() == 3 && values.last().is_some_and(is_log);
+    let own = if log { &values[..2] } else { values };
+    let own = own.iter().map(|one| value(key, one)).collect::<PyResult<Vec<_>>>()?;
+    let numbers: Option<Vec<f64>> = own.iter().map(KeyValue::number).collect();
+    Ok(match numbers.as_deref() {
+        Some(&[from, to]) if drawn => Values::Range { from, to, log },
+        _ => Values::List(own),
+    })
+}
+
+/// `sweep` with values drawn at random, where that is asked for.
+fn drawn(sweep: Sweep, random: Option<Drawn>) -> PyResult<Sweep> {
+    let Some((design, rows, seed)) = random else { return Ok(sweep) };
+    let Some(points) = rows.filter(|rows| *rows > 0) else {
+        let found = rows.map_or_else(|| "missing".to_owned(), |rows| rows.to_string());
+        return Err(wrong("rows", found, "the number of rows to draw at random, 1 or more"));
+    };
+    Ok(sweep.drawn(Random { design: design.parse().map_err(raise)?, points, seed }))
+}
+
+/// `sweep` with rows of so many realisations, where several are asked for.
+fn repeated(sweep: Sweep, (seeds, until_interval, most): Asked) -> PyResult<Sweep> {
+    Ok(match RealisationCount::new(seeds, until_interval, most).map_err(raise)? {
+        None => sweep,
+        Some(RealisationCount::Within { share, most }) => sweep.until_interval(share, Some(most)).map_err(raise)?,
+        Some(count) => sweep.realisations(count.most()),
+    })
+}
+
+/// Varies the keys of a case over a grid, one at a time between two bounds, or at random between
+/// them, and writes the tables into `folder`. Calls `progress` with the runs that are done and
+/// those that are known to be needed.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
 pub fn _sweep(
@@ -156,21 +199,17 @@ pub fn _sweep(
     case: &Case,
     axes: Vec<(String, Vec<Bound<'_, PyAny>>)>,
     one_at_a_time: bool,
+    random: Option<Drawn>,
     scheme: Option<&str>,
     measures: Vec<String>,
-    seeds: Option<u64>,
+    asked: Asked,
     threads: Option<usize>,
     folder: PathBuf,
     progress: Py<PyAny>,
 ) -> PyResult<Outcome> {
     let mut sweep = Sweep::new(case.file.clone());
     for (key, values) in axes {
-        let values = values.iter().map(|one| value(&key, one)).collect::<PyResult<Vec<_>>>()?;
-        let numbers: Option<Vec<f64>> = values.iter().map(KeyValue::number).collect();
-        let values = match numbers.as_deref() {
-            Some(&[from, to]) if one_at_a_time => Values::Range { from, to, log: false },
-            _ => Values::List(values),
-        };
+        let values = values_of(&key, &values, one_at_a_time || random.is_some())?;
         sweep = sweep.vary(Axis::new(&key, values).map_err(raise)?);
     }
     if one_at_a_time {
@@ -179,18 +218,21 @@ pub fn _sweep(
     if let Some(scheme) = scheme {
         sweep = sweep.by(scheme);
     }
-    if let Some(seeds) = seeds {
-        sweep = sweep.realisations(seeds);
-    }
+    sweep = repeated(drawn(sweep, random)?, asked)?;
     sweep = sweep.measure(measures.iter().map(|name| name.parse().map_err(raise)).collect::<PyResult<Vec<_>>>()?);
-    let (done, mut notes) = (AtomicUsize::new(0), Vec::new());
+    let (done, runs, mut notes) = (AtomicU64::new(0), AtomicU64::new(0), Vec::new());
     let work = || {
         let plan = sweep.plan()?;
         notes = plan.notes();
         let options = SweepOptions { threads, shard: Shard::WHOLE, force: false };
-        plan.run_into(&folder, options, &|progress| done.store(progress.done as usize, Ordering::Relaxed))
+        plan.run_into(&folder, options, &|progress| {
+            done.store(progress.done, Ordering::Relaxed);
+            runs.store(progress.runs, Ordering::Relaxed);
+        })
     };
-    let mut watch = |py: Python<'_>| progress.bind(py).call1((done.load(Ordering::Relaxed),)).map(drop);
+    let mut watch = |py: Python<'_>| {
+        progress.bind(py).call1((done.load(Ordering::Relaxed), runs.load(Ordering::Relaxed))).map(drop)
+    };
     let Finished { rows, tables, .. } = compute_beside(py, work, &mut watch)?;
     Ok((notes, rows, tables.bad(), tables.first_error))
 }

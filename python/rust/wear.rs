@@ -9,14 +9,21 @@ use crate::work::compute_beside;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use signorini as sg;
+use signorini::output::format::Format;
+use signorini::output::results::Results;
+use signorini::output::wear_folder::{self, WearRequest};
 use signorini::output::wear_history as output;
+use signorini::output::wear_journal::WindowJournal;
+use signorini::study::realisations::{RealisationCount, RealisationStudy};
 use signorini::study::wear_history::{WearHistories, WearPlan, WearWindow, WearingSupport};
 use signorini::wear::Opening;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Follows histories of wear: `histories` of them, or as many as the interval `within` takes, a
-/// share with the most that it may take, after a study of their first windows. Calls `counted` with
-/// the runs of that study, and `progress` with the per cent of the years that are done.
+/// share with the most that it may take, after a study of their first windows; in `folder`, where
+/// one is given, from what it holds of this study. Calls `counted` with the runs of that study, and
+/// `progress` with the per cent of the years that are done.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
 pub fn _wear<'py>(
@@ -27,6 +34,7 @@ pub fn _wear<'py>(
     histories: Option<u64>,
     within: (Option<f64>, Option<u64>),
     verdict: bool,
+    folder: Option<PathBuf>,
     counted: Py<PyAny>,
     progress: Py<PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -37,30 +45,36 @@ pub fn _wear<'py>(
     let service = case.service(years).map_err(raise)?;
     // A number beside an interval is refused.
     let within = count((histories.filter(|_| within.0.is_some()), within.0, within.1), case)?;
+    let asked = case.histories(histories.map(|count| count as usize)).map_err(raise)?;
+    let count = within.unwrap_or(RealisationCount::Exactly(asked as u64));
+    let request = WearRequest { case, method: &plan.method, years, count, verdict };
+    let open = |folder: PathBuf| request.open(&folder, false, vec![Format::Svg]).map_err(raise);
+    let mut results = folder.map(open).transpose()?;
     let done = RunsDone::default();
     let first = within.map(|count| {
         compute_beside(py, || study(case, &plan, count, verdict, &done), &mut |py| done.tell(counted.bind(py)))
     });
     let first = first.transpose()?;
-    let members = first.as_ref().map_or(&[][..], |(study, _)| &study.realisations.members);
-    let kept: Vec<WearWindow> = members.iter().map(|member| WearWindow::of(member, &supports)).collect();
-    let histories = match within {
-        Some(_) => kept.len(),
-        None => case.histories(histories.map(|count| count as usize)).map_err(raise)?,
-    };
-    let found = followed(py, case, &plan, (&supports, &kept), (histories, service), &progress)?;
+    let study = first.as_ref().map(|(study, _)| study);
+    let histories = study.map_or(asked, |study| study.realisations.members.len());
+    let found = followed(py, case, &plan, (&supports, histories, service), (study, results.as_mut()), &progress)?;
+    if let Some(results) = &mut results {
+        let written = wear_folder::write(results, case, (&found, histories), study);
+        written.and_then(|()| results.finish()).map_err(raise)?;
+    }
     let mut known = wear_told(case, &found, histories);
     known["first"] = json!(first.as_ref().map(|(study, notes)| told(study, notes, case)));
     loads(py, &known.to_string())
 }
 
-/// The histories, whose first windows are `kept`.
+/// So many histories over `service` seconds, whose first windows are those of the study `first`,
+/// beside the journal in `results` where there are any.
 fn followed(
     py: Python<'_>,
     case: &sg::case::Case,
     plan: &Plan,
-    (supports, kept): (&[WearingSupport], &[WearWindow]),
-    (histories, service): (usize, f64),
+    (supports, histories, service): (&[WearingSupport], usize, f64),
+    (first, results): (Option<&RealisationStudy>, Option<&mut Results>),
     progress: &Py<PyAny>,
 ) -> PyResult<WearHistories> {
     let options = sg::Options::new(plan.time);
@@ -69,7 +83,17 @@ fn followed(
     let done = AtomicU64::new(0);
     let mut tell = |share: f64| done.store((100.0 * share) as u64, Ordering::Relaxed);
     let mut watch = |py: Python<'_>| progress.bind(py).call1((done.load(Ordering::Relaxed),)).map(drop);
-    compute_beside(py, || wear.follow(kept, &mut |_| Ok(()), &mut tell), &mut watch)
+    let members = first.map_or(&[][..], |study| &study.realisations.members);
+    let follow = || match results {
+        Some(results) => {
+            WindowJournal::open(results, histories, false)?.follow(&wear, members, &mut tell).map(|(found, _)| found)
+        }
+        None => {
+            let kept: Vec<WearWindow> = members.iter().map(|member| WearWindow::of(member, supports)).collect();
+            wear.follow(&kept, &mut |_| Ok(()), &mut tell)
+        }
+    };
+    compute_beside(py, follow, &mut watch)
 }
 
 /// The histories as the Python half reads them.

@@ -1,6 +1,7 @@
 """Sweeps of a case: the tables of the tool's engine."""
 
 import csv
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -100,6 +101,69 @@ def test_effects_are_differences_of_pairs() -> None:
         table.to_xarray()
 
 
+# 1 kg before a stop under a random force.
+STOP: dict[str, Any] = {
+    "system": {"oscillator": {"mass": 1.0, "damping": 2.0, "stiffness": 400.0}},
+    "wall": [{"name": "stop", "side": "upper", "position": 5e-3, "restitution": 0.5}],
+    "load": [{"random": {"rms": 3.0, "from": 1.0, "to": 20.0, "seed": 7}}],
+    "time": {"end": 1.0, "step": 1e-3},
+}
+PLACES = [1e-3, 5e-3]
+
+
+def stop(position: float = 5e-3) -> sg.Case:
+    return sg.case({**STOP, "wall": [{**STOP["wall"][0], "position": position}]})
+
+
+def test_a_row_has_as_many_realisations_as_its_interval_takes() -> None:
+    table = sg.sweep(stop(), {"wall.stop.position": PLACES}, measures=["force_mean"], until_interval=0.2)
+    assert table["seeds"][0] != table["seeds"][1]
+    frame = table.to_pandas("realisations")
+    for row, position in enumerate(PLACES):
+        # Stein: from the scatter of the first six, at least these.
+        own = frame[frame["row"] == row]
+        first = own["force_mean_stop_N"].to_numpy()[:6]
+        needed = (student.ppf(0.975, 5) * first.std(ddof=1) / (0.2 * first.mean())) ** 2
+        assert len(own) == table["seeds"][row] == max(6, int(np.ceil(needed)))
+        assert list(own["realisation"]) == list(range(1, len(own) + 1))
+        # Those of a study of this row alone.
+        study = sg.realisations(stop(position), until_interval=0.2, verdict=False)
+        assert study.count == len(own)
+        np.testing.assert_array_equal(study.table["mean_force_N"], own["force_mean_stop_N"])
+
+
+def test_datasets_of_rows_of_different_numbers_are_padded() -> None:
+    table = sg.sweep(stop(), {"wall.stop.position": PLACES}, measures=["force_mean"], until_interval=0.2)
+    data = table.to_xarray()
+    most = int(table["seeds"].max())
+    assert data.sizes["realisation"] == most and list(data["realisation"]) == list(range(1, most + 1))
+    np.testing.assert_array_equal(data["seeds"], table["seeds"])
+    padded = data["realisations_force_mean_stop_N"]
+    np.testing.assert_array_equal(padded.count("realisation"), data["seeds"])
+    # Their mean leaves out what is not there; sums in another order.
+    np.testing.assert_allclose(padded.mean("realisation"), table["force_mean_stop_N"], rtol=1e-13)
+
+
+def test_keys_drawn_at_random_have_their_shares() -> None:
+    # Without contact the displacement is in proportion to the load: all of its variance is the
+    # load's. The motion is computed to rounding, and a straight line fits exactly.
+    load = {"harmonic": {"amplitude": 3.0, "frequency": 2.0}}
+    free = sg.case({**STOP, "wall": [{**STOP["wall"][0], "position": 10.0}], "load": [load]})
+    keys = {"load.1.harmonic.amplitude": (1.0, 5.0), "wall.stop.restitution": (0.2, 0.9, "log")}
+    table = sg.sweep(free, keys, measures=["displacement_max"], random="lhs", rows=20, seed=3)
+    assert table.design == "random" and len(table["row"]) == 20
+    assert list(table.shares["key"]) == [*keys, "interactions"]
+    np.testing.assert_allclose(table.shares["share"], [1.0, 0.0, 0.0], atol=1e-9)
+    # One row in each slice of the logarithm.
+    slices = np.log(table["restitution"] / 0.2) / np.log(0.9 / 0.2) * 20
+    assert sorted(slices.astype(int)) == list(range(20))
+    pd.testing.assert_frame_equal(table.to_pandas("shares"), pd.DataFrame(dict(table.shares)))
+    with pytest.raises(ValueError, match="to_xarray of keys drawn at random; expected a sweep over a grid"):
+        table.to_xarray()
+    with pytest.raises(ValueError, match="table is 'effects'; expected one that this sweep has: rows, shares"):
+        table.to_pandas("effects")
+
+
 def test_wrong_requests_are_refused() -> None:
     case, keys = tube(), {"support.*.gap": [1e-4]}
     wrong: list[tuple[dict[str, Any], str]] = [
@@ -111,12 +175,24 @@ def test_wrong_requests_are_refused() -> None:
         ({"step": 1e-4}, "no such argument beside a case"),
         ({"points": sg.grid(gap=[1e-4])}, "a mapping of keys to values"),
         ({"threads": 0}, "expected 1 or more"),
+        ({"until_interval": 5}, "until_interval is 5; expected a share above 0 and below 1"),
+        ({"until_interval": 0.05, "seeds": 3}, "expected no interval beside a number"),
+        ({"most_seeds": 9}, "expected until_interval beside it"),
+        ({"random": "sobl", "rows": 8, "points": {"support.*.gap": (1e-4, 2e-4)}}, "did you mean sobol?"),
+        ({"random": "lhs", "points": {"support.*.gap": (1e-4, 2e-4)}}, "rows is missing; expected the number"),
+        ({"random": "lhs", "rows": 0, "points": {"support.*.gap": (1e-4, 2e-4)}}, "rows is 0; expected"),
+        ({"random": "lhs", "rows": 8, "points": {"support.*.gap": (1e-4, 2e-4, 3e-4)}}, "its lower and upper bound"),
+        ({"random": "lhs", "rows": 8, "points": {"support.*.gap": (2e-4, 1e-4)}}, "more than from"),
+        ({"rows": 8}, "rows is 8; expected random beside it"),
+        ({"seed": 8}, "seed is 8; expected random beside it"),
     ]
     for arguments, message in wrong:
-        with pytest.raises(ValueError, match=message.replace("*", r"\*")):
+        with pytest.raises(ValueError, match=re.escape(message)):
             sg.sweep(case, **{"points": keys, "measures": MEASURES, **arguments})
     with pytest.raises(ValueError, match="expected a case in place of a function"):
         sg.sweep(lambda: case.scene, [{}], seeds=2)  # type: ignore[call-overload]
+    with pytest.raises(ValueError, match="random is 'lhs'; expected a case in place of a function"):
+        sg.sweep(lambda: case.scene, [{}], random="lhs", rows=3)  # type: ignore[call-overload]
 
 
 def test_rows_that_fail_say_why() -> None:

@@ -41,6 +41,17 @@ def three() -> sg.Realisations:
     return sg.realisations(tube(), seeds=3)
 
 
+def test_the_largest_force_is_the_mean_of_those_of_runs_with_raised_seeds(three: sg.Realisations) -> None:
+    found = []
+    for k in range(3):
+        run = tube(**{f"load.{i}.random.seed": 1 + k for i in (1, 2)}).run()
+        found.append(run.supports["plate-1"].force_largest_mean or 0.0)
+        # The table of a notebook has the same rule: of rigid walls the largest mean over a stretch.
+        assert f"<td>{run._summary()['statistics']['walls'][0]['force']['largest']['mean_n']:.4g}</td>" in run._repr_html_()
+    # A sum of three numbers.
+    assert three.supports["plate-1"]["largest_force"].value == pytest.approx(np.mean(found), rel=1e-14)
+
+
 def test_numbers_are_those_of_the_tool(three: sg.Realisations, tool: Callable[..., Path]) -> None:
     folder = tool("run", "tube-round-supports", *SET, "--seeds", "3")
     table = rows(folder / "realisations.csv")

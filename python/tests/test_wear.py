@@ -46,6 +46,57 @@ def test_years_and_histories_are_those_of_the_tool(three: sg.WearStudy, tool: Ca
     assert_same(three.history, folder / "history.csv")
 
 
+FILES = ("history.csv", "years.csv", "wear.svg")
+
+
+def test_more_years_go_on_from_a_folder_to_those_of_a_study_from_the_start(
+    tool: Callable[..., Path], tmp_path: Path
+) -> None:
+    folder = tmp_path / "grown"
+    asked: dict[str, Any] = {"histories": 2, "folder": folder}
+    sg.wear(tube(), years=20, **asked)
+    windows = (folder / "windows.journal").read_bytes()
+    grown = sg.wear(tube(), years=60, **asked)
+    # What was run stays, and what is run further is added.
+    assert (folder / "windows.journal").read_bytes().startswith(windows)
+    at_once = sg.wear(tube(), years=60, histories=2)
+    np.testing.assert_array_equal(grown.to_pandas(), at_once.to_pandas())
+    assert str(grown) == str(at_once)
+    # The same call again runs nothing.
+    windows = (folder / "windows.journal").read_bytes()
+    np.testing.assert_array_equal(sg.wear(tube(), years=60, **asked).to_pandas(), at_once.to_pandas())
+    assert (folder / "windows.journal").read_bytes() == windows
+    # The tool writes the same bytes, and Python goes on from its folder.
+    whole = tool("wear", "tube-in-cross-flow", *SET, "--years", "60", "--histories", "2")
+    for name in FILES:
+        assert (folder / name).read_bytes() == (whole / name).read_bytes()
+    windows = (whole / "windows.journal").read_bytes()
+    sg.wear(tube(), years=60, histories=2, folder=whole)
+    assert (whole / "windows.journal").read_bytes() == windows
+    others: list[tuple[dict[str, Any], str]] = [
+        ({"years": 20}, "years: 60 there, 20 asked"),
+        ({"years": 70, "histories": 3}, "histories: 2 there, 3 asked"),
+        ({"years": 70, "histories": None, "until_interval": 0.5}, "until_interval"),
+    ]
+    for other, words in others:
+        with pytest.raises(OSError, match=words) as refused:
+            sg.wear(tube(), **{**asked, **other})
+        assert "give another folder" in str(refused.value) and "--force" not in str(refused.value)
+    for name in FILES:
+        assert (folder / name).read_bytes() == (whole / name).read_bytes()
+
+
+def test_an_interval_goes_on_from_a_folder_too(tool: Callable[..., Path], tmp_path: Path) -> None:
+    asked: dict[str, Any] = {"until_interval": 0.9, "most_seeds": 20, "verdict": False, "folder": tmp_path / "w"}
+    sg.wear(tube(), years=2, **asked)
+    study = sg.wear(tube(), years=5, **asked)
+    own = ("--until-interval", "90%", "--most-seeds", "20", "--no-verdict")
+    whole = tool("wear", "tube-in-cross-flow", *SET, "--years", "5", *own)
+    for name in (*FILES, "realisations.csv"):
+        assert (tmp_path / "w" / name).read_bytes() == (whole / name).read_bytes()
+    assert study.first is not None
+
+
 def test_years_are_means_over_the_histories(three: sg.WearStudy) -> None:
     assert (three.supports, three.histories) == (("plate-1", "plate-2"), 3)
     assert three.years["year"][0] == 0.0 and three.years["year"][-1] == 20.0

@@ -49,10 +49,11 @@ pub struct Args {
     schemes: Option<String>,
     /// Run every method with N realisations of the case's random loads, the same for all: means
     /// with their 95 % intervals, and what each method differs by from the exact one, or else from
-    /// the first. Realisation k has the seeds of the case plus k - 1, as with `run --seeds`
+    /// the first, and the errors of its means in the parts of `run --seeds`. Realisation k has the
+    /// seeds of the case plus k - 1, as with `run --seeds`
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seeds: Option<u64>,
-    /// Do not repeat the methods with half the step
+    /// Do not repeat the methods with half the step, nor with --seeds with more modes
     #[arg(long)]
     no_verdict: bool,
     /// Show all quantities of each method, and all notes
@@ -77,7 +78,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let (comparison, (verdicts, failures)) = compared(args, &case, &methods, ui)?;
     refute(&comparison, &verdicts, ui);
     any_succeeded(&comparison)?;
-    let studies = count.map(|count| Studies::of(&case, &comparison, count, ui)).transpose()?;
+    let studies = count.map(|count| Studies::of(&case, &comparison, count, !args.no_verdict, ui)).transpose()?;
     if let Some(studies) = &studies {
         studies.write(&mut results)?;
     }
@@ -111,7 +112,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let failed = failures.iter();
     answer
         .messages(failed.map(|(method, error)| format!("- the check of {method} with half the step failed: {error}")));
-    answer.fall_short(not_checked(failures.iter().map(|(method, _)| format!("half the step of {method}"))));
+    let unchecked = failures.iter().map(|(method, _)| format!("half the step of {method}"));
+    answer.fall_short(not_checked(unchecked.chain(studies.iter().flat_map(Studies::unchecked))));
     Ok(answer)
 }
 

@@ -1,18 +1,18 @@
 //! `compare --seeds`: every method under the same realisations of the random loads.
 
-use super::estimate::DurationEstimate;
 use super::pipeline::Answer;
+use super::realisations;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
+use crate::output::error_parts;
 use crate::output::method_realisations::{self as output, MethodStudy};
 use crate::output::realisations::{FILE, write_methods};
 use crate::output::results::Results;
-use crate::run::{Options, Run};
+use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::compare::Comparison;
-use crate::study::realisations::{Difference, Realisation, Realisations, realisations};
-use crate::time::{TimeGrid, TimeOptions};
+use crate::study::realisations::{Difference, RealisationCount, RealisationStudy, Realisations};
 use serde_json::Value;
 
 /// The methods under all realisations.
@@ -21,49 +21,49 @@ pub struct Studies {
     /// The method that differences are taken from: the exact one where it ran, else the first.
     reference: String,
     methods: Vec<MethodStudy>,
-    /// What kept methods out of it, in sentences.
+    /// What kept methods or parts of errors out of it, in sentences.
     failures: Vec<String>,
+    /// The checks that failed.
+    unchecked: Vec<String>,
 }
 
 impl Studies {
-    /// The studies of `count` realisations of `case` by each method of `comparison` that ran; its
-    /// runs are the first realisation.
-    pub fn of(case: &Case, comparison: &Comparison, count: u64, ui: &Ui) -> Result<Self> {
-        // The steps and rows of the comparison.
-        let grid = TimeGrid::stepping(case.scene.duration, &case.time)?;
-        let options = Options::new(TimeOptions { sample: Some(grid.row_spacing()), ..case.time });
+    /// The studies of `count` realisations of `case` by each method of `comparison` that ran, with
+    /// `verdict` also the errors of their means; its runs are the first realisation.
+    pub fn of(case: &Case, comparison: &Comparison, count: u64, verdict: bool, ui: &Ui) -> Result<Self> {
         let ran: Vec<(Method, &Run)> =
             comparison.rows.iter().filter_map(|row| Some((row.method, row.outcome.as_ref().ok()?))).collect();
-        let methods: Vec<Method> = ran.iter().map(|(method, _)| *method).collect();
-        let estimate = DurationEstimate::of_comparison(&case.scene, &methods, case.time.step);
-        let estimate = estimate.on_all_cores((count - 1) as f64);
-        let mut studies = Self { count, reference: String::new(), methods: Vec::new(), failures: Vec::new() };
-        let scene = |number: u64| Ok(case.realisation(number)?.scene);
-        ui.with_estimate("realisations", estimate, |bar| -> Result<()> {
-            for (index, (method, run)) in ran.iter().enumerate() {
-                let mut progress = |share: f64| bar.set_share((index as f64 + share) / ran.len() as f64);
-                let mut members = vec![Realisation::of(1, run)];
-                match realisations(2..=count, &scene, method, &options, &mut progress) {
-                    Ok(others) => members.extend(others),
-                    Err(Error::Stopped) => return Err(Error::Stopped),
-                    Err(error) => {
-                        let what = format!("{method} has no means: one of {count} realisations failed: {error}");
-                        studies.failures.push(what);
-                        continue;
-                    }
+        let mut studies =
+            Self { count, reference: String::new(), methods: Vec::new(), failures: Vec::new(), unchecked: Vec::new() };
+        let count = RealisationCount::Exactly(count);
+        for (method, run) in &ran {
+            match realisations::unjudged(case, (run, method), count, verdict, ui) {
+                Ok(study) => studies.add(method.to_string(), study, ui),
+                Err(Error::Stopped) => return Err(Error::Stopped),
+                Err(error) => {
+                    let all = studies.count;
+                    studies.failures.push(format!("{method} has no means: one of {all} realisations failed: {error}"));
                 }
-                let (method, study) = (method.to_string(), Realisations::new(members));
-                studies.methods.push(MethodStudy { method, study, differences: Vec::new() });
-            }
-            Ok(())
-        })?;
-        studies.compare(&ran);
-        for one in &studies.methods {
-            for member in one.study.members.iter().skip(1) {
-                ui.refute(&format!("{}, realisation {}", one.method, member.number), &member.findings);
             }
         }
+        studies.compare(&ran);
         Ok(studies)
+    }
+
+    /// Adds the study of `method`; what is refuted in it fails the command.
+    fn add(&mut self, method: String, study: RealisationStudy, ui: &Ui) {
+        study.refuted().for_each(|(run, findings)| ui.refute(&format!("{method}, {run}"), findings));
+        let failed = study.failures.iter();
+        self.unchecked.extend(failed.clone().map(|failed| format!("{} of {method}", failed.refined)));
+        self.failures.extend(failed.map(|failed| {
+            format!("the check of the means of {method} with {} failed: {}", failed.refined, failed.error)
+        }));
+        self.methods.push(MethodStudy { method, study: study.realisations, differences: Vec::new() });
+    }
+
+    /// The checks that failed, in words.
+    pub fn unchecked(&self) -> impl Iterator<Item = String> {
+        self.unchecked.iter().cloned()
     }
 
     /// Fills in the differences from the exact method, or else from the first.
@@ -80,11 +80,21 @@ impl Studies {
         self.methods.iter_mut().zip(all).for_each(|(one, differences)| one.differences = differences);
     }
 
-    /// Writes `realisations.csv`, and the means.
+    fn named(&self) -> Vec<(String, &Realisations)> {
+        self.methods.iter().map(|one| (one.method.clone(), &one.study)).collect()
+    }
+
+    fn has_errors(&self) -> bool {
+        self.methods.iter().any(|one| error_parts::has_any(&one.study))
+    }
+
+    /// Writes `realisations.csv`, the means, and `errors.csv` where errors are known.
     pub fn write(&self, results: &mut Results) -> Result<()> {
-        let studies: Vec<(String, &Realisations)> =
-            self.methods.iter().map(|one| (one.method.clone(), &one.study)).collect();
+        let studies = self.named();
         write_methods(&results.place(FILE)?, &studies)?;
+        if self.has_errors() {
+            error_parts::write_methods(&results.place(error_parts::FILE)?, &studies)?;
+        }
         output::write(&results.place(output::FILE)?, &self.methods, &self.reference)
     }
 
@@ -98,12 +108,28 @@ impl Studies {
         if let Some(table) = output::table(&self.methods, &self.reference, &case.scene) {
             answer.table(table, output::FILE);
         }
+        if let Some(table) = error_parts::table_of_methods(&self.named(), &case.scene) {
+            answer.table(table, error_parts::FILE);
+        }
+        let errors = self.has_errors().then(|| error_parts::REMARK_OF_METHODS.to_owned());
+        let unknown = self.methods.iter().flat_map(|one| {
+            let checks = one.study.checks.iter().filter_map(error_parts::refuted);
+            checks.map(|text| format!("{}: {text}", one.method))
+        });
         let above = (self.count > 1).then(|| "what stands above is of realisation 1 alone".to_owned());
         let refuted = self.methods.iter().filter(|one| !one.study.refuted.is_empty()).map(|one| {
             let count = one.study.refuted.len();
             format!("{}: {count} of {} realisations are refuted: its means are wrong", one.method, self.count)
         });
         let failures = self.failures.iter().cloned();
-        answer.messages([output::remark(self.count)].into_iter().chain(above).chain(refuted).chain(failures));
+        answer.messages(
+            [output::remark(self.count)]
+                .into_iter()
+                .chain(errors)
+                .chain(above)
+                .chain(refuted)
+                .chain(unknown)
+                .chain(failures),
+        );
     }
 }

@@ -3,9 +3,9 @@
 use super::command_line::command_line;
 use super::drawing::Formats;
 use super::pipeline::Answer;
-use super::sweep::{picture_messages, show_effects, show_means, show_shares, status_document, status_messages};
+use super::sweep::{picture_messages, show_tables, status_document, status_messages, write_sensitivity};
 use crate::error::Result;
-use crate::sweep::{Merged, asked, effects, merge_in, shares, write_effects, write_shares, write_summary};
+use crate::sweep::{Merged, merge_in, write_summary};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -48,15 +48,10 @@ pub fn answer(args: &Args) -> Result<Answer> {
         "results": args.out,
     });
     let request = document["request"].as_object().cloned().unwrap_or_default();
-    let effects = effects(&args.out, &request)?;
-    write_effects(&mut results, &effects)?;
-    let shares = shares(&args.out, &request)?;
-    write_shares(&mut results, &shares)?;
+    let found = write_sensitivity(&mut results, &request)?;
     let document = write_summary(&mut results, document)?;
     let mut answer = Answer::of(results, !args.no_report, document);
-    show_effects(&mut answer, &effects, asked(&request));
-    show_shares(&mut answer, &shares);
-    show_means(&mut answer, &args.out, &request)?;
+    show_tables(&mut answer, &args.out, &request, found.as_ref())?;
     answer.messages(unverified.iter().map(|folder| {
         format!("{}: of a version that recorded no digests: its tables are not verified", folder.display())
     }));

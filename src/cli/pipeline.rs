@@ -43,23 +43,8 @@ impl Destination {
     /// # Errors
     /// As [`Results::open`]; [`Error::Invalid`] for a format that this build cannot write.
     pub fn open(&self, case: &Case, command: &str, request: Map<String, Value>) -> Result<Results> {
-        self.open_growing(case, command, request, None)
-    }
-
-    /// As [`Destination::open`]; with `growing`, a key of the request, the folder may also hold
-    /// results of the same request with a smaller number there, from which this one goes on.
-    ///
-    /// # Errors
-    /// As [`Destination::open`].
-    pub fn open_growing(
-        &self,
-        case: &Case,
-        command: &str,
-        request: Map<String, Value>,
-        growing: Option<&str>,
-    ) -> Result<Results> {
         let (folder, formats) = (self.folder(&case.name, command), self.formats.usable()?);
-        let mut results = Results::open_growing(&folder, request, growing, self.force, formats)?;
+        let mut results = Results::open(&folder, request, self.force, formats)?;
         results.add_to_manifest("command_line", json!(command_line()));
         results.add_to_manifest("title", json!(case.title));
         Ok(results)

@@ -5,8 +5,7 @@ use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result, Subject};
-use crate::output::results::Results;
-use crate::output::{error_parts, realisations as output};
+use crate::output::error_parts;
 use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::realisations::{
@@ -48,12 +47,21 @@ pub fn study(
     verdict: bool,
     ui: &Ui,
 ) -> Result<RealisationStudy> {
-    let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, verdict };
-    let study = plan.follow(&mut |batch| batch_with_bar(case, method, batch, ui), &mut |pilots| {
-        ui.message(&pilots.to_string());
-    })?;
+    let study = unjudged(case, (run, method), count, verdict, ui)?;
     study.refuted().for_each(|(run, findings)| ui.refute(&run, findings));
     Ok(study)
+}
+
+/// As [`study`]; what is refuted in it is left to the caller.
+pub fn unjudged(
+    case: &Case,
+    (run, method): (&Run, &Method),
+    count: RealisationCount,
+    verdict: bool,
+    ui: &Ui,
+) -> Result<RealisationStudy> {
+    let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, verdict };
+    plan.follow(&mut |batch| batch_with_bar(case, method, batch, ui), &mut |pilots| ui.message(&pilots.to_string()))
 }
 
 /// Runs `batch` under a bar with its name.
@@ -80,15 +88,6 @@ pub fn not_checked(refined: impl Iterator<Item = String>) -> Option<Error> {
     checks.sort();
     checks.dedup();
     (!checks.is_empty()).then_some(Error::Unchecked { checks })
-}
-
-/// Writes `realisations.csv`, and `errors.csv` where errors are known.
-pub fn write(study: &RealisationStudy, results: &mut Results) -> Result<()> {
-    output::write(&results.place(output::FILE)?, &study.realisations)?;
-    if error_parts::has_any(&study.realisations) {
-        error_parts::write(&results.place(error_parts::FILE)?, &study.realisations)?;
-    }
-    Ok(())
 }
 
 /// Shows the errors of the means of `study`: their table, the remarks on it, and which checks

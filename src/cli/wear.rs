@@ -1,5 +1,6 @@
 //! `signorini wear`: depth over the years at supports whose gaps grow by wear.
 
+use super::command_line::command_line;
 use super::estimate::DurationEstimate;
 use super::pipeline::Answer;
 use super::realisations::{self, failed_checks, not_checked, of_argument};
@@ -9,18 +10,17 @@ use super::ui::Ui;
 use super::values;
 use crate::case::Case;
 use crate::error::Result;
-use crate::output::error_parts;
-use crate::output::request::{extended, program, request};
 use crate::output::results::Results;
+use crate::output::wear_folder::{self, WearRequest};
 use crate::output::wear_history as output;
 use crate::output::wear_journal::WindowJournal;
 use crate::run::{Options, run_with_progress};
 use crate::scheme::Method;
 use crate::study::choice;
 use crate::study::realisations::{RealisationCount, RealisationStudy};
-use crate::study::wear_history::{WearHistories, WearPlan, WearWindow, WearingSupport, YEAR};
+use crate::study::wear_history::{WearHistories, WearPlan, WearingSupport};
 use crate::wear::Opening;
-use serde_json::{Map, Value, json};
+use serde_json::json;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -40,9 +40,6 @@ Writes history.csv (every history), years.csv (means with their 95 % intervals) 
 --until-interval also realisations.csv and errors.csv (the first runs); report.html shows the years.
 After an interruption the same command goes on, after the study of the first runs. With more --years
 it goes on from finished results as well: the same results as those of so many years at once.";
-
-/// The key of the request that may grow: a study goes on to further years.
-const YEARS: &str = "years";
 
 /// Windows of a history, about, for the estimate of the duration.
 const WINDOWS: f64 = 7.0;
@@ -90,34 +87,23 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         None => args.request.method(&choice::choose(&case.scene).method.to_string(), &case)?,
     };
     args.request.check_use(&[method])?;
-    let asked = args.asked(&case, &method, service, histories);
-    let mut results = args.request.place.open_growing(&case, "wear", asked, Some(YEARS))?;
-    let first = within.map(|count| first_windows(&case, &method, count, !args.no_verdict, ui)).transpose()?;
+    let (place, count) = (&args.request.place, within.unwrap_or(RealisationCount::Exactly(histories as u64)));
+    let verdict = !args.no_verdict;
+    let asked = WearRequest { case: &case, method: &method, years: args.years, count, verdict };
+    let mut results = asked.open(&place.folder(&case.name, "wear"), place.force, place.formats.usable()?)?;
+    results.add_to_manifest("command_line", json!(command_line()));
+    let first = within.map(|count| first_windows(&case, &method, count, verdict, ui)).transpose()?;
     let histories = first.as_ref().map_or(histories, |study| study.realisations.count);
     let plan = Followed { case: &case, supports: &supports, method: &method, histories, service };
     let (found, there) = plan.follow(first.as_ref(), &mut results, args.request.place.force, ui)?;
-    output::write(&mut results, &found)?;
-    if let Some(study) = &first {
-        realisations::write(study, &mut results)?;
-        results.add_to_manifest("realisations", json!(study.realisations));
-    }
-    results.draw("wear", &output::figure(&case, &found))?;
-    let notes = case.notes();
-    let answers = output::remarks(&case, &found);
-    results.add_to_manifest("case_file", case.document.json()?);
-    results.add_to_manifest("remarks", json!(notes));
-    let errors = first.iter().flat_map(|study| error_parts::remarks(&study.realisations, &case.scene));
-    results.add_to_manifest("answers", json!(answers.iter().cloned().chain(errors).collect::<Vec<_>>()));
-    results.add_to_manifest("supports", json!(found.supports));
-    results.add_to_manifest("histories", json!(histories));
-    results.add_to_manifest("fluid_elastic", json!(case.fluid_elastic));
+    wear_folder::write(&mut results, &case, (&found, histories), first.as_ref())?;
     let mut document = output::document(&case, &found);
     if let Some(study) = &first {
         document["realisations"] = json!(study.realisations);
     }
     let mut answer = Answer::of(results, !args.request.place.no_report, document);
     answer.table(output::table(&found), "years.csv");
-    answer.remarks(answers);
+    answer.remarks(output::remarks(&case, &found));
     if let Some(study) = &first {
         let count = study.realisations.count;
         answer.messages([format!(
@@ -132,7 +118,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     }
     let runs = format!("{} by {method}: {} runs of {:?} s{there}", case.name, found.windows, case.scene.duration);
     answer.messages([runs]);
-    answer.messages(notes.iter().map(|note| format!("note: {note}")));
+    answer.messages(case.notes().iter().map(|note| format!("note: {note}")));
     Ok(answer)
 }
 
@@ -140,23 +126,6 @@ impl Args {
     /// The number of histories that an interval takes, where one is asked for.
     fn within(&self, case: &Case) -> Result<Option<RealisationCount>> {
         Seeds { count: None, until_interval: self.until_interval.clone(), most_seeds: self.most_seeds }.check(case)
-    }
-
-    /// The request, as it is recorded.
-    fn asked(&self, case: &Case, method: &Method, service: f64, histories: usize) -> Map<String, Value> {
-        let mut settings = match &self.until_interval {
-            None => json!({ "histories": histories }),
-            Some(share) => json!({
-                "until_interval": share,
-                "most_seeds": self.most_seeds,
-                "verdict": !self.no_verdict,
-            }),
-        };
-        // As they were asked for: years in seconds and back may differ in the last digit.
-        settings[YEARS] = json!(self.years.unwrap_or(service / YEAR));
-        // Windows are kept, and those of another version may differ.
-        settings["program"] = json!(program());
-        extended(request("wear", case, &[*method]), settings)
     }
 }
 
@@ -199,34 +168,22 @@ impl Followed<'_> {
     ) -> Result<(WearHistories, String)> {
         let Self { case, supports, method, histories, service } = *self;
         let mut journal = WindowJournal::open(results, histories, anew)?;
-        let mut kept = journal.kept()?;
-        let mut ran = 0;
         let members = first.map_or(&[][..], |study| &study.realisations.members);
-        for member in members.iter().skip(kept.len()) {
-            let window = WearWindow::of(member, supports);
-            journal.keep(&window)?;
-            kept.push(window);
-            ran += 1;
-        }
         let scene = |number: u64, openings: &[Opening]| case.worn(number, supports, openings);
         let options = Options::new(case.time);
         let plan = WearPlan { supports, scene: &scene, method, options: &options, histories, service };
         let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step).times(WINDOWS);
         let estimate = estimate.on_all_cores(histories as f64);
-        let mut keep = |window: &WearWindow| {
-            ran += 1;
-            journal.keep(window)
-        };
-        let found =
-            ui.with_estimate("wear", estimate, |bar| plan.follow(&kept, &mut keep, &mut |share| bar.set_share(share)))?;
+        let (found, there) = ui
+            .with_estimate("wear", estimate, |bar| journal.follow(&plan, members, &mut |share| bar.set_share(share)))?;
         // The study has told of its own, but of the first.
         let told = 2..=members.len() as u64;
         for (number, findings) in found.refuted.iter().filter(|(number, _)| !told.contains(number)) {
             ui.refute(&format!("window {number}"), findings);
         }
-        let there = match found.windows - ran {
+        let there = match there {
             0 => String::new(),
-            _ if ran == 0 => ", all of them there already".to_owned(),
+            _ if there == found.windows => ", all of them there already".to_owned(),
             count => format!(", {count} of them there already"),
         };
         Ok((found, there))

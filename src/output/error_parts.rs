@@ -2,11 +2,14 @@
 //! the terminal.
 
 use super::csv::{self, digits};
-use super::realisations::{MOST_ROWS, find, shown, with_decimals, with_interval};
+use super::realisations::{self, MOST_ROWS, WIDTH, find, shown, with_decimals, with_interval};
+use super::results::Results;
 use super::table::Table;
 use crate::error::Result;
 use crate::scene::Scene;
-use crate::study::realisations::{Check, ErrorPart, ErrorParts, Estimate, Measure, Realisations, Refined};
+use crate::study::realisations::{
+    Check, ErrorPart, ErrorParts, Estimate, Measure, RealisationStudy, Realisations, Refined,
+};
 use std::path::Path;
 
 /// Name of the file.
@@ -14,9 +17,6 @@ pub const FILE: &str = "errors.csv";
 
 /// Most places for which the terminal has a sentence.
 const MOST_LINES: usize = 4;
-
-/// Width of the table.
-const WIDTH: usize = 78;
 
 /// The parts of an error that have a mean, with their names.
 type Part = (&'static str, fn(&ErrorParts) -> Option<ErrorPart>);
@@ -36,8 +36,29 @@ pub fn has_any(study: &Realisations) -> bool {
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, study: &Realisations) -> Result<()> {
+    csv::table(path, &columns(), cells(study))
+}
+
+/// The same for the studies of several methods, with a first column that names them.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_methods(path: &Path, studies: &[(String, &Realisations)]) -> Result<()> {
+    let header: Vec<String> = std::iter::once("method".to_owned()).chain(columns()).collect();
+    let named = |(method, study): &(String, &Realisations)| {
+        let method = method.clone();
+        cells(study).map(move |row| [vec![method.clone()], row].concat()).collect::<Vec<_>>()
+    };
+    csv::table(path, &header, studies.iter().flat_map(named))
+}
+
+fn columns() -> Vec<String> {
     let mut header = ["place", "kind", "measure", "unit", "mean", "half_width_95", "error"].map(str::to_owned).to_vec();
     header.extend(PARTS.iter().flat_map(|(name, _)| [(*name).to_owned(), format!("{name}_half_width_95")]));
+    header
+}
+
+fn cells(study: &Realisations) -> impl Iterator<Item = Vec<String>> {
     let row = |one: &Estimate| {
         let error = one.error?;
         let mut row = vec![one.place.name.clone(), one.place.kind.word().to_owned()];
@@ -49,32 +70,69 @@ pub fn write(path: &Path, study: &Realisations) -> Result<()> {
         }
         Some(row)
     };
-    csv::table(path, &header, study.estimates.iter().filter_map(row))
+    study.estimates.iter().filter_map(row)
+}
+
+/// Writes `realisations.csv` of a study, and `errors.csv` where errors are known.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_study(results: &mut Results, study: &RealisationStudy) -> Result<()> {
+    realisations::write(&results.place(realisations::FILE)?, &study.realisations)?;
+    if has_any(&study.realisations) {
+        write(&results.place(FILE)?, &study.realisations)?;
+    }
+    Ok(())
 }
 
 /// The table for the terminal, in per cent of the means: a row for each support and wall, and each
 /// of its judged means; `None` where no error is known.
 #[must_use]
 pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
-    let judged: Vec<(&Estimate, ErrorParts)> = shown(study, scene, MOST_ROWS / 3)
-        .into_iter()
-        .flat_map(|place| [Measure::WorkRate, Measure::MeanForce, Measure::RmsForce].map(|what| (place, what)))
-        .filter_map(|(place, what)| find(study, place, what).and_then(|one| Some((one, one.error?))))
-        .collect();
+    table_of(&[(None, study)], scene)
+}
+
+/// The same for several methods, a row for each, without the error of sampling: it is the half
+/// width of the means.
+#[must_use]
+pub fn table_of_methods(studies: &[(String, &Realisations)], scene: &Scene) -> Option<Table> {
+    let named: Vec<_> = studies.iter().map(|(method, study)| (Some(method.as_str()), *study)).collect();
+    table_of(&named, scene)
+}
+
+/// What the parts are in the table of several methods.
+pub const REMARK_OF_METHODS: &str = "errors: start: second half of the window less the first; step: the change by half \
+    the step, twice or 4/3 of it by the order of the method; modes: the change by more modes; the error is the sum of \
+    their sizes and the root of the sum of all squared ±, that of the mean among them";
+
+fn table_of(studies: &[(Option<&str>, &Realisations)], scene: &Scene) -> Option<Table> {
+    let first = studies.first()?.1;
+    let mut judged: Vec<(Option<&str>, &Estimate, ErrorParts)> = Vec::new();
+    for place in shown(first, scene, MOST_ROWS / 3) {
+        for what in [Measure::WorkRate, Measure::MeanForce, Measure::RmsForce] {
+            judged.extend(studies.iter().filter_map(|(method, study)| {
+                find(study, place, what).and_then(|one| Some((*method, one, one.error?)))
+            }));
+        }
+    }
     let parts: Vec<Part> =
-        PARTS.into_iter().filter(|(_, part)| judged.iter().any(|(_, error)| part(error).is_some())).collect();
-    let mut header = vec!["place".to_owned(), "mean of".to_owned(), "error (%)".to_owned()];
+        PARTS.into_iter().filter(|(_, part)| judged.iter().any(|(_, _, error)| part(error).is_some())).collect();
+    let methods = studies.iter().any(|(method, _)| method.is_some());
+    let names = ["place", "mean of", "method"];
+    let mut header: Vec<String> = names.iter().take(if methods { 3 } else { 2 }).map(|&name| name.to_owned()).collect();
+    header.push("error (%)".to_owned());
     header.extend(parts.iter().map(|(name, _)| format!("{name} (%)")));
-    header.push("sampling (%)".to_owned());
-    let row = |(one, error): &(&Estimate, ErrorParts)| {
+    header.extend((!methods).then(|| "sampling (%)".to_owned()));
+    let row = |(method, one, error): &(Option<&str>, &Estimate, ErrorParts)| {
         let none = || "-".to_owned();
         let mut row = vec![one.place.name.clone(), one.measure.words().to_owned()];
+        row.extend(method.map(str::to_owned));
         row.push(share(error.total, one).map_or_else(none, per_cent));
         for (_, part) in &parts {
             row.push(part(error).and_then(|part| interval(&part, one)).unwrap_or_else(none));
         }
         let sampling = share(error.sampling_half_width_95, one);
-        row.push(sampling.map_or_else(none, |half| format!("± {}", per_cent(half))));
+        row.extend((!methods).then(|| sampling.map_or_else(none, |half| format!("± {}", per_cent(half)))));
         row
     };
     let rows: Vec<Vec<String>> = judged.iter().map(row).collect();
@@ -115,7 +173,7 @@ fn how(check: &Check) -> String {
 }
 
 /// That nothing follows from a check with refuted runs.
-fn refuted(check: &Check) -> Option<String> {
+pub(crate) fn refuted(check: &Check) -> Option<String> {
     let (what, count, refuted) = (check.refined, check.count, check.refuted.len());
     (refuted > 0).then(|| {
         format!("with {what} {refuted} of {count} realisations are refuted: that part of the errors is not known")

@@ -31,6 +31,7 @@
 //! | `cheapest` | the cheapest methods of a chart, and its conclusion |
 //! | `floors` | how near penalties come to rigid walls, and why no nearer |
 //! | [`wear_history`] | `history.csv` and `years.csv` of wear over the years, and their picture |
+//! | [`wear_folder`] | the folder of a study of wear, from which it goes on |
 //! | [`wear_journal`] | `windows.journal`: what an interrupted study of wear has run |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
@@ -102,6 +103,7 @@ pub mod supports;
 pub mod table;
 mod values;
 pub(crate) mod verification;
+pub mod wear_folder;
 pub mod wear_history;
 pub mod wear_journal;
 mod window;

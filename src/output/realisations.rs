@@ -14,6 +14,9 @@ pub const FILE: &str = "realisations.csv";
 /// Most rows of the table in the terminal.
 pub(super) const MOST_ROWS: usize = 24;
 
+/// Width of the tables in the terminal.
+pub(super) const WIDTH: usize = 78;
+
 /// The title of what shows the first of `count` realisations alone, and not their means.
 #[must_use]
 pub(crate) fn titled(title: &str, count: u64) -> String {
@@ -104,7 +107,7 @@ pub(super) fn find<'a>(study: &'a Realisations, place: &ContactPlace, measure: M
 /// only.
 #[must_use]
 pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
-    let columns = [Measure::MeanForce, Measure::RmsForce, Measure::WorkRate, Measure::PeakForce];
+    let columns = [Measure::MeanForce, Measure::RmsForce, Measure::LargestForce, Measure::WorkRate];
     let known = |measure: &Measure| study.estimates.iter().any(|one| one.measure == *measure);
     let columns: Vec<Measure> = columns.into_iter().filter(known).collect();
     let mut header = vec!["place".to_owned()];
@@ -125,7 +128,7 @@ pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
     };
     let rows: Vec<Vec<String>> = shown(study, scene, MOST_ROWS).into_iter().map(row).collect();
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    (!rows.is_empty()).then(|| Table::new(&header, rows))
+    (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH).in_blocks())
 }
 
 /// The remarks below the table, a sentence each.
@@ -141,6 +144,14 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
              not know what is slower than a batch; --seeds 5 or more gives that of independent realisations"
             .to_owned(),
     }];
+    let averaged = !scene.supports.is_empty() || scene.walls.iter().any(|wall| wall.law.is_rigid());
+    if averaged && study.estimates.iter().any(|one| one.measure == Measure::LargestForce) {
+        remarks.push(
+            "the largest force at rigid walls and supports is the largest mean over any stretch of --force-averaging; \
+             it grows with the time of a run"
+                .to_owned(),
+        );
+    }
     if scene.supports.iter().any(|support| support.friction(&scene.walls).sliding == 0.0) {
         remarks.push("work rates without friction are upper figures".to_owned());
     }

@@ -13,7 +13,7 @@ use crate::error::Result;
 use crate::qp::Backend;
 use crate::run::Run;
 use crate::scheme::{Method, Scheme};
-use crate::statistics::{ForceStatistics, WallStatistics};
+use crate::statistics::{ForceStatistics, LargestForce, WallStatistics};
 use serde_json::Value;
 
 /// Most rows of the table in the terminal.
@@ -94,36 +94,23 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
         let force = |part: fn(&ForceStatistics) -> f64, digits| {
             wall.force.as_ref().map_or_else(|| "-".to_owned(), |force| fixed(part(force), digits))
         };
-        let (largest, at) = largest_force(run, wall)
-            .map_or_else(|| ("-".into(), "-".into()), |(force, at)| (fixed(force, 4), fixed(at, 4)));
+        let largest = |part: fn(&LargestForce) -> f64| {
+            wall.largest_force.as_ref().map_or_else(|| "-".to_owned(), |largest| fixed(part(largest), 4))
+        };
         rows.push(vec![
             wall.wall.clone(),
             wall.contacts.to_string(),
             force(|f| f.impulse_n_s, 6),
             force(|f| f.mean_n, 4),
             force(|f| f.rms_n, 4),
-            largest,
-            at,
+            largest(|f| f.mean_n),
+            largest(|f| f.at_s),
             fixed(100.0 * wall.contact_time_ratio, 3),
             fixed(wall.impact_power_w, 6),
             fixed(wall.arrived_less_departed_power_w, 6),
         ]);
     }
     Ok((!rows.is_empty()).then(|| Table::new(&headers, rows)))
-}
-
-/// The largest force of a wall, N, and its time, s: of an elastic wall with the start of its
-/// contact, of a rigid one the largest mean over a stretch, with its middle. `None` where it did
-/// not push.
-fn largest_force(run: &Run, wall: &WallStatistics) -> Option<(f64, f64)> {
-    let force = wall.force?;
-    let averaged = || force.largest.map(|largest| (largest.mean_n, largest.at_s));
-    let Some(peak) = wall.episode_peak_force_n.max.filter(|_| force.rms_averaged_over_s.is_none()) else {
-        return averaged();
-    };
-    let index = run.trajectory.walls().iter().position(|name| *name == wall.wall)?;
-    let own = run.trajectory.contacts().iter().filter(|contact| contact.wall == index);
-    own.filter(|contact| contact.peak_force == Some(peak)).map(|contact| (peak, contact.start)).next_back()
 }
 
 /// The remarks below the table of walls, a sentence each.

@@ -4,7 +4,8 @@
 use super::journal::{Journal, is_there};
 use super::results::Results;
 use crate::error::Result;
-use crate::study::wear_history::WearWindow;
+use crate::study::realisations::Realisation;
+use crate::study::wear_history::{WearHistories, WearPlan, WearWindow};
 
 /// Name of the file.
 const JOURNAL: &str = "windows.journal";
@@ -35,12 +36,39 @@ impl WindowJournal {
         Ok(Self { journal })
     }
 
-    /// The windows that earlier processes have run, from number 1 up to the first that is not
-    /// there.
+    /// Follows the histories of `plan`, whose first windows are `first` where these were run
+    /// already. Windows that are in the journal are not run again, and those that are run are added
+    /// to it. `progress` is called with the share of the service that is done. Returns with the
+    /// histories how many windows were there.
     ///
     /// # Errors
-    /// [`crate::Error::Io`] where they cannot be read.
-    pub fn kept(&mut self) -> Result<Vec<WearWindow>> {
+    /// As [`WearPlan::follow`]; [`crate::Error::Io`] where the journal cannot be read or written.
+    pub fn follow(
+        &mut self,
+        plan: &WearPlan<'_>,
+        first: &[Realisation],
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<(WearHistories, u64)> {
+        let mut kept = self.kept()?;
+        let mut ran = 0;
+        for member in first.iter().skip(kept.len()) {
+            let window = WearWindow::of(member, plan.supports);
+            self.keep(&window)?;
+            kept.push(window);
+            ran += 1;
+        }
+        let mut keep = |window: &WearWindow| {
+            ran += 1;
+            self.keep(window)
+        };
+        let found = plan.follow(&kept, &mut keep, progress)?;
+        let there = found.windows - ran;
+        Ok((found, there))
+    }
+
+    /// The windows that earlier processes have run, from number 1 up to the first that is not
+    /// there.
+    fn kept(&mut self) -> Result<Vec<WearWindow>> {
         let mut kept = Vec::new();
         while let Some(bytes) = self.journal.read(kept.len())? {
             let window = serde_json::from_slice::<WearWindow>(&bytes).ok();
@@ -51,10 +79,7 @@ impl WindowJournal {
     }
 
     /// Keeps a window.
-    ///
-    /// # Errors
-    /// [`crate::Error::Io`] where it cannot be written.
-    pub fn keep(&mut self, window: &WearWindow) -> Result<()> {
+    fn keep(&mut self, window: &WearWindow) -> Result<()> {
         let mut body = serde_json::to_vec(window).unwrap_or_default();
         body.push(b'\n');
         self.journal.add(window.number, place(window.number, u64::MAX).unwrap_or(usize::MAX), &body)?;

@@ -64,15 +64,14 @@ fn notes(summary: &Value, run: &Value) -> Value {
     json!(notes)
 }
 
-/// The largest force of a wall, and its unit: of an elastic one at an instant, of a rigid one the
-/// largest mean over a stretch.
+/// The largest force of a wall, and its unit with the stretch over which it is a mean.
 fn largest_force(wall: &Value) -> Option<(f64, String)> {
-    if wall["force"]["rms_averaged_over_s"].is_null() {
-        return Some((wall["episode_peak_force_n"]["max"].as_f64()?, "N".to_owned()));
-    }
-    let largest = &wall["force"]["largest"];
-    let over = largest["averaged_over_s"].as_f64()?;
-    Some((largest["mean_n"].as_f64()?, format!("N over {} ms", short(1e3 * over))))
+    let largest = &wall["largest_force"];
+    let unit = match largest["averaged_over_s"].as_f64()? {
+        0.0 => "N".to_owned(),
+        over => format!("N over {} ms", short(1e3 * over)),
+    };
+    Some((largest["mean_n"].as_f64()?, unit))
 }
 
 /// The key figures.

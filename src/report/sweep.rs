@@ -5,7 +5,7 @@ use super::html::FILE;
 use crate::error::{Error, Result};
 use crate::output::manifest::MANIFEST;
 use crate::study::realisations::RealisationCount;
-use crate::sweep::{asked, in_words};
+use crate::sweep::{SENSITIVITY_TABLES, asked, caution, coefficients, in_words};
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::Path;
@@ -16,9 +16,6 @@ pub(super) const SAMPLES: &str = "samples.csv";
 
 /// Most cells of the tables that a page holds: some tens of megabytes of HTML.
 const MOST_CELLS: usize = 4_000_000;
-
-/// The table of the effects of keys that are varied one at a time.
-const EFFECTS: &str = "effects.csv";
 
 /// The table of the attractors, for a sweep that has them, and the columns that the page shows.
 const ATTRACTORS: &str = "attractors.csv";
@@ -84,13 +81,13 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let table = folder.cells(TABLE)?;
     let samples = if folder.has(SAMPLES) { Some(folder.cells(SAMPLES)?) } else { None };
     let attractors = if folder.has(ATTRACTORS) { Some(folder.cells(ATTRACTORS)?) } else { None };
-    let effects = if folder.has(EFFECTS) { Some(folder.cells(EFFECTS)?) } else { None };
     let request = &folder.manifest["request"];
     let seeds = request.as_object().and_then(asked);
     let axes: Vec<Value> = request["vary"].as_array().cloned().unwrap_or_default();
+    let keys = axes.len();
     let summary = if folder.has("summary.json") { folder.json("summary.json")? } else { Value::Null };
     let program = folder.manifest["program"].as_str().unwrap_or_default();
-    Ok(json!({
+    let mut page = json!({
         "program": program,
         "title": summary["title"],
         "subtitle": match seeds {
@@ -101,7 +98,6 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "sweep": {
             "table": table.for_page(None),
             "attractors": attractors.map(|attractors| attractors.for_page(Some(&TOLD))),
-            "effects": effects.map(|effects| effects.for_page(None)),
             "samples": samples.map(|samples| samples.for_page(None)),
             "axes": axes,
             "walls": names(&request["wall_names"]),
@@ -113,7 +109,15 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         },
         "case": folder.manifest["case_text"],
         "summary": { "status": summary["status"], "first_error": summary["first_error"], MANIFEST: request },
-    }))
+    });
+    for (name, file) in SENSITIVITY_TABLES.into_iter().filter(|(_, file)| folder.has(file)) {
+        let found = folder.cells(file)?;
+        page["sweep"][name] = found.for_page(None);
+        // Of shares: the rows that they are fitted to.
+        let rows = found.column("rows").unwrap_or_default().into_iter().reduce(f64::min);
+        page["sweep"]["caution"] = json!(rows.and_then(|rows| caution(rows as usize, coefficients(keys))));
+    }
+    Ok(page)
 }
 
 #[cfg(test)]

@@ -1,18 +1,21 @@
-//! The largest mean force over any stretch of one length: impacts have no largest force, but the
-//! impulse of a stretch has a largest value, whatever the rows, the step and the scheme.
+//! The largest force of a wall or support. Of an elastic wall it is that at an instant. Impacts
+//! have no largest force, but the impulse of a stretch of one length has a largest value, whatever
+//! the rows, the step and the scheme: of a rigid wall and of a support it is the largest mean over
+//! any such stretch.
 
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// The largest mean of |force| over any stretch of one length within a window.
+/// The largest mean of |force| over any stretch of one length within a window, or at an elastic
+/// wall the largest |force|.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct LargestForce {
-    /// Σ|p| in that stretch over its length, N.
+    /// Σ|p| in that stretch over its length, or |force|, N.
     pub mean_n: f64,
-    /// The middle of the stretch, s.
+    /// The middle of the stretch, or the start of the contact with that force, s.
     pub at_s: f64,
-    /// The length, s.
+    /// The length, s; 0 for a force at an instant.
     pub averaged_over_s: f64,
 }
 

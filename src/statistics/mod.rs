@@ -84,6 +84,11 @@ pub struct WallStatistics {
     pub contact_time_ratio: f64,
     /// The wall's force over time; `None` where only the contacts are known.
     pub force: Option<ForceStatistics>,
+    /// Its largest force: of an elastic wall at an instant, of a rigid one the largest mean over a
+    /// stretch. `None` where nothing pushed. Where only the contacts are known, the largest force
+    /// of those in which it is finite.
+    #[serde(default)]
+    pub largest_force: Option<LargestForce>,
     /// Largest |force| of each episode that overlaps the window and whose force is finite, N: at an
     /// elastic wall, or in a lasting contact on a rigid one. The mean is over episodes.
     pub episode_peak_force_n: Summary,
@@ -155,6 +160,10 @@ impl Statistics {
     pub fn with_forces(mut self, forces: &Forces) -> Self {
         for (index, wall) in self.walls.iter_mut().enumerate() {
             wall.force = forces.statistics(index, wall.contacts);
+            if let Some(force) = wall.force {
+                let instant = wall.largest_force.filter(|_| force.rms_averaged_over_s.is_none());
+                wall.largest_force = instant.or(force.largest);
+            }
         }
         let contacts = |index: usize| self.supports.get(index).map_or(0, |support| support.contacts);
         let all = forces.of_supports(contacts);
@@ -219,12 +228,20 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> Wa
         contact_rate_per_s: per_time(contacts as f64),
         contact_time_ratio: per_time(touching([from, to])),
         force: None,
+        largest_force: largest_of(peaks.clone()),
         episode_peak_force_n: Summary::of(peaks.map(|(_, force)| force)),
         episode_impulse_n_s: Summary::of(here.clone().map(|c| c.impulse.abs())),
         impact_power_w: per_time(arrived),
         arrived_less_departed_power_w: per_time(total(&mut here.map(lost))),
         half_width_95,
     }
+}
+
+/// The largest of `peaks` (time at which the episode began, s; force, N), the last where several
+/// are equal.
+fn largest_of(peaks: impl Iterator<Item = (f64, f64)>) -> Option<LargestForce> {
+    let largest = peaks.max_by(|a, b| a.1.total_cmp(&b.1));
+    largest.map(|(at_s, mean_n)| LargestForce { mean_n, at_s, averaged_over_s: 0.0 })
 }
 
 /// Half width of the 95 % interval of the mean of `peaks` (time at which the episode began, s;

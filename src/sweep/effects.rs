@@ -11,18 +11,13 @@ use super::layout::Layout;
 use super::measure::Measure;
 use super::picture::Picture;
 use super::runs::Runs;
-use super::table::{EFFECTS, SEEDS, TABLE, Table, line_of};
-use crate::error::{Error, Result};
-use crate::output::atomic::WholeFile;
+use super::table::{SEEDS, TABLE, Table};
+use crate::error::Result;
 use crate::output::csv::digits;
-use crate::output::results::Results;
 use crate::study::realisations::mean_of;
-use serde_json::{Map, Value};
-use std::io::Write;
-use std::path::Path;
 
 /// The columns of `effects.csv`.
-const HEADER: [&str; 12] =
+pub(super) const HEADER: [&str; 12] =
     ["key", "low", "high", "place", "measure", "unit", "base", "at_low", "at_high", "effect", "half_width_95", SEEDS];
 
 /// The effect of one key on one measure at one place.
@@ -51,7 +46,8 @@ impl Effect {
         self.effect.is_some_and(|effect| self.half_width_95.is_none_or(|half| effect.abs() > half))
     }
 
-    fn cells(&self) -> Vec<String> {
+    /// Its line of `effects.csv`.
+    pub(super) fn cells(&self) -> Vec<String> {
         let unit = self.measure.parse::<Measure>().ok().and_then(Measure::unit).unwrap_or_default();
         let [low, high] = self.bounds.map(|x| digits(Some(x)));
         let words = [&self.key, &low, &high, &self.place, &self.measure, unit].map(str::to_owned);
@@ -61,19 +57,15 @@ impl Effect {
     }
 }
 
-/// The effects of the keys of a sweep that varies them one at a time, by its tables in `folder`:
-/// by measure and place, the largest first; empty for another sweep.
+/// The effects of the keys of `source`, a sweep that varies them one at a time: by measure and
+/// place, the largest first.
 ///
 /// # Errors
-/// [`Error::Io`] for a table that cannot be read.
-pub(crate) fn effects(folder: &Path, request: &Map<String, Value>) -> Result<Vec<Effect>> {
-    let source = Source::new(folder, request, "");
-    if !source.one_at_a_time {
-        return Ok(Vec::new());
-    }
-    let columns = Picture::default().measure_columns(&source)?;
+/// [`Error::Io`](crate::Error::Io) for a table that cannot be read.
+pub(super) fn effects(source: &Source<'_>) -> Result<Vec<Effect>> {
+    let columns = Picture::default().measure_columns(source)?;
     let names: Vec<String> = columns.iter().map(|(_, name)| name.clone()).collect();
-    let (runs, bounds) = (Runs::read(&source, &names)?, bounds(&source)?);
+    let (runs, bounds) = (Runs::read(source, &names)?, bounds(source)?);
     let mut all = Vec::new();
     for (index, (measure, column)) in columns.iter().enumerate() {
         let of_axis = |(axis, bounds): (usize, &[f64; 2])| {
@@ -120,23 +112,6 @@ fn bounds(source: &Source<'_>) -> Result<Vec<[f64; 2]>> {
     Ok(bounds)
 }
 
-/// Adds `effects.csv` to `results`, where there are any.
-///
-/// # Errors
-/// [`Error::Io`] where it cannot be written.
-pub(crate) fn write_effects(results: &mut Results, effects: &[Effect]) -> Result<()> {
-    if effects.is_empty() {
-        return Ok(());
-    }
-    let mut file = WholeFile::create(&results.place(EFFECTS)?)?;
-    let header = HEADER.map(str::to_owned).to_vec();
-    for cells in std::iter::once(header).chain(effects.iter().map(Effect::cells)) {
-        let written = file.write_all(&line_of(&cells));
-        written.map_err(|error| Error::io(file.path().display(), error.to_string(), false))?;
-    }
-    file.finish()
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::table::REALISATIONS;
@@ -176,7 +151,8 @@ mod tests {
             "seeds": seeds,
             "one_at_a_time": true,
         });
-        let effects = effects(folder.path(), request.as_object().unwrap()).unwrap();
+        let source = Source::new(folder.path(), request.as_object().unwrap(), "");
+        let effects = effects(&source).unwrap();
         assert_eq!(effects.len(), places as usize);
         assert!(effects.iter().all(|one| one.bounds == [1.0, 3.0] && one.count == 6));
         effects.iter().filter(|one| one.is_seen()).count()

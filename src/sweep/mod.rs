@@ -29,6 +29,7 @@
 //! | `table`, `columns` | reading the tables |
 //! | `runs`, `effects` | the runs by row and realisation; the effect of each key on each measure |
 //! | `shares` | the share of each key in the variance of each measure |
+//! | `sensitivity` | effects or shares, as the tables that all rows together give |
 //! | `means` | the means over realisations, for the terminal |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
 //!
@@ -95,6 +96,7 @@ mod run_set;
 mod runs;
 mod sample;
 mod seeds;
+mod sensitivity;
 mod shard;
 mod shares;
 mod status;
@@ -107,7 +109,7 @@ mod values;
 mod vary;
 
 pub use axis::Axis;
-pub(crate) use effects::{Effect, effects, write_effects};
+pub(crate) use effects::Effect;
 pub use estimate::Estimate;
 pub use finish::Tables;
 pub use finished::Finished;
@@ -126,8 +128,9 @@ pub use row::Row;
 pub use run::{Progress, SweepOptions};
 pub use sample::{Sample, Samples};
 pub(crate) use seeds::{asked, in_words};
+pub(crate) use sensitivity::{SENSITIVITY_TABLES, Sensitivity};
 pub use shard::Shard;
-pub(crate) use shares::{Shares, shares, write_shares};
+pub(crate) use shares::{Shares, caution, coefficients};
 pub use status::Status;
 pub use target::Target;
 pub use values::Values;

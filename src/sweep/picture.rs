@@ -185,7 +185,7 @@ impl Picture {
             ));
         }
         match kind {
-            Kind::Tornado => self.tornado(&source, request),
+            Kind::Tornado => self.tornado(&source),
             Kind::Line => self.line(&source),
             Kind::Heat => self.heat(&source),
             Kind::Basin => Ok(self.basin(&source)?.map(Drawn::complete)),

@@ -2,7 +2,6 @@
 //! can be continued.
 
 use super::block::{Block, JOURNAL};
-use super::effects::{effects, write_effects};
 use super::finish::write_tables;
 use super::finished::Finished;
 use super::folder::{self, State, Study};
@@ -10,9 +9,9 @@ use super::found::RowsFound;
 use super::plan::Plan;
 use super::row::Row;
 use super::run_set::RunSet;
+use super::sensitivity::{SENSITIVITY_TABLES, Sensitivity};
 use super::shard::Shard;
-use super::shares::{shares, write_shares};
-use super::table::{EFFECTS, REALISATIONS, SHARES, cells_of};
+use super::table::{REALISATIONS, cells_of};
 use crate::error::Result;
 use crate::output::format::Format;
 use crate::output::journal::Journal;
@@ -86,15 +85,13 @@ impl Plan {
     /// another process is writing to, and if writing fails.
     pub fn run_into(&self, folder: &Path, options: SweepOptions, progress: &dyn Fn(Progress)) -> Result<Finished> {
         let (finished, mut results) = self.run_in(folder, options, Vec::new(), progress, &|_| ())?;
-        let there = |name: &str| finished.folder.join(name).exists();
-        if options.shard == Shard::WHOLE && !there(EFFECTS) && !there(SHARES) {
-            let request = self.request();
-            let (effects, shares) = (effects(&finished.folder, &request)?, shares(&finished.folder, &request)?);
-            if !effects.is_empty() || !shares.is_empty() {
-                write_effects(&mut results, &effects)?;
-                write_shares(&mut results, &shares)?;
-                results.finish()?;
-            }
+        let there = SENSITIVITY_TABLES.iter().any(|(_, file)| finished.folder.join(file).exists());
+        if options.shard == Shard::WHOLE
+            && !there
+            && let Some(found) = Sensitivity::read(&finished.folder, &self.request())?
+            && found.write(&mut results)?
+        {
+            results.finish()?;
         }
         Ok(finished)
     }

@@ -23,22 +23,20 @@ use super::measure::Measure;
 use super::picture::Picture;
 use super::runs::Runs;
 use super::status::Status;
-use super::table::{SEEDS, SHARES, TABLE, Table, line_of};
-use crate::error::{Error, Result};
-use crate::output::atomic::WholeFile;
+use super::table::{SEEDS, TABLE, Table};
+use crate::error::Result;
 use crate::output::csv::digits;
 use crate::output::figure::Scale;
-use crate::output::results::Results;
 use nalgebra::{DMatrix, DVector};
-use serde_json::{Map, Value};
-use std::io::Write;
-use std::path::Path;
 
 /// The highest degree of the polynomials of a key.
 const DEGREE: usize = 3;
 
+/// Rows for each coefficient below which shares are told with a caution.
+const FEW: usize = 3;
+
 /// The columns of `shares.csv`.
-const HEADER: [&str; 6] = ["key", "place", "measure", "unit", "share", "rows"];
+pub(super) const HEADER: [&str; 6] = ["key", "place", "measure", "unit", "share", "rows"];
 
 /// What is no key in the column `key`.
 const INTERACTIONS: &str = "interactions";
@@ -63,7 +61,8 @@ pub(crate) struct Shares {
 type Point = (Vec<f64>, f64, f64);
 
 impl Shares {
-    fn lines(&self) -> impl Iterator<Item = Vec<String>> {
+    /// Its lines of `shares.csv`.
+    pub(super) fn lines(&self) -> impl Iterator<Item = Vec<String>> {
         let unit = self.measure.parse::<Measure>().ok().and_then(Measure::unit).unwrap_or_default();
         self.parts.iter().map(move |(key, share)| {
             let words = [key, &self.place, &self.measure, unit].map(str::to_owned);
@@ -72,21 +71,35 @@ impl Shares {
     }
 }
 
-/// The shares of the keys of a sweep that draws their values at random, by its table in `folder`,
-/// for each measure and place; empty for another sweep.
+/// Number of coefficients of the fit over so many keys.
+pub(crate) const fn coefficients(keys: usize) -> usize {
+    1 + DEGREE * keys
+}
+
+/// What to know of the shares that so many rows give with so many coefficients; `None` where the
+/// rows are many.
+pub(crate) fn caution(rows: usize, coefficients: usize) -> Option<String> {
+    if rows <= coefficients {
+        Some(format!("note: no shares of the keys from {rows} rows with a value: they take more than {coefficients}"))
+    } else if rows < FEW * coefficients {
+        let text = "the shares scatter; more --points tell more";
+        Some(format!("note: {rows} rows for {coefficients} coefficients: {text}"))
+    } else {
+        None
+    }
+}
+
+/// The shares of the keys of `source`, a sweep that draws their values at random, for each measure
+/// and place.
 ///
 /// # Errors
-/// [`Error::Io`] for a table that cannot be read.
-pub(crate) fn shares(folder: &Path, request: &Map<String, Value>) -> Result<Vec<Shares>> {
-    let source = Source::new(folder, request, "");
-    if !source.random {
-        return Ok(Vec::new());
-    }
-    let coefficients = 1 + DEGREE * source.axes.len();
-    let columns = Picture::default().measure_columns(&source)?;
+/// [`Error::Io`](crate::Error::Io) for a table that cannot be read.
+pub(super) fn shares(source: &Source<'_>) -> Result<Vec<Shares>> {
+    let coefficients = coefficients(source.axes.len());
+    let columns = Picture::default().measure_columns(source)?;
     let names: Vec<String> = columns.iter().map(|(_, name)| name.clone()).collect();
-    let of_columns = points(&source, &names)?;
-    let runs = source.seeds.is_some().then(|| Runs::read(&source, &names)).transpose()?;
+    let of_columns = points(source, &names)?;
+    let runs = source.seeds.is_some().then(|| Runs::read(source, &names)).transpose()?;
     let shares = columns.into_iter().zip(of_columns).enumerate().map(|(index, ((measure, column), points))| {
         let over_count = |points: &[Point]| points.iter().map(|point| 1.0 / point.2).sum::<f64>() / points.len() as f64;
         let scatter = runs.as_ref().and_then(|runs| runs.scatter(index));
@@ -148,7 +161,7 @@ fn legendre(x: f64) -> [f64; DEGREE] {
 /// `points` than coefficients.
 fn parts(points: &[Point], keys: impl Iterator<Item = String>, variance: Option<f64>) -> Option<Vec<(String, f64)>> {
     let (n, axes) = (points.len(), points.first()?.0.len());
-    let p = 1 + DEGREE * axes;
+    let p = coefficients(axes);
     let terms = |point: &Point| std::iter::once(1.0).chain(point.0.iter().flat_map(|&x| legendre(x))).collect();
     let rows: Vec<Vec<f64>> = points.iter().map(terms).collect();
     let matrix = DMatrix::from_fn(n, p, |i, j| rows[i][j]);
@@ -171,23 +184,6 @@ fn parts(points: &[Point], keys: impl Iterator<Item = String>, variance: Option<
     parts.push((INTERACTIONS.to_owned(), rest - of_realisations.unwrap_or(0.0)));
     parts.extend(of_realisations.map(|share| (SCATTER.to_owned(), share)));
     Some(parts)
-}
-
-/// Adds `shares.csv` to `results`, where there are any.
-///
-/// # Errors
-/// [`Error::Io`] where it cannot be written.
-pub(crate) fn write_shares(results: &mut Results, shares: &[Shares]) -> Result<()> {
-    if shares.iter().all(|one| one.parts.is_empty()) {
-        return Ok(());
-    }
-    let mut file = WholeFile::create(&results.place(SHARES)?)?;
-    let header = HEADER.map(str::to_owned).to_vec();
-    for cells in std::iter::once(header).chain(shares.iter().flat_map(Shares::lines)) {
-        let written = file.write_all(&line_of(&cells));
-        written.map_err(|error| Error::io(file.path().display(), error.to_string(), false))?;
-    }
-    file.finish()
 }
 
 #[cfg(test)]

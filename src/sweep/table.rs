@@ -12,12 +12,6 @@ pub(super) const TABLE: &str = "sweep.csv";
 pub(super) const SAMPLES: &str = "samples.csv";
 pub(super) const REALISATIONS: &str = "realisations.csv";
 
-/// The file of the effects of keys that are varied one at a time.
-pub(super) const EFFECTS: &str = "effects.csv";
-
-/// The file of the shares of keys that are drawn at random.
-pub(super) const SHARES: &str = "shares.csv";
-
 /// The columns of the number of a realisation, and of the number of realisations in the means of a
 /// row.
 pub(super) const REALISATION: &str = "realisation";

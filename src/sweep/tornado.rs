@@ -7,16 +7,15 @@ use super::seeds::in_words;
 use super::table::label;
 use crate::error::Result;
 use crate::output::figure::{Bar, Bars, Tornado};
-use serde_json::{Map, Value};
 
 /// Most bars of a frame: the largest effects.
 const MOST_BARS: usize = 16;
 
 impl Picture {
     /// The tornado diagram of the effects; `None` where there are none.
-    pub(super) fn tornado(&self, source: &Source<'_>, request: &Map<String, Value>) -> Result<Option<Drawn>> {
+    pub(super) fn tornado(&self, source: &Source<'_>) -> Result<Option<Drawn>> {
         let wanted: Vec<String> = self.measures(self.y.as_ref(), source)?.into_iter().flat_map(|(_, c)| c).collect();
-        let all = effects(source.folder, request)?;
+        let all = effects(source)?;
         let mut groups: Vec<&[Effect]> = all.chunk_by(|a, b| a.column == b.column).collect();
         groups.retain(|group| group.first().is_some_and(|one| wanted.contains(&one.column)));
         let left_out = groups.split_off(MOST_PANELS.min(groups.len()));

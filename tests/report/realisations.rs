@@ -60,6 +60,32 @@ fn the_page_of_keys_one_at_a_time_has_the_table_of_effects() {
 }
 
 #[test]
+fn the_page_of_a_random_design_has_the_share_of_each_key() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let vary = ["--vary", "wall.*.restitution=0.5:1", "--vary", "load.1.harmonic.amplitude=1:3"];
+    let own = ["--random", "lhs", "--points", "12", "--measure", "impact_power"];
+    let case = ["sweep", "rigid-walls-sine", "--set", "time.end=1"];
+    let page = results(dir.path(), &[&case[..], &vary, &own].concat());
+    let mut tab = opened(&mut browser, &page);
+    let lines = "[...document.querySelectorAll('#shares tbody tr:not(.space)')]";
+    let cells = tab.evaluate(&format!("{lines}.map((tr) => [3, 4].map((i) => tr.children[i].textContent))"));
+    let file = fs::read_to_string(page.with_file_name("shares.csv")).unwrap();
+    let told = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        json!([cells[0], format!("{:.1}", 100.0 * cells[4].parse::<f64>().unwrap())])
+    };
+    let expected: Vec<_> = file.lines().skip(1).map(told).collect();
+    assert_eq!(expected.len(), 6, "two keys and their interactions at two walls");
+    assert_eq!(cells, json!(expected), "in the order of the file");
+    let plots = "document.querySelectorAll('#shares .plot').length";
+    assert_eq!(tab.evaluate(plots), json!(2), "a diagram for each wall");
+    let text = tab.evaluate("document.querySelector('#shares').textContent");
+    assert!(text.as_str().unwrap().contains("Note: 12 rows for 7 coefficients: the shares scatter"), "{text}");
+    tab.close();
+}
+
+#[test]
 fn the_page_of_a_run_under_several_seeds_has_the_means_and_their_errors() {
     let Some(mut browser) = Browser::start() else { return };
     let dir = tempfile::tempdir().unwrap();

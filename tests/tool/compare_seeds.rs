@@ -64,6 +64,32 @@ fn means_are_those_of_run_and_differences_are_paired_by_seed() {
 }
 
 #[test]
+fn the_errors_of_each_method_are_those_of_run() {
+    let dir = place();
+    let path = dir.path();
+    let own = ["compare", "stop.toml", "--schemes", "moreau-jean,located", "--seeds", "3", "--out", "compared"];
+    let (out, err) = said(path, &own, 0);
+    let compared = lines(&path.join("compared/errors.csv"));
+    for scheme in ["moreau-jean", "located", "event"] {
+        let own = ["run", "stop.toml", "--scheme", scheme, "--seeds", "3", "--out", scheme];
+        // The exact run has the rows of the comparison.
+        let rows = if scheme == "event" { &["--sample", "1e-3"][..] } else { &[] };
+        said(path, &[&own[..], rows].concat(), 0);
+        let alone = lines(&path.join(scheme).join("errors.csv"));
+        let of_method = |line: &String| line.strip_prefix(&format!("{scheme},")).map(str::to_owned);
+        assert_eq!(compared.iter().filter_map(of_method).collect::<Vec<_>>(), alone[1..], "{scheme}");
+        assert_eq!(compared[0], format!("method,{}", alone[0]));
+        // The exact scheme has no step.
+        assert_eq!(alone[1].split(',').nth(9) == Some(""), scheme == "event", "{alone:?}");
+        assert_eq!(out.lines().filter(|line| line.contains(&format!("mean force  {scheme} "))).count(), 1, "{out}");
+    }
+    assert!(err.contains("step: the change by half the step, twice or 4/3 of it"), "{err}");
+    let own = ["compare", "stop.toml", "--schemes", "moreau-jean", "--seeds", "3", "--no-verdict", "--out", "plain"];
+    let (_, err) = said(path, &own, 0);
+    assert!(!path.join("plain/errors.csv").exists() && !err.contains("errors: start"), "{err}");
+}
+
+#[test]
 fn a_method_with_a_refuted_realisation_is_named() {
     let dir = place();
     let path = dir.path();

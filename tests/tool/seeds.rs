@@ -94,13 +94,32 @@ fn the_first_is_the_plain_run_and_any_other_can_be_repeated() {
         let support = &run["statistics"]["supports"][0]["force"];
         assert_eq!(Some(number(&bars[3])), support["mean_n"].as_f64());
         assert_eq!(Some(number(&bars[6])), support["rms_n"].as_f64());
-        assert_eq!(bars[9], "", "a rigid support has no largest force");
+        // A rigid support has the largest mean over a stretch, an elastic wall its largest force.
+        assert!(number(&bars[9]) > number(&bars[6]));
+        assert_eq!(Some(number(&bars[9])), support["largest"]["mean_n"].as_f64());
         assert_eq!(Some(number(&bars[7])), run["supports"][0]["work_rate_w"].as_f64());
         assert_eq!(bars[8], "", "a support without friction has no friction power");
         let wall = &run["statistics"]["walls"][0];
         assert_eq!(wall["wall"], "stop");
         assert_eq!(Some(number(&stop[3])), wall["force"]["mean_n"].as_f64());
         assert_eq!(Some(number(&stop[9])), wall["episode_peak_force_n"]["max"].as_f64());
+        let flat = rows.iter().find(|row| row[0] == realisation && row[1] == "bars-flat-1").unwrap();
+        let all = run["statistics"]["walls"].as_array().unwrap();
+        let rigid = all.iter().find(|wall| wall["wall"] == "bars-flat-1").unwrap();
+        let largest = rigid["force"]["largest"]["mean_n"].as_f64();
+        assert_eq!(number(&flat[9]), largest.unwrap_or(0.0), "a flat is a rigid wall");
+        assert_eq!(rigid["largest_force"], rigid["force"]["largest"]);
+        let (at, over) = (&wall["largest_force"]["at_s"], &wall["largest_force"]["averaged_over_s"]);
+        assert_eq!((wall["largest_force"]["mean_n"].as_f64(), over.as_f64()), (Some(number(&stop[9])), Some(0.0)));
+        let contacts =
+            fs::read_to_string(path.join(if realisation == "1" { "plain" } else { "third" }).join("contacts.csv"));
+        let at_it = contacts.unwrap().lines().any(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            cells[0] == "stop"
+                && cells[1].parse().ok() == at.as_f64()
+                && cells[4].parse().ok() == Some(number(&stop[9]))
+        });
+        assert!(at_it, "no contact with that force begins at {at}");
         assert_eq!(stop[4], "", "a wall has no components");
     }
     // The interval, with t of three degrees of freedom from a table.

@@ -1,5 +1,7 @@
 //! `sweep --random`: the shares of keys in the variance of measures.
 use crate::command::said;
+use signorini::case::CaseFile;
+use signorini::sweep::{Axis, Design, Measure, Random, Shard, Sweep, SweepOptions, Values};
 use std::fs;
 use std::path::Path;
 
@@ -71,4 +73,31 @@ fn too_few_rows_have_no_shares_and_few_a_note() {
     let (_, err) = sweep(dir.path(), "12", &[]);
     assert_eq!(shares(dir.path()).len(), 3);
     assert!(err.contains("note: 12 rows for 7 coefficients"), "{err}");
+}
+
+/// A library call that finds the sweep finished adds no table, and takes away nothing.
+#[test]
+fn a_call_of_the_library_leaves_the_files_of_the_tool() {
+    let dir = tempfile::tempdir().unwrap();
+    let options = SweepOptions { threads: None, shard: Shard::WHOLE, force: false };
+    for points in ["7", "12"] {
+        sweep(dir.path(), points, &[]);
+        let axis = |key: &str, from: f64, to: f64| Axis::new(key, Values::Range { from, to, log: false }).unwrap();
+        let plan = Sweep::new(CaseFile::read(dir.path().join("linear.toml")).unwrap())
+            .vary(axis("load.1.harmonic.amplitude", 1.0, 5.0))
+            .vary(axis("wall.stop.restitution", 0.2, 0.9))
+            .drawn(Random { design: Design::LatinHypercube, points: points.parse().unwrap(), seed: None })
+            .measure([Measure::DisplacementMax, Measure::Contacts])
+            .plan()
+            .unwrap();
+        let own = dir.path().join("out/linear/sweep");
+        assert_eq!(plan.run_into(&own, options, &|_| {}).unwrap().found, points.parse::<u64>().unwrap());
+        for file in ["sweep.csv", "sweep.svg", "summary.json", "report.html"] {
+            assert!(own.join(file).exists(), "{file} of {points} points");
+        }
+        // Into a folder of its own the library writes the same table.
+        let other = dir.path().join(points);
+        plan.run_into(&other, options, &|_| {}).unwrap();
+        assert_eq!(fs::read(other.join("shares.csv")).ok(), fs::read(own.join("shares.csv")).ok());
+    }
 }

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import csv
-import math
+import os
 import tempfile
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
 
 from . import _core
 from ._columns import Column, columns, frame
@@ -19,6 +22,10 @@ from ._progress import Progress
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
+
+Design = Literal["grid", "one-at-a-time", "random"]
+TableName = Literal["rows", "realisations", "effects", "shares"]
 
 
 def _read(path: Path) -> dict[str, Column]:
@@ -32,16 +39,22 @@ def _read(path: Path) -> dict[str, Column]:
 class SweepResult(Mapping[str, Column]):
     """The rows of a sweep over the keys of a case: a mapping of the columns of ``sweep.csv``.
 
-    With several realisations of the random loads a measure is the mean over them, and the column
-    with ``half_width_95`` in its name the half width of its 95 % interval; ``realisations`` has the
-    columns of ``realisations.csv``, else it is empty. ``effects`` has those of ``effects.csv`` where
-    keys were varied one at a time, else it is empty. ``keys_varied`` names the columns of the keys.
+    With several realisations of the random loads a measure is the mean over them, the column with
+    ``half_width_95`` in its name the half width of its 95 % interval, and ``seeds`` their number;
+    ``realisations`` has the columns of ``realisations.csv``: a line for each row and
+    ``realisation`` k, which has the seeds of the case plus k - 1. ``effects`` has those of
+    ``effects.csv`` where keys were varied one at a time, ``shares`` those of ``shares.csv`` where
+    they were drawn at random. Tables that a sweep does not have are empty. ``keys_varied`` names
+    the columns of the keys, and ``design`` says how their values lie: ``"grid"``,
+    ``"one-at-a-time"`` or ``"random"``.
     """
 
     columns: Mapping[str, Column]
     realisations: Mapping[str, Column]
     effects: Mapping[str, Column]
+    shares: Mapping[str, Column]
     keys_varied: tuple[str, ...]
+    design: Design
 
     def __getitem__(self, name: str) -> Column:
         if name not in self.columns:
@@ -57,17 +70,26 @@ class SweepResult(Mapping[str, Column]):
     def __repr__(self) -> str:
         return f"<SweepResult: {len(self['row'])} rows over {', '.join(self.keys_varied)}>"
 
-    def to_pandas(self) -> pd.DataFrame:
-        """The rows as a pandas DataFrame.
+    def to_pandas(self, table: TableName = "rows") -> pd.DataFrame:
+        """A table as a pandas DataFrame.
+
+        Parameters
+        ----------
+        table : str
+            ``"rows"``, ``"realisations"``, ``"effects"`` or ``"shares"``.
 
         Returns
         -------
         pandas.DataFrame
+            The columns of that table; of ``"realisations"`` a line for each realisation of each
+            row, of which rows may have different numbers.
 
         Raises
         ------
         ImportError
             Without pandas.
+        ValueError
+            For a table that this sweep does not have.
 
         Examples
         --------
@@ -76,13 +98,22 @@ class SweepResult(Mapping[str, Column]):
         >>> sg.sweep(case, {"wall.*.restitution": [0.5, 0.8]}, measures=["contacts"]).to_pandas().shape
         (2, 6)
         """
-        return frame(dict(self.columns))
+        own = {
+            "rows": self.columns, "realisations": self.realisations, "effects": self.effects, "shares": self.shares,
+        }  # fmt: skip
+        known = [name for name, columns in own.items() if columns]
+        if table not in known:
+            raise ValueError(f"table is {table!r}; expected one that this sweep has: {', '.join(known)}")
+        return frame(dict(own[table]))
 
     def to_xarray(self) -> xr.Dataset:
         """The numbers as an xarray Dataset over the varied keys.
 
         Variables of ``realisations`` have the name of their column with ``realisations_`` before
-        it, and the further dimension ``realisation``. Not of keys varied one at a time.
+        it, and the further dimension ``realisation``, as long as the row with the most has them.
+        Where a row has fewer, since ``until_interval`` took fewer or some failed, the others are
+        NaN, which means and other sums of xarray leave out; the variable ``seeds`` says how many
+        there are. Only of a grid.
 
         Returns
         -------
@@ -93,7 +124,7 @@ class SweepResult(Mapping[str, Column]):
         ImportError
             Without xarray.
         ValueError
-            For keys varied one at a time, whose rows are no grid.
+            For keys varied one at a time or drawn at random, whose rows are no grid.
 
         Examples
         --------
@@ -107,8 +138,9 @@ class SweepResult(Mapping[str, Column]):
             import xarray as xr
         except ImportError:
             raise ImportError("to_xarray needs xarray: pip install xarray") from None
-        if self.effects:
-            raise ValueError("to_xarray of keys varied one at a time; expected a sweep over a grid, or effects")
+        if self.design != "grid":
+            how = {"one-at-a-time": "varied one at a time", "random": "drawn at random"}[self.design]
+            raise ValueError(f"to_xarray of keys {how}; expected a sweep over a grid, or to_pandas")
         # The rows are in the order of the grid, the last key fastest.
         axes = {key: list(dict.fromkeys(self[key].tolist())) for key in self.keys_varied}
         shape = [len(values) for values in axes.values()]
@@ -118,12 +150,20 @@ class SweepResult(Mapping[str, Column]):
         }
         coordinates: dict[str, Any] = dict(axes)
         if self.realisations:
-            count = len(self.realisations["row"]) // len(self["row"])
-            coordinates["realisation"] = self.realisations["realisation"][:count]
+            row, number = self.realisations["row"], self.realisations["realisation"]
+            most = int(number.max())
+            coordinates["realisation"] = np.arange(1, most + 1)
             for name, column in self.realisations.items():
                 if name not in skipped:
-                    variables[f"realisations_{name}"] = ([*axes, "realisation"], column.reshape([*shape, count]))
+                    # What is not there is NaN.
+                    padded = np.full((len(self["row"]), most), np.nan)
+                    padded[row, number - 1] = column
+                    variables[f"realisations_{name}"] = ([*axes, "realisation"], padded.reshape([*shape, most]))
         return xr.Dataset(variables, coordinates)
+
+
+Drawn = tuple[str, int | None, int | None]
+"""A random design: its kind, its number of rows and its seed."""
 
 
 def sweep_case(
@@ -132,34 +172,39 @@ def sweep_case(
     scheme: str | None,
     *,
     measures: Sequence[str],
-    seeds: int | None,
-    one_at_a_time: bool,
+    asked: tuple[int | None, float | None, int | None],
+    design: Design,
+    drawn: Drawn | None,
     threads: int | None,
-    folder: str | Path | None,
+    folder: str | os.PathLike[str] | None,
     progress: bool,
 ) -> SweepResult:
     """The tables of a sweep by the engine of the tool."""
     if threads is not None and threads < 1:
         raise ValueError(f"threads is {threads}; expected 1 or more")
     axes = [(key, list(values)) for key, values in keys.items()]
-    rows = 1 + 2 * len(axes) if one_at_a_time else math.prod(len(values) for _, values in axes)
-    with tempfile.TemporaryDirectory() as own, Progress(rows * (seeds or 1), progress) as shown:
+    for key, values in axes:
+        bounds = values[:2] if values[2:] == ["log"] else values
+        if design == "random" and not (len(bounds) == 2 and all(isinstance(bound, Real) for bound in bounds)):
+            expected = 'its lower and upper bound, "log" after them where its logarithm is drawn'
+            raise ValueError(f"{key} is {values!r}; expected {expected}")
+    with tempfile.TemporaryDirectory() as own, Progress(0, progress) as shown:
         place = Path(own) / "sweep" if folder is None else Path(folder)
         notes, count, bad, first = _core._sweep(
-            case, axes, one_at_a_time, scheme, list(measures), seeds, threads, place, shown.tell
+            case, axes, design == "one-at-a-time", drawn, scheme, list(measures), asked, threads, place, shown.reach
         )
-        table, realisations, effects = (
+        rows, realisations, effects, shares = (
             _read(path) if (path := place / name).exists() else {}
-            for name in ("sweep.csv", "realisations.csv", "effects.csv")
+            for name in ("sweep.csv", "realisations.csv", "effects.csv", "shares.csv")
         )
     for note in notes:
         warnings.warn(note, ResultWarning, stacklevel=3)
     if bad:
         warnings.warn(f"{bad} of {count} rows failed; the first: {first}", RuntimeWarning, stacklevel=3)
-    names = list(table)
+    names = list(rows)
     # The number of the row is before the columns of the keys, the realisations or the status after.
     ends = [names.index(name) for name in ("seeds", "status") if name in names]
-    return SweepResult(table, realisations, effects, tuple(names[1 : min(ends)]))
+    return SweepResult(rows, realisations, effects, shares, tuple(names[1 : min(ends)]), design)
 
 
 def one_at_a_time(
@@ -169,8 +214,10 @@ def one_at_a_time(
     *,
     measures: Sequence[str],
     seeds: int | None = None,
+    until_interval: float | None = None,
+    most_seeds: int | None = None,
     threads: int | None = None,
-    folder: str | Path | None = None,
+    folder: str | os.PathLike[str] | None = None,
     progress: bool = True,
 ) -> SweepResult:
     """Vary each key of a case by itself between two bounds, the others as in the case.
@@ -186,6 +233,8 @@ def one_at_a_time(
         Names of measures, as ``signorini sweep --measure``.
     seeds : int, optional
         Realisations of the random loads under which each row is run, 2 or more.
+    until_interval, most_seeds : optional
+        In place of ``seeds``, as in `sweep`.
     threads : int, optional
         All cores if left out.
     folder : path, optional
@@ -197,7 +246,7 @@ def one_at_a_time(
     -------
     SweepResult
         Its ``effects`` are the measures at the upper bound less those at the lower, by key and
-        place, with half widths of 95 % intervals where there are ``seeds``.
+        place, with half widths of 95 % intervals where there are realisations.
 
     Raises
     ------
@@ -221,6 +270,6 @@ def one_at_a_time(
     ('load.1.harmonic.amplitude', 3)
     """
     return sweep_case(
-        case, keys, scheme, measures=measures, seeds=seeds, one_at_a_time=True, threads=threads, folder=folder,
-        progress=progress,
+        case, keys, scheme, measures=measures, asked=(seeds, until_interval, most_seeds), design="one-at-a-time",
+        drawn=None, threads=threads, folder=folder, progress=progress,
     )  # fmt: skip

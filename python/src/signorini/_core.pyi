@@ -404,6 +404,7 @@ def _wear(
     histories: int | None,
     within: tuple[float | None, int | None],
     verdict: bool,
+    folder: str | PathLike[str] | None,
     counted: Callable[[int, int], None],
     progress: Callable[[int], None],
 ) -> dict[str, Any]: ...
@@ -422,10 +423,11 @@ def _sweep(
     case: Case,
     axes: Sequence[tuple[str, Sequence[Any]]],
     one_at_a_time: bool,
+    random: tuple[str, int | None, int | None] | None,
     scheme: str | None,
     measures: Sequence[str],
-    seeds: int | None,
+    asked: tuple[int | None, float | None, int | None],
     threads: int | None,
     folder: str | PathLike[str],
-    progress: Callable[[int], None],
+    progress: Callable[[int, int], None],
 ) -> tuple[list[str], int, int, str | None]: ...

@@ -27,7 +27,7 @@ class Realisations:
 
     ``supports`` and ``walls`` map a name to the `Estimate` of each measure there:
     ``study.supports["plate-1"]["work_rate"]`` is a mean work rate, W. The measures are
-    ``mean_force``, ``mean_force_y``, ``mean_force_z``, ``rms_force`` and ``peak_force`` (N),
+    ``mean_force``, ``mean_force_y``, ``mean_force_z``, ``rms_force`` and ``largest_force`` (N),
     ``work_rate`` and ``friction_power`` (W), as far as a place has them. ``table`` has the columns
     of ``realisations.csv``: a row for each realisation and place. ``print`` shows the tables of
     the tool.

@@ -91,7 +91,8 @@ def html(run: Run) -> str:
     lines = []
     for name, wall in statistics(run).items():
         cells = [escape(name), str(wall["contacts"]), number(run.impulse(name))]
-        cells += [number(wall["episode_impulse_n_s"]["max"]), number(wall["episode_peak_force_n"]["max"])]
+        largest = wall["largest_force"]
+        cells += [number(wall["episode_impulse_n_s"]["max"]), number(largest and largest["mean_n"])]
         cells.append(number(wall["impact_power_w"]))
         lines.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
     notes = "".join(f"<li>{escape(note)}</li>" for note in run.notes)

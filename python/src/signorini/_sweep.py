@@ -10,7 +10,6 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, as_completed
-from pathlib import Path
 from typing import Any, overload
 
 import numpy as np
@@ -126,6 +125,11 @@ def sweep(
     *,
     measures: Sequence[str],
     seeds: int | None = None,
+    until_interval: float | None = None,
+    most_seeds: int | None = None,
+    random: str | None = None,
+    rows: int | None = None,
+    seed: int | None = None,
     threads: int | None = None,
     folder: str | os.PathLike[str] | None = None,
     progress: bool = True,
@@ -156,6 +160,11 @@ def sweep(
     *,
     measures: Sequence[str] | None = None,
     seeds: int | None = None,
+    until_interval: float | None = None,
+    most_seeds: int | None = None,
+    random: str | None = None,
+    rows: int | None = None,
+    seed: int | None = None,
     step: float | None = None,
     statistics_from: float | None = None,
     judge: bool | None = None,
@@ -168,7 +177,7 @@ def sweep(
     """Run ``make(**point)`` for every point, or a case for every combination of values of its keys.
 
     The table is the same to the last bit wherever it is run. That of a case is the one that
-    ``signorini sweep`` writes.
+    ``signorini sweep`` writes; the values of its keys may also be drawn at random.
 
     Parameters
     ----------
@@ -177,13 +186,30 @@ def sweep(
         function of a module (Dask also takes one of a notebook).
     points : iterable of mapping, or mapping of str to sequence
         All with the same names; `grid` makes them. Of a case: the values of each key of the case
-        format, ``{"support.*.gap": [1e-4, 2e-4]}``; the last key varies fastest.
+        format, ``{"support.*.gap": [1e-4, 2e-4]}``; the last key varies fastest. With ``random``
+        the bounds of each, ``{"support.*.gap": (1e-4, 4e-4)}``, or ``(1e-4, 4e-4, "log")`` to draw
+        its logarithm.
     scheme
         As in `run_many`.
     measures : sequence of str
         Of a case: names of measures, as ``signorini sweep --measure``.
     seeds : int, optional
         Of a case: realisations of its random loads under which each row is run, 2 or more.
+    until_interval : float, optional
+        Of a case, in place of ``seeds``: each row under as many realisations as bring the 95 %
+        intervals of its own work rates (without work, of its mean forces) within this share of
+        them. Six of each row say how many that takes (Stein's procedure in two stages).
+    most_seeds : int, optional
+        The most that ``until_interval`` may take of a row; 200 unless given. A row that needs more
+        has the status ``partial``.
+    random : str, optional
+        Of a case: draw the values of all keys at random between their bounds, ``"uniform"``,
+        ``"lhs"`` (Latin hypercube) or ``"sobol"``. `SweepResult.shares` has the share of each key
+        in the variance of each measure, where there are more than 1 + 3K rows for K keys.
+    rows : int, optional
+        With ``random``: the number of rows.
+    seed : int, optional
+        With ``random``: that of the values; ``"sobol"`` without one is the plain sequence.
     step, statistics_from, judge
         As in `run_many`; a case has its own step and window, and is judged.
     threads : int, optional
@@ -202,8 +228,9 @@ def sweep(
     Returns
     -------
     dict of str to numpy.ndarray of shape (points,), or SweepResult
-        The columns of the points, then those of `run_many`; of a case, a `SweepResult`. A point whose scene is refused, or whose
-        run fails, is a row with the reason in ``error``; a warning says how many.
+        The columns of the points, then those of `run_many`; of a case, a `SweepResult`. A point
+        whose scene is refused, or whose run fails, is a row with the reason in ``error``; a warning
+        says how many.
 
     Raises
     ------
@@ -234,11 +261,15 @@ def sweep(
         _refuse(own, "no such argument beside a case: its keys time.step and time.statistics_from say it")
         if not isinstance(points, Mapping):
             raise ValueError(f"points is {points!r}; expected a mapping of keys to values beside a case")
+        if random is None:
+            _refuse({"rows": rows, "seed": seed}, "random beside it, which draws the values of the keys")
         return sweep_case(
-            make, points, scheme, measures=measures or (), seeds=seeds, one_at_a_time=False, threads=threads,
-            folder=None if folder is None else Path(folder), progress=progress,
+            make, points, scheme, measures=measures or (), asked=(seeds, until_interval, most_seeds),
+            design="grid" if random is None else "random", drawn=None if random is None else (random, rows, seed),
+            threads=threads, folder=folder, progress=progress,
         )  # fmt: skip
-    _refuse({"measures": measures, "seeds": seeds}, "a case in place of a function beside it")
+    of_case = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "random": random}
+    _refuse({"measures": measures, **of_case, "rows": rows, "seed": seed}, "a case in place of a function beside it")
     statistics_from, judge = statistics_from or 0.0, judge is not False
     points = [dict(point) for point in points]
     names = list(points[0]) if points else []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -135,6 +136,7 @@ def wear(
     most_seeds: int | None = None,
     step: float | None = None,
     verdict: bool = True,
+    folder: str | os.PathLike[str] | None = None,
     progress: bool = True,
 ) -> WearStudy:
     """Follow the wear at loose supports over the years, whose gaps grow by the wear they cause.
@@ -160,6 +162,11 @@ def wear(
         The most histories that ``until_interval`` may take; 200 unless given.
     verdict : bool
         With ``until_interval``: whether the errors of the work rates in the first gaps are found.
+    folder : path, optional
+        The files of ``signorini wear`` are kept there, without its page, which ``signorini report``
+        writes. The same call goes on after an interruption, and one with more ``years`` from those
+        that are there, with the results of so many years at once. The tool and Python go on from
+        each other.
     progress : bool
         Whether a terminal shows the progress, after a second.
 
@@ -173,6 +180,9 @@ def wear(
         For a wrong request, such as a case in which nothing wears.
     TypeError
         For something else than a case.
+    OSError
+        For a ``folder`` that cannot be written, and one with other results, such as those of more
+        years.
     RunError
         For a run that failed; `RefutedError` where the judge refutes one, whose ``study`` holds
         the study.
@@ -197,7 +207,7 @@ def wear(
     """
     case, within = of_case(case, "wear"), (until_interval, most_seeds)
     with Progress(0, progress) as runs, Progress(100, progress, of="per cent of the years") as shown:
-        known = _core._wear(case, scheme, step, years, histories, within, verdict, runs.reach, shown.tell)
+        known = _core._wear(case, scheme, step, years, histories, within, verdict, folder, runs.reach, shown.tell)
     first = None if known["first"] is None else made(known["first"])
     study = WearStudy(
         tuple(known["supports"]),

@@ -15,6 +15,7 @@ use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::episodes::Episodes;
+use crate::output::error_parts;
 use crate::output::run::{self as output, Picture};
 use crate::output::summary::{Checks, Reasons};
 use crate::output::supports;
@@ -40,7 +41,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let study = |count| realisations::study(&case, (&run, &method), count, !args.no_verdict, ui);
     let study = wanted.map(study).transpose()?;
     if let Some(study) = &study {
-        realisations::write(study, &mut results)?;
+        error_parts::write_study(&mut results, study)?;
     }
     let unchecked = [failed("half the step", refinement.as_ref()), failed("more modes", truncation.as_ref())];
     let shortfall = first_shortfall(shortfall, study.as_ref(), unchecked);

@@ -1,6 +1,6 @@
 //! The table of the effects of keys that are varied one at a time.
 
-use super::Answer;
+use crate::cli::pipeline::Answer;
 use crate::output::realisations::with_interval;
 use crate::output::table::Table;
 use crate::study::realisations::RealisationCount;
@@ -9,11 +9,8 @@ use crate::sweep::{Effect, in_words};
 /// Most lines of the table.
 const MOST_LINES: usize = 40;
 
-/// Shows the effects, by measure and place, the largest first; nothing where there are none.
-pub fn show_effects(answer: &mut Answer, effects: &[Effect], seeds: Option<RealisationCount>) {
-    if effects.is_empty() {
-        return;
-    }
+/// Shows the effects, by measure and place, the largest first.
+pub(super) fn show_effects(answer: &mut Answer, effects: &[Effect], seeds: Option<RealisationCount>) {
     let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.4e}"));
     let row = |one: &Effect| {
         let [low, high] = one.bounds.map(|bound| format!("{bound}"));

@@ -5,8 +5,6 @@ mod effects;
 mod shares;
 
 pub use args::Args;
-pub(super) use effects::show_effects;
-pub(super) use shares::show_shares;
 
 use super::command_line::command_line;
 use super::estimate::time_in_words;
@@ -16,10 +14,12 @@ use crate::error::Result;
 use crate::output::results::Results;
 use crate::study::realisations::RealisationCount;
 use crate::sweep::{
-    Finished, Pictures, Plan, Progress, Shard, Status, SweepOptions, Tables, effects, in_words, means, shares,
-    write_effects, write_shares, write_summary,
+    Finished, Pictures, Plan, Progress, Sensitivity, Shard, Status, SweepOptions, Tables, asked, in_words, means,
+    write_summary,
 };
+use effects::show_effects;
 use serde_json::{Map, Value, json};
+use shares::show_shares;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -43,15 +43,10 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let (finished, mut results) = run(args, &plan, &title, ui)?;
     let whole = args.shard.is_none_or(|shard| shard == Shard::WHOLE);
     let pictures = if whole { plan.draw(&mut results)? } else { Pictures::default() };
-    let effects = if whole { effects(&finished.folder, &plan.request())? } else { Vec::new() };
-    write_effects(&mut results, &effects)?;
-    let shares = if whole { shares(&finished.folder, &plan.request())? } else { Vec::new() };
-    write_shares(&mut results, &shares)?;
+    let found = if whole { write_sensitivity(&mut results, &plan.request())? } else { None };
     let document = write_summary(&mut results, document(&plan, &finished, &pictures.drawn))?;
     let mut answer = Answer::of(results, whole && !args.place.no_report, document);
-    show_effects(&mut answer, &effects, plan.realisations());
-    show_shares(&mut answer, &shares);
-    show_means(&mut answer, &finished.folder, &plan.request())?;
+    show_tables(&mut answer, &finished.folder, &plan.request(), found.as_ref())?;
     let found = match finished.found {
         0 => String::new(),
         found if found == finished.runs => ", all of them there already".to_owned(),
@@ -91,8 +86,26 @@ fn run(args: &Args, plan: &Plan, title: &str, ui: &Ui) -> Result<(Finished, Resu
     })
 }
 
-/// Shows the means over realisations of the rows in `folder`, where they have several.
-pub(super) fn show_means(answer: &mut Answer, folder: &Path, request: &Map<String, Value>) -> Result<()> {
+/// Adds the table of what the keys change in the whole sweep to `results`, and returns it.
+pub(super) fn write_sensitivity(results: &mut Results, request: &Map<String, Value>) -> Result<Option<Sensitivity>> {
+    let found = Sensitivity::read(results.folder(), request)?;
+    found.as_ref().map(|found| found.write(results)).transpose()?;
+    Ok(found)
+}
+
+/// Shows what the keys change in the sweep in `folder`, and the means over realisations of its
+/// rows, where they have several.
+pub(super) fn show_tables(
+    answer: &mut Answer,
+    folder: &Path,
+    request: &Map<String, Value>,
+    found: Option<&Sensitivity>,
+) -> Result<()> {
+    match found {
+        Some(Sensitivity::Effects(effects)) => show_effects(answer, effects, asked(request)),
+        Some(Sensitivity::Shares(shares)) => show_shares(answer, shares),
+        None => {}
+    }
     if let Some((table, remark)) = means(folder, request)? {
         answer.table(table, "sweep.csv");
         answer.messages([remark]);

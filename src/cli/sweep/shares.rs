@@ -1,17 +1,14 @@
 //! The table of the shares of keys in the variance of measures.
 
-use super::Answer;
+use crate::cli::pipeline::Answer;
 use crate::output::table::Table;
-use crate::sweep::Shares;
+use crate::sweep::{Shares, caution};
 
 /// Most lines of the table.
 const MOST_LINES: usize = 40;
 
-/// Rows for each coefficient below which shares are told with a caution.
-const FEW: usize = 3;
-
-/// Shows the shares, a line for each measure and place; nothing for a sweep without random values.
-pub fn show_shares(answer: &mut Answer, shares: &[Shares]) {
+/// Shows the shares, a line for each measure and place.
+pub(super) fn show_shares(answer: &mut Answer, shares: &[Shares]) {
     let found: Vec<&Shares> = shares.iter().filter(|one| !one.parts.is_empty()).collect();
     if let Some(first) = found.first() {
         let header: Vec<&str> =
@@ -23,13 +20,13 @@ pub fn show_shares(answer: &mut Answer, shares: &[Shares]) {
                     third degree; interactions: what no sum of such polynomials gives; a share within some % of 0 may \
                     be chance";
         answer.messages([text.to_owned()]);
-        let few = found.iter().filter(|one| one.rows < FEW * one.coefficients).map(|one| (one.rows, one.coefficients));
-        answer.messages(few.min().map(|(rows, coefficients)| {
-            format!("note: {rows} rows for {coefficients} coefficients: the shares scatter; more --points tell more")
-        }));
+        answer.messages(fewest(found.into_iter()));
     }
-    let lacking = shares.iter().filter(|one| one.rows <= one.coefficients).map(|one| (one.rows, one.coefficients));
-    answer.messages(lacking.min().map(|(rows, coefficients)| {
-        format!("note: no shares of the keys from {rows} rows with a value: they take more than {coefficients}")
-    }));
+    answer.messages(fewest(shares.iter().filter(|one| one.rows <= one.coefficients)));
+}
+
+/// The caution about those with the fewest rows.
+fn fewest<'a>(shares: impl Iterator<Item = &'a Shares>) -> Option<String> {
+    let (rows, coefficients) = shares.map(|one| (one.rows, one.coefficients)).min()?;
+    caution(rows, coefficients)
 }

@@ -1,6 +1,8 @@
 //! What is estimated over realisations, and where.
 
-use crate::statistics::{ContactPlace, PlaceKind, Statistics, SupportStatistics, WallStatistics, WearStatistics};
+use crate::statistics::{
+    ContactPlace, LargestForce, PlaceKind, Statistics, SupportStatistics, WallStatistics, WearStatistics,
+};
 use serde::Serialize;
 
 /// A quantity of a wall or a support that has a mean over realisations.
@@ -29,8 +31,11 @@ pub enum Measure {
     WorkRate,
     /// What friction takes out of the motion per unit time, W; of supports with friction.
     FrictionPower,
-    /// Largest |force| in the window, N; of elastic walls only.
-    PeakForce,
+    /// Largest |force| in the window, N: of an elastic wall at an instant, of a rigid one and of a
+    /// support the largest mean over a stretch of
+    /// [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging). It grows with the
+    /// window.
+    LargestForce,
 }
 
 /// One quantity of one place in one realisation.
@@ -64,7 +69,7 @@ impl Measure {
         Self::RmsForce,
         Self::WorkRate,
         Self::FrictionPower,
-        Self::PeakForce,
+        Self::LargestForce,
     ];
 
     /// Its name in words.
@@ -77,7 +82,7 @@ impl Measure {
             Self::RmsForce => "RMS force",
             Self::WorkRate => "work rate",
             Self::FrictionPower => "friction power",
-            Self::PeakForce => "largest force",
+            Self::LargestForce => "largest force",
         }
     }
 
@@ -86,7 +91,7 @@ impl Measure {
     pub fn unit(self) -> &'static str {
         match self {
             Self::WorkRate | Self::FrictionPower => "W",
-            Self::MeanForce | Self::MeanForceY | Self::MeanForceZ | Self::RmsForce | Self::PeakForce => "N",
+            Self::MeanForce | Self::MeanForceY | Self::MeanForceZ | Self::RmsForce | Self::LargestForce => "N",
         }
     }
 
@@ -99,11 +104,10 @@ impl Measure {
     /// The value at a wall.
     fn of_wall(self, wall: &WallStatistics) -> Option<Found> {
         let force = wall.force?;
-        let elastic = force.rms_averaged_over_s.is_none();
         match self {
             Self::MeanForce => Some((force.mean_n, force.mean_half_width_95_n, Some(force.mean_of_halves_n))),
             Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n, Some(force.rms_of_halves_n))),
-            Self::PeakForce => elastic.then(|| (wall.episode_peak_force_n.max.unwrap_or(0.0), None, None)),
+            Self::LargestForce => Some(largest(wall.largest_force)),
             Self::MeanForceY | Self::MeanForceZ | Self::WorkRate | Self::FrictionPower => None,
         }
     }
@@ -124,9 +128,14 @@ impl Measure {
             Self::FrictionPower => {
                 wear.filter(|wear| wear.friction > 0.0).map(|wear| (wear.friction_power_w, None, None))
             }
-            Self::PeakForce => None,
+            Self::LargestForce => Some(largest(force.largest)),
         }
     }
+}
+
+/// The largest force, 0 where nothing pushed.
+fn largest(force: Option<LargestForce>) -> Found {
+    (force.map_or(0.0, |force| force.mean_n), None, None)
 }
 
 /// Every measure of every place in `statistics`: flat walls, then supports, in the scene's order.

@@ -207,11 +207,8 @@ function statisticsSection() {
       (w) => w.force && w.force.rms_n,
       (w) => w.force && w.force.rms_half_width_95_n,
     ),
-    // Of an elastic wall at an instant, of a rigid one the largest mean over a stretch.
-    column("largest force (N)", (w) =>
-      w.force?.rms_averaged_over_s ? w.force.largest?.mean_n : w.episode_peak_force_n.max,
-    ),
-    column("largest mean force at (s)", (w) => w.force?.largest?.at_s),
+    column("largest force (N)", (w) => w.largest_force?.mean_n),
+    column("at (s)", (w) => w.largest_force?.at_s),
     column(
       "impulse of a contact (N s)",
       (w) => w.episode_impulse_n_s.mean,

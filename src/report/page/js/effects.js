@@ -8,7 +8,9 @@ const isSeen = (columns, i) =>
 const BOUND_LOOKS = [3, 2];
 
 /** Bars from the measure in the case to that at each bound, of the keys in these rows. */
-function effectBars(columns, rows, label) {
+function effectBars(columns, rows, name) {
+  const unit = columns.unit[rows[0]];
+  const label = name + (unit ? ` (${unit})` : "");
   const level = (k) => rows.length - k;
   const draw = (ctx, plot) => {
     rows.forEach((i, k) => {
@@ -37,6 +39,7 @@ function effectBars(columns, rows, label) {
     x: label,
     height: 60 + 28 * rows.length,
     left: 210,
+    narrow: 140,
     alt: `Effects on ${label}`,
     yTicks: rows.map((i, k) => [level(k), String(columns.key[i])]),
     range: () => [0.4, rows.length + 0.6],
@@ -45,15 +48,19 @@ function effectBars(columns, rows, label) {
   return plot.box;
 }
 
-/** The diagrams of all measures and places, with what the colours stand for. */
-function effectDiagrams(columns, count) {
+/** The lines of each measure and place of a table of effects or shares, by its name in words. */
+function linesByMeasure(columns, count) {
   const groups = new Map();
   for (let i = 0; i < count; i++) {
-    const unit = columns.unit[i] ? ` (${columns.unit[i]})` : "";
-    const label = `${columns.measure[i]} ${columns.place[i] || ""}`.replace(/_/g, " ").trim() + unit;
-    if (!groups.has(label)) groups.set(label, []);
-    groups.get(label).push(i);
+    const name = `${columns.measure[i]} ${columns.place[i] || ""}`.replace(/_/g, " ").trim();
+    if (!groups.has(name)) groups.set(name, []);
+    groups.get(name).push(i);
   }
+  return [...groups];
+}
+
+/** The diagrams of all measures and places, with what the colours stand for. */
+function effectDiagrams(columns, count) {
   const words = ["at the lower bound", "at the upper bound"];
   const hollow = Array.from({ length: count }, (_, i) => i).some((i) => !isSeen(columns, i));
   return [
@@ -63,9 +70,20 @@ function effectDiagrams(columns, count) {
       words.map((text, side) => swatch(text, () => lookOf(BOUND_LOOKS[side]).colour())),
       hollow ? el("span", { class: "help" }, "hollow: not distinguished from none") : null,
     ),
-    ...[...groups].map(([label, rows]) => effectBars(columns, rows, label)),
+    ...linesByMeasure(columns, count).map(([name, rows]) => effectBars(columns, rows, name)),
   ];
 }
+
+/** The words of a table of effects or shares that stand before its numbers. */
+const namedColumns = (columns) =>
+  ["measure", "place", "unit", "key"]
+    .filter((name) => Array.isArray(columns[name]))
+    .map((name) => ({
+      name,
+      text: true,
+      value: (i) => String(columns[name][i]),
+      show: (i) => String(columns[name][i]) || "–",
+    }));
 
 function effectsSection(effects, seeds) {
   const { columns, count } = effects;
@@ -73,12 +91,6 @@ function effectsSection(effects, seeds) {
     name: title,
     value: (i) => columns[name][i],
     show: (i) => digits(columns[name][i], 4),
-  });
-  const text = (name, title) => ({
-    name: title,
-    text: true,
-    value: (i) => String(columns[name][i]),
-    show: (i) => String(columns[name][i]) || "–",
   });
   const half = columns.half_width_95 || [];
   const effect = {
@@ -95,7 +107,6 @@ function effectsSection(effects, seeds) {
     value: (i) => (isSeen(columns, i) ? "yes" : "no"),
     show: (i) => (isSeen(columns, i) ? "yes" : "no"),
   };
-  const named = ["place", "unit"].filter((name) => Array.isArray(columns[name]));
   section(
     "effects",
     "Effects",
@@ -106,9 +117,7 @@ function effectsSection(effects, seeds) {
     ...effectDiagrams(columns, count),
     sortable(
       [
-        text("measure", "measure"),
-        ...named.map((name) => text(name, name)),
-        text("key", "key"),
+        ...namedColumns(columns),
         number("low", "low"),
         number("high", "high"),
         number("base", "in the case"),

@@ -10,6 +10,7 @@ class Plot {
    *   log       [x, y], true for a logarithmic axis
    *   series    list of { kind, x, y, look, hidden() }; kind is line, marked, points, stems,
    *             orbit, bars or own (with draw(ctx, plot)); infinite: true shows −∞ and ∞ at the edges
+   *   left      room for the labels of y; narrow the most of it in a narrow window
    *   marks     lines at x or y, with side (of a wall), floor (at x, for all curves) and label
    *   over      function (ctx, plot) that draws what follows the cursor
    *   hover     function (x, [px, py], plot), null when the pointer leaves
@@ -23,6 +24,7 @@ class Plot {
       marks: [],
       log: [false, false],
       left: 66,
+      narrow: 52,
       right: 14,
       top: 10,
       bottom,
@@ -96,7 +98,7 @@ class Plot {
   frame() {
     this.w = widthOf(this.box);
     this.h = Math.round(this.height * (printing ? 0.8 : 1));
-    const left = this.w < 480 ? Math.min(this.left, 52) : this.left;
+    const left = this.w < 480 ? Math.min(this.left, this.narrow) : this.left;
     [this.x0, this.x1, this.y0, this.y1] = [
       left,
       this.w - this.right,

@@ -1,7 +1,7 @@
 // Sweeps: curves over one axis, maps over two, bifurcation diagrams.
 
 function sweepSection() {
-  const { axes, effects, samples, scheme, seeds, seeds_asked: asked, unjudged } = DATA.sweep;
+  const { axes, effects, shares, samples, scheme, seeds, seeds_asked: asked, unjudged } = DATA.sweep;
   const table = tableOf(DATA.sweep.table);
   const { columns } = table;
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
@@ -77,6 +77,7 @@ function sweepSection() {
       "text/csv",
     );
   if (effects) effectsSection(tableOf(effects), seeds);
+  if (shares) sharesSection(tableOf(shares), seeds, DATA.sweep.caution);
   section(
     "sweep",
     "Sweep",

@@ -1,0 +1,93 @@
+//! The folder of a study of wear over the years: what was asked, and the files of what was found.
+//! An interrupted study goes on from its journal, and so does one of more years.
+
+use super::error_parts;
+use super::format::Format;
+use super::request::{extended, program, request};
+use super::results::Results;
+use super::wear_history;
+use crate::case::Case;
+use crate::error::Result;
+use crate::scheme::Method;
+use crate::study::realisations::{RealisationCount, RealisationStudy};
+use crate::study::wear_history::{WearHistories, YEAR};
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// The key of the request that may grow: a study goes on to further years.
+const YEARS: &str = "years";
+
+/// What a study of wear is asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct WearRequest<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// The scheme.
+    pub method: &'a Method,
+    /// Time in service, years; that of the case where it is `None`.
+    pub years: Option<f64>,
+    /// How many histories are followed: a number, or as many as the interval of their first windows
+    /// takes.
+    pub count: RealisationCount,
+    /// With an interval: whether the errors of the first windows are found.
+    pub verdict: bool,
+}
+
+impl WearRequest<'_> {
+    /// The request as it is recorded.
+    fn recorded(&self) -> Result<Map<String, Value>> {
+        let mut settings = match self.count {
+            RealisationCount::Exactly(count) => json!({ "histories": count }),
+            RealisationCount::Within { share, most } => {
+                json!({ "until_interval": share, "most_seeds": most, "verdict": self.verdict })
+            }
+        };
+        // As they were asked for: years in seconds and back may differ in the last digit.
+        settings[YEARS] = json!(self.years.map_or_else(|| Ok(self.case.service(None)? / YEAR), Ok)?);
+        // Windows are kept, and those of another version may differ.
+        settings["program"] = json!(program());
+        Ok(extended(request("wear", self.case, &[*self.method]), settings))
+    }
+
+    /// Opens `folder`, which may hold results of this study with as many years or fewer, or with
+    /// `force` anything. Pictures are written in each of `formats`.
+    ///
+    /// # Errors
+    /// As [`Results::open`]; [`crate::Error::Invalid`] under `years` without a time in service.
+    pub fn open(&self, folder: &Path, force: bool, formats: Vec<Format>) -> Result<Results> {
+        Results::open_growing(folder, self.recorded()?, Some(YEARS), force, formats)
+    }
+}
+
+/// Writes the files of `histories` histories of wear at the supports of `case`: `history.csv`,
+/// `years.csv`, the picture `wear`, and those of the study `first` of their first windows.
+///
+/// # Errors
+/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
+pub fn write(
+    results: &mut Results,
+    case: &Case,
+    (found, histories): (&WearHistories, usize),
+    first: Option<&RealisationStudy>,
+) -> Result<()> {
+    wear_history::write(results, found)?;
+    if let Some(study) = first {
+        error_parts::write_study(results, study)?;
+        results.add_to_manifest("realisations", json!(study.realisations));
+    }
+    results.draw("wear", &wear_history::figure(case, found))?;
+    let errors = first.iter().flat_map(|study| error_parts::remarks(&study.realisations, &case.scene));
+    let answers: Vec<String> = wear_history::remarks(case, found).into_iter().chain(errors).collect();
+    for (key, value) in [
+        ("title", json!(case.title)),
+        ("case_file", case.document.json()?),
+        ("remarks", json!(case.notes())),
+        ("answers", json!(answers)),
+        ("supports", json!(found.supports)),
+        ("histories", json!(histories)),
+        ("fluid_elastic", json!(case.fluid_elastic)),
+    ] {
+        results.add_to_manifest(key, value);
+    }
+    Ok(())
+}
