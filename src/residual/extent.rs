@@ -1,7 +1,7 @@
 //! How far and how fast a run has moved.
 
-use super::largest_residual::running_max;
 use super::weights::Weights;
+use crate::linear::largest;
 
 /// The largest displacements and velocities so far.
 #[derive(Debug, Clone, Copy, Default)]
@@ -17,13 +17,9 @@ impl Extent {
     /// Notes displacements (m) and velocities (m/s), n of each.
     #[inline(always)]
     pub fn observe(&mut self, q: &[f64], v: &[f64], weights: &Weights, n: usize) {
-        let (q, v, seen, root_mass) = (&q[..n], &v[..n], &weights.seen[..n], &weights.root_mass[..n]);
-        let Self { mut reach, mut normal_reach, mut speed } = *self;
-        for i in 0..n {
-            speed = running_max(speed, (seen[i] * v[i]).abs());
-            reach = running_max(reach, q[i].abs());
-            normal_reach = running_max(normal_reach, q[i].abs() * root_mass[i]);
-        }
+        let sizes = |[q, v, seen, root_mass]: [f64; 4]| [q.abs(), q.abs() * root_mass, (seen * v).abs()];
+        let so_far = [self.reach, self.normal_reach, self.speed];
+        let [reach, normal_reach, speed] = largest(so_far, n, [q, v, &weights.seen, &weights.root_mass], sizes);
         *self = Self { reach, normal_reach, speed };
     }
 }

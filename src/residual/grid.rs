@@ -3,6 +3,7 @@
 use super::Judge;
 use super::step_motion::StepMotion;
 use crate::step::{Path, Step};
+use pulp::{Simd, WithSimd};
 
 /// What a step did, from the judge's own record of its start; borrows some of its fields.
 macro_rules! moves {
@@ -16,13 +17,30 @@ macro_rules! moves {
     };
 }
 
+/// A step of several degrees of freedom, checked with the widest vector instructions that the
+/// machine has. Each number is computed as without them.
+struct SeveralDegrees<'a, 'b> {
+    judge: &'a mut Judge,
+    step: &'a Step<'b>,
+}
+
+impl WithSimd for SeveralDegrees<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let n = self.judge.q.len();
+        self.judge.observe_grid_of(self.step, n);
+    }
+}
+
 impl Judge {
     /// Checks a step between two instants of a grid.
     pub(super) fn observe_grid(&mut self, step: &Step<'_>) {
         match self.q.len() {
             // With n constant the compiler removes the loops.
             1 => self.observe_grid_of(step, 1),
-            n => self.observe_grid_of(step, n),
+            _ => self.arch.dispatch(SeveralDegrees { judge: self, step }),
         }
     }
 
@@ -56,7 +74,8 @@ impl Judge {
         let worst;
         (self.balance.largest, worst) = self.scratch.open(per_h, &self.weights, n, self.balance.largest);
         let moves = moves!(self, step, beyond);
-        self.energy.observe_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
+        let rates = self.supports.as_ref().map_or(&[][..], |supports| &supports.rates);
+        self.energy.observe_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, rates, n);
         if beyond {
             self.energy.displace(&self.scene, &self.matrices, h, step);
             self.sums.displace(&self.matrices, &self.blows.beyond, &mut self.scratch.mean_q);

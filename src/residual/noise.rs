@@ -1,8 +1,8 @@
 //! The rounding errors of a step's balances, places and forces.
 
-use super::largest_residual::running_max;
 use super::step_motion::StepMotion;
 use super::weights::Weights;
+use crate::linear::{largest, running_max};
 
 /// Rounding error of a sum in a step, in units in the last place, times √n for sums over n degrees
 /// of freedom (tests of extreme scenes allow every scheme of one degree of freedom 32).
@@ -44,18 +44,16 @@ pub(super) struct NoiseModel {
 impl NoiseModel {
     /// Of a scene whose walls feel `masses` (kg), with the scale of its gaps (m).
     pub fn new(weights: &Weights, masses: &[f64], gap_scale: f64) -> Self {
-        let rate = |[mass, spring, dashpot]: [f64; 3], one: bool| {
-            let root = if one { spring } else { dashpot };
-            if root > 0.0 { root / mass } else { 0.0 }
-        };
-        let largest = |one: bool| weights.roots.iter().map(|&roots| rate(roots, one)).fold(0.0, f64::max);
+        let [mass, spring, dashpot] = &weights.roots;
+        let rate = |(root, mass): (&f64, &f64)| if *root > 0.0 { root / mass } else { 0.0 };
+        let largest = |roots: &[f64]| roots.iter().zip(mass).map(rate).fold(0.0, f64::max);
         Self {
-            unit: UNITS * f64::EPSILON * (weights.roots.len().max(1) as f64).sqrt(),
+            unit: UNITS * f64::EPSILON * (mass.len().max(1) as f64).sqrt(),
             gap_scale,
             end: 0.0,
             span: 1.0,
             clock: 1.0,
-            rates: [largest(true), largest(false)],
+            rates: [largest(spring), largest(dashpot)],
             wall: masses.iter().map(|mass| mass.sqrt()).collect(),
             speed: 0.0,
             reach: 0.0,
@@ -83,7 +81,8 @@ impl NoiseModel {
     /// Notes the sizes of a state: displacement (m) and velocity (m/s), and a time (s) over which
     /// that velocity moves it.
     pub fn state(&mut self, q: &[f64], v: &[f64], span: f64, weights: &Weights) {
-        for ((q, v), [mass, spring, dashpot]) in q.iter().zip(v).zip(&weights.roots) {
+        let [mass, spring, dashpot] = &weights.roots;
+        for ((((q, v), mass), spring), dashpot) in q.iter().zip(v).zip(mass).zip(spring).zip(dashpot) {
             let (q, v) = (q.abs() + span * v.abs(), v.abs());
             self.speed = self.speed.max(v * mass);
             self.reach = self.reach.max(q * mass);
@@ -96,25 +95,20 @@ impl NoiseModel {
     /// sizes of its mean load `mean` (N), its load at the end, the extra force and its blows.
     #[inline(always)]
     pub fn step(&mut self, moves: &StepMotion<'_>, mean: &[f64], weights: &Weights, (h, per_h): (f64, f64), n: usize) {
-        let (q, before, after, roots) = (&moves.shown[..n], &moves.before[..n], &moves.after[..n], &weights.roots[..n]);
-        let [mut speed, mut reach, mut strain, mut rub] = [self.speed, self.reach, self.strain, self.rub];
-        for i in 0..n {
-            let [mass, spring, dashpot] = roots[i];
-            let v = running_max(before[i].abs(), after[i].abs());
-            let q = q[i].abs() + h * v;
-            speed = running_max(speed, v * mass);
-            reach = running_max(reach, q * mass);
-            strain = running_max(strain, q * spring);
-            rub = running_max(rub, v * dashpot);
-        }
-        (self.speed, self.reach, self.strain, self.rub) = (speed, reach, strain, rub);
-        let (end, extra, blow) = (&moves.load_end[..n], &moves.extra[..n], &moves.blow[..n]);
-        let (mean, per_root, mut load) = (&mean[..n], &weights.per_root_mass[..n], self.load);
-        for i in 0..n {
-            let force = running_max(running_max(mean[i].abs(), blow[i].abs() * per_h), extra[i].abs() + end[i].abs());
-            load = running_max(load, force * per_root[i]);
-        }
-        self.load = load;
+        let [mass, spring, dashpot] = &weights.roots;
+        let so_far = [self.speed, self.reach, self.strain, self.rub];
+        let moved = [moves.shown, moves.before, moves.after, mass, spring, dashpot];
+        let sizes = |[q, before, after, mass, spring, dashpot]: [f64; 6]| {
+            let v = running_max(before.abs(), after.abs());
+            let q = q.abs() + h * v;
+            [v * mass, q * mass, q * spring, v * dashpot]
+        };
+        [self.speed, self.reach, self.strain, self.rub] = largest(so_far, n, moved, sizes);
+        let forces = [mean, moves.blow, moves.extra, moves.load_end, &weights.per_root_mass];
+        let size = |[mean, blow, extra, end, per_root]: [f64; 5]| {
+            [running_max(running_max(mean.abs(), blow.abs() * per_h), extra.abs() + end.abs()) * per_root]
+        };
+        [self.load] = largest([self.load], n, forces, size);
     }
 
     /// Notes the size of a load, N/√kg.
@@ -180,6 +174,12 @@ impl NoiseModel {
     /// wall feels, m.
     pub fn reach(&self, wall: usize) -> f64 {
         self.reach / self.wall.get(wall).copied().unwrap_or(1.0)
+    }
+
+    /// The largest |qᵢ|√Mᵢᵢ so far, with what velocities add to it within a step, and with `other`
+    /// values of the same kind, m√kg.
+    pub fn largest_place(&self, other: f64) -> f64 {
+        self.reach + other
     }
 
     /// Adds the rounding error of as many `steps` of this length and of `bodies` degrees of

@@ -10,7 +10,7 @@ use super::Judge;
 use super::complementarity::rebound;
 use super::energy::Moved;
 use super::friction::FrictionImpulse;
-use super::hole_motion::terms;
+use super::place::terms;
 use super::pushes::pushes;
 use crate::scene::Hole;
 use crate::step::Step;

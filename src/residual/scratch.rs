@@ -1,9 +1,9 @@
 //! Work space of the judge for one step, and the terms of its momentum balance.
 
-use super::largest_residual::running_max;
 use super::matrices::{Matrices, Part};
 use super::step_motion::StepMotion;
 use super::weights::Weights;
+use crate::linear::{largest, running_max, update};
 use crate::step::Balance;
 
 /// Vectors that a step needs, one entry per degree of freedom; for several steps of one degree of
@@ -42,39 +42,32 @@ impl Scratch {
     /// follows from the velocities, m√kg.
     #[inline(always)]
     pub fn means(&mut self, balance: Balance, h: f64, moves: &StepMotion<'_>, weights: &Weights, n: usize) -> f64 {
-        let (q0, q1) = (&moves.from[..n], &moves.to[..n]);
-        let (before, after, extra) = (&moves.before[..n], &moves.after[..n], &moves.extra[..n]);
-        let (load_start, load_end, blow) = (&moves.load_start[..n], &moves.load_end[..n], &moves.blow[..n]);
+        let &StepMotion { from, to, before, after, load_start, load_end, extra, blow, .. } = moves;
         let (load, residual) = (&mut self.load[..n], &mut self.residual[..n]);
         let (mean_q, mean_v, gained) = (&mut self.mean_q[..n], &mut self.mean_v[..n], &mut self.gained[..n]);
-        let root_mass = &weights.root_mass[..n];
-        let mut path = 0.0;
-        match balance {
+        let miss = |[q0, q1, rate, root_mass]: [f64; 4]| [(q1 - q0 - h * rate).abs() * root_mass];
+        let [path] = match balance {
             Balance::Theta(theta) => {
                 let mean = |a: f64, b: f64| (1.0 - theta) * a + theta * b;
-                for i in 0..n {
-                    load[i] = mean(load_start[i], load_end[i]);
-                    mean_q[i] = mean(q0[i], q1[i]);
-                    mean_v[i] = mean(before[i], after[i]);
-                    path = running_max(path, (q1[i] - q0[i] - h * mean_v[i]).abs() * root_mass[i]);
-                }
+                update(load, [load_start, load_end, extra], |_, [start, end, extra]| mean(start, end) + extra);
+                update(mean_q, [from, to], |_, [q0, q1]| mean(q0, q1));
+                update(mean_v, [before, after], |_, [before, after]| mean(before, after));
+                largest([0.0], n, [from, to, mean_v, &weights.root_mass], miss)
             }
             Balance::Staggered(b) => {
-                for i in 0..n {
-                    let back = q0[i] - h * before[i];
-                    load[i] = load_start[i];
-                    mean_q[i] = b * back + (1.0 - 2.0 * b) * q0[i] + b * q1[i];
-                    mean_v[i] = 0.5 * (before[i] + after[i]);
-                    path = running_max(path, (q1[i] - q0[i] - h * after[i]).abs() * root_mass[i]);
-                }
+                let mean = |[q0, q1, before]: [f64; 3]| b * (q0 - h * before) + (1.0 - 2.0 * b) * q0 + b * q1;
+                update(load, [load_start, extra], |_, [start, extra]| start + extra);
+                update(mean_q, [from, to, before], |_, x| mean(x));
+                update(mean_v, [before, after], |_, [before, after]| 0.5 * (before + after));
+                largest([0.0], n, [from, to, after, &weights.root_mass], miss)
             }
-            Balance::GeneralizedAlpha { .. } | Balance::Exact => {}
-        }
-        for i in 0..n {
-            load[i] += extra[i];
-            residual[i] = -h * load[i] - blow[i];
-            gained[i] = after[i] - before[i];
-        }
+            Balance::GeneralizedAlpha { .. } | Balance::Exact => {
+                update(load, [extra], |load, [extra]| load + extra);
+                [0.0]
+            }
+        };
+        update(residual, [load, blow], |_, [load, blow]| -h * load - blow);
+        update(gained, [after, before], |_, [after, before]| after - before);
         path
     }
 
@@ -93,17 +86,14 @@ impl Scratch {
         matrices.product(Part::Mass, 1.0, &self.gained[..n], &mut self.inertia[..n]);
         matrices.product(Part::Damping, h, &self.mean_v[..n], &mut self.damper[..n]);
         matrices.product(Part::Stiffness, h, &self.mean_q[..n], &mut self.spring[..n]);
-        let (inertia, damper, spring) = (&self.inertia[..n], &self.damper[..n], &self.spring[..n]);
-        let (load, blow, residual) = (&self.load[..n], &blow[..n], &mut self.residual[..n]);
-        let per_root_mass = &weights.per_root_mass[..n];
-        for i in 0..n {
-            residual[i] += inertia[i] + damper[i] + spring[i];
-            let moved = running_max(
-                running_max(inertia[i].abs(), damper[i].abs()),
-                running_max(spring[i].abs(), blow[i].abs()),
-            );
-            scale = running_max(scale, running_max(load[i].abs(), moved * per_h) * per_root_mass[i]);
-        }
+        let terms = [&self.inertia[..], &self.damper, &self.spring];
+        update(&mut self.residual[..n], terms, |open, [inertia, damper, spring]| open + (inertia + damper + spring));
+        let forces = [&self.inertia[..], &self.damper, &self.spring, &self.load, blow, &weights.per_root_mass];
+        let size = |[inertia, damper, spring, load, blow, per_root]: [f64; 6]| {
+            let moved = running_max(running_max(inertia.abs(), damper.abs()), running_max(spring.abs(), blow.abs()));
+            [running_max(load.abs(), moved * per_h) * per_root]
+        };
+        [scale] = largest([scale], n, forces, size);
         scale
     }
 
@@ -111,12 +101,11 @@ impl Scratch {
     /// N/√kg.
     #[inline(always)]
     pub fn open(&self, per_h: f64, weights: &Weights, n: usize, so_far: f64) -> (f64, f64) {
-        let (mut balance, mut worst) = (so_far, 0.0);
-        for (r, per_weight) in self.residual[..n].iter().zip(&weights.per_root_mass[..n]) {
-            let open = r.abs() * per_h;
-            balance = running_max(balance, open);
-            worst = running_max(worst, open * per_weight);
-        }
+        let open = |[residual, per_root_mass]: [f64; 2]| {
+            let open = residual.abs() * per_h;
+            [open, open * per_root_mass]
+        };
+        let [balance, worst] = largest([so_far, 0.0], n, [&self.residual, &weights.per_root_mass], open);
         (balance, worst)
     }
 }

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::residual::energy::Instants;
-use crate::residual::hole_motion::terms;
 use crate::residual::matrices::Part;
+use crate::residual::place::terms;
 
 #[test]
 fn the_terms_of_a_place_are_those_of_both_rows_by_magnitude() {
@@ -17,7 +17,7 @@ fn the_extent_of_a_run_is_that_of_its_largest_values_in_their_own_metric() {
     let weights = Weights {
         root_mass: vec![2.0, 8.0],
         per_root_mass: vec![0.5, 0.125],
-        roots: vec![[2.0, 0.0, 0.0], [8.0, 0.0, 0.0]],
+        roots: [vec![2.0, 8.0], vec![0.0; 2], vec![0.0; 2]],
         seen: vec![4.0, 0.5],
     };
     let mut extent = Extent::default();
