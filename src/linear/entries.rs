@@ -1,10 +1,9 @@
 //! Loops over the entries of vectors, in the form in which the compiler uses vector instructions
-//! for them: no vector that is read may be the one that is written, and a maximum has to be taken
-//! in independent lanes, which the compiler may not introduce by itself, since a maximum ignores
-//! NaN.
+//! for them, since no vector that is read may be the one that is written; and maxima, which take
+//! them by name: the compiler may not reorder them by itself, since a maximum ignores NaN.
 
-/// Maxima that are taken side by side.
-const LANES: usize = 4;
+use pulp::Simd;
+use std::ops::{Add, Mul, Sub};
 
 /// N vectors of which a loop takes the entries of one index together. Written out for each N: for
 /// arrays in general the compiler neither keeps all pointers in registers nor leaves out the checks
@@ -52,56 +51,126 @@ where
     }
 }
 
-/// The largest of each of the numbers that `of` makes of the first `n` entries of the `vectors`,
-/// and at least `so_far`. A NaN is ignored.
+/// As many numbers as vector instructions take at a time.
+#[derive(Clone, Copy)]
+pub(crate) struct Lanes<S: Simd> {
+    simd: S,
+    x: S::f64s,
+}
+
+impl<S: Simd> Lanes<S> {
+    /// The same number in all lanes of such a vector.
+    #[inline(always)]
+    fn all(self, x: f64) -> Self {
+        Self { x: self.simd.splat_f64s(x), ..self }
+    }
+
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        Self { x: self.simd.abs_f64s(self.x), ..self }
+    }
+
+    /// As [`running_max`] in each lane.
+    #[inline(always)]
+    pub fn max(self, x: Self) -> Self {
+        // The instruction of x86 returns its second operand where one of them is no number.
+        if cfg!(target_arch = "x86_64") {
+            return Self { x: self.simd.max_f64s(x.x, self.x), ..self };
+        }
+        let greater = self.simd.greater_than_f64s(x.x, self.x);
+        Self { x: self.simd.select_f64s(greater, x.x, self.x), ..self }
+    }
+}
+
+impl<S: Simd> Add for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { x: self.simd.add_f64s(self.x, other.x), ..self }
+    }
+}
+
+impl<S: Simd> Sub for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.simd.sub_f64s(self.x, other.x), ..self }
+    }
+}
+
+impl<S: Simd> Mul for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self { x: self.simd.mul_f64s(self.x, other.x), ..self }
+    }
+}
+
+impl<S: Simd> Mul<f64> for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: f64) -> Self {
+        self * self.all(other)
+    }
+}
+
+/// M sizes that follow from N numbers: 0 from zeros. No closure, which would be compiled by itself,
+/// without the instructions that `S` stands for.
+pub(crate) trait Sizes<const N: usize, const M: usize> {
+    fn of<S: Simd>(&self, x: [Lanes<S>; N]) -> [Lanes<S>; M];
+}
+
+/// The largest of each of the `sizes` of the first `n` entries of the `vectors`, and at least
+/// `so_far`, 0 or more. A NaN is ignored. `simd` are the instructions to be used.
 ///
 /// # Panics
 /// If one of the `vectors` is shorter.
 #[inline(always)]
-pub(crate) fn largest<'a, const N: usize, const M: usize>(
+pub(crate) fn largest<'a, S: Simd, const N: usize, const M: usize>(
+    simd: S,
     so_far: [f64; M],
     n: usize,
     vectors: [&'a [f64]; N],
-    of: impl Fn([f64; N]) -> [f64; M],
+    sizes: &impl Sizes<N, M>,
 ) -> [f64; M]
 where
     [&'a [f64]; N]: Columns<f64, N>,
-    [&'a [[f64; LANES]]; N]: Columns<[f64; LANES], N>,
+    [&'a [S::f64s]; N]: Columns<S::f64s, N>,
 {
     let vectors = vectors.cut(n);
-    let mut blocks: [&[[f64; LANES]]; N] = [&[]; N];
-    for (blocks, x) in blocks.iter_mut().zip(vectors) {
-        *blocks = x.as_chunks().0;
+    let (mut blocks, mut rests): ([&[S::f64s]; N], _) = ([&[]; N], vectors);
+    for ((blocks, rest), x) in blocks.iter_mut().zip(&mut rests).zip(vectors) {
+        (*blocks, *rest) = S::as_simd_f64s(x);
     }
-    let blocks = blocks.cut(n / LANES);
-    let mut lanes = [[f64::NEG_INFINITY; LANES]; M];
-    for i in 0..n / LANES {
-        let (block, mut found) = (blocks.at(i), [[0.0; LANES]; M]);
-        for lane in 0..LANES {
-            let mut entries = [0.0; N];
-            for (entry, x) in entries.iter_mut().zip(&block) {
-                *entry = x[lane];
-            }
-            for (found, value) in found.iter_mut().zip(of(entries)) {
-                found[lane] = value;
-            }
+    let (count, left) = blocks.first().zip(rests.first()).map_or((0, 0), |(block, rest)| (block.len(), rest.len()));
+    let blocks = blocks.cut(count);
+    let zero = Lanes { simd, x: simd.splat_f64s(0.0) };
+    let mut lanes = [zero; M];
+    for i in 0..count {
+        let mut x = [zero; N];
+        for (x, block) in x.iter_mut().zip(blocks.at(i)) {
+            x.x = block;
         }
-        for (lanes, found) in lanes.iter_mut().zip(found) {
-            for (largest, x) in lanes.iter_mut().zip(found) {
-                *largest = running_max(*largest, x);
-            }
+        for (largest, size) in lanes.iter_mut().zip(sizes.of(x)) {
+            *largest = largest.max(size);
+        }
+    }
+    if left > 0 {
+        let mut x = [zero; N];
+        for (x, rest) in x.iter_mut().zip(rests) {
+            x.x = simd.partial_load_f64s(rest);
+        }
+        for (largest, size) in lanes.iter_mut().zip(sizes.of(x)) {
+            *largest = largest.max(size);
         }
     }
     let mut all = so_far;
     for (largest, lanes) in all.iter_mut().zip(lanes) {
-        for x in lanes {
-            *largest = running_max(*largest, x);
-        }
-    }
-    for i in n - n % LANES..n {
-        for (largest, x) in all.iter_mut().zip(of(vectors.at(i))) {
-            *largest = running_max(*largest, x);
-        }
+        *largest = running_max(*largest, simd.reduce_max_f64s(lanes.x));
     }
     all
 }
@@ -115,22 +184,45 @@ pub(crate) fn running_max(so_far: f64, x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pulp::{Scalar, WithSimd};
+
+    struct Both;
+
+    impl Sizes<2, 2> for Both {
+        #[inline(always)]
+        fn of<S: Simd>(&self, [x, other]: [Lanes<S>; 2]) -> [Lanes<S>; 2] {
+            [x.abs(), (x - other * 2.0).abs() + x.max(other) * x]
+        }
+    }
+
+    struct Largest<'a>(f64, usize, &'a [f64]);
+
+    impl WithSimd for Largest<'_> {
+        type Output = [f64; 2];
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) -> [f64; 2] {
+            largest(simd, [self.0; 2], self.1, [self.2, &self.2[1..]], &Both)
+        }
+    }
 
     #[test]
     fn the_largest_of_any_number_of_entries_is_found_wherever_it_stands_and_a_nan_is_none() {
-        for n in 1..=2 * LANES + 3 {
+        for n in 1..20 {
             for at in 0..n {
-                let mut x: Vec<f64> = (0..n + 2).map(|i| 0.1 * i as f64 - 9.0).collect();
-                (x[at], x[n]) = (7.0, 100.0);
-                let lower: Vec<f64> = x.iter().map(|x| -x).collect();
-                let both = |[x, lower]: [f64; 2]| [x, 2.0 * lower];
-                // Of the negatives the first is the largest, unless the 7 stands there.
-                let first = if at > 0 { 18.0 } else { 2.0 * (9.0 - 0.1) };
-                let found = largest([0.0, 1.0], n, [&x, &lower], both);
-                assert_eq!(found, [7.0, if n == 1 { 1.0 } else { first }], "{n} {at}");
-                assert_eq!(largest([8.0, 20.0], n, [&x, &lower], both), [8.0, 20.0]);
+                // Multiples of 1/8: no product is rounded.
+                let mut x: Vec<f64> = (0..n + 3).map(|i| 0.125 * (i % 7) as f64 - 0.375).collect();
+                (x[at], x[n + 1]) = (-7.0, 100.0);
+                let both = |i: usize| (x[i] - 2.0 * x[i + 1]).abs() + x[i].max(x[i + 1]) * x[i];
+                let expected = [7.0, (0..n).map(both).fold(0.0, f64::max)];
+                for found in [pulp::Arch::new().dispatch(Largest(0.0, n, &x)), Largest(0.0, n, &x).with_simd(Scalar)] {
+                    assert_eq!(found, expected, "{n} {at}");
+                }
+                let most = [expected[0].max(1e3), expected[1].max(1e3)];
+                assert_eq!(pulp::Arch::new().dispatch(Largest(1e3, n, &x)), most);
                 x[at] = f64::NAN;
-                assert_eq!(largest([0.5], n, [&x], |x| x), [0.5], "{n} {at}");
+                let left = (0..n).map(|i| x[i].abs()).fold(0.25, f64::max);
+                assert_eq!(pulp::Arch::new().dispatch(Largest(0.25, n, &x))[0], left, "{n} {at}");
             }
         }
     }

@@ -74,6 +74,7 @@ use momentum_sums::MomentumSums;
 use noise::NoiseModel;
 use place::Places;
 use previous_step::PreviousStep;
+use pulp::{Scalar, Simd};
 use quiet_scratch::QuietScratch;
 use row_walls::RowWalls;
 use scales::Scales;
@@ -267,16 +268,16 @@ impl Judge {
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.walls.observe_depth(index, -wall.gap(wall.row().dot(step.q)));
         }
-        self.begin_next_step(step, n);
+        self.begin_next_step(Scalar, step, n);
     }
 
     /// Makes the state at the end of a step that at the start of the next.
     #[inline(always)]
-    fn begin_next_step(&mut self, step: &Step<'_>, n: usize) {
+    fn begin_next_step<S: Simd>(&mut self, simd: S, step: &Step<'_>, n: usize) {
         for walls_of_row in self.wide.iter().filter_map(|&index| self.row_walls.get(index)) {
             self.extent.speed = self.extent.speed.max(walls_of_row.size(step.velocity_after));
         }
-        self.extent.observe(step.q, step.velocity_after, &self.weights, n);
+        self.extent.observe(simd, step.q, step.velocity_after, &self.weights, n);
         self.q[..n].copy_from_slice(&step.q[..n]);
     }
 

@@ -2,7 +2,8 @@
 
 use super::step_motion::StepMotion;
 use super::weights::Weights;
-use crate::linear::{largest, running_max};
+use crate::linear::{Lanes, Sizes, largest};
+use pulp::Simd;
 
 /// Rounding error of a sum in a step, in units in the last place, times √n for sums over n degrees
 /// of freedom (tests of extreme scenes allow every scheme of one degree of freedom 32).
@@ -94,21 +95,21 @@ impl NoiseModel {
     /// As [`Self::state`] for what a step on a grid of `h` seconds (and 1/h) did, and notes the
     /// sizes of its mean load `mean` (N), its load at the end, the extra force and its blows.
     #[inline(always)]
-    pub fn step(&mut self, moves: &StepMotion<'_>, mean: &[f64], weights: &Weights, (h, per_h): (f64, f64), n: usize) {
+    pub fn step<S: Simd>(
+        &mut self,
+        simd: S,
+        moves: &StepMotion<'_>,
+        mean: &[f64],
+        weights: &Weights,
+        (h, per_h): (f64, f64),
+        n: usize,
+    ) {
         let [mass, spring, dashpot] = &weights.roots;
         let so_far = [self.speed, self.reach, self.strain, self.rub];
         let moved = [moves.shown, moves.before, moves.after, mass, spring, dashpot];
-        let sizes = |[q, before, after, mass, spring, dashpot]: [f64; 6]| {
-            let v = running_max(before.abs(), after.abs());
-            let q = q.abs() + h * v;
-            [v * mass, q * mass, q * spring, v * dashpot]
-        };
-        [self.speed, self.reach, self.strain, self.rub] = largest(so_far, n, moved, sizes);
+        [self.speed, self.reach, self.strain, self.rub] = largest(simd, so_far, n, moved, &MovedSizes { h });
         let forces = [mean, moves.blow, moves.extra, moves.load_end, &weights.per_root_mass];
-        let size = |[mean, blow, extra, end, per_root]: [f64; 5]| {
-            [running_max(running_max(mean.abs(), blow.abs() * per_h), extra.abs() + end.abs()) * per_root]
-        };
-        [self.load] = largest([self.load], n, forces, size);
+        [self.load] = largest(simd, [self.load], n, forces, &ForceSize { per_h });
     }
 
     /// Notes the size of a load, N/√kg.
@@ -191,6 +192,34 @@ impl NoiseModel {
         let states = self.speed.powi(2) + self.strain.powi(2) + given.powi(2);
         let flows = bodies * states + self.load * self.reach;
         self.energy += steps * (self.unit * flows);
+    }
+}
+
+/// From displacement, velocities before and after a step of h seconds, √m, √k and √c: the largest
+/// |v|√m, |q|√m, |q|√k and |v|√c, where the velocity moves the body for h.
+struct MovedSizes {
+    h: f64,
+}
+
+impl Sizes<6, 4> for MovedSizes {
+    #[inline(always)]
+    fn of<S: Simd>(&self, [q, before, after, mass, spring, dashpot]: [Lanes<S>; 6]) -> [Lanes<S>; 4] {
+        let v = before.abs().max(after.abs());
+        let q = q.abs() + v * self.h;
+        [v * mass, q * mass, q * spring, v * dashpot]
+    }
+}
+
+/// From the mean load, N, the blow, N s, the extra force and the load at the end, N, and 1/√m: the
+/// largest of these forces, N/√kg.
+struct ForceSize {
+    per_h: f64,
+}
+
+impl Sizes<5, 1> for ForceSize {
+    #[inline(always)]
+    fn of<S: Simd>(&self, [mean, blow, extra, end, per_root]: [Lanes<S>; 5]) -> [Lanes<S>; 1] {
+        [mean.abs().max(blow.abs() * self.per_h).max(extra.abs() + end.abs()) * per_root]
     }
 }
 

@@ -172,12 +172,11 @@ impl Table {
             let piece = next.checked_sub(1).and_then(|from| time.get(from..=next));
             matches!(piece, Some([from, to]) if *from <= t && t < *to)
         };
-        match [1, 2, 0].map(|by| near.saturating_add(by)) {
-            [next, _, _] if starts(next) => next,
-            [_, next, _] if starts(next) => next,
-            [_, _, next] if starts(next) => next,
-            _ => time.partition_point(|&x| x <= t),
+        if starts(near.saturating_add(1)) {
+            return near.saturating_add(1);
         }
+        let found = [2, 0].into_iter().map(|by| near.saturating_add(by)).find(|&next| starts(next));
+        found.unwrap_or_else(|| time.partition_point(|&x| x <= t))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Rounding errors, against numbers worked out by hand.
 
 use super::*;
+use pulp::Scalar;
 
 /// The rounding error of the balance of a step of `span` seconds.
 fn force(noise: &mut NoiseModel, span: f64, clock: f64) -> f64 {
@@ -33,7 +34,7 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
         extra: &[2.0],
         blow: &[1.0],
     };
-    noise.step(&moves, &[-8.0], &weights, (0.5, 2.0), 1);
+    noise.step(Scalar, &moves, &[-8.0], &weights, (0.5, 2.0), 1);
     // Way 2 + 0.5 · 3 m: 7 m√kg and 10.5 √J; 6 √J of speed, 12 √W in the damper, 4.5 N/√kg.
     let (spring, damper) = (1.5 * 10.5, 2.0 * 12.0);
     assert_eq!(noise.path(), unit * 7.0);
@@ -61,7 +62,7 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
     state.state(&[-2.0], &[-3.0], 0.5, &weights);
     assert_eq!((state.path(), force(&mut state, 0.25, 1.0)), (unit * 7.0, unit * (6.0 / 0.25 + spring + damper)));
     let mut struck = NoiseModel::new(&weights, &[], 0.5);
-    struck.step(&StepMotion { blow: &[-10.0], ..moves }, &[-8.0], &weights, (0.5, 2.0), 1);
+    struck.step(Scalar, &StepMotion { blow: &[-10.0], ..moves }, &[-8.0], &weights, (0.5, 2.0), 1);
     assert_eq!(force(&mut struck, 1.0, 1.0), unit * (6.0 + spring + damper + 10.0));
     // Sums over four degrees of freedom have twice the rounding; one without springs has no rate.
     let mut four = weights.repeated(4);
