@@ -1,10 +1,11 @@
 //! The place of a round hole over a step: where it is and how fast, at both ends, and the terms
-//! that add up to each, from which their rounding errors follow.
+//! that add up to each, from which their rounding errors follow; and whether the step can have
+//! reached the hole.
 
 use super::Judge;
-use super::place::{AtPlace, Place};
+use super::place::{AtPlace, Place, SUM};
 use crate::scene::Hole;
-use crate::step::Step;
+use crate::step::{Normal, Step};
 
 /// The place of a hole in a step.
 #[derive(Debug, Clone, Copy)]
@@ -38,5 +39,39 @@ impl Judge {
     /// equations of the step find it.
     pub(super) fn way(&self, hole: &Hole<'_>, motion: &HoleMotion) -> f64 {
         motion.size + self.h * (motion.before.terms + motion.after.terms) + self.noise.reach(hole.index)
+    }
+
+    /// True if it is certain that a rigid hole, which did not push, is out of reach throughout the
+    /// step, and that the place is no faster than any before: then there is nothing to check at it.
+    ///
+    /// Certain means inside the circle at the end of the step and where the promise takes the
+    /// normal, by more than all rounding errors: those of the products here, in any order of their
+    /// terms, and those within which a hole counts as reached.
+    #[inline(always)]
+    pub(super) fn is_out_of_reach(&self, step: &Step<'_>, hole: &Hole<'_>, place: &Place) -> bool {
+        // The sizes of a step that predicts and corrects are noted after this.
+        let noted = self.sums.steps > 0 && self.previous.is_none();
+        if self.loads.has_blows() || !noted || !hole.law.is_rigid() {
+            return false;
+        }
+        let pushed = [step.impulse, step.friction].map(|x| x.get(hole.index).copied());
+        if pushed != [Some(0.0); 2] || !place.stays_below(self.extent.speed, step.velocity_after) {
+            return false;
+        }
+        let (Some(start), Some(end)) = (place.near(&self.q), place.near(step.q)) else { return false };
+        let Some(rate) = place.near(step.velocity_before) else { return false };
+        let (ahead, touching) = match self.contract.promise.round {
+            Some(turning) => (if let Normal::Ahead(part) = turning.normal { part } else { 0.0 }, turning.touching),
+            None => (0.0, 0.0),
+        };
+        // Places at both ends, and what the velocities at both add to them.
+        let largest = 4.0 * place.weight * self.noise.largest_place(self.extent.normal_reach);
+        let [cy, cz] = hole.centre;
+        let size = largest + cy.abs() + cz.abs() + hole.gap;
+        let inside = hole.gap * (1.0 - 2.0 * touching) - SUM * size;
+        let far = |w: [f64; 2]| (w[0] - cy).powi(2) + (w[1] - cz).powi(2);
+        let way = ahead * self.h;
+        let along = [start[0] + way * rate[0], start[1] + way * rate[1]];
+        inside > 0.0 && far(end) < inside * inside && far(along) < inside * inside
     }
 }

@@ -83,7 +83,8 @@ impl ForceSums {
         update(&mut last_own[..n], [spring], |_, [spring]| own([0.0, spring, 0.0], per_h)[1]);
         update(&mut largest[..n], [load, spring, damper], |largest, forces| {
             let [load, own, damper] = own(forces, per_h);
-            running_max(largest, load.abs() + own.abs() + damper.abs())
+            // As a running maximum, but not as a store under a condition, which takes far longer.
+            largest.max(load.abs() + own.abs() + damper.abs())
         });
         update(&mut exchanged[..n], [load, spring, damper], |sum, forces| {
             let [load, own, damper] = own(forces, per_h);

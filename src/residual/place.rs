@@ -1,14 +1,11 @@
-//! The place that a support surrounds: what vectors are there, and whether a step can have reached
-//! the hole around it.
+//! The place that a support surrounds: what vectors are there.
 
-use super::Judge;
 use crate::linear::{Columns, Segment};
-use crate::scene::{Hole, PlaneRows, Scene};
-use crate::step::{Normal, Step};
+use crate::scene::{PlaneRows, Scene};
 use std::sync::Arc;
 
 /// Rounding of sums over any number of degrees of freedom, relative to the sum of the magnitudes.
-const SUM: f64 = 1e-9;
+pub(super) const SUM: f64 = 1e-9;
 
 /// A quantity at a place: its values in y and z, and the sum of the magnitudes of the terms of
 /// both.
@@ -25,7 +22,7 @@ pub(super) struct Place {
     /// The rows, if the entries of each follow one another.
     segments: Option<[Segment; 2]>,
     /// Σ |g|/√Mᵢᵢ over both rows: a place has terms of at most this times the largest |qᵢ|√Mᵢᵢ.
-    weight: f64,
+    pub weight: f64,
 }
 
 impl Place {
@@ -71,7 +68,7 @@ impl Place {
 
     /// Values of `x`, to rounding.
     #[inline(always)]
-    fn near(&self, x: &[f64]) -> Option<[f64; 2]> {
+    pub fn near(&self, x: &[f64]) -> Option<[f64; 2]> {
         match &self.segments {
             Some([y, z]) => Some([y.dot(x), z.dot(x)]),
             None => None,
@@ -101,42 +98,6 @@ impl Places {
             has_flats: scene.walls.iter().any(|wall| !wall.is_round()),
         };
         scene.turns_or_rubs().then(|| Box::new(places))
-    }
-}
-
-impl Judge {
-    /// True if it is certain that a rigid hole, which did not push, is out of reach throughout the
-    /// step, and that the place is no faster than any before: then there is nothing to check at it.
-    ///
-    /// Certain means inside the circle at the end of the step and where the promise takes the
-    /// normal, by more than all rounding errors: those of the products here, in any order of their
-    /// terms, and those within which a hole counts as reached.
-    #[inline(always)]
-    pub(super) fn is_out_of_reach(&self, step: &Step<'_>, hole: &Hole<'_>, place: &Place) -> bool {
-        // The sizes of a step that predicts and corrects are noted after this.
-        let noted = self.sums.steps > 0 && self.previous.is_none();
-        if self.loads.has_blows() || !noted || !hole.law.is_rigid() {
-            return false;
-        }
-        let pushed = [step.impulse, step.friction].map(|x| x.get(hole.index).copied());
-        if pushed != [Some(0.0); 2] || !place.stays_below(self.extent.speed, step.velocity_after) {
-            return false;
-        }
-        let (Some(start), Some(end)) = (place.near(&self.q), place.near(step.q)) else { return false };
-        let Some(rate) = place.near(step.velocity_before) else { return false };
-        let (ahead, touching) = match self.contract.promise.round {
-            Some(turning) => (if let Normal::Ahead(part) = turning.normal { part } else { 0.0 }, turning.touching),
-            None => (0.0, 0.0),
-        };
-        // Places at both ends, and what the velocities at both add to them.
-        let largest = 4.0 * place.weight * self.noise.largest_place(self.extent.normal_reach);
-        let [cy, cz] = hole.centre;
-        let size = largest + cy.abs() + cz.abs() + hole.gap;
-        let inside = hole.gap * (1.0 - 2.0 * touching) - SUM * size;
-        let far = |w: [f64; 2]| (w[0] - cy).powi(2) + (w[1] - cz).powi(2);
-        let way = ahead * self.h;
-        let along = [start[0] + way * rate[0], start[1] + way * rate[1]];
-        inside > 0.0 && far(end) < inside * inside && far(along) < inside * inside
     }
 }
 
