@@ -39,6 +39,7 @@ columns! { 1: a; 2: a b; 3: a b c; 4: a b c d; 5: a b c d e; 6: a b c d e f; }
 ///
 /// # Panics
 /// If one of the `others` is shorter than `out`.
+#[allow(clippy::needless_range_loop, reason = "so the compiler knows that no index is out of bounds")]
 #[inline(always)]
 pub(crate) fn update<'a, const N: usize>(out: &mut [f64], others: [&'a [f64]; N], of: impl Fn(f64, [f64; N]) -> f64)
 where

@@ -67,6 +67,7 @@ impl Place {
     }
 
     /// Values of `x`, to rounding.
+    #[allow(clippy::manual_map, reason = "a closure would be compiled without vector instructions")]
     #[inline(always)]
     pub fn near(&self, x: &[f64]) -> Option<[f64; 2]> {
         match &self.segments {

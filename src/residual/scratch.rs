@@ -81,6 +81,7 @@ impl Scratch {
 
     /// Adds the terms of inertia, damping and stiffness to the balance of a step of `h` seconds
     /// (and 1/h). Returns the largest force in it so far, N/√kg: `scale` before.
+    #[allow(clippy::too_many_arguments)]
     #[inline(always)]
     pub fn products<S: Simd>(
         &mut self,
