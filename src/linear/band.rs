@@ -71,6 +71,7 @@ impl Band {
         Self { n: self.n * times, diagonals: diagonals.collect() }
     }
 
+    #[inline(always)]
     pub(super) fn as_diagonal(&self) -> Option<&[f64]> {
         match self.diagonals.as_slice() {
             [(0, values)] => Some(values),
@@ -79,8 +80,17 @@ impl Band {
     }
 
     /// xᵀA x, for an x of length n.
-    #[inline]
+    #[inline(always)]
     pub(super) fn form(&self, x: &[f64]) -> f64 {
+        match self.as_diagonal() {
+            Some(values) => sum_of_products(values, x, x),
+            None => self.form_of(x),
+        }
+    }
+
+    /// The same for any band.
+    #[inline(never)]
+    fn form_of(&self, x: &[f64]) -> f64 {
         let along = |(d, values): &(usize, Vec<f64>)| {
             // `values` has n − d entries.
             let sum = sum_of_products(values, &x[..values.len()], &x[*d..]);
@@ -91,8 +101,8 @@ impl Band {
 }
 
 /// Σ aᵢxᵢyᵢ in four independent sums, so that their additions overlap.
-#[inline]
-fn sum_of_products(a: &[f64], x: &[f64], y: &[f64]) -> f64 {
+#[inline(always)]
+pub(crate) fn sum_of_products(a: &[f64], x: &[f64], y: &[f64]) -> f64 {
     let (mut a, mut x, mut y) = (a.chunks_exact(4), x.chunks_exact(4), y.chunks_exact(4));
     let mut sums = [0.0; 4];
     for ((a, x), y) in a.by_ref().zip(x.by_ref()).zip(y.by_ref()) {

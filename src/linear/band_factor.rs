@@ -7,6 +7,7 @@
 
 use super::Symmetric;
 use super::definite::NotDefinite;
+use super::update;
 use std::ops::Range;
 
 /// L D Lᵀ of a positive definite band matrix.
@@ -64,11 +65,16 @@ impl BandFactor {
     }
 
     /// Solves A x = b in place.
-    #[inline]
+    #[inline(always)]
     pub(super) fn solve(&self, x: &mut [f64]) {
         let x = &mut x[..self.n];
+        if self.width == 0 { update(x, [&self.inverse], |x, [d]| x * d) } else { self.solve_wide(x) }
+    }
+
+    /// The same for a matrix that is not diagonal.
+    #[inline(never)]
+    fn solve_wide(&self, x: &mut [f64]) {
         match self.width {
-            0 => x.iter_mut().zip(&self.inverse).for_each(|(x, d)| *x *= d),
             1 => self.solve_tridiagonal(x),
             width => {
                 for i in 1..self.n {

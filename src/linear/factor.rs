@@ -57,7 +57,7 @@ impl Factor {
     }
 
     /// Solves A x = b in place; `x` has n entries, others are left as they are.
-    #[inline]
+    #[inline(always)]
     pub fn solve(&mut self, x: &mut [f64]) {
         if x.len() != self.n {
             return;

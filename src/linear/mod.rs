@@ -13,25 +13,31 @@
 //!
 //! Symmetric matrices, rows, products and factors: `band.rs` and `band_factor.rs` for narrow,
 //! diagonal and full matrices, `sparse.rs` for all others; `fourier.rs` is the fast Fourier
-//! transform; uses nothing else of the crate.
+//! transform; `segment.rs` and `entries.rs` are loops over vectors with vector instructions; uses
+//! nothing else of the crate.
 
 mod band;
 mod band_factor;
 mod definite;
+mod entries;
 mod factor;
 pub(crate) mod fourier;
 mod operator;
 mod polynomial;
 mod rows;
+mod segment;
 mod sparse;
 mod symmetric;
 
+pub(crate) use band::sum_of_products;
 pub use definite::NotDefinite;
+pub(crate) use entries::{Columns, Lanes, Sizes, largest, running_max, update};
 pub use factor::Factor;
 #[cfg(test)]
 pub(crate) use factor::counted;
 pub use operator::Operator;
 pub(crate) use polynomial::MatrixPolynomial;
 pub use rows::Rows;
+pub(crate) use segment::Segment;
 pub use sparse::negative_pivots;
 pub use symmetric::Symmetric;

@@ -2,6 +2,7 @@
 
 use super::Symmetric;
 use super::band::{Band, is_band};
+use super::update;
 
 /// A symmetric matrix stored for products: by diagonals where it is a band (diagonal, tridiagonal,
 /// a beam's, dense), else by rows.
@@ -22,9 +23,34 @@ impl Operator {
         if is_band(matrix) { Self::Band(Band::new(matrix)) } else { Self::Sparse(matrix.clone()) }
     }
 
+    /// Writes `scale` · A x to `out`; both of length n, others are left as they are.
+    #[inline(always)]
+    pub(crate) fn product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
+        match self.as_diagonal() {
+            Some(diagonal) if x.len() == diagonal.len() && out.len() == diagonal.len() => {
+                update(out, [diagonal, x], |_, [a, x]| scale * a * x);
+            }
+            _ => {
+                out.fill(0.0);
+                self.add_product(scale, x, out);
+            }
+        }
+    }
+
     /// Adds `scale` · A x to `out`; both of length n, others are left as they are.
-    #[inline]
+    #[inline(always)]
     pub fn add_product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
+        match self.as_diagonal() {
+            Some(diagonal) if x.len() == diagonal.len() && out.len() == diagonal.len() => {
+                update(out, [diagonal, x], |sum, [a, x]| sum + scale * a * x);
+            }
+            _ => self.add_product_of(scale, x, out),
+        }
+    }
+
+    /// The same for any matrix.
+    #[inline(never)]
+    fn add_product_of(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         match self {
             Self::Band(band) if x.len() == band.size() && out.len() == band.size() => band.add_product(scale, x, out),
             Self::Band(_) => {}
@@ -45,6 +71,7 @@ impl Operator {
     }
 
     /// The diagonal of a matrix that has no other entries.
+    #[inline(always)]
     pub(crate) fn as_diagonal(&self) -> Option<&[f64]> {
         match self {
             Self::Band(band) => band.as_diagonal(),
@@ -53,7 +80,7 @@ impl Operator {
     }
 
     /// xᵀA x, for an x of length n; 0 for others.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn form(&self, x: &[f64]) -> f64 {
         match self {
             Self::Band(band) if x.len() == band.size() => band.form(x),

@@ -3,7 +3,7 @@
 //! and the velocities before and after the instant that ends it.
 
 use super::Judge;
-use super::hole_motion::terms;
+use super::place::terms;
 use super::quadrature::{Panel, nodes};
 use crate::flow::Series;
 use crate::step::Step;

@@ -77,7 +77,8 @@ impl Judge {
         self.previous = Some(previous);
         let moves = StepMotion::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
         let (hs, n) = ((h, 1.0 / h), self.q.len());
-        self.energy.observe_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, n);
+        let rates = self.supports.as_ref().map_or(&[][..], |supports| &supports.rates);
+        self.energy.observe_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, rates, n);
         self.balance.observe(&self.noise, worst, path);
     }
 }

@@ -1,7 +1,8 @@
 //! How far and how fast a run has moved.
 
-use super::largest_residual::running_max;
 use super::weights::Weights;
+use crate::linear::{Lanes, Sizes, largest};
+use pulp::Simd;
 
 /// The largest displacements and velocities so far.
 #[derive(Debug, Clone, Copy, Default)]
@@ -16,14 +17,20 @@ pub(super) struct Extent {
 impl Extent {
     /// Notes displacements (m) and velocities (m/s), n of each.
     #[inline(always)]
-    pub fn observe(&mut self, q: &[f64], v: &[f64], weights: &Weights, n: usize) {
-        let (q, v, seen, root_mass) = (&q[..n], &v[..n], &weights.seen[..n], &weights.root_mass[..n]);
-        let Self { mut reach, mut normal_reach, mut speed } = *self;
-        for i in 0..n {
-            speed = running_max(speed, (seen[i] * v[i]).abs());
-            reach = running_max(reach, q[i].abs());
-            normal_reach = running_max(normal_reach, q[i].abs() * root_mass[i]);
-        }
+    pub fn observe<S: Simd>(&mut self, simd: S, q: &[f64], v: &[f64], weights: &Weights, n: usize) {
+        let so_far = [self.reach, self.normal_reach, self.speed];
+        let [reach, normal_reach, speed] =
+            largest(simd, so_far, n, [q, v, &weights.seen, &weights.root_mass], &StateSizes);
         *self = Self { reach, normal_reach, speed };
+    }
+}
+
+/// |q|, |q|√m and the velocity that a wall sees, from q, v, the wall's weight and √m.
+struct StateSizes;
+
+impl Sizes<4, 3> for StateSizes {
+    #[inline(always)]
+    fn of<S: Simd>(&self, [q, v, seen, root_mass]: [Lanes<S>; 4]) -> [Lanes<S>; 3] {
+        [q.abs(), q.abs() * root_mass, (seen * v).abs()]
     }
 }

@@ -15,7 +15,7 @@
 use super::Judge;
 use super::Supports;
 use super::front::ComplementarityFront;
-use super::hole_motion::terms;
+use super::place::terms;
 use crate::scene::{Face, FrictionCoefficients, PlaneRows, heading};
 #[cfg(doc)]
 use crate::step::Friction;
@@ -55,12 +55,29 @@ impl Judge {
         rub: &FrictionImpulse,
         supports: &mut Supports,
     ) {
+        self.check_friction_of(rub, supports, || self.rates(step, at));
+    }
+
+    /// The same at a place with these `rates`, as [`Judge::rates`] gives them.
+    pub(super) fn check_friction_of(
+        &self,
+        rub: &FrictionImpulse,
+        supports: &mut Supports,
+        rates: impl FnOnce() -> ([f64; 2], f64),
+    ) {
         let Some(slid) = supports.slid.get_mut(rub.place) else { return };
         let before = std::mem::replace(slid, f64::INFINITY);
         if rub.impulse != [0.0; 2] {
-            let now = self.check_cone(step, at, rub, before, &mut supports.rubs);
+            let now = self.check_cone(rates(), rub, before, &mut supports.rubs);
             *slid = if rub.impulse[0] > 0.0 { now } else { f64::INFINITY };
         }
+    }
+
+    /// The velocity of a place at the end of the step, m/s, and the sum of the magnitudes of the
+    /// terms of all its velocities.
+    fn rates(&self, step: &Step<'_>, at: &PlaneRows) -> ([f64; 2], f64) {
+        let speeds = terms(at, step.velocity_before) + terms(at, step.velocity_after) + terms(at, &self.blows.struck);
+        (at.dot(step.velocity_after), speeds)
     }
 
     /// The same at the instant of an impact.
@@ -74,7 +91,7 @@ impl Judge {
         let Some(slid) = supports.slid.get_mut(rub.place) else { return };
         // A contact without an impulse there that pushed before is one whose velocity changes.
         if rub.impulse != [0.0; 2] || slid.is_finite() {
-            *slid = self.check_cone(step, at, rub, f64::INFINITY, &mut supports.rubs);
+            *slid = self.check_cone(self.rates(step, at), rub, f64::INFINITY, &mut supports.rubs);
         }
     }
 
@@ -82,16 +99,13 @@ impl Judge {
     /// push). Returns how fast it slides now, less rounding, m/s.
     fn check_cone(
         &self,
-        step: &Step<'_>,
-        at: &PlaneRows,
+        (after, speeds): ([f64; 2], f64),
         rub: &FrictionImpulse,
         slid: f64,
         rubs: &mut ComplementarityFront,
     ) -> f64 {
         let [p, f] = rub.impulse.map(|impulse| impulse / self.h);
-        let after = at.dot(step.velocity_after);
         let rate = rub.tangent[0] * after[0] + rub.tangent[1] * after[1];
-        let speeds = terms(at, step.velocity_before) + terms(at, step.velocity_after) + terms(at, &self.blows.struck);
         let noise = self.noise.velocity(speeds, self.noise.span);
         let force = self.noise.wall_force(rub.place);
         let [most, kinetic] = [rub.friction.limit(slid.is_finite()), rub.friction.sliding].map(|mu| mu * p.max(0.0));

@@ -1,41 +1,11 @@
 //! The place of a round hole over a step: where it is and how fast, at both ends, and the terms
-//! that add up to each, from which their rounding errors follow.
+//! that add up to each, from which their rounding errors follow; and whether the step can have
+//! reached the hole.
 
 use super::Judge;
-use crate::scene::{Hole, PlaneRows};
-use crate::step::Step;
-
-/// A quantity at a place: its values in y and z, and the sum of the magnitudes of the terms of
-/// both.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct AtPlace {
-    pub value: [f64; 2],
-    pub terms: f64,
-}
-
-/// Several vectors of one value per degree of freedom, as the place `at` sees them. They are taken
-/// together, since going through the rows costs more than the products.
-fn at_place<const K: usize>(at: &PlaneRows, vectors: [&[f64]; K]) -> [AtPlace; K] {
-    let n = vectors.iter().map(|x| x.len()).min().unwrap_or(0);
-    let vectors = vectors.map(|x| &x[..n]);
-    let [y, z] = [&at.y, &at.z].map(|row| {
-        let (mut values, mut terms) = ([0.0; K], [0.0; K]);
-        for &(i, weight) in row.entries().iter().filter(|entry| entry.0 < n) {
-            for ((value, sum), x) in values.iter_mut().zip(&mut terms).zip(&vectors) {
-                let term = weight * x[i];
-                (*value, *sum) = (*value + term, *sum + term.abs());
-            }
-        }
-        (values, terms)
-    });
-    std::array::from_fn(|k| AtPlace { value: [y.0[k], z.0[k]], terms: y.1[k] + z.1[k] })
-}
-
-/// Sum of the magnitudes of the terms of both rows of a place.
-pub(super) fn terms(at: &PlaneRows, x: &[f64]) -> f64 {
-    let [seen] = at_place(at, [x]);
-    seen.terms
-}
+use super::place::{AtPlace, Place, SUM};
+use crate::scene::Hole;
+use crate::step::{Normal, Step};
 
 /// The place of a hole in a step.
 #[derive(Debug, Clone, Copy)]
@@ -53,10 +23,11 @@ pub(super) struct HoleMotion {
 }
 
 impl Judge {
-    /// The place of `hole` in `step`.
-    pub(super) fn hole_motion(&self, step: &Step<'_>, hole: &Hole<'_>) -> HoleMotion {
-        let (before, after, struck) = (step.velocity_before, step.velocity_after, &self.blows.struck[..]);
-        let [start, end, before, after, struck] = at_place(hole.at, [&self.q[..], step.q, before, after, struck]);
+    /// The `place` of `hole` in `step`.
+    pub(super) fn hole_motion(&self, step: &Step<'_>, hole: &Hole<'_>, place: &Place) -> HoleMotion {
+        let (before, after) = (step.velocity_before, step.velocity_after);
+        let vectors = [&self.q[..], step.q, before, after, &self.blows.struck];
+        let [start, end, before, after, struck] = place.seen(vectors);
         let [cy, cz] = hole.centre;
         let [from, to] = [start, end].map(|at| [at.value[0] - cy, at.value[1] - cz]);
         let size = start.terms + end.terms + (cy.abs() + cz.abs()) + hole.gap;
@@ -69,21 +40,38 @@ impl Judge {
     pub(super) fn way(&self, hole: &Hole<'_>, motion: &HoleMotion) -> f64 {
         motion.size + self.h * (motion.before.terms + motion.after.terms) + self.noise.reach(hole.index)
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Row;
-
-    #[test]
-    fn vectors_at_a_place_are_what_its_rows_and_their_terms_give_one_by_one() {
-        let at = PlaneRows { y: Row::new(vec![(2, -0.1), (0, 0.7)]), z: Row::new(vec![(1, 0.3), (2, 1e-3)]) };
-        let vectors = [[0.1, -0.2, 3.0], [-7.0, 1e-9, 0.4]];
-        let both = at_place(&at, [&vectors[0], &vectors[1]]);
-        for (x, seen) in vectors.iter().zip(both) {
-            let size = |row: &Row| row.entries().iter().map(|&(i, weight)| (weight * x[i]).abs()).sum::<f64>();
-            assert_eq!((seen.value, seen.terms), (at.dot(x), size(&at.y) + size(&at.z)));
+    /// True if it is certain that a rigid hole, which did not push, is out of reach throughout the
+    /// step, and that the place is no faster than any before: then there is nothing to check at it.
+    ///
+    /// Certain means inside the circle at the end of the step and where the promise takes the
+    /// normal, by more than all rounding errors: those of the products here, in any order of their
+    /// terms, and those within which a hole counts as reached.
+    #[inline(always)]
+    pub(super) fn is_out_of_reach(&self, step: &Step<'_>, hole: &Hole<'_>, place: &Place) -> bool {
+        // The sizes of a step that predicts and corrects are noted after this.
+        let noted = self.sums.steps > 0 && self.previous.is_none();
+        if self.loads.has_blows() || !noted || !hole.law.is_rigid() {
+            return false;
         }
+        let pushed = [step.impulse, step.friction].map(|x| x.get(hole.index).copied());
+        if pushed != [Some(0.0); 2] || !place.stays_below(self.extent.speed, step.velocity_after) {
+            return false;
+        }
+        let (Some(start), Some(end)) = (place.near(&self.q), place.near(step.q)) else { return false };
+        let Some(rate) = place.near(step.velocity_before) else { return false };
+        let (ahead, touching) = match self.contract.promise.round {
+            Some(turning) => (if let Normal::Ahead(part) = turning.normal { part } else { 0.0 }, turning.touching),
+            None => (0.0, 0.0),
+        };
+        // Places at both ends, and what the velocities at both add to them.
+        let largest = 4.0 * place.weight * self.noise.largest_place(self.extent.normal_reach);
+        let [cy, cz] = hole.centre;
+        let size = largest + cy.abs() + cz.abs() + hole.gap;
+        let inside = hole.gap * (1.0 - 2.0 * touching) - SUM * size;
+        let far = |w: [f64; 2]| (w[0] - cy).powi(2) + (w[1] - cz).powi(2);
+        let way = ahead * self.h;
+        let along = [start[0] + way * rate[0], start[1] + way * rate[1]];
+        inside > 0.0 && far(end) < inside * inside && far(along) < inside * inside
     }
 }

@@ -40,9 +40,3 @@ impl Residual {
 pub(super) fn over(x: f64, scale: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x / scale }
 }
-
-/// The larger of two numbers. A NaN is ignored, as by [`f64::max`], but in one instruction.
-#[inline(always)]
-pub(super) fn running_max(so_far: f64, x: f64) -> f64 {
-    if x > so_far { x } else { so_far }
-}

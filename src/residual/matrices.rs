@@ -37,8 +37,7 @@ impl Matrices {
                 out.iter_mut().zip(x).for_each(|(out, x)| *out = number * x);
             }
             Self::Many(operators) => {
-                out.fill(0.0);
-                operators[part as usize].add_product(scale, x, out);
+                operators[part as usize].product(scale, x, out);
             }
         }
     }

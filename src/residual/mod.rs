@@ -7,8 +7,8 @@
 //! energy ledger; steps on a grid (`grid.rs`, their parts `part.rs`, the passes over what they did,
 //! `step_motion.rs`, in `scratch.rs`, many steps of one degree of freedom in the same passes
 //! `quiet_steps.rs`, each wall `wall_step.rs`, blows `blow_check.rs`, round holes `round.rs`,
-//! `disk.rs`, `ring.rs` and `hole_motion.rs`, friction `friction.rs`), exact motion (`arc.rs`, of
-//! structures `series.rs`, round holes `circle.rs`), steps that predict and correct
+//! `disk.rs`, `ring.rs`, `hole_motion.rs` and `place.rs`, friction `friction.rs`), exact motion
+//! (`arc.rs`, of structures `series.rs`, round holes `circle.rs`), steps that predict and correct
 //! (`corrected.rs`), all into `residuals.rs`, and the momentum of a whole run, of every run
 //! (`run_momentum.rs`) and of a recorded one (`recorded.rs`); what a run shows of its walls
 //! (`walls.rs`, `front.rs`) and of its momentum (`balance.rs`) is kept with its rounding error
@@ -35,6 +35,7 @@ mod matrices;
 mod momentum_sums;
 mod noise;
 mod part;
+mod place;
 mod previous_step;
 mod pushes;
 mod quadrature;
@@ -52,6 +53,7 @@ mod series;
 mod step_motion;
 mod supports;
 mod verdict;
+mod view;
 mod wall_step;
 mod walls;
 mod weights;
@@ -61,17 +63,18 @@ pub use finding::{Finding, Refuted};
 pub use recorded::{Momentum, momentum};
 pub use residuals::Residuals;
 
-use crate::linear::Factor;
+use crate::linear::{Factor, running_max};
 use crate::scene::{Forcing, GridForcing, Loads, Scene, System};
 use crate::step::{Contract, Path, Step};
 use balance::BalanceCheck;
 use blows::Blows;
 use extent::Extent;
-use largest_residual::running_max;
 use matrices::Matrices;
 use momentum_sums::MomentumSums;
 use noise::NoiseModel;
+use place::Places;
 use previous_step::PreviousStep;
+use pulp::{Scalar, Simd};
 use quiet_scratch::QuietScratch;
 use row_walls::RowWalls;
 use scales::Scales;
@@ -110,6 +113,8 @@ pub struct Judge {
     scratch: Scratch,
     /// Impulses over a part of a step, one entry a wall, N s.
     over: Vec<f64>,
+    /// The vector instructions of the machine.
+    arch: pulp::Arch,
     /// Work space for several steps at once; `None` where each is to be seen alone.
     quiet_scratch: Option<Box<QuietScratch>>,
     walls: WallCheck,
@@ -122,6 +127,8 @@ pub struct Judge {
     previous: Option<Box<PreviousStep>>,
     /// Round holes and friction; `None` in scenes without them.
     supports: Option<Box<Supports>>,
+    /// Their places.
+    places: Option<Box<Places>>,
     energy: energy::Ledger,
     noise: NoiseModel,
     /// True once a step was handed to another scheme, which may not conserve energy.
@@ -181,12 +188,14 @@ impl Judge {
             previous: PreviousStep::new(scene, contract, (&q, &v), &load, &walls.last_force),
             walls,
             supports: Supports::new(scene, masses, (&q, &v)),
+            places: Places::new(scene, &weights.root_mass),
             q,
             load,
             load_end: zero(),
             blows: Blows::new(n),
             scratch: Scratch::new(n),
             over: vec![0.0; scene.walls.len()],
+            arch: pulp::Arch::new(),
             quiet_scratch: QuietScratch::new(scene, contract, &weights, blows),
             balance: BalanceCheck::default(),
             extent: Extent::default(),
@@ -259,16 +268,16 @@ impl Judge {
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.walls.observe_depth(index, -wall.gap(wall.row().dot(step.q)));
         }
-        self.begin_next_step(step, n);
+        self.begin_next_step(Scalar, step, n);
     }
 
     /// Makes the state at the end of a step that at the start of the next.
     #[inline(always)]
-    fn begin_next_step(&mut self, step: &Step<'_>, n: usize) {
+    fn begin_next_step<S: Simd>(&mut self, simd: S, step: &Step<'_>, n: usize) {
         for walls_of_row in self.wide.iter().filter_map(|&index| self.row_walls.get(index)) {
             self.extent.speed = self.extent.speed.max(walls_of_row.size(step.velocity_after));
         }
-        self.extent.observe(step.q, step.velocity_after, &self.weights, n);
+        self.extent.observe(simd, step.q, step.velocity_after, &self.weights, n);
         self.q[..n].copy_from_slice(&step.q[..n]);
     }
 

@@ -1,9 +1,9 @@
 //! Sums over steps, for the check of a whole run's momentum.
 
-use super::largest_residual::running_max;
 use super::matrices::{Matrices, Part};
 use super::scratch::Scratch;
 use super::step_motion::StepMotion;
+use crate::linear::{running_max, update};
 use crate::scene::Scene;
 use crate::step::Step;
 
@@ -33,6 +33,66 @@ impl Forces {
     }
 }
 
+/// The forces on each degree of freedom: every entry of [`Forces`] as a vector.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ForceSums {
+    pub load: Vec<f64>,
+    pub own: Vec<f64>,
+    pub changes: Vec<f64>,
+    pub largest: Vec<f64>,
+    pub exchanged: Vec<f64>,
+}
+
+impl ForceSums {
+    fn new(n: usize) -> Self {
+        let zero = || vec![0.0; n];
+        Self { load: zero(), own: zero(), changes: zero(), largest: zero(), exchanged: zero() }
+    }
+
+    /// Those on degree of freedom `i`.
+    pub fn of(&self, i: usize) -> Forces {
+        Forces {
+            load: self.load[i],
+            own: self.own[i],
+            changes: self.changes[i],
+            largest: self.largest[i],
+            exchanged: self.exchanged[i],
+        }
+    }
+
+    /// Sets those on degree of freedom `i`.
+    pub fn set(&mut self, i: usize, forces: Forces) {
+        let Forces { load, own, changes, largest, exchanged } = forces;
+        (self.load[i], self.own[i]) = (load, own);
+        (self.changes[i], self.largest[i], self.exchanged[i]) = (changes, largest, exchanged);
+    }
+
+    /// As [`Forces::add`] on each of n degrees of freedom, for the load of a step, N, and the
+    /// momentum that springs and dampers take in it, N s.
+    #[inline(always)]
+    fn add(&mut self, first: bool, (h, per_h): (f64, f64), [load, spring, damper]: [&[f64]; 3], n: usize) {
+        let Self { load: last_load, own: last_own, changes, largest, exchanged } = self;
+        if !first {
+            let change = |sum: f64, [load, spring, last_load, last_own]: [f64; 4]| {
+                let [load, own, _] = own([load, spring, 0.0], per_h);
+                sum + ((load - last_load).abs() + (own - last_own).abs())
+            };
+            update(&mut changes[..n], [load, spring, last_load, last_own], change);
+        }
+        last_load[..n].copy_from_slice(&load[..n]);
+        update(&mut last_own[..n], [spring], |_, [spring]| own([0.0, spring, 0.0], per_h)[1]);
+        update(&mut largest[..n], [load, spring, damper], |largest, forces| {
+            let [load, own, damper] = own(forces, per_h);
+            // As a running maximum, but not as a store under a condition, which takes far longer.
+            largest.max(load.abs() + own.abs() + damper.abs())
+        });
+        update(&mut exchanged[..n], [load, spring, damper], |sum, forces| {
+            let [load, own, damper] = own(forces, per_h);
+            sum + h * (load + own + damper).abs()
+        });
+    }
+}
+
 /// Sums over the steps of a run on a grid; vectors have one entry per degree of freedom or per
 /// wall.
 #[derive(Debug)]
@@ -48,7 +108,7 @@ pub(super) struct MomentumSums {
     pub rate: Vec<f64>,
     pub load: Vec<f64>,
     /// The forces on each degree of freedom.
-    pub forces: Vec<Forces>,
+    pub forces: ForceSums,
     /// Sum of each wall's impulses over the steps seen, N s, and the sum of their magnitudes.
     pub seen: Vec<f64>,
     pub sizes: Vec<f64>,
@@ -76,7 +136,7 @@ impl MomentumSums {
             place: zero(),
             rate: zero(),
             load: zero(),
-            forces: vec![Forces::default(); n],
+            forces: ForceSums::new(n),
             seen: vec![0.0; walls],
             sizes: vec![0.0; walls],
             recorded: None,
@@ -101,23 +161,16 @@ impl MomentumSums {
     /// Adds a step of `h` seconds (and 1/h), whose mean forces are in `means`.
     #[inline(always)]
     pub fn add(&mut self, moves: &StepMotion<'_>, means: &Scratch, (h, per_h): (f64, f64), first: bool, n: usize) {
-        let (mean, spring, damper) = (&means.load[..n], &means.spring[..n], &means.damper[..n]);
-        for (i, force) in self.forces[..n].iter_mut().enumerate() {
-            force.add(first, h, own([mean[i], spring[i], damper[i]], per_h));
-        }
+        self.forces.add(first, (h, per_h), [&means.load, &means.spring, &means.damper], n);
         self.add_ends(moves, h, n);
     }
 
     /// Adds the state at the ends of a step and its loads.
     #[inline(always)]
     pub fn add_ends(&mut self, moves: &StepMotion<'_>, h: f64, n: usize) {
-        let (place, load) = (&mut self.place[..n], &mut self.load[..n]);
-        let (q0, q1, extra) = (&moves.from[..n], &moves.shown[..n], &moves.extra[..n]);
-        let (load_start, load_end) = (&moves.load_start[..n], &moves.load_end[..n]);
-        for i in 0..n {
-            place[i] += 0.5 * h * (q0[i] + q1[i]);
-            load[i] += 0.5 * h * (load_start[i] + load_end[i]) + h * extra[i];
-        }
+        update(&mut self.place[..n], [moves.from, moves.shown], |sum, [q0, q1]| sum + 0.5 * h * (q0 + q1));
+        let loads = [moves.load_start, moves.load_end, moves.extra];
+        update(&mut self.load[..n], loads, |sum, [start, end, extra]| sum + (0.5 * h * (start + end) + h * extra));
     }
 
     /// Adds the change of the structure's own force by the displacement `beyond` (m) that blows add
@@ -125,21 +178,21 @@ impl MomentumSums {
     /// neither need do so. `work` has the length of `beyond`.
     pub fn displace(&mut self, matrices: &Matrices, beyond: &[f64], work: &mut [f64]) {
         matrices.product(Part::Stiffness, 1.0, beyond, work);
-        self.forces.iter_mut().zip(work).for_each(|(force, change)| force.changes += change.abs());
+        self.forces.changes.iter_mut().zip(work).for_each(|(sum, change)| *sum += change.abs());
     }
 
     /// Adds n steps of one degree of freedom without extra force, after the first.
     #[inline(always)]
     pub fn add_all(&mut self, moves: &StepMotion<'_>, means: &Scratch, (h, per_h): (f64, f64), n: usize) {
-        let ([force], [place], [load]) = (&mut self.forces[..], &mut self.place[..], &mut self.load[..]) else {
+        let ([place], [load]) = (&mut self.place[..], &mut self.load[..]) else {
             return;
         };
         let (mean, spring, damper) = (&means.load[..n], &means.spring[..n], &means.damper[..n]);
-        let mut sum = *force;
+        let mut sum = self.forces.of(0);
         for i in 0..n {
             sum.add(false, h, own([mean[i], spring[i], damper[i]], per_h));
         }
-        *force = sum;
+        self.forces.set(0, sum);
         let ends = |start: &[f64], end: &[f64]| 0.5 * h * start.iter().zip(end).map(|(a, b)| a + b).sum::<f64>();
         *place += ends(&moves.from[..n], &moves.shown[..n]);
         *load += ends(&moves.load_start[..n], &moves.load_end[..n]);

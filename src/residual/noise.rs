@@ -1,8 +1,9 @@
 //! The rounding errors of a step's balances, places and forces.
 
-use super::largest_residual::running_max;
 use super::step_motion::StepMotion;
 use super::weights::Weights;
+use crate::linear::{Lanes, Sizes, largest};
+use pulp::Simd;
 
 /// Rounding error of a sum in a step, in units in the last place, times √n for sums over n degrees
 /// of freedom (tests of extreme scenes allow every scheme of one degree of freedom 32).
@@ -44,18 +45,16 @@ pub(super) struct NoiseModel {
 impl NoiseModel {
     /// Of a scene whose walls feel `masses` (kg), with the scale of its gaps (m).
     pub fn new(weights: &Weights, masses: &[f64], gap_scale: f64) -> Self {
-        let rate = |[mass, spring, dashpot]: [f64; 3], one: bool| {
-            let root = if one { spring } else { dashpot };
-            if root > 0.0 { root / mass } else { 0.0 }
-        };
-        let largest = |one: bool| weights.roots.iter().map(|&roots| rate(roots, one)).fold(0.0, f64::max);
+        let [mass, spring, dashpot] = &weights.roots;
+        let rate = |(root, mass): (&f64, &f64)| if *root > 0.0 { root / mass } else { 0.0 };
+        let largest = |roots: &[f64]| roots.iter().zip(mass).map(rate).fold(0.0, f64::max);
         Self {
-            unit: UNITS * f64::EPSILON * (weights.roots.len().max(1) as f64).sqrt(),
+            unit: UNITS * f64::EPSILON * (mass.len().max(1) as f64).sqrt(),
             gap_scale,
             end: 0.0,
             span: 1.0,
             clock: 1.0,
-            rates: [largest(true), largest(false)],
+            rates: [largest(spring), largest(dashpot)],
             wall: masses.iter().map(|mass| mass.sqrt()).collect(),
             speed: 0.0,
             reach: 0.0,
@@ -83,7 +82,8 @@ impl NoiseModel {
     /// Notes the sizes of a state: displacement (m) and velocity (m/s), and a time (s) over which
     /// that velocity moves it.
     pub fn state(&mut self, q: &[f64], v: &[f64], span: f64, weights: &Weights) {
-        for ((q, v), [mass, spring, dashpot]) in q.iter().zip(v).zip(&weights.roots) {
+        let [mass, spring, dashpot] = &weights.roots;
+        for ((((q, v), mass), spring), dashpot) in q.iter().zip(v).zip(mass).zip(spring).zip(dashpot) {
             let (q, v) = (q.abs() + span * v.abs(), v.abs());
             self.speed = self.speed.max(v * mass);
             self.reach = self.reach.max(q * mass);
@@ -95,26 +95,21 @@ impl NoiseModel {
     /// As [`Self::state`] for what a step on a grid of `h` seconds (and 1/h) did, and notes the
     /// sizes of its mean load `mean` (N), its load at the end, the extra force and its blows.
     #[inline(always)]
-    pub fn step(&mut self, moves: &StepMotion<'_>, mean: &[f64], weights: &Weights, (h, per_h): (f64, f64), n: usize) {
-        let (q, before, after, roots) = (&moves.shown[..n], &moves.before[..n], &moves.after[..n], &weights.roots[..n]);
-        let [mut speed, mut reach, mut strain, mut rub] = [self.speed, self.reach, self.strain, self.rub];
-        for i in 0..n {
-            let [mass, spring, dashpot] = roots[i];
-            let v = running_max(before[i].abs(), after[i].abs());
-            let q = q[i].abs() + h * v;
-            speed = running_max(speed, v * mass);
-            reach = running_max(reach, q * mass);
-            strain = running_max(strain, q * spring);
-            rub = running_max(rub, v * dashpot);
-        }
-        (self.speed, self.reach, self.strain, self.rub) = (speed, reach, strain, rub);
-        let (end, extra, blow) = (&moves.load_end[..n], &moves.extra[..n], &moves.blow[..n]);
-        let (mean, per_root, mut load) = (&mean[..n], &weights.per_root_mass[..n], self.load);
-        for i in 0..n {
-            let force = running_max(running_max(mean[i].abs(), blow[i].abs() * per_h), extra[i].abs() + end[i].abs());
-            load = running_max(load, force * per_root[i]);
-        }
-        self.load = load;
+    pub fn step<S: Simd>(
+        &mut self,
+        simd: S,
+        moves: &StepMotion<'_>,
+        mean: &[f64],
+        weights: &Weights,
+        (h, per_h): (f64, f64),
+        n: usize,
+    ) {
+        let [mass, spring, dashpot] = &weights.roots;
+        let so_far = [self.speed, self.reach, self.strain, self.rub];
+        let moved = [moves.shown, moves.before, moves.after, mass, spring, dashpot];
+        [self.speed, self.reach, self.strain, self.rub] = largest(simd, so_far, n, moved, &MovedSizes { h });
+        let forces = [mean, moves.blow, moves.extra, moves.load_end, &weights.per_root_mass];
+        [self.load] = largest(simd, [self.load], n, forces, &ForceSize { per_h });
     }
 
     /// Notes the size of a load, N/√kg.
@@ -182,6 +177,12 @@ impl NoiseModel {
         self.reach / self.wall.get(wall).copied().unwrap_or(1.0)
     }
 
+    /// The largest |qᵢ|√Mᵢᵢ so far, with what velocities add to it within a step, and with `other`
+    /// values of the same kind, m√kg.
+    pub fn largest_place(&self, other: f64) -> f64 {
+        self.reach + other
+    }
+
     /// Adds the rounding error of as many `steps` of this length and of `bodies` degrees of
     /// freedom to that of the energy ledger. A velocity has the rounding error of the momentum that
     /// the load gives in a step, even of a body that a wall holds at rest.
@@ -191,6 +192,34 @@ impl NoiseModel {
         let states = self.speed.powi(2) + self.strain.powi(2) + given.powi(2);
         let flows = bodies * states + self.load * self.reach;
         self.energy += steps * (self.unit * flows);
+    }
+}
+
+/// From displacement, velocities before and after a step of h seconds, √m, √k and √c: the largest
+/// |v|√m, |q|√m, |q|√k and |v|√c, where the velocity moves the body for h.
+struct MovedSizes {
+    h: f64,
+}
+
+impl Sizes<6, 4> for MovedSizes {
+    #[inline(always)]
+    fn of<S: Simd>(&self, [q, before, after, mass, spring, dashpot]: [Lanes<S>; 6]) -> [Lanes<S>; 4] {
+        let v = before.abs().max(after.abs());
+        let q = q.abs() + v * self.h;
+        [v * mass, q * mass, q * spring, v * dashpot]
+    }
+}
+
+/// From the mean load, N, the blow, N s, the extra force and the load at the end, N, and 1/√m: the
+/// largest of these forces, N/√kg.
+struct ForceSize {
+    per_h: f64,
+}
+
+impl Sizes<5, 1> for ForceSize {
+    #[inline(always)]
+    fn of<S: Simd>(&self, [mean, blow, extra, end, per_root]: [Lanes<S>; 5]) -> [Lanes<S>; 1] {
+        [mean.abs().max(blow.abs() * self.per_h).max(extra.abs() + end.abs()) * per_root]
     }
 }
 

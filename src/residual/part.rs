@@ -10,10 +10,11 @@ use super::Judge;
 use super::complementarity::rebound;
 use super::energy::Moved;
 use super::friction::FrictionImpulse;
-use super::hole_motion::terms;
+use super::place::terms;
 use super::pushes::pushes;
 use crate::scene::Hole;
 use crate::step::Step;
+use pulp::Scalar;
 
 /// A length of a step that the scheme computed with other roundings.
 const SAME: f64 = 1.0 + 1e-9;
@@ -73,7 +74,7 @@ impl Judge {
             (*seen, *size) = (*seen + p, *size + p.abs());
         }
         sums.last.copy_from_slice(step.v);
-        self.extent.observe(step.q, step.v, &self.weights, step.v.len());
+        self.extent.observe(Scalar, step.q, step.v, &self.weights, step.v.len());
     }
 
     /// Checks the impulses of round walls and of friction at the end of a part.
@@ -198,7 +199,7 @@ impl Judge {
                 }
             }
         }
-        let (largest, worst) = s.open(1.0 / self.h, &self.weights, step.v.len(), self.balance.largest);
+        let (largest, worst) = s.open(Scalar, 1.0 / self.h, &self.weights, step.v.len(), self.balance.largest);
         self.balance.largest = largest;
         self.balance.force.observe(worst, self.noise.force(), self.noise.end, None);
     }

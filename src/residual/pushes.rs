@@ -33,8 +33,3 @@ pub(super) fn place_of(scene: &Scene, wall: usize) -> Option<&PlaneRows> {
         Face::Flat { .. } => Some(&scene.support_of(wall)?.at),
     }
 }
-
-/// The places of the supports without a round wall.
-pub(super) fn places_of_flats(scene: &Scene) -> impl Iterator<Item = &PlaneRows> {
-    scene.supports.iter().filter(|support| support.hole(&scene.walls).is_none()).map(|support| &support.at)
-}

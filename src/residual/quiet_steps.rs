@@ -8,6 +8,7 @@ use super::Judge;
 use super::quiet_scratch::QuietScratch;
 use super::step_motion::StepMotion;
 use crate::step::QuietSteps;
+use pulp::Scalar;
 use std::ops::Range;
 
 impl Judge {
@@ -87,10 +88,11 @@ impl Judge {
             blow: &zeros[..n],
         };
         self.noise.begin(h, quiet.end()[steps.end - 1]);
-        let path = scratch.means(self.contract.balance, h, &moves, weights, n);
-        self.noise.step(&moves, &scratch.load, weights, (h, per_h), n);
-        self.balance.scale = scratch.products(&self.matrices, (h, per_h), zeros, weights, n, self.balance.scale);
-        let (largest, worst) = scratch.open(per_h, weights, n, self.balance.largest);
+        let path = scratch.means(Scalar, self.contract.balance, h, &moves, weights, n);
+        self.noise.step(Scalar, &moves, &scratch.load, weights, (h, per_h), n);
+        self.balance.scale =
+            scratch.products(Scalar, &self.matrices, (h, per_h), zeros, weights, n, self.balance.scale);
+        let (largest, worst) = scratch.open(Scalar, per_h, weights, n, self.balance.largest);
         if worst > self.noise.force() || path > self.noise.path() {
             // One of the steps will be accused: see them one by one to find out when.
             return steps.for_each(|k| self.observe(&quiet.step(k)));
@@ -103,7 +105,7 @@ impl Judge {
             self.sums.add_all(&moves, scratch, (h, per_h), n);
         }
         self.sums.steps += n as u64;
-        self.extent.observe(&places[1..=n], moves.after, weights, n);
+        self.extent.observe(Scalar, &places[1..=n], moves.after, weights, n);
         (*q, *load) = (places[n], loads[n]);
     }
 }

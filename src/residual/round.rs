@@ -4,53 +4,83 @@
 
 use super::Judge;
 use super::friction::FrictionImpulse;
-use super::hole_motion::{HoleMotion, terms};
+use super::hole_motion::HoleMotion;
 use super::largest_residual::Residual;
-use super::pushes::{places_of_flats, pushes};
-use crate::scene::Hole;
+use super::place::Place;
+use super::pushes::pushes;
+use super::supports::Supports;
+use crate::scene::{Hole, Scene};
 use crate::step::{Bound, Normal, Step, Turning};
 
 impl Judge {
     /// Checks round holes and friction, and adds their impulses to the momentum balance of the
     /// step; `beyond` says that blows add to the displacement of the step's rule.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn supports_on_grid(&mut self, step: &Step<'_>, beyond: bool) {
-        let Some(mut supports) = self.supports.take() else { return };
-        let scene = std::sync::Arc::clone(&self.scene);
-        for hole in scene.holes() {
-            let Some(did) = HolePush::of(step, hole.index) else { continue };
-            let motion = self.hole_motion(step, &hole);
-            self.walls.observe_depth(hole.index, motion.end[0].hypot(motion.end[1]) - hole.gap);
-            self.extent.speed = self.extent.speed.max(motion.after.terms);
-            self.hold_hole(step, (&hole, &motion, &did), beyond, &mut supports.askew);
-            let rub = FrictionImpulse {
-                place: hole.index,
-                friction: hole.friction,
-                impulse: [did.impulse, did.friction],
-                tangent: [-did.normal[1], did.normal[0]],
-            };
-            self.check_friction(step, hole.at, &rub, &mut supports);
+        let (Some(mut supports), Some(places)) = (self.supports.take(), self.places.take()) else { return };
+        for (hole, place) in places.scene.holes().zip(&places.holes) {
+            if self.is_out_of_reach(step, &hole, place) {
+                supports.slid[hole.index] = f64::INFINITY;
+            } else {
+                self.check_hole(step, (&hole, place), beyond, &mut supports);
+            }
         }
-        self.rub_flats(step, &mut supports);
+        if places.has_flats {
+            self.rub_flats(step, &mut supports);
+        }
         supports.pushed.copy_from_slice(step.impulse);
-        for at in places_of_flats(&scene) {
-            self.extent.speed = self.extent.speed.max(terms(at, step.velocity_after));
+        for place in &places.flats {
+            if !place.stays_below(self.extent.speed, step.velocity_after) {
+                self.extent.speed = self.extent.speed.max(place.terms(step.velocity_after));
+            }
         }
-        for (index, at, [push, rub]) in pushes(&scene, step) {
+        if [step.impulse, step.friction].iter().any(|x| x.iter().any(|x| *x != 0.0)) {
+            self.book_pushes(step, &places.scene, &mut supports);
+        }
+        (self.supports, self.places) = (Some(supports), Some(places));
+    }
+
+    /// Adds the impulses of holes and of friction to the balance of the step and to their sums.
+    #[inline(never)]
+    fn book_pushes(&mut self, step: &Step<'_>, scene: &Scene, supports: &mut Supports) {
+        for (index, at, [push, rub]) in pushes(scene, step) {
             let force = [push[0] + rub[0], push[1] + rub[1]];
-            for (row, force) in [(&at.y, force[0]), (&at.z, force[1])] {
-                for &(i, weight) in row.entries() {
-                    if let Some(residual) = self.scratch.residual.get_mut(i) {
-                        *residual -= weight * force;
-                    }
-                }
+            at.y.add_transposed(-force[0], &mut self.scratch.residual);
+            at.z.add_transposed(-force[1], &mut self.scratch.residual);
+            if !scene.walls[index].is_round() {
+                supports.rates[index] = [at.dot(step.velocity_before), at.dot(step.velocity_after)];
             }
             if let (Some([y, z]), Some(size)) = (supports.impulse.get_mut(index), supports.size.get_mut(index)) {
                 (*y, *z) = (*y + force[0], *z + force[1]);
                 *size += force[0].hypot(force[1]);
             }
         }
-        self.supports = Some(supports);
+    }
+
+    /// Checks one hole and its friction.
+    #[inline(never)]
+    fn check_hole(
+        &mut self,
+        step: &Step<'_>,
+        (hole, place): (&Hole<'_>, &Place),
+        beyond: bool,
+        supports: &mut Supports,
+    ) {
+        let Some(did) = HolePush::of(step, hole.index) else { return };
+        let motion = self.hole_motion(step, hole, place);
+        let HoleMotion { before, after, struck, .. } = motion;
+        supports.rates[hole.index] = [before.value, after.value];
+        self.walls.observe_depth(hole.index, motion.end[0].hypot(motion.end[1]) - hole.gap);
+        self.extent.speed = self.extent.speed.max(after.terms);
+        self.hold_hole(step, (hole, &motion, &did), beyond, &mut supports.askew);
+        let rub = FrictionImpulse {
+            place: hole.index,
+            friction: hole.friction,
+            impulse: [did.impulse, did.friction],
+            tangent: [-did.normal[1], did.normal[0]],
+        };
+        let speeds = before.terms + after.terms + struck.terms;
+        self.check_friction_of(&rub, supports, || (after.value, speeds));
     }
 
     /// Checks one hole, and notes the part of its force that is not along the normal in `askew`

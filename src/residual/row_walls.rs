@@ -1,11 +1,8 @@
 //! The places at which walls see the structure, prepared for products, and a test whether the walls
 //! of one are out of reach in a step.
 
+use super::view::View;
 use crate::scene::{Row, Scene, Side, distinct};
-
-/// A row is stored with the zeros between its entries if that makes it at most this many times as
-/// long.
-const FILL: usize = 4;
 
 /// The walls of one row.
 #[derive(Debug, Clone)]
@@ -15,61 +12,6 @@ pub(super) struct RowWalls {
     clear: (f64, f64),
     /// Their indices.
     pub walls: Vec<usize>,
-}
-
-/// A row.
-#[derive(Debug, Clone)]
-enum View {
-    /// One degree of freedom, and its weight.
-    One(usize, f64),
-    /// From this degree of freedom on, zeros included.
-    Run(usize, Vec<f64>),
-    /// Too long with its zeros.
-    Wide(Row),
-}
-
-impl View {
-    fn new(row: &Row) -> Self {
-        let entries = row.entries();
-        if let &[(i, weight)] = entries {
-            return Self::One(i, weight);
-        }
-        let first = entries.iter().map(|entry| entry.0).min().unwrap_or(0);
-        let length = entries.iter().map(|entry| entry.0 + 1 - first).max().unwrap_or(0);
-        if length > FILL * entries.len() {
-            return Self::Wide(row.clone());
-        }
-        let mut run = vec![0.0; length];
-        for &(i, weight) in entries {
-            if let Some(sum) = run.get_mut(i - first) {
-                *sum += weight;
-            }
-        }
-        Self::Run(first, run)
-    }
-
-    /// The row times `x`.
-    #[inline(always)]
-    fn of(&self, x: &[f64]) -> f64 {
-        match self {
-            Self::One(i, weight) => x.get(*i).map_or(0.0, |x| weight * x),
-            Self::Run(first, run) => x.get(*first..first + run.len()).map_or(0.0, |x| sum(run, x, |term| term)),
-            Self::Wide(row) => row.dot(x),
-        }
-    }
-
-    /// The sum of the sizes of the terms of the row times `x`.
-    #[inline(always)]
-    fn size(&self, x: &[f64]) -> f64 {
-        match self {
-            Self::One(i, weight) => x.get(*i).map_or(0.0, |x| (weight * x).abs()),
-            Self::Run(first, run) => x.get(*first..first + run.len()).map_or(0.0, |x| sum(run, x, f64::abs)),
-            Self::Wide(row) => {
-                let terms = row.entries().iter().filter_map(|&(i, weight)| x.get(i).map(|x| (weight * x).abs()));
-                terms.sum()
-            }
-        }
-    }
 }
 
 impl RowWalls {
@@ -117,21 +59,6 @@ impl RowWalls {
         let (low, high) = self.clear;
         low < w0 - way && w0 + way < high && low < w1 && w1 < high
     }
-}
-
-/// The sum of `of` the products of a and b, in four independent sums, so that their additions
-/// overlap.
-#[inline(always)]
-fn sum(a: &[f64], b: &[f64], of: impl Fn(f64) -> f64) -> f64 {
-    let (mut a, mut b) = (a.chunks_exact(4), b.chunks_exact(4));
-    let mut sums = [0.0; 4];
-    for (a, b) in a.by_ref().zip(b.by_ref()) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += of(a * b);
-        }
-    }
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| of(a * b)).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(test)]

@@ -76,7 +76,9 @@ impl Judge {
             for i in 0..n {
                 let load = self.load_end[i];
                 sums.rate[i] += 0.5 * h * (sums.last[i] + step.velocity_after[i]);
-                sums.forces[i].add(first, h, [load, self.scratch.spring[i] - load, 0.0]);
+                let mut forces = sums.forces.of(i);
+                forces.add(first, h, [load, self.scratch.spring[i] - load, 0.0]);
+                sums.forces.set(i, forces);
             }
             sums.add_ends(&moves, h, n);
         } else {
@@ -112,7 +114,7 @@ impl Judge {
             _ => self.noise.end,
         };
         self.loads.blow(sums.from, until, &mut blows);
-        let mut exchanged: Vec<f64> = sums.forces.iter().map(|force| force.exchanged).collect();
+        let mut exchanged: Vec<f64> = sums.forces.exchanged.clone();
         let mut ends = self.end_forces();
         for (wall, (p, size)) in self.scene.walls.iter().zip(impulses.iter().zip(&sums.sizes)) {
             for &(i, weight) in wall.row().entries() {
@@ -139,7 +141,7 @@ impl Judge {
         let roots = &self.weights.root_mass;
         let largest = exchanged.iter().zip(roots).map(|(x, root)| x / root).fold(0.0, f64::max);
         for i in 0..n {
-            let missed = STEPS * self.h * (sums.forces[i].changes + ends[i]);
+            let missed = STEPS * self.h * (sums.forces.changes[i] + ends[i]);
             let left = (open[i] - blows[i]).abs() - missed;
             worst.observe(over(left / roots[i] - rounding, largest), self.noise.end, None);
         }
@@ -177,9 +179,9 @@ impl Judge {
         system.add_damping(-1.0, &sums.last, &mut end);
         system.add_stiffness(-1.0, &self.q, &mut end);
         let mut ends: Vec<f64> =
-            sums.forces.iter().zip(&end).map(|(force, end)| force.largest.max(end.abs())).collect();
+            sums.forces.largest.iter().zip(&end).map(|(largest, end)| largest.max(end.abs())).collect();
         for (i, size) in ends.iter_mut().enumerate() {
-            let Forces { load, own, .. } = sums.forces[i];
+            let Forces { load, own, .. } = sums.forces.of(i);
             *size += begin[i].abs() + (self.load[i] - load).abs() + (end[i] - self.load[i] - own).abs();
         }
         ends

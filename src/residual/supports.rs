@@ -36,6 +36,9 @@ pub(super) struct Supports {
     pub recorded: Option<Vec<[f64; 2]>>,
     /// Friction over a part of a step without that at its end, N s.
     rubbed: Vec<f64>,
+    /// Velocities that enter and leave the balance of the step at the place of each wall that
+    /// pushes or rubs, m/s.
+    pub rates: Vec<[[f64; 2]; 2]>,
     /// Velocities at both ends of the last part of some length, m/s, and its length, s.
     part: [Vec<f64>; 2],
     length: f64,
@@ -62,6 +65,7 @@ impl Supports {
             size: vec![0.0; scene.walls.len()],
             recorded: None,
             rubbed: Vec::new(),
+            rates: vec![[[0.0; 2]; 2]; scene.walls.len()],
             part: [Vec::new(), Vec::new()],
             length: 0.0,
         }))

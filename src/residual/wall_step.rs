@@ -2,6 +2,7 @@
 
 use super::Judge;
 use super::complementarity::{expected_pressure, rebound, slack};
+use super::place::Place;
 use crate::scene::{Hole, Wall};
 use crate::step::{Bound, PromisedForce, Reached, Step};
 
@@ -22,6 +23,7 @@ struct Seen {
 impl Judge {
     /// Checks every wall against its part of the promise; `beyond` says that blows add to the
     /// displacement of the step's rule.
+    #[inline(always)]
     pub(super) fn walls_on_grid(&mut self, step: &Step<'_>, beyond: bool) {
         let blows = self.loads.has_blows();
         for place in 0..self.row_walls.len() {
@@ -93,12 +95,14 @@ impl Judge {
             wall.law.is_rigid()
                 && (step.impulse[index] != 0.0 || at(wall.gap(wall.row().dot(step.q)), self.size(step, index)))
         };
-        let hole = |hole: Hole<'_>| {
+        let hole = |(hole, place): (Hole<'_>, &Place)| {
             let [y, z] = hole.offset(step.q);
             step.impulse[hole.index] != 0.0
-                || at(hole.gap - y.hypot(z), self.way(&hole, &self.hole_motion(step, &hole)))
+                || at(hole.gap - y.hypot(z), self.way(&hole, &self.hole_motion(step, &hole, place)))
         };
-        self.row_walls.iter().any(|walls_of_row| walls_of_row.walls.iter().any(wall)) || self.scene.holes().any(hole)
+        let places = self.places.iter().flat_map(|places| &places.holes);
+        self.row_walls.iter().any(|walls_of_row| walls_of_row.walls.iter().any(wall))
+            || self.scene.holes().zip(places).any(hole)
     }
 
     /// Size of the terms that add up to the body's position, for its rounding error, and of its way

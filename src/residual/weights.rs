@@ -9,7 +9,7 @@ pub(super) struct Weights {
     pub root_mass: Vec<f64>,
     pub per_root_mass: Vec<f64>,
     /// √|Mᵢᵢ|, √|Kᵢᵢ| and √|Cᵢᵢ|.
-    pub roots: Vec<[f64; 3]>,
+    pub roots: [Vec<f64>; 3],
     /// Largest weight of a rigid wall that sees this degree of freedom alone.
     pub seen: Vec<f64>,
 }
@@ -19,7 +19,7 @@ impl Weights {
         let structure = scene.system.structure();
         let diagonals = [&structure.mass, &structure.stiffness, &structure.damping].map(|m| m.diagonal_entries());
         let n = diagonals[0].len();
-        let root = |i: usize| [0, 1, 2].map(|j: usize| diagonals[j].get(i).map_or(0.0, |x: &f64| x.abs().sqrt()));
+        let root = |x: &[f64]| (0..n).map(|i| x.get(i).map_or(0.0, |x| x.abs().sqrt())).collect();
         let root_mass: Vec<f64> = diagonals[0].iter().map(|m| m.sqrt()).collect();
         let mut seen = vec![0.0_f64; n];
         for wall in scene.walls.iter().filter(|wall| wall.law.is_rigid()) {
@@ -32,7 +32,7 @@ impl Weights {
         Self {
             per_root_mass: root_mass.iter().map(|root| 1.0 / root).collect(),
             root_mass,
-            roots: (0..n).map(root).collect(),
+            roots: [0, 1, 2].map(|j: usize| root(&diagonals[j])),
             seen,
         }
     }
@@ -42,7 +42,7 @@ impl Weights {
         Self {
             root_mass: self.root_mass.repeat(count),
             per_root_mass: self.per_root_mass.repeat(count),
-            roots: self.roots.repeat(count),
+            roots: [0, 1, 2].map(|j: usize| self.roots[j].repeat(count)),
             seen: self.seen.repeat(count),
         }
     }

@@ -12,7 +12,7 @@
 //! diverged.
 
 use crate::error::Error;
-use crate::linear::{Factor, Symmetric};
+use crate::linear::{Factor, Symmetric, sum_of_products};
 use crate::residual::{Finding, Refuted};
 use crate::scene::{Checked, LoadKind, Scene, State};
 use crate::scheme::{Integrator, Scheme, Stepper};
@@ -74,7 +74,7 @@ impl Divergence {
     /// Whether the run has diverged, with the velocity `v` (m/s) at `time` (s).
     #[inline]
     pub fn at(&mut self, time: f64, v: &[f64]) -> Option<Diverged> {
-        let squares: f64 = self.mass.iter().zip(v).map(|(mass, v)| mass * v * v).sum();
+        let squares = sum_of_products(&self.mass, v, v);
         if squares <= self.sound { None } else { self.suspect(time, v, squares) }
     }
 

@@ -148,6 +148,7 @@ impl Table {
 
     /// Value and slope (N, N/s) at `t`, from the right: the piece that starts at or before `t`;
     /// zero outside the rows.
+    #[inline]
     #[must_use]
     pub fn piece(&self, t: f64) -> (f64, f64) {
         let next = self.after(t);
@@ -162,15 +163,19 @@ impl Table {
 
 impl Table {
     /// Index of the first row after `t`.
+    #[inline]
     fn after(&self, t: f64) -> usize {
         let time = self.time.as_slice();
         // The cast saturates, and takes NaN to 0. Rounding may put the index off by one.
         let near = ((t - time[0]) * self.pace) as usize;
-        let fits = |i: &usize| {
-            let before = i.checked_sub(1).and_then(|i| time.get(i));
-            before.is_some_and(|x| *x <= t) && time.get(*i).is_some_and(|x| *x > t)
+        let starts = |next: usize| {
+            let piece = next.checked_sub(1).and_then(|from| time.get(from..=next));
+            matches!(piece, Some([from, to]) if *from <= t && t < *to)
         };
-        let found = [1, 2, 0].into_iter().map(|by| near.saturating_add(by)).find(fits);
+        if starts(near.saturating_add(1)) {
+            return near.saturating_add(1);
+        }
+        let found = [2, 0].into_iter().map(|by| near.saturating_add(by)).find(|&next| starts(next));
         found.unwrap_or_else(|| time.partition_point(|&x| x <= t))
     }
 }

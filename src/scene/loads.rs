@@ -3,12 +3,15 @@
 use super::forcing::Forcing;
 use super::load::Load;
 use super::row::{Row, distinct};
+use crate::linear::Segment;
 
 /// All loads, sorted by where they act: one sum over time for each row, however many degrees of
 /// freedom it reaches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loads {
     parts: Vec<(Row, Forcing)>,
+    /// The row of each part as a segment, where its entries follow one another.
+    segments: Vec<Option<Segment>>,
     /// True if there is a blow among them.
     blows: bool,
 }
@@ -25,7 +28,8 @@ impl Loads {
         let parts: Vec<_> =
             places.rows.into_iter().zip(lists).map(|(row, list)| (row.clone(), Forcing::on(0, &list))).collect();
         let blows = parts.iter().any(|(_, forcing)| !forcing.impulses.is_empty());
-        Self { parts, blows }
+        let segments = parts.iter().map(|(row, _)| Segment::following(row.entries())).collect();
+        Self { parts, segments, blows }
     }
 
     /// Each row with the loads that act through it.
@@ -49,20 +53,31 @@ impl Loads {
         }
     }
 
+    /// Sets what the loads act on to 0 in `out`.
+    #[inline(always)]
+    pub(crate) fn clear(&self, out: &mut [f64]) {
+        for ((row, _), segment) in self.parts.iter().zip(&self.segments) {
+            match segment {
+                Some(segment) if segment.fits(out.len()) => segment.clear(out),
+                _ => row.entries().iter().for_each(|&(i, _)| out.get_mut(i).into_iter().for_each(|x| *x = 0.0)),
+            }
+        }
+    }
+
     /// Adds one force (N) for each part, through its row, to `out`.
-    #[inline]
+    #[inline(always)]
     pub fn scatter(&self, forces: impl Iterator<Item = f64>, out: &mut [f64]) {
-        for ((row, _), force) in self.parts.iter().zip(forces) {
-            scatter(row, force, out);
+        for (part, force) in self.parts.iter().zip(&self.segments).zip(forces) {
+            scatter(part, force, out);
         }
     }
 
     /// Adds `scale` times the forces at `t` (N) to `out`, one value per degree of freedom, without
     /// the blows.
-    #[inline]
+    #[inline(always)]
     pub fn add_force(&self, t: f64, scale: f64, out: &mut [f64]) {
-        for (row, forcing) in &self.parts {
-            scatter(row, scale * forcing.force(t), out);
+        for (part, segment) in self.parts.iter().zip(&self.segments) {
+            scatter((part, segment), scale * part.1.force(t), out);
         }
     }
 
@@ -100,23 +115,21 @@ impl Loads {
             return false;
         }
         let mut any = false;
-        for (row, forcing) in &self.parts {
-            let impulse = of(forcing);
+        for (part, segment) in self.parts.iter().zip(&self.segments) {
+            let impulse = of(&part.1);
             any |= impulse != 0.0;
-            scatter(row, impulse, out);
+            scatter((part, segment), impulse, out);
         }
         any
     }
 }
 
-#[inline]
-fn scatter(row: &Row, value: f64, out: &mut [f64]) {
-    if value == 0.0 {
-        return;
-    }
-    for &(i, weight) in row.entries() {
-        if let Some(sum) = out.get_mut(i) {
-            *sum += weight * value;
-        }
+/// Adds a part's row, which may be a segment, times `value` to `out`.
+#[inline(always)]
+fn scatter(((row, _), segment): (&(Row, Forcing), &Option<Segment>), value: f64, out: &mut [f64]) {
+    match segment {
+        _ if value == 0.0 => {}
+        Some(segment) if segment.fits(out.len()) => segment.add(value, out),
+        _ => row.add_transposed(value, out),
     }
 }

@@ -5,7 +5,7 @@ use super::flat_row::FlatRow;
 use super::frame::Frame;
 use super::space::{Space, zero};
 use crate::error::Result;
-use crate::linear::Symmetric;
+use crate::linear::{Symmetric, update};
 use crate::scene::{Scene, SharedStructure};
 
 /// The matrices, loads and walls of a scene, with the length of a step.
@@ -68,7 +68,7 @@ impl<S: Space> Body<S> {
     }
 
     /// Updates the loads to `time` (s).
-    #[inline]
+    #[inline(always)]
     pub fn load_at(&mut self, time: f64) {
         std::mem::swap(&mut self.load, &mut self.load_before);
         S::force(&mut self.forces, time, &mut self.load);
@@ -140,13 +140,9 @@ impl<S: Space> Body<S> {
         // Before the state is read, so that no number must be kept in memory during the call of a
         // sine.
         self.load_at(end);
-        let loads = self.load_before.as_ref().iter().zip(self.load.as_ref()).zip(extra.as_ref());
-        for (b, ((start, end), extra)) in b.as_mut().iter_mut().zip(loads) {
-            *b = (1.0 - theta) * start + theta * end + extra;
-        }
-        for ((mean, q), v) in self.mean.as_mut().iter_mut().zip(q.as_ref()).zip(v.as_ref()) {
-            *mean = q + ht * v;
-        }
+        let forces = [self.load_before.as_ref(), self.load.as_ref(), extra.as_ref()];
+        update(b.as_mut(), forces, |_, [start, end, extra]| (1.0 - theta) * start + theta * end + extra);
+        update(self.mean.as_mut(), [q.as_ref(), v.as_ref()], |_, [q, v]| q + ht * v);
         S::add_product(&self.damping, -1.0, v, b);
         S::add_product(&self.stiffness, -1.0, &self.mean, b);
         b.as_mut().iter_mut().for_each(|b| *b *= h);

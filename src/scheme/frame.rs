@@ -186,7 +186,7 @@ impl<S: Space> Frame<S> {
     }
 
     /// An error if the state is not finite.
-    #[inline]
+    #[inline(always)]
     pub fn check(&self, step: u64) -> Result<()> {
         if all_finite(self.q.as_ref()) && all_finite(self.v.as_ref()) { Ok(()) } else { Err(self.refusal(step)) }
     }
@@ -231,7 +231,7 @@ impl<S: Space> Frame<S> {
 
 /// True if every number is finite. There is no branch per entry, so that the compiler can check
 /// several at once.
-#[inline]
+#[inline(always)]
 pub(super) fn all_finite(x: &[f64]) -> bool {
     x.iter().fold(true, |all, x| all & x.is_finite())
 }

@@ -52,7 +52,7 @@ impl Space for Matrices {
         Loads::new(loads)
     }
 
-    #[inline]
+    #[inline(always)]
     fn add_product(a: &Operator, scale: f64, x: &Vec<f64>, out: &mut Vec<f64>) {
         a.add_product(scale, x, out);
     }
@@ -72,14 +72,10 @@ impl Space for Matrices {
         rows.add_transposed(i, force, out);
     }
 
-    #[inline]
+    #[inline(always)]
     fn force(forces: &mut Loads, time: f64, out: &mut Vec<f64>) {
         // All other entries have been 0 from the beginning.
-        for &(i, _) in forces.parts().iter().flat_map(|(row, _)| row.entries()) {
-            if let Some(force) = out.get_mut(i) {
-                *force = 0.0;
-            }
-        }
+        forces.clear(out);
         forces.add_force(time, 1.0, out);
     }
 }

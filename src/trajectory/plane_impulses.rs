@@ -45,6 +45,11 @@ impl PlaneImpulses {
     /// Adds one step on a grid.
     #[inline(never)]
     pub fn observe(&mut self, step: &Step<'_>) {
+        // In most steps nothing pushes.
+        let still = [step.impulse, step.friction].iter().all(|x| x.iter().all(|x| *x == 0.0));
+        if still && step.turned.iter().all(|turned| *turned == [0.0; 2]) {
+            return;
+        }
         for (sum, f) in self.friction.iter_mut().zip(step.friction) {
             *sum += f;
         }

@@ -9,6 +9,7 @@
 
 use super::blows::Blow;
 use super::piece::{ImpulseDuration, Section, SlidingPiece, along, around, degrees, in_part, on_grid};
+use crate::linear::Segment;
 use crate::scene::{Face, Scene, Support, Wall, heading};
 use crate::step::{Path, Step};
 
@@ -50,7 +51,10 @@ impl SlidingContacts {
                 })
             };
             let contacts = support.members(&scene.walls).filter_map(contact).collect();
-            SupportContacts { section: Section { at: support.at.clone(), blows }, contacts }
+            let at = support.at.clone();
+            let [y, z] = [&at.y, &at.z].map(|row| Segment::following(row.entries()));
+            let segments = y.zip(z).map(|(y, z)| [y, z]);
+            SupportContacts { section: Section { at, segments, blows }, contacts }
         };
         let supports = scene.supports.iter().zip(Blow::all(scene)).map(of).collect();
         Self { walls: scene.walls.len(), supports }

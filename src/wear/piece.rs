@@ -5,6 +5,7 @@ use super::blows::Blow;
 use super::stretch::{Sliding, SlidingSums};
 use super::work::{sliding_distance, work_of_impulse};
 use crate::flow::Series;
+use crate::linear::Segment;
 use crate::scene::PlaneRows;
 use crate::step::Step;
 
@@ -59,6 +60,8 @@ pub(crate) struct SlidingPiece {
 #[derive(Debug, Clone)]
 pub(super) struct Section {
     pub at: PlaneRows,
+    /// Its rows, if the entries of each follow one another.
+    pub segments: Option<[Segment; 2]>,
     pub blows: Vec<Blow>,
 }
 
@@ -66,6 +69,13 @@ impl Section {
     /// The sliding velocity of the velocities `v` along t of the normal `normal`, m/s.
     pub fn along(&self, [y, z]: [f64; 2], v: &[f64]) -> f64 {
         y * self.at.z.dot(v) - z * self.at.y.dot(v)
+    }
+
+    /// As [`Section::along`], of two vectors together.
+    fn both_along(&self, [y, z]: [f64; 2], both: [&[f64]; 2]) -> [f64; 2] {
+        let Some([along_y, along_z]) = &self.segments else { return both.map(|v| self.along([y, z], v)) };
+        let ([y0, y1], [z0, z1]) = (along_y.products(both).0, along_z.products(both).0);
+        [y * z0 - z * y0, y * z1 - z * y1]
     }
 }
 
@@ -80,7 +90,7 @@ pub(super) fn on_grid(
 ) -> SlidingPiece {
     let length = step.end - step.start;
     let share = if length > 0.0 { ((to - from) / length).clamp(0.0, 1.0) } else { 1.0 };
-    let [before, after] = [step.velocity_before, step.velocity_after].map(|v| section.along(blank.normal, v));
+    let [before, after] = section.both_along(blank.normal, [step.velocity_before, step.velocity_after]);
     let before = before + blown;
     let (impulse, friction) = (share * blank.impulse, share * blank.friction);
     SlidingPiece {
@@ -203,7 +213,10 @@ pub(super) fn around(
 
 /// The angle of a vector (y, z), degrees from +y towards +z, from 0 to below 360.
 pub(super) fn degrees([y, z]: [f64; 2]) -> f64 {
-    z.atan2(y).to_degrees().rem_euclid(360.0) % 360.0
+    let turn = z.atan2(y).to_degrees();
+    let turn = if turn < 0.0 { turn + 360.0 } else { turn };
+    // By rounding, a whole turn less almost nothing is a whole one.
+    if turn >= 360.0 { 0.0 } else { turn }
 }
 
 /// The number of parts of a piece of a stretch: none is longer than one of [`PARTS`] of the length

@@ -1,9 +1,9 @@
 //! The energy ledger of the exact motion of one degree of freedom: powers integrated along an arc,
 //! and the jump at its end.
 
-use super::super::largest_residual::running_max;
 use super::{Flows, Ledger, stored};
 use crate::flow::Arc;
+use crate::linear::running_max;
 use crate::scene::{Scene, System};
 use crate::step::Step;
 

@@ -8,10 +8,10 @@ pub use account::Energy;
 pub(super) use arc::{Along, Instants};
 pub(super) use series::Moved;
 
-use super::largest_residual::running_max;
 use super::matrices::{Matrices, Part};
 use super::pushes::pushes;
 use super::step_motion::StepMotion;
+use crate::linear::{running_max, update};
 use crate::scene::{Forcing, Scene, Wall};
 use crate::step::{Balance, Contract, QuietSteps, Step};
 
@@ -35,9 +35,12 @@ pub(super) struct Ledger {
     steepest: f64,
     /// True if a wall is not rigid.
     springs: bool,
-    /// Two vectors of length n at least.
+    /// Vectors of length n at least.
     shift: Vec<f64>,
     middle: Vec<f64>,
+    /// Work of the loads on each degree of freedom in a step, J, and its size.
+    work: Vec<f64>,
+    passed: Vec<f64>,
 }
 
 /// Energy flows of a step, J.
@@ -60,6 +63,7 @@ impl Ledger {
         };
         let held: Vec<f64> = scene.walls.iter().map(touching).collect();
         let walls = held.iter().sum::<f64>();
+        let room = || vec![0.0; q.len().max(QuietSteps::capacity())];
         let energy = 0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + walls;
         Self {
             contract,
@@ -72,14 +76,17 @@ impl Ledger {
             residual: 0.0,
             lost: 0.0,
             steepest: Forcing::on(0, &scene.loads).steepest(),
-            shift: vec![0.0; q.len().max(QuietSteps::capacity())],
+            shift: room(),
+            work: room(),
+            passed: room(),
             middle: vec![0.0; q.len()],
             springs: scene.walls.iter().any(|wall| !wall.law.is_rigid()),
         }
     }
 
     /// Adds one step of `h` seconds (and 1/h) on a grid under the mean load `load` (N); n degrees
-    /// of freedom.
+    /// of freedom. `rates` are the velocities that enter and leave the balance at the places of
+    /// walls that push or rub, m/s.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn observe_grid(
@@ -90,6 +97,7 @@ impl Ledger {
         moves: &StepMotion<'_>,
         step: &Step<'_>,
         load: &[f64],
+        rates: &[[[f64; 2]; 2]],
         n: usize,
     ) {
         if let (Some(b), false) = (self.staggered(), self.started) {
@@ -104,7 +112,7 @@ impl Ledger {
             0.0
         };
         if !step.friction.is_empty() {
-            observe_supports(scene, step, &mut flows);
+            observe_supports(scene, step, rates, &mut flows);
         }
         let energy = self.after(matrices, h, (q0, q1), (moves.after, moves.v), n);
         self.book(energy + walls, flows);
@@ -168,16 +176,22 @@ impl Ledger {
         load: &[f64],
         n: usize,
     ) -> Flows {
-        let (from, to, load, blow) = (&moves.from[..n], &moves.to[..n], &load[..n], &moves.blow[..n]);
-        let (before, after, shift) = (&moves.before[..n], &moves.after[..n], &mut self.shift[..n]);
-        let staggered = matches!(self.contract.balance, Balance::Staggered(_));
+        let &StepMotion { from, to, before, after, blow, .. } = moves;
+        let (shift, work, passed) = (&mut self.shift[..n], &mut self.work[..n], &mut self.passed[..n]);
+        if let Balance::Staggered(_) = self.contract.balance {
+            update(shift, [before, after], |_, [before, after]| h * (0.5 * (before + after)));
+        } else {
+            update(shift, [from, to], |_, [from, to]| to - from);
+        }
+        let both = |[load, shift, blow, before, after]: [f64; 5]| (load * shift, blow * (0.5 * (before + after)));
+        let terms = [load, shift, blow, before, after];
+        update(work, terms, |_, terms| both(terms).0 + both(terms).1);
+        update(passed, terms, |_, terms| both(terms).0.abs() + both(terms).1.abs());
         let mut flows = Flows::default();
-        for i in 0..n {
-            let mean = 0.5 * (before[i] + after[i]);
-            shift[i] = if staggered { h * mean } else { to[i] - from[i] };
-            let (pushed, struck) = (load[i] * shift[i], blow[i] * mean);
-            flows.work += pushed + struck;
-            flows.passed += pushed.abs() + struck.abs();
+        // One after another: the ledger closes to the rounding of such a sum.
+        for (work, passed) in work.iter().zip(&*passed) {
+            flows.work += work;
+            flows.passed += passed;
         }
         flows.damping = matrices.form(Part::Damping, shift) * per_h;
         flows
@@ -314,9 +328,9 @@ impl Ledger {
 
 /// Adds the flows at round holes, and those of friction.
 #[inline(never)]
-fn observe_supports(scene: &Scene, step: &Step<'_>, flows: &mut Flows) {
-    for (index, at, [push, rub]) in pushes(scene, step) {
-        let (before, after) = (at.dot(step.velocity_before), at.dot(step.velocity_after));
+fn observe_supports(scene: &Scene, step: &Step<'_>, rates: &[[[f64; 2]; 2]], flows: &mut Flows) {
+    for (index, _, [push, rub]) in pushes(scene, step) {
+        let [before, after] = rates.get(index).copied().unwrap_or_default();
         let work = |force: [f64; 2]| 0.5 * (force[0] * (before[0] + after[0]) + force[1] * (before[1] + after[1]));
         let rigid = scene.walls[index].law.is_rigid();
         flows.impact -= if rigid { work(push) } else { 0.0 };

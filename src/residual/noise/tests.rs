@@ -1,6 +1,7 @@
 //! Rounding errors, against numbers worked out by hand.
 
 use super::*;
+use pulp::Scalar;
 
 /// The rounding error of the balance of a step of `span` seconds.
 fn force(noise: &mut NoiseModel, span: f64, clock: f64) -> f64 {
@@ -11,8 +12,12 @@ fn force(noise: &mut NoiseModel, span: f64, clock: f64) -> f64 {
 #[test]
 fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
     // m = 4 kg, k = 9 N/m, c = 16 N s/m, and a wall that feels 16 kg.
-    let weights =
-        Weights { root_mass: vec![2.0], per_root_mass: vec![0.5], roots: vec![[2.0, 3.0, 4.0]], seen: vec![1.0] };
+    let weights = Weights {
+        root_mass: vec![2.0],
+        per_root_mass: vec![0.5],
+        roots: [vec![2.0], vec![3.0], vec![4.0]],
+        seen: vec![1.0],
+    };
     let mut noise = NoiseModel::new(&weights, &[16.0], 0.5);
     let unit = UNITS * f64::EPSILON;
     // A step of 0.5 s ends at −2 m with 3 m/s, under −8 N, at its end −7 N, an extra force of
@@ -29,7 +34,7 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
         extra: &[2.0],
         blow: &[1.0],
     };
-    noise.step(&moves, &[-8.0], &weights, (0.5, 2.0), 1);
+    noise.step(Scalar, &moves, &[-8.0], &weights, (0.5, 2.0), 1);
     // Way 2 + 0.5 · 3 m: 7 m√kg and 10.5 √J; 6 √J of speed, 12 √W in the damper, 4.5 N/√kg.
     let (spring, damper) = (1.5 * 10.5, 2.0 * 12.0);
     assert_eq!(noise.path(), unit * 7.0);
@@ -57,11 +62,11 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
     state.state(&[-2.0], &[-3.0], 0.5, &weights);
     assert_eq!((state.path(), force(&mut state, 0.25, 1.0)), (unit * 7.0, unit * (6.0 / 0.25 + spring + damper)));
     let mut struck = NoiseModel::new(&weights, &[], 0.5);
-    struck.step(&StepMotion { blow: &[-10.0], ..moves }, &[-8.0], &weights, (0.5, 2.0), 1);
+    struck.step(Scalar, &StepMotion { blow: &[-10.0], ..moves }, &[-8.0], &weights, (0.5, 2.0), 1);
     assert_eq!(force(&mut struck, 1.0, 1.0), unit * (6.0 + spring + damper + 10.0));
     // Sums over four degrees of freedom have twice the rounding; one without springs has no rate.
     let mut four = weights.repeated(4);
-    four.roots[0] = [1.0, 0.0, 0.0];
+    four.roots.iter_mut().zip([1.0, 0.0, 0.0]).for_each(|(roots, root)| roots[0] = root);
     let mut many = NoiseModel::new(&four, &[], 0.5);
     many.state(&[0.0, -2.0, 0.0, 0.0], &[0.0, 3.0, 0.0, 0.0], 0.5, &four);
     assert_eq!(force(&mut many, 1.0, 1.0), 2.0 * unit * (6.0 + spring + damper));

@@ -88,7 +88,7 @@ fn loads_and_extra_forces_accelerate_and_are_exchanged() {
     };
     judge.observe(&made.step());
     assert_eq!((judge.balance.largest, judge.balance.path.value), (0.0, 0.0));
-    let exchanged: Vec<f64> = judge.sums.forces.iter().map(|force| force.exchanged).collect();
+    let exchanged: Vec<f64> = judge.sums.forces.exchanged.clone();
     assert_eq!(exchanged, [10.0 * H, 4.0 * H]);
     // 10 N/2 √kg is the largest force: 8 N are given on top of 2 N.
     assert_eq!(judge.balance.scale, 4.0);

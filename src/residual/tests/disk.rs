@@ -1,6 +1,7 @@
 //! Round holes under a bound on the displacement at the end of a step.
 
 use super::*;
+use crate::residual::place::Place;
 use crate::scene::Face;
 use crate::step::{Bound, Law, Normal, Turning};
 
@@ -21,7 +22,7 @@ fn the_size_of_a_way_is_that_of_all_its_terms() {
     // Of places 2 + 2 + 4 and 6 + 1 + 2 m, centre 6 m, gap 8 m, and half a second at 20 + 1 + 2 and
     // 1 + 2 + 4 m/s.
     let hole = scene.holes().next().expect("a hole");
-    let size = judge.way(&hole, &judge.hole_motion(&made.step(), &hole));
+    let size = judge.way(&hole, &judge.hole_motion(&made.step(), &hole, &Place::new(hole.at, &[2.0; 2])));
     assert_eq!(size, 8.0 + 9.0 + 6.0 + 8.0 + 0.5 * (23.0 + 7.0));
 }
 

@@ -97,3 +97,36 @@ fn the_hole_that_pushes_askew_is_named() {
     let found = judge.supports.as_ref().expect("holes").askew.excess;
     assert_eq!(found.wall.and_then(|place| scene.wall_name(place)), Some("second"));
 }
+
+#[test]
+fn a_hole_is_passed_over_only_where_the_step_is_certainly_inside_of_it_and_no_faster_than_before() {
+    let (gap, h, far) = (0.5, 1.0, 1e6);
+    let scene = with_hole(body([4.0; 2], 0.0), "hole", gap, RIGID);
+    // At this start, before a step whose end and velocities are these; `noted` is the largest
+    // place so far, m, of which rounding is a share.
+    let passed = |start: f64, end: f64, before: f64, after: f64, noted: f64| {
+        let mut judge = judge(&scene, law(1e-12, 0.0), h, &[start, 0.0]);
+        judge.noise.state(&[noted, 0.0], &[0.0; 2], h, &judge.weights);
+        (judge.sums.steps, judge.extent.speed) = (1, 0.25);
+        let made =
+            Made { q: vec![end, 0.0], before: vec![before, 0.0], after: vec![after, 0.0], ..Made::rest(&scene, h) };
+        let places = judge.places.as_ref().expect("a hole");
+        let hole = scene.holes().next().expect("a hole");
+        let passed = |step: &Step<'_>| judge.is_out_of_reach(step, &hole, &places.holes[0]);
+        assert!(!passed(&made.clone().pushing(0, [1.0, 0.0], 1e-300).step()));
+        passed(&made.step())
+    };
+    let at = |share: f64| gap * (1.0 - share);
+    assert!(passed(0.0, 0.0, 0.0, 0.0, 0.0) && passed(at(0.1), -at(0.1), 0.0, 0.0, 0.0));
+    // Near the circle at either end, or where the normal is taken, half a step on.
+    for (share, inside) in [(1e-6, true), (1e-11, false), (0.0, false), (-1e-3, false)] {
+        assert_eq!(passed(0.0, at(share), 0.0, 0.0, 0.0), inside, "{share}");
+        assert_eq!(passed(-at(share), 0.0, 0.0, 0.0, 0.0), inside, "{share}");
+        assert_eq!(passed(0.25, 0.0, 2.0 * (at(share) - 0.25), 0.0, 0.0), inside, "{share}");
+        assert!(!passed(0.0, at(share), 0.0, 0.0, far), "{share}");
+    }
+    // A place that is faster than any before has to be noted.
+    assert!(passed(0.0, 0.0, 0.0, 0.24, 0.0) && !passed(0.0, 0.0, 0.0, 0.26, 0.0));
+    // What is no number is not certain.
+    assert!(!passed(0.0, f64::NAN, 0.0, 0.0, 0.0) && !passed(0.0, 0.0, f64::NAN, 0.0, 0.0));
+}

@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::residual::energy::Instants;
-use crate::residual::hole_motion::terms;
 use crate::residual::matrices::Part;
+use crate::residual::place::terms;
+use pulp::Scalar;
 
 #[test]
 fn the_terms_of_a_place_are_those_of_both_rows_by_magnitude() {
@@ -17,17 +18,17 @@ fn the_extent_of_a_run_is_that_of_its_largest_values_in_their_own_metric() {
     let weights = Weights {
         root_mass: vec![2.0, 8.0],
         per_root_mass: vec![0.5, 0.125],
-        roots: vec![[2.0, 0.0, 0.0], [8.0, 0.0, 0.0]],
+        roots: [vec![2.0, 8.0], vec![0.0; 2], vec![0.0; 2]],
         seen: vec![4.0, 0.5],
     };
     let mut extent = Extent::default();
-    extent.observe(&[-3.0, 0.5], &[-1.0, 4.0], &weights, 2);
+    extent.observe(Scalar, &[-3.0, 0.5], &[-1.0, 4.0], &weights, 2);
     // The first mass is further away and seen faster: 4 · 1 m/s; 3 m · 2 √kg.
     assert_eq!((extent.reach, extent.normal_reach, extent.speed), (3.0, 6.0, 4.0));
-    extent.observe(&[1.0, -2.0], &[0.0, -16.0], &weights, 2);
+    extent.observe(Scalar, &[1.0, -2.0], &[0.0, -16.0], &weights, 2);
     assert_eq!((extent.reach, extent.normal_reach, extent.speed), (3.0, 16.0, 8.0));
     // Only the first of both.
-    extent.observe(&[4.0, 9.0], &[1.5, 99.0], &weights, 1);
+    extent.observe(Scalar, &[4.0, 9.0], &[1.5, 99.0], &weights, 1);
     assert_eq!((extent.reach, extent.normal_reach, extent.speed), (4.0, 16.0, 8.0));
 }
 

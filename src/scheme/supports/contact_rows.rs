@@ -1,53 +1,15 @@
 //! The places where contacts push, and the motion that their impulses cause there.
 
-use crate::linear::{Factor, Rows};
+use crate::linear::{Factor, Rows, Segment};
 use crate::scene::Row;
-
-/// A vector without the zeros at its two ends: rows of one plane, and their responses, cover that
-/// plane's degrees of freedom alone.
-#[derive(Debug)]
-struct Run {
-    first: usize,
-    values: Vec<f64>,
-}
-
-impl Run {
-    fn new(x: &[f64]) -> Self {
-        let first = x.iter().position(|x| *x != 0.0).unwrap_or(0);
-        let end = x.iter().rposition(|x| *x != 0.0).map_or(first, |last| last + 1);
-        Self { first, values: x[first..end].to_vec() }
-    }
-
-    /// Its product with `x`, in four independent sums, so that their additions overlap.
-    #[inline]
-    fn dot(&self, x: &[f64]) -> f64 {
-        let x = &x[self.first..self.first + self.values.len()];
-        let (mut a, mut b) = (self.values.chunks_exact(4), x.chunks_exact(4));
-        let mut sums = [0.0; 4];
-        for (a, b) in a.by_ref().zip(b.by_ref()) {
-            for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-                *sum += a * b;
-            }
-        }
-        let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
-        (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
-    }
-
-    /// Adds `scale` times the vector to `out`.
-    #[inline]
-    fn add(&self, scale: f64, out: &mut [f64]) {
-        let out = &mut out[self.first..self.first + self.values.len()];
-        out.iter_mut().zip(&self.values).for_each(|(out, value)| *out += scale * value);
-    }
-}
 
 /// The rows of all places, and the response of the structure to an impulse on each: A⁻¹gᵀ, and W =
 /// G A⁻¹ Gᵀ. All of it is computed once, since only the directions of the contacts change.
 #[derive(Debug)]
 pub(in crate::scheme) struct ContactRows {
-    rows: Vec<Run>,
+    rows: Vec<Segment>,
     /// A⁻¹gᵢᵀ.
-    lift: Vec<Run>,
+    lift: Vec<Segment>,
     /// W, row by row.
     delassus: Vec<f64>,
     /// The rows as they were given, of n entries.
@@ -62,7 +24,7 @@ impl ContactRows {
         let count = sparse.count();
         let (rows, lift) = (Vec::with_capacity(count), Vec::with_capacity(count));
         let mut places = Self { rows, lift, delassus: vec![0.0; count * count], sparse, n };
-        places.rows = (0..count).map(|i| Run::new(&places.dense(i))).collect();
+        places.rows = (0..count).map(|i| Segment::of(&places.dense(i))).collect();
         places.renew(factor);
         places
     }
@@ -84,7 +46,7 @@ impl ContactRows {
             for j in 0..count {
                 self.delassus[j * count + i] = self.sparse.dot(j, &x);
             }
-            self.lift.push(Run::new(&x));
+            self.lift.push(Segment::of(&x));
         }
     }
 
@@ -94,15 +56,15 @@ impl ContactRows {
     }
 
     /// g·x of a row.
-    #[inline]
+    #[inline(always)]
     pub fn seen(&self, row: usize, x: &[f64]) -> f64 {
         self.rows[row].dot(x)
     }
 
     /// g·x of two rows.
-    #[inline]
-    pub fn pair(&self, rows: [usize; 2], x: &[f64]) -> [f64; 2] {
-        rows.map(|row| self.rows[row].dot(x))
+    #[inline(always)]
+    pub fn pair(&self, [y, z]: [usize; 2], x: &[f64]) -> [f64; 2] {
+        [self.seen(y, x), self.seen(z, x)]
     }
 
     /// The motion of row `i` by a unit impulse on row `j`.
@@ -138,7 +100,7 @@ impl ContactRows {
     }
 
     /// Adds the motion of the structure by the impulse of each row to `x`, n entries.
-    #[inline]
+    #[inline(always)]
     pub fn lift(&self, impulse: &[f64], x: &mut [f64]) {
         for (lift, &push) in self.lift.iter().zip(impulse).filter(|(_, push)| **push != 0.0) {
             lift.add(push, x);

@@ -51,11 +51,12 @@ use super::motion::Motion;
 use super::space::Space;
 use crate::contact::{Episodes, Rates};
 use crate::error::Result;
-use crate::linear::Factor;
+use crate::linear::{Factor, update};
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene, Wall};
 use crate::step::{Contact, Contract, Step};
 use normal::HoleState;
+use pulp::{Simd, WithSimd};
 use walls_in_play::WallsInPlay;
 use warm_start::WarmStart;
 
@@ -81,6 +82,8 @@ pub(super) struct Supports {
     episodes: Episodes,
     /// True if the extra force of the last step may not be 0.
     forced: bool,
+    /// The vector instructions of the machine.
+    arch: pulp::Arch,
 }
 
 impl Supports {
@@ -109,6 +112,7 @@ impl Supports {
             memory,
             episodes: Episodes::new(scene, scene.wall_masses(), contract),
             forced: false,
+            arch: pulp::Arch::new(),
             places,
             reach: WallsInPlay::new(scene, theta, points),
             body,
@@ -116,6 +120,7 @@ impl Supports {
     }
 
     /// Lists the walls and holes in play, with their bounds.
+    #[inline(always)]
     fn gather(&mut self) {
         let Self { body, frame, places, reach, sweeps, met, given, memory, .. } = self;
         reach.set_reach(frame, body.h);
@@ -140,6 +145,7 @@ impl Supports {
     }
 
     /// Solves for δ and the impulses, and writes the impulses.
+    #[inline(always)]
     fn settle(&mut self) {
         let Self { factor, delta, b, sweeps, places, frame, free, .. } = self;
         delta.copy_from_slice(b);
@@ -147,9 +153,7 @@ impl Supports {
         if sweeps.touches.is_empty() {
             return;
         }
-        for (free, (v, d)) in free.iter_mut().zip(frame.v.iter().zip(&*delta)) {
-            *free = v + d;
-        }
+        update(free, [&frame.v, delta], |_, [v, d]| v + d);
         for (row, rate) in sweeps.free.iter_mut().enumerate() {
             *rate = places.seen(row, free);
             sweeps.before[row] = places.seen(row, frame.struck());
@@ -209,11 +213,9 @@ impl Supports {
     }
 
     /// Passes the step to the contact episodes.
+    #[inline(never)]
     fn record_episodes(&mut self) {
         let Self { frame, places, reach, body, met, given, episodes, .. } = self;
-        if frame.pushing.is_empty() && episodes.idle() {
-            return;
-        }
         episodes.observe(frame.start, body.h, &frame.impulse, &frame.pushing, |index| match met[index] {
             None => {
                 let seen = |v: &Vec<f64>| body.seen(index, v);
@@ -227,8 +229,27 @@ impl Supports {
     }
 }
 
-impl Motion for Supports {
-    fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
+/// A step, made with the widest vector instructions that the machine has. Each number is computed
+/// as without them.
+struct Advance<'a> {
+    supports: &'a mut Supports,
+    step: u64,
+    extra: Option<&'a [f64]>,
+}
+
+impl WithSimd for Advance<'_> {
+    type Output = Result<()>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Result<()> {
+        self.supports.make(self.step, self.extra)
+    }
+}
+
+impl Supports {
+    /// Makes step number `step` under the extra force.
+    #[inline(always)]
+    fn make(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
         if extra.is_some() || self.forced {
             self.frame.force(extra);
             self.forced = extra.is_some();
@@ -244,10 +265,8 @@ impl Motion for Supports {
         self.settle();
         let carried = self.body.blows.is_some() && self.solve_with_blows();
         let Self { frame, theta, delta, .. } = self;
-        for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(&*delta) {
-            *q += h * (*v + *theta * d);
-            *v += d;
-        }
+        update(&mut frame.q, [&frame.v, delta], |q, [v, d]| q + h * (v + *theta * d));
+        update(&mut frame.v, [delta], |v, [d]| v + d);
         frame.after.clone_from(&frame.v);
         if carried {
             self.body.shift(&mut self.frame.q);
@@ -255,8 +274,16 @@ impl Motion for Supports {
         self.frame.check(step)?;
         let met = &self.met;
         self.memory.keep(&self.sweeps.touches, |index| met[index].map_or(0.0, |met| met.turn));
-        self.record_episodes();
+        if !(self.frame.pushing.is_empty() && self.episodes.idle()) {
+            self.record_episodes();
+        }
         Ok(())
+    }
+}
+
+impl Motion for Supports {
+    fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
+        self.arch.dispatch(Advance { supports: self, step, extra })
     }
 
     fn flush(&mut self, tiny: f64) {

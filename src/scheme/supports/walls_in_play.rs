@@ -11,6 +11,7 @@ use super::contact_rows::ContactRows;
 use super::friction_contact::{FrictionContact, State};
 use super::normal::{AHEAD, HoleState, TURNING, dot, hole_state};
 use super::points::ContactPoint;
+use crate::linear::update;
 use crate::scene::{Checked, Hole};
 #[cfg(doc)]
 use crate::step::Friction;
@@ -23,6 +24,14 @@ struct Round {
     restitution: f64,
     /// Below this distance from the centre, squared, it is out of reach.
     clear: f64,
+}
+
+impl Round {
+    /// A place as seen from the centre.
+    #[inline(always)]
+    fn offset(&self, [y, z]: [f64; 2]) -> [f64; 2] {
+        [y - self.centre[0], z - self.centre[1]]
+    }
 }
 
 /// All walls and holes, and what the step reaches.
@@ -65,11 +74,10 @@ impl WallsInPlay {
     }
 
     /// Sets how far the step of `h` seconds reaches.
+    #[inline(always)]
     pub fn set_reach(&mut self, frame: &Frame<Matrices>, h: f64) {
         self.resting.clear();
-        for (ahead, (q, v)) in self.ahead.iter_mut().zip(frame.q.iter().zip(frame.struck())) {
-            *ahead = q + AHEAD * h * v;
-        }
+        update(&mut self.ahead, [&frame.q, frame.struck()], |_, [q, v]| q + AHEAD * h * v);
     }
 
     /// A wall, if it is in play; `warm` is its impulse in the last step, and what it `did` there.
@@ -118,26 +126,36 @@ impl WallsInPlay {
 
     /// A round wall, if it is in play; `warm` is its impulse in the last step, and what it `did`
     /// there.
+    #[inline(always)]
     pub fn hole(
         &self,
         index: usize,
         (frame, h): (&Frame<Matrices>, f64),
         places: &ContactRows,
-        (warm, did): ([f64; 2], State),
+        last: ([f64; 2], State),
     ) -> Option<(FrictionContact, HoleState)> {
         let (round, point) = (self.rounds[index]?, self.points[index]);
-        let from = |q: &Vec<f64>| {
-            let [y, z] = places.pair(point.rows, q);
-            [y - round.centre[0], z - round.centre[1]]
-        };
-        let ahead = from(&self.ahead);
+        let ahead = round.offset(places.pair(point.rows, &self.ahead));
         if dot(ahead, ahead) < round.clear {
             return None;
         }
-        let rate = places.pair(point.rows, frame.struck());
-        let met = hole_state((round.gap, round.restitution), from(&frame.q), rate, h)?;
+        let (at, rate) = (places.pair(point.rows, &frame.q), places.pair(point.rows, frame.struck()));
+        let met = hole_state((round.gap, round.restitution), round.offset(at), rate, h)?;
+        Some((self.touch(index, &met, places, last), met))
+    }
+
+    /// The contact with a round wall that was `met`.
+    #[inline(never)]
+    fn touch(
+        &self,
+        index: usize,
+        met: &HoleState,
+        places: &ContactRows,
+        (warm, did): ([f64; 2], State),
+    ) -> FrictionContact {
+        let point = self.points[index];
         let (contact, law) = ((index, point.rows), (point.friction.sticking, 0.0));
         let touch = FrictionContact::new(places, contact, (met.normal, met.bound), law, warm);
-        Some((touch.after(point.friction, did), met))
+        touch.after(point.friction, did)
     }
 }

@@ -21,7 +21,7 @@ fn what_the_forces_and_impulses_of_a_run_leave_is_measured_by_what_was_exchanged
     (judge.q, judge.load, judge.noise.end, judge.walls.force_scale) = (vec![2.0], vec![4.0], 2.0, 8.0);
     let sums = &mut judge.sums;
     (sums.steps, sums.last, sums.place, sums.load) = (4, vec![-1.0], vec![3.0], vec![-495.0]);
-    sums.forces = vec![Forces { load: 2.0, own: -3.0, changes: 1.0, largest: 6.0, exchanged: 9.0 }];
+    sums.forces.set(0, Forces { load: 2.0, own: -3.0, changes: 1.0, largest: 6.0, exchanged: 9.0 });
     (sums.seen, sums.sizes) = (vec![-3.0, 2.0], vec![5.0, 2.0]);
     // m Δv + c Δq + k ∫q dt − ∫f dt, and the walls' impulses through their levers.
     let open = 4.0 * -3.0 + 2.0 * 1.0 + 8.0 * 3.0 + 495.0 - (2.0 * -3.0 - 0.5 * 2.0);
@@ -44,15 +44,15 @@ fn a_force_is_said_to_change_from_the_second_step_on() {
     let scene = Scene::oscillator(1.0, 0.0, 0.0).with_load(Load::table(table));
     let mut theta = judge(&scene, contract(Balance::Theta(0.5)), 0.0, 0.0);
     theta.observe(&Claim::of(0.0, 0.0, 3.0 * H, 0).step());
-    assert_eq!((theta.sums.forces[0].changes, theta.sums.forces[0].load), (0.0, 3.0));
+    assert_eq!((theta.sums.forces.changes[0], theta.sums.forces.load[0]), (0.0, 3.0));
     theta.observe(&Claim::of(0.0, 3.0 * H, 5.5 * H, 0).at(1).step());
-    assert_eq!((theta.sums.forces[0].changes, theta.sums.forces[0].load), (0.5, 2.5));
+    assert_eq!((theta.sums.forces.changes[0], theta.sums.forces.load[0]), (0.5, 2.5));
     // generalized-α: the whole force at the end of a step is 7 N, 3 N of it the load's.
     let alpha = Balance::GeneralizedAlpha { alpha_m: 0.0, alpha_f: 0.5, beta: 0.25, gamma: 0.5 };
     let mut alpha = judge(&scene, contract(alpha), 0.0, 2.0);
     (alpha.load_end, alpha.scratch.spring) = (vec![3.0], vec![7.0]);
     alpha.sum(&Claim::of(1.0, 2.0, 4.0, 0).step(), 1.0 / H, 1);
-    let Forces { load, own, changes, largest, exchanged } = alpha.sums.forces[0];
+    let Forces { load, own, changes, largest, exchanged } = alpha.sums.forces.of(0);
     assert_eq!([load, own, changes, largest, exchanged], [3.0, 4.0, 0.0, 7.0, 7.0 * H]);
     assert_eq!((alpha.sums.rate[0], alpha.sums.last[0]), (0.5 * H * (2.0 + 4.0), 4.0));
 }
@@ -66,7 +66,7 @@ fn a_staggered_run_ends_half_a_step_before_its_last_instant() {
     let open = |last: f64| {
         let mut judge = judge(&scene, contract(Balance::Staggered(0.25)), 0.0, 1.0);
         let sums = &mut judge.sums;
-        (sums.steps, sums.last, sums.forces[0].exchanged) = (4, vec![last], 10.0);
+        (sums.steps, sums.last, sums.forces.exchanged[0]) = (4, vec![last], 10.0);
         judge.open_momentum().value
     };
     assert_eq!([1.0, 3.0, 6.0].map(open), [2.0 / 10.0, 0.0, 3.0 / 10.0]);

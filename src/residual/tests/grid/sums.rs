@@ -28,14 +28,14 @@ fn forces_are_summed_by_size_and_by_change_except_at_the_start() {
     // Springs and dampers are given as impulses with the opposite sign, over half a second.
     (means.load, means.spring, means.damper) = (vec![3.0, 1.0], vec![2.0, -1.0], vec![-1.0, 1.0]);
     sums.add(&moves, &means, (0.5, 2.0), true, 2);
-    assert_eq!(entries(&sums.forces[0]), [3.0, -4.0, 0.0, 3.0 + 4.0 + 2.0, 0.5 * 1.0]);
-    assert_eq!(entries(&sums.forces[1]), [1.0, 2.0, 0.0, 1.0 + 2.0 + 2.0, 0.5 * 1.0]);
+    assert_eq!(entries(&sums.forces.of(0)), [3.0, -4.0, 0.0, 3.0 + 4.0 + 2.0, 0.5 * 1.0]);
+    assert_eq!(entries(&sums.forces.of(1)), [1.0, 2.0, 0.0, 1.0 + 2.0 + 2.0, 0.5 * 1.0]);
     // Ends by the trapezoid rule, the extra force all the while.
     assert_eq!((&sums.place[..], &sums.load[..]), (&[0.25 * 4.0, 0.25 * 1.0][..], &[1.0 + 1.0, -0.5 - 0.5][..]));
     (means.load, means.spring, means.damper) = (vec![1.0, 1.0], vec![1.0, 1.0], vec![0.0, 0.25]);
     sums.add(&moves, &means, (0.5, 2.0), false, 2);
-    assert_eq!(entries(&sums.forces[0]), [1.0, -2.0, 2.0 + 2.0, 9.0, 0.5 + 0.5 * 1.0]);
-    assert_eq!(entries(&sums.forces[1]), [1.0, -2.0, 0.0 + 4.0, 5.0, 0.5 + 0.5 * 1.5]);
+    assert_eq!(entries(&sums.forces.of(0)), [1.0, -2.0, 2.0 + 2.0, 9.0, 0.5 + 0.5 * 1.0]);
+    assert_eq!(entries(&sums.forces.of(1)), [1.0, -2.0, 0.0 + 4.0, 5.0, 0.5 + 0.5 * 1.5]);
     assert_eq!((&sums.place[..], &sums.load[..]), (&[2.0, 0.5][..], &[4.0, -2.0][..]));
 }
 
@@ -60,6 +60,6 @@ fn steps_of_one_degree_of_freedom_are_summed_together() {
     sums.add_all(&moves, &means, (0.5, 2.0), 3);
     // Forces of springs −2, −2 and −4 N, of the damper −1 N in the second step, from 0 before.
     let changes = (2.0 + 2.0) + (2.0 + 0.0) + (2.0 + 2.0);
-    assert_eq!(entries(&sums.forces[0]), [6.0, -4.0, changes, 10.0, 0.5 * (0.0 + 1.0 + 2.0)]);
+    assert_eq!(entries(&sums.forces.of(0)), [6.0, -4.0, changes, 10.0, 0.5 * (0.0 + 1.0 + 2.0)]);
     assert_eq!((sums.place[0], sums.load[0], sums.last[0]), (0.25 * 21.0, 0.25 * 24.0, 7.0));
 }
