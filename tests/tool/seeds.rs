@@ -1,46 +1,20 @@
 //! `run --seeds`: the files, the numbers in them, and what is refused.
 use crate::command::{command, said};
+use crate::shaken::square_of_bars;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// 1 kg in two planes in a square of bars, with a stop on the side, shaken in both planes.
-const SQUARE: &str = r#"
-[system]
-planes = 2
-
-[system.oscillator]
-mass = 1.0
-damping = 2.0
-stiffness = 400.0
-
-[[support]]
-name = "bars"
-shape = "flats"
-sides = 4
-gap = 2e-3
-restitution = 0.5
-
-[[wall]]
-name = "stop"
-direction = 45
-side = "upper"
-position = 2.2e-3
-stiffness = 1e5
-
-[[load]]
-direction = "both"
-random = { rms = 3.0, from = 1.0, to = 20.0, seed = 7 }
-
-[time]
-end = 3.0
-step = 1e-3
-statistics_from = 0.5
-"#;
+/// The square with a stop on the side.
+fn square() -> String {
+    let stop = "[[wall]]\nname = \"stop\"\ndirection = 45\nside = \"upper\"\nposition = 2.2e-3\nstiffness = 1e5\n";
+    let time = "[time]\nend = 3.0\nstep = 1e-3\nstatistics_from = 0.5\n";
+    square_of_bars("", &format!("{stop}\n{time}"))
+}
 
 fn folder() -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("square.toml"), SQUARE).unwrap();
+    fs::write(dir.path().join("square.toml"), square()).unwrap();
     dir
 }
 
