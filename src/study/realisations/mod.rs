@@ -49,6 +49,7 @@ pub(crate) use estimate::mean_of;
 pub use estimate::{Estimate, Interval};
 pub use measure::{Figure, Measure};
 pub use paired::Difference;
+#[cfg(feature = "cli")]
 pub(crate) use plan::shortfall;
 pub use plan::{FailedCheck, RealisationPlan, RealisationStudy};
 pub use realisation::Realisation;
