@@ -8,8 +8,27 @@ use super::Judge;
 use super::quiet_scratch::QuietScratch;
 use super::step_motion::StepMotion;
 use crate::step::QuietSteps;
-use pulp::Scalar;
+use pulp::{Simd, WithSimd};
 use std::ops::Range;
+
+/// Steps in which no wall is in reach, checked with the widest vector instructions that the machine
+/// has. Each number is computed as without them.
+struct ClearSteps<'a> {
+    judge: &'a mut Judge,
+    scratch: &'a mut QuietScratch,
+    quiet: &'a QuietSteps,
+    steps: Range<usize>,
+}
+
+impl WithSimd for ClearSteps<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { judge, scratch, quiet, steps } = self;
+        judge.observe_clear(simd, scratch, quiet, steps);
+    }
+}
 
 impl Judge {
     /// True if [`Judge::observe_quiet`] is faster than [`Judge::observe`] step by step.
@@ -26,7 +45,10 @@ impl Judge {
         let mut k = 0;
         while k < quiet.len() {
             let clear = k + self.clear(quiet, k);
-            self.observe_clear(&mut quiet_scratch, quiet, k..clear);
+            if clear > k {
+                let scratch = &mut *quiet_scratch;
+                self.arch.dispatch(ClearSteps { judge: self, scratch, quiet, steps: k..clear });
+            }
             k = clear;
             if k < quiet.len() {
                 self.observe(&quiet.step(k));
@@ -56,16 +78,20 @@ impl Judge {
     }
 
     /// Checks steps in which no wall is in reach.
-    fn observe_clear(&mut self, quiet_scratch: &mut QuietScratch, quiet: &QuietSteps, steps: Range<usize>) {
+    #[inline(always)]
+    fn observe_clear<S: Simd>(
+        &mut self,
+        simd: S,
+        quiet_scratch: &mut QuietScratch,
+        quiet: &QuietSteps,
+        steps: Range<usize>,
+    ) {
         let n = steps.len();
         let (&mut [ref mut q], &mut [ref mut load], Some(forcing)) =
             (&mut self.q[..], &mut self.load[..], &mut self.grid_load)
         else {
             return;
         };
-        if n == 0 {
-            return;
-        }
         let QuietScratch { weights, scratch, q: places, load: loads, zeros } = quiet_scratch;
         let (h, per_h) = (self.h, 1.0 / self.h);
         places[0] = *q;
@@ -88,11 +114,10 @@ impl Judge {
             blow: &zeros[..n],
         };
         self.noise.begin(h, quiet.end()[steps.end - 1]);
-        let path = scratch.means(Scalar, self.contract.balance, h, &moves, weights, n);
-        self.noise.step(Scalar, &moves, &scratch.load, weights, (h, per_h), n);
-        self.balance.scale =
-            scratch.products(Scalar, &self.matrices, (h, per_h), zeros, weights, n, self.balance.scale);
-        let (largest, worst) = scratch.open(Scalar, per_h, weights, n, self.balance.largest);
+        let path = scratch.means(simd, self.contract.balance, h, &moves, weights, n);
+        self.noise.step(simd, &moves, &scratch.load, weights, (h, per_h), n);
+        self.balance.scale = scratch.products(simd, &self.matrices, (h, per_h), zeros, weights, n, self.balance.scale);
+        let (largest, worst) = scratch.open(simd, per_h, weights, n, self.balance.largest);
         if worst > self.noise.force() || path > self.noise.path() {
             // One of the steps will be accused: see them one by one to find out when.
             return steps.for_each(|k| self.observe(&quiet.step(k)));
@@ -105,7 +130,7 @@ impl Judge {
             self.sums.add_all(&moves, scratch, (h, per_h), n);
         }
         self.sums.steps += n as u64;
-        self.extent.observe(Scalar, &places[1..=n], moves.after, weights, n);
+        self.extent.observe(simd, &places[1..=n], moves.after, weights, n);
         (*q, *load) = (places[n], loads[n]);
     }
 }
