@@ -15,7 +15,18 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How many realisations are asked for: a number, or the share of an interval with the most that
 /// it may take.
-pub type Asked = (Option<u64>, Option<f64>, Option<u64>);
+pub type Asked = (Option<i64>, Option<f64>, Option<i64>);
+
+/// The number of realisations that is asked for.
+///
+/// # Errors
+/// `ValueError` for numbers that make no sense.
+pub fn asked((seeds, until_interval, most): Asked) -> PyResult<Option<RealisationCount>> {
+    let count = |name: &str, count: Option<i64>| {
+        count.map(|count| u64::try_from(count).map_err(|_| wrong(name, count, "1 or more realisations"))).transpose()
+    };
+    RealisationCount::new(count("seeds", seeds)?, until_interval, count("most_seeds", most)?).map_err(raise)
+}
 
 /// How far a study is: runs that are done, in thousandths, and the runs of all batches that have
 /// begun.
@@ -42,9 +53,9 @@ impl RunsDone {
 /// The number of realisations of `case` that is asked for.
 ///
 /// # Errors
-/// `ValueError` for numbers that make no sense, and for a case without random loads.
-pub fn count((seeds, until_interval, most): Asked, case: &sg::case::Case) -> PyResult<Option<RealisationCount>> {
-    let count = RealisationCount::new(seeds, until_interval, most).map_err(raise)?;
+/// As [`asked`]; `ValueError` for a case without random loads.
+pub fn count(given: Asked, case: &sg::case::Case) -> PyResult<Option<RealisationCount>> {
+    let count = asked(given)?;
     if let Some(count) = count {
         case.check_random(count).and_then(|()| case.realisation(count.most())).map_err(raise)?;
     }

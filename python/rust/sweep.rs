@@ -3,7 +3,7 @@
 use crate::case::{Case, value};
 use crate::error::{raise, wrong};
 use crate::plan::Plan;
-use crate::realisations::Asked;
+use crate::realisations::{self, Asked};
 use crate::scene::Scene;
 use crate::work::{compute_beside, kept};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -181,8 +181,8 @@ fn drawn(sweep: Sweep, random: Option<Drawn>) -> PyResult<Sweep> {
 }
 
 /// `sweep` with rows of so many realisations, where several are asked for.
-fn repeated(sweep: Sweep, (seeds, until_interval, most): Asked) -> PyResult<Sweep> {
-    Ok(match RealisationCount::new(seeds, until_interval, most).map_err(raise)? {
+fn repeated(sweep: Sweep, given: Asked) -> PyResult<Sweep> {
+    Ok(match realisations::asked(given)? {
         None => sweep,
         Some(RealisationCount::Within { share, most }) => sweep.until_interval(share, Some(most)).map_err(raise)?,
         Some(count) => sweep.realisations(count.most()),

@@ -32,7 +32,7 @@ pub fn _wear<'py>(
     step: Option<f64>,
     years: Option<f64>,
     histories: Option<u64>,
-    within: (Option<f64>, Option<u64>),
+    within: (Option<f64>, Option<i64>),
     verdict: bool,
     folder: Option<PathBuf>,
     counted: Py<PyAny>,
@@ -44,7 +44,8 @@ pub fn _wear<'py>(
     let supports = case.wearing_supports().map_err(raise)?;
     let service = case.service(years).map_err(raise)?;
     // A number beside an interval is refused.
-    let within = count((histories.filter(|_| within.0.is_some()), within.0, within.1), case)?;
+    let beside = histories.filter(|_| within.0.is_some()).map(|count| count as i64);
+    let within = count((beside, within.0, within.1), case)?;
     let asked = case.histories(histories.map(|count| count as usize)).map_err(raise)?;
     let count = within.unwrap_or(RealisationCount::Exactly(asked as u64));
     let request = WearRequest { case, method: &plan.method, years, count, verdict };

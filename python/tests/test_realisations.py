@@ -139,6 +139,7 @@ def test_a_refuted_realisation_is_an_error_with_the_study() -> None:
     [
         ({}, "seeds is missing; expected"),
         ({"seeds": 0}, "seeds is 0; expected 1 or more"),
+        ({"seeds": -2}, "seeds is -2; expected 1 or more"),
         ({"seeds": 2, "until_interval": 0.1}, "until_interval is 0.1; expected no interval beside"),
         ({"until_interval": 5.0}, "until_interval is 5.*above 0 and below 1"),
         ({"until_interval": 0.1, "most_seeds": 3}, "most_seeds is 3; expected 6 or more"),

@@ -116,7 +116,7 @@ impl Studies {
             let checks = one.study.checks.iter().filter_map(error_parts::refuted);
             checks.map(|text| format!("{}: {text}", one.method))
         });
-        let above = (self.count > 1).then(|| "what stands above is of realisation 1 alone".to_owned());
+        let above = (self.count > 1).then(|| "all but the means and their errors is of realisation 1 alone".to_owned());
         let refuted = self.methods.iter().filter(|one| !one.study.refuted.is_empty()).map(|one| {
             let count = one.study.refuted.len();
             format!("{}: {count} of {} realisations are refuted: its means are wrong", one.method, self.count)

@@ -17,12 +17,13 @@ use crate::study::realisations::{
 /// # Errors
 /// [`Error::Invalid`] under `argument` for a text that is no number.
 pub fn share(argument: &'static str, text: &str) -> Result<f64> {
-    let (number, unit) = match text.trim().strip_suffix('%') {
-        Some(number) => (number, 0.01),
+    // Divided, 7% is the same number as 0.07.
+    let (number, whole) = match text.trim().strip_suffix('%') {
+        Some(number) => (number, 100.0),
         None => (text, 1.0),
     };
     let wrong = |_| Error::invalid(argument, text, "a share above 0 and below 1: 5% or 0.05");
-    Ok(unit * number.trim().parse::<f64>().map_err(wrong)?)
+    Ok(number.trim().parse::<f64>().map_err(wrong)? / whole)
 }
 
 /// The error of a request under the name of the command line's argument: `until_interval` is
@@ -117,5 +118,15 @@ mod tests {
         assert!(!error.is_request(), "exit code 1: the run failed, and not the request");
         assert!(error.to_string().ends_with("not known: the run with 8 modes; the run with half the step"), "{error}");
         assert_eq!(not_checked(std::iter::empty()), None);
+    }
+
+    #[test]
+    fn per_cent_are_the_share_that_they_stand_for_to_the_last_bit() {
+        for percent in 1..100 {
+            let expected = f64::from(percent) / 100.0;
+            for text in [format!("{percent}%"), format!("{expected:?}")] {
+                assert_eq!(share("until_interval", &text), Ok(expected), "{text}");
+            }
+        }
     }
 }
