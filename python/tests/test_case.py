@@ -138,6 +138,8 @@ def test_a_tube_that_makes_no_sense_is_refused(wrong: dict[str, Any], message: s
 def test_other_values_are_refused() -> None:
     with pytest.raises(TypeError, match="title is <object .*; expected a number, a text"):
         sg.case({"title": object()})
+    with pytest.raises(TypeError, match="tables is 'bouncing-ball'; expected a mapping .*; load reads a case by name"):
+        sg.case("bouncing-ball")  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="expected a number of degrees"):
         sg.Load.constant(1.0, direction=[1.0])  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="load 1: kind is random; expected a case"):

@@ -34,7 +34,8 @@ def case(tables: Mapping[str, Any], *, name: str = "case") -> Case:
     ValueError
         For a case that makes no sense: line and key of `Case.text`, and what would be accepted.
     TypeError
-        For a value that a case file cannot hold.
+        For tables that are no mapping, such as the name of a case, which `load` takes; for a value
+        that a case file cannot hold.
 
     Examples
     --------
@@ -49,6 +50,8 @@ def case(tables: Mapping[str, Any], *, name: str = "case") -> Case:
     >>> ball.run()
     <Run: located, 1001 rows to 1.0 s, 2 contacts>
     """
+    if not isinstance(tables, Mapping):
+        raise TypeError(f"tables is {tables!r}; expected a mapping of the tables of a case; load reads a case by name")
     return _core._case(text(tables), name)
 
 
