@@ -96,9 +96,21 @@ impl Judge {
         if self.supports.is_some() {
             self.follow_holes(step, series);
         }
+        self.scale_by_dashpots(step.end - step.start);
         let (s, system) = (&mut self.scratch, &self.scene.system);
         system.add_damping(-1.0, &s.spring, &mut s.residual);
         system.add_stiffness(-1.0, &s.inertia, &mut s.residual);
+    }
+
+    /// Notes the mean force of the dashpots over `span` seconds, with ∫q̇ in `spring`: without
+    /// loads and springs it is the only force.
+    fn scale_by_dashpots(&mut self, span: f64) {
+        let s = &mut self.scratch;
+        s.damper.fill(0.0);
+        self.scene.system.add_damping(1.0 / span, &s.spring, &mut s.damper);
+        for (force, weight) in s.damper.iter().zip(&self.weights.root_mass) {
+            self.balance.raise_scale(force.abs() / weight);
+        }
     }
 
     /// Checks the momentum balance: M(v₁ − v₀) minus the impulse of the net force over the stretch,
