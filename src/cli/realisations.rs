@@ -40,29 +40,21 @@ pub fn of_argument(error: Error) -> Error {
 
 /// The study of `count` realisations of `case`, of which `run` by `method` is the first; with
 /// `verdict` also the errors of its means. Its bars say how far it is, and what is refuted in it
-/// fails the command.
+/// fails the command, under the name of the run after `of`.
 pub fn study(
     case: &Case,
     (run, method): (&Run, &Method),
     count: RealisationCount,
     verdict: bool,
-    ui: &Ui,
-) -> Result<RealisationStudy> {
-    let study = unjudged(case, (run, method), count, verdict, ui)?;
-    study.refuted().for_each(|(run, findings)| ui.refute(&run, findings));
-    Ok(study)
-}
-
-/// As [`study`]; what is refuted in it is left to the caller.
-pub fn unjudged(
-    case: &Case,
-    (run, method): (&Run, &Method),
-    count: RealisationCount,
-    verdict: bool,
+    of: &str,
     ui: &Ui,
 ) -> Result<RealisationStudy> {
     let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, verdict };
-    plan.follow(&mut |batch| batch_with_bar(case, method, batch, ui), &mut |pilots| ui.message(&pilots.to_string()))
+    let study = plan.follow(&mut |batch| batch_with_bar(case, method, batch, ui), &mut |pilots| {
+        ui.message(&pilots.to_string());
+    })?;
+    study.refuted().for_each(|(run, findings)| ui.refute(&format!("{of}{run}"), findings));
+    Ok(study)
 }
 
 /// Runs `batch` under a bar with its name.

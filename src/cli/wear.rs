@@ -143,7 +143,7 @@ fn first_windows(
     let run = ui.with_estimate("first run", estimate, |bar| {
         run_with_progress(&case.scene, method, &Options::new(case.time), &mut |time| bar.set_share(time / end))
     })?;
-    realisations::study(case, (&run, method), count, verdict, ui)
+    realisations::study(case, (&run, method), count, verdict, "", ui)
 }
 
 /// What histories are followed.

@@ -6,14 +6,14 @@
 //! The judge, which checks every step against the contract: complementarity, momentum balance,
 //! energy ledger; steps on a grid (`grid.rs`, their parts `part.rs`, the passes over what they did,
 //! `step_motion.rs`, in `scratch.rs`, many steps of one degree of freedom in the same passes
-//! `quiet_steps.rs`, each wall `wall_step.rs`, blows `blow_check.rs`, round holes `round.rs`,
-//! `disk.rs`, `ring.rs`, `hole_motion.rs` and `place.rs`, friction `friction.rs`), exact motion
-//! (`arc.rs`, of structures `series.rs`, round holes `circle.rs`), steps that predict and correct
-//! (`corrected.rs`), all into `residuals.rs`, and the momentum of a whole run, of every run
-//! (`run_momentum.rs`) and of a recorded one (`recorded.rs`); what a run shows of its walls
-//! (`walls.rs`, `front.rs`) and of its momentum (`balance.rs`) is kept with its rounding error
-//! (`noise.rs`, `largest_residual.rs`), and what exceeds that and its tolerance becomes a finding
-//! (`verdict.rs`, `finding.rs`); imports no scheme and no QP.
+//! `quiet_steps.rs`, each wall `wall_step.rs`, rows prepared for products `view.rs`, blows
+//! `blow_check.rs`, round holes `round.rs`, `disk.rs`, `ring.rs`, `hole_motion.rs` and `place.rs`,
+//! friction `friction.rs`), exact motion (`arc.rs`, of structures `series.rs`, round holes
+//! `circle.rs`), steps that predict and correct (`corrected.rs`), all into `residuals.rs`, and the
+//! momentum of a whole run, of every run (`run_momentum.rs`) and of a recorded one (`recorded.rs`);
+//! what a run shows of its walls (`walls.rs`, `front.rs`) and of its momentum (`balance.rs`) is
+//! kept with its rounding error (`noise.rs`, `largest_residual.rs`), and what exceeds that and its
+//! tolerance becomes a finding (`verdict.rs`, `finding.rs`); imports no scheme and no QP.
 
 mod arc;
 mod balance;

@@ -38,7 +38,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
             Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
             None => checked::checked(args, case, ui)?,
         };
-    let study = |count| realisations::study(&case, (&run, &method), count, !args.no_verdict, ui);
+    let study = |count| realisations::study(&case, (&run, &method), count, !args.no_verdict, "", ui);
     let study = wanted.map(study).transpose()?;
     if let Some(study) = &study {
         error_parts::write_study(&mut results, study)?;

@@ -33,7 +33,7 @@
 //!
 //! With round walls or friction ([`planar`], [`plane_contacts`]) the same division ends parts where
 //! a place meets a circle (`round_path.rs`), where sliding ends and where it begins; a body that
-//! slides along a circle is guided by an impulse along the middle of its path (`response.rs`).
+//! slides along a circle is guided by an impulse along the middle of its path (`plane_bound.rs`).
 //! There the rest of a step of more than 64 parts has no rebounds, and implicit-euler takes over
 //! after 256 more.
 //!
