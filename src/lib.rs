@@ -88,4 +88,4 @@ pub use step::{
     Reached, Rigid, Step, Tolerance, Tolerances, Turning,
 };
 pub use time::{MOST_ROWS, MOST_STEPS, TimeGrid, TimeOptions};
-pub use trajectory::{EpisodeWear, Recorder, Trajectory};
+pub use trajectory::{EpisodeWear, OutputStates, Recorder, Trajectory};

@@ -348,6 +348,13 @@ impl Run {
         Self::by_python(slf, "columns")
     }
 
+    /// The states of the probes at the scene's output times (`Scene.replace`), by the column names
+    /// that ``output.csv`` has; empty without such times.
+    #[getter]
+    fn output<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::by_python(slf, "output")
+    }
+
     /// Contact statistics of each wall over the window, by its name, with the keys of
     /// ``summary.json``; ``half_width_95`` holds the half widths of 95 % intervals.
     #[getter]
@@ -489,6 +496,14 @@ impl Run {
         let dict = loads(py, &serde_json::to_string(&verdict).unwrap_or_default())?;
         dict.set_item("text", verdict.to_string())?;
         Ok(dict)
+    }
+
+    /// The output times, s, and displacement (m) and velocity (m/s) of each probe there.
+    fn _output<'py>(slf: &Bound<'py, Self>) -> (Array<'py>, Vec<(Array<'py>, Array<'py>)>) {
+        let states = slf.get().run.trajectory.output();
+        let columns = states.displacement.iter().zip(&states.velocity);
+        let columns = columns.map(|(displacement, velocity)| (view(slf, displacement), view(slf, velocity)));
+        (view(slf, &states.time), columns.collect())
     }
 
     /// Columns of the contacts.

@@ -49,6 +49,9 @@ impl Scene {
     /// loads : sequence of Load, optional
     /// probes : mapping of str to place, optional
     ///     Places whose displacement and velocity are recorded, by name.
+    /// output_times : sequence of float, optional
+    ///     s, increasing: times at which `Run.output` has the states of the probes; they need not
+    ///     be rows.
     /// displacement, velocity : float or sequence of float, optional
     ///     The start, m and m/s: one value per degree of freedom.
     /// duration : float, optional
@@ -76,8 +79,8 @@ impl Scene {
     /// >>> struck = free.replace(walls=[sg.Wall.upper("stop", 5e-3)], velocity=0.1)
     /// >>> struck.run("event").impulse("stop") < 0
     /// True
-    #[pyo3(signature = (*, walls=None, loads=None, probes=None, displacement=None, velocity=None, duration=None,
-                        damping=None, modes=None, static_correction=None))]
+    #[pyo3(signature = (*, walls=None, loads=None, probes=None, output_times=None, displacement=None, velocity=None,
+                        duration=None, damping=None, modes=None, static_correction=None))]
     #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
     fn replace(
         &self,
@@ -85,6 +88,7 @@ impl Scene {
         walls: Option<Vec<Wall>>,
         loads: Option<Vec<Load>>,
         probes: Option<Bound<'_, PyDict>>,
+        output_times: Option<Vec<f64>>,
         displacement: Option<Values>,
         velocity: Option<Values>,
         duration: Option<f64>,
@@ -111,6 +115,7 @@ impl Scene {
         if let Some(probes) = probes {
             scene.probes = self.probes_of(&probes, n)?;
         }
+        scene.output_times = output_times.unwrap_or_else(|| mem::take(&mut scene.output_times));
         displacement.map_or(Ok(()), |values| values.put("displacement", &mut scene.initial.q))?;
         velocity.map_or(Ok(()), |values| values.put("velocity", &mut scene.initial.v))?;
         scene.duration = duration.unwrap_or(scene.duration);

@@ -53,6 +53,22 @@ def test_columns_are_those_of_the_csv_file(scene: sg.Scene) -> None:
     np.testing.assert_array_equal(frame["displacement_m"], run.displacement)
 
 
+def test_states_at_output_times_are_those_of_the_exact_motion() -> None:
+    # Dropped from 1 m onto a floor of restitution 0.8: closed form, before and after the impact.
+    ball = sg.oscillator(
+        2.0, 0.0, 0.0, walls=[sg.Wall.lower("floor", 0.0, restitution=0.8)], loads=[sg.Load.constant(-19.62)],
+        displacement=1.0, duration=1.0,
+    )
+    assert ball.run("event").output == {}
+    found = ball.replace(output_times=np.array([0.3, 0.6])).run("event").output
+    assert list(found) == ["time_s", "displacement_m", "velocity_m_per_s"]
+    speed, after = 0.8 * np.sqrt(2.0 * 9.81), 0.6 - np.sqrt(2.0 / 9.81)
+    np.testing.assert_allclose(found["displacement_m"], [1.0 - 4.905 * 0.09, speed * after - 4.905 * after**2], 1e-12)
+    np.testing.assert_allclose(found["velocity_m_per_s"], [-2.943, speed - 9.81 * after], 1e-12)
+    with pytest.raises(ValueError, match="output times: value 2"):
+        ball.replace(output_times=[0.2, 0.1])
+
+
 def test_names_become_words_and_equal_ones_get_numbers() -> None:
     chain = sg.chain([1.0] * 3, [1e3] * 2, probes={"a-b": 0, "a_b": 1}, velocity=[0.1, 0.0, 0.0])
     assert list(chain.run("event").columns)[1::2] == ["displacement_a_b_m", "displacement_a_b_2_m"]

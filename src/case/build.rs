@@ -117,6 +117,7 @@ impl Builder<'_> {
             supports: Vec::new(),
             loads: Vec::new(),
             probes: Vec::new(),
+            output_times: Vec::new(),
             initial: State { q: vec![0.0; total], v: vec![0.0; total] },
             duration,
         };
@@ -126,9 +127,17 @@ impl Builder<'_> {
         let walls = self.walls_and_supports(file, &mut scene.supports)?;
         self.loads(&file.sections("load"), &mut scene)?;
         scene.probes = self.probes(&file.sections("probe"), &walls)?;
+        scene.output_times = self.output_times(&file.required_section("time"));
         let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
         scene.walls = all;
         Ok((scene, places))
+    }
+
+    /// The times at which the states of the probes are asked for.
+    fn output_times(&mut self, time: &Section<'_>) -> Vec<f64> {
+        let times = time.numbers("output_times").map(Spanned::into_inner).unwrap_or_default();
+        let value = |index| Subject::of("output times").value(index);
+        times.iter().enumerate().map(|(index, time)| self.number(value(index), time)).collect()
     }
 
     /// Reduces the case to its slowest `modes`, under the fields of `turbulence`, with the

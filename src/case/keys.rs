@@ -311,6 +311,9 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("time.sample", Number, "s", ["every step is recorded (`event`: end/1000)", "a number \
         above 0 and at most end: shortened to divide it, and said so; below step records every \
         step", "more than 1e7 rows, or 2e8 values in the table, also where it is left out"]),
+    entry("time.output_times", Numbers, "s", ["none", "a list of increasing numbers, 0 or more: the \
+        states of the probes at these times in `output.csv`, which need not be rows", "negative, \
+        not increasing"]),
     entry("time.statistics_from", Number, "s", ["0", "a number, 0 or more and below end: the \
         window of every statistic, in tables and summary", "outside the run"]),
     entry("time.force_averaging", Number, "s", ["1e-3", "a number above 0: the stretch over which \

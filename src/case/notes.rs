@@ -20,6 +20,7 @@ impl Case {
         notes.extend(self.open_supports());
         notes.extend(self.odd_coefficients());
         notes.extend(self.start_note());
+        notes.extend(self.late_output());
         notes.extend(self.turbulence_notes());
         notes.extend(self.flow_note());
         notes
@@ -32,6 +33,14 @@ impl Case {
             "the start is the static equilibrium under the constant loads alone: all other loads begin at t = 0"
                 .to_owned()
         })
+    }
+
+    /// Output times that the run does not reach.
+    fn late_output(&self) -> Option<String> {
+        let (times, end) = (&self.scene.output_times, self.scene.duration);
+        let late = times.len() - self.scene.reached_output_times().len();
+        (late > 0)
+            .then(|| format!("{late} of {} output times lie after the end, {end:?} s: they are left out", times.len()))
     }
 
     /// Supports that the structure may leave, since their flats stand within a half turn.

@@ -15,6 +15,7 @@ pub(super) fn written(subject: &Subject) -> String {
     let key = match names.as_slice() {
         ["duration"] => "time.end".to_owned(),
         [key @ ("step" | "sample" | "statistics_from" | "force_averaging")] => format!("time.{key}"),
+        ["output times"] => "time.output_times".to_owned(),
         ["sectors"] => "wear.sectors".to_owned(),
         ["statistics", key] => format!("statistics.{key}"),
         ["static correction"] => "static_correction".to_owned(),

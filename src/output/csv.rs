@@ -1,10 +1,10 @@
-//! `trajectory.csv` and `contacts.csv`. Numbers have the fewest digits that read back as the same
-//! float.
+//! `trajectory.csv`, `output.csv` and `contacts.csv`. Numbers have the fewest digits that read back
+//! as the same float.
 
 use super::atomic::WholeFile;
 use crate::error::{Error, Result};
 use crate::step::Contact;
-use crate::trajectory::Trajectory;
+use crate::trajectory::{OutputStates, Trajectory};
 use std::collections::HashSet;
 use std::io::Write;
 use std::path::Path;
@@ -22,14 +22,8 @@ const BLOCK: usize = 1 << 16;
 /// # Errors
 /// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
-    let mut header = vec!["time_s".to_owned()];
-    let mut columns: Vec<&[f64]> = vec![trajectory.time()];
-    for (probe, word) in trajectory.probes().iter().zip(words(trajectory.probes())) {
-        let suffix = if probe.is_empty() { String::new() } else { format!("_{word}") };
-        let (displacement, velocity) = trajectory.probe(probe)?;
-        header.extend([format!("displacement{suffix}_m"), format!("velocity{suffix}_m_per_s")]);
-        columns.extend([displacement, velocity]);
-    }
+    let states = [trajectory.displacements(), trajectory.velocities()];
+    let (mut header, mut columns) = probe_columns(trajectory.probes(), trajectory.time(), states);
     let flats = trajectory.walls().iter().zip(words(trajectory.walls()));
     for (wall, word) in flats.filter(|(wall, _)| !trajectory.holes().contains(wall)) {
         header.extend([format!("contact_force_{word}_N"), format!("contact_impulse_{word}_N_s")]);
@@ -47,6 +41,32 @@ pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
         columns.push(work);
     }
     numbers(path, &header, &columns)
+}
+
+/// Writes the states of the probes at the output times of the scene, in the columns that
+/// [`trajectory`](self::trajectory()) has for them.
+///
+/// # Errors
+/// As [`trajectory`](self::trajectory()).
+pub fn output(path: &Path, trajectory: &Trajectory) -> Result<()> {
+    let OutputStates { time, displacement, velocity, .. } = trajectory.output();
+    let (header, columns) = probe_columns(trajectory.probes(), time, [displacement, velocity]);
+    numbers(path, &header, &columns)
+}
+
+/// Header and columns of the time, and of displacement and velocity of each of `probes`.
+fn probe_columns<'a>(
+    probes: &[String],
+    time: &'a [f64],
+    [displacement, velocity]: [&'a [Vec<f64>]; 2],
+) -> (Vec<String>, Vec<&'a [f64]>) {
+    let (mut header, mut columns) = (vec!["time_s".to_owned()], vec![time]);
+    for (((probe, word), displacement), velocity) in probes.iter().zip(words(probes)).zip(displacement).zip(velocity) {
+        let suffix = if probe.is_empty() { String::new() } else { format!("_{word}") };
+        header.extend([format!("displacement{suffix}_m"), format!("velocity{suffix}_m_per_s")]);
+        columns.extend([displacement.as_slice(), velocity]);
+    }
+    (header, columns)
 }
 
 /// Writes the contact episodes of `trajectory`, one per row, in order of time. A rigid impact has

@@ -1,4 +1,5 @@
-//! `derivatives.csv`, and the table of what one per cent more of a key changes.
+//! `derivatives.csv`, `output-derivatives.csv`, and the table of what one per cent more of a key
+//! changes.
 
 use super::csv::{self, digits};
 use super::table::Table;
@@ -23,8 +24,19 @@ pub struct Varied {
     pub error: f64,
 }
 
+impl Varied {
+    /// The header of the derivative of a number by the key.
+    fn header(&self, what: &str, unit: &str) -> String {
+        let per = self.unit.map_or_else(String::new, |unit| format!("_per_{unit}"));
+        format!("{what}_by_{}_{unit}{per}", self.key.replace(['.', '-'], "_"))
+    }
+}
+
 /// The table of contacts.
 pub const FILE: &str = "derivatives.csv";
+
+/// The table of the states at the output times.
+pub const STATES_FILE: &str = "output-derivatives.csv";
 
 /// The share of a key by which the table changes it.
 const SHARE: f64 = 0.01;
@@ -41,13 +53,7 @@ const NUMBERS: [(&str, &str); 5] =
 /// As [`csv::table`].
 pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Result<()> {
     let mut header: Vec<String> = csv::CONTACT.iter().copied().chain(["growth"]).map(str::to_owned).collect();
-    for key in keys {
-        let word = key.key.replace(['.', '-'], "_");
-        let per = key.unit.map_or_else(String::new, |unit| format!("_per_{unit}"));
-        for (what, unit) in NUMBERS {
-            header.push(format!("{what}_by_{word}_{unit}{per}"));
-        }
-    }
+    header.extend(keys.iter().flat_map(|key| NUMBERS.map(|(what, unit)| key.header(what, unit))));
     let rows = derivatives.contacts.iter().map(|one| {
         let mut row = csv::contact_cells(name(scene, one.contact.wall), &one.contact);
         row.push(digits(Some(one.growth)));
@@ -57,6 +63,39 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivati
             row.extend(lists.map(|list| digits(list.get(key).map(|x| x + 0.0).filter(|x| x.is_finite()))));
         }
         row
+    });
+    csv::table(path, &header, rows)
+}
+
+/// Writes displacement and velocity of each probe at the output times of the scene, with their
+/// derivatives by each key: `displacement_tip_by_wall_stop_stiffness_m_per_N_per_m`. Cells of what
+/// is not known are empty.
+///
+/// # Errors
+/// As [`csv::table`].
+pub fn write_states(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Result<()> {
+    let names: Vec<&str> = scene.probes.iter().map(|probe| &*probe.name).collect();
+    let mut header = vec!["time_s".to_owned()];
+    for (name, word) in names.iter().zip(csv::words(&names)) {
+        let suffix = if name.is_empty() { String::new() } else { format!("_{word}") };
+        for (what, unit) in [(format!("displacement{suffix}"), "m"), (format!("velocity{suffix}"), "m_per_s")] {
+            header.push(format!("{what}_{unit}"));
+            header.extend(keys.iter().map(|key| key.header(&what, unit)));
+        }
+    }
+    let motion = &derivatives.motion;
+    let cell = |list: &[f64], index: usize| digits(list.get(index).copied().filter(|x| x.is_finite()));
+    let rows = motion.time.iter().enumerate().map(|(row, &time)| {
+        let mut cells = vec![digits(Some(time))];
+        for state in (0..names.len()).map(|probe| row * names.len() + probe) {
+            for (values, by) in
+                [(&motion.displacement, &motion.displacement_by), (&motion.velocity, &motion.velocity_by)]
+            {
+                cells.push(cell(values, state));
+                cells.extend((0..keys.len()).map(|key| cell(by, state * keys.len() + key)));
+            }
+        }
+        cells
     });
     csv::table(path, &header, rows)
 }

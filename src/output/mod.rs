@@ -9,7 +9,7 @@
 //! | `journal` | what a long computation has done, so that it goes on after an interruption |
 //! | `lock` | one writer in a folder at a time |
 //! | [`request`] | the request, as recorded beside its results |
-//! | [`csv`] | `trajectory.csv` and `contacts.csv` |
+//! | [`csv`] | `trajectory.csv`, `output.csv` and `contacts.csv` |
 //! | [`derivatives`] | `derivatives.csv`, and the table of what 1 % more of a key changes |
 //! | [`supports`] | `supports.csv`, `sectors.csv`, the table of supports and their part of the summary |
 //! | [`summary`] | `summary.json` |

@@ -32,7 +32,8 @@ pub struct Picture {
     pub look: usize,
 }
 
-/// Writes the files of one run: `trajectory.csv`, `contacts.csv`, of supports also `supports.csv`
+/// Writes the files of one run: `trajectory.csv`, `contacts.csv`, for output times `output.csv`, of
+/// supports also `supports.csv`
 /// and `sectors.csv`, the figures, what `[statistics]` asks for, and `summary.json`, into the
 /// folder of `results` or, where `prefix` is not empty, into a folder of that name in it. Returns
 /// the summary, which records all tables written there so far.
@@ -51,6 +52,9 @@ pub fn write(
     let named = |name: &str| if prefix.is_empty() { name.to_owned() } else { format!("{prefix}/{name}") };
     csv::trajectory(&results.place(&named("trajectory.csv"))?, &run.trajectory)?;
     csv::contacts(&results.place(&named("contacts.csv"))?, &run.trajectory)?;
+    if !run.trajectory.output().time.is_empty() {
+        csv::output(&results.place(&named("output.csv"))?, &run.trajectory)?;
+    }
     supports::write(|name| results.place(&named(name)), case, run)?;
     let label = method.to_string();
     let runs = [Labelled { label: &label, run, reference: false, look: picture.look }];

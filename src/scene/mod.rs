@@ -123,6 +123,10 @@ pub struct Scene {
     pub loads: Vec<Load>,
     /// Displacements and velocities that are recorded.
     pub probes: Vec<Probe>,
+    /// Times at which the states of the probes are kept beside the rows, s, increasing; those after
+    /// the end are not reached.
+    #[serde(default)]
+    pub output_times: Vec<f64>,
     /// The state before any impulse at t = 0.
     pub initial: State,
     /// Duration, s.
@@ -139,6 +143,7 @@ impl Scene {
             supports: Vec::new(),
             loads: Vec::new(),
             probes: vec![Probe { name: String::new(), at: Row::dof(0) }],
+            output_times: Vec::new(),
             initial: State { q: vec![0.0], v: vec![0.0] },
             duration: 1.0,
         }
@@ -155,6 +160,7 @@ impl Scene {
             supports: Vec::new(),
             loads: Vec::new(),
             probes: Vec::new(),
+            output_times: Vec::new(),
             initial: State { q: rest.clone(), v: rest },
             duration: 1.0,
         }
@@ -180,6 +186,36 @@ impl Scene {
     pub fn with_initial(mut self, q: &[f64], v: &[f64]) -> Self {
         self.initial = State { q: q.to_vec(), v: v.to_vec() };
         self
+    }
+
+    /// The scene with the states of its probes at `times` (s, increasing, from 0 to its end), which
+    /// [`Trajectory::output`](crate::Trajectory::output) has beside the rows:
+    ///
+    /// ```
+    /// use signorini::{Options, Scene, Scheme, Wall, run};
+    ///
+    /// // Thrown up at 2 m/s under a lid, 0.1 m above, it is back at 0 after 0.1 s.
+    /// let scene = Scene::oscillator(1.0, 0.0, 0.0)
+    ///     .with_wall(Wall::upper("lid", 0.1))
+    ///     .with_initial(&[0.0], &[2.0])
+    ///     .with_output_times(&[0.025, 0.05, 0.07]);
+    /// let exact = run(&scene, &Scheme::Event, &Options::with_step(0.01))?;
+    /// let states = exact.trajectory.output();
+    /// assert_eq!(states.displacement[0], [0.05, 0.1, 0.06]);
+    /// // Right-continuous: after the impact at 0.05 s.
+    /// assert_eq!(states.velocity[0], [2.0, -2.0, -2.0]);
+    /// # Ok::<(), signorini::Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_output_times(mut self, times: &[f64]) -> Self {
+        self.output_times = times.to_vec();
+        self
+    }
+
+    /// The output times up to the end, s.
+    pub(crate) fn reached_output_times(&self) -> &[f64] {
+        let reached = self.output_times.partition_point(|&time| time <= self.duration);
+        self.output_times.get(..reached).unwrap_or_default()
     }
 
     /// The scene over another duration (s).

@@ -38,6 +38,7 @@ impl Scene {
             }
             self.check_row(|| Subject::probe(&probe.name), &probe.at)?;
         }
+        self.check_output_times()?;
         let mut names = HashSet::new();
         for (index, wall) in self.walls.iter().enumerate() {
             wall.validate_name(index)?;
@@ -68,6 +69,25 @@ impl Scene {
             self.check_start(wall)?;
         }
         self.check_supports(|name, row| self.check_row(|| Subject::support(name), row))
+    }
+
+    /// Times in order. Those after the end are accepted, since a scene may be cut short.
+    fn check_output_times(&self) -> Result<()> {
+        let times = &self.output_times;
+        let before = std::iter::once(None).chain(times.iter().map(Some));
+        for (index, (&time, before)) in times.iter().zip(before).enumerate() {
+            let key = || Subject::of("output times").value(index);
+            finite(key(), time)?;
+            match before {
+                None if time < 0.0 => return Err(Error::invalid(key(), format_args!("{time:?}"), "0 or more")),
+                Some(&before) if time <= before => {
+                    let expected = format!("more than the one before, {before:?}");
+                    return Err(Error::invalid(key(), format_args!("{time:?}"), expected));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
     }
 
     fn check_row(&self, owner: impl Fn() -> Subject, row: &Row) -> Result<()> {

@@ -1,5 +1,6 @@
 //! The columns of a recorded motion.
 
+use super::output::OutputStates;
 use super::worn::EpisodeWear;
 use crate::scene::Scene;
 use crate::step::Contact;
@@ -31,6 +32,8 @@ pub(super) struct Columns {
     pub contacts: Vec<Contact>,
     #[serde(default)]
     pub contact_wear: Vec<Option<EpisodeWear>>,
+    #[serde(default)]
+    pub output: OutputStates,
 }
 
 impl Columns {
@@ -57,6 +60,7 @@ impl Columns {
             wear_work: columns(scene.supports.len()),
             contacts: Vec::new(),
             contact_wear: Vec::new(),
+            output: OutputStates::default(),
         }
     }
 
@@ -89,6 +93,7 @@ impl Columns {
             && pairs(&self.holes, &self.hole_force)
             && pairs(&self.holes, &self.hole_impulse)
             && (self.contact_wear.is_empty() || self.contact_wear.len() == self.contacts.len())
+            && self.output.fit(self.probes.len())
             && self.contacts.iter().all(|contact| contact.wall < self.walls.len())
     }
 }

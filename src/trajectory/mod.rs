@@ -3,13 +3,16 @@
 //! # Files
 //!
 //! `Trajectory` (`columns.rs` its data), its `recorder.rs`; `plane_impulses.rs` and `worn.rs`:
-//! round supports, friction and the work of wear over its rows.
+//! round supports, friction and the work of wear over its rows; `output.rs`: states at the output
+//! times, which need not be rows.
 
 mod columns;
+mod output;
 mod plane_impulses;
 mod recorder;
 mod worn;
 
+pub use output::OutputStates;
 pub use recorder::Recorder;
 pub use worn::EpisodeWear;
 
@@ -65,6 +68,12 @@ impl Trajectory {
     #[must_use]
     pub fn time(&self) -> &[f64] {
         &self.0.time
+    }
+
+    /// The states at the scene's output times; empty where it has none.
+    #[must_use]
+    pub fn output(&self) -> &OutputStates {
+        &self.0.output
     }
 
     /// Names of the walls, in the scene's order.

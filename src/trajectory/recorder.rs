@@ -2,6 +2,7 @@
 
 use super::Trajectory;
 use super::columns::Columns;
+use super::output::OutputRecorder;
 use super::plane_impulses::PlaneImpulses;
 use super::worn::Worn;
 use crate::scene::{Row, Scene};
@@ -27,6 +28,7 @@ pub struct Recorder {
     ended: bool,
     planar: PlaneImpulses,
     worn: Worn,
+    output: OutputRecorder,
     /// Displacement and velocity at a row, n entries each.
     state: [Vec<f64>; 2],
 }
@@ -40,6 +42,7 @@ impl Recorder {
         let mut recorder = Self {
             columns: Columns::new(scene, rows),
             worn: Worn::new(scene),
+            output: OutputRecorder::new(scene, q, v),
             probes: scene.probes.iter().map(|p| p.at.clone()).collect(),
             end: scene.duration,
             rows,
@@ -73,6 +76,7 @@ impl Recorder {
         if [step.friction.len(), step.normal.len(), step.turned.len()] != [planar; 3] {
             return;
         }
+        self.output.observe(step);
         if self.columns.time.len() as u64 > self.rows {
             return;
         }
@@ -125,6 +129,7 @@ impl Recorder {
             self.observe(&quiet.step(from));
             from += 1;
         }
+        self.output.observe_quiet(quiet, from);
         let mut rows = [0; QuietSteps::capacity()];
         let mut count = 0;
         for k in from..quiet.len() {
@@ -297,7 +302,8 @@ impl Recorder {
             let [q, v] = std::mem::take(&mut whole.state);
             whole.push(whole.end, &q, &v);
         }
-        let Self { mut columns, mut worn, rate, .. } = whole;
+        let Self { mut columns, mut worn, output, rate, .. } = whole;
+        columns.output = output.finish();
         columns.fill(rate);
         columns.contacts.extend_from_slice(open);
         if worn.is_empty() {

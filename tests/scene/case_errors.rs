@@ -135,6 +135,10 @@ const WRONG: &[Wrong] = &[
     ("statistics after the end", "sample = 1e-3", "statistics_from = 10.0", "28:19", &["time.statistics_from", "less than the duration"]),
     ("statistics before the start", "sample = 1e-3", "statistics_from = -1", "28:19", &["time.statistics_from", "0 or more"]),
     ("averaging over nothing", "sample = 1e-3", "force_averaging = 0.0", "28:19", &["time.force_averaging", "above 0"]),
+    ("an output time before the start", "sample = 1e-3", "output_times = [-0.1]", "28:17", &["time.output_times: value 1", "0 or more"]),
+    ("output times backwards", "sample = 1e-3", "output_times = [0.2, 0.1]", "28:22", &["time.output_times: value 2", "more than the one before, 0.2"]),
+    ("an output time that is no number", "sample = 1e-3", "output_times = [nan]", "28:17", &["time.output_times: value 1", "finite"]),
+    ("one output time without a list", "sample = 1e-3", "output_times = 0.1", "28:16", &["time.output_times", "a list"]),
     // Statistics.
     ("negative rest", "[penalty]", "[statistics]\nrest = -1\n[penalty]", "31:8", &["statistics.rest", "0 or more"]),
     ("rest that is no number", "[penalty]", "[statistics]\nrest = nan\n[penalty]", "31:8", &["statistics.rest", "0 or more"]),

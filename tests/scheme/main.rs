@@ -26,6 +26,7 @@ mod many_random;
 mod momentum;
 mod neighbours;
 mod options;
+mod output_times;
 mod paoli_schatzman;
 mod past_the_end;
 mod quiet_steps;

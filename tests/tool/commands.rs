@@ -1,5 +1,6 @@
 //! The tool as a user meets it: commands, files, exit codes.
 use crate::command::command;
+use crate::table::csv;
 use std::fs;
 use std::path::Path;
 use std::process::Output;
@@ -30,13 +31,6 @@ fn refused(folder: &Path, args: &[&str], code: i32) -> String {
     assert!(!message.contains("panicked"), "{args:?}: {message}");
     assert!(output.stdout.is_empty(), "{args:?} printed data: {}", text(&output.stdout));
     message
-}
-
-fn csv(path: &Path) -> (Vec<String>, Vec<Vec<String>>) {
-    let mut reader = csv::Reader::from_path(path).unwrap();
-    let header = reader.headers().unwrap().iter().map(str::to_owned).collect();
-    let rows = reader.records().map(|r| r.unwrap().iter().map(str::to_owned).collect()).collect();
-    (header, rows)
 }
 
 fn json(path: &Path) -> serde_json::Value {

@@ -13,9 +13,12 @@ from ._supports import supports, wear
 if TYPE_CHECKING:
     import pandas as pd
 
-    from ._core import Run
+    from collections.abc import Sequence
 
-__all__ = ["columns", "contacts", "html", "statistics", "summary", "supports", "to_pandas", "wear"]
+    from ._core import Run
+    from ._types import Array
+
+__all__ = ["columns", "contacts", "html", "output", "statistics", "summary", "supports", "to_pandas", "wear"]
 
 _NUMBERS = ("start", "end", "impulse", "peak_force", "approach_speed", "departure_speed")
 
@@ -44,12 +47,24 @@ def _words(names: list[str]) -> list[str]:
     return words
 
 
+def _states(run: Run, time: Array, states: Sequence[tuple[Array, Array]]) -> dict[str, Array]:
+    """The columns of the time and of the states of all probes."""
+    out = {"time_s": time}
+    for word, state in zip(_words(run.probes), states, strict=True):
+        suffix = f"_{word}" if word else ""
+        out[f"displacement{suffix}_m"], out[f"velocity{suffix}_m_per_s"] = state
+    return out
+
+
+def output(run: Run) -> dict[str, Array]:
+    """The states at the output times, as `Run.output` says."""
+    time, states = run._output()
+    return _states(run, time, states) if len(time) else {}
+
+
 def columns(run: Run) -> dict[str, npt.NDArray[np.float64]]:
     """All rows, as `Run.columns` says."""
-    out = {"time_s": run.time}
-    for name, word in zip(run.probes, _words(run.probes), strict=True):
-        suffix = f"_{word}" if word else ""
-        out[f"displacement{suffix}_m"], out[f"velocity{suffix}_m_per_s"] = run.probe(name)
+    out = _states(run, run.time, [run.probe(name) for name in run.probes])
     for name, word in zip(run.walls, _words(run.walls), strict=True):
         out[f"contact_force_{word}_N"] = run.contact_force(name)
         out[f"contact_impulse_{word}_N_s"] = run.contact_impulse(name)

@@ -3,7 +3,7 @@
 use crate::case::{Case, Key};
 use crate::cli::pipeline::Answer;
 use crate::error::{Error, Result};
-use crate::output::derivatives::{self as output, FILE, Varied};
+use crate::output::derivatives::{self as output, FILE, STATES_FILE, Varied};
 use crate::output::results::Results;
 use crate::scheme::Scheme;
 use crate::study::derivatives::Derivatives;
@@ -71,13 +71,16 @@ impl DerivativeKeys {
 }
 
 impl Wanted {
-    /// Computes the derivatives and writes their table.
+    /// Computes the derivatives and writes their tables.
     ///
     /// # Errors
     /// As [`Derivatives::new`] and [`output::write`].
     pub fn write(&self, case: &Case, results: &mut Results) -> Result<Derivatives> {
-        let found = Derivatives::new(&case.scene, &self.tangents, &[])?;
+        let found = Derivatives::new(&case.scene, &self.tangents, case.scene.reached_output_times())?;
         output::write(&results.place(FILE)?, &case.scene, &self.keys, &found)?;
+        if !found.motion.time.is_empty() {
+            output::write_states(&results.place(STATES_FILE)?, &case.scene, &self.keys, &found)?;
+        }
         Ok(found)
     }
 

@@ -87,6 +87,7 @@ impl Scene {
             supports: self.supports.iter().map(|support| support.carried(|row| statics.seen(row).row)).collect(),
             loads: self.loads.clone(),
             probes: self.probes.clone(),
+            output_times: self.output_times.clone(),
             initial: self.initial.clone(),
             duration: self.duration,
         };

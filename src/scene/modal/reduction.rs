@@ -132,6 +132,7 @@ impl Scene {
             supports: self.supports.iter().map(|support| support.carried(row)).collect(),
             loads: self.loads.clone(),
             probes: self.probes.clone(),
+            output_times: self.output_times.clone(),
             initial: State {
                 q: kept.coordinates(&structure.mass, &self.initial.q),
                 v: kept.coordinates(&structure.mass, &self.initial.v),

@@ -108,6 +108,7 @@ impl StructureEvent {
             supports: self.scene.supports.clone(),
             loads: self.scene.loads.iter().filter_map(shifted).collect(),
             probes: Vec::new(),
+            output_times: Vec::new(),
             initial: self.scene.initial.clone(),
             duration,
         }

@@ -1,0 +1,168 @@
+//! Displacement and velocity of the probes at the output times of a scene.
+
+use crate::scene::{Row, Scene};
+use crate::step::{Path, QuietSteps, Step};
+use serde::{Deserialize, Serialize};
+
+/// Rounding error of a time asked for and of the end of a step there, in units in the last place.
+const UNITS: f64 = 8.0;
+
+/// The states of the probes at the output times of a scene
+/// ([`Scene::with_output_times`]), right-continuous as the rows of a
+/// [`Trajectory`](super::Trajectory) are; of a run that diverged those before its end.
+///
+/// An exact scheme is evaluated at the times themselves. Within a step on a grid in which no wall
+/// pushes, and within a part of a step up to its impact, the displacement is the cubic through the
+/// displacements and velocities at both ends, which is the path of the θ = ½ rule itself. In a step
+/// on a grid with an impulse nothing is known of the path between its ends: the displacement there
+/// is straight, and the velocity that of the end.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct OutputStates {
+    /// The output times, s, increasing.
+    pub time: Vec<f64>,
+    /// Displacement at each of them, m: one column per probe, in the scene's order.
+    pub displacement: Vec<Vec<f64>>,
+    /// Velocity at each of them, m/s: one column per probe, in the scene's order.
+    pub velocity: Vec<Vec<f64>>,
+}
+
+impl OutputStates {
+    /// True if there is a column of all times for each of `probes`; without times there need be
+    /// none.
+    pub(super) fn fit(&self, probes: usize) -> bool {
+        let fit = |columns: &[Vec<f64>]| {
+            columns.len() == probes && columns.iter().all(|column| column.len() == self.time.len())
+        };
+        self.time.is_empty() || (fit(&self.displacement) && fit(&self.velocity))
+    }
+}
+
+/// Builds [`OutputStates`] from the steps of a run.
+#[derive(Debug, Clone)]
+pub(super) struct OutputRecorder {
+    states: OutputStates,
+    probes: Vec<Row>,
+    /// The times that are still to come, s, the next one last.
+    due: Vec<f64>,
+    /// The end of the last step, s, and displacement and velocity of each probe there.
+    last: (f64, Vec<[f64; 2]>),
+    /// Displacement and velocity within a step of exact motion, n entries each.
+    state: [Vec<f64>; 2],
+}
+
+impl OutputRecorder {
+    /// A recorder of the output times of `scene`, from the state `q` (m), `v` (m/s) at t = 0.
+    pub fn new(scene: &Scene, q: &[f64], v: &[f64]) -> Self {
+        let mut recorder = Self {
+            states: OutputStates::default(),
+            probes: Vec::new(),
+            due: scene.reached_output_times().iter().copied().rev().collect(),
+            last: (0.0, Vec::new()),
+            state: [Vec::new(), Vec::new()],
+        };
+        if !recorder.due.is_empty() {
+            let n = scene.system.degrees_of_freedom();
+            recorder.probes = scene.probes.iter().map(|probe| probe.at.clone()).collect();
+            recorder.states.displacement = vec![Vec::new(); recorder.probes.len()];
+            recorder.states.velocity = recorder.states.displacement.clone();
+            recorder.state = [vec![0.0; n], vec![0.0; n]];
+            recorder.last.1 = recorder.seen(q, v);
+        }
+        recorder
+    }
+
+    /// Adds a step. Steps must come in order.
+    pub fn observe(&mut self, step: &Step<'_>) {
+        if self.due.is_empty() {
+            return;
+        }
+        // A time at the end of the step itself belongs to the next one, or is the run's last.
+        while let Some(&time) = self.due.last().filter(|&&time| is_before(time, step.end)) {
+            self.due.pop();
+            let states = self.states_within(step, time);
+            self.push(time, &states);
+        }
+        self.last = (step.end, self.seen(step.q, step.v));
+    }
+
+    /// Adds the steps from index `from` on of `quiet`, as [`OutputRecorder::observe`] adds each.
+    pub fn observe_quiet(&mut self, quiet: &QuietSteps, from: usize) {
+        let Some(&time) = self.due.last() else { return };
+        let ends = quiet.end().iter().take(quiet.len());
+        let first = ends.skip(from).position(|&end| is_before(time, end)).map_or(quiet.len(), |after| from + after);
+        // The step before it ends where the path to the next time begins.
+        (first.saturating_sub(1).max(from)..quiet.len()).for_each(|k| self.observe(&quiet.step(k)));
+    }
+
+    /// The states, at the end of the run.
+    pub fn finish(mut self) -> OutputStates {
+        let (end, states) = std::mem::take(&mut self.last);
+        while let Some(time) = self.due.pop().filter(|&time| !is_before(end, time)) {
+            self.push(time, &states);
+        }
+        self.states
+    }
+
+    fn seen(&self, q: &[f64], v: &[f64]) -> Vec<[f64; 2]> {
+        self.probes.iter().map(|probe| [probe.dot(q), probe.dot(v)]).collect()
+    }
+
+    fn push(&mut self, time: f64, states: &[[f64; 2]]) {
+        self.states.time.push(time);
+        let columns = self.states.displacement.iter_mut().zip(&mut self.states.velocity);
+        for ((displacement, velocity), &[w, v]) in columns.zip(states) {
+            displacement.push(w);
+            velocity.push(v);
+        }
+    }
+
+    /// Displacement and velocity of each probe at `time` within `step`.
+    fn states_within(&mut self, step: &Step<'_>, time: f64) -> Vec<[f64; 2]> {
+        let (start, last) = &self.last;
+        if !is_before(*start, time) {
+            return last.clone();
+        }
+        let length = step.end - start;
+        let share = ((time - start) / length).clamp(0.0, 1.0);
+        let pushed = match step.path {
+            Path::Exact(_) | Path::Series(_) => {
+                let [mut q, mut v] = std::mem::take(&mut self.state);
+                step.path.state(time, &mut q, &mut v);
+                let states = self.seen(&q, &v);
+                self.state = [q, v];
+                return states;
+            }
+            Path::Part { .. } => false,
+            Path::Grid | Path::OneRestitution | Path::Handed { .. } => step.impulse.iter().any(|&p| p != 0.0),
+        };
+        // Of a part the velocity before the impact at its end.
+        let leaving = if matches!(step.path, Path::Part { .. }) { step.velocity_after } else { step.v };
+        let ends = self.probes.iter().map(|probe| [probe.dot(step.q), probe.dot(leaving)]);
+        last.iter()
+            .zip(ends)
+            .map(|(&from, to)| if pushed { straight(from, to, share) } else { cubic(from, to, length, share) })
+            .collect()
+    }
+}
+
+/// True if `time` lies before `end` by more than rounding.
+fn is_before(time: f64, end: f64) -> bool {
+    time < end - UNITS * f64::EPSILON * end.abs()
+}
+
+/// Straight from one displacement to the next, with the velocity of the end.
+fn straight(from: [f64; 2], to: [f64; 2], share: f64) -> [f64; 2] {
+    [from[0] + share * (to[0] - from[0]), to[1]]
+}
+
+/// Displacement and velocity of the cubic through displacement and velocity at both ends of a
+/// stretch of `length` seconds, at a share of it (Hermite).
+fn cubic([q0, v0]: [f64; 2], [q1, v1]: [f64; 2], length: f64, share: f64) -> [f64; 2] {
+    let (s, mean) = (share, (q1 - q0) / length);
+    // The deviations of both velocities from the mean one bend the straight line.
+    let (d0, d1) = (v0 - mean, v1 - mean);
+    let w = q0 + s * (q1 - q0) + length * s * (1.0 - s) * ((1.0 - s) * d0 - s * d1);
+    let v = mean + (1.0 - s) * (1.0 - 3.0 * s) * d0 + s * (3.0 * s - 2.0) * d1;
+    [w, v]
+}
