@@ -5,6 +5,16 @@
 
 use super::{Failure, Problem, ROUNDING, Rhs, Solution};
 
+/// Bounds of one place differ by the roundings of their sums and of the division by a weight only:
+/// a few units in the last place. Bounds that differ by more are of walls apart, of which the
+/// foremost one pushes alone, however far the body would go.
+const ULPS_OF_ONE_PLACE: f64 = 32.0;
+
+/// True if both bounds of one row are those of walls at one place.
+pub(crate) fn is_one_place(bound: f64, other: f64) -> bool {
+    (bound - other).abs() <= ULPS_OF_ONE_PLACE * f64::EPSILON * other.abs()
+}
+
 /// A row of the scalar programme, with coefficient 1: l ≤ x ≤ u.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScalarRow {
@@ -19,8 +29,8 @@ pub struct ScalarRow {
 /// Minimises ½ a x² − b x over `rows` and writes the signed force of each row to `r`, so that a x =
 /// b + Σ r.
 ///
-/// If several rigid rows bind at one place (bounds that differ by at most 1e-12 of their size),
-/// they share the force equally. Rigid bounds that cross by rounding only (1e-12 of the largest of
+/// If several rigid rows bind at one place (bounds that differ by at most 32 units in the last
+/// place), they share the force equally. Rigid bounds that cross by rounding only (1e-12 of the largest of
 /// |l|, |u| and |b/a|) count as one place, their midpoint.
 ///
 /// ```
@@ -105,10 +115,9 @@ fn contact(a: f64, b: f64, rows: &[ScalarRow], r: &mut [f64]) -> Result<f64, Fai
             rest -= *force;
         }
     }
-    let near = ROUNDING * x.abs();
     let bears = |row: &ScalarRow| {
         let bound = if rest < 0.0 { row.hi } else { row.lo };
-        row.compliance == 0.0 && (bound - x).abs() <= near
+        row.compliance == 0.0 && is_one_place(bound, x)
     };
     let bearers = rows.iter().filter(|row| bears(row)).count();
     if bearers <= 1 {

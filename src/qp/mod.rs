@@ -73,6 +73,7 @@ mod solver;
 mod sums;
 
 pub use backend::Backend;
+pub(crate) use clamp::is_one_place;
 pub use clamp::{ScalarRow, clamp};
 pub(crate) use coulomb::{Coulomb, CoulombContact};
 pub use counters::SolverCounters;

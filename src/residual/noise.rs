@@ -177,6 +177,11 @@ impl NoiseModel {
         self.reach / self.wall.get(wall).copied().unwrap_or(1.0)
     }
 
+    /// The change of velocity that an impulse (N s) of a wall gives to the mass that it feels, m/s.
+    pub fn kick(&self, wall: usize, impulse: f64) -> f64 {
+        impulse.abs() / self.wall.get(wall).map_or(1.0, |root| root * root)
+    }
+
     /// The largest |qᵢ|√Mᵢᵢ so far, with what velocities add to it within a step, and with `other`
     /// values of the same kind, m√kg.
     pub fn largest_place(&self, other: f64) -> f64 {

@@ -151,7 +151,7 @@ impl Judge {
         let pressure = sign * p / self.h;
         self.walls.observe_force(&mut self.noise, index, (pressure, pressure.abs()), true);
         let wall = &self.scene.walls[index];
-        let noise = self.noise.velocity(self.speeds(step, wall), self.noise.span);
+        let noise = self.noise.velocity(self.speeds(step, index), self.noise.span);
         let terms = row.entries().iter().map(|&(i, g)| (g * step.q[i]).abs()).sum::<f64>() + wall.position().abs();
         self.walls.observe_gap(&self.noise, index, (gap, terms), pressure);
         // The rebounds end within a step if the acceleration of the part presses the body so; in

@@ -9,6 +9,7 @@
 //! and by one step's force at either end of the run. What is open beyond that is momentum without a
 //! wall's impulse. Changes of loads and of the structure's forces are summed separately: where the
 //! two nearly balance, as under heavy damping, their sum changes little while each may change much.
+//! A blow changes the force of the dampers within a step, by C M⁻¹ J.
 
 use super::Judge;
 use super::largest_residual::LargestResidual;
@@ -81,6 +82,12 @@ impl Judge {
                 sums.forces.set(i, forces);
             }
             sums.add_ends(&moves, h, n);
+            // The dampers' force rises at a blow, and may have fallen again at the end of the step.
+            if self.blows.struck.iter().any(|&v| v != 0.0) {
+                let mut risen = vec![0.0; n];
+                self.scene.system.add_damping(1.0, &self.blows.struck, &mut risen);
+                sums.forces.changes.iter_mut().zip(risen).for_each(|(changes, force)| *changes += force.abs());
+            }
         } else {
             sums.add(&moves, &self.scratch, (h, per_h), first, n);
         }

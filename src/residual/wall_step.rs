@@ -3,7 +3,7 @@
 use super::Judge;
 use super::complementarity::{expected_pressure, rebound, slack};
 use super::place::Place;
-use crate::scene::{Hole, Wall};
+use crate::scene::Hole;
 use crate::step::{Bound, PromisedForce, Reached, Step};
 
 /// The quantities of a step at one wall.
@@ -115,11 +115,14 @@ impl Judge {
         terms.sum::<f64>() + wall.position().abs() + self.h * speeds + self.noise.reach(index)
     }
 
-    /// Size of the terms that add up to the body's velocities in a step, for their rounding error,
-    /// m/s.
-    pub(super) fn speeds(&self, step: &Step<'_>, wall: &Wall) -> f64 {
-        let speeds = |v: &[f64]| wall.row().entries().iter().map(|&(i, g)| (g * v[i]).abs()).sum::<f64>();
-        speeds(step.velocity_before) + speeds(step.velocity_after) + speeds(&self.blows.struck)
+    /// Size of the terms that add up to the body's velocities at a wall in a step, for their
+    /// rounding error, m/s. What the loads give and the impulse of the wall takes away may be far
+    /// larger than the velocities at both ends.
+    pub(super) fn speeds(&self, step: &Step<'_>, index: usize) -> f64 {
+        let entries = self.scene.walls[index].row().entries();
+        let speeds = |v: &[f64]| entries.iter().map(|&(i, g)| (g * v[i]).abs()).sum::<f64>();
+        let kick = self.noise.kick(index, step.impulse[index]);
+        speeds(step.velocity_before) + speeds(step.velocity_after) + speeds(&self.blows.struck) + kick
     }
 
     fn hold_elastic(&mut self, step: &Step<'_>, seen: Seen, mean: f64) {
@@ -176,7 +179,7 @@ impl Judge {
             };
             let accepted = if is_edge { f64::INFINITY } else { 0.0 };
             if reached {
-                let noise = self.noise.velocity(self.speeds(step, wall), self.noise.span);
+                let noise = self.noise.velocity(self.speeds(step, index), self.noise.span);
                 self.walls.observe_rebound(&self.noise, index, (slack, noise + accepted), pressure);
             } else if !closes && promise.displacement.is_none() {
                 self.walls.observe_law(&self.noise, index, pressure.abs(), accepted);

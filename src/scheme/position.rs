@@ -135,7 +135,12 @@ impl<S: Space> Position<S> {
     /// the others.
     #[inline(never)]
     fn place(&self, frame: &mut Frame<S>) {
-        for &wall in frame.pushing.iter().filter(|&&wall| self.body.walls[wall].law.is_rigid()) {
+        let depth =
+            |wall: usize| self.body.walls[wall].depth(self.body.seen(wall, &frame.q)) / self.weights[wall].sqrt();
+        // Walls that stand apart by less than the rounding of a far motion push together: the body
+        // stands at the foremost of them.
+        let pushing = frame.pushing.iter().copied().filter(|&wall| self.body.walls[wall].law.is_rigid());
+        if let Some(wall) = pushing.max_by(|&a, &b| depth(a).total_cmp(&depth(b))) {
             let missed = self.body.walls[wall].g - self.body.seen(wall, &frame.q);
             S::add_transposed(&self.body.rows, wall, missed / self.weights[wall], &mut frame.q);
         }

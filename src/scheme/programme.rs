@@ -30,10 +30,6 @@ pub(super) struct Programme<S: Space> {
     bound: Vec<f64>,
 }
 
-/// Relative tolerance within which the bounds of walls of one row count as equal; these walls share
-/// the force.
-const ONE_PLACE: f64 = 1e-12;
-
 impl<S: Space> Programme<S> {
     /// The programme with the matrix `a`, a typical size `scale` of g·x (for the solver's
     /// tolerances), and the compliance of each elastic wall's row as a function of its stiffness
@@ -229,11 +225,10 @@ impl<S: Space> Programme<S> {
                 pushing.push(wall);
                 continue;
             }
-            // The walls whose bound is the active one.
+            // The walls whose bound is the active one share the force.
             let held = if r < 0.0 { self.hi[row] } else { self.lo[row] };
-            let near = ONE_PLACE * held.abs();
             let carries = |number: &usize| {
-                self.layout.wall(*number).upper == (r < 0.0) && (self.bound[*number] - held).abs() <= near
+                self.layout.wall(*number).upper == (r < 0.0) && qp::is_one_place(self.bound[*number], held)
             };
             let carriers = range.clone().filter(carries).count();
             for number in range.filter(carries) {
