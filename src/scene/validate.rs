@@ -70,7 +70,8 @@ impl Scene {
         self.check_supports(|name, row| self.check_row(|| Subject::support(name), row))
     }
 
-    fn check_row(&self, owner: impl Fn() -> Subject, row: &Row) -> Result<()> {
+    /// Refuses a row of `owner` beyond the degrees of freedom, or with weights that are not finite.
+    pub(super) fn check_row(&self, owner: impl Fn() -> Subject, row: &Row) -> Result<()> {
         let n = self.system.degrees_of_freedom();
         for &(i, weight) in row.entries() {
             if i >= n {
