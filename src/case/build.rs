@@ -52,7 +52,7 @@ impl Builder<'_> {
         self.n = if let Planes::Two(n) = self.planes { n } else { total };
         let modes = self.modes_of_planes(modes)?;
         let duration = self.required("duration", &time, "end");
-        let (scene, places, mut sliders) = self.scene(file, built.system, duration)?;
+        let (scene, places, sliders) = self.scene(file, built.system, duration)?;
         let (wear, sectors) = self.wear(file.section("wear").as_ref())?;
         let turbulence = self.fields(file, scene.duration, modes.is_some())?;
         let time = self.time(&time, sectors);
@@ -60,9 +60,7 @@ impl Builder<'_> {
         let penalty = file.section("penalty").map(|penalty| self.penalty(&penalty)).transpose()?.unwrap_or_default();
         let (mut scene, condensation) = self
             .condensed(scene, built.pending.as_ref().filter(|d| modes.is_none() || !matches!(d, Damping::Modal(_))))?;
-        if let Some(condensation) = &condensation {
-            sliders = self.sliders_with_mass(sliders, condensation)?;
-        }
+        let sliders = self.sliders_with_mass(sliders, condensation.as_ref())?;
         if self.written.start == Start::Equilibrium {
             scene.initial.q = equilibrium(&scene).map_err(|error| self.locate(error, &scene))?;
         }
@@ -93,15 +91,9 @@ impl Builder<'_> {
         }
         case.check().map_err(|error| self.locate(error, &case.scene))?;
         match (modes, file.section("flow")) {
-            (Some(modes), flow) => {
-                self.reduce(&mut case, modes, (built.pending, turbulence), flow.as_ref())?;
-            }
+            (Some(modes), flow) => self.reduce(&mut case, modes, (built.pending, turbulence), flow.as_ref())?,
             (None, Some(flow)) => return Err(self.without_flow(&flow)),
-            (None, None) => {
-                for slider in &case.sliders {
-                    case.scene = case.scene.with_slider(slider).map_err(|error| self.at_key(error))?;
-                }
-            }
+            (None, None) => self.add_sliders(&mut case)?,
         }
         if !built_already {
             set_start(&mut case);
@@ -119,8 +111,8 @@ impl Builder<'_> {
         Ok(fields)
     }
 
-    /// The scene of `system` with its initial state, walls, supports, loads and probes, the place of
-    /// each wall and slider, and the sliders, which the scene does not have yet.
+    /// The scene of `system` with its initial state, walls, supports, loads and probes, the place
+    /// of each wall and slider, and the sliders, which the scene does not have yet.
     fn scene(&mut self, file: &Section<'_>, system: System, duration: f64) -> Result<(Scene, Vec<Place>, Vec<Slider>)> {
         let total = system.degrees_of_freedom();
         let mut scene = Scene {

@@ -1,5 +1,6 @@
 //! Reads the tables `[[slider]]`.
 
+use super::Case;
 use super::builder::Builder;
 use super::place::{MOST_PLACES, Site};
 use super::supports::Owner;
@@ -81,12 +82,21 @@ impl Builder<'_> {
     }
 
     /// The sliders of the structure without the massless degrees of freedom of `condensation`.
-    pub fn sliders_with_mass(&self, sliders: Vec<Slider>, condensation: &Condensation) -> Result<Vec<Slider>> {
+    pub fn sliders_with_mass(&self, sliders: Vec<Slider>, condensation: Option<&Condensation>) -> Result<Vec<Slider>> {
+        let Some(condensation) = condensation else { return Ok(sliders) };
         let with_mass = |slider: Slider| -> Result<Slider> {
             let at = condensation.row(&slider.at).ok_or_else(|| self.slides_without_mass(&slider))?;
             Ok(Slider { at, ..slider })
         };
         sliders.into_iter().map(with_mass).collect()
+    }
+
+    /// Adds the sliders of a case to its scene, which is not reduced to modes.
+    pub fn add_sliders(&self, case: &mut Case) -> Result<()> {
+        for slider in &case.sliders {
+            case.scene = case.scene.clone().with_slider(slider).map_err(|error| self.at_key(error))?;
+        }
+        Ok(())
     }
 
     fn slides_without_mass(&self, slider: &Slider) -> Error {

@@ -152,8 +152,9 @@ impl Builder<'_> {
     }
 
     /// The probes of the file, or the default ones: one at each of the `sites` with walls or
-    /// sliders, with the name of the first there; without any one in the middle of a bar or beam, else one at the
-    /// first degree of freedom. With one degree of freedom there is a single probe, without a name.
+    /// sliders, with the name of the first there; without any one in the middle of a bar or beam,
+    /// else one at the first degree of freedom. With one degree of freedom there is a single probe,
+    /// without a name.
     pub fn probes(&mut self, probes: &[Section<'_>], sites: &[Site]) -> Result<Vec<Probe>> {
         let mut all: Vec<Probe> = Vec::new();
         if probes.is_empty() {
