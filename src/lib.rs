@@ -74,8 +74,8 @@ pub use scene::{
 };
 pub use scene::{
     Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SceneKey,
-    SharedStructure, Side, State, Structure, Support, System, Table, TimeFunction, Turbulence, TurbulenceSpectrum,
-    Wall, WallLaw,
+    SharedStructure, Side, Slider, State, Structure, Support, System, Table, TimeFunction, Turbulence,
+    TurbulenceSpectrum, Wall, WallLaw,
 };
 pub use scheme::{Counters, Handover, Integrator, Method, PenaltyLaw, Scheme, Stepper, equilibrium};
 pub use statistics::{

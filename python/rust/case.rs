@@ -116,11 +116,13 @@ fn built(py: Python<'_>, file: CaseFile) -> PyResult<Case> {
         _ => Model::Numbered,
     };
     let origin = case.truncated.as_ref().map(|truncated| {
-        let sg::study::truncation::Unreduced { scene, damping, static_correction, turbulence, .. } =
+        let sg::study::truncation::Unreduced { scene, damping, static_correction, turbulence, sliders, .. } =
             truncated.whole.clone();
         let modes = Some(truncated.reduction.modes.count());
-        Box::new(Origin { scene, damping, modes, static_correction, turbulence })
+        Origin { scene, damping, modes, static_correction, turbulence, sliders }
     });
+    let slides = || Origin { sliders: case.sliders.clone(), ..Origin::of(case.without_sliders().into_owned()) };
+    let origin = origin.or_else(|| (!case.sliders.is_empty()).then(slides)).map(Box::new);
     let supports = case.scene.supports.iter().enumerate();
     let laws = supports.filter_map(|(index, support)| Some((support.name.clone(), case.archard(index)?))).collect();
     let scene = Py::new(py, Scene { scene: case.scene.clone(), model, origin, laws })?;

@@ -96,13 +96,8 @@ impl Scene {
         modes: Option<usize>,
         static_correction: Option<bool>,
     ) -> PyResult<Self> {
-        let mut origin = self.origin.as_deref().cloned().unwrap_or_else(|| Origin {
-            scene: self.scene.clone(),
-            damping: None,
-            modes: None,
-            static_correction: false,
-            turbulence: Vec::new(),
-        });
+        let own = || Origin::of(self.scene.clone());
+        let mut origin = self.origin.as_deref().cloned().unwrap_or_else(own);
         let scene = &mut origin.scene;
         let n = scene.system.degrees_of_freedom();
         if let Some(walls) = walls {
@@ -234,7 +229,7 @@ impl Scene {
     /// The number of degrees of freedom that are stepped: of a scene reduced to modes, the modes.
     #[getter]
     fn degrees_of_freedom(&self) -> usize {
-        self.scene.system.degrees_of_freedom()
+        self.scene.system.degrees_of_freedom() - self.sliders()
     }
 
     /// Half the least distance between two walls, m: errors are shares of it.
@@ -245,7 +240,7 @@ impl Scene {
 
     fn __repr__(&self) -> String {
         let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-        let body = match (&self.scene.system, &self.origin) {
+        let body = match (&self.plain().system, &self.origin) {
             (sg::System::Oscillator(o), _) => {
                 format!("oscillator of {:?} kg, {:?} N s/m, {:?} N/m", o.mass, o.damping, o.stiffness)
             }
@@ -254,13 +249,15 @@ impl Scene {
             }
             _ => count(self.degrees_of_freedom(), "degree") + " of freedom",
         };
-        let (walls, loads) = (count(self.scene.walls.len(), "wall"), count(self.scene.loads.len(), "load"));
-        format!("<Scene: {body}, {walls}, {loads}, {:?} s>", self.scene.duration)
+        let count_of = |n: usize, what: &str| count(n - self.sliders(), what);
+        let (walls, loads) = (count_of(self.scene.walls.len(), "wall"), count_of(self.scene.loads.len(), "load"));
+        let sliders = if self.sliders() > 0 { count(self.sliders(), "slider") + ", " } else { String::new() };
+        format!("<Scene: {body}, {walls}, {sliders}{loads}, {:?} s>", self.scene.duration)
     }
 
     fn __str__(&self, py: Python<'_>) -> PyResult<String> {
         use sg::study::choice::{body, loads, walls};
-        let scene = self.scene.clone();
+        let scene = self.plain();
         let lines = move || {
             let mut lines = body(&scene);
             lines.extend(walls(&scene).into_iter().map(|(_, line)| line));
@@ -284,6 +281,19 @@ impl Scene {
 }
 
 impl Scene {
+    /// The number of its sliders.
+    fn sliders(&self) -> usize {
+        self.origin.as_ref().map_or(0, |origin| origin.sliders.len())
+    }
+
+    /// The scene that is stepped, without its sliders.
+    fn plain(&self) -> sg::Scene {
+        match self.sliders() {
+            0 => self.scene.clone(),
+            count => self.scene.without_sliders(count),
+        }
+    }
+
     /// The scene in the coordinates in which it was given.
     fn given(&self) -> &sg::Scene {
         self.origin.as_ref().map_or(&self.scene, |origin| &origin.scene)

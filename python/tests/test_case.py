@@ -256,3 +256,22 @@ def test_a_shaken_tube_under_its_weight_is_the_case_of_these_keys() -> None:
     assert made.scene == sg.case(tomllib.loads(made.text)).scene
     with pytest.raises(ValueError, match="base has no motion"):
         tube(loads=[sg.Load.base(direction=0.0)])
+
+
+def test_a_slider_stops_a_released_mass_where_the_spring_pulls_less_than_it_holds() -> None:
+    system = {"oscillator": {"mass": 1.0, "damping": 0.0, "stiffness": 1e4}}
+    tables = {
+        "system": system, "slider": [sg.slider("pad", 10.0, 0.1)],
+        "initial": {"displacement": 0.85e-3}, "time": {"end": 0.15, "step": 1e-4},
+    }  # fmt: skip
+    case = sg.case(tables)
+    # Each half swing loses 2 μN/k = 0.2 mm; 3.6 mm of sliding under 10 N in 0.15 s.
+    run = case.run("located")
+    assert abs(run.displacement[-1] - 0.05e-3) < 2e-8
+    assert abs(run.supports["pad"].work_rate.value - 0.24) < 1e-5
+    assert (case.scene.degrees_of_freedom, case.scene.probes) == (1, ("",))
+    # Another start of the same scene, and values that make no slider.
+    again = case.scene.replace(displacement=0.05e-3)
+    assert again.run("located", step=1e-4).displacement[-1] == 0.05e-3
+    with pytest.raises(ValueError, match='slider "pad": normal_force is -1'):
+        sg.case({**tables, "slider": [sg.slider("pad", -1.0, 0.1)]})

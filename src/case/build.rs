@@ -11,9 +11,10 @@ use super::report::Source;
 use super::schema::CASE;
 use super::start;
 use super::value::Section;
+use super::walls::NewWall;
 use super::{Case, FileRead, PenaltyOptions, Place, StatisticsOptions, TimeOptions, Truncated, Written};
 use crate::error::{Error, Result, Subject, escaped};
-use crate::scene::{Condensation, Damping, Row, Scene, State, Structure, System, Turbulence};
+use crate::scene::{Condensation, Damping, Row, Scene, Slider, State, Structure, System, Turbulence};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
 use crate::study::truncation::{Start, Unreduced};
 use toml::Spanned;
@@ -51,7 +52,7 @@ impl Builder<'_> {
         self.n = if let Planes::Two(n) = self.planes { n } else { total };
         let modes = self.modes_of_planes(modes)?;
         let duration = self.required("duration", &time, "end");
-        let (scene, places) = self.scene(file, built.system, duration)?;
+        let (scene, places, sliders) = self.scene(file, built.system, duration)?;
         let (wear, sectors) = self.wear(file.section("wear").as_ref())?;
         let turbulence = self.fields(file, scene.duration, modes.is_some())?;
         let time = self.time(&time, sectors);
@@ -59,6 +60,7 @@ impl Builder<'_> {
         let penalty = file.section("penalty").map(|penalty| self.penalty(&penalty)).transpose()?.unwrap_or_default();
         let (mut scene, condensation) = self
             .condensed(scene, built.pending.as_ref().filter(|d| modes.is_none() || !matches!(d, Damping::Modal(_))))?;
+        let sliders = self.sliders_with_mass(sliders, condensation.as_ref())?;
         if self.written.start == Start::Equilibrium {
             scene.initial.q = equilibrium(&scene).map_err(|error| self.locate(error, &scene))?;
         }
@@ -72,6 +74,7 @@ impl Builder<'_> {
             planes: self.planes,
             places,
             scene,
+            sliders,
             condensation,
             truncated: None,
             fluid_elastic: None,
@@ -82,20 +85,21 @@ impl Builder<'_> {
             written: std::mem::take(&mut self.written),
         };
         let set_start = |case: &mut Case| start.into_iter().for_each(|start| start::start_from(&mut case.scene, start));
-        if modes.is_none() {
+        let built_already = modes.is_none() && case.sliders.is_empty();
+        if built_already {
             set_start(&mut case);
         }
         case.check().map_err(|error| self.locate(error, &case.scene))?;
         match (modes, file.section("flow")) {
-            (Some(modes), flow) => {
-                self.reduce(&mut case, modes, (built.pending, turbulence), flow.as_ref())?;
-                set_start(&mut case);
-                case.check().map_err(|error| self.locate(error, &case.scene))?;
-                Ok(case)
-            }
-            (None, Some(flow)) => Err(self.without_flow(&flow)),
-            (None, None) => Ok(case),
+            (Some(modes), flow) => self.reduce(&mut case, modes, (built.pending, turbulence), flow.as_ref())?,
+            (None, Some(flow)) => return Err(self.without_flow(&flow)),
+            (None, None) => self.add_sliders(&mut case)?,
         }
+        if !built_already {
+            set_start(&mut case);
+            case.check().map_err(|error| self.locate(error, &case.scene))?;
+        }
+        Ok(case)
     }
 
     /// The fields of all tables `[[turbulence]]` in a run until `end` (s).
@@ -107,9 +111,9 @@ impl Builder<'_> {
         Ok(fields)
     }
 
-    /// The scene of `system` with its initial state, walls, supports, loads and probes, and the
-    /// place of each wall.
-    fn scene(&mut self, file: &Section<'_>, system: System, duration: f64) -> Result<(Scene, Vec<Place>)> {
+    /// The scene of `system` with its initial state, walls, supports, loads and probes, the place
+    /// of each wall and slider, and the sliders, which the scene does not have yet.
+    fn scene(&mut self, file: &Section<'_>, system: System, duration: f64) -> Result<(Scene, Vec<Place>, Vec<Slider>)> {
         let total = system.degrees_of_freedom();
         let mut scene = Scene {
             system,
@@ -125,12 +129,15 @@ impl Builder<'_> {
             scene.initial = self.initial(&initial)?;
         }
         let walls = self.walls_and_supports(file, &mut scene.supports)?;
+        let sliders = self.sliders(&file.sections("slider"), &walls)?;
         self.loads(&file.sections("load"), &mut scene)?;
-        scene.probes = self.probes(&file.sections("probe"), &walls)?;
+        let sites = walls.iter().map(NewWall::location).chain(sliders.iter().map(|new| new.site.clone()));
+        scene.probes = self.probes(&file.sections("probe"), &sites.collect::<Vec<_>>())?;
         scene.output_times = self.output_times(&file.required_section("time"));
-        let (all, places) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
+        let (all, mut places): (_, Vec<_>) = walls.into_iter().map(|new| (new.wall, new.place)).unzip();
         scene.walls = all;
-        Ok((scene, places))
+        places.extend(sliders.iter().map(|new| new.site.place.clone()));
+        Ok((scene, places, sliders.into_iter().map(|new| new.slider).collect()))
     }
 
     /// The times at which the states of the probes are asked for.
@@ -156,6 +163,7 @@ impl Builder<'_> {
             start: case.written.start,
             planes: self.planes.modes(),
             turbulence,
+            sliders: case.sliders.clone(),
         };
         let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
         case.scene = reduction.scene.clone();

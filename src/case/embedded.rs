@@ -48,6 +48,7 @@ const ALL: &[Embedded] = embed![
     "tube-round-supports",
     "whirl-in-a-hole",
     "code-aster-sdnd100",
+    "dry-friction-damper",
 ];
 
 impl Embedded {

@@ -10,7 +10,7 @@ use toml::Spanned;
 impl Builder<'_> {
     /// The directions of the flats, as a list or as a number of sides.
     pub fn flat_directions(&mut self, owner: &Owner, support: &Section<'_>) -> Result<Vec<f64>> {
-        let Owner { name: owner, subject, span } = owner;
+        let Owner { name: owner, subject, span, .. } = owner;
         let subject = subject.clone().part("directions");
         let one = "expected directions = [0, 120, 240], in deg, or sides = 3 and, where wanted, turn";
         match (support.numbers("directions"), support.number("sides"), support.number("turn")) {

@@ -184,7 +184,18 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("support.growth", Word, "", ["`\"even\"` of a hole; gaps of flats stay", "\"even\" or \
         \"shifted\" of a hole, \"flats\" of flats: what `signorini wear` does to the gaps",
         OTHER_WORDS]),
-    entry("wear", Table, "", ["no worn volumes", "see below", "without `[[support]]`"]),
+    entry("slider", Tables, "", ["no sliders", "any number of them: a place that rubs under a known \
+        normal force, a dry-friction damper", "in two planes; beside `static_correction`"]),
+    entry("slider.name", Word, "", [REQUIRED, NAME, "anything else; the name of a wall or of another \
+        slider"]),
+    entry("slider.at", Any, "", [PLACE_NEEDED, "a place, see below, or \"each\": a slider at each",
+        "a place that is held, or without mass"]),
+    entry("slider.normal_force", Number, "N", [REQUIRED, ABOVE_0, UNORDINARY]),
+    entry("slider.friction", Any, "", [REQUIRED, "a number from 0 to 10, or { static = .., kinetic = .. } \
+        of both: what sticks holds static times normal_force, what slides feels kinetic times it", "as \
+        of a support"]),
+    entry("wear", Table, "", ["no worn volumes", "see below", "without `[[support]]` and \
+        `[[slider]]`"]),
     entry("wear.coefficient", Number, "per_Pa", ["no volume of the tube", "a number above 0: the \
         wear coefficient of the tube, 1/Pa = m^2/N", "without `service`"]),
     entry("wear.support_coefficient", Number, "per_Pa", ["no volume of supports", "a number above \
@@ -346,6 +357,8 @@ pub(super) const KEYS: &[KeyEntry] = &[
     inner("system.beam.right.rotational", "N_m_per_rad"),
     inner("support.friction.static", ""),
     inner("support.friction.kinetic", ""),
+    inner("slider.friction.static", ""),
+    inner("slider.friction.kinetic", ""),
     inner("load.base.influence.row", ""),
     inner("initial.displacement.dofs", "m"),
     inner("initial.displacement.y", "m"),

@@ -60,6 +60,7 @@ mod read;
 mod realisations;
 mod report;
 mod schema;
+mod sliders;
 mod start;
 mod statistics;
 mod summary;
@@ -105,10 +106,10 @@ pub use truncated::Truncated;
 #[cfg(feature = "cli")]
 pub(crate) use value::{Section, Value};
 pub use wear::WearOptions;
-pub use written::{FileRead, Origin, Support, WearData, Written};
+pub use written::{FileRead, Origin, Support, SupportShape, WearData, Written};
 
 use crate::error::{Error, Result};
-use crate::scene::{Condensation, FluidElastic, Scene};
+use crate::scene::{Condensation, FluidElastic, Scene, Slider};
 use crate::time::TimeOptions;
 
 /// The contents of a case file. Another value makes another case: [`Case::with`].
@@ -131,6 +132,8 @@ pub struct Case {
     /// The scene that is simulated, in modal coordinates if the case is reduced to modes; its
     /// duration is `time.end`.
     pub scene: Scene,
+    /// The sliders of the scene, each with its place on the scene before any reduction to modes.
+    pub sliders: Vec<Slider>,
     /// The massless degrees of freedom that were condensed, before any reduction to modes; `None`
     /// where all have mass.
     pub condensation: Option<Condensation>,

@@ -1,6 +1,6 @@
 //! Notes that the reader of any run of a case must know.
 
-use super::{Case, Truncated};
+use super::{Case, SupportShape, Truncated};
 use crate::scene::{LoadKind, WallTruncation};
 use crate::study::truncation::Start;
 
@@ -45,12 +45,12 @@ impl Case {
 
     /// Supports that the structure may leave, since their flats stand within a half turn.
     fn open_supports(&self) -> impl Iterator<Item = String> {
-        let flats = self.written.supports.iter().filter_map(|support| support.flats.as_ref());
-        flats.filter(|(flats, _)| flats.is_open()).map(|(flats, _)| {
-            format!(
+        self.written.supports.iter().filter_map(|support| match &support.shape {
+            SupportShape::Flats(flats) if flats.is_open() => Some(format!(
                 "the flats of support {:?} stand within a half turn: it bounds the motion on their side only",
                 flats.name
-            )
+            )),
+            _ => None,
         })
     }
 

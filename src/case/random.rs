@@ -204,7 +204,7 @@ impl Case {
         {
             let loads = whole.turbulent_loads(&reduction.modes, end)?;
             for scene in [&mut reduction.scene, &mut self.scene] {
-                scene.loads.truncate(whole.scene.loads.len());
+                scene.loads.truncate(scene.loads.len() - loads.len().min(scene.loads.len()));
                 scene.loads.extend_from_slice(&loads);
             }
         }

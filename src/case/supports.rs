@@ -5,7 +5,7 @@ use super::model::{Model, Place};
 use super::place::MOST_PLACES;
 use super::value::{Section, Value};
 use super::walls::NewWall;
-use super::written::{Support, WearData};
+use super::written::{Support, SupportShape, WearData};
 use crate::error::{Error, Result, Subject};
 use crate::scene::{self, Face, Flat, Flats, FrictionCoefficients, PlaneRows, Wall, WallLaw};
 use crate::wear::Growth;
@@ -15,9 +15,12 @@ use toml::Spanned;
 /// What stands at the friction of a support.
 const BOTH_COEFFICIENTS: &str = "friction = a number, or { static = .., kinetic = .. }, numbers from 0 to 10";
 
-/// A support that is read: its name in messages and as the subject of errors, and its table.
+/// A support or slider that is read: its name in messages and as the subject of errors, and its
+/// table.
 pub(super) struct Owner {
     pub name: String,
+    /// The name of the list of tables.
+    pub table: &'static str,
     pub subject: Subject,
     pub span: Range<usize>,
 }
@@ -32,8 +35,12 @@ impl Builder<'_> {
         support: &Section<'_>,
     ) -> Result<(scene::Support, Vec<NewWall>)> {
         let name = self.name_of(&format!("support {}: name", index + 1), support)?;
-        let owner =
-            Owner { name: format!("support {name:?}"), subject: Subject::support(&name), span: support.span.clone() };
+        let owner = Owner {
+            name: format!("support {name:?}"),
+            table: "support",
+            subject: Subject::support(&name),
+            span: support.span.clone(),
+        };
         if !self.planes.is_two() {
             let help =
                 "expected planes = 2 in [system]; in one plane, two walls: [[wall]] with side = \"both\" and gap";
@@ -49,27 +56,27 @@ impl Builder<'_> {
         let at = self.planes.rows(&self.model, &place)?;
         let friction = self.friction(&owner, support)?;
         let wear = self.wear_data(&owner, support)?;
-        let shape = support.required_word("shape");
-        let (made, flats, walls) = match *shape.get_ref() {
+        let word = support.required_word("shape");
+        let (made, shape, walls) = match *word.get_ref() {
             "flats" => {
                 let flats = self.flats(&owner, (&name, at, centre), friction, support)?;
                 let walls = self.walls_of(&owner, support, &flats, (&place, first))?;
-                (flats.support(first), Some((flats, first)), walls)
+                (flats.support(first), SupportShape::Flats(flats), walls)
             }
             "round" => {
                 let (gap, law) = self.hole(&owner, support)?;
                 let face = Face::Round { at: at.clone(), centre, gap };
                 let wall = Wall { name: name.clone(), face, law, friction };
                 let walls = vec![NewWall { wall, site: name.clone(), place: place.clone() }];
-                (scene::Support { name: name.clone(), at, centre, walls: first..first + 1 }, None, walls)
+                (scene::Support { name: name.clone(), at, centre, walls: first..first + 1 }, SupportShape::Round, walls)
             }
             _ => {
                 let key = format!("{}: shape", owner.name);
-                return Err(self.refuse(shape.span(), &key, "\"flats\" or \"round\""));
+                return Err(self.refuse(word.span(), &key, "\"flats\" or \"round\""));
             }
         };
-        let growth = self.growth(&owner, support, flats.is_some())?;
-        self.written.supports.push(Support { name, place, flats, wear, growth });
+        let growth = self.growth(&owner, support, shape != SupportShape::Round)?;
+        self.written.supports.push(Support { name, place, shape, wear, growth });
         Ok((made, walls))
     }
 
@@ -149,15 +156,15 @@ impl Builder<'_> {
     }
 
     /// The coefficients of friction: a number, or a table of both.
-    fn friction(&mut self, owner: &Owner, support: &Section<'_>) -> Result<FrictionCoefficients> {
-        let Some(value) = support.get("friction") else { return Ok(FrictionCoefficients::default()) };
-        let subject = owner.subject.clone().part("friction");
+    pub fn friction(&mut self, owner: &Owner, section: &Section<'_>) -> Result<FrictionCoefficients> {
+        let Some(value) = section.get("friction") else { return Ok(FrictionCoefficients::default()) };
+        let (subject, table) = (owner.subject.clone().part("friction"), owner.table);
         self.note(subject.clone(), Some(value.span()));
         let entries = match value.get_ref() {
             Value::Number(both) => return Ok((*both).into()),
             Value::Table(entries) => entries,
             other => {
-                let title = format!("`support.friction` takes a number or a table, not {}", other.kind());
+                let title = format!("`{table}.friction` takes a number or a table, not {}", other.kind());
                 return Err(self.source.error(value.span(), &title, &format!("expected {BOTH_COEFFICIENTS}")));
             }
         };
@@ -167,12 +174,12 @@ impl Builder<'_> {
                 "static" => ("static", &mut sticking),
                 "kinetic" => ("kinetic", &mut sliding),
                 other => {
-                    let title = format!("unknown key `{other}` in `support.friction`");
+                    let title = format!("unknown key `{other}` in `{table}.friction`");
                     return Err(self.source.error(name.span(), &title, &format!("expected {BOTH_COEFFICIENTS}")));
                 }
             };
             let Value::Number(x) = value.get_ref() else {
-                let title = format!("`support.friction.{part}` takes a number, not {}", value.get_ref().kind());
+                let title = format!("`{table}.friction.{part}` takes a number, not {}", value.get_ref().kind());
                 return Err(self.source.error(value.span(), &title, "expected a number from 0 to 10"));
             };
             *coefficient = Some(*x);

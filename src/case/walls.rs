@@ -17,6 +17,18 @@ pub(super) struct NewWall {
     pub place: Place,
 }
 
+impl NewWall {
+    /// Where it stands, with the name of its table as suffix; of a flat in two planes the place,
+    /// which has no row of one direction.
+    pub fn location(&self) -> Site {
+        let suffix = self.site.clone();
+        match &self.place {
+            Place::Towards { place, .. } => Site { suffix, place: Place::clone(place), row: Row::new(Vec::new()) },
+            place => Site { suffix, place: place.clone(), row: self.wall.row().clone() },
+        }
+    }
+}
+
 impl Builder<'_> {
     /// All walls of the file, flat and round, in its order; adds its supports to `supports`.
     pub fn walls_and_supports(&mut self, file: &Section<'_>, supports: &mut Vec<Support>) -> Result<Vec<NewWall>> {
@@ -139,13 +151,14 @@ impl Builder<'_> {
         }
     }
 
-    /// The probes of the file, or the default ones: one at each location with walls, with the name
-    /// of the first wall there; without walls one in the middle of a bar or beam, else one at the
-    /// first degree of freedom. With one degree of freedom there is a single probe, without a name.
-    pub fn probes(&mut self, probes: &[Section<'_>], walls: &[NewWall]) -> Result<Vec<Probe>> {
+    /// The probes of the file, or the default ones: one at each of the `sites` with walls or
+    /// sliders, with the name of the first there; without any one in the middle of a bar or beam,
+    /// else one at the first degree of freedom. With one degree of freedom there is a single probe,
+    /// without a name.
+    pub fn probes(&mut self, probes: &[Section<'_>], sites: &[Site]) -> Result<Vec<Probe>> {
         let mut all: Vec<Probe> = Vec::new();
         if probes.is_empty() {
-            return self.default_probes(walls);
+            return self.default_probes(sites);
         }
         for (index, probe) in probes.iter().enumerate() {
             let key = format!("probe {}: name", index + 1);
@@ -181,21 +194,15 @@ impl Builder<'_> {
         Ok(all)
     }
 
-    /// One probe at each location with walls, in two planes one along y and one along z; without
-    /// walls, at one location that the system has.
-    fn default_probes(&mut self, walls: &[NewWall]) -> Result<Vec<Probe>> {
+    /// One probe at each of the `sites`, in two planes one along y and one along z; without any, at
+    /// one location that the system has.
+    fn default_probes(&mut self, sites: &[Site]) -> Result<Vec<Probe>> {
         if self.total() == 1 {
             return Ok(vec![Probe { name: String::new(), at: Row::dof(0) }]);
         }
         let mut all: Vec<Probe> = Vec::new();
-        for NewWall { wall, site, place } in walls {
-            let site = match place {
-                Place::Towards { place, .. } => {
-                    Site { suffix: site.clone(), place: Place::clone(place), row: Row::new(Vec::new()) }
-                }
-                _ => Site { suffix: site.clone(), place: place.clone(), row: wall.row().clone() },
-            };
-            for (way, Site { suffix, place, row }) in self.both_ways(&site)? {
+        for site in sites {
+            for (way, Site { suffix, place, row }) in self.both_ways(site)? {
                 if all.iter().all(|probe| probe.at != row) {
                     self.written.probes.push(place);
                     all.push(Probe { name: format!("{suffix}{way}"), at: row });

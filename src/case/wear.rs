@@ -3,7 +3,7 @@
 use super::builder::Builder;
 use super::model::Model;
 use super::value::Section;
-use super::{Case, TimeOptions};
+use super::{Case, SupportShape, TimeOptions};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::study::wear_history::{HISTORIES, WearingSupport, YEAR};
@@ -45,7 +45,7 @@ impl Builder<'_> {
             };
         };
         if self.written.supports.is_empty() {
-            let help = "expected one [[support]] or more beside it: only at these something slides";
+            let help = "expected one [[support]] or [[slider]], or more, beside it: only at these something slides";
             return Err(self.source.error(wear.span.clone(), "`wear` without a support", help));
         }
         let options = WearOptions {
@@ -128,12 +128,15 @@ impl Case {
     pub fn wearing_supports(&self) -> Result<Vec<WearingSupport>> {
         let mut wearing = Vec::new();
         for (index, support) in self.scene.supports.iter().enumerate() {
-            let Some(law) = self.archard(index) else { continue };
+            let written = self.written.supports.get(index);
+            // A slider has no gap that could grow.
+            let slides = written.is_some_and(|written| written.shape == SupportShape::Slider);
+            let Some(law) = self.archard(index).filter(|_| !slides) else { continue };
             if law.scar.is_none() {
                 let expected = "a support with a width: its depth is the worn volume over 2πRw";
                 return Err(Error::invalid("support", format!("{:?}", support.name), expected));
             }
-            let growth = self.written.supports.get(index).map_or_else(Growth::default, |written| written.growth);
+            let growth = written.map_or_else(Growth::default, |written| written.growth);
             let (name, gaps) = (support.name.clone(), support.gaps(&self.scene.walls));
             wearing.push(WearingSupport { name, gaps, growth, law });
         }

@@ -1,15 +1,14 @@
 //! Contents of a case file that its scene no longer shows: locations, and the files it read.
 
-#[cfg(feature = "cli")]
-use super::Case;
-use super::Place;
 use super::digest::sha256;
+use super::{Case, Place};
 #[cfg(feature = "cli")]
 use crate::scene::Row;
-use crate::scene::{Flats, Load, RandomForce};
+use crate::scene::{Flats, Load, RandomForce, Scene};
 use crate::study::truncation::Start;
 use crate::wear::Growth;
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// Contents of the file, in the order of the scene.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -21,7 +20,7 @@ pub struct Written {
     pub origins: Vec<Origin>,
     /// The location of each probe.
     pub probes: Vec<Place>,
-    /// Each `[[support]]`.
+    /// Each `[[support]]` and `[[slider]]`.
     pub supports: Vec<Support>,
     /// The start: given, or a static equilibrium.
     pub start: Start,
@@ -67,13 +66,24 @@ pub struct Support {
     pub name: String,
     /// The location that it surrounds.
     pub place: Place,
-    /// Its flats, with their place on the system of the file, and the index of the first of their
-    /// walls in the scene; the others follow. `None` for a round support.
-    pub flats: Option<(Flats, usize)>,
+    /// What stands there.
+    pub shape: SupportShape,
     /// The values on which the depth of a scar there depends.
     pub wear: WearData,
     /// What wear does to its gaps over the years.
     pub growth: Growth,
+}
+
+/// What stands at a support.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum SupportShape {
+    /// These flats, with their place on the system of the file.
+    Flats(Flats),
+    /// A round hole.
+    Round,
+    /// A slider, of [`Case::sliders`].
+    Slider,
 }
 
 /// The values on which the depth of a scar at a support depends.
@@ -109,15 +119,24 @@ impl PartialEq for FileRead {
     }
 }
 
+impl Case {
+    /// The scene without its sliders, in the degrees of freedom of the structure alone.
+    #[must_use]
+    pub fn without_sliders(&self) -> Cow<'_, Scene> {
+        match self.sliders.len() {
+            0 => Cow::Borrowed(&self.scene),
+            count => Cow::Owned(self.scene.without_sliders(count)),
+        }
+    }
+}
+
 #[cfg(feature = "cli")]
 impl Case {
     /// The row of a location of the file in the scene that is condensed but not reduced; `None`
     /// where it includes condensed degrees of freedom.
     pub(crate) fn sees(&self, place: &Place) -> Option<Row> {
         let row = self.planes.row(&self.model, place).ok()?;
-        let Some(condensation) = &self.condensation else { return Some(row) };
-        let kept = |&(i, weight): &(usize, f64)| Some((condensation.kept.binary_search(&i).ok()?, weight));
-        row.entries().iter().map(kept).collect::<Option<_>>().map(Row::new)
+        self.condensation.as_ref().map_or(Some(row.clone()), |condensation| condensation.row(&row))
     }
 }
 

@@ -59,6 +59,12 @@ impl Subject {
         Self(vec![Part::Named("support", name.to_owned())])
     }
 
+    /// The slider of that name.
+    #[must_use]
+    pub fn slider(name: &str) -> Self {
+        Self(vec![Part::Named("slider", name.to_owned())])
+    }
+
     /// Item `index`, from 0, of several of a kind: a load, a wall, a penalty law.
     #[must_use]
     pub fn nth(kind: &'static str, index: usize) -> Self {

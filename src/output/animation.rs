@@ -7,7 +7,7 @@
 
 use super::colours::Places;
 use super::shape::Stations;
-use crate::case::{Case, Model, Place};
+use crate::case::{Case, Model, Place, SupportShape};
 use crate::scene::{Face, Scene, Support};
 use signorini_figure::{Animation, View};
 use std::f64::consts::TAU;
@@ -109,7 +109,8 @@ fn walls(case: &Case, plane: usize, length: f64) -> Vec<(usize, Vec<(f64, f64)>)
             add(&wall.name, place.position(), *position);
         }
     }
-    for (support, written) in scene.supports.iter().zip(&case.written.supports) {
+    let supports = scene.supports.iter().zip(&case.written.supports);
+    for (support, written) in supports.filter(|(_, written)| written.shape != SupportShape::Slider) {
         let Some(centre) = support.centre.get(plane) else { continue };
         let gap = support.gaps(&scene.walls).into_iter().fold(f64::INFINITY, f64::min);
         for side in [-gap, gap] {

@@ -47,6 +47,9 @@ pub fn request(command: &str, case: &Case, methods: &[Method]) -> Map<String, Va
     ] {
         request.insert(format!("{part}{FINGERPRINT}"), digest);
     }
+    if !case.sliders.is_empty() {
+        request.insert(format!("sliders{FINGERPRINT}"), fingerprint(&case.sliders));
+    }
     if !case.turbulence().is_empty() {
         request.insert(format!("turbulence{FINGERPRINT}"), fingerprint(&case.turbulence()));
     }

@@ -45,10 +45,12 @@ fn belongs(key: &str, part: &str) -> bool {
     let table = key.split('.').next().unwrap_or_default();
     match part {
         "system" => table == "system",
-        "walls" => table == "wall" || table == "support",
-        "supports" => table == "support",
+        "walls" => table == "wall" || table == "support" || table == "slider",
+        "supports" => table == "support" || table == "slider",
+        "sliders" => table == "slider",
         "wear" => table == "wear" || table == "support",
-        "loads" => table == "load",
+        // A slider is pressed by a load.
+        "loads" => table == "load" || table == "slider",
         "turbulence" => table == "turbulence",
         "initial" => table == "initial",
         "probes" => table == "probe",

@@ -30,7 +30,9 @@ pub(super) fn scene(summary: &Value) -> Value {
     out.insert("kind".to_owned(), json!(system));
     out.insert("planes".to_owned(), summary["scene"]["planes"].clone());
     out.insert("walls".to_owned(), json!(walls));
-    out.insert("supports".to_owned(), list(&summary["scene"]["supports"]).iter().map(support).collect());
+    let supports = list(&summary["scene"]["supports"]);
+    let drawn = supports.iter().filter(|one| one["shape"] != "slider");
+    out.insert("supports".to_owned(), drawn.map(support).collect());
     out.insert("loads".to_owned(), loads.collect());
     for key in ["mass", "damping", "stiffness", "length", "left", "right", "masses"] {
         out.insert(key.to_owned(), case["system"][system][key].clone());

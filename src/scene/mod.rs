@@ -7,8 +7,8 @@
 //! freedom), `shared.rs` (these matrices checked once, with the factor of M, and shared by all
 //! users), `checked.rs` (a validated scene), `wall.rs`, `law.rs` (all that differs between rigid,
 //! elastic and penalised walls), `planes.rs` (a structure doubled into two planes, and directions
-//! there), `support.rs` (walls around a place), `friction.rs` (their coefficients
-//! of friction), `load.rs`, `random/` (random forces as tables),
+//! there), `support.rs` (walls around a place), `slider.rs` (places that rub under a known force),
+//! `friction.rs` (coefficients of friction), `load.rs`, `random/` (random forces as tables),
 //! `turbulence/` (random forces along a line, on modes), `fluid_elastic.rs` (the stability of a
 //! tube in that flow), `held.rs` (a structure held at places), `clear.rs` (a start moved out of
 //! walls), `function.rs`, `forcing.rs`, `scene_key.rs` (the path of a number of a scene), `row.rs`
@@ -40,6 +40,7 @@ mod row;
 mod scales;
 mod scene_key;
 mod shared;
+mod slider;
 mod structure;
 mod support;
 mod system;
@@ -69,6 +70,7 @@ pub(crate) use row::distinct;
 pub use row::{Probe, Row};
 pub use scene_key::SceneKey;
 pub use shared::SharedStructure;
+pub use slider::Slider;
 pub use structure::Structure;
 pub use support::{Hole, Support};
 pub use system::{Oscillator, System};

@@ -90,7 +90,8 @@ impl Scene {
         Ok(())
     }
 
-    fn check_row(&self, owner: impl Fn() -> Subject, row: &Row) -> Result<()> {
+    /// Refuses a row of `owner` beyond the degrees of freedom, or with weights that are not finite.
+    pub(super) fn check_row(&self, owner: impl Fn() -> Subject, row: &Row) -> Result<()> {
         let n = self.system.degrees_of_freedom();
         for &(i, weight) in row.entries() {
             if i >= n {

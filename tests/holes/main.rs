@@ -20,6 +20,8 @@ mod penalty;
 mod pendulum;
 mod position;
 mod recorded;
+#[cfg(feature = "cli")]
+mod sliders;
 mod start;
 mod static_friction;
 mod steps;

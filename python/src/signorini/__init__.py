@@ -46,7 +46,7 @@ from ._realisations import Realisations, realisations
 from ._studies import Chart, Comparison, Stability, chart, compare, stability
 from ._supports import ErrorPart, ErrorParts, Estimate, SupportStatistics, Wear
 from ._sweep import Table, grid, run_many, sweep
-from ._tube import Archard, Support, flats, hole, tube
+from ._tube import Archard, Support, flats, hole, slider, tube
 from ._turbulence import Turbulence, turbulence
 from ._wear import LimitYears, WearStudy, wear
 
@@ -109,6 +109,7 @@ __all__ = [
     "oscillator",
     "realisations",
     "run_many",
+    "slider",
     "stability",
     "support",
     "sweep",

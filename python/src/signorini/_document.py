@@ -20,7 +20,7 @@ def case(tables: Mapping[str, Any], *, name: str = "case") -> Case:
     tables : mapping of str to value
         What a case file has: ``{"system": {"oscillator": {"mass": 1.0, ..}}, "wall": [{..}], ..}``.
         Values are numbers, texts, True, False, sequences, mappings, and the objects that `hole`,
-        `flats`, `Archard` and the methods of `Load` make; None leaves a key out. Files that it names
+        `flats`, `slider`, `Archard` and the methods of `Load` make; None leaves a key out. Files that it names
         are looked for in the working folder.
     name : str
         Of the case, in results and messages.

@@ -17,7 +17,7 @@ SECONDS_PER_YEAR = 365.25 * 86400.0
 
 @dataclass(frozen=True)
 class Support:
-    """A loose support in two planes: see `hole` and `flats`."""
+    """A loose support in two planes, or a slider in one: see `hole`, `flats` and `slider`."""
 
     name: str
     values: Mapping[str, Any] = field(repr=False)
@@ -162,6 +162,48 @@ def flats(
     )  # fmt: skip
     own = {"shape": "flats", "gap": gap, "directions": directions, "sides": sides, "turn": turn}
     return Support(name, {**same.values, **own})
+
+
+def slider(
+    name: str,
+    normal_force: float,
+    friction: float | Friction,
+    *,
+    at: float | Mapping[str, Any] | None = None,
+) -> Support:
+    """A place that rubs under a known normal force, in one plane: a dry-friction damper.
+
+    Parameters
+    ----------
+    name : str
+        Letters, digits, ``-`` and ``_``.
+    normal_force : float
+        The force that presses it, N; above 0.
+    friction : float or mapping
+        Coefficient of Coulomb friction. With a larger one while it sticks,
+        ``{"static": 0.3, "kinetic": 0.2}``.
+    at : float or mapping, optional
+        The place: m from the left end of a beam or bar, or a place of the case format such as
+        ``{"dof": 0}``; left out for an oscillator.
+
+    Returns
+    -------
+    Support
+        For the list ``slider`` of `case`, which checks it.
+
+    Raises
+    ------
+    TypeError
+        For arguments that do not exist.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> sg.slider("pad", 10.0, 0.1)
+    Support(name='pad')
+    """
+    values = {"at": at if at is None else _at(at), "normal_force": normal_force, "friction": friction}
+    return Support(name, values)
 
 
 @dataclass(frozen=True)

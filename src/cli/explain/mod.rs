@@ -70,10 +70,10 @@ fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
         }
     };
     let mut model = what(case);
-    model.extend(choice::body(&case.scene));
+    model.extend(choice::body(&case.without_sliders()));
     model.extend(supports(case));
     model.extend(walls(case));
-    model.push(choice::loads(&case.scene));
+    model.push(choice::loads(&case.without_sliders()));
     model.extend(excitations(case));
     model.extend(case.notes().iter().map(|note| format!("note: {note}")));
     tell("model", model);
@@ -122,11 +122,11 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
             "in_words": words,
         })
     };
-    let walls: Vec<Value> = choice::walls(&case.scene).into_iter().map(seen).collect();
+    let walls: Vec<Value> = choice::walls(&case.without_sliders()).into_iter().map(seen).collect();
     let mut model = what(case);
-    model.extend(choice::body(&case.scene));
+    model.extend(choice::body(&case.without_sliders()));
     model.extend(supports(case));
-    model.push(choice::loads(&case.scene));
+    model.push(choice::loads(&case.without_sliders()));
     model.extend(excitations(case));
     let document = json!({
         "scene": summary::scene(case),
@@ -152,7 +152,8 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
 /// Notes on the step and the scene that need no run.
 fn setup(case: &Case, choice: &Choice) -> Vec<String> {
     let mut said = notes::setup(&case.scene, &choice.method.scheme, case.time.step);
-    said.extend(notes::resting(&case.scene, case.time.step));
+    let walls = case.scene.walls.len() - case.sliders.len();
+    said.extend(notes::resting(&case.scene, walls, case.time.step));
     said
 }
 

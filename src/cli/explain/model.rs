@@ -1,7 +1,7 @@
 //! The model of a case in words: structure, supports, walls and loads.
 
-use crate::case::{Case, Model, Origin, Support};
-use crate::scene::{self, Density, Flats, LoadKind, Turbulence, WallSpring};
+use crate::case::{Case, Model, Origin, Support, SupportShape};
+use crate::scene::{self, Density, Flats, LoadKind, Slider, Turbulence, WallSpring};
 use crate::study::choice;
 use crate::study::truncation::Start;
 
@@ -102,7 +102,7 @@ fn turbulence(case: &Case) -> Vec<String> {
 
 /// Each support, and how its flats are treated by the schemes.
 pub(super) fn supports(case: &Case) -> Vec<String> {
-    let line = |(support, there): (&Support, &scene::Support)| {
+    let line = |(index, (support, there)): (usize, (&Support, &scene::Support))| {
         let off = match there.centre {
             [0.0, 0.0] => String::new(),
             [y, z] => format!(", its centre at ({y}, {z}) m"),
@@ -114,7 +114,12 @@ pub(super) fn supports(case: &Case) -> Vec<String> {
             _ => format!("friction {friction}"),
         };
         let (name, place) = (&support.name, &support.place);
-        let Some((Flats { flats, .. }, _)) = &support.flats else {
+        let SupportShape::Flats(Flats { flats, .. }) = &support.shape else {
+            if let (SupportShape::Slider, Some(Slider { normal_force, .. })) = (&support.shape, case.sliders.get(index))
+            {
+                let on = if case.has_places() { format!(", on {place}") } else { String::new() };
+                return format!("slider {name:?}{on}: pressed by {normal_force} N, {rubs}");
+            }
             let Some(hole) = there.hole(&case.scene.walls) else { return String::new() };
             let elastic = |s: WallSpring| format!("elastic, {:?} N/m and {:?} N s/m", s.stiffness, s.damping);
             let rigid = || format!("rigid, restitution {}", hole.restitution);
@@ -141,7 +146,7 @@ pub(super) fn supports(case: &Case) -> Vec<String> {
         )
     };
     let mut lines: Vec<String> =
-        case.written.supports.iter().zip(&case.scene.supports).take(MOST_WALLS).map(line).collect();
+        case.written.supports.iter().zip(&case.scene.supports).enumerate().take(MOST_WALLS).map(line).collect();
     if let Some(service) = case.wear.service {
         lines.push(format!("wear: volume = coefficient x work rate x {service:e} s"));
     }
@@ -164,7 +169,7 @@ pub(super) fn walls(case: &Case) -> Vec<String> {
         }
         line
     };
-    let mut lines: Vec<String> = choice::walls(&case.scene).into_iter().map(line).collect();
+    let mut lines: Vec<String> = choice::walls(&case.without_sliders()).into_iter().map(line).collect();
     let all = lines.len();
     if all > MOST_WALLS {
         lines.truncate(MOST_WALLS);

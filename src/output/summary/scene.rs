@@ -1,16 +1,19 @@
 //! The structure that is run, and its walls with the mass that each feels.
 
 use crate::case::{Case, Model, Place};
-use crate::scene::{BarEnd, BeamEnd, BeamSection, Damping, Face, Side, Support, System, Wall, WallLaw};
+use crate::scene::{
+    BarEnd, BeamEnd, BeamSection, Damping, Face, FrictionCoefficients, Scene, Side, Support, System, Wall, WallLaw,
+};
 use crate::study::choice;
 use serde_json::{Map, Value, json};
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 pub(super) fn scene(case: &Case) -> Value {
-    let whole = case.unreduced();
+    let whole = unreduced(case);
     let mut out = Map::new();
     out.insert(case.model.kind().to_owned(), system(case));
-    if !matches!(case.scene.system, System::Oscillator(_)) {
+    if !matches!(case.without_sliders().system, System::Oscillator(_)) {
         out.insert("structure".to_owned(), structure(case));
     }
     let masses = case.scene.wall_masses();
@@ -33,9 +36,10 @@ pub(super) fn scene(case: &Case) -> Value {
         value
     });
     out.insert("planes".to_owned(), json!(if case.planes.is_two() { 2 } else { 1 }));
-    out.insert("walls".to_owned(), walls.collect());
-    if !whole.supports.is_empty() {
-        out.insert("supports".to_owned(), supports(case).collect());
+    // A slider has a contact, whose results are those of a wall, and rubs as a support.
+    out.insert("walls".to_owned(), walls.chain(sliders(case)).collect());
+    if !case.scene.supports.is_empty() {
+        out.insert("supports".to_owned(), supports(case, &whole).chain(sliders(case)).collect());
     }
     let probes = whole.probes.iter().enumerate().map(|(index, probe)| {
         let place = case.written.probes.get(index).filter(|_| several);
@@ -49,9 +53,14 @@ pub(super) fn scene(case: &Case) -> Value {
     Value::Object(out)
 }
 
+/// The scene before its reduction to modes, without sliders.
+fn unreduced(case: &Case) -> Cow<'_, Scene> {
+    case.truncated.as_ref().map_or_else(|| case.without_sliders(), |truncated| Cow::Borrowed(&truncated.whole.scene))
+}
+
 /// The system as the case file describes it.
 fn system(case: &Case) -> Value {
-    match (&case.model, &case.scene.system) {
+    match (&case.model, &case.without_sliders().system) {
         (_, System::Oscillator(o)) => {
             json!({ "mass_kg": o.mass, "damping_n_s_per_m": o.damping, "stiffness_n_per_m": o.stiffness })
         }
@@ -120,14 +129,15 @@ fn beam_end(end: BeamEnd) -> Value {
 
 /// The system as it is run, and how it was obtained.
 fn structure(case: &Case) -> Value {
-    let [slowest, fastest] = case.scene.system.frequencies().map(|omega| omega / TAU);
+    let scene = case.without_sliders();
+    let [slowest, fastest] = scene.system.frequencies().map(|omega| omega / TAU);
     let mut out = json!({
-        "degrees_of_freedom": case.unreduced().system.degrees_of_freedom(),
-        "unknowns": case.scene.system.degrees_of_freedom(),
+        "degrees_of_freedom": unreduced(case).system.degrees_of_freedom(),
+        "unknowns": scene.system.degrees_of_freedom(),
         "slowest_frequency_hz": slowest,
         "fastest_frequency_hz": fastest,
-        "damping": choice::body(&case.scene).pop(),
-        "matrices": choice::path(&case.scene, case.time.step),
+        "damping": choice::body(&scene).pop(),
+        "matrices": choice::path(&scene, case.time.step),
     });
     if let (Some(condensation), Some(map)) = (&case.condensation, out.as_object_mut()) {
         map.insert("massless_degrees_of_freedom".to_owned(), json!(condensation.massless.len()));
@@ -166,17 +176,33 @@ fn at(place: &Place) -> Value {
     }
 }
 
-/// The supports, each with where it is.
-fn supports(case: &Case) -> impl Iterator<Item = Value> {
-    let whole = case.unreduced();
+/// The sliders, each with where it is.
+fn sliders(case: &Case) -> impl Iterator<Item = Value> {
+    let several = case.has_places();
+    case.sliders.iter().zip(&case.written.supports).map(move |(slider, written)| {
+        json!({
+            "name": slider.name,
+            "shape": "slider",
+            "normal_force_n": slider.normal_force,
+            "friction": friction(slider.friction),
+            "at": several.then(|| at(&written.place)),
+        })
+    })
+}
+
+/// Coefficients of friction as in a case file.
+fn friction(both: FrictionCoefficients) -> Value {
+    if both.drops() { json!(both) } else { json!(both.sliding) }
+}
+
+/// The supports of `whole`, each with where it is.
+fn supports(case: &Case, whole: &Scene) -> impl Iterator<Item = Value> {
     let places = case.written.supports.iter().map(|written| Some(&written.place)).chain(std::iter::repeat(None));
     whole.supports.iter().zip(places).map(|(one, place)| support(one, place, &whole.walls))
 }
 
 fn support(support: &Support, place: Option<&Place>, walls: &[Wall]) -> Value {
-    let (Support { name, centre, .. }, both) = (support, support.friction(walls));
-    // As in a case file.
-    let friction = if both.drops() { json!(both) } else { json!(both.sliding) };
+    let (Support { name, centre, .. }, friction) = (support, friction(support.friction(walls)));
     let hole = support.hole(walls);
     let mut out = match &hole {
         None => {

@@ -10,8 +10,8 @@ const SLOW: f64 = 0.1;
 /// The warning before moreau-jean steps a scene whose load may hold the body on a rigid wall;
 /// `None` without such a wall, or where it refuses the scene. It names the schemes that rest on the
 /// face of the wall, of those that take the scene with steps of `step` seconds.
-pub(crate) fn resting(scene: &Scene, step: f64) -> Option<String> {
-    let wall = scene.walls.iter().find(|wall| wall.law.is_rigid() && may_rest(scene, wall))?;
+pub(crate) fn resting(scene: &Scene, walls: usize, step: f64) -> Option<String> {
+    let wall = scene.walls.iter().take(walls).find(|wall| wall.law.is_rigid() && may_rest(scene, wall))?;
     let takes = |scheme: &Scheme| Stepper::takes(scene, scheme, step);
     if !takes(&Scheme::MoreauJean { theta: 0.5 }) {
         return None;

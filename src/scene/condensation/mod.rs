@@ -6,7 +6,7 @@ mod statics;
 use super::row::distinct;
 use super::structure::Structure;
 use super::wall::{Side, Wall};
-use super::{Scene, System};
+use super::{Row, Scene, System};
 use crate::error::{Error, Result, Subject};
 use statics::{Seen, Statics};
 
@@ -33,6 +33,15 @@ pub struct Condensation {
     /// Static compliance s of the massless part at each wall, m/N, in the scene's order; 0 where
     /// the wall's row includes degrees of freedom with mass only.
     pub compliance: Vec<f64>,
+}
+
+impl Condensation {
+    /// The same row in the degrees of freedom that are kept; `None` where it includes massless
+    /// ones.
+    pub(crate) fn row(&self, row: &Row) -> Option<Row> {
+        let kept = |&(i, weight): &(usize, f64)| Some((self.kept.binary_search(&i).ok()?, weight));
+        row.entries().iter().map(kept).collect::<Option<_>>().map(Row::new)
+    }
 }
 
 impl Structure {

@@ -15,7 +15,7 @@ use super::change::{Change, relative};
 use crate::error::Result;
 use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
-use crate::scene::{Damping, Load, Modes, Reduction, Scene, Turbulence};
+use crate::scene::{Damping, Load, Modes, Reduction, Scene, Slider, Turbulence};
 use crate::scheme::{Method, equilibrium};
 use crate::statistics::PlaceKind;
 use crate::time::TimeOptions;
@@ -36,8 +36,10 @@ pub struct Unreduced {
     pub planes: usize,
     /// Where the reduced scene starts.
     pub start: Start,
-    /// Fields of force on the modes; their loads come after those of the scene.
+    /// Fields of force on the modes; their loads come after all others.
     pub turbulence: Vec<Turbulence>,
+    /// Sliders, which join the reduced scene: none of them is part of a mode.
+    pub sliders: Vec<Slider>,
 }
 
 /// Where a scene starts.
@@ -54,7 +56,7 @@ impl Unreduced {
     /// The scene reduced to its `modes` slowest modes.
     ///
     /// # Errors
-    /// As [`Scene::reduced`].
+    /// As [`Scene::reduced`] and [`Scene::with_slider`].
     pub fn cut(&self, modes: usize) -> Result<Reduction> {
         let mut reduction = match self.start {
             Start::Given => self.scene.reduced(modes, self.static_correction)?,
@@ -63,11 +65,14 @@ impl Unreduced {
         if self.start == Start::Equilibrium {
             reduction.scene.initial.q = equilibrium(&reduction.scene)?;
         }
-        reduction.scene.loads.extend(self.turbulent_loads(&reduction.modes, self.scene.duration)?);
-        match &self.damping {
-            Some(damping) => reduction.with_damping(damping),
-            None => Ok(reduction),
+        if let Some(damping) = &self.damping {
+            reduction = reduction.with_damping(damping)?;
         }
+        for slider in &self.sliders {
+            reduction.scene = reduction.scene.with_slider(&slider.on(&reduction.modes))?;
+        }
+        reduction.scene.loads.extend(self.turbulent_loads(&reduction.modes, self.scene.duration)?);
+        Ok(reduction)
     }
 
     /// The loads of all fields of turbulence on `modes`, from 0 to `end` (s).
@@ -153,7 +158,8 @@ pub struct Truncation {
     pub displacement: f64,
     /// That gap scale, m: [`Scene::gap_scale`].
     pub length_m: f64,
-    /// One entry per wall, then per round support, in the scene's order.
+    /// One entry per wall, then per round support, in the scene's order; none of a slider, whose
+    /// normal force is given.
     pub walls: Vec<WallTruncated>,
     /// What the judge refutes in the run with more modes; if there is anything, this comparison is
     /// meaningless.
@@ -193,8 +199,9 @@ impl Truncation {
         // Changes are shares of the largest wall's value, so that a wall that is hardly touched, or
         // in one of the runs only, does not dominate.
         let scene = &cuts[1].scene;
-        let felt: Vec<[Felt; 2]> =
-            (0..change.walls.len()).map(|index| runs.map(|run| Felt::of(run, scene, index))).collect();
+        // Sliders come after all walls of a reduction, and are none of them.
+        let count = change.walls.len().min(cuts[1].walls.len());
+        let felt: Vec<[Felt; 2]> = (0..count).map(|index| runs.map(|run| Felt::of(run, scene, index))).collect();
         let most = |part: fn(&Felt) -> Option<f64>| felt.iter().flatten().filter_map(part).fold(0.0, f64::max);
         let (most_force, most_impulse) = (most(|felt| felt.peak), most(|felt| felt.largest));
         let masses = cuts.map(|cut| cut.scene.wall_masses());

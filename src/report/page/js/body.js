@@ -9,7 +9,7 @@ function zigzag(ctx, from, to, y, teeth, height) {
 
 function bodyStage() {
   const probe = lead.probes[0];
-  const walls = DATA.scene.walls;
+  const walls = DATA.scene.walls.filter(stands);
   const reach = Math.max(
     1e-12,
     ...probe.extents.Q.map(Math.abs),

@@ -27,6 +27,9 @@ function meetingPlaces() {
   return [...DATA.scene.walls, ...round].map((place) => place.name);
 }
 
+/** False for a slider, which rubs and bounds nothing; they come after all walls. */
+const stands = (wall) => wall.position !== null;
+
 const samePlace = (a, b) => JSON.stringify(a ?? null) === JSON.stringify(b ?? null);
 
 /**
@@ -38,6 +41,7 @@ function readProbe(probe, time, contacts) {
   const alone = DATA.scene.kind === "oscillator" && DATA.scene.planes !== 2;
   const walls = DATA.scene.walls
     .map((_, i) => i)
+    .filter((i) => stands(DATA.scene.walls[i]))
     .filter((i) => alone || samePlace(DATA.scene.walls[i].at, probe.at));
   const here = new Set(walls);
   const impacts = [];

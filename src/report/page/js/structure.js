@@ -14,7 +14,7 @@ function structureStage() {
     const i = (stations.ats || []).findIndex((other) => samePlace(other, at));
     return i >= 0 ? stations.x[i] : undefined;
   };
-  const walls = DATA.scene.walls.map((wall) => ({ ...wall, x: placeOf(wall.at) }));
+  const walls = DATA.scene.walls.filter(stands).map((wall) => ({ ...wall, x: placeOf(wall.at) }));
   const drawn = walls.filter((wall) => wall.x !== undefined);
   const most = Math.max(1e-300, ...stations.high, ...Array.from(stations.low, (u) => -u));
   const gap = Math.max(0, ...drawn.map((wall) => Math.abs(wall.position)));
