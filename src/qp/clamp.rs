@@ -30,8 +30,8 @@ pub struct ScalarRow {
 /// b + Σ r.
 ///
 /// If several rigid rows bind at one place (bounds that differ by at most 32 units in the last
-/// place), they share the force equally. Rigid bounds that cross by rounding only (1e-12 of the largest of
-/// |l|, |u| and |b/a|) count as one place, their midpoint.
+/// place), they share the force equally. Rigid bounds that cross by rounding only (1e-12 of the
+/// largest of |l|, |u| and |b/a|) count as one place, their midpoint.
 ///
 /// ```
 /// use signorini::qp::{clamp, ScalarRow};
