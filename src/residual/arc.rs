@@ -5,6 +5,7 @@ use super::quadrature::{nodes, panels};
 use super::row_walls::RowWalls;
 use super::{Judge, PLACE_UNITS, running_max};
 use crate::flow::Arc;
+use crate::scene::Wall;
 use crate::step::Step;
 
 impl Judge {
@@ -93,11 +94,26 @@ impl Judge {
             } else {
                 let rounding = PLACE_UNITS * f64::EPSILON * size;
                 let law = |s: f64| wall.law.pressure(s, -sign * wdot);
-                let (low, high) = (law(-gap - rounding), law(-gap + rounding));
                 // Any force between the two is right. They differ by the wall's stiffness times the
                 // rounding of the place, except at the face of a damped wall, where its law jumps.
-                self.walls.observe_law(&self.noise, index, (low - pressure).max(pressure - high), 0.0);
+                let beyond = |rounding: f64| {
+                    let (low, high) = (law(-gap - rounding), law(-gap + rounding));
+                    (low - pressure).max(pressure - high)
+                };
+                let mut error = beyond(rounding);
+                if error > 0.0 && self.stands_at_rigid_wall(wall, q) {
+                    error = beyond(rounding + self.noise.place(0.0));
+                }
+                self.walls.observe_law(&self.noise, index, error, 0.0);
             }
         }
+    }
+
+    /// True if the body at `q` (m) stands at a rigid wall on the side of `wall`, to the tolerance of
+    /// its bound: a rigid wall stops the body in front of a spring with the same face only so
+    /// exactly.
+    fn stands_at_rigid_wall(&self, wall: &Wall, q: f64) -> bool {
+        let near = |other: &Wall| other.gap(other.row().dot(&[q])).abs() <= self.noise.place(0.0);
+        self.scene.walls.iter().any(|other| other.law.is_rigid() && other.side() == wall.side() && near(other))
     }
 }
