@@ -8,6 +8,7 @@ use super::{
 };
 use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
+use serde::{Deserialize, Serialize};
 
 /// A place that rubs under a known normal force N: a dry-friction damper, a clamped joint, a seal.
 ///
@@ -29,7 +30,7 @@ use crate::linear::Symmetric;
 /// assert!((w.last().unwrap() - 0.05e-3).abs() < 1e-7);
 /// # Ok::<(), signorini::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
     /// Name: letters, digits, `-` and `_`; results name it among walls and among supports.
     pub name: String,

@@ -6,7 +6,7 @@ mod statics;
 use super::row::distinct;
 use super::structure::Structure;
 use super::wall::{Side, Wall};
-use super::{Row, Scene, System};
+use super::{Scene, System};
 use crate::error::{Error, Result, Subject};
 use statics::{Seen, Statics};
 
@@ -35,12 +35,13 @@ pub struct Condensation {
     pub compliance: Vec<f64>,
 }
 
+#[cfg(feature = "case")]
 impl Condensation {
     /// The same row in the degrees of freedom that are kept; `None` where it includes massless
     /// ones.
-    pub(crate) fn row(&self, row: &Row) -> Option<Row> {
+    pub(crate) fn row(&self, row: &super::Row) -> Option<super::Row> {
         let kept = |&(i, weight): &(usize, f64)| Some((self.kept.binary_search(&i).ok()?, weight));
-        row.entries().iter().map(kept).collect::<Option<_>>().map(Row::new)
+        row.entries().iter().map(kept).collect::<Option<_>>().map(super::Row::new)
     }
 }
 
