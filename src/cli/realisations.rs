@@ -9,7 +9,8 @@ use crate::output::error_parts;
 use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::realisations::{
-    Batch, Purpose, Realisation, RealisationCount, RealisationPlan, RealisationStudy, Refined,
+    Batch, KnownRealisations, MOST_CHECKED, Purpose, Realisation, RealisationCount, RealisationPlan, RealisationStudy,
+    Refined,
 };
 
 /// The share that `text` of `argument` says: `5%` or `0.05`.
@@ -38,27 +39,43 @@ pub fn of_argument(error: Error) -> Error {
     }
 }
 
-/// The study of `count` realisations of `case`, of which `run` by `method` is the first; with
-/// `verdict` also the errors of its means. Its bars say how far it is, and what is refuted in it
-/// fails the command, under the name of the run after `of`.
+/// A study of realisations that is asked for.
+pub struct StudyRequest {
+    /// How many realisations.
+    pub count: RealisationCount,
+    /// How many of them are checked, as [`RealisationPlan::checked`].
+    pub checked: u64,
+    /// Those that have been run already.
+    pub known: KnownRealisations,
+}
+
+impl StudyRequest {
+    /// A study of `count` realisations, with `verdict` also the errors of their means.
+    pub fn new(count: RealisationCount, verdict: bool) -> Self {
+        Self { count, checked: if verdict { MOST_CHECKED } else { 0 }, known: KnownRealisations::default() }
+    }
+}
+
+/// The study of realisations of `case` that is `asked` for, of which `run` by `method` is the first.
+/// Its bars say how far it is, and what is refuted in it fails the command, under the name of the
+/// run after `of`.
 pub fn study(
     case: &Case,
     (run, method): (&Run, &Method),
-    count: RealisationCount,
-    verdict: bool,
+    asked: StudyRequest,
     of: &str,
     ui: &Ui,
 ) -> Result<RealisationStudy> {
-    let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, verdict };
-    let study = plan.follow(&mut |batch| batch_with_bar(case, method, batch, ui), &mut |pilots| {
-        ui.message(&pilots.to_string());
-    })?;
+    let StudyRequest { count, checked, mut known } = asked;
+    let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, checked };
+    let mut make = |batch: &Batch<'_>| known.complete(batch, &mut |missing| batch_with_bar(case, method, missing, ui));
+    let study = plan.follow(&mut make, &mut |pilots| ui.message(&pilots.to_string()))?;
     study.refuted().for_each(|(run, findings)| ui.refute(&format!("{of}{run}"), findings));
     Ok(study)
 }
 
 /// Runs `batch` under a bar with its name.
-fn batch_with_bar(case: &Case, method: &Method, batch: &Batch<'_>, ui: &Ui) -> Result<Vec<Realisation>> {
+pub fn batch_with_bar(case: &Case, method: &Method, batch: &Batch<'_>, ui: &Ui) -> Result<Vec<Realisation>> {
     let (label, other) = match batch.purpose {
         Purpose::Pilots => ("pilots".to_owned(), None),
         Purpose::Check(refined @ Refined::MoreModes { .. }) => (refined.to_string(), Some(batch.scene(1)?)),

@@ -5,7 +5,7 @@ use super::checked::CheckedRun;
 use crate::case::Case;
 use crate::cli::estimate::DurationEstimate;
 use crate::cli::ui::Ui;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::scheme::Method;
 use crate::study::accuracy::{Outcome, Target, foresee, reach};
 use crate::study::choice;
@@ -20,9 +20,6 @@ const FEWEST_STEPS: u64 = 1 << 16;
 
 /// A run that keeps the error asked for; what it falls short of is part of the outcome.
 pub(super) fn search(args: &Args, case: Case, tolerance: f64, ui: &Ui) -> Result<CheckedRun> {
-    if let Some(step) = args.request.step {
-        return Err(Error::invalid("--step", step, "no step beside --accuracy, which finds one"));
-    }
     let method = args.scheme.as_ref().map(|name| args.request.method(name, &case)).transpose()?;
     let methods: Vec<Method> = method.into_iter().collect();
     if !methods.is_empty() {
@@ -51,7 +48,7 @@ pub(super) fn search(args: &Args, case: Case, tolerance: f64, ui: &Ui) -> Result
 
 /// The cost of a step is proportional to the unknowns: a structure may cost some times as much as
 /// one degree of freedom, but no more.
-fn most_steps(case: &Case, target: &Target) -> u64 {
+pub(super) fn most_steps(case: &Case, target: &Target) -> u64 {
     let unknowns = case.scene.system.degrees_of_freedom() as u64;
     (MOST_WORK * target.most_steps / unknowns).clamp(FEWEST_STEPS, target.most_steps)
 }

@@ -4,13 +4,14 @@ mod accurate;
 mod args;
 mod checked;
 mod derivative;
+mod means;
 mod seeds;
 
 pub use args::Args;
 pub(super) use seeds::{Seeds, checked as checked_seeds};
 
 use super::pipeline::Answer;
-use super::realisations;
+use super::realisations::{self, StudyRequest};
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
@@ -31,15 +32,25 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.request.read(ui)?;
     // A stretch outside the run is refused before anything runs.
     let span = args.span.within(&case, case.scene.duration)?;
-    let wanted = args.seeds.check(&case)?;
+    let tolerance = args.accuracy()?;
+    let means = tolerance.filter(|_| means::are_judged(&case));
+    let wanted = if means.is_some() { None } else { args.seeds.check(&case)? };
     let derivatives = args.derivatives.wanted(args.scheme.as_deref(), &case)?;
+    let (checked, found) = match (means, tolerance) {
+        (Some(share), _) => means::search(args, case, share, ui).map(|(run, found)| (run, Some(found)))?,
+        (None, Some(tolerance)) => (accurate::search(args, case, tolerance, ui)?, None),
+        (None, None) => (checked::checked(args, case, ui)?, None),
+    };
     let CheckedRun { case, mut results, method, reason, run, refinement, truncation, modes, accuracy, shortfall } =
-        match args.accuracy {
-            Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
-            None => checked::checked(args, case, ui)?,
-        };
-    let study = |count| realisations::study(&case, (&run, &method), count, !args.no_verdict, "", ui);
-    let study = wanted.map(study).transpose()?;
+        checked;
+    let asked = found.as_ref().map(means::study_request);
+    let asked = asked.or(wanted.map(|count| StudyRequest::new(count, !args.no_verdict)));
+    let study = asked.map(|asked| realisations::study(&case, (&run, &method), asked, "", ui)).transpose()?;
+    let judged = found.as_ref().zip(study.as_ref()).map(|(found, study)| found.judge(study));
+    let (accuracy, shortfall) = match judged {
+        Some((accuracy, shortfall)) => (Some(Ok(accuracy)), shortfall),
+        None => (accuracy, shortfall),
+    };
     if let Some(study) = &study {
         error_parts::write_study(&mut results, study)?;
     }
