@@ -1,21 +1,13 @@
 //! `run --accuracy` of a case with random loads: the step that keeps the error of its means.
 
-use super::accurate::most_steps;
 use super::args::Args;
 use super::checked::{CheckedRun, made};
 use crate::case::Case;
 use crate::cli::realisations::{StudyRequest, batch_with_bar, of_argument};
 use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
-use crate::study::accuracy::Target;
-use crate::study::realisations::{Batch, FoundStep, StepSearch};
+use crate::study::realisations::{Batch, FoundStep};
 use serde_json::json;
-
-/// True where an error is one of means over realisations: a load is random, and there is a wall or
-/// a support whose forces have means.
-pub(super) fn are_judged(case: &Case) -> bool {
-    case.is_random() && !case.scene.walls.is_empty()
-}
 
 /// The run at the step that was found for the error `share` of the means, and what was found.
 pub(super) fn search(args: &Args, mut case: Case, share: f64, ui: &Ui) -> Result<(CheckedRun, FoundStep)> {
@@ -23,11 +15,9 @@ pub(super) fn search(args: &Args, mut case: Case, share: f64, ui: &Ui) -> Result
         let expected = "no such argument beside --accuracy of a case with random loads: checks with half the step find it";
         return Err(Error::invalid("--no-verdict", "given", expected));
     }
-    let target = Target::new(share, case.time);
     let (method, reason) = args.chosen(&case)?;
     let most = args.seeds.most_beside_accuracy(&case)?;
-    let most_steps = most_steps(&case, &target);
-    let search = StepSearch { scenes: &case, method: &method, time: case.time, share, most, most_steps };
+    let search = case.step_search(&method, share, most);
     search.validate().map_err(of_argument)?;
     let asked = json!({ "step_s": null, "accuracy": share, "most_seeds": most });
     let results = args.open(&case, &[method], asked)?;

@@ -33,7 +33,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     // A stretch outside the run is refused before anything runs.
     let span = args.span.within(&case, case.scene.duration)?;
     let tolerance = args.accuracy()?;
-    let means = tolerance.filter(|_| means::are_judged(&case));
+    let means = tolerance.filter(|_| case.judges_means());
     let wanted = if means.is_some() { None } else { args.seeds.check(&case)? };
     let derivatives = args.derivatives.wanted(args.scheme.as_deref(), &case)?;
     let (checked, found) = match (means, tolerance) {

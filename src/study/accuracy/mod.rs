@@ -10,7 +10,7 @@ mod target;
 pub use coarse::CoarseGrid;
 pub use horizon::foresee;
 pub use outcome::{Accuracy, JudgedBy, Level, Outcome, StepPairs};
-pub use target::{Against, MOST_STEPS, Target};
+pub use target::{Against, MOST_STEPS, Target, most_steps};
 
 use super::change::Change;
 use super::choice::{self, Choice};
