@@ -53,7 +53,11 @@ pub fn _wear<'py>(
     let mut results = folder.map(open).transpose()?;
     let done = RunsDone::default();
     let first = within.map(|count| {
-        compute_beside(py, || study(case, &plan, (count, checked(verdict)), KnownRealisations::default(), &done), &mut |py| done.tell(counted.bind(py)))
+        compute_beside(
+            py,
+            || study(case, &plan, (count, checked(verdict)), KnownRealisations::default(), &done),
+            &mut |py| done.tell(counted.bind(py)),
+        )
     });
     let first = first.transpose()?;
     let study = first.as_ref().map(|(study, _)| study);

@@ -37,7 +37,13 @@ impl Studies {
             Self { count, reference: String::new(), methods: Vec::new(), failures: Vec::new(), unchecked: Vec::new() };
         let count = RealisationCount::Exactly(count);
         for (method, run) in &ran {
-            match realisations::study(case, (run, method), StudyRequest::new(count, verdict), &format!("{method}, "), ui) {
+            match realisations::study(
+                case,
+                (run, method),
+                StudyRequest::new(count, verdict),
+                &format!("{method}, "),
+                ui,
+            ) {
                 Ok(study) => studies.add(method.to_string(), study),
                 Err(Error::Stopped) => return Err(Error::Stopped),
                 Err(error) => {

@@ -12,7 +12,8 @@ use serde_json::json;
 /// The run at the step that was found for the error `share` of the means, and what was found.
 pub(super) fn search(args: &Args, mut case: Case, share: f64, ui: &Ui) -> Result<(CheckedRun, FoundStep)> {
     if args.no_verdict {
-        let expected = "no such argument beside --accuracy of a case with random loads: checks with half the step find it";
+        let expected =
+            "no such argument beside --accuracy of a case with random loads: checks with half the step find it";
         return Err(Error::invalid("--no-verdict", "given", expected));
     }
     let (method, reason) = args.chosen(&case)?;

@@ -170,7 +170,8 @@ impl Steps<'_, '_> {
                     tried = self.tried(level, needed.min(most))?;
                 }
                 if let (StepVerdict::Scattered(_), true) = (&tried.verdict, needed > most && !falls) {
-                    let why = format!("{needed} pairs of realisations would show it, and no more than {most} are allowed");
+                    let why =
+                        format!("{needed} pairs of realisations would show it, and no more than {most} are allowed");
                     return Ok((tried, Some(why)));
                 }
             }
@@ -226,10 +227,8 @@ impl Steps<'_, '_> {
 
     /// So many realisations with the step that is halved `level` times, checked with half of it.
     fn checked(&mut self, level: u32, pairs: u64) -> Result<Realisations> {
-        let half = Refined::HalfStep {
-            step_s: self.coarse.options(level + 1, &self.search.time).step,
-            order: self.order,
-        };
+        let half =
+            Refined::HalfStep { step_s: self.coarse.options(level + 1, &self.search.time).step, order: self.order };
         let members = self.run(Purpose::Pilots, level, pairs)?;
         let again = self.run(Purpose::Check(half), level + 1, pairs)?;
         for member in members.iter().chain(&again) {
