@@ -188,8 +188,8 @@ impl Case {
     /// Parameters
     /// ----------
     /// scheme, step, accuracy : optional
-    ///     As in `Scene.run`; a step in place of that of the file. Under random loads the accuracy is
-    ///     one of means: `realisations` has it.
+    ///     As in `Scene.run`; a step in place of that of the file. Under random loads the accuracy
+    ///     is one of means: `realisations` has it.
     ///
     /// Returns
     /// -------
@@ -216,8 +216,8 @@ impl Case {
         let (scene, time) = (self.scene.bind(py), &self.case.time);
         if let Some(tolerance) = accuracy {
             if self.case.judges_means() {
-                let expected = "none for one run of a random load, which is a draw: sg.realisations(case, accuracy=...) \
-                                finds the step for the error of means";
+                let expected = "none for one run of a random load, which is a draw: sg.realisations(case, \
+                                accuracy=...) finds the step for the error of means";
                 return Err(wrong("accuracy", format!("{tolerance:?}"), expected));
             }
             return Run::to_accuracy(scene, scheme, step, tolerance, time.sample, time.statistics_from);

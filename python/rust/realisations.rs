@@ -66,8 +66,8 @@ pub fn count(given: Asked, case: &sg::case::Case) -> PyResult<Option<Realisation
     Ok(count)
 }
 
-/// The study of `count` realisations of `case`, of which so many are `checked`, with the notes on its
-/// first run; those in `known` are not run again.
+/// The study of `count` realisations of `case`, of which so many are `checked`, with the notes on
+/// its first run; those in `known` are not run again.
 pub fn study(
     case: &sg::case::Case,
     plan: &Plan,
@@ -175,8 +175,8 @@ pub fn _realisations<'py>(
     loads(py, &told(&study, &notes, case).to_string())
 }
 
-/// The most realisations of `case` that an accuracy may take, unless something stands beside it from
-/// which it cannot be told.
+/// The most realisations of `case` that an accuracy may take, unless something stands beside it
+/// from which it cannot be told.
 fn most_beside_accuracy(
     (seeds, until_interval, most): Asked,
     step: Option<f64>,

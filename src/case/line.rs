@@ -95,7 +95,8 @@ impl Builder<'_> {
             let title = format!("{key} has {} point{}", given.len(), if given.len() == 1 { "" } else { "s" });
             return Err(self.source.error(value.span(), &title, "expected two points or more"));
         }
-        // A table in a file has its keys in the order of their names; they count as they are written.
+        // A table in a file has its keys in the order of their names; they count as they are
+        // written.
         given.sort_by_key(|(_, _, span)| span.start);
         let names = self.points_of(modal);
         for (name, _, span) in &given {

@@ -57,9 +57,9 @@ impl StudyRequest {
     }
 }
 
-/// The study of realisations of `case` that is `asked` for, of which `run` by `method` is the first.
-/// Its bars say how far it is, and what is refuted in it fails the command, under the name of the
-/// run after `of`.
+/// The study of realisations of `case` that is `asked` for, of which `run` by `method` is the
+/// first. Its bars say how far it is, and what is refuted in it fails the command, under the name
+/// of the run after `of`.
 pub fn study(
     case: &Case,
     (run, method): (&Run, &Method),
@@ -75,9 +75,9 @@ pub fn study(
     Ok(study)
 }
 
-/// What the study of `seeds` realisations of `case` by one method costs after its first run, in runs
-/// like that one after one another: the other realisations, and with `verdict` up to six of them
-/// with half the step, unless the scheme is `exact`, and with more modes, all on all cores.
+/// What the study of `seeds` realisations of `case` by one method costs after its first run, in
+/// runs like that one after one another: the other realisations, and with `verdict` up to six of
+/// them with half the step, unless the scheme is `exact`, and with more modes, all on all cores.
 pub fn cost(case: &Case, seeds: u64, verdict: bool, exact: bool) -> f64 {
     let on_all_cores = |count: u64| count as f64 / (cores() as f64).min(count.max(1) as f64);
     let others = on_all_cores(seeds.saturating_sub(1));

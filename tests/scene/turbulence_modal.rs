@@ -122,15 +122,12 @@ fn the_line_may_be_a_file_and_the_modes_fewer() {
 
 #[test]
 fn in_two_planes_each_field_moves_the_modes_of_its_plane() {
-    let both = modes()
-        .replace("[system.modal]", "[system]\nplanes = 2\n[system.modal]")
-        .replace(
-            "shapes = { a = [0.0, 0.0], b = [1.0, 0.5], c = [0.0, -1.0], off = [0.3, 0.3] }",
-            "[system.modal.shapes]\n\
-            a-y = [0.0, 0.0]\na-z = [0.0, 0.0]\nb-y = [1.0, 0.0]\nb-z = [0.0, 1.0]\nc-y = [0.5, 0.0]\nc-z = [0.0, 0.5]",
-        )
-        .replace("[[turbulence]]", "[[turbulence]]\ndirection = \"both\"")
-        .replace("at = { point = \"off\" }", "at = { point = \"b\" }\ndirection = 0");
+    let shapes = "[system.modal.shapes]\na-y = [0.0, 0.0]\na-z = [0.0, 0.0]\nb-y = [1.0, 0.0]\n\
+                  b-z = [0.0, 1.0]\nc-y = [0.5, 0.0]\nc-z = [0.0, 0.5]";
+    let own = "shapes = { a = [0.0, 0.0], b = [1.0, 0.5], c = [0.0, -1.0], off = [0.3, 0.3] }";
+    let both = modes().replace("[system.modal]", "[system]\nplanes = 2\n[system.modal]");
+    let both = both.replace(own, shapes).replace("[[turbulence]]", "[[turbulence]]\ndirection = \"both\"");
+    let both = both.replace("at = { point = \"off\" }", "at = { point = \"b\" }\ndirection = 0");
     let loads = forces(&case(&both), 2);
     assert_eq!([loads[0].0, loads[1].0], [0, 1], "one field for each plane, on its mode alone");
     let along_z = case(&both.replace("direction = \"both\"", "direction = 90"));
@@ -165,7 +162,8 @@ fn every_wrong_line_is_refused_at_its_place() {
 #[test]
 fn a_beam_has_neither_line_nor_diameter_and_a_chain_no_turbulence() {
     let beam = "[system]\nmodes = 2\n[system.beam]\nlength = 3.0\nyoungs_modulus = 2e11\ndensity = 7850.0\n\
-                outer_diameter = 0.02\nelements = 30\nleft = \"pinned\"\nright = \"pinned\"\n[system.damping]\nratio = 0.02\n";
+                outer_diameter = 0.02\nelements = 30\nleft = \"pinned\"\nright = \"pinned\"\n\
+                [system.damping]\nratio = 0.02\n";
     let chain = "[system.chain]\nmasses = [1.0, 1.0]\nsprings = [1.0, 1.0]\n";
     for (system, more, words) in [
         (beam, "line = { a = 0.0, b = 1.0 }\n", "line beside a beam"),

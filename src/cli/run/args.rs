@@ -44,9 +44,9 @@ pub struct Args {
     /// Find scheme and step for this error, 1e-3 or 0.1%, as a share of the gap and of each wall's
     /// impulse and contact statistics; exit code 1 if it is not kept to the end; for a case reduced
     /// to modes, find the number of modes too. Under random loads it is a share of the mean forces
-    /// and work rates over realisations: find the coarsest step whose part in their errors is within
-    /// it, and as many seeds as its interval and theirs take; exit code 1 where no step or no number
-    /// of seeds keeps it
+    /// and work rates over realisations: find the coarsest step whose part in their errors is
+    /// within it, and as many seeds as its interval and theirs take; exit code 1 where no step or
+    /// no number of seeds keeps it
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     accuracy: Option<String>,
     /// Do not repeat the run with half the step, nor, for a case reduced to modes, with more modes;

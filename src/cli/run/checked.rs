@@ -40,8 +40,8 @@ pub(super) fn checked(args: &Args, case: Case, ui: &Ui) -> Result<CheckedRun> {
     made(args, case, (method, reason), results, !args.no_verdict, ui)
 }
 
-/// The run by `method`, with the reason for it, whose files are in `results`; with `verdict` checked
-/// with half the step and with more modes.
+/// The run by `method`, with the reason for it, whose files are in `results`; with `verdict`
+/// checked with half the step and with more modes.
 pub(super) fn made(
     args: &Args,
     case: Case,

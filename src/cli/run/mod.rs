@@ -23,7 +23,7 @@ use crate::output::supports;
 use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::choice;
-use crate::study::realisations::RealisationStudy;
+use crate::study::realisations::{RealisationCount, RealisationStudy};
 use checked::CheckedRun;
 use serde_json::json;
 use std::fmt::Display;
@@ -36,21 +36,13 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let means = tolerance.filter(|_| case.judges_means());
     let wanted = if means.is_some() { None } else { args.seeds.check(&case)? };
     let derivatives = args.derivatives.wanted(args.scheme.as_deref(), &case)?;
-    let (checked, found) = match (means, tolerance) {
-        (Some(share), _) => means::search(args, case, share, ui).map(|(run, found)| (run, Some(found)))?,
-        (None, Some(tolerance)) => (accurate::search(args, case, tolerance, ui)?, None),
-        (None, None) => (checked::checked(args, case, ui)?, None),
+    let (checked, study) = match (means, tolerance) {
+        (Some(share), _) => means::studied(args, case, share, ui).map(|(run, study)| (run, Some(study)))?,
+        (None, Some(tolerance)) => with_seeds(args, accurate::search(args, case, tolerance, ui)?, wanted, ui)?,
+        (None, None) => with_seeds(args, checked::checked(args, case, ui)?, wanted, ui)?,
     };
     let CheckedRun { case, mut results, method, reason, run, refinement, truncation, modes, accuracy, shortfall } =
         checked;
-    let asked = found.as_ref().map(means::study_request);
-    let asked = asked.or(wanted.map(|count| StudyRequest::new(count, !args.no_verdict)));
-    let study = asked.map(|asked| realisations::study(&case, (&run, &method), asked, "", ui)).transpose()?;
-    let judged = found.as_ref().zip(study.as_ref()).map(|(found, study)| found.judge(study));
-    let (accuracy, shortfall) = match judged {
-        Some((accuracy, shortfall)) => (Some(Ok(accuracy)), shortfall),
-        None => (accuracy, shortfall),
-    };
     if let Some(study) = &study {
         error_parts::write_study(&mut results, study)?;
     }
@@ -97,6 +89,18 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     }
     answer.fall_short(shortfall);
     Ok(answer)
+}
+
+/// The run, with the study of as many realisations as are wanted.
+fn with_seeds(
+    args: &Args,
+    made: CheckedRun,
+    wanted: Option<RealisationCount>,
+    ui: &Ui,
+) -> Result<(CheckedRun, Option<RealisationStudy>)> {
+    let asked = wanted.map(|count| StudyRequest::new(count, !args.no_verdict));
+    let study = asked.map(|asked| realisations::study(&made.case, (&made.run, &made.method), asked, "", ui));
+    Ok((made, study.transpose()?))
 }
 
 fn succeeded<T>(check: Option<&Result<T>>) -> Option<&T> {

@@ -41,8 +41,8 @@ pub struct Level {
     /// Its steps.
     pub steps: u64,
     /// Its error, or its change from the level before; `None` for the first level where levels are
-    /// compared with each other, and for a run that failed. Over realisations the most that the part
-    /// of the step may be.
+    /// compared with each other, and for a run that failed. Over realisations the most that the
+    /// part of the step may be.
     pub error: Option<f64>,
     /// Why the run failed, if it did.
     pub failure: Option<String>,

@@ -15,8 +15,8 @@ const MOST_WORK: u64 = 8;
 /// Fewest steps that a run of a refinement may always take.
 const FEWEST_STEPS: u64 = 1 << 16;
 
-/// Most steps of one run on `scene`, where one degree of freedom may take `most`. The cost of a step
-/// is proportional to the unknowns: a structure may cost some times as much as one degree of
+/// Most steps of one run on `scene`, where one degree of freedom may take `most`. The cost of a
+/// step is proportional to the unknowns: a structure may cost some times as much as one degree of
 /// freedom, but no more.
 #[must_use]
 pub fn most_steps(scene: &Scene, most: u64) -> u64 {

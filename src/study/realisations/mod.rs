@@ -7,8 +7,8 @@
 //! modes and the data are not in it. The first two, and that of a window that begins too early, are
 //! therefore estimated from the same realisations, and stand beside it ([`ErrorParts`]).
 //! [`RealisationPlan`] is a whole study: the number of realisations that an interval needs, the
-//! realisations, and the checks for the errors. [`StepSearch`] finds the coarsest step of such a study
-//! whose part in the errors is within a share that is named beforehand.
+//! realisations, and the checks for the errors. [`StepSearch`] finds the coarsest step of such a
+//! study whose part in the errors is within a share that is named beforehand.
 //!
 //! ```
 //! use signorini::study::realisations::{Measure, Realisations, realisations};

@@ -66,8 +66,8 @@ impl StepSearch<'_> {
     ///
     /// # Errors
     /// [`Error::Invalid`] for a scheme without a step, a share that is none and fewer realisations
-    /// than pilots; of the runs where they fail with every step; [`Error::Stopped`]. A share that is
-    /// not reached is no error here: see [`FoundStep::judge`].
+    /// than pilots; of the runs where they fail with every step; [`Error::Stopped`]. A share that
+    /// is not reached is no error here: see [`FoundStep::judge`].
     pub fn find(&self, make: Make<'_>, tell: &mut dyn FnMut(&str)) -> Result<FoundStep> {
         let order = self.validate()?;
         let scene = self.scenes.realisation(1)?;
@@ -150,7 +150,7 @@ impl Steps<'_, '_> {
             if self.coarse.steps.saturating_mul(2 << level) > most_steps {
                 break;
             }
-            let mut tried = match self.tried(level, PILOTS) {
+            let (tried, why) = match self.with_enough_pairs(level, last.as_ref()) {
                 Ok(tried) => tried,
                 Err(error) if error.is_request() || error == Error::Stopped => return Err(error),
                 // If a step is too large for the scheme, a smaller one may still work.
@@ -163,26 +163,11 @@ impl Steps<'_, '_> {
             if let Some(first) = first.take().filter(|_| tried.verdict != StepVerdict::TooLarge) {
                 return Ok((first, None));
             }
-            if let StepVerdict::Scattered(needed) = tried.verdict {
-                let falls = last.as_ref().is_none_or(|last| tried.scatter < FALLING * last.scatter);
-                let most = self.search.most;
-                if needed <= most || !falls {
-                    tried = self.tried(level, needed.min(most))?;
-                }
-                if let (StepVerdict::Scattered(_), true) = (&tried.verdict, needed > most && !falls) {
-                    let why =
-                        format!("{needed} pairs of realisations would show it, and no more than {most} are allowed");
-                    return Ok((tried, Some(why)));
-                }
-            }
             match tried.verdict {
+                _ if why.is_some() => return Ok((tried, why)),
                 StepVerdict::Within if level == 0 => first = Some(tried.clone()),
                 StepVerdict::Within => return Ok((tried, None)),
-                StepVerdict::Untouched => {
-                    let why = format!("no wall and no support is touched in {PILOTS} realisations");
-                    return Ok((tried, Some(why)));
-                }
-                StepVerdict::TooLarge | StepVerdict::Scattered(_) => {}
+                _ => {}
             }
             last = Some(tried);
         }
@@ -192,19 +177,42 @@ impl Steps<'_, '_> {
                 Ok((last, Some(format!("half of that step would take more than {most_steps} steps a run"))))
             }
             (None, None, Some(error)) => Err(error),
-            (None, None, None) => Err(Error::Biased {
-                part: "step",
-                tolerance: self.search.share,
-                reached: f64::INFINITY,
-                seen: false,
-                quantity: String::new(),
-                why: format!(
-                    "the coarsest runs that could see the motion take {} steps, with half the step twice as many, and \
-                     {most_steps} are the most",
-                    self.coarse.steps
-                ),
-            }),
+            (None, None, None) => Err(self.unknown(format!(
+                "the coarsest runs that could see the motion take {} steps, with half the step twice as many, and \
+                 {most_steps} are the most",
+                self.coarse.steps
+            ))),
         }
+    }
+
+    /// Tries the step that is halved `level` times with the pilots and, where these cannot tell, with
+    /// as many pairs as can; and why the search ends there, where it does without success. `last` is
+    /// twice the step.
+    fn with_enough_pairs(&mut self, level: u32, last: Option<&TriedStep>) -> Result<(TriedStep, Option<String>)> {
+        let pilots = self.tried(level, PILOTS)?;
+        let needed = match pilots.verdict {
+            StepVerdict::Scattered(needed) => needed,
+            StepVerdict::Untouched => {
+                let why = format!("no wall and no support is touched in {PILOTS} realisations");
+                return Ok((pilots, Some(why)));
+            }
+            StepVerdict::Within | StepVerdict::TooLarge => return Ok((pilots, None)),
+        };
+        let most = self.search.most;
+        let falls = last.is_none_or(|last| pilots.scatter < FALLING * last.scatter);
+        if needed > most && falls {
+            return Ok((pilots, None));
+        }
+        let tried = self.tried(level, needed.min(most))?;
+        let ends = needed > most && matches!(tried.verdict, StepVerdict::Scattered(_));
+        let why = || format!("{needed} pairs of realisations would show it, and no more than {most} are allowed");
+        Ok((tried, ends.then(why)))
+    }
+
+    /// That the part of the step is not known, and why.
+    fn unknown(&self, why: String) -> Error {
+        let (tolerance, reached, quantity) = (self.search.share, f64::INFINITY, String::new());
+        Error::Biased { part: "step", tolerance, reached, seen: false, quantity, why }
     }
 
     /// Tries the step that is halved `level` times with so many pairs of realisations, and tells of
@@ -237,18 +245,11 @@ impl Steps<'_, '_> {
             }
         }
         if let Some(member) = members.iter().find(|member| member.frozen_share > FROZEN) {
-            return Err(Error::Biased {
-                part: "step",
-                tolerance: self.search.share,
-                reached: f64::INFINITY,
-                seen: false,
-                quantity: String::new(),
-                why: format!(
-                    "in {:.0} % of the steps of realisation {} the body crosses its gap in less than a step",
-                    100.0 * member.frozen_share,
-                    member.number
-                ),
-            });
+            return Err(self.unknown(format!(
+                "in {:.0} % of the steps of realisation {} the body crosses its gap in less than a step",
+                100.0 * member.frozen_share,
+                member.number
+            )));
         }
         Ok(Realisations::new(members).with_checks(vec![Check::new(half, again)]))
     }
