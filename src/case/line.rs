@@ -98,15 +98,16 @@ impl Builder<'_> {
         // A table in a file has its keys in the order of their names; they count as they are
         // written.
         given.sort_by_key(|(_, _, span)| span.start);
-        let names = self.points_of(modal);
-        for (name, _, span) in &given {
+        self.check_line(&key, &given, &self.points_of(modal))?;
+        Ok(Some(TubeLine { points: given.into_iter().map(|(name, at, _)| (name, at)).collect() }))
+    }
+
+    /// Refuses points that are none of `names`, and positions that do not increase.
+    fn check_line(&self, key: &str, given: &[(String, f64, Range<usize>)], names: &[&str]) -> Result<()> {
+        for (name, _, span) in given {
             if !names.contains(&name.as_str()) {
                 let title = format!("{key} has a point {name:?} without a shape");
-                return Err(self.source.error(
-                    span.clone(),
-                    &title,
-                    &format!("expected {}", self.wanted_point(&names)),
-                ));
+                return Err(self.source.error(span.clone(), &title, &format!("expected {}", self.wanted_point(names))));
             }
         }
         for pair in given.windows(2) {
@@ -116,7 +117,7 @@ impl Builder<'_> {
                 return Err(self.source.error(span.clone(), &title, "expected positions that increase along the tube"));
             }
         }
-        Ok(Some(TubeLine { points: given.into_iter().map(|(name, at, _)| (name, at)).collect() }))
+        Ok(())
     }
 }
 

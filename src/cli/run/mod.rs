@@ -23,7 +23,7 @@ use crate::output::supports;
 use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::choice;
-use crate::study::realisations::{RealisationCount, RealisationStudy};
+use crate::study::realisations::RealisationStudy;
 use checked::CheckedRun;
 use serde_json::json;
 use std::fmt::Display;
@@ -32,15 +32,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.request.read(ui)?;
     // A stretch outside the run is refused before anything runs.
     let span = args.span.within(&case, case.scene.duration)?;
-    let tolerance = args.accuracy()?;
-    let means = tolerance.filter(|_| case.judges_means());
-    let wanted = if means.is_some() { None } else { args.seeds.check(&case)? };
     let derivatives = args.derivatives.wanted(args.scheme.as_deref(), &case)?;
-    let (checked, study) = match (means, tolerance) {
-        (Some(share), _) => means::studied(args, case, share, ui).map(|(run, study)| (run, Some(study)))?,
-        (None, Some(tolerance)) => with_seeds(args, accurate::search(args, case, tolerance, ui)?, wanted, ui)?,
-        (None, None) => with_seeds(args, checked::checked(args, case, ui)?, wanted, ui)?,
-    };
+    let (checked, study) = made(args, case, ui)?;
     let CheckedRun { case, mut results, method, reason, run, refinement, truncation, modes, accuracy, shortfall } =
         checked;
     if let Some(study) = &study {
@@ -91,13 +84,17 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     Ok(answer)
 }
 
-/// The run, with the study of as many realisations as are wanted.
-fn with_seeds(
-    args: &Args,
-    made: CheckedRun,
-    wanted: Option<RealisationCount>,
-    ui: &Ui,
-) -> Result<(CheckedRun, Option<RealisationStudy>)> {
+/// The run, and the study of realisations where one is wanted.
+fn made(args: &Args, case: Case, ui: &Ui) -> Result<(CheckedRun, Option<RealisationStudy>)> {
+    let tolerance = args.accuracy()?;
+    if let Some(share) = tolerance.filter(|_| case.judges_means()) {
+        return means::studied(args, case, share, ui).map(|(run, study)| (run, Some(study)));
+    }
+    let wanted = args.seeds.check(&case)?;
+    let made = match tolerance {
+        Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
+        None => checked::checked(args, case, ui)?,
+    };
     let asked = wanted.map(|count| StudyRequest::new(count, !args.no_verdict));
     let study = asked.map(|asked| realisations::study(&made.case, (&made.run, &made.method), asked, "", ui));
     Ok((made, study.transpose()?))

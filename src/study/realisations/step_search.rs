@@ -185,9 +185,9 @@ impl Steps<'_, '_> {
         }
     }
 
-    /// Tries the step that is halved `level` times with the pilots and, where these cannot tell, with
-    /// as many pairs as can; and why the search ends there, where it does without success. `last` is
-    /// twice the step.
+    /// Tries the step that is halved `level` times with the pilots and, where these cannot tell,
+    /// with as many pairs as can; and why the search ends there, where it does without success.
+    /// `last` is twice the step.
     fn with_enough_pairs(&mut self, level: u32, last: Option<&TriedStep>) -> Result<(TriedStep, Option<String>)> {
         let pilots = self.tried(level, PILOTS)?;
         let needed = match pilots.verdict {
