@@ -164,7 +164,7 @@ fn a_beam_has_neither_line_nor_diameter_and_a_chain_no_turbulence() {
     let beam = "[system]\nmodes = 2\n[system.beam]\nlength = 3.0\nyoungs_modulus = 2e11\ndensity = 7850.0\n\
                 outer_diameter = 0.02\nelements = 30\nleft = \"pinned\"\nright = \"pinned\"\n\
                 [system.damping]\nratio = 0.02\n";
-    let chain = "[system.chain]\nmasses = [1.0, 1.0]\nsprings = [1.0, 1.0]\n";
+    let chain = "[system.chain]\nmasses = [1.0, 1.0]\nsprings = [1.0]\nleft = { stiffness = 1.0 }\n";
     for (system, more, words) in [
         (beam, "line = { a = 0.0, b = 1.0 }\n", "line beside a beam"),
         (beam, "diameter = 0.02\n", "diameter beside a beam"),
