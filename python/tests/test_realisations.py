@@ -172,7 +172,7 @@ def test_an_accuracy_of_means_has_the_step_that_was_found_or_warns_and_is_refuse
         ({"scheme": "event"}, "scheme is event|a scheme with a step"),
     ):
         with pytest.raises(ValueError, match=words):
-            sg.realisations(tube(), accuracy=0.2, **wrong)  # type: ignore[arg-type]
+            sg.realisations(tube(), accuracy=0.2, **wrong)
     with pytest.raises(ValueError, match="sg.realisations"):
         tube().run(accuracy=0.2)
     with pytest.raises(ValueError, match="a random load and a wall"):
