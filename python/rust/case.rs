@@ -190,7 +190,8 @@ impl Case {
     /// Parameters
     /// ----------
     /// scheme, step, accuracy : optional
-    ///     As in `Scene.run`; a step in place of that of the file.
+    ///     As in `Scene.run`; a step in place of that of the file. Under random loads the accuracy
+    ///     is one of means: `realisations` has it.
     ///
     /// Returns
     /// -------
@@ -216,6 +217,11 @@ impl Case {
     fn run(&self, py: Python<'_>, scheme: Option<&str>, step: Option<f64>, accuracy: Option<f64>) -> PyResult<Py<Run>> {
         let (scene, time) = (self.scene.bind(py), &self.case.time);
         if let Some(tolerance) = accuracy {
+            if self.case.judges_means() {
+                let expected = "none for one run of a random load, which is a draw: sg.realisations(case, \
+                                accuracy=...) finds the step for the error of means";
+                return Err(wrong("accuracy", format!("{tolerance:?}"), expected));
+            }
             return Run::to_accuracy(scene, scheme, step, tolerance, time.sample, time.statistics_from);
         }
         let run = Run::make(scene, self.plan(scheme, step)?)?;

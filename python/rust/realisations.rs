@@ -10,7 +10,11 @@ use serde_json::{Value, json};
 use signorini as sg;
 use signorini::output::table::Table;
 use signorini::output::{error_parts, realisations as output};
-use signorini::study::realisations::{RealisationCount, RealisationPlan, RealisationStudy};
+use signorini::study::accuracy::Accuracy;
+use signorini::study::realisations::{
+    Batch, KnownRealisations, MOST_CHECKED, MOST_REALISATIONS, Realisation, RealisationCount, RealisationPlan,
+    RealisationStudy,
+};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How many realisations are asked for: a number, or the share of an interval with the most that
@@ -62,12 +66,13 @@ pub fn count(given: Asked, case: &sg::case::Case) -> PyResult<Option<Realisation
     Ok(count)
 }
 
-/// The study of `count` realisations of `case`, with the notes on its first run.
+/// The study of `count` realisations of `case`, of which so many are `checked`, with the notes on
+/// its first run; those in `known` are not run again.
 pub fn study(
     case: &sg::case::Case,
     plan: &Plan,
-    count: RealisationCount,
-    verdict: bool,
+    (count, checked): (RealisationCount, u64),
+    mut known: KnownRealisations,
     done: &RunsDone,
 ) -> sg::Result<(RealisationStudy, Vec<String>)> {
     let Plan { method, time } = plan;
@@ -75,9 +80,36 @@ pub fn study(
     let end = case.scene.duration;
     let options = sg::Options::new(*time);
     let run = sg::run_with_progress(&case.scene, method, &options, &mut |time| first(time / end))?;
-    let plan = RealisationPlan { scenes: case, run: &run, method, time: *time, count, verdict };
-    let study = plan.follow(&mut |batch| batch.run(&mut done.begin(batch.count())), &mut |_| {})?;
+    let plan = RealisationPlan { scenes: case, run: &run, method, time: *time, count, checked };
+    let mut make = |batch: &Batch<'_>| known.complete(batch, &mut |missing| made(missing, done));
+    let study = plan.follow(&mut make, &mut |_| {})?;
     Ok((study, run.cautions.into_iter().chain(case.instability()).collect()))
+}
+
+/// How many realisations of a study are checked, with a verdict and without.
+pub fn checked(verdict: bool) -> u64 {
+    if verdict { MOST_CHECKED } else { 0 }
+}
+
+/// Runs `batch`, and counts its runs.
+fn made(batch: &Batch<'_>, done: &RunsDone) -> sg::Result<Vec<Realisation>> {
+    batch.run(&mut done.begin(batch.count()))
+}
+
+/// The study at the step that keeps the error `share` of the means of `case`, from at most `most`
+/// realisations; with what was reached, and the notes on its first run.
+fn accurate(
+    case: &sg::case::Case,
+    plan: &Plan,
+    (share, most): (f64, u64),
+    done: &RunsDone,
+) -> sg::Result<(RealisationStudy, Vec<String>, Accuracy)> {
+    let found = case.step_search(&plan.method, share, most).find(&mut |batch| made(batch, done), &mut |_| {})?;
+    let plan = Plan { time: found.time, ..*plan };
+    let (mut study, notes) = study(case, &plan, (found.count, found.pairs), found.known.clone(), done)?;
+    let (accuracy, shortfall) = found.judge(&study);
+    study.shortfall = shortfall;
+    Ok((study, notes, accuracy))
 }
 
 /// A study as the Python half reads it: `document` and `table` hold its numbers, `text` its tables
@@ -85,7 +117,7 @@ pub fn study(
 pub fn told(study: &RealisationStudy, notes: &[String], case: &sg::case::Case) -> Value {
     let found = &study.realisations;
     let tables = [output::table(found, &case.scene), error_parts::table(found, &case.scene)];
-    let member = |member: &sg::study::realisations::Realisation| {
+    let member = |member: &Realisation| {
         member.findings.first().map(|finding| format!("realisation {}: {finding}", member.number))
     };
     let failed = study.failures.iter().map(|failed| (failed.refined, failed.error.to_string()));
@@ -118,17 +150,58 @@ pub fn _realisations<'py>(
     scheme: Option<&str>,
     step: Option<f64>,
     asked: Asked,
+    accuracy: Option<f64>,
     verdict: bool,
     progress: Py<PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = case.py();
     let plan = case.get().plan(scheme, step)?;
     let case = &case.get().case;
-    let Some(count) = count(asked, case)? else {
-        return Err(wrong("seeds", "missing", "the number of realisations, or until_interval"));
-    };
     let done = RunsDone::default();
-    let work = || study(case, &plan, count, verdict, &done);
-    let (study, notes) = compute_beside(py, work, &mut |py| done.tell(progress.bind(py)))?;
+    let mut watch = |py: Python<'_>| done.tell(progress.bind(py));
+    if let Some(share) = accuracy {
+        let most = most_beside_accuracy(asked, step, verdict, case)?;
+        case.step_search(&plan.method, share, most).validate().map_err(raise)?;
+        let (study, notes, accuracy) = compute_beside(py, || accurate(case, &plan, (share, most), &done), &mut watch)?;
+        let mut told = told(&study, &notes, case);
+        told["accuracy"] = json!(accuracy);
+        return loads(py, &told.to_string());
+    }
+    let Some(count) = count(asked, case)? else {
+        return Err(wrong("seeds", "missing", "the number of realisations, until_interval or accuracy"));
+    };
+    let work = || study(case, &plan, (count, checked(verdict)), KnownRealisations::default(), &done);
+    let (study, notes) = compute_beside(py, work, &mut watch)?;
     loads(py, &told(&study, &notes, case).to_string())
+}
+
+/// The most realisations of `case` that an accuracy may take, unless something stands beside it
+/// from which it cannot be told.
+fn most_beside_accuracy(
+    (seeds, until_interval, most): Asked,
+    step: Option<f64>,
+    verdict: bool,
+    case: &sg::case::Case,
+) -> PyResult<u64> {
+    let follows = "none beside accuracy: the number of realisations follows from it, and most_seeds limits it";
+    if let Some(step) = step {
+        return Err(wrong("step", format!("{step:?}"), "no step beside accuracy, which finds one"));
+    }
+    if let Some(count) = seeds {
+        return Err(wrong("seeds", count, follows));
+    }
+    if let Some(share) = until_interval {
+        return Err(wrong("until_interval", format!("{share:?}"), follows));
+    }
+    if !verdict {
+        return Err(wrong("verdict", "False", "True beside accuracy: checks with half the step find the step"));
+    }
+    if !case.judges_means() {
+        let expected = "a case with a random load and a wall or support: Case.run has the accuracy of one motion";
+        return Err(wrong("accuracy", "given", expected));
+    }
+    let most = most.map_or(Ok(MOST_REALISATIONS), u64::try_from);
+    let most = most.map_err(|_| wrong("most_seeds", "negative", "6 or more: so many are run first"))?;
+    case.realisation(most.max(1)).map_err(raise)?;
+    Ok(most)
 }

@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::error::raise;
 use crate::json::loads;
 use crate::plan::Plan;
-use crate::realisations::{RunsDone, count, study, texts, told};
+use crate::realisations::{RunsDone, checked, count, study, texts, told};
 use crate::work::compute_beside;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -14,7 +14,7 @@ use signorini::output::results::Results;
 use signorini::output::wear_folder::{self, WearRequest};
 use signorini::output::wear_history as output;
 use signorini::output::wear_journal::WindowJournal;
-use signorini::study::realisations::{RealisationCount, RealisationStudy};
+use signorini::study::realisations::{KnownRealisations, RealisationCount, RealisationStudy};
 use signorini::study::wear_history::{WearHistories, WearPlan, WearWindow, WearingSupport};
 use signorini::wear::Opening;
 use std::path::PathBuf;
@@ -53,7 +53,11 @@ pub fn _wear<'py>(
     let mut results = folder.map(open).transpose()?;
     let done = RunsDone::default();
     let first = within.map(|count| {
-        compute_beside(py, || study(case, &plan, count, verdict, &done), &mut |py| done.tell(counted.bind(py)))
+        compute_beside(
+            py,
+            || study(case, &plan, (count, checked(verdict)), KnownRealisations::default(), &done),
+            &mut |py| done.tell(counted.bind(py)),
+        )
     });
     let first = first.transpose()?;
     let study = first.as_ref().map(|(study, _)| study);

@@ -157,3 +157,23 @@ def test_what_has_no_seeds_is_refused(scene: sg.Scene) -> None:
         sg.realisations(sg.load("rigid-walls-sine"), seeds=3)
     with pytest.raises(TypeError, match="expected a Case"):
         sg.realisations(scene, seeds=3)  # type: ignore[arg-type]
+
+
+def test_an_accuracy_of_means_has_the_step_that_was_found_or_warns_and_is_refused_by_name() -> None:
+    with pytest.warns(sg.AccuracyWarning, match="an error of the step|an interval of"):
+        study = sg.realisations(tube(), accuracy=0.01, most_seeds=6)
+    assert study.count == 6 and study.accuracy is not None
+    assert study.accuracy["judged_by"] == "realisations" and study.accuracy["sufficient_step_s"] is None
+    for wrong, words in (
+        ({"seeds": 3}, "seeds is 3; expected none beside accuracy"),
+        ({"until_interval": 0.1}, "until_interval is 0.1; expected none beside accuracy"),
+        ({"step": 1e-4}, "no step beside accuracy"),
+        ({"verdict": False}, "verdict is False"),
+        ({"scheme": "event"}, "scheme is event|a scheme with a step"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            sg.realisations(tube(), accuracy=0.2, **wrong)
+    with pytest.raises(ValueError, match="sg.realisations"):
+        tube().run(accuracy=0.2)
+    with pytest.raises(ValueError, match="a random load and a wall"):
+        sg.realisations(sg.load("rigid-walls-sine"), accuracy=0.2)

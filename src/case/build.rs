@@ -50,7 +50,9 @@ impl Builder<'_> {
         (self.model, self.planes) = (built.model, built.planes);
         let total = built.system.degrees_of_freedom();
         self.n = if let Planes::Two(n) = self.planes { n } else { total };
-        let modes = self.modes_of_planes(modes)?;
+        // Turbulence acts on modes, and modal data are modes: all of them, unless fewer are kept.
+        let modal = matches!(self.model, Model::Modal(_)) && !file.sections("turbulence").is_empty();
+        let modes = self.modes_of_planes(modes)?.or(modal.then_some(total));
         let duration = self.required("duration", &time, "end");
         let (scene, places, sliders) = self.scene(file, built.system, duration)?;
         let (wear, sectors) = self.wear(file.section("wear").as_ref())?;

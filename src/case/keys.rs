@@ -267,9 +267,15 @@ pub(super) const KEYS: &[KeyEntry] = &[
         systems"]),
     entry("turbulence", Tables, "", ["no turbulence", "any number of them, which add up: random \
         forces along a tube that are coherent over a length, as forces on its modes, see below",
-        "without `modes`; on other systems than a beam"]),
+        "without `modes` on a beam; on other systems than a beam and `modal`"]),
     entry("turbulence.direction", Any, "deg", ["required in two planes", "a number, or \"both\": \
         from +y towards +z, or independent fields along y and z", IN_ONE_PLANE]),
+    entry("turbulence.line", Any, "", ["required of `modal`", "points of `shapes` along the tube with \
+        their positions in m, which increase, { p0 = 0.0, p1 = 0.05 }, or a CSV file with the \
+        columns point, position_m; shapes are straight between them", "fewer than two points, points \
+        without a shape; beside a beam"]),
+    entry("turbulence.diameter", Number, "m", ["that of the beam", "a number above 0: of the tube, \
+        beside `modal` with `density`", "beside a beam; beside `spectrum`"]),
     entry("turbulence.density", Number, "kg_per_m3", ["", "a number above 0: of the fluid", "beside \
         `spectrum`"]),
     entry("turbulence.velocity", Any, "m_per_s", ["", "a number, 0 or more, or pairs of m and m/s, \
@@ -281,7 +287,7 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("turbulence.spectrum", Any, "", ["", "pairs of Hz and (N/m)^2/Hz, one-sided, in place of \
         `density`, `velocity` and `reduced`: [[1.0, 0.02], [100.0, 0.02]]", "beside these"]),
     entry("turbulence.along", Numbers, "m", ["the whole tube", "[from, to], two numbers", "beyond \
-        the tube"]),
+        the tube or its `line`"]),
     entry("turbulence.from", Number, "Hz", [REQUIRED, "a number above 0: where the band begins",
         UNORDINARY]),
     entry("turbulence.to", Number, "Hz", [REQUIRED, "a number above from: where the band ends",

@@ -46,6 +46,7 @@ mod key;
 mod key_entry;
 mod key_value;
 mod keys;
+mod line;
 mod loads;
 mod method;
 mod modal;

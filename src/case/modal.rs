@@ -12,6 +12,16 @@ use toml::Spanned;
 const SHAPES: &str = "expected a row for each point: its name, then its displacement in each mode, with commas \
                       between them; a header line above is ignored";
 
+/// What a file of points and numbers holds.
+pub(super) struct PointFile {
+    /// How many numbers each point has.
+    pub values: usize,
+    /// What they are, for messages.
+    pub each: &'static str,
+    /// What the file is, for messages.
+    pub description: &'static str,
+}
+
 impl Builder<'_> {
     /// The modes, and the points whose shapes are known.
     pub fn modal(&mut self, modal: &Section<'_>) -> Result<ModalData> {
@@ -97,7 +107,7 @@ impl Builder<'_> {
                     let help = format!("{SHAPES}; its path is relative to the case file");
                     self.source.error(shapes.span(), &format!("shapes {file:?}: {reason}"), &help)
                 })?;
-                points(&path, &text, k)
+                points(&path, &text, &PointFile { values: k, each: "one for each mode", description: SHAPES })
             }
             Value::Table(entries) => {
                 let mut points = Vec::with_capacity(entries.len());
@@ -132,8 +142,9 @@ impl Builder<'_> {
     }
 }
 
-/// The points in a file of shapes.
-fn points(name: &str, text: &str, k: usize) -> Result<Vec<ModalPoint>> {
+/// The points in a `file`, called `name`, of this text.
+pub(super) fn points(name: &str, text: &str, file: &PointFile) -> Result<Vec<ModalPoint>> {
+    let PointFile { values: k, each, description } = *file;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let source = Source { name, text };
     let mut points: Vec<ModalPoint> = Vec::new();
@@ -167,16 +178,16 @@ fn points(name: &str, text: &str, k: usize) -> Result<Vec<ModalPoint>> {
         if cells.len() != k {
             let title =
                 format!("{} value{} at the point {point:?}", cells.len(), if cells.len() == 1 { "" } else { "s" });
-            return Err(source.error(line, &title, &format!("expected {k}, one for each mode")));
+            return Err(source.error(line, &title, &format!("expected {k}, {each}")));
         }
         let mut shape = Vec::with_capacity(k);
         for cell in cells {
             match cell.parse::<f64>() {
                 Ok(x) if x.is_finite() => shape.push(x),
-                _ => return Err(source.error(line, &format!("{cell:?} is no finite number"), SHAPES)),
+                _ => return Err(source.error(line, &format!("{cell:?} is no finite number"), description)),
             }
         }
         points.push(ModalPoint { name: point, shape });
     }
-    if points.is_empty() { Err(source.error(text.len()..text.len(), "no points", SHAPES)) } else { Ok(points) }
+    if points.is_empty() { Err(source.error(text.len()..text.len(), "no points", description)) } else { Ok(points) }
 }

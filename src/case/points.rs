@@ -54,7 +54,7 @@ impl Builder<'_> {
     }
 
     /// What is accepted as a point, of these.
-    fn wanted_point(&self, names: &[&str]) -> String {
+    pub fn wanted_point(&self, names: &[&str]) -> String {
         let two = self.planes == Planes::Named;
         let what = if two { "a point with the shapes NAME-y and NAME-z" } else { "a point of shapes" };
         match names {

@@ -3,7 +3,9 @@
 use super::Case;
 use crate::error::{Error, Result};
 use crate::scene::Scene;
-use crate::study::realisations::{RandomScenes, RealisationCount};
+use crate::scheme::Method;
+use crate::study::accuracy::{MOST_STEPS, most_steps};
+use crate::study::realisations::{RandomScenes, RealisationCount, StepSearch};
 use crate::study::truncation::more_modes;
 
 impl RandomScenes for Case {
@@ -26,6 +28,21 @@ impl RandomScenes for Case {
 }
 
 impl Case {
+    /// True where the error of a result is one of means over realisations: a load is random, and
+    /// there is a wall or a support whose forces have means.
+    #[must_use]
+    pub fn judges_means(&self) -> bool {
+        self.is_random() && !self.scene.walls.is_empty()
+    }
+
+    /// The search for the step of `method` at which the means of the case err by `share` of them at
+    /// most, from at most `most` realisations.
+    #[must_use]
+    pub fn step_search<'a>(&'a self, method: &'a Method, share: f64, most: u64) -> StepSearch<'a> {
+        let most_steps = most_steps(&self.scene, MOST_STEPS);
+        StepSearch { scenes: self, method, time: self.time, share, most, most_steps }
+    }
+
     /// Refuses several realisations of a case without random loads.
     ///
     /// # Errors

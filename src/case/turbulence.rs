@@ -5,7 +5,7 @@ use super::builder::Builder;
 use super::model::{Model, Place};
 use super::value::{Section, Value};
 use crate::error::{Error, Part, Result};
-use crate::scene::{Beam, Row, Turbulence, TurbulenceSpectrum};
+use crate::scene::{Row, Turbulence, TurbulenceSpectrum};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -23,27 +23,36 @@ impl Builder<'_> {
     /// `modes` tells whether the system is reduced to modes.
     pub fn turbulence(&mut self, index: usize, table: &Section<'_>, end: f64, modes: bool) -> Result<Vec<Turbulence>> {
         let owner = format!("turbulence {}", index + 1);
-        let Model::Beam(beam) = self.model.clone() else {
-            let help = "expected [system.beam]: turbulence acts along a tube";
+        if !matches!(self.model, Model::Beam(_) | Model::Modal(_)) {
+            let help = "expected [system.beam], or [system.modal] and a line: turbulence acts along a tube";
             return Err(self.source.error(table.span.clone(), &format!("{owner} acts on no tube"), help));
-        };
+        }
         if !modes {
             let help = "expected modes = k in [system], the modes of each plane";
             let title = format!("{owner} acts through modes, and the system is not reduced to modes");
             return Err(self.source.error(table.span.clone(), &title, help));
         }
-        let along = self.stretch(&owner, table, beam.length)?;
-        let count = (CELLS_AN_ELEMENT * beam.elements as f64 * (along[1] - along[0]) / beam.length).ceil();
+        let line = self.line(&owner, table)?;
+        let (reach, elements) = match (&self.model, &line) {
+            (Model::Beam(beam), _) => ([0.0, beam.length], beam.elements),
+            (_, Some(line)) => (line.ends(), line.stretches()),
+            _ => ([0.0; 2], 0),
+        };
+        let along = self.stretch(&owner, table, reach)?;
+        let count = (CELLS_AN_ELEMENT * elements as f64 * (along[1] - along[0]) / (reach[1] - reach[0])).ceil();
         let count = count.clamp(1.0, MOST_CELLS) as usize;
         let edge = |i: usize| along[0] + (along[1] - along[0]) * (i as f64 / count as f64);
         let ends: Vec<[f64; 2]> = (0..count).map(|cell| [edge(cell), edge(cell + 1)]).collect();
-        let spectrum = self.spectrum(&owner, table, &beam, &ends)?;
+        let spectrum = self.spectrum(&owner, table, &ends)?;
         let [from, to, correlation_length] = ["from", "to", "correlation_length"].map(|key| table.required(key));
         let seed = table.number("seed").map_or(Ok(0), |seed| self.seed(&owner, &seed))?;
         let mut fields = Vec::new();
         for (plane, degrees) in self.headings(&owner, table)?.into_iter().enumerate() {
             let row = |&[from, to]: &[f64; 2]| -> Result<Row> {
-                let place = Place::Spread { from, to };
+                let place = match &line {
+                    Some(line) => line.mean(from, to),
+                    None => Place::Spread { from, to },
+                };
                 let place = match degrees {
                     None => place,
                     Some(degrees) => Place::Towards { place: Box::new(place), degrees },
@@ -67,13 +76,13 @@ impl Builder<'_> {
     }
 
     /// The stretch of the tube on which there are forces, m.
-    fn stretch(&self, owner: &str, table: &Section<'_>, length: f64) -> Result<[f64; 2]> {
-        let Some(along) = table.numbers("along") else { return Ok([0.0, length]) };
+    fn stretch(&self, owner: &str, table: &Section<'_>, [first, last]: [f64; 2]) -> Result<[f64; 2]> {
+        let Some(along) = table.numbers("along") else { return Ok([first, last]) };
         let ends: Vec<f64> = along.get_ref().iter().map(|x| *x.get_ref()).collect();
         match ends[..] {
-            [from, to] if (0.0..to).contains(&from) && to <= length => Ok([from, to]),
+            [from, to] if (first..to).contains(&from) && to <= last => Ok([from, to]),
             _ => {
-                let expected = format!("[from, to], from 0 to {length:?} m, from below to");
+                let expected = format!("[from, to], from {first} to {last:?} m, from below to");
                 Err(self.refuse(along.span(), &format!("{owner}: along"), &expected))
             }
         }
@@ -99,22 +108,22 @@ impl Builder<'_> {
     }
 
     /// The spectrum in each of the cells between `ends` (m).
-    fn spectrum(&self, owner: &str, table: &Section<'_>, beam: &Beam, ends: &[[f64; 2]]) -> Result<TurbulenceSpectrum> {
+    fn spectrum(&self, owner: &str, table: &Section<'_>, ends: &[[f64; 2]]) -> Result<TurbulenceSpectrum> {
         let one = "expected density (kg/m^3), velocity (m/s) and reduced = [[fD/V, density], ..], or \
                    spectrum = [[Hz, (N/m)^2/Hz], ..]";
         let [density, velocity, reduced] = ["density", "velocity", "reduced"].map(|key| table.get(key));
         match (table.get("spectrum"), density.and(table.number("density")), velocity, reduced) {
             (Some(spectrum), None, None, None) => {
+                if let Some(span) = table.span_of("diameter") {
+                    let title = format!("{owner}: diameter beside spectrum");
+                    let help = "expected it beside density, velocity and reduced: a spectrum is that of the force";
+                    return Err(self.source.error(span, &title, help));
+                }
                 let wanted = "pairs of a frequency, in Hz, and a density, in (N/m)^2/Hz";
                 Ok(TurbulenceSpectrum::Even(self.number_pairs(&format!("{owner}: spectrum"), spectrum, wanted)?))
             }
             (None, Some(density), Some(velocity), Some(reduced)) => {
-                let Some(diameter) = beam.section.outer_diameter() else {
-                    let title = format!("{owner} is that of a flow across a tube, and the beam is rectangular");
-                    let help = "expected spectrum = [[Hz, (N/m)^2/Hz], ..] in place of density, velocity and reduced, \
-                                which need the outer_diameter of a tube";
-                    return Err(self.source.error(density.span(), &title, help));
-                };
+                let diameter = self.diameter(owner, table, density.span())?;
                 let wanted = "pairs of a reduced frequency fD/V and a reduced density";
                 Ok(TurbulenceSpectrum::Flow {
                     density: *density.get_ref(),
@@ -133,6 +142,34 @@ impl Builder<'_> {
                 Err(self.source.error(table.span.clone(), &title, one))
             }
         }
+    }
+
+    /// The diameter of the tube in a flow, m: that of the beam, or beside modes that which `table`
+    /// states. `flow` is where the flow stands in the file.
+    fn diameter(&self, owner: &str, table: &Section<'_>, flow: Range<usize>) -> Result<f64> {
+        let stated = table.number("diameter");
+        let Model::Beam(beam) = &self.model else {
+            let Some(stated) = stated else {
+                let title = format!("`diameter` is missing in {owner}, which acts on modes");
+                return Err(self.source.error(flow, &title, "expected diameter = that of the tube, in m"));
+            };
+            let diameter = *stated.get_ref();
+            return if diameter.is_finite() && diameter > 0.0 {
+                Ok(diameter)
+            } else {
+                Err(self.refuse(stated.span(), &format!("{owner}: diameter"), "a number above 0, in m"))
+            };
+        };
+        if let Some(stated) = stated {
+            let title = format!("{owner}: diameter beside a beam, which has its outer_diameter");
+            return Err(self.source.error(stated.span(), &title, "expected it beside [system.modal] only"));
+        }
+        beam.section.outer_diameter().ok_or_else(|| {
+            let title = format!("{owner} is that of a flow across a tube, and the beam is rectangular");
+            let help = "expected spectrum = [[Hz, (N/m)^2/Hz], ..] in place of density, velocity and reduced, which \
+                        need the outer_diameter of a tube";
+            self.source.error(flow, &title, help)
+        })
     }
 
     /// The velocity at the middle of each cell, m/s.

@@ -4,7 +4,7 @@ use super::compare_seeds::Studies;
 use super::drawing::PlotSpan;
 use super::estimate::DurationEstimate;
 use super::pipeline::Answer;
-use super::realisations::not_checked;
+use super::realisations::{self, not_checked};
 use super::request::Request;
 use super::run::checked_seeds;
 use super::run_notes::run_notes;
@@ -75,7 +75,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         asked.insert("seeds".to_owned(), json!(count));
     }
     let mut results = args.request.place.open(&case, "compare", asked)?;
-    let (comparison, (verdicts, failures)) = compared(args, &case, &methods, ui)?;
+    let (comparison, (verdicts, failures)) = compared(args, &case, &methods, count, ui)?;
     refute(&comparison, &verdicts, ui);
     any_succeeded(&comparison)?;
     let studies = count.map(|count| Studies::of(&case, &comparison, count, !args.no_verdict, ui)).transpose()?;
@@ -171,12 +171,15 @@ impl Args {
 /// What half the step changes in each row of a comparison, and the checks that failed.
 type Checks = (Vec<Option<Verdict>>, Vec<(Method, Error)>);
 
-/// The comparison, and its checks.
-fn compared(args: &Args, case: &Case, methods: &[Method], ui: &Ui) -> Result<(Comparison, Checks)> {
+/// The comparison, and its checks; `seeds` realisations by each method follow.
+fn compared(args: &Args, case: &Case, methods: &[Method], seeds: Option<u64>, ui: &Ui) -> Result<(Comparison, Checks)> {
     // The exact run is among the methods asked for, or is added to them.
-    let count = methods.iter().filter(|method| method.scheme != Scheme::Event).count() as f64 + 2.0;
+    let stepping = methods.iter().filter(|method| method.scheme != Scheme::Event).count() as f64;
+    let count = stepping + 2.0;
     let checks = if args.no_verdict { 0.0 } else { (count - 1.0) * verdict::COST };
-    let estimate = DurationEstimate::of_comparison(&case.scene, methods, case.time.step);
+    let each = |exact| seeds.map_or(0.0, |seeds| realisations::cost(case, seeds, !args.no_verdict, exact));
+    let following = (stepping * each(false) + each(true)) / (count + checks);
+    let estimate = DurationEstimate::of_comparison(&case.scene, methods, case.time.step).followed_by(following);
     ui.with_estimate("comparing", estimate, |bar| {
         let done = |runs: f64| bar.set_share(runs / (count + checks));
         let comparison = compare(&case.scene, methods, &case.time, &done)?;

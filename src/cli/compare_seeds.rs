@@ -1,7 +1,7 @@
 //! `compare --seeds`: every method under the same realisations of the random loads.
 
 use super::pipeline::Answer;
-use super::realisations;
+use super::realisations::{self, StudyRequest};
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
@@ -37,7 +37,13 @@ impl Studies {
             Self { count, reference: String::new(), methods: Vec::new(), failures: Vec::new(), unchecked: Vec::new() };
         let count = RealisationCount::Exactly(count);
         for (method, run) in &ran {
-            match realisations::study(case, (run, method), count, verdict, &format!("{method}, "), ui) {
+            match realisations::study(
+                case,
+                (run, method),
+                StudyRequest::new(count, verdict),
+                &format!("{method}, "),
+                ui,
+            ) {
                 Ok(study) => studies.add(method.to_string(), study),
                 Err(Error::Stopped) => return Err(Error::Stopped),
                 Err(error) => {

@@ -40,6 +40,8 @@ pub struct DurationEstimate {
     cause: String,
     /// Runs from whose cost the duration is estimated while no share of the work is done.
     runs: Vec<CountedRun>,
+    /// Work that follows, in units of this one: what is left of both is told.
+    following: f64,
 }
 
 /// A run of the work, or one of several kinds of runs in it.
@@ -68,7 +70,7 @@ impl DurationEstimate {
     #[must_use]
     pub fn of_run(scene: &Scene, method: &Method, step: f64) -> Self {
         let run = CountedRun { scene: scene.clone(), method: *method, step, count: 1.0, words: ["about", "more"] };
-        Self { cause: steps_in_words(scene, method, step), runs: vec![run] }
+        Self { cause: steps_in_words(scene, method, step), runs: vec![run], following: 0.0 }
     }
 
     /// The same for work that consists of `count` such runs.
@@ -76,6 +78,13 @@ impl DurationEstimate {
     pub fn times(mut self, count: f64) -> Self {
         self.runs.iter_mut().for_each(|run| run.count *= count);
         self
+    }
+
+    /// The same for work after which other work follows, `following` times as long: it is counted
+    /// once a share of this one is done.
+    #[must_use]
+    pub fn followed_by(self, following: f64) -> Self {
+        Self { following, ..self }
     }
 
     /// The same for `count` such runs that share all cores.
@@ -114,7 +123,7 @@ impl DurationEstimate {
         // The exact motion of a structure is given up after about a second if it has too many
         // events.
         runs.retain(|run| run.method.scheme != Scheme::Event || matches!(scene.system, System::Oscillator(_)));
-        Self { cause, runs }
+        Self { cause, runs, following: 0.0 }
     }
 
     /// That of a chart of `methods`, each at several steps, where no run may take longer than
@@ -132,9 +141,9 @@ impl DurationEstimate {
     #[must_use]
     pub fn of_contacts(scene: &Scene, step: f64, count: f64) -> Self {
         let moreau = Method::new(Scheme::MoreauJean { theta: 0.5 });
-        let Self { cause, mut runs } = Self::of_comparison(scene, &[moreau], step);
+        let Self { cause, mut runs, .. } = Self::of_comparison(scene, &[moreau], step);
         runs.extend(Self::of_run(scene, &moreau, step).times(count).runs);
-        Self { cause, runs }
+        Self { cause, runs, following: 0.0 }
     }
 
     /// That of maps with `rows` rows and `work` steps in all.
@@ -142,7 +151,7 @@ impl DurationEstimate {
     pub fn of_maps(scene: &Scene, work: u64, rows: usize) -> Self {
         let (unknowns, rows) = (unknowns_in_words(scene), counted(rows, "row"));
         let cause = format!("{:.1e} steps{unknowns} in {rows}, set by the slowest frequency and time.end", work as f64);
-        Self { cause, runs: Vec::new() }
+        Self { cause, runs: Vec::new(), following: 0.0 }
     }
 
     /// For work with runs of the exact motion whose number is not known, each of which may take
@@ -160,7 +169,7 @@ impl DurationEstimate {
             return None;
         }
         if share > LEAST_SHARE {
-            let left = elapsed * (1.0 - share) / share;
+            let left = elapsed * (1.0 + self.following - share) / share;
             return (left >= WORTH_SAYING).then(|| format!("about {} more: {}", time_in_words(left), self.cause));
         }
         // No part of the work has finished: either a single step takes this long, or the work

@@ -6,10 +6,12 @@ use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result, Subject};
 use crate::output::error_parts;
+use crate::parallel::cores;
 use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::realisations::{
-    Batch, Purpose, Realisation, RealisationCount, RealisationPlan, RealisationStudy, Refined,
+    Batch, KnownRealisations, MOST_CHECKED, Purpose, RandomScenes, Realisation, RealisationCount, RealisationPlan,
+    RealisationStudy, Refined,
 };
 
 /// The share that `text` of `argument` says: `5%` or `0.05`.
@@ -38,27 +40,56 @@ pub fn of_argument(error: Error) -> Error {
     }
 }
 
-/// The study of `count` realisations of `case`, of which `run` by `method` is the first; with
-/// `verdict` also the errors of its means. Its bars say how far it is, and what is refuted in it
-/// fails the command, under the name of the run after `of`.
+/// A study of realisations that is asked for.
+pub struct StudyRequest {
+    /// How many realisations.
+    pub count: RealisationCount,
+    /// How many of them are checked, as [`RealisationPlan::checked`].
+    pub checked: u64,
+    /// Those that have been run already.
+    pub known: KnownRealisations,
+}
+
+impl StudyRequest {
+    /// A study of `count` realisations, with `verdict` also the errors of their means.
+    pub fn new(count: RealisationCount, verdict: bool) -> Self {
+        Self { count, checked: if verdict { MOST_CHECKED } else { 0 }, known: KnownRealisations::default() }
+    }
+}
+
+/// The study of realisations of `case` that is `asked` for, of which `run` by `method` is the
+/// first. Its bars say how far it is, and what is refuted in it fails the command, under the name
+/// of the run after `of`.
 pub fn study(
     case: &Case,
     (run, method): (&Run, &Method),
-    count: RealisationCount,
-    verdict: bool,
+    asked: StudyRequest,
     of: &str,
     ui: &Ui,
 ) -> Result<RealisationStudy> {
-    let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, verdict };
-    let study = plan.follow(&mut |batch| batch_with_bar(case, method, batch, ui), &mut |pilots| {
-        ui.message(&pilots.to_string());
-    })?;
+    let StudyRequest { count, checked, mut known } = asked;
+    let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, checked };
+    let mut make = |batch: &Batch<'_>| known.complete(batch, &mut |missing| batch_with_bar(case, method, missing, ui));
+    let study = plan.follow(&mut make, &mut |pilots| ui.message(&pilots.to_string()))?;
     study.refuted().for_each(|(run, findings)| ui.refute(&format!("{of}{run}"), findings));
     Ok(study)
 }
 
+/// What the study of `seeds` realisations of `case` by one method costs after its first run, in
+/// runs like that one after one another: the other realisations, and with `verdict` up to six of
+/// them with half the step, unless the scheme is `exact`, and with more modes, all on all cores.
+pub fn cost(case: &Case, seeds: u64, verdict: bool, exact: bool) -> f64 {
+    let on_all_cores = |count: u64| count as f64 / (cores() as f64).min(count.max(1) as f64);
+    let others = on_all_cores(seeds.saturating_sub(1));
+    // A single realisation has no interval, and so no errors.
+    let checked = on_all_cores(if verdict && seeds > 1 { seeds.min(MOST_CHECKED) } else { 0 });
+    let half_step = if exact { 0.0 } else { 2.0 };
+    let more_modes = case.modes().map_or(0.0, |[own, more]| more as f64 / own.max(1) as f64);
+    others + checked * (half_step + more_modes)
+}
+
 /// Runs `batch` under a bar with its name.
-fn batch_with_bar(case: &Case, method: &Method, batch: &Batch<'_>, ui: &Ui) -> Result<Vec<Realisation>> {
+pub fn batch_with_bar(case: &Case, method: &Method, batch: &Batch<'_>, ui: &Ui) -> Result<Vec<Realisation>> {
     let (label, other) = match batch.purpose {
         Purpose::Pilots => ("pilots".to_owned(), None),
         Purpose::Check(refined @ Refined::MoreModes { .. }) => (refined.to_string(), Some(batch.scene(1)?)),
@@ -110,6 +141,17 @@ mod tests {
         assert!(!error.is_request(), "exit code 1: the run failed, and not the request");
         assert!(error.to_string().ends_with("not known: the run with 8 modes; the run with half the step"), "{error}");
         assert_eq!(not_checked(std::iter::empty()), None);
+    }
+
+    #[test]
+    fn a_study_costs_its_other_realisations_and_the_checks_of_six() {
+        // Of the built-in tube with 20 of its modes in each plane, whose checks have twice as many.
+        let case = Case::embedded("tube-in-cross-flow").unwrap();
+        let on = |count: f64| count / (cores() as f64).min(count);
+        assert_eq!(cost(&case, 13, false, false), on(12.0));
+        assert_eq!(cost(&case, 13, true, false), on(12.0) + on(6.0) * 4.0);
+        assert_eq!(cost(&case, 4, true, true), on(3.0) + on(4.0) * 2.0);
+        assert_eq!(cost(&case, 1, true, false), 0.0);
     }
 
     #[test]

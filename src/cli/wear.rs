@@ -3,7 +3,7 @@
 use super::command_line::command_line;
 use super::estimate::DurationEstimate;
 use super::pipeline::Answer;
-use super::realisations::{self, failed_checks, not_checked, of_argument};
+use super::realisations::{self, StudyRequest, failed_checks, not_checked, of_argument};
 use super::request::Request;
 use super::run::Seeds;
 use super::ui::Ui;
@@ -143,7 +143,7 @@ fn first_windows(
     let run = ui.with_estimate("first run", estimate, |bar| {
         run_with_progress(&case.scene, method, &Options::new(case.time), &mut |time| bar.set_share(time / end))
     })?;
-    realisations::study(case, (&run, method), count, verdict, "", ui)
+    realisations::study(case, (&run, method), StudyRequest::new(count, verdict), "", ui)
 }
 
 /// What histories are followed.

@@ -144,6 +144,21 @@ pub enum Error {
         /// Realisations that are needed.
         needed: u64,
     },
+    /// A part of the error of a mean over realisations is larger than was asked for, or may be.
+    Biased {
+        /// Which part: `start`, `step` or `modes`.
+        part: &'static str,
+        /// The largest share of the mean that was asked for.
+        tolerance: f64,
+        /// The share that it has at most, by its 95 % interval; infinite where it is not known.
+        reached: f64,
+        /// Whether its interval leaves out 0.
+        seen: bool,
+        /// The mean with the largest such part.
+        quantity: String,
+        /// What keeps it from being smaller, or from being known.
+        why: String,
+    },
     /// Checks of a result failed, so that its error is not known; the result itself stands.
     Unchecked {
         /// What was refined in them, in words.

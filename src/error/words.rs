@@ -75,6 +75,7 @@ impl fmt::Display for Words<'_> {
             ),
             Error::Inaccurate { .. }
             | Error::Scattered { .. }
+            | Error::Biased { .. }
             | Error::Truncated { .. }
             | Error::Unpredictable { .. } => not_reached(self.0, f),
             Error::Unchecked { checks } => write!(
@@ -109,6 +110,16 @@ fn not_reached(error: &Error, f: &mut fmt::Formatter<'_>) -> fmt::Result {
              ({quantity}); no more than {count} were allowed",
             100.0 * share,
             100.0 * reached
+        ),
+        Error::Biased { part, tolerance, reached, why, .. } if reached.is_infinite() => {
+            write!(f, "an error of the {part} within {} % is not known: {why}", amount(100.0 * tolerance, 3))
+        }
+        Error::Biased { part, tolerance, reached, seen, quantity, why } => write!(
+            f,
+            "an error of the {part} within {} % was not reached: it is {}seen, at most {} % ({quantity}); {why}",
+            amount(100.0 * tolerance, 3),
+            if *seen { "" } else { "not " },
+            amount(100.0 * reached, 2)
         ),
         Error::Truncated { tolerance, reached, quantity, modes } => write!(
             f,

@@ -152,9 +152,18 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
          sum of all squared ±",
         study.checks.iter().filter(|check| check.refuted.is_empty()).map(how).collect::<String>()
     ));
-    if let Some(check) = study.checks.iter().find(|check| check.count < study.count) {
-        remarks.push(format!("step and modes are from the first {} of {} realisations", check.count, study.count));
-    }
+    let fewer: Vec<&Check> = study.checks.iter().filter(|check| check.count < study.count).collect();
+    remarks.extend(match fewer.as_slice() {
+        [] => None,
+        [first, ..] if study.checks.iter().all(|check| check.count == first.count) => {
+            Some(format!("step and modes are from the first {} of {} realisations", first.count, study.count))
+        }
+        // The search for a step checks more realisations with half the step than with more modes.
+        [first, ..] => Some(format!(
+            "with {} the first {} of {} realisations are run again",
+            first.refined, first.count, study.count
+        )),
+    });
     let main = [Measure::WorkRate, Measure::MeanForce];
     let verdict = |place| main.into_iter().find_map(|what| verdict(find(study, place, what)?));
     remarks.extend(shown(study, scene, MOST_LINES).into_iter().filter_map(verdict));

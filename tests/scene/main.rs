@@ -28,3 +28,4 @@ mod structures;
 mod support_files;
 #[cfg(feature = "cli")]
 mod turbulence;
+mod turbulence_modal;

@@ -18,6 +18,7 @@ mod spectrum;
 #[cfg(feature = "cli")]
 mod stability;
 mod statistics;
+mod step_search;
 #[cfg(feature = "cli")]
 mod studies_many;
 #[cfg(feature = "cli")]

@@ -4,6 +4,7 @@
 #[path = "../support/command.rs"]
 mod command;
 
+mod accuracy_of_means;
 mod commands;
 mod compare_seeds;
 mod derivatives;

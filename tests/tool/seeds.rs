@@ -1,5 +1,5 @@
 //! `run --seeds`: the files, the numbers in them, and what is refused.
-use crate::command::{command, said};
+use crate::command::said;
 use crate::shaken::square_of_bars;
 use serde_json::Value;
 use std::fs;
@@ -124,17 +124,6 @@ fn one_realisation_says_that_its_interval_is_of_batches() {
     let own = &summary["statistics"]["supports"][0]["force"];
     assert_eq!((&one["mean"], &one["half_width_95"]), (&own["mean_n"], &own["mean_half_width_95_n"]));
     assert!(one["standard_deviation"].is_null() && one["error"].is_null() && !one["half_width_95"].is_null());
-}
-
-#[test]
-fn an_accuracy_holds_for_all_realisations() {
-    let dir = folder();
-    let args = ["run", "square.toml", "--end", "0.3", "--accuracy", "1e-2", "--seeds", "2", "--out", "accurate"];
-    let output = command(dir.path(), &args).output().unwrap();
-    let err = String::from_utf8(output.stderr).unwrap();
-    assert!(matches!(output.status.code(), Some(0 | 1)) && !err.contains("panicked"), "{err}");
-    assert!(err.contains("over 2 realisations") && err.contains("accuracy: asked for"), "{err}");
-    assert_eq!(rows(&dir.path().join("accurate")).len(), 1 + 2 * 6);
 }
 
 #[test]

@@ -397,6 +397,7 @@ def _realisations(
     scheme: str | None,
     step: float | None,
     asked: tuple[int | None, float | None, int | None],
+    accuracy: float | None,
     verdict: bool,
     progress: Callable[[int, int], None],
 ) -> dict[str, Any]: ...

@@ -29,14 +29,16 @@ class Realisations:
     ``study.supports["plate-1"]["work_rate"]`` is a mean work rate, W. The measures are
     ``mean_force``, ``mean_force_y``, ``mean_force_z``, ``rms_force`` and ``largest_force`` (N),
     ``work_rate`` and ``friction_power`` (W), as far as a place has them. ``table`` has the columns
-    of ``realisations.csv``: a row for each realisation and place. ``print`` shows the tables of
-    the tool.
+    of ``realisations.csv``: a row for each realisation and place. ``accuracy`` is what was reached
+    where an accuracy was asked for, as in the summary of the tool: ``step_s``, ``reached``,
+    ``quantity``, ``levels``. ``print`` shows the tables of the tool.
     """
 
     count: int
     supports: Means
     walls: Means
     table: Mapping[str, Column]
+    accuracy: Mapping[str, Any] | None
     _rows: tuple[dict[str, Any], ...]
     _text: str
 
@@ -112,7 +114,9 @@ def made(known: dict[str, Any]) -> Realisations:
         MappingProxyType({name: MappingProxyType(own) for name, own in of.items()}) for of in places.values()
     )
     table, rows = MappingProxyType(columns(*known["table"])), tuple(map(_row, document["estimates"]))
-    return Realisations(document["count"], supports, walls, table, rows, known["text"])
+    accuracy = known.get("accuracy")
+    accuracy = None if accuracy is None else MappingProxyType(accuracy)
+    return Realisations(document["count"], supports, walls, table, accuracy, rows, known["text"])
 
 
 def warn(known: dict[str, Any], stacklevel: int) -> None:
@@ -143,6 +147,7 @@ def realisations(
     *,
     seeds: int | None = None,
     until_interval: float | None = None,
+    accuracy: float | None = None,
     most_seeds: int | None = None,
     step: float | None = None,
     verdict: bool = True,
@@ -165,8 +170,13 @@ def realisations(
         In place of ``seeds``: as many as bring the 95 % intervals of the work rates of supports
         (without supports, of the mean forces) within this share of them. Six realisations say how
         many that takes (Stein's procedure in two stages).
+    accuracy : float, optional
+        In place of ``seeds`` and ``step``: the coarsest step whose part in the errors of work
+        rates, mean forces and RMS forces is within this share of them, and as many realisations as
+        its interval and those of the means take. The engine is that of ``signorini run
+        --accuracy``.
     most_seeds : int, optional
-        The most that ``until_interval`` may take; 200 unless given.
+        The most that ``until_interval`` or ``accuracy`` may take; 200 unless given.
     verdict : bool
         Whether up to six realisations are run again with half the step, and with twice the modes
         where modes are left out, for the `Estimate.error` of each mean.
@@ -190,8 +200,8 @@ def realisations(
     Warns
     -----
     AccuracyWarning
-        Where ``until_interval`` was not reached with ``most_seeds``, and where a check for the
-        errors failed, so that a part of them is not known.
+        Where ``until_interval`` was not reached with ``most_seeds``, or ``accuracy`` with them or
+        with any step, and where a check for the errors failed, so that a part of them is not known.
     ResultWarning
         For each note that concerns the results, as in `Scene.run`.
 
@@ -206,7 +216,7 @@ def realisations(
     """
     with Progress(0, progress) as shown:
         asked = (seeds, until_interval, most_seeds)
-        known = _core._realisations(of_case(case, "realisations"), scheme, step, asked, verdict, shown.reach)
+        known = _core._realisations(of_case(case, "realisations"), scheme, step, asked, accuracy, verdict, shown.reach)
     study = made(known)
     if known["refuted"]:
         raise refuted(known["refuted"], study)

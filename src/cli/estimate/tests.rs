@@ -17,10 +17,13 @@ fn times_are_told_in_words() {
 
 #[test]
 fn the_rest_is_extrapolated_from_what_is_done() {
-    let estimate = DurationEstimate { cause: "reasons".to_owned(), runs: Vec::new() };
+    let estimate = DurationEstimate { cause: "reasons".to_owned(), runs: Vec::new(), following: 0.0 };
     let second = Duration::from_secs(1);
     assert_eq!(estimate.message(second, 0.01).as_deref(), Some("about 99 s more: reasons"));
     assert!(estimate.message(second, 0.9).is_none() && estimate.message(second, 1.0).is_none());
+    // A second is a tenth of this work, after which as much as three times of it follows.
+    let followed = estimate.followed_by(3.0);
+    assert_eq!(followed.message(second, 0.1).as_deref(), Some("about 39 s more: reasons"));
 }
 
 /// One degree of freedom at 100 THz, with a wall that it does not reach: the whole run is a single

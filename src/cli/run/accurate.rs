@@ -5,24 +5,15 @@ use super::checked::CheckedRun;
 use crate::case::Case;
 use crate::cli::estimate::DurationEstimate;
 use crate::cli::ui::Ui;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::scheme::Method;
-use crate::study::accuracy::{Outcome, Target, foresee, reach};
+use crate::study::accuracy::{Outcome, Target, foresee, most_steps, reach};
 use crate::study::choice;
 use crate::study::truncation::{ChosenModes, choose_modes};
 use serde_json::json;
 
-/// Unknowns times steps of the last run of a refinement, relative to one degree of freedom.
-const MOST_WORK: u64 = 8;
-
-/// Fewest steps that a run of a refinement may always take.
-const FEWEST_STEPS: u64 = 1 << 16;
-
 /// A run that keeps the error asked for; what it falls short of is part of the outcome.
 pub(super) fn search(args: &Args, case: Case, tolerance: f64, ui: &Ui) -> Result<CheckedRun> {
-    if let Some(step) = args.request.step {
-        return Err(Error::invalid("--step", step, "no step beside --accuracy, which finds one"));
-    }
     let method = args.scheme.as_ref().map(|name| args.request.method(name, &case)).transpose()?;
     let methods: Vec<Method> = method.into_iter().collect();
     if !methods.is_empty() {
@@ -31,11 +22,11 @@ pub(super) fn search(args: &Args, case: Case, tolerance: f64, ui: &Ui) -> Result
     let results = args.open(&case, &methods, json!({ "step_s": null, "accuracy": tolerance }))?;
     let target = Target { method, ..Target::new(tolerance, case.time) };
     target.validate()?;
-    let most_steps = most_steps(&case, &target);
-    let estimate = DurationEstimate::of_search(&case.scene, method, case.time.step, most_steps);
+    let most = most_steps(&case.scene, target.most_steps);
+    let estimate = DurationEstimate::of_search(&case.scene, method, case.time.step, most);
     let (case, modes, outcome) = ui.with_estimate("", estimate, |_| -> Result<_> {
         let (case, modes) = enough_modes(case, &target, ui)?;
-        let target = Target { most_steps: self::most_steps(&case, &target), ..target };
+        let target = Target { most_steps: most_steps(&case.scene, target.most_steps), ..target };
         let end = case.scene.duration;
         let outcome =
             ui.with_bar("refining", |bar| reach(&case.scene, &target, &mut |time| bar.set_share(time / end)))?;
@@ -47,13 +38,6 @@ pub(super) fn search(args: &Args, case: Case, tolerance: f64, ui: &Ui) -> Result
     let (modes, accuracy) = (modes.map(Ok), Some(Ok(accuracy)));
     let (refinement, truncation) = (None, None);
     Ok(CheckedRun { case, results, method, reason, run, refinement, truncation, modes, accuracy, shortfall })
-}
-
-/// The cost of a step is proportional to the unknowns: a structure may cost some times as much as
-/// one degree of freedom, but no more.
-fn most_steps(case: &Case, target: &Target) -> u64 {
-    let unknowns = case.scene.system.degrees_of_freedom() as u64;
-    (MOST_WORK * target.most_steps / unknowns).clamp(FEWEST_STEPS, target.most_steps)
 }
 
 /// The case with as many modes as `target` takes, and how their number was found; unchanged where

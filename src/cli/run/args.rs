@@ -4,12 +4,14 @@ use super::derivative::DerivativeKeys;
 use super::seeds::Seeds;
 use crate::case::Case;
 use crate::cli::drawing::PlotSpan;
+use crate::cli::realisations::share;
 use crate::cli::request::Request;
 use crate::cli::values;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
 use crate::scheme::Method;
+use crate::study::choice;
 use serde_json::{Value, json};
 
 const EXAMPLES: &str = "\
@@ -25,6 +27,7 @@ Examples:
   signorini run tube-lattice-bars --seeds 6        means over six realisations of the random loads
   signorini run elastic-wall --derivative wall.upper.stiffness,load.1.harmonic.amplitude
   signorini run tube-in-cross-flow --until-interval 5%   as many as that takes
+  signorini run tube-lattice-bars --accuracy 20%   step and seeds for means within 20 %
 
 Schemes: implicit-euler, paoli-schatzman, moreau-jean, located, generalized-alpha, newmark (for
 demonstration), penalty, event (exact).";
@@ -38,11 +41,14 @@ pub struct Args {
     /// Scheme [default: chosen from the scene; see `signorini explain`]
     #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
     pub(super) scheme: Option<String>,
-    /// Find scheme and step for this error, as a share of the gap and of each wall's impulse and
-    /// contact statistics; exit code 1 if it is not kept to the end; for a case reduced to modes,
-    /// find the number of modes too
-    #[arg(long, value_name = "TOL", allow_negative_numbers = true)]
-    pub(super) accuracy: Option<f64>,
+    /// Find scheme and step for this error, 1e-3 or 0.1%, as a share of the gap and of each wall's
+    /// impulse and contact statistics; exit code 1 if it is not kept to the end; for a case reduced
+    /// to modes, find the number of modes too. Under random loads it is a share of the mean forces
+    /// and work rates over realisations: find the coarsest step whose part in their errors is
+    /// within it, and as many seeds as its interval and theirs take; exit code 1 where no step or
+    /// no number of seeds keeps it
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
+    accuracy: Option<String>,
     /// Do not repeat the run with half the step, nor, for a case reduced to modes, with more modes;
     /// of several realisations up to six are repeated so
     #[arg(long)]
@@ -56,6 +62,32 @@ pub struct Args {
 }
 
 impl Args {
+    /// The error asked for.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a text that is no number, and beside a step.
+    pub(super) fn accuracy(&self) -> Result<Option<f64>> {
+        let Some(text) = &self.accuracy else { return Ok(None) };
+        if let Some(step) = self.request.step {
+            return Err(Error::invalid("--step", step, "no step beside --accuracy, which finds one"));
+        }
+        share("--accuracy", text).map(Some)
+    }
+
+    /// The method asked for or chosen, with the reason.
+    pub(super) fn chosen(&self, case: &Case) -> Result<(Method, String)> {
+        let choice = choice::choose(&case.scene);
+        let (method, reason) = match (&self.scheme, self.derivatives.scheme()) {
+            (None, Some(exact)) => {
+                (self.request.method(&exact, case)?, "derivatives are those of the exact motion".into())
+            }
+            (Some(name), _) => (self.request.method(name, case)?, "asked for".into()),
+            (None, None) => (self.request.method(&choice.method.to_string(), case)?, choice.reason),
+        };
+        self.request.check_use(&[method])?;
+        Ok((method, reason))
+    }
+
     /// Opens the folder of the results of `case` by `methods`, with these further settings.
     pub(super) fn open(&self, case: &Case, methods: &[Method], settings: Value) -> Result<Results> {
         let mut asked = extended(request("run", case, methods), settings);

@@ -12,7 +12,6 @@ use crate::output::shape::{self, Shape};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scheme::Method;
 use crate::study::accuracy::Accuracy;
-use crate::study::choice;
 use crate::study::truncation::{ChosenModes, Truncation};
 use crate::study::verdict::{self, Verdict};
 use serde_json::json;
@@ -36,18 +35,23 @@ pub(super) struct CheckedRun {
 /// The run by the method asked for or chosen, checked with half the step and with more modes unless
 /// that is not wanted.
 pub(super) fn checked(args: &Args, case: Case, ui: &Ui) -> Result<CheckedRun> {
-    let choice = choice::choose(&case.scene);
-    let (method, reason) = match (&args.scheme, args.derivatives.scheme()) {
-        (None, Some(exact)) => {
-            (args.request.method(&exact, &case)?, "derivatives are those of the exact motion".into())
-        }
-        (Some(name), _) => (args.request.method(name, &case)?, "asked for".into()),
-        (None, None) => (args.request.method(&choice.method.to_string(), &case)?, choice.reason),
-    };
-    args.request.check_use(&[method])?;
-    let mut results = args.open(&case, &[method], json!({ "verdict": !args.no_verdict }))?;
-    let reduced = case.truncated.as_ref().filter(|_| !args.no_verdict);
-    let cost = if args.no_verdict { 0.0 } else { verdict::COST };
+    let (method, reason) = args.chosen(&case)?;
+    let results = args.open(&case, &[method], json!({ "verdict": !args.no_verdict }))?;
+    made(args, case, (method, reason), results, !args.no_verdict, ui)
+}
+
+/// The run by `method`, with the reason for it, whose files are in `results`; with `verdict`
+/// checked with half the step and with more modes.
+pub(super) fn made(
+    args: &Args,
+    case: Case,
+    (method, reason): (Method, String),
+    mut results: Results,
+    verdict: bool,
+    ui: &Ui,
+) -> Result<CheckedRun> {
+    let reduced = case.truncated.as_ref().filter(|_| verdict);
+    let cost = if verdict { verdict::COST } else { 0.0 };
     let runs = 1.0 + cost;
     let shape = if args.request.place.no_report { Shape::default() } else { Shape::of(&case) };
     let estimate = DurationEstimate::of_run(&case.scene, &method, case.time.step).times(runs);
@@ -72,7 +76,7 @@ pub(super) fn checked(args: &Args, case: Case, ui: &Ui) -> Result<CheckedRun> {
             let truncated = reduced?;
             Truncation::of(&truncated.whole, &truncated.reduction, &run, &method, &case.time, &mut |_| {}).transpose()
         };
-        let (refinement, more_modes) = rayon::join(|| (!args.no_verdict).then(with_half_the_step), with_more_modes);
+        let (refinement, more_modes) = rayon::join(|| verdict.then(with_half_the_step), with_more_modes);
         Ok((run, refinement, more_modes))
     })?;
     ui.refute(&method.to_string(), &run.findings);

@@ -4,13 +4,14 @@ mod accurate;
 mod args;
 mod checked;
 mod derivative;
+mod means;
 mod seeds;
 
 pub use args::Args;
 pub(super) use seeds::{Seeds, checked as checked_seeds};
 
 use super::pipeline::Answer;
-use super::realisations;
+use super::realisations::{self, StudyRequest};
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
@@ -31,15 +32,10 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.request.read(ui)?;
     // A stretch outside the run is refused before anything runs.
     let span = args.span.within(&case, case.scene.duration)?;
-    let wanted = args.seeds.check(&case)?;
     let derivatives = args.derivatives.wanted(args.scheme.as_deref(), &case)?;
+    let (checked, study) = made(args, case, ui)?;
     let CheckedRun { case, mut results, method, reason, run, refinement, truncation, modes, accuracy, shortfall } =
-        match args.accuracy {
-            Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
-            None => checked::checked(args, case, ui)?,
-        };
-    let study = |count| realisations::study(&case, (&run, &method), count, !args.no_verdict, "", ui);
-    let study = wanted.map(study).transpose()?;
+        checked;
     if let Some(study) = &study {
         error_parts::write_study(&mut results, study)?;
     }
@@ -86,6 +82,22 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     }
     answer.fall_short(shortfall);
     Ok(answer)
+}
+
+/// The run, and the study of realisations where one is wanted.
+fn made(args: &Args, case: Case, ui: &Ui) -> Result<(CheckedRun, Option<RealisationStudy>)> {
+    let tolerance = args.accuracy()?;
+    if let Some(share) = tolerance.filter(|_| case.judges_means()) {
+        return means::studied(args, case, share, ui).map(|(run, study)| (run, Some(study)));
+    }
+    let wanted = args.seeds.check(&case)?;
+    let made = match tolerance {
+        Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
+        None => checked::checked(args, case, ui)?,
+    };
+    let asked = wanted.map(|count| StudyRequest::new(count, !args.no_verdict));
+    let study = asked.map(|asked| realisations::study(&made.case, (&made.run, &made.method), asked, "", ui));
+    Ok((made, study.transpose()?))
 }
 
 fn succeeded<T>(check: Option<&Result<T>>) -> Option<&T> {

@@ -3,9 +3,9 @@
 use crate::case::Case;
 use crate::cli::pipeline::Answer;
 use crate::cli::realisations::{of_argument, share, show_errors};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::output::realisations as output;
-use crate::study::realisations::{RealisationCount, RealisationStudy};
+use crate::study::realisations::{MOST_REALISATIONS, RealisationCount, RealisationStudy};
 
 /// How often the run is repeated.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -20,8 +20,9 @@ pub struct Seeds {
     /// that takes (Stein)
     #[arg(long, value_name = "SHARE", conflicts_with = "count", allow_hyphen_values = true)]
     pub(in crate::cli) until_interval: Option<String>,
-    /// Most realisations of --until-interval; exit code 1 where more are needed [default: 200]
-    #[arg(long, value_name = "N", requires = "until_interval")]
+    /// Most realisations of --until-interval, and of --accuracy under random loads; exit code 1
+    /// where more are needed [default: 200]
+    #[arg(long, value_name = "N")]
     pub(in crate::cli) most_seeds: Option<u64>,
 }
 
@@ -32,6 +33,10 @@ impl Seeds {
     /// [`Error::Invalid`](crate::Error::Invalid) for 0, for a share that is none, for a case
     /// without a random load, and where a seed would exceed 2^53.
     pub fn check(&self, case: &Case) -> Result<Option<RealisationCount>> {
+        if let (Some(most), None) = (self.most_seeds, &self.until_interval) {
+            let expected = "--until-interval beside it, or --accuracy of a case with random loads: it is their limit";
+            return Err(Error::invalid("--most-seeds", most, expected));
+        }
         let share = self.until_interval.as_ref().map(|text| share("--until-interval", text)).transpose()?;
         let count = RealisationCount::new(self.count, share, self.most_seeds).map_err(of_argument)?;
         if let Some(count) = count {
@@ -39,6 +44,25 @@ impl Seeds {
             case.realisation(count.most())?;
         }
         Ok(count)
+    }
+
+    /// The most realisations of `case` that an error of its means may take.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] beside a number or an interval, which follow from the error; and where a
+    /// seed would exceed 2^53.
+    pub fn most_beside_accuracy(&self, case: &Case) -> Result<u64> {
+        let expected = "no such argument beside --accuracy of a case with random loads: the number of realisations \
+                        follows from it, and --most-seeds limits it";
+        if let Some(count) = self.count {
+            return Err(Error::invalid("--seeds", count, expected));
+        }
+        if let Some(share) = &self.until_interval {
+            return Err(Error::invalid("--until-interval", share, expected));
+        }
+        let most = self.most_seeds.unwrap_or(MOST_REALISATIONS);
+        case.realisation(most.max(1))?;
+        Ok(most)
     }
 }
 

@@ -9,8 +9,8 @@ mod target;
 
 pub use coarse::CoarseGrid;
 pub use horizon::foresee;
-pub use outcome::{Accuracy, JudgedBy, Level, Outcome};
-pub use target::{Against, MOST_STEPS, Target};
+pub use outcome::{Accuracy, JudgedBy, Level, Outcome, StepPairs};
+pub use target::{Against, MOST_STEPS, Target, most_steps};
 
 use super::change::Change;
 use super::choice::{self, Choice};
@@ -139,6 +139,7 @@ fn finish(
         sufficient_step_s: if refined.kept { step_of(refined.sufficient) } else { None },
         total_steps: refined.levels.iter().map(|l| l.steps).sum(),
         levels: refined.levels,
+        pairs: None,
     };
     Ok(Outcome { method, reason, run, accuracy, shortfall })
 }

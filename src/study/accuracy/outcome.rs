@@ -18,6 +18,19 @@ pub enum JudgedBy {
     /// The result is the exact motion; it was compared with the exact motion computed with other
     /// roundings.
     OtherRounding,
+    /// By the part of the step in the errors of means over realisations of the random loads
+    /// ([`StepSearch`](crate::study::realisations::StepSearch)).
+    Realisations,
+}
+
+/// The realisations by which a step was judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct StepPairs {
+    /// How many were run with the step and with half of it.
+    pub count: u64,
+    /// Whether the interval of the change leaves out 0.
+    pub seen: bool,
 }
 
 /// One run of a refinement.
@@ -28,7 +41,8 @@ pub struct Level {
     /// Its steps.
     pub steps: u64,
     /// Its error, or its change from the level before; `None` for the first level where levels are
-    /// compared with each other, and for a run that failed.
+    /// compared with each other, and for a run that failed. Over realisations the most that the
+    /// part of the step may be.
     pub error: Option<f64>,
     /// Why the run failed, if it did.
     pub failure: Option<String>,
@@ -40,7 +54,8 @@ pub struct Level {
 pub struct Accuracy {
     /// The error asked for.
     pub tolerance: f64,
-    /// The error of the result or, by halving, the last change; infinite if nothing could be
+    /// The error of the result or, by halving, the last change; over realisations the most that
+    /// the part of the step may be of the mean, by its 95 % interval; infinite if nothing could be
     /// compared.
     pub reached: f64,
     /// The quantity with the largest error, to which `reached` belongs.
@@ -60,6 +75,9 @@ pub struct Accuracy {
     pub levels: Vec<Level>,
     /// Steps of all these runs together.
     pub total_steps: u64,
+    /// The pairs of runs behind `reached`; `None` unless realisations are judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pairs: Option<StepPairs>,
 }
 
 /// The result; it is returned even if it falls short of the tolerance.
@@ -80,10 +98,24 @@ pub struct Outcome {
 
 impl fmt::Display for Accuracy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(StepPairs { count, seen }) = self.pairs {
+            return write!(
+                f,
+                "asked for {:e}: the part of the step {:.3e} s is {}seen, at most {:.1e} ({}), by {count} pairs of \
+                 realisations with it and with half of it; {:.1e} steps in all",
+                self.tolerance,
+                self.step_s.unwrap_or(0.0),
+                if seen { "" } else { "not " },
+                self.reached,
+                self.quantity,
+                self.total_steps as f64
+            );
+        }
         let how = match self.judged_by {
             JudgedBy::ExactMotion => "against the exact motion",
             JudgedBy::Halving => "by halving the step",
             JudgedBy::OtherRounding => "the exact motion, against itself with other roundings",
+            JudgedBy::Realisations => "over realisations",
         };
         write!(
             f,

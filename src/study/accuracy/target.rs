@@ -1,12 +1,28 @@
 //! The error asked for.
 
 use crate::error::{Error, Result};
+use crate::scene::Scene;
 use crate::scheme::Method;
 use crate::time::TimeOptions;
 
 /// Most steps of one run of a refinement, unless a target says otherwise: seconds of a scalar
 /// scheme.
 pub const MOST_STEPS: u64 = 1 << 24;
+
+/// Unknowns times steps of the last run of a refinement, relative to one degree of freedom.
+const MOST_WORK: u64 = 8;
+
+/// Fewest steps that a run of a refinement may always take.
+const FEWEST_STEPS: u64 = 1 << 16;
+
+/// Most steps of one run on `scene`, where one degree of freedom may take `most`. The cost of a
+/// step is proportional to the unknowns: a structure may cost some times as much as one degree of
+/// freedom, but no more.
+#[must_use]
+pub fn most_steps(scene: &Scene, most: u64) -> u64 {
+    let unknowns = (scene.system.degrees_of_freedom() as u64).max(1);
+    (MOST_WORK.saturating_mul(most) / unknowns).clamp(FEWEST_STEPS.min(most), most)
+}
 
 /// The reference of a stepping run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

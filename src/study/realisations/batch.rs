@@ -52,6 +52,12 @@ pub struct Batch<'a> {
 }
 
 impl Batch<'_> {
+    /// The same for other realisations.
+    pub(super) fn of(&self, numbers: RangeInclusive<u64>) -> Self {
+        let Self { purpose, scenes, method, options, .. } = *self;
+        Self { purpose, numbers, scenes, method, options }
+    }
+
     /// How many runs these are.
     #[must_use]
     pub fn count(&self) -> u64 {

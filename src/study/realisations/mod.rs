@@ -7,7 +7,8 @@
 //! modes and the data are not in it. The first two, and that of a window that begins too early, are
 //! therefore estimated from the same realisations, and stand beside it ([`ErrorParts`]).
 //! [`RealisationPlan`] is a whole study: the number of realisations that an interval needs, the
-//! realisations, and the checks for the errors.
+//! realisations, and the checks for the errors. [`StepSearch`] finds the coarsest step of such a
+//! study whose part in the errors is within a share that is named beforehand.
 //!
 //! ```
 //! use signorini::study::realisations::{Measure, Realisations, realisations};
@@ -30,8 +31,11 @@
 mod batch;
 mod check;
 mod count;
+mod counted;
 mod error_parts;
 mod estimate;
+mod found_step;
+mod known;
 mod measure;
 mod paired;
 mod plan;
@@ -39,6 +43,7 @@ mod realisation;
 mod runner;
 mod sample;
 mod stein;
+mod step_search;
 mod verdict;
 
 pub use batch::{Batch, Purpose, RandomScenes};
@@ -47,6 +52,8 @@ pub use count::{MOST_REALISATIONS, PILOTS, Pilots, RealisationCount};
 pub use error_parts::{ErrorPart, ErrorParts};
 pub(crate) use estimate::mean_of;
 pub use estimate::{Estimate, Interval};
+pub use found_step::FoundStep;
+pub use known::KnownRealisations;
 pub use measure::{Figure, Measure};
 pub use paired::Difference;
 #[cfg(feature = "cli")]
@@ -56,3 +63,4 @@ pub use realisation::Realisation;
 pub use runner::realisations;
 pub use sample::Realisations;
 pub use stein::{NeededRealisations, widest};
+pub use step_search::StepSearch;

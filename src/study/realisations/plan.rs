@@ -25,9 +25,9 @@ pub struct RealisationPlan<'a> {
     pub time: TimeOptions,
     /// How many realisations.
     pub count: RealisationCount,
-    /// Whether up to [`MOST_CHECKED`] of them are run again with half the step and with more
-    /// modes, for the errors of the means.
-    pub verdict: bool,
+    /// For the errors of the means: up to so many of them are run again with half the step, and of
+    /// these up to [`MOST_CHECKED`] with more modes; 0 for none, and for no errors.
+    pub checked: u64,
 }
 
 /// A check of a study that failed.
@@ -78,7 +78,7 @@ impl RealisationPlan<'_> {
         let shortfall = wanted.and_then(|(share, needed)| shortfall(&members, share, needed));
         let (checks, failures) = self.checks(count, make)?;
         let realisations = Realisations::new(members);
-        let realisations = if self.verdict { realisations.with_checks(checks) } else { realisations };
+        let realisations = if self.checked > 0 { realisations.with_checks(checks) } else { realisations };
         Ok(RealisationStudy { realisations, failures, shortfall })
     }
 
@@ -99,14 +99,15 @@ impl RealisationPlan<'_> {
         make: &mut dyn FnMut(&Batch<'_>) -> Result<Vec<Realisation>>,
     ) -> Result<(Vec<Check>, Vec<FailedCheck>)> {
         let (mut checks, mut failures) = (Vec::new(), Vec::new());
-        if !self.verdict || count < 2 {
+        if self.checked == 0 || count < 2 {
             return Ok((checks, failures));
         }
         let order = self.method.scheme.entry().order;
         let half_step = order.map(|order| Refined::HalfStep { step_s: 0.5 * self.run.grid.step, order });
         let more_modes = self.scenes.modes().map(|modes| Refined::MoreModes { modes });
         for refined in half_step.into_iter().chain(more_modes) {
-            match make(&self.batch(Purpose::Check(refined), 1..=count.min(MOST_CHECKED))) {
+            let most = if refined.is_step() { self.checked } else { self.checked.min(MOST_CHECKED) };
+            match make(&self.batch(Purpose::Check(refined), 1..=count.min(most))) {
                 Ok(members) => checks.push(Check::new(refined, members)),
                 Err(Error::Stopped) => return Err(Error::Stopped),
                 Err(error) => failures.push(FailedCheck { refined, error }),
@@ -118,10 +119,7 @@ impl RealisationPlan<'_> {
 
 /// That `members` are fewer than `needed`, and leave an interval wider than `share` of its mean.
 pub(crate) fn shortfall(members: &[Realisation], share: f64, needed: u64) -> Option<Error> {
-    let count = members.len() as u64;
-    let widest = widest(members).filter(|widest| needed > count && widest.pilot_share > share)?;
-    let quantity = format!("{} of {} {:?}", widest.measure.words(), widest.place.kind.word(), widest.place.name);
-    Some(Error::Scattered { share, reached: widest.pilot_share, quantity, count, needed })
+    widest(members)?.shortfall(share, needed)
 }
 
 impl RealisationStudy {
@@ -179,7 +177,7 @@ mod tests {
     ) -> Result<RealisationStudy> {
         let time = TimeOptions::with_step(1e-3);
         let run = run(&Shaken.realisation(1)?, &METHOD, &Options::new(time))?;
-        let plan = RealisationPlan { scenes: &Shaken, run: &run, method: &METHOD, time, count, verdict: true };
+        let plan = RealisationPlan { scenes: &Shaken, run: &run, method: &METHOD, time, count, checked: MOST_CHECKED };
         plan.follow(make, &mut |_| {})
     }
 

@@ -3,6 +3,7 @@
 use super::estimate::mean_of;
 use super::measure::Measure;
 use super::realisation::Realisation;
+use crate::error::Error;
 use crate::statistics::{ContactPlace, PlaceKind};
 use serde::Serialize;
 
@@ -51,10 +52,27 @@ impl NeededRealisations {
     /// From two pilots or more; `None` where nothing is judged: no contact, or no scatter.
     #[must_use]
     pub fn from_pilots(pilots: &[Realisation], share: f64) -> Option<Self> {
-        let worst = widest(pilots)?;
+        Some(widest(pilots)?.for_share(share))
+    }
+
+    /// The number that brings the interval of `self`, which is of its count of realisations, within
+    /// `share`; never fewer than there are.
+    pub(super) fn for_share(self, share: f64) -> Self {
+        Self { count: Self::count_for(self.count, self.pilot_share, share), ..self }
+    }
+
+    /// The number that brings an interval, of the half width `reached` from `count`, within
+    /// `wanted`; never fewer than there are.
+    pub(super) fn count_for(count: u64, reached: f64, wanted: f64) -> u64 {
         // t s = half width times √n.
-        let count = (pilots.len() as f64 * (worst.pilot_share / share).powi(2)).ceil();
-        Some(Self { count: (count as u64).max(pilots.len() as u64), ..worst })
+        ((count as f64 * (reached / wanted).powi(2)).ceil() as u64).max(count)
+    }
+
+    /// That its count of realisations is below `needed`, and leaves an interval wider than `share`.
+    pub(super) fn shortfall(&self, share: f64, needed: u64) -> Option<Error> {
+        let quantity = format!("{} of {} {:?}", self.measure.words(), self.place.kind.word(), self.place.name);
+        let (reached, count) = (self.pilot_share, self.count);
+        (needed > count && reached > share).then_some(Error::Scattered { share, reached, quantity, count, needed })
     }
 }
 
@@ -88,6 +106,7 @@ mod tests {
             ],
             wear: Vec::new(),
             findings: Vec::new(),
+            frozen_share: 0.0,
         };
         values.iter().enumerate().map(member).collect()
     }
