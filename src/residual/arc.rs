@@ -109,8 +109,8 @@ impl Judge {
         }
     }
 
-    /// True if the body at `q` (m) stands at a rigid wall on the side of `wall`, to the tolerance of
-    /// its bound: a rigid wall stops the body in front of a spring with the same face only so
+    /// True if the body at `q` (m) stands at a rigid wall on the side of `wall`, to the tolerance
+    /// of its bound: a rigid wall stops the body in front of a spring with the same face only so
     /// exactly.
     fn stands_at_rigid_wall(&self, wall: &Wall, q: f64) -> bool {
         let near = |other: &Wall| other.gap(other.row().dot(&[q])).abs() <= self.noise.place(0.0);
