@@ -47,6 +47,9 @@ pub fn request(command: &str, case: &Case, methods: &[Method]) -> Map<String, Va
     ] {
         request.insert(format!("{part}{FINGERPRINT}"), digest);
     }
+    if !whole.output_times.is_empty() {
+        request.insert("output_times_s".to_owned(), json!(whole.output_times));
+    }
     if !case.sliders.is_empty() {
         request.insert(format!("sliders{FINGERPRINT}"), fingerprint(&case.sliders));
     }

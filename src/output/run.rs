@@ -33,10 +33,9 @@ pub struct Picture {
 }
 
 /// Writes the files of one run: `trajectory.csv`, `contacts.csv`, for output times `output.csv`, of
-/// supports also `supports.csv`
-/// and `sectors.csv`, the figures, what `[statistics]` asks for, and `summary.json`, into the
-/// folder of `results` or, where `prefix` is not empty, into a folder of that name in it. Returns
-/// the summary, which records all tables written there so far.
+/// supports also `supports.csv` and `sectors.csv`, the figures, what `[statistics]` asks for, and
+/// `summary.json`, into the folder of `results` or, where `prefix` is not empty, into a folder of
+/// that name in it. Returns the summary, which records all tables written there so far.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.

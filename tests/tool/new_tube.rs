@@ -17,7 +17,12 @@ fn the_file_has_the_tube_that_was_described_and_runs() {
     assert_eq!(places, ["1.125 m along it", "2.25 m along it", "3.375 m along it"]);
     assert!(case.scene.holes().all(|hole| hole.gap == 1.5e-4));
     assert!((case.wear.limit.unwrap() - 0.4 * 2e-3).abs() < 1e-15);
-    said(path, &["run", "tube.toml", "--end", "0.2", "--set", "time.statistics_from=0.1", "--no-verdict"], 0);
+    // The fastest mode that is kept has ten steps or more in its period, so that no note complains.
+    let [_, fastest] = case.scene.system.frequencies();
+    assert!((10.0..20.0).contains(&(std::f64::consts::TAU / fastest / case.time.step)), "{} s", case.time.step);
+    let short = ["run", "tube.toml", "--end", "0.2", "--set", "time.statistics_from=0.1", "--no-verdict"];
+    let err = said(path, &short, 0).1;
+    assert!(!err.contains("do not resolve"), "{err}");
     // What is there is not replaced unasked.
     let err = said(path, &["new", "tube"], 2).1;
     assert!(err.contains("tube.toml") && err.contains("already exists"), "{err}");

@@ -60,6 +60,11 @@ fn states_at_output_times_have_a_table_of_their_own_and_derivatives() {
         assert!(row[0] == time && close(row[1], q) && close(row[2], v), "{row:?}, closed form {q} m, {v} m/s");
     }
 
+    // Other times are another request, which does not replace these results unasked.
+    let other = ["run", "ball.toml", "--derivative", key, "--no-verdict", "--out", "o"];
+    let err = said(dir.path(), &[&other[..], &["--set", "time.output_times=[0.3]"]].concat(), 2).1;
+    assert!(err.contains("another request") && err.contains("output_times"), "{err}");
+
     let (header, rows) = csv(&dir.path().join("o/output-derivatives.csv"));
     let by = "by_initial_displacement";
     let [of_q, of_v] = [format!("displacement_{by}_m_per_m"), format!("velocity_{by}_m_per_s_per_m")];

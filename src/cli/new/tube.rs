@@ -2,6 +2,7 @@
 
 use crate::case::CaseFile;
 use crate::error::{Error, Result};
+use std::f64::consts::TAU;
 
 /// Most supports.
 const MOST_SUPPORTS: u32 = 100;
@@ -80,9 +81,21 @@ impl Tube {
             ("%SUPPORTS%", (1..=supports).map(support).collect::<Vec<_>>().join("\n")),
         ];
         let text = values.iter().fold(TEXT.to_owned(), |text, (mark, value)| text.replace(mark, value));
-        CaseFile::from_text(&text, name, "").case()?;
-        Ok(text)
+        let with_step = |step: &str| text.replace("%STEP%", step);
+        let case = CaseFile::from_text(&with_step("5e-5"), name, "").case()?;
+        let [_, fastest] = case.scene.system.frequencies();
+        Ok(with_step(&step_for(fastest)))
     }
+}
+
+/// The largest step of one digit, s, that is at most 50 µs and a tenth of the period of the fastest
+/// mode, whose circular frequency is `fastest` (rad/s).
+fn step_for(fastest: f64) -> String {
+    let most = (TAU / (10.0 * fastest)).min(5e-5);
+    let exponent = most.log10().floor();
+    // A quotient just below a whole number is that number.
+    let digit = (most / 10f64.powf(exponent) * (1.0 + 1e-9)).floor();
+    format!("{digit}e{exponent}")
 }
 
 /// The file, with marks for values.
@@ -130,7 +143,7 @@ limit = 0.4                 # of the tube's wall
 
 [time]
 end = 5.0                   # s
-step = 5e-5                 # s
+step = %STEP%                 # s: ten or more in a period of the fastest mode
 sample = 5e-4               # s
 statistics_from = 1.0       # s, after the initial transient
 "#;
