@@ -1,5 +1,12 @@
 //! Reads loads in proportion to the mass: base motion, in which the ground to which a structure and
 //! its walls are fixed accelerates, and gravity.
+//!
+//! Where the walls stay fixed in space while the base moves by b(t), the coordinates are those in
+//! space, x = u + ι b, with u relative to the base. M ü + C u̇ + K u = f − M ι b̈ is then
+//!
+//! M ẍ + C ẋ + K x = f + K ι b + C ι ḃ,
+//!
+//! so that the walls bound x, and the base pulls at the springs and dashpots that are tied to it.
 
 use super::builder::Builder;
 use super::model::{Model, Place};
@@ -7,9 +14,10 @@ use super::planes::Planes;
 use super::schema::accepted;
 use super::table::{self, TableColumns};
 use super::value::{Section, Value};
-use super::written::{NewLoad, Origin};
+use super::written::{NewLoad, Origin, WallsOverBase};
 use crate::error::Result;
 use crate::scene::{Load, LoadKind, PlaneRows, Row, System};
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -24,8 +32,11 @@ impl Builder<'_> {
         section: &Section<'_>,
         beside: (Option<Range<usize>>, Option<&Spanned<f64>>),
         system: &System,
-    ) -> Result<NewLoad> {
-        let (at, mass) = self.moved((owner, kind), section, beside, system)?;
+    ) -> Result<Vec<NewLoad>> {
+        let (at, mass) = self.moved((owner, kind), section, beside.clone(), system)?;
+        if let ("base", WallsOverBase::Fixed) = (kind, self.walls_over_base(owner, section)?) {
+            return self.base_under_fixed_walls(owner, section, beside.1, system);
+        }
         // A mass that is not finite is refused at its own key, once all has been read.
         let mass = if mass.is_finite() { mass } else { 1.0 };
         let (kind, origin) = match kind {
@@ -35,7 +46,89 @@ impl Builder<'_> {
             }
             _ => self.base(owner, section, mass)?,
         };
-        Ok(NewLoad { load: Load { kind, at }, place: Place::Row(Vec::new()), origin })
+        Ok(vec![NewLoad { load: Load { kind, at }, place: Place::Row(Vec::new()), origin }])
+    }
+
+    /// `walls` of a base.
+    fn walls_over_base(&self, owner: &str, base: &Section<'_>) -> Result<WallsOverBase> {
+        match base.word("walls") {
+            None => Ok(WallsOverBase::Moving),
+            Some(word) if *word.get_ref() == "moving" => Ok(WallsOverBase::Moving),
+            Some(word) if *word.get_ref() == "fixed" => Ok(WallsOverBase::Fixed),
+            Some(word) => Err(self.refuse(word.span(), &format!("{owner}: base: walls"), "\"moving\" or \"fixed\"")),
+        }
+    }
+
+    /// The forces of the springs and of the dashpots by which a base moves a structure whose
+    /// coordinates are those in space: K ι b and C ι ḃ, with b = −a/ω² of a sine, whose mean is 0.
+    fn base_under_fixed_walls(
+        &mut self,
+        owner: &str,
+        base: &Section<'_>,
+        direction: Option<&Spanned<f64>>,
+        system: &System,
+    ) -> Result<Vec<NewLoad>> {
+        let refuse = |title: &str, help: &str| {
+            let at = base.span_of("walls").unwrap_or(base.span.clone());
+            Err(self.source.error(at, &format!("{owner}: walls are fixed, and {title}"), help))
+        };
+        if base.span_of("file").is_some() {
+            let help = "expected amplitude, frequency and phase: where a base is whose acceleration alone is known \
+                        over time depends on how it began";
+            return refuse("the motion of the base is read from a file", help);
+        }
+        if matches!(self.model, Model::Bar(_) | Model::Beam(_)) {
+            let help = "expected walls = \"moving\", or an oscillator, a chain, matrices or modal data";
+            return refuse(&format!("the system is a {}, whose held ends move", self.model.kind()), help);
+        }
+        if self.is_changed_later {
+            let help = "expected no modes, and damping other than by ratios where degrees of freedom have no mass: the \
+                        forces at the base need the whole stiffness and damping";
+            return refuse("the system is reduced to modes, or damped by ratios once it is condensed", help);
+        }
+        let [amplitude, frequency, phase] = self.sine(owner, base)?;
+        if frequency == 0.0 {
+            return refuse("the base leaves without end", "expected a frequency above 0");
+        }
+        let influence = base.get("influence").map(|value| self.influence(owner, value)).transpose()?;
+        let (n, omega) = (system.degrees_of_freedom(), TAU * frequency);
+        let moved = self.rigid_motion(n, influence.as_deref());
+        let (mut springs, mut dashpots) = (vec![0.0; n], vec![0.0; n]);
+        system.add_stiffness(1.0, &moved, &mut springs);
+        system.add_damping(1.0, &moved, &mut dashpots);
+        let way = -amplitude / (omega * omega);
+        let mut loads = Vec::new();
+        for (forces, size, phase) in [(springs, way, phase), (dashpots, omega * way, phase + FRAC_PI_2)] {
+            let largest = forces.iter().fold(0.0, |largest: f64, force| largest.max(force.abs()));
+            if largest == 0.0 {
+                continue;
+            }
+            let row = Row::new(forces.iter().map(|force| force / largest).enumerate().filter(|e| e.1 != 0.0).collect());
+            let at = self.heading(owner, base, direction, row)?;
+            let kind = LoadKind::Harmonic { amplitude: largest * size, frequency, phase };
+            let motion = format!("by {amplitude} m/s² at {frequency} Hz");
+            let origin = match loads.is_empty() {
+                true => Origin::Base { motion, walls: WallsOverBase::Fixed },
+                false => Origin::Stated,
+            };
+            loads.push(NewLoad { load: Load { kind, at }, place: Place::Row(Vec::new()), origin });
+        }
+        if loads.is_empty() {
+            return refuse("nothing ties the structure to the base", "expected springs or dashpots to the ground");
+        }
+        Ok(loads)
+    }
+
+    /// Amplitude (m/s²), frequency (Hz) and phase (rad) of a base that moves by a sine.
+    fn sine(&self, owner: &str, base: &Section<'_>) -> Result<[f64; 3]> {
+        let amplitude = self.measured(owner, base, "amplitude")?;
+        let frequency = self.measured(owner, base, "frequency")?;
+        let phase = base.number("phase").map_or(Ok(0.0), |_| self.measured(owner, base, "phase"))?;
+        if frequency < 0.0 {
+            let span = base.span_of("frequency").unwrap_or(base.span.clone());
+            return Err(self.refuse(span, &format!("{owner}: frequency"), "a number, 0 or more, in Hz"));
+        }
+        Ok([amplitude, frequency, phase])
     }
 
     /// The motion of a base that moves the mass `mass` (kg): from a file, or a sine.
@@ -46,14 +139,9 @@ impl Builder<'_> {
             (Some(at), Some(_)) => Err(self.source.error(at, &format!("{owner}: base has two motions"), one)),
             (None, None) => Err(self.source.error(base.span.clone(), &format!("{owner}: base has no motion"), one)),
             (Some(_), None) => {
-                let amplitude = self.measured(owner, base, "amplitude")?;
-                let frequency = self.measured(owner, base, "frequency")?;
-                let phase = base.number("phase").map_or(Ok(0.0), |_| self.measured(owner, base, "phase"))?;
-                if frequency < 0.0 {
-                    let span = base.span_of("frequency").unwrap_or(base.span.clone());
-                    return Err(self.refuse(span, &format!("{owner}: frequency"), "a number, 0 or more, in Hz"));
-                }
-                let origin = Origin::Base(format!("by {amplitude} m/s² at {frequency} Hz"));
+                let [amplitude, frequency, phase] = self.sine(owner, base)?;
+                let motion = format!("by {amplitude} m/s² at {frequency} Hz");
+                let origin = Origin::Base { motion, walls: WallsOverBase::Moving };
                 Ok((LoadKind::Harmonic { amplitude: -mass * amplitude, frequency, phase }, origin))
             }
             (None, Some(file)) => {
@@ -62,7 +150,8 @@ impl Builder<'_> {
                 let columns = self.columns(&owner, ("acceleration", "m/s^2"), plain, base)?;
                 let (path, text) = self.table_file(&owner, &file, &columns)?;
                 let felt = TableColumns { scale: -mass * columns.scale, ..columns };
-                let origin = Origin::Base(format!("as {} says", file.get_ref()));
+                let motion = format!("as {} says", file.get_ref());
+                let origin = Origin::Base { motion, walls: WallsOverBase::Moving };
                 Ok((LoadKind::Table(table::read(&path, &text, &felt)?), origin))
             }
         }
@@ -111,7 +200,18 @@ impl Builder<'_> {
             _ => {}
         }
         let (row, mass) = self.carried(system, influence.as_deref())?;
-        let row = match (self.planes, direction) {
+        let row = self.heading(owner, base, direction, row)?;
+        if mass <= 0.0 {
+            let span = base.span_of("influence").unwrap_or(base.span.clone());
+            let title = format!("{owner}: {kind}: influence moves no mass");
+            return Err(self.source.error(span, &title, "expected the displacements of degrees of freedom with mass"));
+        }
+        Ok((row, mass))
+    }
+
+    /// The `row` of one plane in the direction of a motion of the base.
+    fn heading(&self, owner: &str, base: &Section<'_>, direction: Option<&Spanned<f64>>, row: Row) -> Result<Row> {
+        Ok(match (self.planes, direction) {
             (Planes::Two(n), Some(direction)) if direction.get_ref().is_finite() => {
                 PlaneRows::doubled(&row, n).along(*direction.get_ref())
             }
@@ -130,13 +230,20 @@ impl Builder<'_> {
                 return Err(self.source.error(direction.span(), &title, help));
             }
             (Planes::One | Planes::Named, None) => row,
-        };
-        if mass <= 0.0 {
-            let span = base.span_of("influence").unwrap_or(base.span.clone());
-            let title = format!("{owner}: {kind}: influence moves no mass");
-            return Err(self.source.error(span, &title, "expected the displacements of degrees of freedom with mass"));
+        })
+    }
+
+    /// ι over all `n` degrees of freedom for a motion along the first plane, of a system without
+    /// held ends.
+    fn rigid_motion(&self, n: usize, influence: Option<&[(usize, f64)]>) -> Vec<f64> {
+        match influence {
+            None => (0..n).map(|i| if i < self.n { 1.0 } else { 0.0 }).collect(),
+            Some(influence) => {
+                let mut moved = vec![0.0; n];
+                influence.iter().filter(|&&(i, _)| i < n).for_each(|&(i, x)| moved[i] = x);
+                moved
+            }
         }
-        Ok((row, mass))
     }
 
     /// M ι/m over one plane, and the mass m = ιᵀM ι that moves along with the base, kg. On a bar or
@@ -153,10 +260,8 @@ impl Builder<'_> {
             Model::Oscillator => Ok((Row::dof(0), system.mass_form(&first(system), &first(system)))),
             Model::Matrices(_) | Model::Modal(_) => {
                 let n = system.degrees_of_freedom();
-                let (mut moved, mut momentum) = (vec![0.0; n], vec![0.0; n]);
-                for &(i, x) in influence.unwrap_or_default() {
-                    moved[i] = x;
-                }
+                let moved = self.rigid_motion(n, Some(influence.unwrap_or_default()));
+                let mut momentum = vec![0.0; n];
                 system.add_mass(1.0, &moved, &mut momentum);
                 let mass = system.mass_form(&moved, &moved);
                 let entries = momentum.into_iter().map(|p| p / mass).enumerate().filter(|entry| entry.1 != 0.0);

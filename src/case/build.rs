@@ -37,6 +37,7 @@ pub(super) fn case(document: &CaseFile, start: Option<&State>) -> Result<Case> {
         joints: Vec::new(),
         n: 1,
         static_correction: false,
+        is_changed_later: false,
         written: Written::default(),
     };
     builder.case(&Section::root(&values), start)
@@ -50,9 +51,8 @@ impl Builder<'_> {
         (self.model, self.planes) = (built.model, built.planes);
         let total = built.system.degrees_of_freedom();
         self.n = if let Planes::Two(n) = self.planes { n } else { total };
-        // Turbulence acts on modes, and modal data are modes: all of them, unless fewer are kept.
-        let modal = matches!(self.model, Model::Modal(_)) && !file.sections("turbulence").is_empty();
-        let modes = self.modes_of_planes(modes)?.or(modal.then_some(total));
+        let modes = self.modes_of_planes(modes)?.or(self.modes_of_data(file, total));
+        self.is_changed_later = modes.is_some_and(|modes| modes < total) || built.pending.is_some();
         let duration = self.required("duration", &time, "end");
         let (scene, places, sliders) = self.scene(file, built.system, duration)?;
         let (wear, sectors) = self.wear(file.section("wear").as_ref())?;
@@ -236,6 +236,12 @@ impl Builder<'_> {
             return Err(self.at_key(Error::invalid("modes", more, expected)));
         }
         Ok(modes.map(|modes| modes * self.planes.modes()))
+    }
+
+    /// All of the `total` modes of modal data under turbulence, which acts on modes.
+    fn modes_of_data(&self, file: &Section<'_>, total: usize) -> Option<usize> {
+        let modal = matches!(self.model, Model::Modal(_)) && !file.sections("turbulence").is_empty();
+        modal.then_some(total)
     }
 
     fn time(&mut self, time: &Section<'_>, sectors: usize) -> TimeOptions {

@@ -30,6 +30,9 @@ pub(super) struct Builder<'a> {
     /// Degrees of freedom of the structure in one plane; of matrices, of both.
     pub n: usize,
     pub static_correction: bool,
+    /// True if the system that is read is afterwards reduced to modes, or damped by ratios once it
+    /// is condensed.
+    pub is_changed_later: bool,
     pub written: Written,
 }
 

@@ -262,6 +262,9 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("load.base.decimal", Word, "", ["`\".\"`", "\".\" or \",\"", "the delimiter"]),
     entry("load.base.scale", Number, "", ["1", "a number other than 0: how many m/s^2 one unit of \
         the column is", "0"]),
+    entry("load.base.walls", Word, "", ["`\"moving\"`", "\"moving\": walls move with the base, or \
+        \"fixed\": they stay in space, and displacements are those in space", "`\"fixed\"` beside \
+        `file`, `modes`, `bar` and `beam`"]),
     entry("load.base.influence", Any, "", ["required of `matrices` and `modal`", "{ row = [[0, \
         1.0], ..] }: how far each degree of freedom moves with the base", "beside other \
         systems"]),

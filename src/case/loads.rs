@@ -64,7 +64,7 @@ impl Builder<'_> {
         }
         if let "base" | "gravity" = kind {
             let beside = (load.span_of("at"), angle.as_ref());
-            return Ok(vec![self.massive((&owner, kind), &section, beside, system)?]);
+            return self.massive((&owner, kind), &section, beside, system);
         }
         let mut sites = self.sites((&owner, Subject::nth("load", index)), load, true)?;
         let site = sites.pop().ok_or_else(|| self.refuse(load.span.clone(), &owner, "a place"))?;

@@ -1,6 +1,6 @@
 //! Notes that the reader of any run of a case must know.
 
-use super::{Case, SupportShape, Truncated};
+use super::{Case, Origin, SupportShape, Truncated, WallsOverBase};
 use crate::scene::{LoadKind, WallTruncation};
 use crate::study::truncation::Start;
 
@@ -21,6 +21,7 @@ impl Case {
         notes.extend(self.odd_coefficients());
         notes.extend(self.start_note());
         notes.extend(self.late_output());
+        notes.extend(self.fixed_walls().map(str::to_owned));
         notes.extend(self.turbulence_notes());
         notes.extend(self.flow_note());
         notes
@@ -33,6 +34,15 @@ impl Case {
             "the start is the static equilibrium under the constant loads alone: all other loads begin at t = 0"
                 .to_owned()
         })
+    }
+
+    /// Coordinates in space, over a base that moves.
+    fn fixed_walls(&self) -> Option<&'static str> {
+        let fixed = |origin: &Origin| matches!(origin, Origin::Base { walls: WallsOverBase::Fixed, .. });
+        self.written.origins.iter().any(fixed).then_some(
+            "walls stay fixed in space while the base moves: displacements and velocities, also those of the start, \
+             are those in space",
+        )
     }
 
     /// Output times that the run does not reach.

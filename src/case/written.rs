@@ -45,10 +45,24 @@ pub enum Origin {
     },
     /// The signal along z of such a force; these come after all loads of the file.
     Second(RandomForce),
-    /// As a motion of the base, in words.
-    Base(String),
+    /// As a motion of the base, of which more loads may come after all loads of the file.
+    Base {
+        /// The motion, in words.
+        motion: String,
+        /// What the walls do meanwhile.
+        walls: WallsOverBase,
+    },
     /// As gravity of this acceleration, m/s².
     Gravity(f64),
+}
+
+/// What walls do while the base moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WallsOverBase {
+    /// They move with the base, and displacements are relative to it.
+    Moving,
+    /// They stay where they are, and displacements are those in space.
+    Fixed,
 }
 
 /// A load of the scene, its location, and how the file gave it.

@@ -367,3 +367,104 @@ fn motions_of_the_base_and_weights_that_make_no_sense_are_refused() {
         assert!(words.iter().all(|word| said.contains(word)) && said.contains("--> wrong.toml:"), "{load}: {said}");
     }
 }
+
+/// A base that shakes by a sine, under walls that move along or stay in space; 40 m/s² at 3 Hz.
+fn sine(walls: &str) -> String {
+    format!("base = {{ amplitude = 40.0, frequency = 3.0, phase = 0.4, walls = \"{walls}\"INFLUENCE }}")
+}
+
+/// Displacement and velocity of the base, whose mean is 0.
+fn base(t: f64) -> [f64; 2] {
+    let omega = 6.0 * PI;
+    [-40.0 / (omega * omega) * (omega * t + 0.4).sin(), -40.0 / omega * (omega * t + 0.4).cos()]
+}
+
+#[test]
+fn displacements_in_space_are_those_relative_to_the_base_and_its_own() {
+    // Without contact the two coordinates tell of the same motion, of every system that has them.
+    let oscillator = "[system.oscillator]\nmass = 2.0\ndamping = 3.0\nstiffness = 800.0\n";
+    let chain = "[system.chain]\nmasses = [1.0, 2.0]\nsprings = [500.0]\nleft = { stiffness = 300.0 }\n\
+        [system.damping]\nrayleigh = { mass = 0.4, stiffness = 2e-3 }\n";
+    let modal = "[system.modal]\nfrequencies = [2.0, 5.0]\nmasses = [1.0, 3.0]\ndamping_ratios = 0.05\n\
+        shapes = { tip = [1.0, -0.5] }\n";
+    for (system, at, shares) in [
+        (oscillator, "", vec![1.0]),
+        (chain, "at = { dof = 1 }\n", vec![1.0, 1.0]),
+        (modal, "at = { point = \"tip\" }\n", vec![0.8, 0.3]),
+    ] {
+        let influence = if system == modal { ", influence = { row = [[0, 0.8], [1, 0.3]] }" } else { "" };
+        let text = |walls: &str| {
+            let load = sine(walls).replace("INFLUENCE", influence);
+            let probe = if at.is_empty() { String::new() } else { format!("[[probe]]\nname = \"p\"\n{at}") };
+            let time = "[time]\nend = 0.7\nstep = 1e-3\noutput_times = [0.1, 0.33, 0.7]\n";
+            case(&format!("{system}[[load]]\n{load}\n{probe}{time}")).scene
+        };
+        let [mut space, mut relative] = [text("fixed"), text("moving")];
+        let n = shares.len();
+        space.initial.q = (0..n).map(|i| 2e-3 * (i as f64 + 1.0)).collect();
+        space.initial.v = vec![0.05; n];
+        let [b, rate] = base(0.0);
+        relative.initial.q = space.initial.q.iter().zip(&shares).map(|(x, share)| x - share * b).collect();
+        relative.initial.v = space.initial.v.iter().zip(&shares).map(|(x, share)| x - share * rate).collect();
+        let [space, relative] =
+            [space, relative].map(|scene| (made(&scene, &Scheme::Event, 1e-3).trajectory, scene.probes[0].at.clone()));
+        let along = space.1.dot(&shares);
+        let [space, relative] = [space.0.output().clone(), relative.0.output().clone()];
+        for (k, &t) in space.time.iter().enumerate() {
+            let [b, rate] = base(t);
+            let (q, v) = (space.displacement[0][k] - along * b, space.velocity[0][k] - along * rate);
+            // Displacements of 0.1 m and velocities of 2 m/s, over a thousand roundings.
+            assert!((q - relative.displacement[0][k]).abs() < 1e-13, "{system} {t}: {q}, {relative:?}");
+            assert!((v - relative.velocity[0][k]).abs() < 1e-12, "{system} {t}: {v}, {relative:?}");
+        }
+    }
+}
+
+#[test]
+fn a_stop_in_space_is_struck_when_the_closed_form_says() {
+    let text = format!(
+        "[system.oscillator]\nmass = 2.0\ndamping = 0.0\nstiffness = 800.0\n[[load]]\n{}\n[[wall]]\nname = \"stop\"\n\
+         side = \"upper\"\nposition = 0.05\nrestitution = 0.5\n[time]\nend = 1.0\nstep = 1e-3\n",
+        sine("fixed").replace("INFLUENCE", "")
+    );
+    let case = case(&text);
+    assert!(case.notes().iter().any(|note| note.contains("those in space")), "{:?}", case.notes());
+    let run = made(&case.scene, &Scheme::Event, 1e-3);
+    // ẍ + ω₀² x = ω₀² b from rest: x = P sin(ωt + φ) + C cos ω₀t + D sin ω₀t.
+    let (natural, omega) = (20.0_f64, 6.0 * PI);
+    let p = natural * natural * (-40.0 / (omega * omega)) / (natural * natural - omega * omega);
+    let (c, d) = (-p * 0.4f64.sin(), -p * omega * 0.4f64.cos() / natural);
+    let x = |t: f64| p * (omega * t + 0.4).sin() + c * (natural * t).cos() + d * (natural * t).sin();
+    let first = run.trajectory.contacts()[0].start;
+    let crossed = (0..100_000).map(|k| 1e-5 * f64::from(k)).find(|&t| x(t) > 0.05).expect("a contact");
+    assert!((first - crossed).abs() < 1.1e-5, "{first}, closed form {crossed}");
+    // At the instant found the closed form stands at the stop: roundings of sums of 1 m.
+    assert!((x(first) - 0.05).abs() < 1e-13, "{}", x(first));
+}
+
+#[test]
+fn walls_stay_fixed_only_where_the_forces_at_the_base_are_known() {
+    let folder = shaken("0,0\n0.01,2\n");
+    let oscillator = "[system.oscillator]\nmass = 2.0\ndamping = 0.0\nstiffness = 800.0\n";
+    let chain = "[system.chain]\nmasses = [1.0, 2.0]\nsprings = [500.0]\nleft = { stiffness = 300.0 }\n";
+    let sine = |more: &str| format!("amplitude = 1.0, frequency = {more}");
+    for (system, base, words) in [
+        (
+            oscillator.to_owned(),
+            "file = \"shake.csv\"".to_owned(),
+            ["read from a file", "amplitude, frequency and phase"],
+        ),
+        (oscillator.to_owned(), sine("0.0"), ["leaves without end", "above 0"]),
+        (oscillator.replace("800.0", "0.0"), sine("2.0"), ["nothing ties", "to the ground"]),
+        (format!("[system]\nmodes = 1\n{chain}"), sine("2.0"), ["reduced to modes", "whole stiffness"]),
+        (format!("{TUBE}left = \"pinned\"\nright = \"pinned\"\n"), sine("2.0"), ["held ends move", "\"moving\""]),
+    ] {
+        let time = "[time]\nend = 1.0\nstep = 1e-3\n";
+        let text = format!("{system}[[load]]\nbase = {{ {base}, walls = \"fixed\" }}\n{time}");
+        let error = Case::parse(&text, "base.toml", folder.path()).expect_err(words[0]).to_string();
+        assert!(words.iter().all(|word| error.contains(word)) && error.contains("--> base.toml:"), "{error}");
+    }
+    let text = format!("{oscillator}[[load]]\nbase = {{ amplitude = 1.0, frequency = 2.0, walls = \"free\" }}\n");
+    let error = Case::parse(&format!("{text}[time]\nend = 1.0\nstep = 1e-3\n"), "base.toml", "").unwrap_err();
+    assert!(error.to_string().contains("expected \"moving\" or \"fixed\""), "{error}");
+}

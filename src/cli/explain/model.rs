@@ -1,6 +1,6 @@
 //! The model of a case in words: structure, supports, walls and loads.
 
-use crate::case::{Case, Model, Origin, Support, SupportShape};
+use crate::case::{Case, Model, Origin, Support, SupportShape, WallsOverBase};
 use crate::scene::{self, Density, Flats, LoadKind, Slider, Turbulence, WallSpring};
 use crate::study::choice;
 use crate::study::truncation::Start;
@@ -64,10 +64,13 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
             ))
         }
         Origin::Gravity(acceleration) => Some(format!("load {}: gravity of {acceleration} m/s²", index + 1)),
-        Origin::Base(motion) => Some(format!(
-            "load {}: the base moves {motion}; displacements are relative to it, and walls move with it",
-            index + 1
-        )),
+        Origin::Base { motion, walls } => {
+            let walls = match walls {
+                WallsOverBase::Moving => "displacements are relative to it, and walls move with it",
+                WallsOverBase::Fixed => "walls stay where they are, and displacements are those in space",
+            };
+            Some(format!("load {}: the base moves {motion}; {walls}", index + 1))
+        }
         Origin::Stated | Origin::Second(_) => None,
     };
     let mut lines: Vec<String> = case.written.origins.iter().enumerate().filter_map(line).collect();
