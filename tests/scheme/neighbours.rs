@@ -33,8 +33,8 @@ fn bodies_that_rest_on_walls_of_opposite_sides_are_not_frozen_between_them() {
 #[test]
 fn walls_share_a_force_if_they_stand_at_one_place_and_only_then() {
     // The body reaches a wall in its first step, of 0.2 s at 1 m/s. Bounds that differ by less than
-    // 1e-12 of their size are one place.
-    for (apart, shared) in [(0.0, true), (1e-13, true), (1e-11, false), (1e-10, false), (1e-3, false)] {
+    // 32 units in the last place, 7e-15 of their size, are one place.
+    for (apart, shared) in [(0.0, true), (2e-15, true), (2e-14, false), (1e-12, false), (1e-10, false), (1e-3, false)] {
         let scene = Scene::oscillator(1.0, 0.0, 0.0)
             .with_wall(Wall::upper("near", 0.1))
             .with_wall(Wall::upper("far", 0.1 * (1.0 + apart)))
