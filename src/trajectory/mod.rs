@@ -222,6 +222,8 @@ impl Trajectory {
         let kept = self.0.probes.len().saturating_sub(count);
         self.0.probes.truncate(kept);
         self.0.velocity.truncate(kept);
+        self.0.output.displacement.truncate(kept);
+        self.0.output.velocity.truncate(kept);
         self.0.displacement.split_off(kept)
     }
 }
