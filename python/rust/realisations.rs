@@ -12,8 +12,8 @@ use signorini::output::table::Table;
 use signorini::output::{error_parts, realisations as output};
 use signorini::study::accuracy::Accuracy;
 use signorini::study::realisations::{
-    Batch, KnownRealisations, MOST_CHECKED, MOST_REALISATIONS, Realisation, RealisationCount, RealisationPlan,
-    RealisationStudy,
+    Batch, KnownRealisations, MOST_REALISATIONS, Realisation, RealisationCount, RealisationPlan, RealisationStudy,
+    checked,
 };
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -84,11 +84,6 @@ pub fn study(
     let mut make = |batch: &Batch<'_>| known.complete(batch, &mut |missing| made(missing, done));
     let study = plan.follow(&mut make, &mut |_| {})?;
     Ok((study, run.cautions.into_iter().chain(case.instability()).collect()))
-}
-
-/// How many realisations of a study are checked, with a verdict and without.
-pub fn checked(verdict: bool) -> u64 {
-    if verdict { MOST_CHECKED } else { 0 }
 }
 
 /// Runs `batch`, and counts its runs.

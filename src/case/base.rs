@@ -21,6 +21,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::Range;
 use toml::Spanned;
 
+/// Degrees of freedom, and how far each moves with the base.
+type Influence = [(usize, f64)];
+
 impl Builder<'_> {
     /// The load of `kind`, "base" or "gravity". In coordinates relative to the base it is −M ι
     /// a(t), with ι = 1 on every displacement in the direction of the motion: the mass m that moves
@@ -33,9 +36,15 @@ impl Builder<'_> {
         beside: (Option<Range<usize>>, Option<&Spanned<f64>>),
         system: &System,
     ) -> Result<Vec<NewLoad>> {
-        let (at, mass) = self.moved((owner, kind), section, beside.clone(), system)?;
+        let (place, direction) = beside;
+        if let Some(at) = place {
+            let help = format!("expected no at: {kind} moves all of the structure");
+            return Err(self.source.error(at, &format!("{owner} has a place and a {kind}"), &help));
+        }
+        let influence = self.influence_of((owner, kind), section)?;
+        let (at, mass) = self.moved((owner, kind), section, (influence.as_deref(), direction), system)?;
         if let ("base", WallsOverBase::Fixed) = (kind, self.walls_over_base(owner, section)?) {
-            return self.base_under_fixed_walls(owner, section, beside.1, system);
+            return self.base_under_fixed_walls(owner, section, (influence.as_deref(), direction), system);
         }
         // A mass that is not finite is refused at its own key, once all has been read.
         let mass = if mass.is_finite() { mass } else { 1.0 };
@@ -65,7 +74,7 @@ impl Builder<'_> {
         &mut self,
         owner: &str,
         base: &Section<'_>,
-        direction: Option<&Spanned<f64>>,
+        (influence, direction): (Option<&Influence>, Option<&Spanned<f64>>),
         system: &System,
     ) -> Result<Vec<NewLoad>> {
         let refuse = |title: &str, help: &str| {
@@ -90,9 +99,8 @@ impl Builder<'_> {
         if frequency == 0.0 {
             return refuse("the base leaves without end", "expected a frequency above 0");
         }
-        let influence = base.get("influence").map(|value| self.influence(owner, value)).transpose()?;
         let (n, omega) = (system.degrees_of_freedom(), TAU * frequency);
-        let moved = self.rigid_motion(n, influence.as_deref());
+        let moved = self.rigid_motion(n, influence);
         let (mut springs, mut dashpots) = (vec![0.0; n], vec![0.0; n]);
         system.add_stiffness(1.0, &moved, &mut springs);
         system.add_damping(1.0, &moved, &mut dashpots);
@@ -106,9 +114,8 @@ impl Builder<'_> {
             let row = Row::new(forces.iter().map(|force| force / largest).enumerate().filter(|e| e.1 != 0.0).collect());
             let at = self.heading(owner, base, direction, row)?;
             let kind = LoadKind::Harmonic { amplitude: largest * size, frequency, phase };
-            let motion = format!("by {amplitude} m/s² at {frequency} Hz");
             let origin = match loads.is_empty() {
-                true => Origin::Base { motion, walls: WallsOverBase::Fixed },
+                true => Origin::Base { motion: sine_in_words(amplitude, frequency), walls: WallsOverBase::Fixed },
                 false => Origin::Stated,
             };
             loads.push(NewLoad { load: Load { kind, at }, place: Place::Row(Vec::new()), origin });
@@ -140,8 +147,7 @@ impl Builder<'_> {
             (None, None) => Err(self.source.error(base.span.clone(), &format!("{owner}: base has no motion"), one)),
             (Some(_), None) => {
                 let [amplitude, frequency, phase] = self.sine(owner, base)?;
-                let motion = format!("by {amplitude} m/s² at {frequency} Hz");
-                let origin = Origin::Base { motion, walls: WallsOverBase::Moving };
+                let origin = Origin::Base { motion: sine_in_words(amplitude, frequency), walls: WallsOverBase::Moving };
                 Ok((LoadKind::Harmonic { amplitude: -mass * amplitude, frequency, phase }, origin))
             }
             (None, Some(file)) => {
@@ -171,18 +177,9 @@ impl Builder<'_> {
         }
     }
 
-    /// The row M ι/m through which a load of `kind` acts, and the mass m, kg.
-    fn moved(
-        &mut self,
-        (owner, kind): (&str, &str),
-        base: &Section<'_>,
-        (at, direction): (Option<Range<usize>>, Option<&Spanned<f64>>),
-        system: &System,
-    ) -> Result<(Row, f64)> {
-        if let Some(at) = at {
-            let help = format!("expected no at: {kind} moves all of the structure");
-            return Err(self.source.error(at, &format!("{owner} has a place and a {kind}"), &help));
-        }
+    /// The influence that a load of `kind` states; required of matrices and modal data, and refused
+    /// beside other systems.
+    fn influence_of(&self, (owner, kind): (&str, &str), base: &Section<'_>) -> Result<Option<Vec<(usize, f64)>>> {
         let influence = base.get("influence").map(|value| self.influence(owner, value)).transpose()?;
         let whole = matches!(self.model, Model::Matrices(_) | Model::Modal(_));
         match (whole, base.span_of("influence")) {
@@ -190,16 +187,26 @@ impl Builder<'_> {
                 let title = format!("`influence` is missing in {owner}: {kind}");
                 let help = "expected influence = { row = [[0, 1.0], ..] }: how far each degree of freedom moves when \
                             the base moves by 1 m and the structure is rigid";
-                return Err(self.source.error(base.span.clone(), &title, help));
+                Err(self.source.error(base.span.clone(), &title, help))
             }
             (false, Some(at)) => {
                 let title = format!("{owner}: {kind}: influence beside a {}", self.model.kind());
                 let help = "expected no influence: it is 1 on every displacement; it is for matrices and modal data";
-                return Err(self.source.error(at, &title, help));
+                Err(self.source.error(at, &title, help))
             }
-            _ => {}
+            _ => Ok(influence),
         }
-        let (row, mass) = self.carried(system, influence.as_deref())?;
+    }
+
+    /// The row M ι/m through which a load of `kind` acts, and the mass m, kg.
+    fn moved(
+        &mut self,
+        (owner, kind): (&str, &str),
+        base: &Section<'_>,
+        (influence, direction): (Option<&Influence>, Option<&Spanned<f64>>),
+        system: &System,
+    ) -> Result<(Row, f64)> {
+        let (row, mass) = self.carried(system, influence)?;
         let row = self.heading(owner, base, direction, row)?;
         if mass <= 0.0 {
             let span = base.span_of("influence").unwrap_or(base.span.clone());
@@ -235,7 +242,7 @@ impl Builder<'_> {
 
     /// ι over all `n` degrees of freedom for a motion along the first plane, of a system without
     /// held ends.
-    fn rigid_motion(&self, n: usize, influence: Option<&[(usize, f64)]>) -> Vec<f64> {
+    fn rigid_motion(&self, n: usize, influence: Option<&Influence>) -> Vec<f64> {
         match influence {
             None => (0..n).map(|i| if i < self.n { 1.0 } else { 0.0 }).collect(),
             Some(influence) => {
@@ -249,7 +256,7 @@ impl Builder<'_> {
     /// M ι/m over one plane, and the mass m = ιᵀM ι that moves along with the base, kg. On a bar or
     /// beam the inertia of held ends reaches their neighbours, so its row is that of an even
     /// spread.
-    fn carried(&self, system: &System, influence: Option<&[(usize, f64)]>) -> Result<(Row, f64)> {
+    fn carried(&self, system: &System, influence: Option<&Influence>) -> Result<(Row, f64)> {
         match &self.model {
             Model::Bar(bar) => Ok((bar.spread(0.0, bar.length)?, bar.density * bar.area * bar.length)),
             Model::Beam(beam) => Ok((beam.spread(0.0, beam.length)?, beam.mass_per_metre() * beam.length)),
@@ -257,7 +264,10 @@ impl Builder<'_> {
                 let mass: f64 = chain.masses.iter().sum();
                 Ok((Row::new(chain.masses.iter().map(|m| m / mass).enumerate().collect()), mass))
             }
-            Model::Oscillator => Ok((Row::dof(0), system.mass_form(&first(system), &first(system)))),
+            Model::Oscillator => {
+                let moved = self.rigid_motion(system.degrees_of_freedom(), None);
+                Ok((Row::dof(0), system.mass_form(&moved, &moved)))
+            }
             Model::Matrices(_) | Model::Modal(_) => {
                 let n = system.degrees_of_freedom();
                 let moved = self.rigid_motion(n, Some(influence.unwrap_or_default()));
@@ -283,11 +293,7 @@ impl Builder<'_> {
     }
 }
 
-/// A unit motion of the first degree of freedom.
-fn first(system: &System) -> Vec<f64> {
-    let mut motion = vec![0.0; system.degrees_of_freedom()];
-    if let Some(x) = motion.first_mut() {
-        *x = 1.0;
-    }
-    motion
+/// A motion that is a sine, after "the base moves".
+fn sine_in_words(amplitude: f64, frequency: f64) -> String {
+    format!("by {amplitude} m/s² at {frequency} Hz")
 }

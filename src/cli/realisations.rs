@@ -10,8 +10,8 @@ use crate::parallel::cores;
 use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::realisations::{
-    Batch, KnownRealisations, MOST_CHECKED, Purpose, RandomScenes, Realisation, RealisationCount, RealisationPlan,
-    RealisationStudy, Refined,
+    Batch, KnownRealisations, Purpose, RandomScenes, Realisation, RealisationCount, RealisationPlan, RealisationStudy,
+    Refined, checked,
 };
 
 /// The share that `text` of `argument` says: `5%` or `0.05`.
@@ -53,7 +53,7 @@ pub struct StudyRequest {
 impl StudyRequest {
     /// A study of `count` realisations, with `verdict` also the errors of their means.
     pub fn new(count: RealisationCount, verdict: bool) -> Self {
-        Self { count, checked: if verdict { MOST_CHECKED } else { 0 }, known: KnownRealisations::default() }
+        Self { count, checked: checked(verdict), known: KnownRealisations::default() }
     }
 }
 
@@ -82,10 +82,10 @@ pub fn cost(case: &Case, seeds: u64, verdict: bool, exact: bool) -> f64 {
     let on_all_cores = |count: u64| count as f64 / (cores() as f64).min(count.max(1) as f64);
     let others = on_all_cores(seeds.saturating_sub(1));
     // A single realisation has no interval, and so no errors.
-    let checked = on_all_cores(if verdict && seeds > 1 { seeds.min(MOST_CHECKED) } else { 0 });
+    let again = on_all_cores(if seeds > 1 { seeds.min(checked(verdict)) } else { 0 });
     let half_step = if exact { 0.0 } else { 2.0 };
     let more_modes = case.modes().map_or(0.0, |[own, more]| more as f64 / own.max(1) as f64);
-    others + checked * (half_step + more_modes)
+    others + again * (half_step + more_modes)
 }
 
 /// Runs `batch` under a bar with its name.

@@ -61,12 +61,19 @@ fn probe_columns<'a>(
     [displacement, velocity]: [&'a [Vec<f64>]; 2],
 ) -> (Vec<String>, Vec<&'a [f64]>) {
     let (mut header, mut columns) = (vec!["time_s".to_owned()], vec![time]);
-    for (((probe, word), displacement), velocity) in probes.iter().zip(words(probes)).zip(displacement).zip(velocity) {
-        let suffix = if probe.is_empty() { String::new() } else { format!("_{word}") };
-        header.extend([format!("displacement{suffix}_m"), format!("velocity{suffix}_m_per_s")]);
-        columns.extend([displacement.as_slice(), velocity]);
-    }
+    header.extend(probe_numbers(probes).into_iter().flatten().map(|(what, unit)| format!("{what}_{unit}")));
+    displacement.iter().zip(velocity).for_each(|(q, v)| columns.extend([q.as_slice(), v]));
     (header, columns)
+}
+
+/// Displacement and velocity of each of `probes` as its columns name them, with their units.
+pub(super) fn probe_numbers<S: AsRef<str>>(probes: &[S]) -> Vec<[(String, &'static str); 2]> {
+    let suffix = |(probe, word): (&S, String)| match probe.as_ref() {
+        "" => String::new(),
+        _ => format!("_{word}"),
+    };
+    let numbers = |suffix: String| [(format!("displacement{suffix}"), "m"), (format!("velocity{suffix}"), "m_per_s")];
+    probes.iter().zip(words(probes)).map(suffix).map(numbers).collect()
 }
 
 /// Writes the contact episodes of `trajectory`, one per row, in order of time. A rigid impact has

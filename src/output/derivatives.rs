@@ -76,12 +76,9 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivati
 pub fn write_states(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Result<()> {
     let names: Vec<&str> = scene.probes.iter().map(|probe| &*probe.name).collect();
     let mut header = vec!["time_s".to_owned()];
-    for (name, word) in names.iter().zip(csv::words(&names)) {
-        let suffix = if name.is_empty() { String::new() } else { format!("_{word}") };
-        for (what, unit) in [(format!("displacement{suffix}"), "m"), (format!("velocity{suffix}"), "m_per_s")] {
-            header.push(format!("{what}_{unit}"));
-            header.extend(keys.iter().map(|key| key.header(&what, unit)));
-        }
+    for (what, unit) in csv::probe_numbers(&names).into_iter().flatten() {
+        header.push(format!("{what}_{unit}"));
+        header.extend(keys.iter().map(|key| key.header(&what, unit)));
     }
     let motion = &derivatives.motion;
     let cell = |list: &[f64], index: usize| digits(list.get(index).copied().filter(|x| x.is_finite()));

@@ -83,7 +83,7 @@ impl Judge {
             }
             sums.add_ends(&moves, h, n);
             // The dampers' force rises at a blow, and may have fallen again at the end of the step.
-            if self.blows.struck.iter().any(|&v| v != 0.0) {
+            if self.loads.has_blows() && self.blows.struck.iter().any(|&v| v != 0.0) {
                 let mut risen = vec![0.0; n];
                 self.scene.system.add_damping(1.0, &self.blows.struck, &mut risen);
                 sums.forces.changes.iter_mut().zip(risen).for_each(|(changes, force)| *changes += force.abs());

@@ -42,7 +42,6 @@ impl OutputStates {
 #[derive(Debug, Clone)]
 pub(super) struct OutputRecorder {
     states: OutputStates,
-    probes: Vec<Row>,
     /// The times that are still to come, s, the next one last.
     due: Vec<f64>,
     /// The end of the last step, s, and displacement and velocity of each probe there.
@@ -52,47 +51,46 @@ pub(super) struct OutputRecorder {
 }
 
 impl OutputRecorder {
-    /// A recorder of the output times of `scene`, from the state `q` (m), `v` (m/s) at t = 0.
-    pub fn new(scene: &Scene, q: &[f64], v: &[f64]) -> Self {
+    /// A recorder of the output times of `scene`, from the state `q` (m), `v` (m/s) at t = 0; here
+    /// and below `probes` are the rows of its probes.
+    pub fn new(scene: &Scene, probes: &[Row], q: &[f64], v: &[f64]) -> Self {
         let mut recorder = Self {
             states: OutputStates::default(),
-            probes: Vec::new(),
             due: scene.reached_output_times().iter().copied().rev().collect(),
             last: (0.0, Vec::new()),
             state: [Vec::new(), Vec::new()],
         };
         if !recorder.due.is_empty() {
             let n = scene.system.degrees_of_freedom();
-            recorder.probes = scene.probes.iter().map(|probe| probe.at.clone()).collect();
-            recorder.states.displacement = vec![Vec::new(); recorder.probes.len()];
+            recorder.states.displacement = vec![Vec::new(); probes.len()];
             recorder.states.velocity = recorder.states.displacement.clone();
             recorder.state = [vec![0.0; n], vec![0.0; n]];
-            recorder.last.1 = recorder.seen(q, v);
+            recorder.last.1 = seen(probes, q, v);
         }
         recorder
     }
 
     /// Adds a step. Steps must come in order.
-    pub fn observe(&mut self, step: &Step<'_>) {
+    pub fn observe(&mut self, step: &Step<'_>, probes: &[Row]) {
         if self.due.is_empty() {
             return;
         }
         // A time at the end of the step itself belongs to the next one, or is the run's last.
         while let Some(&time) = self.due.last().filter(|&&time| is_before(time, step.end)) {
             self.due.pop();
-            let states = self.states_within(step, time);
+            let states = self.states_within(step, time, probes);
             self.push(time, &states);
         }
-        self.last = (step.end, self.seen(step.q, step.v));
+        self.last = (step.end, seen(probes, step.q, step.v));
     }
 
     /// Adds the steps from index `from` on of `quiet`, as [`OutputRecorder::observe`] adds each.
-    pub fn observe_quiet(&mut self, quiet: &QuietSteps, from: usize) {
+    pub fn observe_quiet(&mut self, quiet: &QuietSteps, from: usize, probes: &[Row]) {
         let Some(&time) = self.due.last() else { return };
         let ends = quiet.end().iter().take(quiet.len());
         let first = ends.skip(from).position(|&end| is_before(time, end)).map_or(quiet.len(), |after| from + after);
         // The step before it ends where the path to the next time begins.
-        (first.saturating_sub(1).max(from)..quiet.len()).for_each(|k| self.observe(&quiet.step(k)));
+        (first.saturating_sub(1).max(from)..quiet.len()).for_each(|k| self.observe(&quiet.step(k), probes));
     }
 
     /// The states, at the end of the run.
@@ -102,10 +100,6 @@ impl OutputRecorder {
             self.push(time, &states);
         }
         self.states
-    }
-
-    fn seen(&self, q: &[f64], v: &[f64]) -> Vec<[f64; 2]> {
-        self.probes.iter().map(|probe| [probe.dot(q), probe.dot(v)]).collect()
     }
 
     fn push(&mut self, time: f64, states: &[[f64; 2]]) {
@@ -118,7 +112,7 @@ impl OutputRecorder {
     }
 
     /// Displacement and velocity of each probe at `time` within `step`.
-    fn states_within(&mut self, step: &Step<'_>, time: f64) -> Vec<[f64; 2]> {
+    fn states_within(&mut self, step: &Step<'_>, time: f64, probes: &[Row]) -> Vec<[f64; 2]> {
         let (start, last) = &self.last;
         if !is_before(*start, time) {
             return last.clone();
@@ -129,7 +123,7 @@ impl OutputRecorder {
             Path::Exact(_) | Path::Series(_) => {
                 let [mut q, mut v] = std::mem::take(&mut self.state);
                 step.path.state(time, &mut q, &mut v);
-                let states = self.seen(&q, &v);
+                let states = seen(probes, &q, &v);
                 self.state = [q, v];
                 return states;
             }
@@ -138,12 +132,16 @@ impl OutputRecorder {
         };
         // Of a part the velocity before the impact at its end.
         let leaving = if matches!(step.path, Path::Part { .. }) { step.velocity_after } else { step.v };
-        let ends = self.probes.iter().map(|probe| [probe.dot(step.q), probe.dot(leaving)]);
         last.iter()
-            .zip(ends)
+            .zip(seen(probes, step.q, leaving))
             .map(|(&from, to)| if pushed { straight(from, to, share) } else { cubic(from, to, length, share) })
             .collect()
     }
+}
+
+/// Displacement and velocity of each probe.
+fn seen(probes: &[Row], q: &[f64], v: &[f64]) -> Vec<[f64; 2]> {
+    probes.iter().map(|probe| [probe.dot(q), probe.dot(v)]).collect()
 }
 
 /// True if `time` lies before `end` by more than rounding.

@@ -39,11 +39,12 @@ impl Recorder {
     #[must_use]
     pub fn new(scene: &Scene, rows: u64, q: &[f64], v: &[f64]) -> Self {
         let (n, m) = (scene.system.degrees_of_freedom(), scene.walls.len());
+        let probes: Vec<Row> = scene.probes.iter().map(|p| p.at.clone()).collect();
         let mut recorder = Self {
             columns: Columns::new(scene, rows),
             worn: Worn::new(scene),
-            output: OutputRecorder::new(scene, q, v),
-            probes: scene.probes.iter().map(|p| p.at.clone()).collect(),
+            output: OutputRecorder::new(scene, &probes, q, v),
+            probes,
             end: scene.duration,
             rows,
             rate: rows as f64 / scene.duration,
@@ -76,7 +77,7 @@ impl Recorder {
         if [step.friction.len(), step.normal.len(), step.turned.len()] != [planar; 3] {
             return;
         }
-        self.output.observe(step);
+        self.output.observe(step, &self.probes);
         if self.columns.time.len() as u64 > self.rows {
             return;
         }
@@ -129,7 +130,7 @@ impl Recorder {
             self.observe(&quiet.step(from));
             from += 1;
         }
-        self.output.observe_quiet(quiet, from);
+        self.output.observe_quiet(quiet, from, &self.probes);
         let mut rows = [0; QuietSteps::capacity()];
         let mut count = 0;
         for k in from..quiet.len() {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// A ball of 2 kg that falls from 1 m onto a floor.
-const BALL: &str = r#"
+pub const BALL: &str = r#"
 [system.oscillator]
 mass = 2.0
 damping = 0.0

@@ -1,34 +1,15 @@
 //! `output_times` of a case: the files of a run, of a comparison and of derivatives.
 
 use crate::command::said;
+use crate::derivatives::BALL;
 use crate::table::csv;
 use std::fs;
 
-/// A ball of 2 kg that falls from 1 m onto a floor of restitution 0.8, asked for before and after
-/// its impact at 0.4515 s and after the end.
-const BALL: &str = r#"
-[system.oscillator]
-mass = 2.0
-damping = 0.0
-stiffness = 0.0
-
-[initial]
-displacement = 1.0
-
-[[wall]]
-name = "floor"
-side = "lower"
-position = 0.0
-restitution = 0.8
-
-[[load]]
-constant = { force = -19.62 }
-
-[time]
-end = 1.0
-step = 1e-3
-output_times = [0.3, 0.6, 1.2]
-"#;
+/// The ball that falls from 1 m onto a floor of restitution 0.8, asked for before and after its
+/// impact at 0.4515 s and after the end.
+fn ball() -> String {
+    format!("{BALL}output_times = [0.3, 0.6, 1.2]\n")
+}
 
 /// Height and velocity of the ball dropped from `h` metres, at 0.3 and 0.6 s: closed form.
 fn closed(h: f64) -> [[f64; 2]; 2] {
@@ -45,7 +26,7 @@ fn numbers(row: &[String]) -> Vec<f64> {
 #[test]
 fn states_at_output_times_have_a_table_of_their_own_and_derivatives() {
     let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("ball.toml"), BALL).unwrap();
+    fs::write(dir.path().join("ball.toml"), ball()).unwrap();
     let key = "initial.displacement";
     let (_, err) = said(dir.path(), &["run", "ball.toml", "--derivative", key, "--no-verdict", "--out", "o"], 0);
     assert!(err.contains("1 of 3 output times lie after the end, 1.0 s: they are left out"), "{err}");

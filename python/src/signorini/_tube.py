@@ -202,7 +202,7 @@ def slider(
     >>> sg.slider("pad", 10.0, 0.1)
     Support(name='pad')
     """
-    values = {"at": at if at is None else _at(at), "normal_force": normal_force, "friction": friction}
+    values = {"at": _at(at), "normal_force": normal_force, "friction": friction}
     return Support(name, values)
 
 

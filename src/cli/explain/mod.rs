@@ -69,11 +69,11 @@ fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
             sections.push(Section { heading, lines });
         }
     };
-    let mut model = what(case);
-    model.extend(choice::body(&case.without_sliders()));
+    let (mut model, scene) = (what(case), case.without_sliders());
+    model.extend(choice::body(&scene));
     model.extend(supports(case));
     model.extend(walls(case));
-    model.push(choice::loads(&case.without_sliders()));
+    model.push(choice::loads(&scene));
     model.extend(excitations(case));
     model.extend(case.notes().iter().map(|note| format!("note: {note}")));
     tell("model", model);
@@ -122,11 +122,11 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
             "in_words": words,
         })
     };
-    let walls: Vec<Value> = choice::walls(&case.without_sliders()).into_iter().map(seen).collect();
-    let mut model = what(case);
-    model.extend(choice::body(&case.without_sliders()));
+    let (mut model, scene) = (what(case), case.without_sliders());
+    let walls: Vec<Value> = choice::walls(&scene).into_iter().map(seen).collect();
+    model.extend(choice::body(&scene));
     model.extend(supports(case));
-    model.push(choice::loads(&case.without_sliders()));
+    model.push(choice::loads(&scene));
     model.extend(excitations(case));
     let document = json!({
         "scene": summary::scene(case),

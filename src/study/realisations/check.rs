@@ -7,6 +7,13 @@ use std::fmt;
 /// Most realisations that are run again.
 pub const MOST_CHECKED: u64 = 6;
 
+/// How many realisations of a study are run again with half the step: [`MOST_CHECKED`] for a
+/// `verdict` on its means, else none.
+#[must_use]
+pub fn checked(verdict: bool) -> u64 {
+    if verdict { MOST_CHECKED } else { 0 }
+}
+
 /// What is refined in a check.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]

@@ -41,7 +41,7 @@ impl PartShare {
     /// The same part of the errors of all means that count; `None` where one of them lacks it.
     pub fn all(counted: &[&Estimate], part: impl Fn(&ErrorParts) -> Option<ErrorPart>) -> Option<Vec<Self>> {
         let share = |one: &&Estimate| {
-            let quantity = format!("{} of {} {:?}", one.measure.words(), one.place.kind.word(), one.place.name);
+            let quantity = one.measure.at(&one.place);
             Some(Self { quantity, part: part(&one.error?)?.times(1.0 / one.mean.abs()) })
         };
         counted.iter().map(share).collect()

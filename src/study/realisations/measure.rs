@@ -86,6 +86,11 @@ impl Measure {
         }
     }
 
+    /// It and `place` in words.
+    pub(super) fn at(self, place: &ContactPlace) -> String {
+        format!("{} of {} {:?}", self.words(), place.kind.word(), place.name)
+    }
+
     /// Its unit.
     #[must_use]
     pub fn unit(self) -> &'static str {

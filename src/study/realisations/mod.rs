@@ -47,7 +47,7 @@ mod step_search;
 mod verdict;
 
 pub use batch::{Batch, Purpose, RandomScenes};
-pub use check::{Check, MOST_CHECKED, Refined};
+pub use check::{Check, MOST_CHECKED, Refined, checked};
 pub use count::{MOST_REALISATIONS, PILOTS, Pilots, RealisationCount};
 pub use error_parts::{ErrorPart, ErrorParts};
 pub(crate) use estimate::mean_of;

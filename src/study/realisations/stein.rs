@@ -70,7 +70,7 @@ impl NeededRealisations {
 
     /// That its count of realisations is below `needed`, and leaves an interval wider than `share`.
     pub(super) fn shortfall(&self, share: f64, needed: u64) -> Option<Error> {
-        let quantity = format!("{} of {} {:?}", self.measure.words(), self.place.kind.word(), self.place.name);
+        let quantity = self.measure.at(&self.place);
         let (reached, count) = (self.pilot_share, self.count);
         (needed > count && reached > share).then_some(Error::Scattered { share, reached, quantity, count, needed })
     }
