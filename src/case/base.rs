@@ -9,7 +9,7 @@
 //! so that the walls bound x, and the base pulls at the springs and dashpots that are tied to it.
 
 use super::builder::Builder;
-use super::model::{Model, Place};
+use super::model::{Body, Model, Place};
 use super::planes::Planes;
 use super::schema::accepted;
 use super::table::{self, TableColumns};
@@ -86,9 +86,9 @@ impl Builder<'_> {
                         over time depends on how it began";
             return refuse("the motion of the base is read from a file", help);
         }
-        if matches!(self.model, Model::Bar(_) | Model::Beam(_)) {
+        if let Some(line) = self.model.systems().find(|model| matches!(model, Model::Bar(_) | Model::Beam(_))) {
             let help = "expected walls = \"moving\", or an oscillator, a chain, matrices or modal data";
-            return refuse(&format!("the system is a {}, whose held ends move", self.model.kind()), help);
+            return refuse(&format!("the system is a {}, whose held ends move", line.kind()), help);
         }
         if self.is_changed_later {
             let help = "expected no modes, and damping other than by ratios where degrees of freedom have no mass: the \
@@ -182,6 +182,13 @@ impl Builder<'_> {
     fn influence_of(&self, (owner, kind): (&str, &str), base: &Section<'_>) -> Result<Option<Vec<(usize, f64)>>> {
         let influence = base.get("influence").map(|value| self.influence(owner, value)).transpose()?;
         let whole = matches!(self.model, Model::Matrices(_) | Model::Modal(_));
+        if let (Model::Bodies(_), Some(unknown)) =
+            (&self.model, self.model.systems().find(|model| matches!(model, Model::Matrices(_) | Model::Modal(_))))
+        {
+            let title = format!("{owner}: {kind} beside a body given by {}", unknown.kind());
+            let help = "expected bodies whose displacements are known: oscillators, chains, bars, beams";
+            return Err(self.source.error(base.span.clone(), &title, help));
+        }
         match (whole, base.span_of("influence")) {
             (true, None) => {
                 let title = format!("`influence` is missing in {owner}: {kind}");
@@ -206,7 +213,7 @@ impl Builder<'_> {
         (influence, direction): (Option<&Influence>, Option<&Spanned<f64>>),
         system: &System,
     ) -> Result<(Row, f64)> {
-        let (row, mass) = self.carried(system, influence)?;
+        let (row, mass) = self.carried((&self.model, 0), system, influence)?;
         let row = self.heading(owner, base, direction, row)?;
         if mass <= 0.0 {
             let span = base.span_of("influence").unwrap_or(base.span.clone());
@@ -253,11 +260,17 @@ impl Builder<'_> {
         }
     }
 
-    /// M ι/m over one plane, and the mass m = ιᵀM ι that moves along with the base, kg. On a bar or
+    /// M ι/m of a model over one plane, and the mass m = ιᵀM ι that moves along with the base, kg;
+    /// in `system` its degrees of freedom come from the `first` on, in the row from 0. On a bar or
     /// beam the inertia of held ends reaches their neighbours, so its row is that of an even
     /// spread.
-    fn carried(&self, system: &System, influence: Option<&Influence>) -> Result<(Row, f64)> {
-        match &self.model {
+    fn carried(
+        &self,
+        (model, first): (&Model, usize),
+        system: &System,
+        influence: Option<&Influence>,
+    ) -> Result<(Row, f64)> {
+        match model {
             Model::Bar(bar) => Ok((bar.spread(0.0, bar.length)?, bar.density * bar.area * bar.length)),
             Model::Beam(beam) => Ok((beam.spread(0.0, beam.length)?, beam.mass_per_metre() * beam.length)),
             Model::Chain(chain) => {
@@ -265,8 +278,22 @@ impl Builder<'_> {
                 Ok((Row::new(chain.masses.iter().map(|m| m / mass).enumerate().collect()), mass))
             }
             Model::Oscillator => {
-                let moved = self.rigid_motion(system.degrees_of_freedom(), None);
+                let moved: Vec<f64> =
+                    (0..system.degrees_of_freedom()).map(|i| if i == first { 1.0 } else { 0.0 }).collect();
                 Ok((Row::dof(0), system.mass_form(&moved, &moved)))
+            }
+            Model::Bodies(bodies) => {
+                let of = |body: &Body| {
+                    let (row, mass) = self.carried((&body.model, body.dofs.start), system, influence)?;
+                    Ok((row.shifted(body.dofs.start), mass))
+                };
+                let parts = bodies.iter().map(of).collect::<Result<Vec<_>>>()?;
+                let mass: f64 = parts.iter().map(|part| part.1).sum();
+                let share = |(row, own): &(Row, f64)| {
+                    let share = own / mass;
+                    row.entries().iter().map(|&(i, weight)| (i, share * weight)).collect::<Vec<_>>()
+                };
+                Ok((Row::new(parts.iter().flat_map(share).collect()), mass))
             }
             Model::Matrices(_) | Model::Modal(_) => {
                 let n = system.degrees_of_freedom();

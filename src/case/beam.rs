@@ -22,17 +22,17 @@ impl Builder<'_> {
             Some(word) => match *word.get_ref() {
                 "consistent" => MassMatrix::Consistent,
                 "lumped" => MassMatrix::Lumped,
-                _ => return Err(self.refuse_as(word.span(), "system.bar.mass_matrix")),
+                _ => return Err(self.refuse_as(word.span(), &format!("{}.bar.mass_matrix", self.owner))),
             },
         };
         let mut ends = [BarEnd::Free; 2];
         for (side, made) in ["left", "right"].into_iter().zip(&mut ends) {
             let Some(end) = bar.get(side) else { continue };
-            *made = match self.end("system.bar", side, end)? {
+            *made = match self.end("bar", side, end)? {
                 End::Free => BarEnd::Free,
                 End::Clamped => BarEnd::Fixed,
                 End::Sprung { stiffness, .. } => BarEnd::Sprung { stiffness },
-                End::Pinned => return Err(self.refuse_as(end.span(), &format!("system.bar.{side}"))),
+                End::Pinned => return Err(self.refuse_as(end.span(), &format!("{}.bar.{side}", self.owner))),
             };
         }
         let [left, right] = ends;
@@ -47,7 +47,7 @@ impl Builder<'_> {
         let mut ends = [BeamEnd::Free; 2];
         for (side, made) in ["left", "right"].into_iter().zip(&mut ends) {
             let Some(end) = beam.get(side) else { continue };
-            *made = match self.end("system.beam", side, end)? {
+            *made = match self.end("beam", side, end)? {
                 End::Free => BeamEnd::Free,
                 End::Pinned => BeamEnd::Pinned,
                 End::Clamped => BeamEnd::Clamped,
@@ -75,8 +75,8 @@ impl Builder<'_> {
                 let at = beam.span_of("outer_diameter").or(beam.span_of("inner_diameter"));
                 let help = "expected one section: outer_diameter and inner_diameter of a tube, or width and height of \
                             a rectangle";
-                let title = "`system.beam` has a diameter and a side of a rectangle";
-                self.source.error(at.unwrap_or(beam.span.clone()), title, help)
+                let title = format!("`{}.beam` has a diameter and a side of a rectangle", self.owner);
+                self.source.error(at.unwrap_or(beam.span.clone()), &title, help)
             }
             SectionFault::Missing(key) => {
                 let help = match key {
@@ -86,7 +86,7 @@ impl Builder<'_> {
                     "width" => "expected width = a number above 0, in m, across the vibration, beside height",
                     _ => "expected outer_diameter = a number above 0, in m, or width and height of a rectangle",
                 };
-                self.source.error(beam.span.clone(), &format!("`{key}` is missing in `system.beam`"), help)
+                self.source.error(beam.span.clone(), &format!("`{key}` is missing in `{}.beam`", self.owner), help)
             }
         })
     }
@@ -100,7 +100,8 @@ impl Builder<'_> {
                 let mut reached = 0.0;
                 for span in spans.get_ref() {
                     if !(span.get_ref().is_finite() && *span.get_ref() > 0.0) {
-                        return Err(self.refuse(span.span(), "system.beam.spans", "numbers above 0, in m"));
+                        let key = format!("{}.beam.spans", self.owner);
+                        return Err(self.refuse(span.span(), &key, "numbers above 0, in m"));
                     }
                     reached += span.get_ref();
                     self.joints.push(reached);
@@ -110,17 +111,22 @@ impl Builder<'_> {
             }
             (Some(_), Some(spans)) => {
                 let help = "expected one of them: the length is the sum of the spans";
-                Err(self.source.error(spans.span(), "`system.beam` has a length and spans", help))
+                Err(self.source.error(spans.span(), &format!("`{}.beam` has a length and spans", self.owner), help))
             }
             (None, None) => {
                 let help = "expected length = a number above 0, in m, or spans = a list of them, whose sum it is";
-                Err(self.source.error(beam.span.clone(), "`length` is missing in `system.beam`", help))
+                Err(self.source.error(
+                    beam.span.clone(),
+                    &format!("`length` is missing in `{}.beam`", self.owner),
+                    help,
+                ))
             }
         }
     }
 
-    pub fn end(&mut self, table: &str, side: &str, end: &Spanned<Value<'_>>) -> Result<End> {
-        let key = format!("{table}.{side}");
+    /// The condition at the end on that `side` of a system of this `kind`.
+    pub fn end(&mut self, kind: &str, side: &str, end: &Spanned<Value<'_>>) -> Result<End> {
+        let key = format!("{}.{kind}.{side}", self.owner);
         match end.get_ref() {
             Value::Word(word) => match word.as_ref() {
                 "free" => Ok(End::Free),
@@ -132,10 +138,9 @@ impl Builder<'_> {
                 let (mut stiffness, mut rotational) = (None, 0.0);
                 for (name, value) in entries {
                     let part = format!("{key}.{}", name.get_ref());
-                    let known =
-                        name.get_ref() == "stiffness" || (name.get_ref() == "rotational" && table == "system.beam");
+                    let known = name.get_ref() == "stiffness" || (name.get_ref() == "rotational" && kind == "beam");
                     if !known {
-                        let title = format!("unknown key `{}` in `{table}.{side}`", name.get_ref());
+                        let title = format!("unknown key `{}` in `{key}`", name.get_ref());
                         let help = format!("expected {}", accepted(&key).unwrap_or_default());
                         return Err(self.source.error(name.span(), &title, &help));
                     }

@@ -32,9 +32,11 @@ pub(super) fn case(document: &CaseFile, start: Option<&State>) -> Result<Case> {
         source,
         positions: Vec::new(),
         document,
+        owner: "system",
         model: Model::Oscillator,
         planes: Planes::One,
         joints: Vec::new(),
+        body: None,
         n: 1,
         static_correction: false,
         is_changed_later: false,
@@ -47,7 +49,7 @@ impl Builder<'_> {
     fn case(&mut self, file: &Section<'_>, start: Option<&State>) -> Result<Case> {
         let (system, time) = (file.required_section("system"), file.required_section("time"));
         let modes = self.modes(&system)?;
-        let built = self.system(&system, modes.is_some())?;
+        let built = self.system(file, modes.is_some())?;
         (self.model, self.planes) = (built.model, built.planes);
         let total = built.system.degrees_of_freedom();
         self.n = if let Planes::Two(n) = self.planes { n } else { total };

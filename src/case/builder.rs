@@ -23,11 +23,15 @@ pub(super) struct Builder<'a> {
     pub positions: Vec<(Subject, Range<usize>)>,
     /// The case file, which opens the files that it names.
     pub document: &'a CaseFile,
+    /// The table that says what vibrates: "system", or "body" while a body is read.
+    pub owner: &'static str,
     pub model: Model,
     pub planes: Planes,
     /// Where the spans of a beam end, m, in order.
     pub joints: Vec<f64>,
-    /// Degrees of freedom of the structure in one plane; of matrices, of both.
+    /// The body whose places are read, where there are several.
+    pub body: Option<String>,
+    /// Degrees of freedom of the structure, or of that body, in one plane; of matrices, of both.
     pub n: usize,
     pub static_correction: bool,
     /// True if the system that is read is afterwards reduced to modes, or damped by ratios once it

@@ -45,36 +45,37 @@ impl Builder<'_> {
         })
     }
 
-    /// Reads `[system.damping]`, which must specify exactly one kind of damping.
+    /// Reads the table `damping` of a system or body, which must specify exactly one kind of damping.
     pub fn damping(&mut self, damping: &Section<'_>) -> Result<Damping> {
         self.positions.push(("damping".into(), damping.span.clone()));
         let kinds = ["rayleigh", "ratio", "ratios", "matrix"];
         let mut given = kinds.into_iter().filter_map(|kind| Some((kind, damping.span_of(kind)?)));
+        let key = format!("{}.damping", self.owner);
         let help = "expected one of rayleigh = { mass, stiffness }, ratio, ratios, matrix";
         if let (Some((first, _)), Some((second, span))) = (given.next(), given.next()) {
-            let title = format!("`system.damping` has two kinds, `{first}` and `{second}`");
+            let title = format!("`{key}` has two kinds, `{first}` and `{second}`");
             return Err(self.source.error(span, &title, help));
         }
         if let Some(rayleigh) = damping.section("rayleigh") {
-            let coefficient = |key: &str| -> Result<f64> {
-                let Some(value) = rayleigh.number(key) else { return Ok(0.0) };
-                self.nonnegative(&format!("system.damping.rayleigh.{key}"), &value)
+            let coefficient = |part: &str| -> Result<f64> {
+                let Some(value) = rayleigh.number(part) else { return Ok(0.0) };
+                self.nonnegative(&format!("{key}.rayleigh.{part}"), &value)
             };
             return Ok(Damping::Rayleigh { mass: coefficient("mass")?, stiffness: coefficient("stiffness")? });
         }
         if let Some(ratio) = damping.number("ratio") {
-            return Ok(Damping::Modal(vec![self.nonnegative("system.damping.ratio", &ratio)?]));
+            return Ok(Damping::Modal(vec![self.nonnegative(&format!("{key}.ratio"), &ratio)?]));
         }
         if let Some(ratios) = damping.numbers("ratios") {
             if ratios.get_ref().is_empty() {
-                return Err(self.refuse(ratios.span(), "system.damping.ratios", "one ratio or more"));
+                return Err(self.refuse(ratios.span(), &format!("{key}.ratios"), "one ratio or more"));
             }
             let subject = Subject::from(("damping", "ratios"));
             self.positions.push((subject.clone(), ratios.span()));
             let mut all = Vec::with_capacity(ratios.get_ref().len());
             for (i, ratio) in ratios.get_ref().iter().enumerate() {
                 self.positions.push((subject.clone().value(i), ratio.span()));
-                all.push(self.above_minus_one("system.damping.ratios", ratio)?);
+                all.push(self.above_minus_one(&format!("{key}.ratios"), ratio)?);
             }
             return Ok(Damping::Modal(all));
         }
@@ -83,7 +84,7 @@ impl Builder<'_> {
                 self.positions.push((("damping", "matrix").into(), file.span()));
                 Ok(Damping::Matrix(self.matrix("damping", &file)?))
             }
-            None => Err(self.source.error(damping.span.clone(), "`system.damping` has no kind of damping", help)),
+            None => Err(self.source.error(damping.span.clone(), &format!("`{key}` has no kind of damping"), help)),
         }
     }
 

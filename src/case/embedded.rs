@@ -45,6 +45,7 @@ const ALL: &[Embedded] = embed![
     "tube-lattice-bars",
     "base-pulse"["base-pulse.csv"],
     "tube-in-cross-flow",
+    "two-tubes",
     "tube-round-supports",
     "whirl-in-a-hole",
     "code-aster-sdnd100",

@@ -3,7 +3,8 @@
 use super::builder::Builder;
 use super::model::Model;
 use super::planes::Planes;
-use super::value::{Name, Section, Value};
+use super::points::listed;
+use super::value::{Entry, Name, Section, Value};
 use crate::error::{Result, Subject};
 use crate::scene::State;
 use crate::study::truncation::Start;
@@ -21,6 +22,10 @@ impl Builder<'_> {
     fn takes_field(&self, unit: &str, n: usize) -> String {
         let last = n.saturating_sub(1);
         let of_dofs = format!("a list of {n} numbers in {unit}, or {{ dofs = [[0 to {last}, {unit}]] }}");
+        if let (Model::Bodies(bodies), true) = (&self.model, n == self.n) {
+            let names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
+            return format!("{{ BODY = a field of that body, .. }}, BODY of {}, or {of_dofs}", listed(&names));
+        }
         match self.model.length() {
             Some(_) if n != self.n => format!("{{ y = .., z = .. }}, {of_dofs}"),
             Some(length) => format!("{{ profile = [[0.0 m, {unit}], .., [{length:?} m, {unit}]] }}, {of_dofs}"),
@@ -87,6 +92,9 @@ impl Builder<'_> {
                 items.iter().map(|item| self.finite(key, item, &wanted)).collect()
             }
             Value::Table(entries) if self.has_fields() => match entries.as_slice() {
+                bodies if bodies.iter().any(|(name, _)| self.model.body(name.get_ref()).is_some()) && n == self.n => {
+                    self.of_bodies(field, bodies, &wanted)
+                }
                 [(name, points)] if name.get_ref() == "profile" && n == self.n => {
                     self.profile(field, name, points, &wanted)
                 }
@@ -109,6 +117,23 @@ impl Builder<'_> {
                 Err(self.source.error(value.span(), &title, &format!("expected {wanted}")))
             }
         }
+    }
+
+    /// A field of which the `entries` give the part of each body, in one plane; 0 on the others.
+    fn of_bodies(&mut self, field: &Field, entries: &[Entry<'_>], wanted: &str) -> Result<Vec<f64>> {
+        let mut all = vec![0.0; self.n];
+        for (name, value) in entries {
+            let Some(body) = self.model.body(name.get_ref()).cloned() else {
+                let title = format!("unknown key `{}` in `{}`", name.get_ref(), field.key);
+                return Err(self.source.error(name.span(), &title, &format!("expected {wanted}")));
+            };
+            let part =
+                Field { key: format!("{}.{}", field.key, body.name), subject: field.subject.clone(), unit: field.unit };
+            let dofs = body.dofs.clone();
+            let own = self.on_body(body, |builder| builder.over(&part, value, dofs.len()))?;
+            all.iter_mut().skip(dofs.start).zip(own).for_each(|(all, x)| *all = x);
+        }
+        Ok(all)
     }
 
     /// True where a field may be given by its degrees of freedom: not for an oscillator in one

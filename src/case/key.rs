@@ -46,18 +46,20 @@ impl Key {
         find(&self.pattern()).map(|entry| entry.unit).filter(|unit| !unit.is_empty())
     }
 
-    /// True for a value of `[system]`, which changes the structure, its modes or its coordinates.
+    /// True for a value of `[system]` or of a body, which changes the structure, its modes or its
+    /// coordinates.
     #[must_use]
     pub fn shapes_system(&self) -> bool {
-        self.parts.first().is_some_and(|part| part == "system")
+        self.parts.first().is_some_and(|part| part == "system" || part == "body")
     }
 
     /// The path without names and numbers: `wall.restitution`.
     fn pattern(&self) -> String {
         let listed = self.parts.first().is_some_and(|first| is_list(first));
-        let shapes = self.parts.starts_with(&["system", "modal", "shapes"].map(str::to_owned));
+        let system = usize::from(self.parts.first().is_some_and(|first| first == "body"));
+        let shapes = |index: usize| self.parts.get(1 + system..index).is_some_and(|path| path == ["modal", "shapes"]);
         let named = |index: usize, part: &str| {
-            (listed && index == 1) || (shapes && index == 3) || part == "*" || part.parse::<usize>().is_ok()
+            (listed && index == 1) || shapes(index) || part == "*" || part.parse::<usize>().is_ok()
         };
         let kept = self.parts.iter().enumerate().filter(|(index, part)| !named(*index, part));
         kept.map(|(_, part)| part.as_str()).collect::<Vec<_>>().join(".")

@@ -20,7 +20,7 @@ pub(crate) enum Kind {
 }
 
 /// A key of a case or sweep file.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct KeyEntry {
     /// Its path, without the names and numbers of walls, supports, loads and probes.
     pub key: &'static str,

@@ -1,5 +1,5 @@
 //! Every key of a case file, once: the reader, its messages, the keys of `--set` and the table in
-//! `cases/README.md` come from here.
+//! `cases/README.md` come from here. The keys of a body are those of a system, under `body`.
 
 use super::key_entry::Kind::{Any, Inline, Number, Numbers, Table, Tables, Truth, Word};
 use super::key_entry::{KeyEntry, REQUIRED, entry};
@@ -29,11 +29,12 @@ const fn inner(key: &'static str, unit: &'static str) -> KeyEntry {
 /// All keys, in the order of `cases/README.md`: path, type, unit; what holds where it is left out,
 /// what is accepted, what is refused. Messages quote what is accepted, so it is ASCII.
 #[rustfmt::skip]
-pub(super) const KEYS: &[KeyEntry] = &[
+pub(super) const LISTED: &[KeyEntry] = &[
     entry("title", Word, "", ["none", "one line of text", ""]),
     entry("source", Word, "", ["none", "one line of text", ""]),
-    entry("system", Table, "", [REQUIRED, "exactly one of the tables `oscillator`, `chain`, `bar`, \
-        `beam`, `matrices`, `modal`", "none, two"]),
+    entry("system", Table, "", ["required unless there are bodies", "exactly one of the tables \
+        `oscillator`, `chain`, `bar`, `beam`, `matrices`, `modal`; beside bodies none of them",
+        "none, two"]),
     entry("system.planes", Number, "", ["1", "1, or 2: the same chain, oscillator or beam in the \
         planes y and z, see below; matrices and modes hold both planes", "beside `bar`; other \
         numbers"]),
@@ -124,6 +125,12 @@ pub(super) const KEYS: &[KeyEntry] = &[
         mode on, the last for all further modes; below 0 beside modes only, as a flow makes modes \
         unstable", "an empty list"]),
     entry("system.damping.matrix", Word, "", ["", MATRIX, "another size than M"]),
+    entry("body", Tables, "", ["one system", "several systems, which only walls and supports \
+        couple: in each exactly one of the tables [body.oscillator], [body.chain], [body.bar], \
+        [body.beam], [body.matrices], [body.modal], and [body.damping], with the keys of that table \
+        in [system]; beside them [system] may hold planes, modes, static_correction and a damping \
+        of all", "beside a system"]),
+    entry("body.name", Word, "", [REQUIRED, NAME, "anything else; two bodies of one name"]),
     entry("wall", Tables, "", ["no walls", "up to 4096 walls", "one table in single brackets"]),
     entry("wall.name", Word, "", [REQUIRED, NAME, "anything else; two walls of one name"]),
     entry("wall.at", Any, "", [PLACE_NEEDED, "a place, see below, or \"each\": a wall at each", "a \
@@ -271,6 +278,8 @@ pub(super) const KEYS: &[KeyEntry] = &[
     entry("turbulence", Tables, "", ["no turbulence", "any number of them, which add up: random \
         forces along a tube that are coherent over a length, as forces on its modes, see below",
         "without `modes` on a beam; on other systems than a beam and `modal`"]),
+    entry("turbulence.body", Word, "", ["required beside bodies", "the name of the body on which \
+        it acts: a tube, or modal data with a line", "beside one system"]),
     entry("turbulence.direction", Any, "deg", ["required in two planes", "a number, or \"both\": \
         from +y towards +z, or independent fields along y and z", IN_ONE_PLANE]),
     entry("turbulence.line", Any, "", ["required of `modal`", "points of `shapes` along the tube with \
@@ -376,6 +385,8 @@ pub(super) const KEYS: &[KeyEntry] = &[
     inner("initial.velocity.y", "m_per_s"),
     inner("initial.velocity.z", "m_per_s"),
     // Places, of walls, supports, loads and probes alike.
+    inner("at.body", ""),
+    inner("at.relative_to", ""),
     inner("at.dof", ""),
     inner("at.position", "m"),
     inner("at.joint", ""),

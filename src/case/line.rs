@@ -55,9 +55,8 @@ impl TubeLine {
 impl Builder<'_> {
     /// The line of the turbulence `owner`, which `table` states, on modes; `None` on a beam, which
     /// has positions of its own.
-    pub fn line(&mut self, owner: &str, table: &Section<'_>) -> Result<Option<TubeLine>> {
-        let model = self.model.clone();
-        let (modal, value) = match (&model, table.get("line")) {
+    pub fn line(&mut self, owner: &str, model: &Model, table: &Section<'_>) -> Result<Option<TubeLine>> {
+        let (modal, value) = match (model, table.get("line")) {
             (Model::Modal(modal), Some(value)) => (modal, value),
             (Model::Modal(_), None) => {
                 let help = "expected line = { POINT = 0.0, .. }, the points of shapes along the tube with their \

@@ -17,7 +17,7 @@
 //! (`key_entry.rs`) with its type, unit, default and accepted values, which `schema.rs` looks up;
 //! `value.rs` reads TOML with the position of each value, `check.rs` checks it against the keys,
 //! `build.rs` builds the case table by table from what `builder.rs` holds, `system.rs`, `beam.rs`,
-//! `model.rs`, `place.rs`, `points.rs`, `planes.rs` and `direction.rs` read the structure, the
+//! `bodies.rs`, `model.rs`, `place.rs`, `points.rs`, `planes.rs` and `direction.rs` read the structure, the
 //! locations on it and their directions, `loads.rs`, `random.rs`, `turbulence.rs` and `base.rs` the
 //! loads, `truncated.rs` keeps the full scene of a case reduced to modes, `realisations.rs` and
 //! `wear.rs` give the scenes of realisations and of worn supports, `wording.rs` finds the key of
@@ -29,6 +29,7 @@
 
 mod base;
 mod beam;
+mod bodies;
 mod build;
 mod builder;
 mod case_file;
@@ -89,7 +90,7 @@ pub use key::Key;
 #[cfg(feature = "cli")]
 pub(crate) use key_entry::{KeyEntry, Kind, REQUIRED, entry};
 pub use key_value::KeyValue;
-pub use model::{Model, Place};
+pub use model::{Body, Model, Place};
 pub use penalty::PenaltyOptions;
 pub use planes::Planes;
 #[cfg(feature = "cli")]

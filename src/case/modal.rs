@@ -28,11 +28,19 @@ impl Builder<'_> {
         let omega = match (modal.numbers("frequencies"), modal.numbers("omega")) {
             (Some(_), Some(omega)) => {
                 let help = "expected frequencies (Hz) or omega (rad/s)";
-                return Err(self.source.error(omega.span(), "`system.modal` has both frequencies and omega", help));
+                return Err(self.source.error(
+                    omega.span(),
+                    &format!("`{}.modal` has both frequencies and omega", self.owner),
+                    help,
+                ));
             }
             (None, None) => {
                 let help = "expected frequencies = a list of numbers, 0 or more, in Hz, or omega = the same in rad/s";
-                return Err(self.source.error(modal.span.clone(), "`frequencies` is missing in `system.modal`", help));
+                return Err(self.source.error(
+                    modal.span.clone(),
+                    &format!("`frequencies` is missing in `{}.modal`", self.owner),
+                    help,
+                ));
             }
             (Some(list), None) => self.each("frequencies", "omega", &list, TAU)?,
             (None, Some(list)) => self.each("omega", "omega", &list, 1.0)?,
@@ -57,13 +65,17 @@ impl Builder<'_> {
     ) -> Result<Vec<f64>> {
         let wanted = "a list of numbers, 0 or more: one for each mode";
         if list.get_ref().is_empty() {
-            return Err(self.refuse(list.span(), &format!("system.modal.{key}"), wanted));
+            return Err(self.refuse(list.span(), &format!("{}.modal.{key}", self.owner), wanted));
         }
         let mut values = Vec::with_capacity(list.get_ref().len());
         for (i, item) in list.get_ref().iter().enumerate() {
             let x = *item.get_ref();
             if !(x.is_finite() && x >= 0.0) {
-                return Err(self.refuse(item.span(), &format!("system.modal.{key}: value {}", i + 1), "0 or more"));
+                return Err(self.refuse(
+                    item.span(),
+                    &format!("{}.modal.{key}: value {}", self.owner, i + 1),
+                    "0 or more",
+                ));
             }
             self.positions.push((Subject::from(("modal data", name)).value(i), item.span()));
             values.push(factor * x);
@@ -80,7 +92,7 @@ impl Builder<'_> {
         k: usize,
     ) -> Result<Vec<f64>> {
         let Some(value) = value else { return Ok(vec![plain; k]) };
-        let (key, subject) = (format!("system.modal.{name}"), Subject::from(("modal data", name)));
+        let (key, subject) = (format!("{}.modal.{name}", self.owner), Subject::from(("modal data", name)));
         self.positions.push((subject.clone(), value.span()));
         match value.get_ref() {
             Value::Number(x) => {
@@ -98,7 +110,7 @@ impl Builder<'_> {
     }
 
     fn shapes(&mut self, shapes: &Spanned<Value<'_>>, k: usize) -> Result<Vec<ModalPoint>> {
-        let key = "system.modal.shapes";
+        let key = &format!("{}.modal.shapes", self.owner);
         let subject = Subject::from(("modal data", "shapes"));
         self.positions.push((subject.clone(), shapes.span()));
         match shapes.get_ref() {

@@ -3,6 +3,7 @@
 use crate::error::Result;
 use crate::scene::{Bar, Beam, Chain, ModalData, Row};
 use std::fmt;
+use std::ops::Range;
 
 /// The system as the file describes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +21,22 @@ pub enum Model {
     Matrices(usize),
     /// `[system.modal]`.
     Modal(ModalData),
+    /// `[[body]]`: several systems, which only walls and supports couple.
+    Bodies(Vec<Body>),
+}
+
+/// One of several bodies of a case.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// The system of its table.
+    pub model: Model,
+    /// Where the spans of a beam end, m, in order.
+    pub joints: Vec<f64>,
+    /// Its degrees of freedom among those of all bodies, in one plane.
+    pub dofs: Range<usize>,
 }
 
 impl Model {
@@ -33,6 +50,7 @@ impl Model {
             Self::Beam(_) => "beam",
             Self::Matrices(_) => "matrices",
             Self::Modal(_) => "modal",
+            Self::Bodies(_) => "bodies",
         }
     }
 
@@ -41,6 +59,31 @@ impl Model {
         match self {
             Self::Bar(bar) => Some(bar.length),
             Self::Beam(beam) => Some(beam.length),
+            _ => None,
+        }
+    }
+
+    /// The body of that name; `None` where there is none.
+    pub(super) fn body(&self, name: &str) -> Option<&Body> {
+        let Self::Bodies(bodies) = self else { return None };
+        bodies.iter().find(|body| body.name == name)
+    }
+
+    /// The systems of all bodies, or the one system.
+    pub(super) fn systems(&self) -> Box<dyn Iterator<Item = &Self> + '_> {
+        match self {
+            Self::Bodies(bodies) => Box::new(bodies.iter().map(|body| &body.model)),
+            one => Box::new(std::iter::once(one)),
+        }
+    }
+
+    /// The beam on which a place is, of a relative one the first; `None` where it is on none.
+    #[must_use]
+    pub fn beam(&self, place: &Place) -> Option<&Beam> {
+        match (self, place) {
+            (Self::Beam(beam), _) => Some(beam),
+            (Self::Bodies(_), Place::On { body, place }) => self.body(body)?.model.beam(place),
+            (Self::Bodies(_), Place::Towards { place, .. } | Place::Relative { place, .. }) => self.beam(place),
             _ => None,
         }
     }
@@ -56,7 +99,14 @@ impl Model {
             (Place::Spread { from, to }, Self::Bar(bar)) => bar.spread(*from, *to),
             (Place::Spread { from, to }, Self::Beam(beam)) => beam.spread(*from, *to),
             (Place::Points(points), Self::Modal(modal)) => modal.at_sum(points),
-            (Place::Position(_) | Place::Spread { .. } | Place::Points(_), _) => Ok(Row::new(Vec::new())),
+            (Place::On { body, place }, Self::Bodies(_)) => match self.body(body) {
+                Some(body) => Ok(body.model.row(place)?.shifted(body.dofs.start)),
+                None => Ok(Row::new(Vec::new())),
+            },
+            (Place::Relative { place, to }, _) => Ok(self.row(place)?.relative_to(&self.row(to)?)),
+            (Place::Position(_) | Place::Spread { .. } | Place::Points(_) | Place::On { .. }, _) => {
+                Ok(Row::new(Vec::new()))
+            }
             // These have rows only together with the planes.
             (Place::Rows { .. } | Place::Towards { .. }, _) => Ok(Row::new(Vec::new())),
         }
@@ -69,6 +119,27 @@ impl Model {
             Self::Bar(bar) => bar.elements + 1,
             Self::Beam(beam) => beam.elements + 1,
             _ => n,
+        }
+    }
+
+    /// A location that every system of this kind has, with its name: the middle of a bar or beam,
+    /// the first point of modes, the first degree of freedom.
+    pub(super) fn typical_place(&self) -> (String, Place) {
+        match self {
+            Self::Bodies(bodies) => match bodies.first() {
+                Some(Body { name, model, .. }) => {
+                    let (there, place) = model.typical_place();
+                    (format!("{name}-{there}"), place.on(Some(name)))
+                }
+                None => ("dof-0".to_owned(), Place::Dof(0)),
+            },
+            Self::Bar(Bar { length, .. }) | Self::Beam(Beam { length, .. }) => {
+                ("middle".to_owned(), Place::Position(0.5 * length))
+            }
+            Self::Modal(ModalData { points, .. }) if !points.is_empty() => {
+                (points[0].name.clone(), Place::point(&points[0].name))
+            }
+            _ => ("dof-0".to_owned(), Place::Dof(0)),
         }
     }
 
@@ -119,6 +190,20 @@ pub enum Place {
         /// Along +z.
         z: Vec<(usize, f64)>,
     },
+    /// A place on one of several bodies.
+    On {
+        /// The name of the body.
+        body: String,
+        /// The place there.
+        place: Box<Place>,
+    },
+    /// A place whose displacement is that relative to another place.
+    Relative {
+        /// The place.
+        place: Box<Place>,
+        /// The other one, whose displacement is subtracted.
+        to: Box<Place>,
+    },
     /// A place in two planes, in one direction.
     Towards {
         /// The place in the cross-section.
@@ -129,6 +214,14 @@ pub enum Place {
 }
 
 impl Place {
+    /// The same place on the body of that name, where there is one.
+    pub(super) fn on(self, body: Option<&str>) -> Self {
+        match body {
+            Some(body) => Self::On { body: body.to_owned(), place: Box::new(self) },
+            None => self,
+        }
+    }
+
     /// A single point of modes.
     #[must_use]
     pub fn point(name: &str) -> Self {
@@ -140,7 +233,7 @@ impl Place {
     pub fn position(&self) -> Option<f64> {
         match self {
             Self::Position(x) => Some(*x),
-            Self::Towards { place, .. } => place.position(),
+            Self::Towards { place, .. } | Self::On { place, .. } | Self::Relative { place, .. } => place.position(),
             _ => None,
         }
     }
@@ -154,6 +247,8 @@ impl fmt::Display for Place {
             Self::Row(entries) => f.write_str(&sum(entries)),
             Self::Rows { y, z } => write!(f, "y = {}, z = {}", sum(y), sum(z)),
             Self::Towards { place, degrees } => write!(f, "{place}, towards {degrees}°"),
+            Self::On { body, place } => write!(f, "{place} (body {body:?})"),
+            Self::Relative { place, to } => write!(f, "{place}, relative to {to}"),
             Self::Points(points) => match points.as_slice() {
                 [(name, 1.0)] => write!(f, "the point {name:?}"),
                 _ => {

@@ -27,8 +27,22 @@ fn is_plane(name: &str) -> bool {
 }
 
 impl Builder<'_> {
-    /// The values of `at` that this system accepts.
+    /// The values of `at` that this system, or the body whose places are read, accepts.
     fn takes(&self, spread: bool) -> String {
+        if let Model::Bodies(_) = self.model {
+            return format!(
+                "at = {{ body = .., position = .. }}, or dof, joint, point, row in place of position; body is {}",
+                self.names_of_bodies()
+            );
+        }
+        if self.body.is_some() {
+            let own = self.takes_alone(spread);
+            return format!("{own}, each beside body", own = own.trim_end_matches(", or \"each\""));
+        }
+        self.takes_alone(spread)
+    }
+
+    fn takes_alone(&self, spread: bool) -> String {
         let each = if spread { "" } else { ", or \"each\"" };
         let last = self.n.saturating_sub(1);
         if let Model::Modal(modal) = &self.model {
@@ -85,6 +99,7 @@ impl Builder<'_> {
             && word == "each"
             && !load
             && self.planes != Planes::Named
+            && !matches!(self.model, Model::Bodies(_))
         {
             let count = self.model.places(self.n);
             if count > MOST_PLACES {
@@ -97,20 +112,8 @@ impl Builder<'_> {
             };
             return self.model.each(self.n).into_iter().map(site).collect();
         }
-        let Value::Table(entries) = at.get_ref() else { return Err(self.refuse(at.span(), &key, &self.takes(load))) };
-        let place = match entries.as_slice() {
-            [_] | [_, _] if self.planes == Planes::Named && entries.iter().all(|entry| is_plane(entry.0.get_ref())) => {
-                self.rows_of(&key, entries)?
-            }
-            [(kind, value)] => self.place(&key, kind, value, load)?,
-            [] => return Err(self.refuse(at.span(), &key, &self.takes(load))),
-            [_, .., last] => {
-                let later = last.0.span();
-                let title = format!("{key} gives more than one place");
-                return Err(self.source.error(later, &title, &format!("expected one of {}", self.takes(load))));
-            }
-        };
-        let (row, moves) = self.row_there(&place).map_err(|error| self.at_value(&key, error, &entries[0].1))?;
+        let place = self.place_of(&key, at, load)?;
+        let (row, moves) = self.row_there(&place)?;
         if !moves {
             let title = format!("{key}: nothing moves there");
             return Err(self.source.error(
@@ -120,6 +123,58 @@ impl Builder<'_> {
             ));
         }
         Ok(vec![Site { suffix: String::new(), place, row }])
+    }
+
+    /// The place that the table `at` gives: alone, on a body, or relative to another place.
+    fn place_of(&mut self, key: &str, at: &Spanned<Value<'_>>, load: bool) -> Result<Place> {
+        let refuse = |builder: &Self| Err(builder.refuse(at.span(), key, &builder.takes(load)));
+        let Value::Table(entries) = at.get_ref() else { return refuse(self) };
+        let named = |word: &str| entries.iter().find(|entry| entry.0.get_ref() == word).map(|entry| &entry.1);
+        let own: Vec<&Entry<'_>> =
+            entries.iter().filter(|entry| !["body", "relative_to"].contains(&entry.0.get_ref().as_ref())).collect();
+        let place = match (&self.model, named("body")) {
+            (Model::Bodies(_), None) => return refuse(self),
+            (_, None) => self.place_alone(key, at, &own, load)?,
+            (_, Some(name)) => {
+                let body_key = format!("{key}: body");
+                let Value::Word(word) = name.get_ref() else {
+                    return Err(self.refuse(name.span(), &body_key, &self.names_of_bodies()));
+                };
+                let body = self.body_named(&body_key, word, name.span())?;
+                let (row, two) = (own.iter().find(|entry| entry.0.get_ref() == "row"), self.planes.is_two());
+                if let (Some(row), true) = (row, two) {
+                    let title = format!("{key}: row on a body, and the system moves in two planes");
+                    return Err(self.source.error(row.0.span(), &title, "expected dof, position or joint"));
+                }
+                self.on_body(body, |builder| builder.place_alone(key, at, &own, load))?.on(Some(word))
+            }
+        };
+        let Some(to) = named("relative_to") else { return Ok(place) };
+        let to = (self.place_of(&format!("{key}: relative_to"), to, load)?, to.span());
+        if self.planes.is_two() && [&place, &to.0].iter().any(|place| matches!(place, Place::Row(_))) {
+            let title = format!("{key}: relative_to and row, and the system moves in two planes");
+            return Err(self.source.error(to.1, &title, "expected no relative_to: a row may hold the difference"));
+        }
+        Ok(Place::Relative { place: Box::new(place), to: Box::new(to.0) })
+    }
+
+    /// The place of `entries`, of the table `at` without its body and the place it is relative to.
+    fn place_alone(&mut self, key: &str, at: &Spanned<Value<'_>>, entries: &[&Entry<'_>], load: bool) -> Result<Place> {
+        match entries {
+            [_] | [_, _] if self.planes == Planes::Named && entries.iter().all(|entry| is_plane(entry.0.get_ref())) => {
+                self.rows_of(key, entries)
+            }
+            [(kind, value)] => {
+                let place = self.place(key, kind, value, load)?;
+                self.row_there(&place).map_err(|error| self.at_value(key, error, value))?;
+                Ok(place)
+            }
+            [] => Err(self.refuse(at.span(), key, &self.takes(load))),
+            [_, .., last] => {
+                let title = format!("{key} gives more than one place");
+                Err(self.source.error(last.0.span(), &title, &format!("expected one of {}", self.takes(load))))
+            }
+        }
     }
 
     /// The row of a place, empty where both planes have one of their own, and whether it can move.
@@ -188,7 +243,7 @@ impl Builder<'_> {
     }
 
     /// The rows along y and along z of matrices of both planes.
-    fn rows_of(&mut self, key: &str, entries: &[Entry<'_>]) -> Result<Place> {
+    fn rows_of(&mut self, key: &str, entries: &[&Entry<'_>]) -> Result<Place> {
         let (mut y, mut z) = (Vec::new(), Vec::new());
         for (plane, value) in entries {
             let row = self.row(&format!("{key}: {}", plane.get_ref()), value)?;

@@ -44,6 +44,7 @@ impl Planes {
     pub(super) fn rows(self, model: &Model, place: &Place) -> Result<PlaneRows> {
         match (self, place) {
             (_, Place::Rows { y, z }) => Ok(PlaneRows { y: Row::new(y.clone()), z: Row::new(z.clone()) }),
+            (_, Place::Relative { place, to }) => Ok(self.rows(model, place)?.relative_to(&self.rows(model, to)?)),
             (Self::Two(n), place) => Ok(PlaneRows::doubled(&model.row(place)?, n)),
             (Self::Named, Place::Points(points)) => {
                 let along = |plane: &str| {

@@ -1,7 +1,7 @@
 //! Looks keys up, and says what would be accepted there.
 
 use super::key_entry::{KeyEntry, Kind};
-use super::keys::KEYS;
+use super::keys::LISTED;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
@@ -28,8 +28,19 @@ pub(crate) struct Schema {
     tables: HashMap<&'static str, Vec<&'static KeyEntry>>,
 }
 
+/// The keys of a case file: those listed, and under `body` those of every system and its damping.
+static KEYS: LazyLock<Vec<KeyEntry>> = LazyLock::new(|| {
+    let of_body = |entry: &KeyEntry| {
+        let (_, key) = entry.key.split_once("system.")?;
+        let kept = !["planes", "modes", "static_correction"].contains(&key);
+        // The keys are made once, and hold as long as the program runs.
+        kept.then(|| KeyEntry { key: format!("body.{key}").leak(), ..*entry })
+    };
+    LISTED.iter().copied().chain(LISTED.iter().filter_map(of_body)).collect()
+});
+
 /// The keys of a case file.
-pub(super) static CASE: LazyLock<Schema> = LazyLock::new(|| Schema::new("the case file", KEYS));
+pub(super) static CASE: LazyLock<Schema> = LazyLock::new(|| Schema::new("the case file", &KEYS));
 
 impl Schema {
     pub fn new(file: &'static str, keys: &'static [KeyEntry]) -> Self {
@@ -78,6 +89,8 @@ impl Schema {
 pub(super) fn find(path: &str) -> Option<&'static KeyEntry> {
     let place = path.split_once('.').filter(|(list, rest)| is_list(list) && rest.starts_with("at."));
     let sought = place.map_or(path, |(_, place)| place);
+    // Of a place to which another is relative, the keys are those of a place.
+    let sought = sought.replacen("at.relative_to.", "at.", 1);
     KEYS.iter().find(|entry| entry.key == sought).filter(|_| !path.starts_with("at."))
 }
 
@@ -88,7 +101,7 @@ pub(super) fn accepted(path: &str) -> Option<String> {
 
 /// The name of a list of tables, such as those of walls.
 pub(super) fn list(name: &str) -> Option<&'static str> {
-    ["wall", "support", "slider", "load", "turbulence", "probe"].into_iter().find(|list| *list == name)
+    ["body", "wall", "support", "slider", "load", "turbulence", "probe"].into_iter().find(|list| *list == name)
 }
 
 /// True for the name of a list of tables.
@@ -137,7 +150,7 @@ mod tests {
     fn table() -> String {
         let mut section = "";
         let mut rows = String::from(HEADER);
-        for entry in KEYS.iter().filter(|entry| !entry.is_inner()) {
+        for entry in LISTED.iter().filter(|entry| !entry.is_inner()) {
             let name = match entry.kind {
                 Kind::Table => format!("[{}]", entry.key),
                 Kind::Tables => format!("[[{}]]", entry.key),

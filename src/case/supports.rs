@@ -1,7 +1,7 @@
 //! Reads the tables `[[support]]`.
 
 use super::builder::Builder;
-use super::model::{Model, Place};
+use super::model::Place;
 use super::place::MOST_PLACES;
 use super::value::{Section, Value};
 use super::walls::NewWall;
@@ -55,7 +55,7 @@ impl Builder<'_> {
         let place = self.place_in_two_planes(&owner, support)?;
         let at = self.planes.rows(&self.model, &place)?;
         let friction = self.friction(&owner, support)?;
-        let wear = self.wear_data(&owner, support)?;
+        let wear = self.wear_data(&owner, &place, support)?;
         let word = support.required_word("shape");
         let (made, shape, walls) = match *word.get_ref() {
             "flats" => {
@@ -219,14 +219,14 @@ impl Builder<'_> {
     }
 
     /// The values on which the depth of a scar depends.
-    fn wear_data(&mut self, owner: &Owner, support: &Section<'_>) -> Result<WearData> {
+    fn wear_data(&mut self, owner: &Owner, place: &Place, support: &Section<'_>) -> Result<WearData> {
         let number = |key, unit| self.above_0(&owner.name, key, unit, support);
         let (width, radius) = (number("width", "m")?, number("radius", "m")?);
         let [coefficient, support_coefficient] = ["coefficient", "support_coefficient"].map(|key| number(key, "1/Pa"));
         let missing = |at, what: &str, help: &str| -> Error {
             self.source.error(at, &format!("{} has {what}", owner.name), help)
         };
-        let outer = if let Model::Beam(beam) = &self.model { beam.section.outer_diameter() } else { None };
+        let outer = self.model.beam(place).and_then(|beam| beam.section.outer_diameter());
         let tube = outer.map(|outer| 0.5 * outer);
         match (support.span_of("width"), support.span_of("radius")) {
             (None, Some(at)) => {

@@ -5,8 +5,9 @@ use super::builder::{Builder, MOST_MASSES};
 use super::model::Model;
 use super::planes::Planes;
 use super::value::{Section, Value};
-use crate::error::{Result, Subject};
+use crate::error::{Error, Result, Subject};
 use crate::scene::{BeamSection, Chain, Damping, Oscillator, Structure, System};
+use std::ops::Range;
 use toml::Spanned;
 
 /// A system and the model from which it was built.
@@ -20,19 +21,61 @@ pub(super) struct Built {
 }
 
 impl Builder<'_> {
-    /// The system and its model; `cut` if it will be reduced to modes.
-    pub fn system(&mut self, system: &Section<'_>, cut: bool) -> Result<Built> {
+    /// The system of the file and its model; `cut` if it will be reduced to modes.
+    pub fn system(&mut self, file: &Section<'_>, cut: bool) -> Result<Built> {
+        let system = file.required_section("system");
+        let bodies = file.sections("body");
+        if bodies.is_empty() {
+            if file.section("system").is_none() {
+                let help = format!("{}, or several [[body]]", self.kinds_expected());
+                return Err(self.source.error(file.span.clone(), "`system` is missing in the case file", &help));
+            }
+            return self.one_system(&system, cut);
+        }
+        if let Some((kind, table)) = Self::kinds(&system).next() {
+            let title = format!("`system.{kind}` beside [[body]]");
+            let help = "expected it as a table [body.KIND] of one more [[body]], or no bodies";
+            return Err(self.source.error(table.span, &title, help));
+        }
+        let two = self.two_planes(system.number("planes"), "bodies")?;
+        let (model, structure) = self.bodies(&bodies, two)?;
+        self.positions.push(("system".into(), bodies.first().map_or(system.span.clone(), |body| body.span.clone())));
+        let own = structure.damping.entries().any(|entry| entry.2 != 0.0);
+        let (structure, pending) = self.damped(&system, structure, own, cut)?;
+        Ok(self.in_planes(Built { model, system: structure.into(), planes: Planes::One, pending }, two))
+    }
+
+    /// The tables of `owner` that say what vibrates, each with its kind.
+    fn kinds<'s>(owner: &Section<'s>) -> impl Iterator<Item = (&'static str, Section<'s>)> {
         let kinds = ["oscillator", "chain", "bar", "beam", "matrices", "modal"];
-        let mut given = kinds.into_iter().filter_map(|kind| Some((kind, system.section(kind)?)));
-        let one = "expected one of the tables [system.oscillator], [system.chain], [system.bar], [system.beam], \
-                   [system.matrices], [system.modal]";
+        kinds.into_iter().filter_map(|kind| Some((kind, owner.section(kind)?)))
+    }
+
+    fn kinds_expected(&self) -> String {
+        let of = self.owner;
+        format!(
+            "expected one of the tables [{of}.oscillator], [{of}.chain], [{of}.bar], [{of}.beam], [{of}.matrices], \
+             [{of}.modal]"
+        )
+    }
+
+    /// The one table of `owner`, a system or body, that says what vibrates.
+    pub fn kind_of<'s>(&self, owner: &Section<'s>) -> Result<(&'static str, Section<'s>)> {
+        let one = self.kinds_expected();
+        let mut given = Self::kinds(owner);
         let Some((kind, table)) = given.next() else {
-            return Err(self.source.error(system.span.clone(), "`system` does not say what vibrates", one));
+            let title = format!("`{}` does not say what vibrates", self.owner);
+            return Err(self.source.error(owner.span.clone(), &title, &one));
         };
         if let Some((second, other)) = given.next() {
             let later = if table.span.start > other.span.start { table.span } else { other.span };
-            return Err(self.source.error(later, &format!("two systems, `{kind}` and `{second}`"), one));
+            return Err(self.source.error(later, &format!("two systems, `{kind}` and `{second}`"), &one));
         }
+        Ok((kind, table))
+    }
+
+    fn one_system(&mut self, system: &Section<'_>, cut: bool) -> Result<Built> {
+        let (kind, table) = self.kind_of(system)?;
         let name = if kind == "modal" { "modal data" } else { kind };
         self.positions.push(("system".into(), table.span.clone()));
         self.positions.push((name.into(), table.span.clone()));
@@ -40,40 +83,49 @@ impl Builder<'_> {
         if kind == "oscillator" {
             return self.oscillator(system, &table, two);
         }
-        let own_damping = match kind {
-            "matrices" => table.get("damping"),
-            "modal" => table.get("damping_ratios"),
-            _ => None,
-        };
-        let (model, mut structure) = self.structure(system, kind, &table, two)?;
-        let mut pending = None;
-        if let Some(damping) = system.section("damping") {
-            if own_damping.is_some() {
-                let help = "expected the damping beside the matrices or modes, or [system.damping]";
-                return Err(self.source.error(damping.span, "`system` gives its damping twice", help));
-            }
-            let massless = !structure.massless().is_empty();
-            let damping = self.damping(&damping)?;
-            match damping {
-                ratios @ Damping::Modal(_) if cut => pending = Some(ratios),
-                later @ (Damping::Modal(_) | Damping::Rayleigh { .. }) if massless => pending = Some(later),
-                damping => structure = structure.with_damping(&damping).map_err(|error| self.at_key(error))?,
-            }
+        let (model, structure) = self.structure(system, kind, &table, two)?;
+        let (structure, pending) = self.damped(system, structure, has_damping(kind, &table), cut)?;
+        Ok(self.in_planes(Built { model, system: structure.into(), planes: Planes::One, pending }, two))
+    }
+
+    /// The structure with the damping of the table of `owner`, a system or body, which may not have
+    /// its `own`; or that damping, if it is applied later.
+    pub fn damped(
+        &mut self,
+        owner: &Section<'_>,
+        structure: Structure,
+        own: bool,
+        cut: bool,
+    ) -> Result<(Structure, Option<Damping>)> {
+        let Some(damping) = owner.section("damping") else { return Ok((structure, None)) };
+        if own {
+            let help =
+                format!("expected the damping beside the matrices, modes or bodies, or [{}.damping]", self.owner);
+            let title = format!("`{}` gives its damping twice", self.owner);
+            return Err(self.source.error(damping.span, &title, &help));
         }
-        let planes = match (two, &model) {
-            (false, _) => Planes::One,
-            (true, Model::Matrices(_) | Model::Modal(_)) => Planes::Named,
-            (true, _) => {
-                let n = structure.mass.size();
-                structure = structure.in_two_planes();
-                // A ratio is that of a mode of one plane; in two planes there are two of each.
-                if let Some(Damping::Modal(ratios)) = &mut pending {
-                    *ratios = ratios.iter().flat_map(|&ratio| [ratio; 2]).collect();
-                }
-                Planes::Two(n)
-            }
-        };
-        Ok(Built { model, system: structure.into(), planes, pending })
+        let massless = !structure.massless().is_empty();
+        Ok(match self.damping(&damping)? {
+            ratios @ Damping::Modal(_) if cut => (structure, Some(ratios)),
+            later @ (Damping::Modal(_) | Damping::Rayleigh { .. }) if massless => (structure, Some(later)),
+            damping => (structure.with_damping(&damping).map_err(|error| self.at_key(error))?, None),
+        })
+    }
+
+    /// The system in its planes, in `two` of them if the file says so.
+    fn in_planes(&self, built: Built, two: bool) -> Built {
+        let (System::Structure(structure), true) = (&built.system, two) else { return built };
+        if matches!(built.model, Model::Matrices(_) | Model::Modal(_)) {
+            return Built { planes: Planes::Named, ..built };
+        }
+        let planes = Planes::Two(structure.mass.size());
+        let system = structure.in_two_planes().into();
+        // A ratio is that of a mode of one plane; in two planes there are two of each.
+        let pending = built.pending.map(|damping| match damping {
+            Damping::Modal(ratios) => Damping::Modal(ratios.iter().flat_map(|&ratio| [ratio; 2]).collect()),
+            other => other,
+        });
+        Built { model: built.model, system, planes, pending }
     }
 
     fn oscillator(&mut self, system: &Section<'_>, table: &Section<'_>, two: bool) -> Result<Built> {
@@ -97,9 +149,9 @@ impl Builder<'_> {
         Ok(Built { model: Model::Oscillator, system, planes, pending: None })
     }
 
-    /// The structure that `table` of this `kind` describes, in one plane, without the damping of
-    /// `[system.damping]`.
-    fn structure(
+    /// The structure that `table` of this `kind`, in a system or body, describes, in one plane,
+    /// without the damping of the table `damping` beside it.
+    pub fn structure(
         &mut self,
         system: &Section<'_>,
         kind: &str,
@@ -147,58 +199,73 @@ impl Builder<'_> {
         let Some(planes) = planes else { return Ok(false) };
         match (*planes.get_ref(), kind) {
             (1.0, _) => Ok(false),
-            (2.0, "oscillator" | "chain" | "beam" | "matrices" | "modal") => Ok(true),
-            (2.0, kind) => {
-                let title = format!("`system.planes` is 2 beside a {kind}");
-                let help = "expected no planes: a bar moves along itself; a tube in bending is a beam";
-                Err(self.source.error(planes.span(), &title, help))
-            }
+            (2.0, "oscillator" | "chain" | "beam" | "matrices" | "modal" | "bodies") => Ok(true),
+            (2.0, _) => Err(self.bar_in_two_planes(planes.span())),
             _ => Err(self.refuse_as(planes.span(), "system.planes")),
         }
     }
 
+    /// The error of a bar, at `span`, in two planes.
+    pub fn bar_in_two_planes(&self, span: Range<usize>) -> Error {
+        let help = "expected no planes: a bar moves along itself; a tube in bending is a beam";
+        self.source.error(span, "`system.planes` is 2 beside a bar", help)
+    }
+
     fn chain(&mut self, chain: &Section<'_>) -> Result<Chain> {
         let (Some(masses), Some(springs)) = (chain.get("masses"), chain.get("springs")) else {
-            return Err(self.refuse_as(chain.span.clone(), "system.chain"));
+            return Err(self.refuse_as(chain.span.clone(), &format!("{}.chain", self.owner)));
         };
-        let (key, subject) = ("system.chain.masses", Subject::from(("chain", "masses")));
+        let (key, subject) = (format!("{}.chain.masses", self.owner), Subject::from(("chain", "masses")));
         self.positions.push((subject.clone(), masses.span()));
         let masses = match (masses.get_ref(), chain.number("mass")) {
             (Value::Number(x), Some(mass)) => {
-                let count = self.count(key, *x, masses.span(), MOST_MASSES)?;
+                let count = self.count(&key, *x, masses.span(), MOST_MASSES)?;
                 self.positions.push((subject.value(0), mass.span()));
                 vec![self.number(("chain", "mass"), &mass); count]
             }
-            (Value::List(items), None) => self.list(key, subject, items)?,
+            (Value::List(items), None) => self.list(&key, subject, items)?,
             (Value::List(_), Some(mass)) => {
                 let help = "expected mass only where masses says how many there are";
-                return Err(self.source.error(mass.span(), "`system.chain.mass` beside a list of masses", help));
+                let title = format!("`{}.chain.mass` beside a list of masses", self.owner);
+                return Err(self.source.error(mass.span(), &title, help));
             }
             (Value::Number(_), None) => {
                 let help = "expected mass = a number above 0, in kg: that of each";
-                return Err(self.source.error(masses.span(), "`mass` is missing in `system.chain`", help));
+                let title = format!("`mass` is missing in `{}.chain`", self.owner);
+                return Err(self.source.error(masses.span(), &title, help));
             }
-            _ => return Err(self.refuse_as(masses.span(), key)),
+            _ => return Err(self.refuse_as(masses.span(), &key)),
         };
-        let (key, subject) = ("system.chain.springs", Subject::from(("chain", "springs")));
+        let (key, subject) = (format!("{}.chain.springs", self.owner), Subject::from(("chain", "springs")));
         self.positions.push((subject.clone(), springs.span()));
         let springs = match springs.get_ref() {
             Value::Number(k) => {
                 self.positions.push((subject.value(0), springs.span()));
                 vec![*k; masses.len().saturating_sub(1)]
             }
-            Value::List(items) => self.list(key, subject, items)?,
-            _ => return Err(self.refuse_as(springs.span(), key)),
+            Value::List(items) => self.list(&key, subject, items)?,
+            _ => return Err(self.refuse_as(springs.span(), &key)),
         };
         let mut grounds = [0.0; 2];
         for (side, ground) in ["left", "right"].into_iter().zip(&mut grounds) {
             let Some(end) = chain.get(side) else { continue };
-            *ground = match self.end("system.chain", side, end)? {
+            *ground = match self.end("chain", side, end)? {
                 End::Free => 0.0,
                 End::Sprung { stiffness, .. } => stiffness,
-                End::Pinned | End::Clamped => return Err(self.refuse_as(end.span(), &format!("system.chain.{side}"))),
+                End::Pinned | End::Clamped => {
+                    return Err(self.refuse_as(end.span(), &format!("{}.chain.{side}", self.owner)));
+                }
             };
         }
         Ok(Chain { masses, springs, grounds })
+    }
+}
+
+/// True if the `table` of this `kind` of system has its own damping.
+pub(super) fn has_damping(kind: &str, table: &Section<'_>) -> bool {
+    match kind {
+        "matrices" => table.get("damping").is_some(),
+        "modal" => table.get("damping_ratios").is_some(),
+        _ => false,
     }
 }

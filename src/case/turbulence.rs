@@ -23,17 +23,14 @@ impl Builder<'_> {
     /// `modes` tells whether the system is reduced to modes.
     pub fn turbulence(&mut self, index: usize, table: &Section<'_>, end: f64, modes: bool) -> Result<Vec<Turbulence>> {
         let owner = format!("turbulence {}", index + 1);
-        if !matches!(self.model, Model::Beam(_) | Model::Modal(_)) {
-            let help = "expected [system.beam], or [system.modal] and a line: turbulence acts along a tube";
-            return Err(self.source.error(table.span.clone(), &format!("{owner} acts on no tube"), help));
-        }
+        let (body, model) = self.tube_in_flow(&owner, table)?;
         if !modes {
             let help = "expected modes = k in [system], the modes of each plane";
             let title = format!("{owner} acts through modes, and the system is not reduced to modes");
             return Err(self.source.error(table.span.clone(), &title, help));
         }
-        let line = self.line(&owner, table)?;
-        let (reach, elements) = match (&self.model, &line) {
+        let line = self.line(&owner, &model, table)?;
+        let (reach, elements) = match (&model, &line) {
             (Model::Beam(beam), _) => ([0.0, beam.length], beam.elements),
             (_, Some(line)) => (line.ends(), line.stretches()),
             _ => ([0.0; 2], 0),
@@ -43,7 +40,7 @@ impl Builder<'_> {
         let count = count.clamp(1.0, MOST_CELLS) as usize;
         let edge = |i: usize| along[0] + (along[1] - along[0]) * (i as f64 / count as f64);
         let ends: Vec<[f64; 2]> = (0..count).map(|cell| [edge(cell), edge(cell + 1)]).collect();
-        let spectrum = self.spectrum(&owner, table, &ends)?;
+        let spectrum = self.spectrum((&owner, &model), table, &ends)?;
         let [from, to, correlation_length] = ["from", "to", "correlation_length"].map(|key| table.required(key));
         let seed = table.number("seed").map_or(Ok(0), |seed| self.seed(&owner, &seed))?;
         let mut fields = Vec::new();
@@ -52,7 +49,8 @@ impl Builder<'_> {
                 let place = match &line {
                     Some(line) => line.mean(from, to),
                     None => Place::Spread { from, to },
-                };
+                }
+                .on(body.as_deref());
                 let place = match degrees {
                     None => place,
                     Some(degrees) => Place::Towards { place: Box::new(place), degrees },
@@ -73,6 +71,30 @@ impl Builder<'_> {
         }
         self.positions.push((("turbulence", "band").into(), to.span()));
         Ok(fields)
+    }
+
+    /// The system on which a field acts, and the name of its body, where there are several.
+    fn tube_in_flow(&self, owner: &str, table: &Section<'_>) -> Result<(Option<String>, Model)> {
+        let (body, model, of) = match (&self.model, table.word("body")) {
+            (Model::Bodies(_), Some(name)) => {
+                let body = self.body_named(&format!("{owner}: body"), name.get_ref(), name.span())?;
+                (Some(body.name), body.model, "body")
+            }
+            (Model::Bodies(_), None) => {
+                let help = format!("expected body = {}", self.names_of_bodies());
+                return Err(self.source.error(table.span.clone(), &format!("`body` is missing in {owner}"), &help));
+            }
+            (_, Some(name)) => {
+                let title = format!("{owner}: body beside one system");
+                return Err(self.source.error(name.span(), &title, "expected no body, or several [[body]]"));
+            }
+            (model, None) => (None, model.clone(), "system"),
+        };
+        if !matches!(model, Model::Beam(_) | Model::Modal(_)) {
+            let help = format!("expected [{of}.beam], or [{of}.modal] and a line: turbulence acts along a tube");
+            return Err(self.source.error(table.span.clone(), &format!("{owner} acts on no tube"), &help));
+        }
+        Ok((body, model))
     }
 
     /// The stretch of the tube on which there are forces, m.
@@ -108,7 +130,12 @@ impl Builder<'_> {
     }
 
     /// The spectrum in each of the cells between `ends` (m).
-    fn spectrum(&self, owner: &str, table: &Section<'_>, ends: &[[f64; 2]]) -> Result<TurbulenceSpectrum> {
+    fn spectrum(
+        &self,
+        (owner, model): (&str, &Model),
+        table: &Section<'_>,
+        ends: &[[f64; 2]],
+    ) -> Result<TurbulenceSpectrum> {
         let one = "expected density (kg/m^3), velocity (m/s) and reduced = [[fD/V, density], ..], or \
                    spectrum = [[Hz, (N/m)^2/Hz], ..]";
         let [density, velocity, reduced] = ["density", "velocity", "reduced"].map(|key| table.get(key));
@@ -123,7 +150,7 @@ impl Builder<'_> {
                 Ok(TurbulenceSpectrum::Even(self.number_pairs(&format!("{owner}: spectrum"), spectrum, wanted)?))
             }
             (None, Some(density), Some(velocity), Some(reduced)) => {
-                let diameter = self.diameter(owner, table, density.span())?;
+                let diameter = self.diameter((owner, model), table, density.span())?;
                 let wanted = "pairs of a reduced frequency fD/V and a reduced density";
                 Ok(TurbulenceSpectrum::Flow {
                     density: *density.get_ref(),
@@ -146,9 +173,9 @@ impl Builder<'_> {
 
     /// The diameter of the tube in a flow, m: that of the beam, or beside modes that which `table`
     /// states. `flow` is where the flow stands in the file.
-    fn diameter(&self, owner: &str, table: &Section<'_>, flow: Range<usize>) -> Result<f64> {
+    fn diameter(&self, (owner, model): (&str, &Model), table: &Section<'_>, flow: Range<usize>) -> Result<f64> {
         let stated = table.number("diameter");
-        let Model::Beam(beam) = &self.model else {
+        let Model::Beam(beam) = model else {
             let Some(stated) = stated else {
                 let title = format!("`diameter` is missing in {owner}, which acts on modes");
                 return Err(self.source.error(flow, &title, "expected diameter = that of the tube, in m"));

@@ -6,7 +6,7 @@ use super::place::{MOST_PLACES, Site};
 use super::planes::Planes;
 use super::value::Section;
 use crate::error::{Error, Result, Subject};
-use crate::scene::{ModalData, Probe, Row, Side, Support, Wall, WallLaw};
+use crate::scene::{Probe, Row, Side, Support, Wall, WallLaw};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -210,15 +210,11 @@ impl Builder<'_> {
             }
         }
         if all.is_empty() {
-            let (name, place) = match (self.model.length(), &self.model, self.planes) {
-                (_, _, Planes::Named) => ("dof-0", Place::Row(vec![(0, 1.0)])),
-                (Some(length), _, _) => ("middle", Place::Position(0.5 * length)),
-                (None, Model::Modal(ModalData { points, .. }), _) if !points.is_empty() => {
-                    (points[0].name.as_str(), Place::point(&points[0].name))
-                }
-                _ => ("dof-0", Place::Dof(0)),
+            let (suffix, place) = match self.planes {
+                Planes::Named => ("dof-0".to_owned(), Place::Row(vec![(0, 1.0)])),
+                _ => self.model.typical_place(),
             };
-            let (suffix, row) = (name.to_owned(), self.model.row(&place).map_err(|error| self.at_key(error))?);
+            let row = self.model.row(&place).map_err(|error| self.at_key(error))?;
             for (way, Site { suffix, place, row }) in self.both_ways(&Site { suffix, place, row })? {
                 self.written.probes.push(place);
                 all.push(Probe { name: format!("{suffix}{way}"), at: row });

@@ -73,8 +73,16 @@ impl Builder<'_> {
     /// The depth up to which the tube may wear, m.
     fn limit(&self, wear: &Section<'_>) -> Result<Option<f64>> {
         let Some(limit) = wear.number("limit") else { return Ok(None) };
-        let wall = if let Model::Beam(beam) = &self.model { beam.section.wall_thickness() } else { None };
-        let Some(wall) = wall else {
+        let walls = self.model.systems().filter_map(|model| match model {
+            Model::Beam(beam) => beam.section.wall_thickness(),
+            _ => None,
+        });
+        let walls: Vec<f64> = walls.collect();
+        if walls.windows(2).any(|pair| pair[0] != pair[1]) {
+            let help = "expected tubes of one wall thickness: the limit is a share of it";
+            return Err(self.source.error(limit.span(), "`wear.limit` beside tubes of different walls", help));
+        }
+        let Some(&wall) = walls.first() else {
             let help = "expected [system.beam]: the limit is a share of the wall of a tube";
             return Err(self.source.error(limit.span(), "`wear.limit` without a tube", help));
         };

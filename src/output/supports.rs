@@ -3,7 +3,7 @@
 
 use super::csv::{self, digits};
 use super::table::Table;
-use crate::case::{Case, Model};
+use crate::case::{Case, Support};
 use crate::error::Result;
 use crate::run::Run;
 use crate::statistics::{LargestForce, SectorStatistics, SupportForce, SupportStatistics, WearStatistics};
@@ -199,12 +199,10 @@ pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
 /// Warnings of scars deeper than the limit or the wall of the tube, where the case knows it.
 #[must_use]
 pub fn warnings(case: &Case, run: &Run) -> Vec<String> {
-    let Model::Beam(beam) = &case.model else { return Vec::new() };
-    let Some((wall, outer)) = beam.section.wall_thickness().zip(beam.section.outer_diameter()) else {
-        return Vec::new();
-    };
-    let [thick, whole] = [wall, outer].map(|x| figures(1e3 * x));
-    let one = |Known { wear: support, worn, .. }: Known<'_>| {
+    let one = |(Known { wear: support, worn, .. }, written): (Known<'_>, &Support)| {
+        let section = case.model.beam(&written.place)?.section;
+        let (wall, outer) = section.wall_thickness().zip(section.outer_diameter())?;
+        let [thick, whole] = [wall, outer].map(|x| figures(1e3 * x));
         let worn = worn?;
         let (volume, round) = (worn.volume_m3?, worn.depth_all_round_m?);
         let scar = match (worn.depth_one_scar_m, case.wear.limit) {
@@ -231,7 +229,7 @@ pub fn warnings(case: &Case, run: &Run) -> Vec<String> {
             figures(1e3 * round)
         ))
     };
-    all(case, run).filter_map(one).collect()
+    all(case, run).zip(&case.written.supports).filter_map(one).collect()
 }
 
 /// The wear of the supports in the summary; their forces are in its statistics.

@@ -26,12 +26,32 @@ impl Structure {
     /// freedom are the n of this structure in the plane y, then the n in the plane z.
     #[must_use]
     pub fn in_two_planes(&self) -> Self {
-        let doubled = |matrix: &Symmetric| {
-            let n = matrix.size();
-            let shifted = |by: usize| matrix.entries().map(move |(i, j, value)| (i + by, j + by, value));
-            Symmetric::from_entries(2 * n, shifted(0).chain(shifted(n)))
+        Self::uncoupled(&[self, self])
+    }
+
+    /// Several structures as one, which only walls couple: the degrees of freedom of the first,
+    /// then those of the second, and so on.
+    ///
+    /// ```
+    /// use signorini::{Row, Scene, Structure, Wall};
+    ///
+    /// // Two carts of 1 kg and 3 kg, 0.5 m apart: the first may not pass the second.
+    /// let cart = |mass: f64| Scene::oscillator(mass, 0.0, 0.0).system.structure();
+    /// let carts = Structure::uncoupled(&[&cart(1.0), &cart(3.0)]);
+    /// let scene = Scene::structure(carts).with_wall(Wall::upper("touch", 0.5).at(Row::new(vec![(0, 1.0), (1, -1.0)])));
+    /// assert_eq!(scene.wall_masses(), [0.75]);
+    /// ```
+    #[must_use]
+    pub fn uncoupled(bodies: &[&Self]) -> Self {
+        let joined = |matrix: fn(&Self) -> &Symmetric| {
+            let (mut n, mut entries) = (0, Vec::new());
+            for body in bodies {
+                entries.extend(matrix(body).entries().map(|(i, j, value)| (i + n, j + n, value)));
+                n += matrix(body).size();
+            }
+            Symmetric::from_entries(n, entries)
         };
-        Self { mass: doubled(&self.mass), damping: doubled(&self.damping), stiffness: doubled(&self.stiffness) }
+        Self { mass: joined(|b| &b.mass), damping: joined(|b| &b.damping), stiffness: joined(|b| &b.stiffness) }
     }
 }
 
@@ -59,8 +79,7 @@ impl PlaneRows {
     /// plane has `n` degrees of freedom.
     #[must_use]
     pub fn doubled(row: &Row, n: usize) -> Self {
-        let z = row.entries().iter().map(|&(i, weight)| (i + n, weight)).collect();
-        Self { y: row.clone(), z: Row::new(z) }
+        Self { y: row.clone(), z: row.shifted(n) }
     }
 
     /// (g_y · x, g_z · x) for `x` of one value per degree of freedom.
@@ -74,6 +93,12 @@ impl PlaneRows {
     #[must_use]
     pub fn along(&self, degrees: f64) -> Row {
         self.towards(heading(degrees))
+    }
+
+    /// The displacement relative to that at `other`.
+    #[cfg(feature = "case")]
+    pub(crate) fn relative_to(&self, other: &Self) -> Self {
+        Self { y: self.y.relative_to(&other.y), z: self.z.relative_to(&other.z) }
     }
 
     /// The same place on a structure in other coordinates, where `row` turns each row into that of

@@ -34,6 +34,17 @@ impl Row {
         &self.entries
     }
 
+    /// The same row where the degrees of freedom come `by` later.
+    pub(crate) fn shifted(&self, by: usize) -> Self {
+        Self { entries: self.entries.iter().map(|&(i, weight)| (i + by, weight)).collect() }
+    }
+
+    /// The row of the displacement relative to the place of `other`: g − g'.
+    pub(crate) fn relative_to(&self, other: &Self) -> Self {
+        let negative = other.entries.iter().map(|&(i, weight)| (i, -weight));
+        Self { entries: self.entries.iter().copied().chain(negative).collect() }
+    }
+
     /// True if the row is zero: no entries, or entries that cancel.
     pub(crate) fn is_blind(&self) -> bool {
         let weight = |i: usize| self.entries.iter().filter(|e| e.0 == i).map(|e| e.1).sum::<f64>();

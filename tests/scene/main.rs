@@ -8,6 +8,8 @@ mod refused;
 #[cfg(feature = "cli")]
 mod base_motion;
 #[cfg(feature = "cli")]
+mod bodies;
+#[cfg(feature = "cli")]
 mod case_errors;
 #[cfg(feature = "cli")]
 mod case_errors_planes;

@@ -26,11 +26,11 @@ class Support:
         return {"name": self.name, **self.values}
 
 
-Joint = Mapping[str, int]
+CasePlace = Mapping[str, Any]
 Friction = Mapping[str, float]
 
 
-def _at(at: Place | Joint) -> Any:
+def _at(at: Place | CasePlace) -> Any:
     """A place as a table of a case file."""
     return {"position": at} if isinstance(at, (int, float)) else at
 
@@ -39,7 +39,7 @@ def hole(
     name: str,
     gap: float,
     *,
-    at: float | Joint | None = None,
+    at: float | CasePlace | None = None,
     centre: Sequence[float] | None = None,
     restitution: float | None = None,
     stiffness: float | None = None,
@@ -60,7 +60,8 @@ def hole(
         Radius of the hole less that of the tube, m; above 0.
     at : float or mapping, optional
         The place: m from the left end of a tube, or a place of the case format such as
-        ``{"joint": 1}`` (the end of the first span) or ``{"dof": 0}``.
+        ``{"joint": 1}`` (the end of the first span), ``{"dof": 0}``, or of several bodies
+        ``{"body": "a", "position": 1.0, "relative_to": {"body": "b", "position": 1.0}}``.
     centre : pair of float, optional
         Along y and z, m; 0 unless given.
     restitution : float, optional
@@ -109,7 +110,7 @@ def flats(
     *,
     sides: int | None = None,
     turn: float | None = None,
-    at: float | Joint | None = None,
+    at: float | CasePlace | None = None,
     centre: Sequence[float] | None = None,
     restitution: float | None = None,
     stiffness: float | None = None,

@@ -10,22 +10,10 @@ pub(super) const MOST_WALLS: usize = 12;
 
 /// The structure as the file describes it, and its reduction; nothing for an oscillator.
 pub(super) fn what(case: &Case) -> Vec<String> {
-    let what = match &case.model {
-        Model::Oscillator if !case.planes.is_two() => return Vec::new(),
-        Model::Oscillator => "an oscillator".to_owned(),
-        Model::Chain(_) => "a chain".to_owned(),
-        Model::Bar(bar) => format!("a bar of {} m, {} elements", bar.length, bar.elements),
-        Model::Beam(beam) => format!(
-            "a {} of {} m, {} elements, EI = {:.4} N m² and {:.4} kg/m",
-            if beam.section.outer_diameter().is_some() { "tube" } else { "rectangular beam" },
-            beam.length,
-            beam.elements,
-            beam.bending_stiffness(),
-            beam.mass_per_metre()
-        ),
-        Model::Matrices(_) => "a structure by its matrices".to_owned(),
-        Model::Modal(_) => "a structure by its modes".to_owned(),
-    };
+    if let (Model::Oscillator, false) = (&case.model, case.planes.is_two()) {
+        return Vec::new();
+    }
+    let what = described(&case.model);
     let what = if case.planes.is_two() { format!("{what}, in two planes") } else { what };
     let mut lines = Vec::new();
     if let Some(truncated) = &case.truncated {
@@ -40,6 +28,29 @@ pub(super) fn what(case: &Case) -> Vec<String> {
         lines.push(format!("{what}, in full"));
     }
     lines
+}
+
+/// A model in words.
+fn described(model: &Model) -> String {
+    match model {
+        Model::Oscillator => "an oscillator".to_owned(),
+        Model::Chain(_) => "a chain".to_owned(),
+        Model::Bar(bar) => format!("a bar of {} m, {} elements", bar.length, bar.elements),
+        Model::Beam(beam) => format!(
+            "a {} of {} m, {} elements, EI = {:.4} N m² and {:.4} kg/m",
+            if beam.section.outer_diameter().is_some() { "tube" } else { "rectangular beam" },
+            beam.length,
+            beam.elements,
+            beam.bending_stiffness(),
+            beam.mass_per_metre()
+        ),
+        Model::Matrices(_) => "a structure by its matrices".to_owned(),
+        Model::Modal(_) => "a structure by its modes".to_owned(),
+        Model::Bodies(bodies) => {
+            let each = bodies.iter().map(|body| format!("{:?}, {}", body.name, described(&body.model)));
+            format!("{} bodies: {}", bodies.len(), each.collect::<Vec<_>>().join("; "))
+        }
+    }
 }
 
 /// Random loads, motions of the base, and the start, in words.

@@ -1,6 +1,6 @@
 //! The structure that is run, and its walls with the mass that each feels.
 
-use crate::case::{Case, Model, Place};
+use crate::case::{Body, Case, Model, Place};
 use crate::scene::{
     BarEnd, BeamEnd, BeamSection, Damping, Face, FrictionCoefficients, Scene, Side, Support, System, Wall, WallLaw,
 };
@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 pub(super) fn scene(case: &Case) -> Value {
     let whole = unreduced(case);
     let mut out = Map::new();
-    out.insert(case.model.kind().to_owned(), system(case));
+    out.insert(case.model.kind().to_owned(), system(&case.model, &case.without_sliders().system, 0));
     if !matches!(case.without_sliders().system, System::Oscillator(_)) {
         out.insert("structure".to_owned(), structure(case));
     }
@@ -58,11 +58,18 @@ fn unreduced(case: &Case) -> Cow<'_, Scene> {
     case.truncated.as_ref().map_or_else(|| case.without_sliders(), |truncated| Cow::Borrowed(&truncated.whole.scene))
 }
 
-/// The system as the case file describes it.
-fn system(case: &Case) -> Value {
-    match (&case.model, &case.without_sliders().system) {
+/// The model as the case file describes it, of a system or body with its degrees of freedom from
+/// the `first` of `system` on.
+fn system(model: &Model, system: &System, first: usize) -> Value {
+    match (model, system) {
         (_, System::Oscillator(o)) => {
             json!({ "mass_kg": o.mass, "damping_n_s_per_m": o.damping, "stiffness_n_per_m": o.stiffness })
+        }
+        (Model::Bodies(bodies), _) => bodies.iter().map(|body| self::body(body, system)).collect(),
+        (Model::Oscillator, System::Structure(structure)) => {
+            let [mass, damping, stiffness] =
+                [&structure.mass, &structure.damping, &structure.stiffness].map(|matrix| matrix.get(first, first));
+            json!({ "mass_kg": mass, "damping_n_s_per_m": damping, "stiffness_n_per_m": stiffness })
         }
         (Model::Chain(chain), _) => json!({
             "masses": chain.masses.len(),
@@ -106,6 +113,11 @@ fn system(case: &Case) -> Value {
         }),
         _ => json!({}),
     }
+}
+
+fn body(body: &Body, all: &System) -> Value {
+    let Body { name, model, dofs, .. } = body;
+    json!({ "name": name, (model.kind()): system(model, all, dofs.start), "degrees_of_freedom": dofs.len() })
 }
 
 fn bar_end(end: BarEnd) -> Value {
@@ -166,14 +178,19 @@ fn at(place: &Place) -> Value {
         Place::Spread { from, to } => json!({ "spread_m": [from, to] }),
         Place::Points(points) => json!({ "points": points }),
         Place::Rows { y, z } => json!({ "row_y": y, "row_z": z }),
-        Place::Towards { place, degrees } => {
-            let mut place = at(place);
-            if let Some(map) = place.as_object_mut() {
-                map.insert("direction_deg".to_owned(), json!(degrees));
-            }
-            place
-        }
+        Place::Towards { place, degrees } => at_with(place, "direction_deg", json!(degrees)),
+        Place::On { body, place } => at_with(place, "body", json!(body)),
+        Place::Relative { place, to } => at_with(place, "relative_to", at(to)),
     }
+}
+
+/// The place with one more value.
+fn at_with(place: &Place, key: &str, value: Value) -> Value {
+    let mut place = at(place);
+    if let Some(map) = place.as_object_mut() {
+        map.insert(key.to_owned(), value);
+    }
+    place
 }
 
 /// The sliders, each with where it is.

@@ -6,6 +6,7 @@ use crate::error::{Error, Result};
 use crate::linear::{Operator, Symmetric};
 use crate::scene::structure::matrix_of;
 use crate::scene::{Row, Structure};
+use std::ops::Range;
 
 /// Up to this many degrees of freedom full matrices are used where they help: for all modes at
 /// once, and for modal damping.
@@ -33,6 +34,9 @@ const RIGID: f64 = 8.0 * f64::EPSILON;
 /// … and so is λ below this share of the largest kᵢᵢ/mᵢᵢ: the energy due to an error of 1e-11 in
 /// the shape, the largest that remains.
 const SHAPE: f64 = 1e-22;
+
+/// Most uncoupled blocks whose modes are computed apart; a structure of more is taken as one.
+const MOST_BLOCKS: usize = 1024;
 
 /// Components within this relative distance of the largest count as equal to it: the first of them
 /// determines the sign, independent of rounding.
@@ -67,8 +71,9 @@ impl Modes {
         if structure.mass.half_bandwidth() == 0 && structure.stiffness.half_bandwidth() == 0 {
             return uncoupled(structure, count);
         }
-        if let Some(half) = twin(structure) {
-            return Ok(Self::lowest(&half, count.div_ceil(2))?.in_two_planes(count));
+        let blocks = uncoupled_blocks(structure);
+        if !blocks.is_empty() {
+            return Self::of_blocks(&blocks, n, count);
         }
         let all_at_once = n <= MOST_DENSE && (n <= 40 || 3 * count > n);
         let (scaled, unit) = scaled(structure);
@@ -77,13 +82,31 @@ impl Modes {
         Self::finish(structure, shapes)
     }
 
-    /// The `count` slowest modes of a structure in two equal planes, given the modes of one plane:
-    /// each mode first in the plane y, then in the plane z.
-    fn in_two_planes(self, count: usize) -> Self {
-        let still = vec![0.0; self.shapes.first().map_or(0, Vec::len)];
-        let both = |shape: Vec<f64>| [[shape.as_slice(), &still].concat(), [still.as_slice(), &shape].concat()];
-        let shapes = self.shapes.into_iter().flat_map(both).take(count).collect();
-        Self { omega: self.omega.into_iter().flat_map(|omega| [omega; 2]).take(count).collect(), shapes }
+    /// The `count` slowest modes of `n` degrees of freedom in uncoupled `blocks`, each of them with
+    /// its first degree of freedom. Every mode moves one block only; of equal ω that of the first
+    /// block comes first. The modes of equal blocks, as the two planes of a tube, are computed once.
+    fn of_blocks(blocks: &[(usize, Structure)], n: usize, count: usize) -> Result<Self> {
+        let mut merged: Vec<(f64, usize, Vec<f64>)> = Vec::new();
+        for (index, (_, block)) in blocks.iter().enumerate() {
+            if blocks[..index].iter().any(|other| other.1 == *block) {
+                continue;
+            }
+            let equal: Vec<usize> = blocks.iter().filter(|other| other.1 == *block).map(|other| other.0).collect();
+            let needed = count.div_ceil(equal.len()).min(block.mass.size());
+            let own = Self::lowest(block, needed)?;
+            for (omega, shape) in own.omega.into_iter().zip(own.shapes) {
+                merged.extend(equal.iter().map(|&first| (omega, first, shape.clone())));
+            }
+        }
+        merged.sort_by(|a, b| a.0.total_cmp(&b.0));
+        merged.truncate(count);
+        let whole = |(omega, first, shape): (f64, usize, Vec<f64>)| {
+            let mut all = vec![0.0; n];
+            all.iter_mut().skip(first).zip(shape).for_each(|(all, x)| *all = x);
+            (omega, all)
+        };
+        let (omega, shapes) = merged.into_iter().map(whole).unzip();
+        Ok(Self { omega, shapes })
     }
 
     /// ω, order and sign of shapes that are M-orthonormal already.
@@ -168,21 +191,51 @@ impl Modes {
     }
 }
 
-/// M and K of one half of the degrees of freedom, if the other half has the same and the two are
-/// uncoupled, as the two planes of a tube. Their modes are then computed once, and each of them
-/// lies in one plane; otherwise modes of equal ω would be an arbitrary basis of their space.
-fn twin(structure: &Structure) -> Option<Structure> {
+/// M and K of the stretches of degrees of freedom that neither M nor K couples, as the two planes
+/// of a tube or bodies that only walls couple, each with its first degree of freedom; none where
+/// all are coupled. The modes of blocks are computed apart: otherwise modes of equal ω would be an
+/// arbitrary basis of their space.
+fn uncoupled_blocks(structure: &Structure) -> Vec<(usize, Structure)> {
     let n = structure.mass.size();
-    let half = |matrix: &Symmetric| {
-        let entries = || matrix.entries().filter(|entry| entry.2 != 0.0);
-        let first = || entries().filter(|entry| entry.0 < n / 2);
-        let second = entries().filter(|entry| entry.0 >= n / 2);
-        let same = second.map(|(i, j, value)| (i - n / 2, j.wrapping_sub(n / 2), value)).eq(first());
-        same.then(|| Symmetric::from_entries(n / 2, first()))
+    let matrices = [&structure.mass, &structure.stiffness];
+    // The last degree of freedom that an entry couples with each, or with an earlier one.
+    let mut reach: Vec<usize> = (0..n).collect();
+    for (i, j, value) in matrices.into_iter().flat_map(Symmetric::entries) {
+        if let Some(reach) = reach.get_mut(i.min(j)).filter(|_| value != 0.0) {
+            *reach = (*reach).max(i.max(j));
+        }
+    }
+    let mut blocks = Vec::new();
+    let (mut first, mut last) = (0, 0);
+    for (i, reach) in reach.into_iter().enumerate() {
+        if i > last {
+            blocks.push(first..i);
+            first = i;
+        }
+        last = last.max(reach);
+    }
+    blocks.push(first..n);
+    if blocks.len() == 1 || blocks.len() > MOST_BLOCKS {
+        return Vec::new();
+    }
+    let [mut masses, mut stiffnesses] = matrices.map(|matrix| parts(matrix, &blocks).into_iter());
+    let part = |block: Range<usize>| {
+        let (mass, stiffness) = masses.next().zip(stiffnesses.next())?;
+        Some((block.start, Structure { mass, damping: Symmetric::zeros(block.len()), stiffness }))
     };
-    let sizes = n.is_multiple_of(2) && structure.stiffness.size() == n;
-    let (mass, stiffness) = if sizes { half(&structure.mass).zip(half(&structure.stiffness))? } else { return None };
-    Some(Structure { mass, damping: Symmetric::zeros(n / 2), stiffness })
+    blocks.into_iter().filter_map(part).collect()
+}
+
+/// The parts of a block-diagonal matrix on its `blocks`, which lie one after another.
+fn parts(matrix: &Symmetric, blocks: &[Range<usize>]) -> Vec<Symmetric> {
+    let mut entries = vec![Vec::new(); blocks.len()];
+    for (i, j, value) in matrix.entries().filter(|entry| entry.2 != 0.0) {
+        let index = blocks.partition_point(|block| block.end <= i);
+        if let (Some(block), Some(entries)) = (blocks.get(index), entries.get_mut(index)) {
+            entries.push((i - block.start, j - block.start, value));
+        }
+    }
+    blocks.iter().zip(entries).map(|(block, entries)| Symmetric::from_entries(block.len(), entries)).collect()
 }
 
 /// The structure in units in which the largest diagonal entries of M and of K are 1, so that no
