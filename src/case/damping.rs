@@ -45,7 +45,8 @@ impl Builder<'_> {
         })
     }
 
-    /// Reads the table `damping` of a system or body, which must specify exactly one kind of damping.
+    /// Reads the table `damping` of a system or body, which must specify exactly one kind of
+    /// damping.
     pub fn damping(&mut self, damping: &Section<'_>) -> Result<Damping> {
         self.positions.push(("damping".into(), damping.span.clone()));
         let kinds = ["rayleigh", "ratio", "ratios", "matrix"];

@@ -17,14 +17,14 @@
 //! (`key_entry.rs`) with its type, unit, default and accepted values, which `schema.rs` looks up;
 //! `value.rs` reads TOML with the position of each value, `check.rs` checks it against the keys,
 //! `build.rs` builds the case table by table from what `builder.rs` holds, `system.rs`, `beam.rs`,
-//! `bodies.rs`, `model.rs`, `place.rs`, `points.rs`, `planes.rs` and `direction.rs` read the structure, the
-//! locations on it and their directions, `loads.rs`, `random.rs`, `turbulence.rs` and `base.rs` the
-//! loads, `truncated.rs` keeps the full scene of a case reduced to modes, `realisations.rs` and
-//! `wear.rs` give the scenes of realisations and of worn supports, `wording.rs` finds the key of
-//! each value of the scene, `written.rs` keeps what the scene itself no longer shows;
-//! `case_file.rs` is the document that a case keeps, `key.rs` the path of a value, by which it is
-//! changed before it is built (`changes.rs`), `tangent.rs` differentiates the scene by a key,
-//! `summary.rs` reads the case of a finished run (feature `case`).
+//! `bodies.rs`, `model.rs`, `place.rs`, `points.rs`, `planes.rs` and `direction.rs` read the
+//! structure, the locations on it and their directions, `loads.rs`, `random.rs`, `turbulence.rs`
+//! and `base.rs` the loads, `truncated.rs` keeps the full scene of a case reduced to modes,
+//! `realisations.rs` and `wear.rs` give the scenes of realisations and of worn supports,
+//! `wording.rs` finds the key of each value of the scene, `written.rs` keeps what the scene itself
+//! no longer shows; `case_file.rs` is the document that a case keeps, `key.rs` the path of a value,
+//! by which it is changed before it is built (`changes.rs`), `tangent.rs` differentiates the scene
+//! by a key, `summary.rs` reads the case of a finished run (feature `case`).
 #![doc = include_str!("../../cases/README.md")]
 
 mod base;

@@ -38,8 +38,8 @@ impl Structure {
     /// // Two carts of 1 kg and 3 kg, 0.5 m apart: the first may not pass the second.
     /// let cart = |mass: f64| Scene::oscillator(mass, 0.0, 0.0).system.structure();
     /// let carts = Structure::uncoupled(&[&cart(1.0), &cart(3.0)]);
-    /// let scene = Scene::structure(carts).with_wall(Wall::upper("touch", 0.5).at(Row::new(vec![(0, 1.0), (1, -1.0)])));
-    /// assert_eq!(scene.wall_masses(), [0.75]);
+    /// let touch = Wall::upper("touch", 0.5).at(Row::new(vec![(0, 1.0), (1, -1.0)]));
+    /// assert_eq!(Scene::structure(carts).with_wall(touch).wall_masses(), [0.75]);
     /// ```
     #[must_use]
     pub fn uncoupled(bodies: &[&Self]) -> Self {

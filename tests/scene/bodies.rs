@@ -72,8 +72,9 @@ fn two_carts_collide_as_momentum_and_restitution_say() {
 
 #[test]
 fn two_equal_bars_exchange_their_velocities_in_the_time_of_two_passes_of_a_wave() {
-    // Saint-Venant (1867): bars of 1 m, E A = 1 N and ρ A = 1 kg/m, hence c = 1 m/s; the contact lasts
-    // 2 L/c = 2 s under a force of ρ A c v/2 = 0.5 N, and the bar that struck stands still after it.
+    // Saint-Venant (1867): bars of 1 m, E A = 1 N and ρ A = 1 kg/m, hence c = 1 m/s; the contact
+    // lasts 2 L/c = 2 s under a force of ρ A c v/2 = 0.5 N, and the bar that struck stands still
+    // after it.
     let bar = "length = 1.0\nyoungs_modulus = 1.0\ndensity = 1.0\narea = 1.0\nelements = 200\nleft = \"free\"\n\
                right = \"free\"\n";
     let case = case(&format!(

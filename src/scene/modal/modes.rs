@@ -84,7 +84,8 @@ impl Modes {
 
     /// The `count` slowest modes of `n` degrees of freedom in uncoupled `blocks`, each of them with
     /// its first degree of freedom. Every mode moves one block only; of equal ω that of the first
-    /// block comes first. The modes of equal blocks, as the two planes of a tube, are computed once.
+    /// block comes first. The modes of equal blocks, as the two planes of a tube, are computed
+    /// once.
     fn of_blocks(blocks: &[(usize, Structure)], n: usize, count: usize) -> Result<Self> {
         let mut merged: Vec<(f64, usize, Vec<f64>)> = Vec::new();
         for (index, (_, block)) in blocks.iter().enumerate() {
