@@ -275,3 +275,50 @@ def test_a_slider_stops_a_released_mass_where_the_spring_pulls_less_than_it_hold
     assert again.run("located", step=1e-4).displacement[-1] == 0.05e-3
     with pytest.raises(ValueError, match='slider "pad": normal_force is -1'):
         sg.case({**tables, "slider": [sg.slider("pad", -1.0, 0.1)]})
+
+
+def test_bodies_touch_each_other_in_python_as_in_files() -> None:
+    # Two free carts of 1 kg and 3 kg at 2 m/s and at rest: with restitution 1/2 they leave with
+    # -1/4 and 3/4 m/s.
+    cart = {"damping": 0.0, "stiffness": 0.0}
+    places = {name: {"body": name, "dof": 0} for name in ("left", "right")}
+    carts = sg.case(
+        {
+            "body": [
+                {"name": "left", "oscillator": {"mass": 1.0, **cart}},
+                {"name": "right", "oscillator": {"mass": 3.0, **cart}},
+            ],
+            "wall": [
+                {
+                    "name": "touch",
+                    "side": "upper",
+                    "position": 0.5,
+                    "restitution": 0.5,
+                    "at": {**places["left"], "relative_to": places["right"]},
+                }
+            ],
+            "probe": [{"name": name, "at": at} for name, at in places.items()],
+            "initial": {"velocity": {"left": 2.0}},
+            "time": {"end": 1.0, "step": 1e-3},
+        }
+    )
+    run = carts.run()
+    speeds = [run.probe(name)[1][-1] for name in ("left", "right")]
+    # Some roundings of 2 m/s.
+    np.testing.assert_allclose(speeds, [-0.25, 0.75], atol=1e-14)
+
+
+def test_a_hole_may_surround_the_motion_relative_to_another_body() -> None:
+    rod = {"mass": 0.5, "damping": 2.0, "stiffness": 2e4}
+    at = {"body": "rod", "dof": 0, "relative_to": {"body": "sleeve", "dof": 0}}
+    pair = sg.case(
+        {
+            "system": {"planes": 2},
+            "body": [{"name": name, "oscillator": rod} for name in ("rod", "sleeve")],
+            "support": [sg.hole("gap", 1e-3, at=at, friction=0.2)],
+            "initial": {"velocity": {"y": {"rod": 1.0}}},
+            "time": {"end": 0.05, "step": 1e-4},
+        }
+    )
+    run = pair.run()
+    assert len(run.contacts) > 0
