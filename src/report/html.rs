@@ -17,7 +17,7 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 41] = [
+const SCRIPT: [&str; 42] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
@@ -36,6 +36,7 @@ const SCRIPT: [&str; 41] = [
     include_str!("page/js/panels.js"),
     include_str!("page/js/phase.js"),
     include_str!("page/js/supports.js"),
+    include_str!("page/js/where.js"),
     include_str!("page/js/contacts.js"),
     include_str!("page/js/compare.js"),
     include_str!("page/js/endnames.js"),

@@ -169,6 +169,11 @@ fn pages_open_and_their_controls_work_in_a_browser() {
         document.querySelector('#contacts tbody tr:not(.space) td').textContent].join(' ')";
     let shown = tab.evaluate(shown);
     assert!(shown.as_str().unwrap().starts_with("2 2 plate-"), "{shown}");
+    // Where along the tube they wear: a bar at the place of each.
+    let bars = tab.evaluate("document.querySelector('#where canvas').getAttribute('aria-label')");
+    let bars = bars.as_str().unwrap();
+    assert!(bars.starts_with("Work rate (W) at each support: plate-1 at 1 m: "), "{bars}");
+    assert!(bars.contains("; plate-2 at 2 m: "), "{bars}");
     // The drawing of both planes moves from contact to contact.
     let drawing = "document.querySelector('.drawing canvas').toDataURL()";
     let still = tab.evaluate(drawing);

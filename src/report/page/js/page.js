@@ -121,12 +121,14 @@ root.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark"
 readInks();
 const menu = headSection();
 // What a study is made for stands before its first run.
-if (DATA.kind === "run" && DATA.summary.realisations)
+if (DATA.kind === "run" && DATA.summary.realisations) {
   meansSection(
     DATA.summary.realisations,
     "Means over realisations",
     (count) => `${count} realisations of the random loads`,
   );
+  whereSection();
+}
 if (lead && lead.probes.length && duration > 0) {
   if (DATA.compare && DATA.horizon) view.set(0, DATA.horizon);
   firstInstant();
@@ -151,7 +153,10 @@ if (DATA.wear) {
 if (DATA.continue) branchSection();
 if (DATA.orbit) orbitSections();
 if (lead && lead.probes.length) phaseSection();
-if (DATA.kind === "run" && (DATA.summary.supports || []).length) supportSection();
+if (DATA.kind === "run" && (DATA.summary.supports || []).length) {
+  if (!DATA.summary.realisations) whereSection();
+  supportSection();
+}
 if (lead && runs.some((run) => run.contacts.count)) contactSection();
 if (DATA.margins) marginSection();
 if (DATA.kind === "run" && DATA.summary.statistics && DATA.summary.statistics.walls.length)
