@@ -31,7 +31,8 @@
 //!
 //! No rigid wall is ever penetrated, and the force of a rigid wall never enters the acceleration a.
 //! In return, the work of the smooth force over U is not accounted for: each impact gains or loses
-//! energy of order h.
+//! energy of order h. With a step that does not resolve the fastest mode (hω of 2 and more) and
+//! restitutions near 1 the gains may add up without bound: such a run ends as diverged.
 
 use super::Counters;
 use super::body::Body;
@@ -65,8 +66,8 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     purpose: "stiff structures: order 2 between impacts; vibrations that the step does not resolve shrink by the \
               factor ρ∞ per step; no rigid wall or round hole is ever penetrated",
     order: Some(1),
-    fails: "order 1 through impacts (2 at e = 0); each impact gains or loses energy of order h (reported), so \
-            prefer moreau-jean where impacts are many",
+    fails: "order 1 through impacts (2 at e = 0); each impact gains or loses energy of order h (reported), and \
+            may diverge with a step that does not resolve the fastest mode: prefer moreau-jean where impacts are many",
     round: Coverage::Stepped(
         "has the law of moreau-jean, after it has put the body within the circle, which it never \
                              passes",
