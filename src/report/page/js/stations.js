@@ -27,7 +27,9 @@ function stationsOf(plane = 0) {
   }
   // Without a shape: the watched places, by where they are if they say so.
   const two = DATA.scene.planes === 2;
-  const place = (probe) => probe.at && (probe.at.position ?? probe.at.dof);
+  // Places on several bodies, and relative to each other, are not on one line.
+  const place = ({ at }) =>
+    at && !at.body && !at.relative_to ? (at.position ?? at.dof) : undefined;
   const placed = lead.probes.every((probe) => Number.isFinite(place(probe)) && !two);
   const probes = placed ? [...lead.probes].sort((a, b) => place(a) - place(b)) : lead.probes;
   const x = probes.map((probe, i) => (placed ? place(probe) : i));
