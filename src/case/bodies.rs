@@ -25,12 +25,12 @@ impl Builder<'_> {
             }
             // The values of a body stand under the same subjects as those of the others; once it is
             // built, no error is about them.
-            let others = (std::mem::take(&mut self.positions), std::mem::take(&mut self.joints));
+            let others = std::mem::take(&mut self.positions);
             self.owner = "body";
             let (model, structure) = self.one_body(&name, table, two)?;
             self.owner = "system";
-            let joints;
-            (self.positions, joints) = (others.0, std::mem::replace(&mut self.joints, others.1));
+            self.positions = others;
+            let joints = std::mem::take(&mut self.joints);
             let dofs = first..first + structure.mass.size();
             first = dofs.end;
             bodies.push(Body { name, model, joints, dofs });

@@ -35,15 +35,11 @@ impl Builder<'_> {
                 self.names_of_bodies()
             );
         }
-        if self.body.is_some() {
-            let own = self.takes_alone(spread);
-            return format!("{own}, each beside body", own = own.trim_end_matches(", or \"each\""));
-        }
-        self.takes_alone(spread)
-    }
-
-    fn takes_alone(&self, spread: bool) -> String {
-        let each = if spread { "" } else { ", or \"each\"" };
+        let each = match &self.body {
+            Some(body) => format!(", each beside body = {body:?}"),
+            None if spread => String::new(),
+            None => ", or \"each\"".to_owned(),
+        };
         let last = self.n.saturating_sub(1);
         if let Model::Modal(modal) = &self.model {
             let names = self.points_of(modal);
@@ -72,7 +68,7 @@ impl Builder<'_> {
         let dof = format!("{dof}{joint}");
         match self.model.length() {
             Some(length) if spread => {
-                format!("at = {{ position = 0 to {length:?} m }}, {{ spread = [from, to] }} in m, {dof}")
+                format!("at = {{ position = 0 to {length:?} m }}, {{ spread = [from, to] }} in m, {dof}{each}")
             }
             Some(length) => format!("at = {{ position = 0 to {length:?} m }}, {dof}{each}"),
             None => format!("at = {dof}{each}"),
