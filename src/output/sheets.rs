@@ -6,7 +6,6 @@
 //! Equal tables give equal bytes.
 
 use super::atomic::WholeFile;
-use super::csv::digits;
 use super::record::Record;
 use crate::case::open_regular;
 use crate::error::{Error, Result};
@@ -25,9 +24,6 @@ const NAME: usize = 31;
 
 /// Most characters of a cell.
 const CELL: usize = 32_767;
-
-/// Whole numbers up to here have a binary64 number each.
-const WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// Least width of a column, characters.
 const WIDTH: usize = 10;
@@ -78,7 +74,8 @@ impl Sheets {
         let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(source);
         let header = reader.headers().map_err(unread)?.clone();
         let small = name.to_lowercase();
-        let more = |count: u64, what: &str, most: u64| Some(format!("{count} {what}, where a sheet has at most {most}"));
+        let more =
+            |count: u64, what: &str, most: u64| Some(format!("{count} {what}, where a sheet has at most {most}"));
         let beyond = match (record.rows + 1, header.len(), name.chars().count()) {
             (rows, ..) if rows > ROWS => more(rows, "rows with the header", ROWS),
             (_, columns, _) if columns > COLUMNS => more(columns as u64, "columns", COLUMNS as u64),
@@ -92,11 +89,11 @@ impl Sheets {
         let failed = |error| failure(path, &error);
         let sheet = self.workbook.add_worksheet_with_constant_memory().map_err(failed)?;
         put_header(sheet, name, &header).map_err(failed)?;
-        let mut record_of_row = StringRecord::new();
+        let mut cells = StringRecord::new();
         let mut row = 0;
-        while reader.read_record(&mut record_of_row).map_err(unread)? {
+        while reader.read_record(&mut cells).map_err(unread)? {
             row += 1;
-            match put_row(sheet, row, &record_of_row) {
+            match put_row(sheet, row, &cells) {
                 Err(XlsxError::MaxStringLengthExceeded) => {
                     self.workbook.worksheets_mut().pop();
                     return Ok(Some(format!("a cell of more than {CELL} characters in row {row}")));
@@ -144,14 +141,77 @@ fn put_row(sheet: &mut Worksheet, row: u32, cells: &StringRecord) -> std::result
     Ok(())
 }
 
-/// The number that a cell is: one that is written with these very digits. All other cells are text:
-/// a name such as 007, a seed that binary64 does not have, `inf`, `NaN`.
+/// The number that a cell is. All other cells are text: a name such as 007, a seed that binary64
+/// does not have, `inf`, `NaN`.
 fn number(cell: &str) -> Option<f64> {
     let x: f64 = cell.parse().ok()?;
-    let exact = cell.contains(['.', 'e']) || x.abs() <= WHOLE;
-    (x.is_finite() && exact && (digits(Some(x)) == cell || x.to_string() == cell)).then_some(x)
+    let is_whole = cell.bytes().skip(usize::from(cell.starts_with('-'))).all(|byte| byte.is_ascii_digit());
+    (x.is_finite() && (!is_whole || x.to_string() == cell)).then_some(x)
 }
 
 fn failure(path: &Path, error: &XlsxError) -> Error {
     Error::io(path.display(), error.to_string(), false)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What keeps the table `text` out of `sheets` as the sheet `name`.
+    fn beyond(sheets: &mut Sheets, name: &str, text: &str) -> Option<String> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(format!("{name}.csv"));
+        std::fs::write(&path, text).unwrap();
+        sheets.add(&path, &Record::of(text.as_bytes()).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn the_largest_tables_are_sheets_and_larger_ones_are_refused_by_what_is_too_large() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut sheets = Sheets::new(folder.path()).unwrap();
+        let (rows, columns) = ((1 << 20) - 1, 1 << 14);
+        let long = |rows: usize| format!("a\n{}", "1\n".repeat(rows));
+        let wide = |columns: usize| format!("{}a\n", "a,".repeat(columns - 1));
+        let cell = |letters: usize| format!("a\n1\n{}\n", "x".repeat(letters));
+        let name = "n".repeat(31);
+        for (name, text) in [("rows", long(rows)), ("columns", wide(columns)), ("cell", cell(32_767)), (&name, wide(1))]
+        {
+            assert_eq!(beyond(&mut sheets, name, &text), None);
+        }
+        for (name, text, wanted) in [
+            ("more", long(rows + 1), "1048577 rows with the header, where a sheet has at most 1048576"),
+            ("wider", wide(columns + 1), "16385 columns, where a sheet has at most 16384"),
+            ("longer", cell(32_768), "a cell of more than 32767 characters in row 2"),
+            (&"n".repeat(32), wide(1), "32 characters in its name, where a sheet has at most 31"),
+            ("Rows", wide(1), "the name of another sheet but for capitals"),
+        ] {
+            assert_eq!(beyond(&mut sheets, name, &text).as_deref(), Some(wanted));
+        }
+        // What was left out half way leaves nothing behind, not even its name.
+        assert_eq!(beyond(&mut sheets, "longer", &cell(1)), None);
+        let names: Vec<String> = sheets.workbook.worksheets().iter().map(Worksheet::name).collect();
+        assert_eq!(names, ["rows", "columns", "cell", &name, "longer"]);
+    }
+
+    #[test]
+    fn a_cell_is_the_number_that_its_digits_are_or_text() {
+        for (text, x) in [
+            ("0.0", 0.0),
+            ("-0.0", -0.0),
+            ("-0.00000e0", -0.0),
+            ("1.50000e-3", 0.0015),
+            ("12", 12.0),
+            ("-3", -3.0),
+            ("1e16", 1e16),
+            ("5e-324", f64::from_bits(1)),
+            ("1.7976931348623157e308", f64::MAX),
+            ("9007199254740992", 9_007_199_254_740_992.0),
+        ] {
+            assert_eq!(number(text).map(f64::to_bits), Some(x.to_bits()), "{text}");
+        }
+        for text in ["", "-", "007", "1e5x", "inf", "-inf", "NaN", "9007199254740993", "18446744073709551615", "1e400"]
+        {
+            assert_eq!(number(text), None, "{text}");
+        }
+    }
 }
