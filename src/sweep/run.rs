@@ -81,8 +81,8 @@ impl Plan {
     /// computed again. `progress` is called from time to time.
     ///
     /// # Errors
-    /// [`Error::Io`](crate::Error::Io) for a folder with results of another request, one that
-    /// another process is writing to, and if writing fails.
+    /// [`Error::OtherResults`](crate::Error::OtherResults); [`Error::Io`](crate::Error::Io) for a
+    /// folder that another process is writing to, and if writing fails.
     pub fn run_into(&self, folder: &Path, options: SweepOptions, progress: &dyn Fn(Progress)) -> Result<Finished> {
         let (finished, mut results) = self.run_in(folder, options, Formats::default(), progress, &|_| ())?;
         let there = SENSITIVITY_TABLES.iter().any(|(_, file)| finished.folder.join(file).exists());
