@@ -1,5 +1,5 @@
-//! File formats of pictures and tables. Pictures are SVG, which this crate writes itself, and PDF and
-//! PNG made from it; tables are CSV, and the sheets of a workbook beside it.
+//! File formats of pictures and tables. Pictures are SVG, which this crate writes itself, and PDF
+//! and PNG made from it; tables are CSV, and the sheets of a workbook beside it.
 //!
 //! PDF and PNG are made by `svg2pdf` and `resvg`, with the feature `pictures`. Text is set in a
 //! subset of DejaVu Sans (Latin, Greek, Cyrillic) that is built into the program, so that files do
@@ -34,7 +34,8 @@ impl Formats {
     }
 }
 
-/// The refusal of the format `asked` of `option` by a build without `feature`, which has `accepted`.
+/// The refusal of the format `asked` of `option` by a build without `feature`, which writes
+/// `accepted`.
 fn not_built(option: &'static str, asked: &str, accepted: &str, feature: &str) -> Error {
     let expected = format!(
         "{accepted}: this program was built without the feature `{feature}`, which writes {asked}\n\

@@ -69,8 +69,8 @@ impl Results {
     /// `formats`.
     ///
     /// # Errors
-    /// [`Error::OtherResults`]; [`Error::Io`], marked as a wrong request, for a folder that cannot be
-    /// written, or in which another process is at work.
+    /// [`Error::OtherResults`]; [`Error::Io`], marked as a wrong request, for a folder that cannot
+    /// be written, or in which another process is at work.
     pub fn open(folder: &Path, request: Map<String, Value>, force: bool, formats: Formats) -> Result<Self> {
         Self::open_growing(folder, request, None, force, formats)
     }

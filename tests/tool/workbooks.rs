@@ -37,7 +37,7 @@ fn a_build_without_workbooks_says_how_to_get_them_before_anything_runs() {
 }
 
 #[cfg(feature = "xlsx")]
-mod workbooks {
+mod sheets {
     use crate::command::said;
     use crate::shaken::square_of_bars;
     use roxmltree::{Document, Node};
