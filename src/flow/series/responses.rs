@@ -11,7 +11,7 @@
 //! side, four in a block.
 
 use super::TERMS;
-use super::terms::FEWEST;
+use super::truncation::FEWEST;
 use crate::elementary::sin_cos;
 use crate::scene::Harmonic;
 
