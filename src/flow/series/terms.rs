@@ -1,7 +1,7 @@
 //! The terms of a series, by recurrence.
 
 use super::circle::Circle;
-use super::truncation::{FEWEST, RADIANS, terms_for};
+use super::truncation::{FEWEST, LAST, RADIANS, terms_for};
 use super::wave::Wave;
 use super::{Acting, HeldRows, Series, SeriesBody, TERMS};
 
@@ -102,7 +102,7 @@ impl Series {
         self.start = from.time;
         // Start and span together would miss the given end by rounding, and with it a blow.
         self.end = if span <= self.unit { from.until } else { from.time + self.unit };
-        self.terms = if slides { TERMS } else { terms_for(self.rate * self.unit) };
+        self.terms = if slides { TERMS } else { terms_for(self.rate * self.unit, LAST) };
         self.acting.clear();
         self.acting.extend(touching.iter().enumerate().map(|(slot, t)| Acting {
             wall: t.wall,

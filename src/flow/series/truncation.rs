@@ -8,7 +8,7 @@ use super::{Series, TERMS};
 pub(super) const RADIANS: f64 = 2.0;
 
 /// The series ends where a term of the acceleration is below this share of the first.
-const LAST: f64 = 1e-18;
+pub(super) const LAST: f64 = 1e-18;
 
 /// Minimum number of terms, so that oscillations of the load are included besides its constant and
 /// ramp.
@@ -112,11 +112,11 @@ impl Series {
     }
 }
 
-/// The number of terms after which all are below rounding at x = 1, for a motion of `radians`:
+/// The number of terms after which all are below `least` at x = 1, for a motion of `radians`:
 /// terms of the acceleration go as xᵏ⁻²/(k − 2)!.
-pub(super) fn terms_for(radians: f64) -> usize {
+pub(super) fn terms_for(radians: f64, least: f64) -> usize {
     let (mut term, mut k) = (1.0, 0);
-    while term > LAST && k + 3 < TERMS {
+    while term > least && k + 3 < TERMS {
         k += 1;
         term *= radians / k as f64;
     }
