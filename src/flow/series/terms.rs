@@ -34,8 +34,8 @@ pub(crate) struct Touching {
     pub damping: f64,
 }
 
-/// [`RADIANS`] in a scene with round holes: |w|² has twice the rate of w, and with 2 radians the first
-/// term that the product leaves out would be 4³²/32! = 7e-17 of it; this makes it 7e-21.
+/// [`RADIANS`] in a scene with round holes: |w|² has twice the rate of w, and with 2 radians the
+/// first term that the product leaves out would be 4³²/32! = 7e-17 of it; this makes it 7e-21.
 const ROUND_RADIANS: f64 = 1.5;
 
 /// However soon an event is expected, a stretch is not made shorter than this share of the longest:
