@@ -31,16 +31,13 @@ create_exception!(
 );
 create_exception!(signorini, AccuracyWarning, PyUserWarning, "The accuracy asked for is not kept to the end.");
 
-/// What the library says to do about a folder of other results.
-const TOOL_HELP: &str = "--force replaces them, --out DIR writes elsewhere";
-
 /// The exception of an error: `ValueError` for a wrong request, `OSError` for a file, `RunError`
 /// for a run that failed.
 pub fn raise(error: Error) -> PyErr {
     let text = error.to_string();
     match &error {
-        // The arguments of the tool are not those of Python.
-        Error::Io { .. } => PyOSError::new_err(text.replace(TOOL_HELP, "give another folder, or remove this one")),
+        Error::Io { .. } => PyOSError::new_err(text),
+        Error::OtherResults { .. } => PyOSError::new_err(text + "\nhelp: give another folder, or remove this one"),
         Error::NotFinite { .. } | Error::Diverged { .. } => DivergedError::new_err(text),
         Error::TooManyEvents { .. } => TooManyEventsError::new_err(text),
         Error::Qp { .. } | Error::Newton { .. } => NotSolvedError::new_err(text),

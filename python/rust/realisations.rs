@@ -112,21 +112,20 @@ fn accurate(
 pub fn told(study: &RealisationStudy, notes: &[String], case: &sg::case::Case) -> Value {
     let found = &study.realisations;
     let tables = [output::table(found, &case.scene), error_parts::table(found, &case.scene)];
-    let member = |member: &Realisation| {
-        member.findings.first().map(|finding| format!("realisation {}: {finding}", member.number))
-    };
+    // One finding of a run is enough, and one run of a check.
+    let finding = |member: &Realisation| member.findings.first().map(ToString::to_string).unwrap_or_default();
+    let members = study.refuted().filter(|(refined, _)| refined.is_none()).map(|(_, member)| member);
     let failed = study.failures.iter().map(|failed| (failed.refined, failed.error.to_string()));
     let refuted = found.checks.iter().filter_map(|check| {
-        let all = check.members.iter().flat_map(|member| member.findings.first().map(|finding| (member, finding)));
-        let first = all.map(|(member, finding)| format!("realisation {} is refuted: {finding}", member.number)).next();
-        Some((check.refined, first?))
+        let (_, member) = study.refuted().find(|(refined, _)| *refined == Some(check.refined))?;
+        Some((check.refined, format!("realisation {} is refuted: {}", member.number, finding(member))))
     });
     let unknown = failed.chain(refuted).map(|(refined, why)| format!("the check with {refined} failed: {why}"));
     json!({
         "document": found,
         "table": output::cells(found),
         "text": texts(tables),
-        "refuted": found.members.iter().filter_map(member).collect::<Vec<_>>(),
+        "refuted": members.map(|one| format!("realisation {}: {}", one.number, finding(one))).collect::<Vec<_>>(),
         "unknown": unknown.collect::<Vec<_>>(),
         "shortfall": study.shortfall.as_ref().map(ToString::to_string),
         "notes": notes,

@@ -9,7 +9,7 @@ use crate::work::compute_beside;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use signorini as sg;
-use signorini::output::format::Format;
+use signorini::output::format::{Format, Formats};
 use signorini::output::results::Results;
 use signorini::output::wear_folder::{self, WearRequest};
 use signorini::output::wear_history as output;
@@ -49,7 +49,8 @@ pub fn _wear<'py>(
     let asked = case.histories(histories.map(|count| count as usize)).map_err(raise)?;
     let count = within.unwrap_or(RealisationCount::Exactly(asked as u64));
     let request = WearRequest { case, method: &plan.method, years, count, verdict };
-    let open = |folder: PathBuf| request.open(&folder, false, vec![Format::Svg]).map_err(raise);
+    let formats = Formats { pictures: vec![Format::Svg], workbook: false };
+    let open = |folder: PathBuf| request.open(&folder, false, formats).map_err(raise);
     let mut results = folder.map(open).transpose()?;
     let done = RunsDone::default();
     let first = within.map(|count| {

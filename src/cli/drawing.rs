@@ -1,10 +1,8 @@
-//! The options of a command's pictures.
+//! The stretch of time of a command's pictures.
 
-use super::values;
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::Span;
-use crate::output::format::Format;
 
 /// The stretch of time that pictures show.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
@@ -35,31 +33,5 @@ impl PlotSpan {
             return Err(Error::invalid("--to", to, expected));
         }
         Ok(Span { from, to })
-    }
-}
-
-/// The file formats of pictures.
-#[derive(Debug, Clone, Default, clap::Args)]
-pub struct Formats {
-    /// Write pictures as svg, pdf or png, or several of them [default: svg]
-    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
-    #[arg(value_parser = values::formats(), hide_possible_values = true)]
-    format: Vec<Format>,
-}
-
-impl Formats {
-    /// The formats asked for, without repetition; SVG if none is given.
-    ///
-    /// # Errors
-    /// [`Error::Invalid`] for a format that this build cannot write.
-    pub fn usable(&self) -> Result<Vec<Format>> {
-        let mut formats = Vec::new();
-        for format in &self.format {
-            format.check()?;
-            if !formats.contains(format) {
-                formats.push(*format);
-            }
-        }
-        Ok(if formats.is_empty() { vec![Format::Svg] } else { formats })
     }
 }

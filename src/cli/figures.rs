@@ -1,7 +1,7 @@
 //! `signorini figures`: the figures of the source, from the built-in cases.
 
-use super::drawing::Formats;
 use super::estimate::DurationEstimate;
+use super::formats::PictureFormats;
 use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::case::{Case, Embedded};
@@ -27,7 +27,7 @@ pub struct Args {
     #[arg(long)]
     force: bool,
     #[command(flatten)]
-    formats: Formats,
+    formats: PictureFormats,
 }
 
 /// One figure of the source: its number, the case, and its content.

@@ -1,7 +1,7 @@
 //! `signorini merge`: joins the shards of a sweep.
 
 use super::command_line::command_line;
-use super::drawing::Formats;
+use super::formats::FileFormats;
 use super::pipeline::Answer;
 use super::sweep::{picture_messages, show_tables, status_document, status_messages, write_sensitivity};
 use crate::error::Result;
@@ -26,7 +26,7 @@ pub struct Args {
     #[arg(long)]
     no_report: bool,
     #[command(flatten)]
-    formats: Formats,
+    formats: FileFormats,
 }
 
 pub fn answer(args: &Args) -> Result<Answer> {

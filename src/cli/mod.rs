@@ -20,6 +20,7 @@ mod drawing;
 mod estimate;
 mod explain;
 mod figures;
+mod formats;
 mod merge;
 mod new;
 mod orbit;

@@ -3,7 +3,7 @@
 //! itself checks what is asked, does the work, writes its files and says what is shown.
 
 use super::command_line::command_line;
-use super::drawing::Formats;
+use super::formats::FileFormats;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
@@ -14,7 +14,7 @@ use crate::report;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
-/// Where results are written, and the formats of their pictures.
+/// Where results are written, and in which formats.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Destination {
     /// Folder for the results [default: out/CASE/COMMAND]
@@ -26,9 +26,9 @@ pub struct Destination {
     /// Write no report.html, nor the shape.csv or orbits.csv from which it draws motions
     #[arg(long)]
     pub no_report: bool,
-    /// File formats of pictures
+    /// File formats of pictures and tables
     #[command(flatten)]
-    pub formats: Formats,
+    pub formats: FileFormats,
 }
 
 impl Destination {
@@ -147,9 +147,10 @@ impl Answer {
         self.shortfall.map_or(Ok(()), Err)
     }
 
-    /// Finishes the folder; returns the last line of the command.
+    /// Writes the workbooks and finishes the folder; returns the last line of the command.
     fn finish(&mut self, ui: &Ui) -> Result<Option<String>> {
         let Some(results) = &mut self.results else { return Ok(self.last_line.take()) };
+        results.write_workbooks()?.iter().for_each(|said| ui.message(said));
         // The report is made from the files in their places.
         let replaced = results.finish()?;
         let mut open = String::new();

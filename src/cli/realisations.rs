@@ -71,7 +71,11 @@ pub fn study(
     let plan = RealisationPlan { scenes: case, run, method, time: case.time, count, checked };
     let mut make = |batch: &Batch<'_>| known.complete(batch, &mut |missing| batch_with_bar(case, method, missing, ui));
     let study = plan.follow(&mut make, &mut |pilots| ui.message(&pilots.to_string()))?;
-    study.refuted().for_each(|(run, findings)| ui.refute(&format!("{of}{run}"), findings));
+    // Of its first run the command itself has told.
+    for (refined, member) in study.refuted().filter(|(refined, member)| refined.is_some() || member.number > 1) {
+        let with = refined.map_or_else(String::new, |refined| format!(" with {refined}"));
+        ui.refute(&format!("{of}realisation {}{with}", member.number), &member.findings);
+    }
     Ok(study)
 }
 

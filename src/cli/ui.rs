@@ -152,7 +152,10 @@ impl Ui {
     /// Prints an error on stderr, also with `--quiet`; with `--json` also as the document, if none
     /// was printed.
     pub fn error(&self, error: &Error) {
-        let text = error.to_string();
+        let mut text = error.to_string();
+        if matches!(error, Error::OtherResults { .. }) {
+            text += "\nhelp: --force replaces them, --out DIR writes elsewhere";
+        }
         if self.json && !self.printed.get() {
             let code = if error.is_request() { 2 } else { 1 };
             // The error itself is reported next, whether or not this can be written.

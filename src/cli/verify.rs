@@ -1,5 +1,6 @@
 //! `signorini verify`: the verification manual, run on this machine.
 
+use super::formats::TableFormats;
 use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
@@ -22,11 +23,13 @@ pub struct Args {
     /// Replace other results in that folder
     #[arg(long)]
     force: bool,
+    #[command(flatten)]
+    tables: TableFormats,
 }
 
 pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let request = json!({ "command": "verify" }).as_object().cloned().unwrap_or_default();
-    let mut results = Results::open(&args.out, request, args.force, Vec::new())?;
+    let mut results = Results::open(&args.out, request, args.force, args.tables.usable()?)?;
     let (lines, failures) = ui.with_bar("verifying", |bar| verify(&|share| bar.set_share(share)));
     write(&results.place(TABLE)?, &lines)?;
     write_whole(&results.place(FILE)?, page(&lines).as_bytes())?;

@@ -64,6 +64,14 @@ pub enum Error {
         /// The error of the operating system, or of the reader of the format.
         cause: Option<Cause>,
     },
+    /// A folder that holds the results of another request, which are not replaced unless that is
+    /// asked for.
+    OtherResults {
+        /// The folder.
+        path: String,
+        /// When they were made, and what differs.
+        reason: String,
+    },
     /// The convex programme of a step was not solved.
     Qp {
         /// Time at the start of the step, s.
@@ -247,7 +255,7 @@ impl Error {
     #[must_use]
     pub fn is_request(&self) -> bool {
         match self {
-            Self::Invalid { .. } | Self::Unknown { .. } | Self::Case { .. } => true,
+            Self::Invalid { .. } | Self::Unknown { .. } | Self::Case { .. } | Self::OtherResults { .. } => true,
             Self::Io { request, .. } => *request,
             _ => false,
         }

@@ -46,7 +46,9 @@ impl fmt::Display for Words<'_> {
                 write!(f, "there is {}", known.join(", "))
             }
             Error::Case { report, .. } => f.write_str(report),
-            Error::Io { path, reason, .. } => write!(f, "{}: {reason}", escaped(path)),
+            Error::Io { path, reason, .. } | Error::OtherResults { path, reason } => {
+                write!(f, "{}: {reason}", escaped(path))
+            }
             Error::Qp { time, step, wall, reason, .. } => {
                 write!(f, "the QP of step {step} at t = {time} s was not solved")?;
                 if let Some(wall) = wall {

@@ -54,6 +54,13 @@ impl Rows {
         }
     }
 
+    /// The entries of Σ wᵢ gᵢ over the `weighted` rows, pairs (i, wᵢ); two of one column
+    /// stay apart, and products add them.
+    pub(crate) fn combination(&self, weighted: impl IntoIterator<Item = (usize, f64)>) -> Vec<(usize, f64)> {
+        let part = |(i, weight): (usize, f64)| self.row(i).iter().map(move |&(j, value)| (j, weight * value));
+        weighted.into_iter().flat_map(part).collect()
+    }
+
     /// gᵢ · x; entries beyond the length of x count as 0.
     #[inline]
     #[must_use]

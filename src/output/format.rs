@@ -1,4 +1,5 @@
-//! File formats of pictures: SVG, which this crate writes itself, and PDF and PNG made from it.
+//! File formats of pictures and tables. Pictures are SVG, which this crate writes itself, and PDF
+//! and PNG made from it; tables are CSV, and the sheets of a workbook beside it.
 //!
 //! PDF and PNG are made by `svg2pdf` and `resvg`, with the feature `pictures`. Text is set in a
 //! subset of DejaVu Sans (Latin, Greek, Cyrillic) that is built into the program, so that files do
@@ -9,6 +10,39 @@ use crate::error::{Error, Result};
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
+
+/// The formats in which the results of a request are written.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Formats {
+    /// File formats of pictures.
+    pub pictures: Vec<Format>,
+    /// True where the tables of a folder, which are CSV files, are also the sheets of a workbook.
+    pub workbook: bool,
+}
+
+impl Formats {
+    /// Refuses a format that this build cannot write.
+    ///
+    /// # Errors
+    /// As [`Format::check`]; [`Error::Invalid`] for a workbook without the feature `xlsx`.
+    pub fn check(&self) -> Result<()> {
+        self.pictures.iter().try_for_each(|format| format.check())?;
+        match self.workbook && !cfg!(feature = "xlsx") {
+            true => Err(not_built("--tables", "xlsx", "csv", "xlsx")),
+            false => Ok(()),
+        }
+    }
+}
+
+/// The refusal of the format `asked` of `option` by a build without `feature`, which writes
+/// `accepted`.
+fn not_built(option: &'static str, asked: &str, accepted: &str, feature: &str) -> Error {
+    let expected = format!(
+        "{accepted}: this program was built without the feature `{feature}`, which writes {asked}\n\
+         help: cargo install --path . --features {feature}"
+    );
+    Error::invalid(option, asked, expected)
+}
 
 /// The file format of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,11 +78,7 @@ impl Format {
         if self == Self::Svg || cfg!(feature = "pictures") {
             return Ok(());
         }
-        let expected = format!(
-            "svg: this program was built without the feature `pictures`, which writes {self}\n\
-             help: cargo install --path . --features pictures"
-        );
-        Err(Error::invalid("--format", self, expected))
+        Err(not_built("--format", self.name(), "svg", "pictures"))
     }
 
     /// Writes the picture `svg` to `path`, whole or not at all.

@@ -41,8 +41,7 @@ pub(super) fn unknown_results(folder: &Path) -> Option<&'static str> {
 /// they may be those of the same request with a smaller number there.
 ///
 /// # Errors
-/// [`Error::Io`], marked as a wrong request; it says when the other results were made and what
-/// differs.
+/// [`Error::OtherResults`].
 pub(crate) fn check(folder: &Path, request: &Map<String, Value>, growing: Option<&str>) -> Result<()> {
     let refused = match read(folder) {
         Some(other) => differences(grown(&other, request, growing).as_ref(), request).map(|what| {
@@ -51,13 +50,8 @@ pub(crate) fn check(folder: &Path, request: &Map<String, Value>, growing: Option
         None => unknown_results(folder)
             .map(|name| format!("holds results ({name}) but no {MANIFEST} that says which request made them")),
     };
-    match refused {
-        Some(reason) => {
-            let reason = format!("{reason}\nhelp: --force replaces them, --out DIR writes elsewhere");
-            Err(Error::io(folder.display(), reason, true))
-        }
-        None => Ok(()),
-    }
+    let other = |reason| Err(Error::OtherResults { path: folder.display().to_string(), reason });
+    refused.map_or(Ok(()), other)
 }
 
 /// The request of the manifest `other`, with the number that `request` has under the key `growing`

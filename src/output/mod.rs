@@ -36,8 +36,9 @@
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
 //! | [`figure`] | data in, SVG text out |
 //! | [`shape`] | `shape.csv`: the displacement of the whole structure, for a drawing |
+//! | `sheets` | `tables.xlsx`: tables as the sheets of a workbook |
 //! | `animation` | `animation.svg`: a tube in motion between its walls |
-//! | [`mod@format`] | figures as files: SVG, PDF, PNG |
+//! | [`mod@format`] | figures as files: SVG, PDF, PNG; the formats of a request |
 //!
 //! # Files
 //!
@@ -53,7 +54,8 @@
 //! `realisations.rs`, `error_parts.rs` (the errors of their means), `cheapest.rs` (the conclusion
 //! of a chart), `floors.rs` (why its penalties have floors), `safe_steps.rs` (the conclusion of a
 //! stability study), figures (`colours.rs` has the colour of every wall and support, `part.rs` the
-//! walls that are drawn together), `format.rs` (figures as SVG, PDF or PNG; feature `cli`).
+//! walls that are drawn together), `format.rs` (figures as SVG, PDF or PNG), `sheets.rs` (tables
+//! as a workbook, feature `xlsx`; feature `cli`).
 
 pub(crate) mod animation;
 pub mod atomic;
@@ -95,6 +97,8 @@ mod rubbed;
 pub mod run;
 pub(crate) mod safe_steps;
 pub mod shape;
+#[cfg(feature = "xlsx")]
+mod sheets;
 mod site;
 mod spectra;
 pub mod stability;

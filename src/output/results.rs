@@ -11,9 +11,11 @@
 mod stage;
 #[cfg(test)]
 mod tests;
+#[cfg(feature = "xlsx")]
+mod workbook;
 
 use super::atomic::{check_folder, remove_abandoned, sync_files, sync_folder};
-use super::format::Format;
+use super::format::Formats;
 use super::lock::Lock;
 use super::manifest::{self, UNFINISHED};
 use super::record::{DOCUMENTS, Record, TABLES};
@@ -32,8 +34,7 @@ use std::time::SystemTime;
 pub struct Results {
     folder: PathBuf,
     request: Map<String, Value>,
-    /// File formats of pictures.
-    formats: Vec<Format>,
+    formats: Formats,
     /// When the results already in the folder were made, and their files.
     before: Option<Before>,
     files: Vec<String>,
@@ -64,13 +65,13 @@ struct Before {
 impl Results {
     /// Checks that `folder` can be written and holds no results of another request than `request`,
     /// and keeps other processes from writing there. Call it before a long run rather than find out
-    /// afterwards. With `force` the folder may hold anything. Pictures are written in each of
+    /// afterwards. With `force` the folder may hold anything. Pictures and tables are written in
     /// `formats`.
     ///
     /// # Errors
-    /// [`Error::Io`], marked as a wrong request; it says when the other results were made and what
-    /// differs, or that another process is at work in the folder.
-    pub fn open(folder: &Path, request: Map<String, Value>, force: bool, formats: Vec<Format>) -> Result<Self> {
+    /// [`Error::OtherResults`]; [`Error::Io`], marked as a wrong request, for a folder that cannot
+    /// be written, or in which another process is at work.
+    pub fn open(folder: &Path, request: Map<String, Value>, force: bool, formats: Formats) -> Result<Self> {
         Self::open_growing(folder, request, None, force, formats)
     }
 
@@ -84,7 +85,7 @@ impl Results {
         request: Map<String, Value>,
         growing: Option<&str>,
         force: bool,
-        formats: Vec<Format>,
+        formats: Formats,
     ) -> Result<Self> {
         let check = || if force { Ok(()) } else { manifest::check(folder, &request, growing) };
         check()?;
@@ -156,7 +157,7 @@ impl Results {
     /// As [`Results::place`] and [`Format::write`].
     pub fn draw(&mut self, name: &str, svg: &str) -> Result<Vec<PathBuf>> {
         let mut paths = Vec::new();
-        for format in self.formats.clone() {
+        for format in self.formats.pictures.clone() {
             let name = format!("{name}.{format}");
             format.write(&self.place(&name)?, svg)?;
             paths.push(self.folder.join(name));
@@ -214,6 +215,21 @@ impl Results {
             }
         }
         Ok(())
+    }
+
+    /// Writes the workbooks that are asked for: `tables.xlsx` in each folder that has tables, from
+    /// these as they stand. Returns a sentence for each table that no sheet can hold.
+    ///
+    /// # Errors
+    /// [`Error::Io`] where a table cannot be read or a workbook cannot be written, and as
+    /// [`Formats::check`].
+    pub fn write_workbooks(&mut self) -> Result<Vec<String>> {
+        self.formats.check()?;
+        match self.formats.workbook {
+            #[cfg(feature = "xlsx")]
+            true => self.write_sheets(),
+            _ => Ok(Vec::new()),
+        }
     }
 
     /// Records the request in the folder, with the file `journal` in it, from which the request

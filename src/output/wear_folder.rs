@@ -2,7 +2,7 @@
 //! An interrupted study goes on from its journal, and so does one of more years.
 
 use super::error_parts;
-use super::format::Format;
+use super::format::Formats;
 use super::request::{extended, program, request};
 use super::results::Results;
 use super::wear_history;
@@ -50,11 +50,11 @@ impl WearRequest<'_> {
     }
 
     /// Opens `folder`, which may hold results of this study with as many years or fewer, or with
-    /// `force` anything. Pictures are written in each of `formats`.
+    /// `force` anything. Files are written in `formats`.
     ///
     /// # Errors
     /// As [`Results::open`]; [`crate::Error::Invalid`] under `years` without a time in service.
-    pub fn open(&self, folder: &Path, force: bool, formats: Vec<Format>) -> Result<Results> {
+    pub fn open(&self, folder: &Path, force: bool, formats: Formats) -> Result<Results> {
         Results::open_growing(folder, self.recorded()?, Some(YEARS), force, formats)
     }
 }

@@ -11,7 +11,7 @@ use super::table::{REALISATIONS, SAMPLES, TABLE, cells_of};
 use crate::case::open_regular;
 use crate::error::{Error, Result};
 use crate::output::atomic::WholeFile;
-use crate::output::format::Format;
+use crate::output::format::Formats;
 use crate::output::manifest;
 use crate::output::results::Results;
 use crate::study::realisations::RealisationCount;
@@ -107,19 +107,14 @@ fn expanded(folders: &[PathBuf]) -> Result<Vec<PathBuf>> {
 ///
 /// # Errors
 /// [`Error::Io`] (a wrong request) for a shard that is missing, unfinished, given twice or of
-/// another request, for one with a table that is no longer as it was written, and for an `out` that
-/// contains other results, or to which another process writes. Nothing is written then.
+/// another request, for one with a table that is no longer as it was written, and for an `out` to
+/// which another process writes; [`Error::OtherResults`]. Nothing is written then.
 pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged> {
-    merge_in(folders, out, force, Vec::new()).map(|(merged, _)| merged)
+    merge_in(folders, out, force, Formats::default()).map(|(merged, _)| merged)
 }
 
-/// As [`merge`]; also returns the folder, where files can be added, pictures in each of `formats`.
-pub(crate) fn merge_in(
-    folders: &[PathBuf],
-    out: &Path,
-    force: bool,
-    formats: Vec<Format>,
-) -> Result<(Merged, Results)> {
+/// As [`merge`]; also returns the folder, where files can be added in `formats`.
+pub(crate) fn merge_in(folders: &[PathBuf], out: &Path, force: bool, formats: Formats) -> Result<(Merged, Results)> {
     let mut parts = expanded(folders)?.iter().map(|folder| Part::read(folder)).collect::<Result<Vec<_>>>()?;
     parts.sort_by_key(|part| part.shard.index());
     let first = parts.first().ok_or_else(|| Error::invalid("merge", "nothing", "the folders of shards"))?;

@@ -13,7 +13,7 @@ use super::sensitivity::{SENSITIVITY_TABLES, Sensitivity};
 use super::shard::Shard;
 use super::table::{REALISATIONS, cells_of};
 use crate::error::Result;
-use crate::output::format::Format;
+use crate::output::format::Formats;
 use crate::output::journal::Journal;
 use crate::output::results::Results;
 use crate::parallel::cores;
@@ -81,10 +81,10 @@ impl Plan {
     /// computed again. `progress` is called from time to time.
     ///
     /// # Errors
-    /// [`Error::Io`](crate::Error::Io) for a folder with results of another request, one that
-    /// another process is writing to, and if writing fails.
+    /// [`Error::OtherResults`](crate::Error::OtherResults); [`Error::Io`](crate::Error::Io) for a
+    /// folder that another process is writing to, and if writing fails.
     pub fn run_into(&self, folder: &Path, options: SweepOptions, progress: &dyn Fn(Progress)) -> Result<Finished> {
-        let (finished, mut results) = self.run_in(folder, options, Vec::new(), progress, &|_| ())?;
+        let (finished, mut results) = self.run_in(folder, options, Formats::default(), progress, &|_| ())?;
         let there = SENSITIVITY_TABLES.iter().any(|(_, file)| finished.folder.join(file).exists());
         if options.shard == Shard::WHOLE
             && !there
@@ -96,14 +96,14 @@ impl Plan {
         Ok(finished)
     }
 
-    /// As [`Plan::run_into`]; also returns the folder, in whose place files can be added, pictures
-    /// in each of `formats`. `on_damage` is called with what the folder holds that is damaged,
-    /// before its rows are computed again.
+    /// As [`Plan::run_into`]; also returns the folder, where files can be added in `formats`.
+    /// `on_damage` is called with what the folder holds that is damaged, before its rows are
+    /// computed again.
     pub(crate) fn run_in(
         &self,
         folder: &Path,
         options: SweepOptions,
-        formats: Vec<Format>,
+        formats: Formats,
         progress: &dyn Fn(Progress),
         on_damage: &dyn Fn(&str),
     ) -> Result<(Finished, Results)> {

@@ -33,3 +33,4 @@ mod terminal;
 mod verdicts;
 mod verify;
 mod wear;
+mod workbooks;

@@ -23,6 +23,7 @@ mod held_rows;
 mod responses;
 mod round;
 mod terms;
+mod truncation;
 mod wave;
 
 use crate::scene::Row;

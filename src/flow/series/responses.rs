@@ -11,7 +11,7 @@
 //! side, four in a block.
 
 use super::TERMS;
-use super::terms::FEWEST;
+use super::truncation::terms_for;
 use crate::elementary::sin_cos;
 use crate::scene::Harmonic;
 
@@ -101,7 +101,7 @@ impl Responses {
         let radians = span * fastest.max(if rub < 2.0 * own { own } else { rub });
         let stretches = ((radians / RADIANS).ceil() as usize).max(1);
         self.unit = span / stretches as f64;
-        self.terms = terms_for(radians / stretches as f64);
+        self.terms = terms_for(radians / stretches as f64, LAST);
         stretches
     }
 
@@ -242,16 +242,6 @@ pub(crate) fn add_sine(wave: &Harmonic, (start, unit): (f64, f64), out: &mut [f6
         *out += amplitude * phases[k % 4];
         amplitude *= radians * INVERSE[k];
     }
-}
-
-/// The number of terms after which all are below rounding at x = 1, for a motion of `radians`.
-fn terms_for(radians: f64) -> usize {
-    let (mut term, mut k) = (1.0, 0);
-    while term > LAST && k + 3 < TERMS {
-        term *= radians * INVERSE[k];
-        k += 1;
-    }
-    (k + 3).max(FEWEST)
 }
 
 /// `unit` ∫₀¹ q xᵏ of the polynomial `q` of `terms` terms.

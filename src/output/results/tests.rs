@@ -8,7 +8,7 @@ fn request(end: f64) -> Map<String, Value> {
 }
 
 fn fill(folder: &Path, end: f64, force: bool, name: &str) -> Result<Option<String>> {
-    let mut results = Results::open(folder, request(end), force, Vec::new())?;
+    let mut results = Results::open(folder, request(end), force, Formats::default())?;
     let path = results.place(name)?;
     write_whole(&path, b"1")?;
     results.finish()
@@ -22,7 +22,7 @@ fn results_of_another_request_stay_unless_forced() {
     let refused = fill(path, 1.0, false, "other.csv").unwrap_err();
     assert!(refused.is_request());
     let text = refused.to_string();
-    for words in ["made 20", "end_s: 10 there, 1 asked", "walls: other data there", "--force", "--out"] {
+    for words in ["made 20", "end_s: 10 there, 1 asked", "walls: other data there"] {
         assert!(text.contains(words), "{words}: {text}");
     }
     assert!(path.join("method/summary.json").exists());
@@ -64,17 +64,17 @@ fn nothing_is_replaced_before_everything_is_written() {
     let path = folder.path();
     fill(path, 1.0, false, "a.csv").unwrap();
     let manifest = fs::read(path.join(MANIFEST)).unwrap();
-    let mut results = Results::open(path, request(1.0), false, Vec::new()).unwrap();
+    let mut results = Results::open(path, request(1.0), false, Formats::default()).unwrap();
     write_whole(&results.place("a.csv").unwrap(), b"x\n2\n3\n").unwrap();
     assert_eq!(fs::read(path.join("a.csv")).unwrap(), b"1");
     // Another writer waits for its turn.
-    let second = Results::open(path, request(1.0), false, Vec::new()).unwrap_err();
+    let second = Results::open(path, request(1.0), false, Formats::default()).unwrap_err();
     assert!(second.is_request() && second.to_string().contains("another process"), "{second}");
     drop(results);
     assert_eq!(fs::read(path.join(MANIFEST)).unwrap(), manifest);
     assert_eq!(fs::read_dir(path).unwrap().count(), 2, "the table and the manifest");
     // A folder in place of a file is refused before anything is written.
-    let mut results = Results::open(path, request(1.0), false, Vec::new()).unwrap();
+    let mut results = Results::open(path, request(1.0), false, Formats::default()).unwrap();
     fs::create_dir(path.join("b.csv")).unwrap();
     assert!(results.place("b.csv").unwrap_err().is_request());
 }
@@ -86,14 +86,14 @@ fn an_interrupted_request_names_its_journal_and_earlier_files() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
     fill(path, 1.0, false, "old.csv").unwrap();
-    let mut results = Results::open(path, request(2.0), true, Vec::new()).unwrap();
+    let mut results = Results::open(path, request(2.0), true, Formats::default()).unwrap();
     fs::write(path.join("journal"), "").unwrap();
     results.begin("journal").unwrap();
     drop(results);
     let manifest = super::manifest::read(path).unwrap();
     assert!(!super::manifest::is_finished(&manifest));
     assert_eq!(super::manifest::files(&manifest).collect::<Vec<_>>(), ["journal", "old.csv"]);
-    let mut results = Results::open(path, request(2.0), false, Vec::new()).unwrap();
+    let mut results = Results::open(path, request(2.0), false, Formats::default()).unwrap();
     results.begin("journal").unwrap();
     write_whole(&results.place("new.csv").unwrap(), b"x\n2\n3\n").unwrap();
     results.finish().unwrap();
@@ -114,7 +114,8 @@ fn an_interrupted_request_names_its_journal_and_earlier_files() {
 fn a_larger_request_goes_on_from_the_journal_of_finished_results() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
-    let open = |end: f64, force: bool| Results::open_growing(path, request(end), Some("end_s"), force, Vec::new());
+    let open =
+        |end: f64, force: bool| Results::open_growing(path, request(end), Some("end_s"), force, Formats::default());
     let mut results = open(2.0, false).unwrap();
     fs::write(path.join("journal"), "1").unwrap();
     results.begin_and_keep("journal").unwrap();
@@ -136,7 +137,7 @@ fn a_larger_request_goes_on_from_the_journal_of_finished_results() {
     assert!(refused.contains("end_s: 2 there, 1 asked"), "{refused}");
     let mut grown = request(2.0);
     grown.insert("end_s".to_owned(), json!(3.0));
-    let mut results = Results::open_growing(path, grown, Some("end_s"), false, Vec::new()).unwrap();
+    let mut results = Results::open_growing(path, grown, Some("end_s"), false, Formats::default()).unwrap();
     results.begin_and_keep("journal").unwrap();
     assert_eq!(files(), ["journal", "a.csv", "b.csv"]);
     write_whole(&results.place("a.csv").unwrap(), b"x\n").unwrap();

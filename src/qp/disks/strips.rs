@@ -17,9 +17,7 @@ pub(super) fn find(problem: &DiskProblem, system: &mut System, b: &[f64], scale:
         let DiskBound::Strip { normal, lo, hi } = *bound else { continue };
         if lo.is_finite() || hi.is_finite() {
             let (first, count) = system.blocks[block];
-            let along = (first..first + count).zip(normal);
-            let entry = |(row, n): (usize, f64)| problem.g.row(row).iter().map(move |&(i, x)| (i, n * x));
-            rows.push(along.flat_map(entry).collect());
+            rows.push(problem.g.combination((first..first + count).zip(normal)));
             strips.push((block, normal));
             lows.push(lo);
             highs.push(hi);

@@ -234,11 +234,7 @@ impl FrictionContacts {
             return None;
         }
         let (a, places) = &self.problem;
-        let part = |row: usize, share: f64| places.row(row).iter().map(move |&(i, x)| (i, share * x));
-        let turned = |touch: &FrictionContact| -> Vec<(usize, f64)> {
-            let ([first, second], [y, z]) = (touch.rows, touch.normal);
-            part(first, y).chain(part(second, z)).collect()
-        };
+        let turned = |touch: &FrictionContact| places.combination(touch.rows.into_iter().zip(touch.normal));
         let rows: Vec<Vec<(usize, f64)>> = touches.iter().map(turned).collect();
         let slack = |touch: &FrictionContact| touch.bound - dot(touch.normal, touch.rows.map(|row| free[row]));
         let hi: Vec<f64> = touches.iter().map(slack).collect();

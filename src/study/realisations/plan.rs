@@ -7,7 +7,6 @@ use super::realisation::Realisation;
 use super::sample::Realisations;
 use super::stein::{NeededRealisations, widest};
 use crate::error::{Error, Result};
-use crate::residual::Finding;
 use crate::run::{Options, Run};
 use crate::scheme::Method;
 use crate::time::TimeOptions;
@@ -123,18 +122,13 @@ pub(crate) fn shortfall(members: &[Realisation], share: f64, needed: u64) -> Opt
 }
 
 impl RealisationStudy {
-    /// The runs that the judge refutes beside that of realisation 1: which, and the findings.
-    pub fn refuted(&self) -> impl Iterator<Item = (String, &[Finding])> {
-        let members = self.realisations.members.iter().skip(1).map(|member| (member, String::new()));
-        let checked = self
-            .realisations
-            .checks
-            .iter()
-            .flat_map(|check| check.members.iter().map(move |member| (member, format!(" with {}", check.refined))));
-        members
-            .chain(checked)
-            .filter(|(member, _)| !member.findings.is_empty())
-            .map(|(member, with)| (format!("realisation {}{with}", member.number), member.findings.as_slice()))
+    /// The runs that the judge refutes, each with what is refined in it, where it belongs to a
+    /// check.
+    pub fn refuted(&self) -> impl Iterator<Item = (Option<Refined>, &Realisation)> {
+        let checks = self.realisations.checks.iter();
+        let checked = checks.flat_map(|check| check.members.iter().map(|member| (Some(check.refined), member)));
+        let members = self.realisations.members.iter().map(|member| (None, member));
+        members.chain(checked).filter(|(_, member)| !member.findings.is_empty())
     }
 }
 
