@@ -1,7 +1,8 @@
 //! The place that a support surrounds: what vectors are there.
 
-use crate::linear::{Columns, Segment};
+use crate::linear::{Columns, Lanes, Pass, Segment, pass};
 use crate::scene::{PlaneRows, Scene};
+use pulp::Simd;
 use std::sync::Arc;
 
 /// Rounding of sums over any number of degrees of freedom, relative to the sum of the magnitudes.
@@ -66,14 +67,51 @@ impl Place {
         }
     }
 
-    /// Values of `x`, to rounding.
-    #[allow(clippy::manual_map, reason = "a closure would be compiled without vector instructions")]
+    /// What a step does at the place, to rounding, the terms of all sums in any order; `None` if
+    /// the entries of a row do not follow one another. `way` is the time after its start, s, at
+    /// which the place is asked for.
     #[inline(always)]
-    pub fn near(&self, x: &[f64]) -> Option<[f64; 2]> {
-        match &self.segments {
-            Some([y, z]) => Some([y.dot(x), z.dot(x)]),
-            None => None,
+    pub fn passed<S: Simd>(&self, simd: S, way: f64, vectors: [&[f64]; 4]) -> Option<Passed> {
+        let Some(rows) = &self.segments else { return None };
+        let mut passed = Passed { ahead: [0.0; 2], end: [0.0; 2], speed: 0.0 };
+        for (k, row) in rows.iter().enumerate() {
+            let [(weights, start), (_, end), (_, before), (_, after)] =
+                [row.beside(vectors[0]), row.beside(vectors[1]), row.beside(vectors[2]), row.beside(vectors[3])];
+            let [ahead, end, speed] =
+                pass(simd, weights.len(), ([weights, start, end, before, after], []), &Passing { way });
+            (passed.ahead[k], passed.end[k]) = (ahead.sum(), end.sum());
+            passed.speed += speed.sum();
         }
+        Some(passed)
+    }
+}
+
+/// What a step does at a place, to rounding.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Passed {
+    /// Its displacement at some time in the step and at its end, m.
+    pub ahead: [f64; 2],
+    pub end: [f64; 2],
+    /// The sum of the magnitudes of the terms of both rows of its velocity at the end, m/s.
+    pub speed: f64,
+}
+
+/// From the weights of a row, the displacements at the start and at the end of a step and the
+/// velocities that enter and leave its balance: the sums of [`Passed`].
+struct Passing {
+    way: f64,
+}
+
+impl Pass<5, 0, 3> for Passing {
+    #[inline(always)]
+    fn of<S: Simd>(
+        &self,
+        [weight, start, end, before, after]: [Lanes<S>; 5],
+        _: [Lanes<S>; 0],
+        [ahead, last, speed]: [Lanes<S>; 3],
+    ) -> ([Lanes<S>; 0], [Lanes<S>; 3]) {
+        let near = start + before * self.way;
+        ([], [ahead + weight * near, last + weight * end, speed + (weight * after).abs()])
     }
 }
 

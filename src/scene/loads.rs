@@ -1,7 +1,7 @@
 //! The loads of a scene as vectors over its degrees of freedom.
 
 use super::forcing::Forcing;
-use super::load::Load;
+use super::load::{Load, Table, TablePiece};
 use super::row::{Row, distinct};
 use crate::linear::Segment;
 
@@ -81,6 +81,19 @@ impl Loads {
         }
     }
 
+    /// As [`Loads::add_force`], at instants that mostly follow one another closely.
+    #[inline(always)]
+    pub(crate) fn add_force_near(&self, t: f64, scale: f64, out: &mut [f64], last: &mut LastPieces) {
+        let mut last = last.0.iter_mut();
+        for (part, segment) in self.parts.iter().zip(&self.segments) {
+            let of_table = |table: &Table| match last.next() {
+                Some(last) => table.force_near(t, last),
+                None => table.piece(t).0,
+            };
+            scatter((part, segment), scale * part.1.force_by(t, of_table), out);
+        }
+    }
+
     /// Writes the sum of the blows in (from, to] to `out`, N s. Returns whether there is one.
     pub fn blow(&self, from: f64, to: f64, out: &mut [f64]) -> bool {
         self.blow_by(|forcing| forcing.impulse(from, to), out)
@@ -121,6 +134,19 @@ impl Loads {
             scatter((part, segment), impulse, out);
         }
         any
+    }
+}
+
+/// The piece of each table of some loads from which its force was read last: at the ends of steps
+/// that follow one another, mostly the same.
+#[derive(Debug, Clone)]
+pub(crate) struct LastPieces(Vec<TablePiece>);
+
+impl LastPieces {
+    /// None yet, for the tables of `loads`.
+    pub fn new(loads: &Loads) -> Self {
+        let count = loads.parts.iter().map(|(_, forcing)| forcing.tables.len()).sum();
+        Self(vec![TablePiece::NONE; count])
     }
 }
 
