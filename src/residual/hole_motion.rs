@@ -64,14 +64,14 @@ impl Judge {
             None => (0.0, 0.0),
         };
         let vectors = [&self.q[..], step.q, step.velocity_before, step.velocity_after];
-        let Some(passed) = place.passed(simd, ahead * self.h, vectors) else { return false };
+        let Some(near) = place.near(simd, ahead * self.h, vectors) else { return false };
         // Places at both ends, and what the velocities at both add to them.
         let largest = 4.0 * place.weight * self.noise.largest_place(self.extent.normal_reach);
         let [cy, cz] = hole.centre;
         let size = largest + cy.abs() + cz.abs() + hole.gap;
         let inside = hole.gap * (1.0 - 2.0 * touching) - SUM * size;
         let far = |w: [f64; 2]| (w[0] - cy).powi(2) + (w[1] - cz).powi(2);
-        let slow = passed.speed * (1.0 + SUM) <= self.extent.speed;
-        slow && inside > 0.0 && far(passed.end) < inside * inside && far(passed.ahead) < inside * inside
+        let slow = near.speed * (1.0 + SUM) <= self.extent.speed;
+        slow && inside > 0.0 && far(near.end) < inside * inside && far(near.ahead) < inside * inside
     }
 }

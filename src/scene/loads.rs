@@ -159,3 +159,29 @@ fn scatter(((row, _), segment): (&(Row, Forcing), &Option<Segment>), value: f64,
         _ => row.add_transposed(value, out),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forces_from_the_last_pieces_are_those_of_the_tables_in_whatever_order_the_times_come() {
+        let table = |time: &[f64], force: &[f64]| Load::table(Table::new(time.to_vec(), force.to_vec()).unwrap());
+        let at = |load: Load, dof| Load { at: Row::dof(dof), ..load };
+        let loads = Loads::new(&[
+            at(table(&[0.0, 0.1, 0.7, 1.0], &[1.0, -2.0, 0.3, 5.0]), 0),
+            at(table(&[0.25, 0.3, 2.0], &[7.0, 1.0, -1.0]), 1),
+            at(table(&[0.05, 0.9], &[0.1, 0.2]), 0),
+            at(Load::harmonic(1.0, 3.0, 0.2), 1),
+        ]);
+        let ahead = (0..300).map(|i| 0.01 * f64::from(i) - 0.3);
+        let times = ahead.clone().chain(ahead.rev()).chain([0.7, 0.1, f64::NAN, 0.1, 0.25, 1.0, 0.0]);
+        let mut last = LastPieces::new(&loads);
+        for t in times {
+            let (mut near, mut alone) = ([0.5; 2], [0.5; 2]);
+            loads.add_force_near(t, 2.0, &mut near, &mut last);
+            loads.add_force(t, 2.0, &mut alone);
+            assert!(near.map(f64::to_bits) == alone.map(f64::to_bits), "{t}: {near:?} {alone:?}");
+        }
+    }
+}
