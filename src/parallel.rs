@@ -80,6 +80,20 @@ pub fn on_threads<T: Send>(
     })
 }
 
+/// Does `beside` on a thread of its own, and meanwhile `here` on this one; returns both results, in
+/// this order. An interrupt that applies to this thread applies to the other too.
+pub fn both<A: Send, B>(
+    beside: impl FnOnce() -> Result<A> + Send,
+    here: impl FnOnce() -> Result<B>,
+) -> (Result<A>, Result<B>) {
+    let interrupt = Carried::here();
+    std::thread::scope(|scope| {
+        let beside = scope.spawn(|| interrupt.over(beside));
+        let here = here();
+        (beside.join().unwrap_or_else(|_| Err(panicked())), here)
+    })
+}
+
 fn panicked() -> Error {
     Error::io("a thread", "it has panicked, which is a defect of this program".to_owned(), false)
 }
@@ -106,6 +120,15 @@ mod tests {
             assert_eq!(found, (0..100).collect::<Vec<_>>(), "{threads} threads");
         }
         assert!(on_threads(0, 3, &|_, _: &mut Take<'_, ()>| Ok(()), &mut |_| Ok(())).is_ok());
+    }
+
+    #[test]
+    fn of_two_works_each_has_its_own_result() {
+        let fail = || -> Result<()> { Err(Error::invalid("number", 3, "another")) };
+        assert_eq!(both(|| Ok(2), || Ok("three")), (Ok(2), Ok("three")));
+        assert_eq!(both(fail, || Ok(3)), (fail(), Ok(3)));
+        assert_eq!(both(|| Ok(2), fail), (Ok(2), fail()));
+        assert!(both(|| -> Result<()> { panic!("as this test wants") }, || Ok(())).0.is_err());
     }
 
     #[test]
@@ -137,6 +160,8 @@ mod tests {
         let stop = |_, _: &mut Take<'_, ()>| {
             Interrupt::current().map_or(Ok(()), |interrupt| interrupt.over(|| Err(Error::Stopped)))
         };
+        let both_stop = Interrupt::new(|| true).over(|| both(|| stop(0, &mut |()| true), || Ok(())).0);
+        assert_eq!(both_stop, Err(Error::Stopped));
         let interrupt = Interrupt::new(|| true);
         let stopped = interrupt.over(|| on_threads(1, 1, &stop, &mut |_| Ok(())));
         assert!(matches!(stopped, Err(Error::Stopped)), "{stopped:?}");

@@ -1,6 +1,7 @@
 //! Loops over the entries of vectors, in the form in which the compiler uses vector instructions
-//! for them, since no vector that is read may be the one that is written; and maxima, which take
-//! them by name: the compiler may not reorder them by itself, since a maximum ignores NaN.
+//! for them, since no vector that is read may be the one that is written; and passes, which use
+//! them by name: a pass writes several vectors, and takes maxima, which the compiler may not
+//! reorder by itself, since a maximum ignores NaN.
 
 use pulp::Simd;
 use std::ops::{Add, Mul, Sub};
@@ -15,25 +16,63 @@ pub(crate) trait Columns<T, const N: usize>: Copy {
     fn at(self, i: usize) -> [T; N];
 }
 
+/// The same of vectors that are written.
+pub(crate) trait ColumnsMut<T, const N: usize>: Sized {
+    /// Their first `n` entries.
+    fn cut(self, n: usize) -> Self;
+    /// Those of index `i`.
+    fn at(&self, i: usize) -> [T; N];
+    /// Sets those of index `i`.
+    fn put(&mut self, i: usize, values: [T; N]);
+}
+
 macro_rules! columns {
-    ($($n:literal: $($x:ident)+;)+) => { $(
+    ($($n:literal: $($x:ident $y:ident)*;)+) => { $(
         impl<T: Copy> Columns<T, $n> for [&[T]; $n] {
             #[inline(always)]
             fn cut(self, n: usize) -> Self {
-                let [$($x),+] = self;
-                [$(&$x[..n]),+]
+                let [$($x),*] = self;
+                [$(&$x[..n]),*]
             }
 
             #[inline(always)]
             fn at(self, i: usize) -> [T; $n] {
-                let [$($x),+] = self;
-                [$($x[i]),+]
+                let [$($x),*] = self;
+                [$($x[i]),*]
+            }
+        }
+
+        impl<T: Copy> ColumnsMut<T, $n> for [&mut [T]; $n] {
+            #[inline(always)]
+            fn cut(self, n: usize) -> Self {
+                let [$($x),*] = self;
+                [$(&mut $x[..n]),*]
+            }
+
+            #[inline(always)]
+            fn at(&self, i: usize) -> [T; $n] {
+                let [$($x),*] = self;
+                [$($x[i]),*]
+            }
+
+            #[inline(always)]
+            fn put(&mut self, i: usize, values: [T; $n]) {
+                let ([$($x),*], [$($y),*]) = (self, values);
+                $($x[i] = $y;)*
             }
         }
     )+ };
 }
 
-columns! { 1: a; 2: a b; 3: a b c; 4: a b c d; 5: a b c d e; 6: a b c d e f; }
+#[allow(unused_variables, reason = "of no vectors")]
+mod of_some_vectors {
+    use super::{Columns, ColumnsMut};
+
+    columns! {
+        0:; 1: a u; 2: a u b v; 3: a u b v c w; 4: a u b v c w d x; 5: a u b v c w d x e y;
+        6: a u b v c w d x e y f z;
+    }
+}
 
 /// Sets every entry of `out` to what `of` makes of it and of the same entries of the `others`.
 ///
@@ -69,6 +108,18 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub fn abs(self) -> Self {
         Self { x: self.simd.abs_f64s(self.x), ..self }
+    }
+
+    /// The largest of the lanes, and at least `so_far`. A NaN is ignored.
+    #[inline(always)]
+    pub fn largest(self, so_far: f64) -> f64 {
+        running_max(so_far, self.simd.reduce_max_f64s(self.x))
+    }
+
+    /// The sum of the lanes, in any order.
+    #[inline(always)]
+    pub fn sum(self) -> f64 {
+        self.simd.reduce_sum_f64s(self.x)
     }
 
     /// As [`running_max`] in each lane.
@@ -119,61 +170,81 @@ impl<S: Simd> Mul<f64> for Lanes<S> {
     }
 }
 
-/// M sizes that follow from N numbers: 0 from zeros. No closure, which would be compiled by itself,
-/// without the instructions that `S` stands for.
-pub(crate) trait Sizes<const N: usize, const M: usize> {
-    fn of<S: Simd>(&self, x: [Lanes<S>; N]) -> [Lanes<S>; M];
+/// What a pass over vectors makes of the entries of one index: of N numbers that are read, the K
+/// that stand where it writes, and M sums or maxima so far, the K that it writes and the M with this
+/// index. Zeros change no sum or maximum. No closure, which would be compiled by itself, without
+/// the instructions that `S` stands for.
+pub(crate) trait Pass<const N: usize, const K: usize, const M: usize> {
+    fn of<S: Simd>(
+        &self,
+        read: [Lanes<S>; N],
+        written: [Lanes<S>; K],
+        so_far: [Lanes<S>; M],
+    ) -> ([Lanes<S>; K], [Lanes<S>; M]);
 }
 
-/// The largest of each of the `sizes` of the first `n` entries of the `vectors`, and at least
-/// `so_far`, 0 or more. A NaN is ignored. `simd` are the instructions to be used.
+/// Passes over the first `n` entries of the vectors with the instructions `simd`. Returns the sums
+/// or maxima from 0 on, of each lane.
 ///
 /// # Panics
-/// If one of the `vectors` is shorter.
+/// If one of the vectors is shorter.
 #[inline(always)]
-pub(crate) fn largest<'a, S: Simd, const N: usize, const M: usize>(
+pub(crate) fn pass<'a, S: Simd, const N: usize, const K: usize, const M: usize>(
     simd: S,
-    so_far: [f64; M],
     n: usize,
-    vectors: [&'a [f64]; N],
-    sizes: &impl Sizes<N, M>,
-) -> [f64; M]
+    (read, written): ([&'a [f64]; N], [&'a mut [f64]; K]),
+    what: &impl Pass<N, K, M>,
+) -> [Lanes<S>; M]
 where
     [&'a [f64]; N]: Columns<f64, N>,
     [&'a [S::f64s]; N]: Columns<S::f64s, N>,
+    [&'a mut [f64]; K]: ColumnsMut<f64, K>,
+    [&'a mut [S::f64s]; K]: ColumnsMut<S::f64s, K>,
 {
-    let vectors = vectors.cut(n);
-    let (mut blocks, mut rests): ([&[S::f64s]; N], _) = ([&[]; N], vectors);
-    for ((blocks, rest), x) in blocks.iter_mut().zip(&mut rests).zip(vectors) {
+    let (read, written) = (read.cut(n), written.cut(n));
+    let (mut blocks, mut rests): ([&[S::f64s]; N], _) = ([&[]; N], read);
+    for ((blocks, rest), x) in blocks.iter_mut().zip(&mut rests).zip(read) {
         (*blocks, *rest) = S::as_simd_f64s(x);
     }
-    let (count, left) = blocks.first().zip(rests.first()).map_or((0, 0), |(block, rest)| (block.len(), rest.len()));
-    let blocks = blocks.cut(count);
+    let mut out: [&mut [S::f64s]; K] = std::array::from_fn(|_| Default::default());
+    let mut out_rests: [&mut [f64]; K] = std::array::from_fn(|_| Default::default());
+    for ((blocks, rest), x) in out.iter_mut().zip(&mut out_rests).zip(written) {
+        (*blocks, *rest) = S::as_mut_simd_f64s(x);
+    }
+    let (count, left) = (n / S::F64_LANES, n % S::F64_LANES);
+    let (blocks, mut out) = (blocks.cut(count), out.cut(count));
     let zero = Lanes { simd, x: simd.splat_f64s(0.0) };
-    let mut lanes = [zero; M];
+    let mut folded = [zero; M];
     for i in 0..count {
-        let mut x = [zero; N];
+        let (mut x, mut old, mut values) = ([zero; N], [zero; K], out.at(i));
         for (x, block) in x.iter_mut().zip(blocks.at(i)) {
             x.x = block;
         }
-        for (largest, size) in lanes.iter_mut().zip(sizes.of(x)) {
-            *largest = largest.max(size);
+        for (x, block) in old.iter_mut().zip(values) {
+            x.x = block;
         }
+        let (new, more) = what.of(x, old, folded);
+        folded = more;
+        for (value, new) in values.iter_mut().zip(new) {
+            *value = new.x;
+        }
+        out.put(i, values);
     }
     if left > 0 {
-        let mut x = [zero; N];
+        let (mut x, mut old) = ([zero; N], [zero; K]);
         for (x, rest) in x.iter_mut().zip(rests) {
             x.x = simd.partial_load_f64s(rest);
         }
-        for (largest, size) in lanes.iter_mut().zip(sizes.of(x)) {
-            *largest = largest.max(size);
+        for (x, rest) in old.iter_mut().zip(&out_rests) {
+            x.x = simd.partial_load_f64s(rest);
+        }
+        let (new, more) = what.of(x, old, folded);
+        folded = more;
+        for (rest, new) in out_rests.into_iter().zip(new) {
+            simd.partial_store_f64s(rest, new.x);
         }
     }
-    let mut all = so_far;
-    for (largest, lanes) in all.iter_mut().zip(lanes) {
-        *largest = running_max(*largest, simd.reduce_max_f64s(lanes.x));
-    }
-    all
+    folded
 }
 
 /// The larger of two numbers. A NaN is ignored, as by [`f64::max`], but in one instruction.
@@ -187,43 +258,59 @@ mod tests {
     use super::*;
     use pulp::{Scalar, WithSimd};
 
-    struct Both;
+    /// Two maxima and a sum of two vectors, and both vectors changed by them.
+    struct All;
 
-    impl Sizes<2, 2> for Both {
+    impl Pass<2, 2, 3> for All {
         #[inline(always)]
-        fn of<S: Simd>(&self, [x, other]: [Lanes<S>; 2]) -> [Lanes<S>; 2] {
-            [x.abs(), (x - other * 2.0).abs() + x.max(other) * x]
+        fn of<S: Simd>(
+            &self,
+            [x, other]: [Lanes<S>; 2],
+            [a, b]: [Lanes<S>; 2],
+            [most, both, sum]: [Lanes<S>; 3],
+        ) -> ([Lanes<S>; 2], [Lanes<S>; 3]) {
+            let size = (x - other * 2.0).abs() + x.max(other) * x;
+            ([a + x, b * 10.0 - other], [most.max(x.abs()), both.max(size), sum + x * other])
         }
     }
 
-    struct Largest<'a>(f64, usize, &'a [f64]);
+    struct Passed<'a>(f64, usize, &'a [f64], [&'a mut [f64]; 2]);
 
-    impl WithSimd for Largest<'_> {
-        type Output = [f64; 2];
+    impl WithSimd for Passed<'_> {
+        type Output = [f64; 3];
 
         #[inline(always)]
-        fn with_simd<S: Simd>(self, simd: S) -> [f64; 2] {
-            largest(simd, [self.0; 2], self.1, [self.2, &self.2[1..]], &Both)
+        fn with_simd<S: Simd>(self, simd: S) -> [f64; 3] {
+            let [most, both, sum] = pass(simd, self.1, ([self.2, &self.2[1..]], self.3), &All);
+            [most.largest(self.0), both.largest(self.0), sum.sum()]
         }
     }
 
     #[test]
-    fn the_largest_of_any_number_of_entries_is_found_wherever_it_stands_and_a_nan_is_none() {
+    fn a_pass_over_any_number_of_entries_finds_the_largest_wherever_it_stands_and_a_nan_is_none() {
+        let passed = |arch: bool, so_far: f64, n: usize, x: &[f64]| {
+            let (mut a, mut b) = (vec![0.5; n + 1], vec![0.25; n + 1]);
+            let all = Passed(so_far, n, x, [&mut a, &mut b]);
+            (if arch { pulp::Arch::new().dispatch(all) } else { all.with_simd(Scalar) }, a, b)
+        };
         for n in 1..20 {
             for at in 0..n {
                 // Multiples of 1/8: no product is rounded.
                 let mut x: Vec<f64> = (0..n + 3).map(|i| 0.125 * (i % 7) as f64 - 0.375).collect();
                 (x[at], x[n + 1]) = (-7.0, 100.0);
                 let both = |i: usize| (x[i] - 2.0 * x[i + 1]).abs() + x[i].max(x[i + 1]) * x[i];
-                let expected = [7.0, (0..n).map(both).fold(0.0, f64::max)];
-                for found in [pulp::Arch::new().dispatch(Largest(0.0, n, &x)), Largest(0.0, n, &x).with_simd(Scalar)] {
+                let sum = (0..n).map(|i| x[i] * x[i + 1]).sum::<f64>();
+                let expected = [7.0, (0..n).map(both).fold(0.0, f64::max), sum];
+                for (found, a, b) in [passed(true, 0.0, n, &x), passed(false, 0.0, n, &x)] {
                     assert_eq!(found, expected, "{n} {at}");
+                    assert!((0..n).all(|i| a[i] == 0.5 + x[i] && b[i] == 2.5 - x[i + 1]), "{n} {at}");
+                    assert_eq!((a[n], b[n]), (0.5, 0.25));
                 }
-                let most = [expected[0].max(1e3), expected[1].max(1e3)];
-                assert_eq!(pulp::Arch::new().dispatch(Largest(1e3, n, &x)), most);
+                let most = [expected[0].max(1e3), expected[1].max(1e3), sum];
+                assert_eq!(passed(true, 1e3, n, &x).0, most);
                 x[at] = f64::NAN;
                 let left = (0..n).map(|i| x[i].abs()).fold(0.25, f64::max);
-                assert_eq!(pulp::Arch::new().dispatch(Largest(0.25, n, &x))[0], left, "{n} {at}");
+                assert_eq!(passed(true, 0.25, n, &x).0[0], left, "{n} {at}");
             }
         }
     }

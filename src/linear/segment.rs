@@ -38,7 +38,7 @@ impl Segment {
 
     /// Its values and those of `x` beside them; none of a shorter `x`.
     #[inline(always)]
-    fn beside<'a>(&'a self, x: &'a [f64]) -> (&'a [f64], &'a [f64]) {
+    pub fn beside<'a>(&'a self, x: &'a [f64]) -> (&'a [f64], &'a [f64]) {
         match x.get(self.first..self.first + self.values.len()) {
             Some(x) => (&self.values, x),
             None => (&[], &[]),

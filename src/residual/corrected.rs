@@ -6,6 +6,7 @@ use super::previous_step::{PreviousStep, smooth};
 use super::step_motion::StepMotion;
 use crate::scene::Wall;
 use crate::step::{Balance, Step};
+use pulp::Scalar;
 
 impl Judge {
     /// Checks a step on a grid whose displacement and velocity its walls corrected.
@@ -47,7 +48,7 @@ impl Judge {
             }
         }
         if self.supports.is_some() {
-            self.supports_on_grid(step, false);
+            self.supports_on_grid(Scalar, step, false);
         }
         // Under this rule the damper feels a blow from the middle of the step on.
         let (from, to) = (step.start, step.end);
@@ -78,7 +79,7 @@ impl Judge {
         let moves = StepMotion::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
         let (hs, n) = ((h, 1.0 / h), self.q.len());
         let rates = self.supports.as_ref().map_or(&[][..], |supports| &supports.rates);
-        self.energy.observe_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, rates, n);
+        self.energy.observe_grid(Scalar, &self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, rates, n);
         self.balance.observe(&self.noise, worst, path);
     }
 }

@@ -57,7 +57,7 @@ impl Judge {
         self.noise.book(n as f64, 1.0);
         self.walls_on_grid(step, beyond);
         if self.supports.is_some() {
-            self.supports_on_grid(step, beyond);
+            self.supports_on_grid(simd, step, beyond);
         }
         let (hs, blow) = ((h, per_h), &self.blows.impulse);
         self.balance.scale =
@@ -76,13 +76,13 @@ impl Judge {
         (self.balance.largest, worst) = self.scratch.open(simd, per_h, &self.weights, n, self.balance.largest);
         let moves = moves!(self, step, beyond);
         let rates = self.supports.as_ref().map_or(&[][..], |supports| &supports.rates);
-        self.energy.observe_grid(&self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, rates, n);
+        self.energy.observe_grid(simd, &self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, rates, n);
         if beyond {
             self.energy.displace(&self.scene, &self.matrices, h, step);
             self.sums.displace(&self.matrices, &self.blows.beyond, &mut self.scratch.mean_q);
         }
         self.balance.observe(&self.noise, worst, path);
-        self.sum(step, per_h, n);
+        self.sum(simd, step, per_h, n);
         self.begin_next_step(simd, step, n);
     }
 }

@@ -6,6 +6,7 @@ use super::Judge;
 use super::place::{AtPlace, Place, SUM};
 use crate::scene::Hole;
 use crate::step::{Normal, Step};
+use pulp::Simd;
 
 /// The place of a hole in a step.
 #[derive(Debug, Clone, Copy)]
@@ -48,30 +49,29 @@ impl Judge {
     /// normal, by more than all rounding errors: those of the products here, in any order of their
     /// terms, and those within which a hole counts as reached.
     #[inline(always)]
-    pub(super) fn is_out_of_reach(&self, step: &Step<'_>, hole: &Hole<'_>, place: &Place) -> bool {
+    pub(super) fn is_out_of_reach<S: Simd>(&self, simd: S, step: &Step<'_>, hole: &Hole<'_>, place: &Place) -> bool {
         // The sizes of a step that predicts and corrects are noted after this.
         let noted = self.sums.steps > 0 && self.previous.is_none();
         if self.loads.has_blows() || !noted || !hole.law.is_rigid() {
             return false;
         }
         let pushed = [step.impulse, step.friction].map(|x| x.get(hole.index).copied());
-        if pushed != [Some(0.0); 2] || !place.stays_below(self.extent.speed, step.velocity_after) {
+        if pushed != [Some(0.0); 2] {
             return false;
         }
-        let (Some(start), Some(end)) = (place.near(&self.q), place.near(step.q)) else { return false };
-        let Some(rate) = place.near(step.velocity_before) else { return false };
         let (ahead, touching) = match self.contract.promise.round {
             Some(turning) => (if let Normal::Ahead(part) = turning.normal { part } else { 0.0 }, turning.touching),
             None => (0.0, 0.0),
         };
+        let vectors = [&self.q[..], step.q, step.velocity_before, step.velocity_after];
+        let Some(near) = place.near(simd, ahead * self.h, vectors) else { return false };
         // Places at both ends, and what the velocities at both add to them.
         let largest = 4.0 * place.weight * self.noise.largest_place(self.extent.normal_reach);
         let [cy, cz] = hole.centre;
         let size = largest + cy.abs() + cz.abs() + hole.gap;
         let inside = hole.gap * (1.0 - 2.0 * touching) - SUM * size;
         let far = |w: [f64; 2]| (w[0] - cy).powi(2) + (w[1] - cz).powi(2);
-        let way = ahead * self.h;
-        let along = [start[0] + way * rate[0], start[1] + way * rate[1]];
-        inside > 0.0 && far(end) < inside * inside && far(along) < inside * inside
+        let slow = near.speed * (1.0 + SUM) <= self.extent.speed;
+        slow && inside > 0.0 && far(near.end) < inside * inside && far(near.ahead) < inside * inside
     }
 }

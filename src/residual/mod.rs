@@ -64,7 +64,7 @@ pub use recorded::{Momentum, momentum};
 pub use residuals::Residuals;
 
 use crate::linear::{Factor, running_max};
-use crate::scene::{Forcing, GridForcing, Loads, Scene, System};
+use crate::scene::{Forcing, GridForcing, LastPieces, Loads, Scene, System};
 use crate::step::{Contract, Path, Step};
 use balance::BalanceCheck;
 use blows::Blows;
@@ -95,6 +95,7 @@ pub struct Judge {
     contract: Contract,
     h: f64,
     loads: Loads,
+    last_pieces: LastPieces,
     /// The loads of an oscillator at the instants of a grid, where schemes take their sines from
     /// rotations: computed otherwise, a sine would differ by the rounding of its phase.
     grid_load: Option<GridForcing>,
@@ -176,6 +177,7 @@ impl Judge {
         Self {
             contract,
             h,
+            last_pieces: LastPieces::new(&loads),
             loads,
             grid_load,
             matrices: Matrices::new(&scene.system),
@@ -234,7 +236,7 @@ impl Judge {
             }
             (_, _, load) => {
                 load.fill(0.0);
-                self.loads.add_force(step.end, 1.0, load);
+                self.loads.add_force_near(step.end, 1.0, load, &mut self.last_pieces);
             }
         }
         // Without blows these vectors stay zero.
@@ -264,7 +266,7 @@ impl Judge {
         let n = self.q.len();
         self.prepare(step);
         observe(self);
-        self.sum(step, 1.0 / self.h, n);
+        self.sum(Scalar, step, 1.0 / self.h, n);
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.walls.observe_depth(index, -wall.gap(wall.row().dot(step.q)));
         }

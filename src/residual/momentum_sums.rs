@@ -3,9 +3,10 @@
 use super::matrices::{Matrices, Part};
 use super::scratch::Scratch;
 use super::step_motion::StepMotion;
-use crate::linear::{running_max, update};
+use crate::linear::{Lanes, Pass, pass, running_max};
 use crate::scene::Scene;
 use crate::step::Step;
+use pulp::Simd;
 
 /// Load and own force of the structure on one degree of freedom: their values in the last step, N,
 /// the sum of the changes of both from step to step, N, the largest sum of sizes, N, and the
@@ -70,26 +71,42 @@ impl ForceSums {
     /// As [`Forces::add`] on each of n degrees of freedom, for the load of a step, N, and the
     /// momentum that springs and dampers take in it, N s.
     #[inline(always)]
-    fn add(&mut self, first: bool, (h, per_h): (f64, f64), [load, spring, damper]: [&[f64]; 3], n: usize) {
-        let Self { load: last_load, own: last_own, changes, largest, exchanged } = self;
-        if !first {
-            let change = |sum: f64, [load, spring, last_load, last_own]: [f64; 4]| {
-                let [load, own, _] = own([load, spring, 0.0], per_h);
-                sum + ((load - last_load).abs() + (own - last_own).abs())
-            };
-            update(&mut changes[..n], [load, spring, last_load, last_own], change);
-        }
-        last_load[..n].copy_from_slice(&load[..n]);
-        update(&mut last_own[..n], [spring], |_, [spring]| own([0.0, spring, 0.0], per_h)[1]);
-        update(&mut largest[..n], [load, spring, damper], |largest, forces| {
-            let [load, own, damper] = own(forces, per_h);
-            // As a running maximum, but not as a store under a condition, which takes far longer.
-            largest.max(load.abs() + own.abs() + damper.abs())
-        });
-        update(&mut exchanged[..n], [load, spring, damper], |sum, forces| {
-            let [load, own, damper] = own(forces, per_h);
-            sum + h * (load + own + damper).abs()
-        });
+    fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        first: bool,
+        (h, per_h): (f64, f64),
+        [load, spring, damper]: [&[f64]; 3],
+        n: usize,
+    ) {
+        let Self { load: last_load, own, changes, largest, exchanged } = self;
+        let sums = [&mut last_load[..], own, changes, largest, exchanged];
+        let changed = if first { 0.0 } else { 1.0 };
+        let [] = pass(simd, n, ([load, spring, damper], sums), &AddForces { h, per_h, changed });
+    }
+}
+
+/// From the load of a step of h seconds, N, and the momentum that springs and dampers take in it, N
+/// s: the entries of [`ForceSums`] with these, in its order. The changes count `changed` times.
+struct AddForces {
+    h: f64,
+    per_h: f64,
+    changed: f64,
+}
+
+impl Pass<3, 5, 0> for AddForces {
+    #[inline(always)]
+    fn of<S: Simd>(
+        &self,
+        [load, spring, damper]: [Lanes<S>; 3],
+        [last_load, last_own, changes, largest, exchanged]: [Lanes<S>; 5],
+        _: [Lanes<S>; 0],
+    ) -> ([Lanes<S>; 5], [Lanes<S>; 0]) {
+        let (own, damper) = (spring * -self.per_h, damper * -self.per_h);
+        let change = (load - last_load).abs() + (own - last_own).abs();
+        let size = load.abs() + own.abs() + damper.abs();
+        let passed = (load + own + damper).abs() * self.h;
+        ([load, own, changes + change * self.changed, largest.max(size), exchanged + passed], [])
     }
 }
 
@@ -160,17 +177,25 @@ impl MomentumSums {
 
     /// Adds a step of `h` seconds (and 1/h), whose mean forces are in `means`.
     #[inline(always)]
-    pub fn add(&mut self, moves: &StepMotion<'_>, means: &Scratch, (h, per_h): (f64, f64), first: bool, n: usize) {
-        self.forces.add(first, (h, per_h), [&means.load, &means.spring, &means.damper], n);
-        self.add_ends(moves, h, n);
+    pub fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        moves: &StepMotion<'_>,
+        means: &Scratch,
+        (h, per_h): (f64, f64),
+        first: bool,
+        n: usize,
+    ) {
+        self.forces.add(simd, first, (h, per_h), [&means.load, &means.spring, &means.damper], n);
+        self.add_ends(simd, moves, h, n);
     }
 
     /// Adds the state at the ends of a step and its loads.
     #[inline(always)]
-    pub fn add_ends(&mut self, moves: &StepMotion<'_>, h: f64, n: usize) {
-        update(&mut self.place[..n], [moves.from, moves.shown], |sum, [q0, q1]| sum + 0.5 * h * (q0 + q1));
-        let loads = [moves.load_start, moves.load_end, moves.extra];
-        update(&mut self.load[..n], loads, |sum, [start, end, extra]| sum + (0.5 * h * (start + end) + h * extra));
+    pub fn add_ends<S: Simd>(&mut self, simd: S, moves: &StepMotion<'_>, h: f64, n: usize) {
+        let &StepMotion { from, shown, load_start, load_end, extra, after, .. } = moves;
+        let sums = [&mut self.place[..], &mut self.load, &mut self.last];
+        let [] = pass(simd, n, ([from, shown, load_start, load_end, extra, after], sums), &AddEnds { h });
     }
 
     /// Adds the change of the structure's own force by the displacement `beyond` (m) that blows add
@@ -197,6 +222,25 @@ impl MomentumSums {
         *place += ends(&moves.from[..n], &moves.shown[..n]);
         *load += ends(&moves.load_start[..n], &moves.load_end[..n]);
         self.last.fill(moves.after[n - 1]);
+    }
+}
+
+/// From the displacements and loads (N) at both ends of a step of h seconds, the extra force, N, and
+/// the velocity at its end: ∫q dt and ∫f dt with these, and that velocity.
+struct AddEnds {
+    h: f64,
+}
+
+impl Pass<6, 3, 0> for AddEnds {
+    #[inline(always)]
+    fn of<S: Simd>(
+        &self,
+        [q0, q1, start, end, extra, after]: [Lanes<S>; 6],
+        [place, load, _]: [Lanes<S>; 3],
+        _: [Lanes<S>; 0],
+    ) -> ([Lanes<S>; 3], [Lanes<S>; 0]) {
+        let half = 0.5 * self.h;
+        ([place + (q0 + q1) * half, load + ((start + end) * half + extra * self.h), after], [])
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::step_motion::StepMotion;
 use super::weights::Weights;
-use crate::linear::{Lanes, Sizes, largest};
+use crate::linear::{Lanes, Pass, pass};
 use pulp::Simd;
 
 /// Rounding error of a sum in a step, in units in the last place, times √n for sums over n degrees
@@ -105,11 +105,13 @@ impl NoiseModel {
         n: usize,
     ) {
         let [mass, spring, dashpot] = &weights.roots;
-        let so_far = [self.speed, self.reach, self.strain, self.rub];
         let moved = [moves.shown, moves.before, moves.after, mass, spring, dashpot];
-        [self.speed, self.reach, self.strain, self.rub] = largest(simd, so_far, n, moved, &MovedSizes { h });
+        let [speed, reach, strain, rub] = pass(simd, n, (moved, []), &MovedSizes { h });
+        (self.speed, self.reach) = (speed.largest(self.speed), reach.largest(self.reach));
+        (self.strain, self.rub) = (strain.largest(self.strain), rub.largest(self.rub));
         let forces = [mean, moves.blow, moves.extra, moves.load_end, &weights.per_root_mass];
-        [self.load] = largest(simd, [self.load], n, forces, &ForceSize { per_h });
+        let [load] = pass(simd, n, (forces, []), &ForceSize { per_h });
+        self.load = load.largest(self.load);
     }
 
     /// Notes the size of a load, N/√kg.
@@ -206,12 +208,17 @@ struct MovedSizes {
     h: f64,
 }
 
-impl Sizes<6, 4> for MovedSizes {
+impl Pass<6, 0, 4> for MovedSizes {
     #[inline(always)]
-    fn of<S: Simd>(&self, [q, before, after, mass, spring, dashpot]: [Lanes<S>; 6]) -> [Lanes<S>; 4] {
+    fn of<S: Simd>(
+        &self,
+        [q, before, after, mass, spring, dashpot]: [Lanes<S>; 6],
+        _: [Lanes<S>; 0],
+        [speed, reach, strain, rub]: [Lanes<S>; 4],
+    ) -> ([Lanes<S>; 0], [Lanes<S>; 4]) {
         let v = before.abs().max(after.abs());
         let q = q.abs() + v * self.h;
-        [v * mass, q * mass, q * spring, v * dashpot]
+        ([], [speed.max(v * mass), reach.max(q * mass), strain.max(q * spring), rub.max(v * dashpot)])
     }
 }
 
@@ -221,10 +228,15 @@ struct ForceSize {
     per_h: f64,
 }
 
-impl Sizes<5, 1> for ForceSize {
+impl Pass<5, 0, 1> for ForceSize {
     #[inline(always)]
-    fn of<S: Simd>(&self, [mean, blow, extra, end, per_root]: [Lanes<S>; 5]) -> [Lanes<S>; 1] {
-        [mean.abs().max(blow.abs() * self.per_h).max(extra.abs() + end.abs()) * per_root]
+    fn of<S: Simd>(
+        &self,
+        [mean, blow, extra, end, per_root]: [Lanes<S>; 5],
+        _: [Lanes<S>; 0],
+        [load]: [Lanes<S>; 1],
+    ) -> ([Lanes<S>; 0], [Lanes<S>; 1]) {
+        ([], [load.max(mean.abs().max(blow.abs() * self.per_h).max(extra.abs() + end.abs()) * per_root)])
     }
 }
 

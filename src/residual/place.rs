@@ -1,7 +1,8 @@
 //! The place that a support surrounds: what vectors are there.
 
-use crate::linear::{Columns, Segment};
+use crate::linear::{Columns, Lanes, Pass, Segment, pass};
 use crate::scene::{PlaneRows, Scene};
+use pulp::Simd;
 use std::sync::Arc;
 
 /// Rounding of sums over any number of degrees of freedom, relative to the sum of the magnitudes.
@@ -66,14 +67,52 @@ impl Place {
         }
     }
 
-    /// Values of `x`, to rounding.
-    #[allow(clippy::manual_map, reason = "a closure would be compiled without vector instructions")]
+    /// What a step does at the place, from the displacements at its start and at its end and the
+    /// velocities that enter and leave its balance; the start moves on for `ahead` seconds. To
+    /// rounding, with the terms of all sums in any order; `None` if the entries of a row do not
+    /// follow one another.
     #[inline(always)]
-    pub fn near(&self, x: &[f64]) -> Option<[f64; 2]> {
-        match &self.segments {
-            Some([y, z]) => Some([y.dot(x), z.dot(x)]),
-            None => None,
+    pub fn near<S: Simd>(&self, simd: S, ahead: f64, vectors: [&[f64]; 4]) -> Option<NearPlace> {
+        let Some(rows) = &self.segments else { return None };
+        let mut near = NearPlace { ahead: [0.0; 2], end: [0.0; 2], speed: 0.0 };
+        for (k, row) in rows.iter().enumerate() {
+            let [(weights, start), (_, end), (_, before), (_, after)] =
+                [row.beside(vectors[0]), row.beside(vectors[1]), row.beside(vectors[2]), row.beside(vectors[3])];
+            let read = [weights, start, end, before, after];
+            let [place, end, speed] = pass(simd, weights.len(), (read, []), &NearRow { ahead });
+            (near.ahead[k], near.end[k]) = (place.sum(), end.sum());
+            near.speed += speed.sum();
         }
+        Some(near)
+    }
+}
+
+/// What a step does at a place, to rounding.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NearPlace {
+    /// Its displacement some time after the start of the step and at its end, m.
+    pub ahead: [f64; 2],
+    pub end: [f64; 2],
+    /// The sum of the magnitudes of the terms of both rows of its velocity at the end, m/s.
+    pub speed: f64,
+}
+
+/// From the weights of a row, the displacements at the start and at the end of a step and the
+/// velocities that enter and leave its balance: the sums of [`NearPlace`].
+struct NearRow {
+    ahead: f64,
+}
+
+impl Pass<5, 0, 3> for NearRow {
+    #[inline(always)]
+    fn of<S: Simd>(
+        &self,
+        [weight, start, end, before, after]: [Lanes<S>; 5],
+        _: [Lanes<S>; 0],
+        [place, last, speed]: [Lanes<S>; 3],
+    ) -> ([Lanes<S>; 0], [Lanes<S>; 3]) {
+        let ahead = start + before * self.ahead;
+        ([], [place + weight * ahead, last + weight * end, speed + (weight * after).abs()])
     }
 }
 

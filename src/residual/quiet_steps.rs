@@ -125,7 +125,7 @@ impl Judge {
         self.noise.book(1.0, n as f64);
         self.balance.largest = largest;
         self.balance.observe(&self.noise, worst, path);
-        self.energy.observe_quiet(&self.matrices, (h, per_h), &moves, &scratch.load, n);
+        self.energy.observe_quiet(simd, &self.matrices, (h, per_h), &moves, &scratch.load, n);
         if self.sums.whole {
             self.sums.add_all(&moves, scratch, (h, per_h), n);
         }

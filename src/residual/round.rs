@@ -11,15 +11,16 @@ use super::pushes::pushes;
 use super::supports::Supports;
 use crate::scene::{Hole, Scene};
 use crate::step::{Bound, Normal, Step, Turning};
+use pulp::Simd;
 
 impl Judge {
     /// Checks round holes and friction, and adds their impulses to the momentum balance of the
     /// step; `beyond` says that blows add to the displacement of the step's rule.
     #[inline(always)]
-    pub(super) fn supports_on_grid(&mut self, step: &Step<'_>, beyond: bool) {
+    pub(super) fn supports_on_grid<S: Simd>(&mut self, simd: S, step: &Step<'_>, beyond: bool) {
         let (Some(mut supports), Some(places)) = (self.supports.take(), self.places.take()) else { return };
         for (hole, place) in places.scene.holes().zip(&places.holes) {
-            if self.is_out_of_reach(step, &hole, place) {
+            if self.is_out_of_reach(simd, step, &hole, place) {
                 supports.slid[hole.index] = f64::INFINITY;
             } else {
                 self.check_hole(step, (&hole, place), beyond, &mut supports);

@@ -17,6 +17,7 @@ use super::momentum_sums::Forces;
 use super::pushes::place_of;
 use super::step_motion::StepMotion;
 use crate::step::{Balance, Path, Step};
+use pulp::Simd;
 
 /// The weights of a scheme differ from those of the trapezoid rule by at most this many steps in
 /// all.
@@ -55,7 +56,7 @@ impl Judge {
     /// Adds a step, whose mean forces are in `scratch`; `self.q` still holds its state at the
     /// start.
     #[inline(always)]
-    pub(super) fn sum(&mut self, step: &Step<'_>, per_h: f64, n: usize) {
+    pub(super) fn sum<S: Simd>(&mut self, simd: S, step: &Step<'_>, per_h: f64, n: usize) {
         let sums = &mut self.sums;
         sums.begin(step);
         sums.steps += 1;
@@ -81,7 +82,7 @@ impl Judge {
                 forces.add(first, h, [load, self.scratch.spring[i] - load, 0.0]);
                 sums.forces.set(i, forces);
             }
-            sums.add_ends(&moves, h, n);
+            sums.add_ends(simd, &moves, h, n);
             // The dampers' force rises at a blow, and may have fallen again at the end of the step.
             if self.loads.has_blows() && self.blows.struck.iter().any(|&v| v != 0.0) {
                 let mut risen = vec![0.0; n];
@@ -89,9 +90,8 @@ impl Judge {
                 sums.forces.changes.iter_mut().zip(risen).for_each(|(changes, force)| *changes += force.abs());
             }
         } else {
-            sums.add(&moves, &self.scratch, (h, per_h), first, n);
+            sums.add(simd, &moves, &self.scratch, (h, per_h), first, n);
         }
-        sums.last[..n].copy_from_slice(&step.velocity_after[..n]);
     }
 
     /// The largest residual of the run's momentum, minus what a step's rule may miss and minus

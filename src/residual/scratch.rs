@@ -3,7 +3,7 @@
 use super::matrices::{Matrices, Part};
 use super::step_motion::StepMotion;
 use super::weights::Weights;
-use crate::linear::{Lanes, Sizes, largest, update};
+use crate::linear::{Lanes, Pass, pass};
 use crate::step::Balance;
 use pulp::Simd;
 
@@ -52,31 +52,18 @@ impl Scratch {
         n: usize,
     ) -> f64 {
         let &StepMotion { from, to, before, after, load_start, load_end, extra, blow, .. } = moves;
-        let (load, residual) = (&mut self.load[..n], &mut self.residual[..n]);
-        let (mean_q, mean_v, gained) = (&mut self.mean_q[..n], &mut self.mean_v[..n], &mut self.gained[..n]);
+        let Self { load, mean_q, mean_v, gained, residual, .. } = self;
+        let theta = if let Balance::Theta(theta) = balance { theta } else { 0.0 };
+        let forces = ([load_start, load_end, extra, blow], [&mut load[..], residual]);
+        let [] = pass(simd, n, forces, &MeanLoad { theta, h });
+        let motion = ([from, to, before, after, &weights.root_mass], [&mut mean_q[..], mean_v, gained]);
         let [path] = match balance {
-            Balance::Theta(theta) => {
-                let mean = |a: f64, b: f64| (1.0 - theta) * a + theta * b;
-                update(load, [load_start, load_end, extra], |_, [start, end, extra]| mean(start, end) + extra);
-                update(mean_q, [from, to], |_, [q0, q1]| mean(q0, q1));
-                update(mean_v, [before, after], |_, [before, after]| mean(before, after));
-                largest(simd, [0.0], n, [from, to, mean_v, &weights.root_mass], &Miss { h })
-            }
-            Balance::Staggered(b) => {
-                let mean = |[q0, q1, before]: [f64; 3]| b * (q0 - h * before) + (1.0 - 2.0 * b) * q0 + b * q1;
-                update(load, [load_start, extra], |_, [start, extra]| start + extra);
-                update(mean_q, [from, to, before], |_, x| mean(x));
-                update(mean_v, [before, after], |_, [before, after]| 0.5 * (before + after));
-                largest(simd, [0.0], n, [from, to, after, &weights.root_mass], &Miss { h })
-            }
-            Balance::GeneralizedAlpha { .. } | Balance::Exact => {
-                update(load, [extra], |load, [extra]| load + extra);
-                [0.0]
-            }
+            Balance::Staggered(b) => pass(simd, n, motion, &StaggeredMeans { b, h }),
+            _ => pass(simd, n, motion, &ThetaMeans { theta, h }),
         };
-        update(residual, [load, blow], |_, [load, blow]| -h * load - blow);
-        update(gained, [after, before], |_, [after, before]| after - before);
-        path
+        // Exact motion and the rule that predicts and corrects have another path.
+        let known = matches!(balance, Balance::Theta(_) | Balance::Staggered(_));
+        if known { path.largest(0.0) } else { 0.0 }
     }
 
     /// Adds the terms of inertia, damping and stiffness to the balance of a step of `h` seconds
@@ -91,52 +78,106 @@ impl Scratch {
         blow: &[f64],
         weights: &Weights,
         n: usize,
-        mut scale: f64,
+        scale: f64,
     ) -> f64 {
         matrices.product(Part::Mass, 1.0, &self.gained[..n], &mut self.inertia[..n]);
         matrices.product(Part::Damping, h, &self.mean_v[..n], &mut self.damper[..n]);
         matrices.product(Part::Stiffness, h, &self.mean_q[..n], &mut self.spring[..n]);
-        let terms = [&self.inertia[..], &self.damper, &self.spring];
-        update(&mut self.residual[..n], terms, |open, [inertia, damper, spring]| open + (inertia + damper + spring));
         let forces = [&self.inertia[..], &self.damper, &self.spring, &self.load, blow, &weights.per_root_mass];
-        [scale] = largest(simd, [scale], n, forces, &ForceOverRoot { per_h });
-        scale
+        let [largest] = pass(simd, n, (forces, [&mut self.residual]), &Balanced { per_h });
+        largest.largest(scale)
     }
 
     /// The largest residual of the balance: so far, N, with `so_far` before; and of this step,
     /// N/√kg.
     #[inline(always)]
     pub fn open<S: Simd>(&self, simd: S, per_h: f64, weights: &Weights, n: usize, so_far: f64) -> (f64, f64) {
-        let vectors = [&self.residual[..], &weights.per_root_mass];
-        let [balance, worst] = largest(simd, [so_far, 0.0], n, vectors, &Open { per_h });
-        (balance, worst)
+        let [open, worst] = pass(simd, n, ([&self.residual, &weights.per_root_mass], []), &Open { per_h });
+        (open.largest(so_far), worst.largest(0.0))
     }
 }
 
-/// By how much the displacement misses the way at the mean rate over a step of h seconds, m√kg:
-/// from q₀, q₁, the rate and √m.
-struct Miss {
+/// From the loads at the start and at the end of a step of h seconds, the extra force, N, and the
+/// blow, N s: the mean load with the extra force, and the balance with what is given, N s.
+struct MeanLoad {
+    theta: f64,
     h: f64,
 }
 
-impl Sizes<4, 1> for Miss {
+impl Pass<4, 2, 0> for MeanLoad {
     #[inline(always)]
-    fn of<S: Simd>(&self, [from, to, rate, root_mass]: [Lanes<S>; 4]) -> [Lanes<S>; 1] {
-        [(to - from - rate * self.h).abs() * root_mass]
+    fn of<S: Simd>(
+        &self,
+        [start, end, extra, blow]: [Lanes<S>; 4],
+        _: [Lanes<S>; 2],
+        _: [Lanes<S>; 0],
+    ) -> ([Lanes<S>; 2], [Lanes<S>; 0]) {
+        let load = start * (1.0 - self.theta) + end * self.theta + extra;
+        ([load, load * -self.h - blow], [])
     }
 }
 
-/// The largest force in a balance, N/√kg: from the terms of inertia, damper and spring, N s, the
-/// load, N, the blow, N s, and 1/√m.
-struct ForceOverRoot {
+/// From q₀, q₁, the velocities before and after a step of h seconds and √m: mean displacement and
+/// velocity, the change of velocity, and by how much the displacement misses the way at the mean
+/// velocity, m√kg.
+struct ThetaMeans {
+    theta: f64,
+    h: f64,
+}
+
+impl Pass<5, 3, 1> for ThetaMeans {
+    #[inline(always)]
+    fn of<S: Simd>(
+        &self,
+        [from, to, before, after, root_mass]: [Lanes<S>; 5],
+        _: [Lanes<S>; 3],
+        [path]: [Lanes<S>; 1],
+    ) -> ([Lanes<S>; 3], [Lanes<S>; 1]) {
+        let rest = 1.0 - self.theta;
+        let (place, rate) = (from * rest + to * self.theta, before * rest + after * self.theta);
+        let miss = (to - from - rate * self.h).abs() * root_mass;
+        ([place, rate, after - before], [path.max(miss)])
+    }
+}
+
+/// As [`ThetaMeans`] of a staggered rule, whose displacement follows from the velocity after the
+/// step.
+struct StaggeredMeans {
+    b: f64,
+    h: f64,
+}
+
+impl Pass<5, 3, 1> for StaggeredMeans {
+    #[inline(always)]
+    fn of<S: Simd>(
+        &self,
+        [from, to, before, after, root_mass]: [Lanes<S>; 5],
+        _: [Lanes<S>; 3],
+        [path]: [Lanes<S>; 1],
+    ) -> ([Lanes<S>; 3], [Lanes<S>; 1]) {
+        let mean = (from - before * self.h) * self.b + from * (1.0 - 2.0 * self.b) + to * self.b;
+        let miss = (to - from - after * self.h).abs() * root_mass;
+        ([mean, (before + after) * 0.5, after - before], [path.max(miss)])
+    }
+}
+
+/// From the terms of inertia, damper and spring, N s, the load, N, the blow, N s, and 1/√m: the
+/// balance with these terms, N s, and the largest force in it, N/√kg.
+struct Balanced {
     per_h: f64,
 }
 
-impl Sizes<6, 1> for ForceOverRoot {
+impl Pass<6, 1, 1> for Balanced {
     #[inline(always)]
-    fn of<S: Simd>(&self, [inertia, damper, spring, load, blow, per_root]: [Lanes<S>; 6]) -> [Lanes<S>; 1] {
+    fn of<S: Simd>(
+        &self,
+        [inertia, damper, spring, load, blow, per_root]: [Lanes<S>; 6],
+        [open]: [Lanes<S>; 1],
+        [largest]: [Lanes<S>; 1],
+    ) -> ([Lanes<S>; 1], [Lanes<S>; 1]) {
         let moved = inertia.abs().max(damper.abs()).max(spring.abs().max(blow.abs()));
-        [load.abs().max(moved * self.per_h) * per_root]
+        let force = load.abs().max(moved * self.per_h) * per_root;
+        ([open + (inertia + damper + spring)], [largest.max(force)])
     }
 }
 
@@ -145,10 +186,15 @@ struct Open {
     per_h: f64,
 }
 
-impl Sizes<2, 2> for Open {
+impl Pass<2, 0, 2> for Open {
     #[inline(always)]
-    fn of<S: Simd>(&self, [residual, per_root]: [Lanes<S>; 2]) -> [Lanes<S>; 2] {
+    fn of<S: Simd>(
+        &self,
+        [residual, per_root]: [Lanes<S>; 2],
+        _: [Lanes<S>; 0],
+        [largest, worst]: [Lanes<S>; 2],
+    ) -> ([Lanes<S>; 0], [Lanes<S>; 2]) {
         let open = residual.abs() * self.per_h;
-        [open, open * per_root]
+        ([], [largest.max(open), worst.max(open * per_root)])
     }
 }

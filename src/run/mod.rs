@@ -123,10 +123,41 @@ pub fn run_with_progress<J: Judging, R: Recording>(
 
 #[cfg(test)]
 mod tests {
+    use super::{Options, run};
+    use crate::linear::Symmetric;
     use crate::residual::{Judge, Refuted};
-    use crate::scene::{Load, Scene, Wall};
+    use crate::scene::{Load, PlaneRows, Row, Scene, Structure, Wall};
     use crate::scheme::{Scheme, Stepper};
+    use crate::statistics::WearTally;
     use crate::step::QuietSteps;
+    use crate::time::TimeOptions;
+
+    #[test]
+    fn the_wear_of_a_run_is_what_its_tally_finds_by_itself() {
+        let same = |x: f64| Symmetric::diagonal(&[x; 2]);
+        let structure = Structure { mass: same(1.0), damping: same(0.2), stiffness: same(100.0) };
+        let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+        let wall = Wall::round("hole", at.clone(), 5e-3).with_restitution(0.5).with_friction(0.2);
+        let pulled = |dof, frequency| Load { at: Row::dof(dof), ..Load::harmonic(3.0, frequency, 0.0) };
+        let scene = Scene::structure(structure)
+            .with_support("hole", at, [0.0, 0.0], vec![wall])
+            .with_load(pulled(0, 5.0))
+            .with_load(pulled(1, 3.7))
+            .with_duration(2.0);
+        // The window begins within a step, and rows are far apart.
+        let (step, from) = (1e-3, 0.3004);
+        let times = TimeOptions { sample: Some(0.1), statistics_from: from, ..TimeOptions::with_step(step) };
+        for scheme in [Scheme::MoreauJean { theta: 0.5 }, Scheme::Located] {
+            let made = run(&scene, &scheme, &Options::new(times)).expect("a run");
+            let mut stepper = Stepper::new(&scene, &scheme, step).expect("a scene");
+            let mut alone = WearTally::new(&scene, from, times.sectors);
+            while stepper.time() < 2.0 - 0.5 * step {
+                alone.observe(&stepper.step().expect("a step"));
+            }
+            assert!(made.statistics.wear[0].work_rate_w > 0.0);
+            assert_eq!(made.statistics.wear, alone.statistics(), "{scheme}");
+        }
+    }
 
     /// The first findings of 300 steps without contact, seen together and one by one, with number
     /// `wrong` changed by `lie`: of end, displacement, velocity and the velocities in the balance.

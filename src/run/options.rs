@@ -283,7 +283,7 @@ impl Recording for Recorded {
     fn observe((recorder, forces, wear): &mut Self::Recorder, step: &Step<'_>) {
         recorder.observe(step);
         forces.observe(step);
-        wear.observe(step);
+        wear.observe_beside(step, recorder.slid());
     }
 
     fn observe_quiet((recorder, _, _): &mut Self::Recorder, quiet: &QuietSteps) {

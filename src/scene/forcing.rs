@@ -64,11 +64,17 @@ impl Forcing {
     #[inline]
     #[must_use]
     pub fn force(&self, t: f64) -> f64 {
+        self.force_by(t, |table| table.piece(t).0)
+    }
+
+    /// The same with the force of each table as `of_table` gives it.
+    #[inline(always)]
+    pub(super) fn force_by(&self, t: f64, of_table: impl FnMut(&Table) -> f64) -> f64 {
         let mut f = self.constant;
         for h in &self.harmonics {
             f += h.amplitude * (h.omega * t + h.phase).sin();
         }
-        if self.tables.is_empty() && self.functions.is_empty() { f } else { f + self.irregular(t) }
+        if self.tables.is_empty() && self.functions.is_empty() { f } else { f + self.irregular_by(t, of_table) }
     }
 
     /// Writes the forces at several `times`, N, as [`Forcing::force`] gives them to rounding.
@@ -88,7 +94,12 @@ impl Forcing {
 
     /// Force of tables and functions at `t`, N.
     pub(crate) fn irregular(&self, t: f64) -> f64 {
-        let tables: f64 = self.tables.iter().map(|table| table.piece(t).0).sum();
+        self.irregular_by(t, |table| table.piece(t).0)
+    }
+
+    #[inline(always)]
+    fn irregular_by(&self, t: f64, of_table: impl FnMut(&Table) -> f64) -> f64 {
+        let tables: f64 = self.tables.iter().map(of_table).sum();
         tables + self.functions.iter().map(|(weight, function)| weight * function.at(t)).sum::<f64>()
     }
 

@@ -151,13 +151,51 @@ impl Table {
     #[inline]
     #[must_use]
     pub fn piece(&self, t: f64) -> (f64, f64) {
+        self.piece_at(t).map_or((0.0, 0.0), |piece| (piece.force(t), piece.slope))
+    }
+}
+
+/// A table between two of its rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TablePiece {
+    /// Times of the rows, s.
+    from: f64,
+    to: f64,
+    /// Force at the first, N.
+    start: f64,
+    /// N/s.
+    slope: f64,
+}
+
+impl TablePiece {
+    /// One that contains no time.
+    pub(super) const NONE: Self = Self { from: f64::NAN, to: f64::NAN, start: 0.0, slope: 0.0 };
+
+    #[inline]
+    fn force(&self, t: f64) -> f64 {
+        self.start + self.slope * (t - self.from)
+    }
+}
+
+impl Table {
+    /// The piece that starts at or before `t`; `None` outside the rows.
+    #[inline]
+    fn piece_at(&self, t: f64) -> Option<TablePiece> {
         let next = self.after(t);
-        let (Some(&t0), Some(&t1)) = (next.checked_sub(1).and_then(|i| self.time.get(i)), self.time.get(next)) else {
-            return (0.0, 0.0);
-        };
-        let (f0, f1) = (self.force[next - 1], self.force[next]);
-        let slope = (f1 - f0) / (t1 - t0);
-        (f0 + slope * (t - t0), slope)
+        let (&from, &to) = (self.time.get(next.checked_sub(1)?)?, self.time.get(next)?);
+        let (start, end) = (self.force[next - 1], self.force[next]);
+        Some(TablePiece { from, to, start, slope: (end - start) / (to - from) })
+    }
+
+    /// Force at `t`, N, as [`Table::piece`] gives it; from the piece `last` while `t` is on it, else
+    /// from that of `t`, which takes its place.
+    #[inline]
+    pub(super) fn force_near(&self, t: f64, last: &mut TablePiece) -> f64 {
+        if !(last.from <= t && t < last.to) {
+            *last = self.piece_at(t).unwrap_or(TablePiece::NONE);
+        }
+        // Of no piece it is 0.
+        if last.from <= t { last.force(t) } else { 0.0 }
     }
 }
 

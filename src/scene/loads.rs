@@ -1,7 +1,7 @@
 //! The loads of a scene as vectors over its degrees of freedom.
 
 use super::forcing::Forcing;
-use super::load::Load;
+use super::load::{Load, Table, TablePiece};
 use super::row::{Row, distinct};
 use crate::linear::Segment;
 
@@ -81,6 +81,19 @@ impl Loads {
         }
     }
 
+    /// As [`Loads::add_force`], at instants that mostly follow one another closely.
+    #[inline(always)]
+    pub(crate) fn add_force_near(&self, t: f64, scale: f64, out: &mut [f64], last: &mut LastPieces) {
+        let mut last = last.0.iter_mut();
+        for (part, segment) in self.parts.iter().zip(&self.segments) {
+            let of_table = |table: &Table| match last.next() {
+                Some(last) => table.force_near(t, last),
+                None => table.piece(t).0,
+            };
+            scatter((part, segment), scale * part.1.force_by(t, of_table), out);
+        }
+    }
+
     /// Writes the sum of the blows in (from, to] to `out`, N s. Returns whether there is one.
     pub fn blow(&self, from: f64, to: f64, out: &mut [f64]) -> bool {
         self.blow_by(|forcing| forcing.impulse(from, to), out)
@@ -124,6 +137,19 @@ impl Loads {
     }
 }
 
+/// The piece of each table of some loads from which its force was read last: at the ends of steps
+/// that follow one another, mostly the same.
+#[derive(Debug, Clone)]
+pub(crate) struct LastPieces(Vec<TablePiece>);
+
+impl LastPieces {
+    /// None yet, for the tables of `loads`.
+    pub fn new(loads: &Loads) -> Self {
+        let count = loads.parts.iter().map(|(_, forcing)| forcing.tables.len()).sum();
+        Self(vec![TablePiece::NONE; count])
+    }
+}
+
 /// Adds a part's row, which may be a segment, times `value` to `out`.
 #[inline(always)]
 fn scatter(((row, _), segment): (&(Row, Forcing), &Option<Segment>), value: f64, out: &mut [f64]) {
@@ -131,5 +157,31 @@ fn scatter(((row, _), segment): (&(Row, Forcing), &Option<Segment>), value: f64,
         _ if value == 0.0 => {}
         Some(segment) if segment.fits(out.len()) => segment.add(value, out),
         _ => row.add_transposed(value, out),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forces_from_the_last_pieces_are_those_of_the_tables_in_whatever_order_the_times_come() {
+        let table = |time: &[f64], force: &[f64]| Load::table(Table::new(time.to_vec(), force.to_vec()).unwrap());
+        let at = |load: Load, dof| Load { at: Row::dof(dof), ..load };
+        let loads = Loads::new(&[
+            at(table(&[0.0, 0.1, 0.7, 1.0], &[1.0, -2.0, 0.3, 5.0]), 0),
+            at(table(&[0.25, 0.3, 2.0], &[7.0, 1.0, -1.0]), 1),
+            at(table(&[0.05, 0.9], &[0.1, 0.2]), 0),
+            at(Load::harmonic(1.0, 3.0, 0.2), 1),
+        ]);
+        let ahead = (0..300).map(|i| 0.01 * f64::from(i) - 0.3);
+        let times = ahead.clone().chain(ahead.rev()).chain([0.7, 0.1, f64::NAN, 0.1, 0.25, 1.0, 0.0]);
+        let mut last = LastPieces::new(&loads);
+        for t in times {
+            let (mut near, mut alone) = ([0.5; 2], [0.5; 2]);
+            loads.add_force_near(t, 2.0, &mut near, &mut last);
+            loads.add_force(t, 2.0, &mut alone);
+            assert!(near.map(f64::to_bits) == alone.map(f64::to_bits), "{t}: {near:?} {alone:?}");
+        }
     }
 }

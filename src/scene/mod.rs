@@ -62,6 +62,7 @@ pub use function::TimeFunction;
 pub(crate) use grid_forcing::GridForcing;
 pub use law::{WallLaw, WallSpring};
 pub use load::{Load, LoadKind, Table};
+pub(crate) use loads::LastPieces;
 pub use loads::Loads;
 pub use modal::{MOST_DENSE, MOST_MODES, Modes, Reduction, WallTruncation};
 pub use planes::{PlaneRows, heading};

@@ -5,7 +5,7 @@ use super::space::{Solve, Space, indefinite};
 use crate::error::Result;
 use crate::linear::{Factor, MatrixPolynomial, Operator, Rows, Symmetric};
 use crate::qp::{self, Backend, Failure, Problem, Rhs};
-use crate::scene::{Load, Loads, Row, SharedStructure};
+use crate::scene::{LastPieces, Load, Loads, Row, SharedStructure};
 
 /// Vectors of n numbers.
 #[derive(Debug, Clone)]
@@ -17,7 +17,7 @@ impl Space for Matrices {
     type Factor = Factor;
     type Polynomial = MatrixPolynomial;
     type Rows = Rows;
-    type Forces = Loads;
+    type Forces = (Loads, LastPieces);
     type Solver = qp::Solver;
 
     fn vector(values: &[f64]) -> Vec<f64> {
@@ -48,8 +48,10 @@ impl Space for Matrices {
         Rows::new(n, rows.map(Row::entries))
     }
 
-    fn forces(loads: &[Load], _: f64) -> Loads {
-        Loads::new(loads)
+    fn forces(loads: &[Load], _: f64) -> Self::Forces {
+        let loads = Loads::new(loads);
+        let last = LastPieces::new(&loads);
+        (loads, last)
     }
 
     #[inline(always)]
@@ -73,10 +75,10 @@ impl Space for Matrices {
     }
 
     #[inline(always)]
-    fn force(forces: &mut Loads, time: f64, out: &mut Vec<f64>) {
+    fn force((loads, last): &mut Self::Forces, time: f64, out: &mut Vec<f64>) {
         // All other entries have been 0 from the beginning.
-        forces.clear(out);
-        forces.add_force(time, 1.0, out);
+        loads.clear(out);
+        loads.add_force_near(time, 1.0, out, last);
     }
 }
 

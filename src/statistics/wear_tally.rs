@@ -117,6 +117,12 @@ pub struct WearTally {
     from: f64,
     length: f64,
     sliding: SlidingContacts,
+    tallies: Tallies,
+}
+
+/// The sums of all supports.
+#[derive(Debug, Clone)]
+struct Tallies {
     supports: Vec<Tally>,
     /// One for each contact.
     episodes: Vec<Episode>,
@@ -149,9 +155,11 @@ impl WearTally {
         Self {
             from,
             length: scene.duration - from,
-            supports: scene.supports.iter().map(tally).collect(),
-            episodes: vec![Episode::default(); sliding.contacts()],
-            touched: vec![None; scene.supports.len()],
+            tallies: Tallies {
+                supports: scene.supports.iter().map(tally).collect(),
+                episodes: vec![Episode::default(); sliding.contacts()],
+                touched: vec![None; scene.supports.len()],
+            },
             sliding,
         }
     }
@@ -159,16 +167,25 @@ impl WearTally {
     /// Adds one step; steps must come in order.
     #[inline]
     pub fn observe(&mut self, step: &Step<'_>) {
+        self.observe_beside(step, ([f64::NAN; 2], &[]));
+    }
+
+    /// The same beside an observer that found what `slid` between two times, s.
+    #[inline]
+    pub(crate) fn observe_beside(&mut self, step: &Step<'_>, slid: ([f64; 2], &[SlidingPiece])) {
         if !self.sliding.is_empty() && step.end >= self.from && self.length > 0.0 {
-            self.add(step);
+            self.add(step, slid);
         }
     }
 
-    fn add(&mut self, step: &Step<'_>) {
+    fn add(&mut self, step: &Step<'_>, (within, pieces): ([f64; 2], &[SlidingPiece])) {
         let end = self.from + self.length;
         // Rounding of the last step's end is no time after the window.
         let window = [step.start.max(self.from), if step.end > end { end } else { step.end }];
         if !matches!(step.path, Path::Series(_)) {
+            if within == window {
+                return pieces.iter().for_each(|piece| self.tallies.add(piece, step, window, [self.from, self.length]));
+            }
             return self.add_part(step, window);
         }
         // Exact motion may last over many batches.
@@ -186,32 +203,8 @@ impl WearTally {
 
     /// Adds the part of a step between two times in it, s, which lies in one batch.
     fn add_part(&mut self, step: &Step<'_>, window: [f64; 2]) {
-        let (from, length) = (self.from, self.length);
-        let Self { sliding, supports, episodes, touched, .. } = self;
-        sliding.observe(step, window, |piece| {
-            let Some(tally) = supports.get_mut(piece.support) else { return };
-            let middle =
-                if piece.duration == ImpulseDuration::Instant { step.end } else { 0.5 * (window[0] + window[1]) };
-            tally.add(piece, batch_of(middle - from, length));
-            let part = Some((step.index, window[0]));
-            let first = touched.get_mut(piece.support).is_some_and(|last| std::mem::replace(last, part) != part);
-            match piece.duration {
-                ImpulseDuration::Instant => tally.impacts += piece.work,
-                ImpulseDuration::Lasting => {
-                    tally.sliding += piece.sliding;
-                    tally.time += if first { piece.time } else { 0.0 };
-                }
-                ImpulseDuration::Unresolved => {
-                    let Some(episode) = episodes.get_mut(piece.contact) else { return };
-                    let (steps, sliding) = episode.add(step.index, piece.sliding);
-                    tally.sliding += sliding;
-                    tally.impacts += if steps <= IMPACT_STEPS { piece.work } else { 0.0 };
-                    if first {
-                        tally.time += tally.episode.add(step.index, piece.time).1;
-                    }
-                }
-            }
-        });
+        let Self { sliding, tallies, from, length, .. } = self;
+        sliding.observe(step, window, |piece| tallies.add(piece, step, window, [*from, *length]));
     }
 
     /// The statistics of each support, in the scene's order; none for a window of length 0.
@@ -220,7 +213,35 @@ impl WearTally {
         if self.length <= 0.0 {
             return Vec::new();
         }
-        self.supports.iter().map(|tally| tally.statistics(self.length)).collect()
+        self.tallies.supports.iter().map(|tally| tally.statistics(self.length)).collect()
+    }
+}
+
+impl Tallies {
+    /// Adds what slid in a step between two times in it, s; the window of the statistics begins at
+    /// `from` and has this `length`, s.
+    fn add(&mut self, piece: &SlidingPiece, step: &Step<'_>, part: [f64; 2], [from, length]: [f64; 2]) {
+        let Some(tally) = self.supports.get_mut(piece.support) else { return };
+        let middle = if piece.duration == ImpulseDuration::Instant { step.end } else { 0.5 * (part[0] + part[1]) };
+        tally.add(piece, batch_of(middle - from, length));
+        let part = Some((step.index, part[0]));
+        let first = self.touched.get_mut(piece.support).is_some_and(|last| std::mem::replace(last, part) != part);
+        match piece.duration {
+            ImpulseDuration::Instant => tally.impacts += piece.work,
+            ImpulseDuration::Lasting => {
+                tally.sliding += piece.sliding;
+                tally.time += if first { piece.time } else { 0.0 };
+            }
+            ImpulseDuration::Unresolved => {
+                let Some(episode) = self.episodes.get_mut(piece.contact) else { return };
+                let (steps, sliding) = episode.add(step.index, piece.sliding);
+                tally.sliding += sliding;
+                tally.impacts += if steps <= IMPACT_STEPS { piece.work } else { 0.0 };
+                if first {
+                    tally.time += tally.episode.add(step.index, piece.time).1;
+                }
+            }
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use super::change::Change;
 use super::exact::{Replay, replay, stride};
 use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::Result;
+use crate::parallel::both;
 use crate::residual::{Finding, Refuted};
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Scene, System};
@@ -107,25 +108,30 @@ impl Verdict {
         progress: &mut dyn FnMut(f64),
     ) -> Result<Self> {
         let rows = TimeOptions { sample: Some(run.grid.row_spacing()), ..*time };
-        let (check, again) = if method.scheme.is_exact() {
-            (Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run, time)?)
-        } else {
+        let check = || {
+            if method.scheme.is_exact() {
+                return Ok((Check::OtherRounding { stride_s: stride(scene) }, replay(scene, run, time)?));
+            }
             let step_s = 0.5 * run.grid.step;
             let options = Options::new(TimeOptions { step: step_s, ..rows });
             let half = run_with_progress(scene, method, &options, progress)?;
             let Run { trajectory, statistics, findings, .. } = half;
-            (Check::HalfStep { step_s }, Replay { trajectory, statistics, findings })
+            Ok((Check::HalfStep { step_s }, Replay { trajectory, statistics, findings }))
         };
-        // A penalty run moves between springs, where perturbations grow otherwise than between
-        // rigid walls.
-        let model = Stepper::new(scene, method, run.grid.step)?.scene().clone();
-        let growth = Growth::affordable(&model);
-        let growth = match (&model.system, growth) {
-            // With several degrees of freedom, where the exact scheme cannot follow the scene, runs
-            // of the method itself show the growth.
-            (System::Structure(_), Err(_)) => Growth::by_runs(scene, method, run.grid.step),
-            (_, growth) => growth,
+        let growth = || {
+            // A penalty run moves between springs, where perturbations grow otherwise than between
+            // rigid walls.
+            let model = Stepper::new(scene, method, run.grid.step)?.scene().clone();
+            let growth = Growth::affordable(&model);
+            Ok(match (&model.system, growth) {
+                // With several degrees of freedom, where the exact scheme cannot follow the scene,
+                // runs of the method itself show the growth.
+                (System::Structure(_), Err(_)) => Growth::by_runs(scene, method, run.grid.step).ok(),
+                (_, growth) => growth.ok(),
+            })
         };
+        let (growth, checked) = both(growth, check);
+        let ((check, again), growth) = (checked?, growth?);
         // A run that diverged has no rows after that.
         let ended = [(&run.trajectory, &run.findings), (&again.trajectory, &again.findings)].map(|(rows, findings)| {
             let diverged = findings.iter().any(|found| found.refuted == Refuted::Diverged);

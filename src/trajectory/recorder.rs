@@ -7,6 +7,7 @@ use super::plane_impulses::PlaneImpulses;
 use super::worn::Worn;
 use crate::scene::{Row, Scene};
 use crate::step::{Contact, Path, QuietSteps, Step};
+use crate::wear::SlidingPiece;
 
 /// Rounding error of the time of a row and of the end of a step there, in units in the last place.
 const ROW_UNITS: f64 = 8.0;
@@ -67,6 +68,7 @@ impl Recorder {
     /// Adds one step. Steps must come in order. Steps after the last row are ignored, and so are
     /// steps of another scene, with another number of walls or degrees of freedom.
     pub fn observe(&mut self, step: &Step<'_>) {
+        self.worn.begin();
         let (n, m) = (self.state[0].len(), self.pending.len());
         let moved = [step.q, step.v, step.velocity_before];
         let pushed = [step.impulse, step.jump, step.force];
@@ -119,6 +121,12 @@ impl Recorder {
             Path::Exact(_) | Path::Series(_) => self.observe_exact(step),
             Path::Handed { .. } => self.observe_handed(step),
         }
+    }
+
+    /// What slid between two times (s) of the last step: on a grid the whole step, of exact motion
+    /// the piece since its last row.
+    pub(crate) fn slid(&self) -> ([f64; 2], &[SlidingPiece]) {
+        self.worn.slid()
     }
 
     /// Adds steps in which no wall pushes and no contact ends, as [`Recorder::observe`] adds each

@@ -27,13 +27,23 @@ pub(super) struct Worn {
     open: Vec<Option<EpisodeWear>>,
     /// The contacts that pushed at the end of the current step, of exact motion.
     jumps: Vec<(usize, EpisodeWear)>,
+    /// What slid between two times (s) of the current step, those added last; NaN before.
+    pieces: Vec<SlidingPiece>,
+    within: [f64; 2],
 }
 
 impl Worn {
     pub fn new(scene: &Scene) -> Self {
         let sliding = SlidingContacts::new(scene);
         let open = if sliding.is_empty() { 0 } else { sliding.contacts() };
-        Self { work: vec![0.0; scene.supports.len()], open: vec![None; open], jumps: Vec::new(), sliding }
+        Self {
+            work: vec![0.0; scene.supports.len()],
+            open: vec![None; open],
+            jumps: Vec::new(),
+            pieces: Vec::new(),
+            within: [f64::NAN; 2],
+            sliding,
+        }
     }
 
     /// True for a scene without supports.
@@ -44,8 +54,11 @@ impl Worn {
 
     /// Adds what slid in `step` between two times in it, s.
     pub fn add(&mut self, step: &Step<'_>, within: [f64; 2]) {
-        let Self { sliding, work, open, jumps } = self;
+        let Self { sliding, work, open, jumps, pieces, .. } = self;
+        self.within = within;
+        pieces.clear();
         sliding.observe(step, within, |piece: &SlidingPiece| {
+            pieces.push(*piece);
             if let Some(sum) = work.get_mut(piece.support) {
                 *sum += piece.work;
             }
@@ -58,6 +71,16 @@ impl Worn {
                 contact.sliding += piece.sliding;
             }
         });
+    }
+
+    /// Begins a step.
+    pub fn begin(&mut self) {
+        self.within = [f64::NAN; 2];
+    }
+
+    /// What slid between the times of the current step that were added last.
+    pub fn slid(&self) -> ([f64; 2], &[SlidingPiece]) {
+        (self.within, &self.pieces)
     }
 
     /// Takes the contacts that end, and calls `each` for every one of them.

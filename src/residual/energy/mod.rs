@@ -11,9 +11,10 @@ pub(super) use series::Moved;
 use super::matrices::{Matrices, Part};
 use super::pushes::pushes;
 use super::step_motion::StepMotion;
-use crate::linear::{running_max, update};
+use crate::linear::{Lanes, Pass, pass, running_max};
 use crate::scene::{Forcing, Scene, Wall};
 use crate::step::{Balance, Contract, QuietSteps, Step};
+use pulp::Simd;
 
 #[derive(Debug, Clone)]
 pub(super) struct Ledger {
@@ -89,8 +90,9 @@ impl Ledger {
     /// walls that push or rub, m/s.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
-    pub fn observe_grid(
+    pub fn observe_grid<S: Simd>(
         &mut self,
+        simd: S,
         scene: &Scene,
         matrices: &Matrices,
         (h, per_h): (f64, f64),
@@ -104,7 +106,7 @@ impl Ledger {
             self.start(scene, matrices, (h, b), moves.from, moves.before);
         }
         self.started = true;
-        let mut flows = self.flows(matrices, (h, per_h), moves, load, n);
+        let mut flows = self.flows(simd, matrices, (h, per_h), moves, load, n);
         let (q0, q1) = (moves.from, moves.to);
         let walls = if self.springs || step.impulse.iter().any(|&p| p != 0.0) {
             self.observe_walls(scene, h, (q0, q1), step, self.staggered().is_some(), &mut flows)
@@ -119,15 +121,16 @@ impl Ledger {
     }
 
     /// Adds n steps of one degree of freedom in which no wall touches it, after the first step.
-    pub fn observe_quiet(
+    pub fn observe_quiet<S: Simd>(
         &mut self,
+        simd: S,
         matrices: &Matrices,
         (h, per_h): (f64, f64),
         moves: &StepMotion<'_>,
         load: &[f64],
         n: usize,
     ) {
-        let flows = self.flows(matrices, (h, per_h), moves, load, n);
+        let flows = self.flows(simd, matrices, (h, per_h), moves, load, n);
         let (q0, q1, after, v) = (&moves.from[..n], &moves.to[..n], &moves.after[..n], &moves.v[..n]);
         let (mut energy, mut largest) = (self.energy, self.report.largest_j);
         for i in 0..n {
@@ -168,8 +171,9 @@ impl Ledger {
 
     /// Work of the loads and dissipation by the structure's damping.
     #[inline(always)]
-    fn flows(
+    fn flows<S: Simd>(
         &mut self,
+        simd: S,
         matrices: &Matrices,
         (h, per_h): (f64, f64),
         moves: &StepMotion<'_>,
@@ -178,22 +182,18 @@ impl Ledger {
     ) -> Flows {
         let &StepMotion { from, to, before, after, blow, .. } = moves;
         let (shift, work, passed) = (&mut self.shift[..n], &mut self.work[..n], &mut self.passed[..n]);
-        if let Balance::Staggered(_) = self.contract.balance {
-            update(shift, [before, after], |_, [before, after]| h * (0.5 * (before + after)));
-        } else {
-            update(shift, [from, to], |_, [from, to]| to - from);
-        }
-        let both = |[load, shift, blow, before, after]: [f64; 5]| (load * shift, blow * (0.5 * (before + after)));
-        let terms = [load, shift, blow, before, after];
-        update(work, terms, |_, terms| both(terms).0 + both(terms).1);
-        update(passed, terms, |_, terms| both(terms).0.abs() + both(terms).1.abs());
+        let terms = ([from, to, before, after, load, blow], [&mut *shift, work, passed]);
+        let [] = match self.contract.balance {
+            Balance::Staggered(_) => pass(simd, n, terms, &Work { by_rate: Some(h) }),
+            _ => pass(simd, n, terms, &Work { by_rate: None }),
+        };
         let mut flows = Flows::default();
         // One after another: the ledger closes to the rounding of such a sum.
-        for (work, passed) in work.iter().zip(&*passed) {
+        for (work, passed) in self.work[..n].iter().zip(&self.passed[..n]) {
             flows.work += work;
             flows.passed += passed;
         }
-        flows.damping = matrices.form(Part::Damping, shift) * per_h;
+        flows.damping = matrices.form(Part::Damping, &self.shift[..n]) * per_h;
         flows
     }
 
@@ -323,6 +323,31 @@ impl Ledger {
         let exchanged = self.report.largest_j.max(self.report.initial_j) + self.flowed;
         let residual = if self.residual == 0.0 { 0.0 } else { self.residual.abs() / exchanged };
         Energy { final_j: self.energy, residual_j: self.residual, exchanged_j: exchanged, residual, ..self.report }
+    }
+}
+
+/// From the displacements and velocities at both ends of a step, its load, N, and its blow, N s: the
+/// displacement by which the load moves in it, m, and the work of both, J, and its size. With
+/// `by_rate`, the length of the step, s, the load moves at the mean velocity.
+struct Work {
+    by_rate: Option<f64>,
+}
+
+impl Pass<6, 3, 0> for Work {
+    #[inline(always)]
+    fn of<S: Simd>(
+        &self,
+        [from, to, before, after, load, blow]: [Lanes<S>; 6],
+        _: [Lanes<S>; 3],
+        _: [Lanes<S>; 0],
+    ) -> ([Lanes<S>; 3], [Lanes<S>; 0]) {
+        let rate = (before + after) * 0.5;
+        let shift = match self.by_rate {
+            Some(h) => rate * h,
+            None => to - from,
+        };
+        let (pulled, struck) = (load * shift, blow * rate);
+        ([shift, pulled + struck, pulled.abs() + struck.abs()], [])
     }
 }
 

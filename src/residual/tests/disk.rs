@@ -35,7 +35,7 @@ fn a_body_outside_the_circle_is_accused_with_and_without_a_push() {
         let r = 0.5 + depth;
         let made = Made { q: vec![0.6 * r, 0.8 * r], before: vec![speed, 0.0], ..Made::rest(&scene, 0.25) };
         let made = made.pushing(0, [0.6, 0.8], impulse);
-        judge.supports_on_grid(&made.step(), false);
+        judge.supports_on_grid(Scalar, &made.step(), false);
         assert!((judge.walls.gaps.worst(1.0, 1.0) - depth).abs() < 1e-15, "{impulse}");
         // Place 0.7 m, gap 0.5 m and a quarter of a second at 1000 m/s.
         assert_less(judge.walls.gaps.outside.excess.value, depth, judge.noise.place(0.7 + 0.5 + 250.0));
@@ -50,7 +50,7 @@ fn a_push_beside_the_place_at_the_end_counts_less_the_rounding_of_place_and_forc
     judge.noise.load(1e6);
     let normal = [0.6 - 0.8 * turn, 0.8 + 0.6 * turn];
     let made = Made { q: vec![2.4, 3.2], before: vec![speed, 0.0], ..Made::rest(&scene, h) }.pushing(0, normal, 0.75);
-    judge.supports_on_grid(&made.step(), false);
+    judge.supports_on_grid(Scalar, &made.step(), false);
     // 3 N at 4 m from the centre.
     let way = judge.noise.of(5.6 + 4.0 + h * speed);
     let noise = 3.0 * way / 4.0 + judge.noise.wall_force(0);

@@ -16,7 +16,7 @@ fn a_force_off_the_law_or_the_normal_counts_less_the_rounding_of_place_and_force
         let (more, turn) = (1e-4, 1e-6);
         let normal = [0.6 - 0.8 * turn, 0.8 + 0.6 * turn];
         let made = Made { q: vec![1.65, 2.2], before: vec![6e5, 8e5], after: vec![-3e5, 4e5], ..Made::rest(&scene, h) };
-        judge.supports_on_grid(&made.pushing(0, normal, h * (168.0 + more)).step(), false);
+        judge.supports_on_grid(Scalar, &made.pushing(0, normal, h * (168.0 + more)).step(), false);
         assert!((judge.walls.law.value - more).abs() < 1e-12, "{of:?}: {}", judge.walls.law.value);
         // Places 1.75 and 3.85 m, gap 0.5 m, and the way at 2.1e6 m/s.
         let place = judge.noise.place(1.75 + 3.85 + 0.5 + h * 2.1e6);

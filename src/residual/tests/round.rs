@@ -27,7 +27,7 @@ fn a_speed_beyond_the_bound_and_a_push_beside_the_normal_count_less_the_rounding
         ..Made::rest(&scene, h)
     };
     let made = made.pushing(0, [0.6 - 0.8 * turn, 0.8 + 0.6 * turn], 2.0 * h);
-    judge.supports_on_grid(&made.step(), false);
+    judge.supports_on_grid(Scalar, &made.step(), false);
     // Places 56.5 and 17.3 m, centre 3.5 m, gap 8 m, and the way at 2.1 + 1.4 + 0.7 m/s.
     let speeds = 4.2;
     let place = judge.noise.of(56.5 + 17.3 + 3.5 + gap + h * speeds);
@@ -48,7 +48,7 @@ fn a_hole_may_push_from_where_it_is_touched_on_and_at_the_edge_of_that() {
         let at = vec![gap * (1.0 - share * touching), 0.0];
         let mut judge = judge(&scene, law(touching, touching), 1.0, &at);
         let made = Made { q: at, ..Made::rest(&scene, 1.0) }.pushing(0, [1.0, 0.0], 3.0);
-        judge.supports_on_grid(&made.step(), false);
+        judge.supports_on_grid(Scalar, &made.step(), false);
         assert_eq!(judge.walls.law.value, if allowed { 0.0 } else { 3.0 }, "{share}");
     }
 }
@@ -71,7 +71,7 @@ fn rounding_may_decide_whether_a_body_touched_at_the_start_and_nothing_else() {
             after: n.map(|n| -answer * a * n).to_vec(),
             ..Made::rest(&scene, 1.0)
         };
-        judge.supports_on_grid(&made.pushing(0, n, 1.0).step(), false);
+        judge.supports_on_grid(Scalar, &made.pushing(0, n, 1.0).step(), false);
         judge.walls.rebounds.worst(1.0, 1.0) / a
     };
     // Within the rounding of a place, some 1e-13 m, both answers are right.
@@ -93,7 +93,7 @@ fn the_hole_that_pushes_askew_is_named() {
     let mut judge = judge(&scene, law(1e-6, 0.0), 1.0, &[0.5, 0.0]);
     let made = Made { q: vec![0.5, 0.0], ..Made::rest(&scene, 1.0) };
     let made = made.pushing(1, [1.0, 0.0], 1.0).pushing(2, [0.8, 0.6], 1.0);
-    judge.supports_on_grid(&made.step(), false);
+    judge.supports_on_grid(Scalar, &made.step(), false);
     let found = judge.supports.as_ref().expect("holes").askew.excess;
     assert_eq!(found.wall.and_then(|place| scene.wall_name(place)), Some("second"));
 }
@@ -112,7 +112,7 @@ fn a_hole_is_passed_over_only_where_the_step_is_certainly_inside_of_it_and_no_fa
             Made { q: vec![end, 0.0], before: vec![before, 0.0], after: vec![after, 0.0], ..Made::rest(&scene, h) };
         let places = judge.places.as_ref().expect("a hole");
         let hole = scene.holes().next().expect("a hole");
-        let passed = |step: &Step<'_>| judge.is_out_of_reach(step, &hole, &places.holes[0]);
+        let passed = |step: &Step<'_>| judge.is_out_of_reach(Scalar, step, &hole, &places.holes[0]);
         assert!(!passed(&made.clone().pushing(0, [1.0, 0.0], 1e-300).step()));
         passed(&made.step())
     };

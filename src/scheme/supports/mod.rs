@@ -51,7 +51,7 @@ use super::motion::Motion;
 use super::space::Space;
 use crate::contact::{Episodes, Rates};
 use crate::error::Result;
-use crate::linear::{Factor, update};
+use crate::linear::{Factor, Lanes, Pass, pass, update};
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene, Wall};
 use crate::step::{Contact, Contract, Step};
@@ -241,15 +241,15 @@ impl WithSimd for Advance<'_> {
     type Output = Result<()>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Result<()> {
-        self.supports.make(self.step, self.extra)
+    fn with_simd<S: Simd>(self, simd: S) -> Result<()> {
+        self.supports.make(simd, self.step, self.extra)
     }
 }
 
 impl Supports {
     /// Makes step number `step` under the extra force.
     #[inline(always)]
-    fn make(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
+    fn make<S: Simd>(&mut self, simd: S, step: u64, extra: Option<&[f64]>) -> Result<()> {
         if extra.is_some() || self.forced {
             self.frame.force(extra);
             self.forced = extra.is_some();
@@ -264,10 +264,9 @@ impl Supports {
         self.gather();
         self.settle();
         let carried = self.body.blows.is_some() && self.solve_with_blows();
-        let Self { frame, theta, delta, .. } = self;
-        update(&mut frame.q, [&frame.v, delta], |q, [v, d]| q + h * (v + *theta * d));
-        update(&mut frame.v, [delta], |v, [d]| v + d);
-        frame.after.clone_from(&frame.v);
+        let Frame { q, v, after, .. } = &mut self.frame;
+        let end = ([&self.delta[..]], [&mut q[..], v, after]);
+        let [] = pass(simd, self.body.n, end, &AddChange { h, theta: self.theta });
         if carried {
             self.body.shift(&mut self.frame.q);
         }
@@ -278,6 +277,26 @@ impl Supports {
             self.record_episodes();
         }
         Ok(())
+    }
+}
+
+/// From the change of velocity δ in a step of h seconds: q⁺ = q + h(v + θδ), v⁺ = v + δ, and v⁺ once
+/// more.
+struct AddChange {
+    h: f64,
+    theta: f64,
+}
+
+impl Pass<1, 3, 0> for AddChange {
+    #[inline(always)]
+    fn of<S: Simd>(
+        &self,
+        [change]: [Lanes<S>; 1],
+        [q, v, _]: [Lanes<S>; 3],
+        _: [Lanes<S>; 0],
+    ) -> ([Lanes<S>; 3], [Lanes<S>; 0]) {
+        let after = v + change;
+        ([q + (v + change * self.theta) * self.h, after, after], [])
     }
 }
 

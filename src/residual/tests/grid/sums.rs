@@ -27,13 +27,13 @@ fn forces_are_summed_by_size_and_by_change_except_at_the_start() {
     let mut means = Scratch::new(2);
     // Springs and dampers are given as impulses with the opposite sign, over half a second.
     (means.load, means.spring, means.damper) = (vec![3.0, 1.0], vec![2.0, -1.0], vec![-1.0, 1.0]);
-    sums.add(&moves, &means, (0.5, 2.0), true, 2);
+    sums.add(Scalar, &moves, &means, (0.5, 2.0), true, 2);
     assert_eq!(entries(&sums.forces.of(0)), [3.0, -4.0, 0.0, 3.0 + 4.0 + 2.0, 0.5 * 1.0]);
     assert_eq!(entries(&sums.forces.of(1)), [1.0, 2.0, 0.0, 1.0 + 2.0 + 2.0, 0.5 * 1.0]);
     // Ends by the trapezoid rule, the extra force all the while.
     assert_eq!((&sums.place[..], &sums.load[..]), (&[0.25 * 4.0, 0.25 * 1.0][..], &[1.0 + 1.0, -0.5 - 0.5][..]));
     (means.load, means.spring, means.damper) = (vec![1.0, 1.0], vec![1.0, 1.0], vec![0.0, 0.25]);
-    sums.add(&moves, &means, (0.5, 2.0), false, 2);
+    sums.add(Scalar, &moves, &means, (0.5, 2.0), false, 2);
     assert_eq!(entries(&sums.forces.of(0)), [1.0, -2.0, 2.0 + 2.0, 9.0, 0.5 + 0.5 * 1.0]);
     assert_eq!(entries(&sums.forces.of(1)), [1.0, -2.0, 0.0 + 4.0, 5.0, 0.5 + 0.5 * 1.5]);
     assert_eq!((&sums.place[..], &sums.load[..]), (&[2.0, 0.5][..], &[4.0, -2.0][..]));
