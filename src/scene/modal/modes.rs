@@ -19,8 +19,8 @@ pub const MOST_MODES: usize = 500;
 ///
 /// ω of a rigid-body motion is exactly 0, that is where φᵀKφ is no larger than the rounding in K
 /// and φ. The largest component of a shape, weighted by the root of its mass, is positive, so that
-/// shapes can be compared between runs. Shapes of equal ω are an arbitrary basis of their space, but
-/// each moves only one of the parts that M and K do not couple.
+/// shapes can be compared between runs. Shapes of equal ω are an arbitrary basis of their space,
+/// but each moves only one of the parts that M and K do not couple.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Modes {
