@@ -171,9 +171,9 @@ impl<S: Simd> Mul<f64> for Lanes<S> {
 }
 
 /// What a pass over vectors makes of the entries of one index: of N numbers that are read, the K
-/// that stand where it writes, and M sums or maxima so far, the K that it writes and the M with this
-/// index. Zeros change no sum or maximum. No closure, which would be compiled by itself, without
-/// the instructions that `S` stands for.
+/// that stand where it writes, and M sums or maxima so far, the K that it writes and the M with
+/// this index. Zeros change no sum or maximum. No closure, which would be compiled by itself,
+/// without the instructions that `S` stands for.
 pub(crate) trait Pass<const N: usize, const K: usize, const M: usize> {
     fn of<S: Simd>(
         &self,

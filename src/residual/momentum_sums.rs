@@ -225,8 +225,8 @@ impl MomentumSums {
     }
 }
 
-/// From the displacements and loads (N) at both ends of a step of h seconds, the extra force, N, and
-/// the velocity at its end: ∫q dt and ∫f dt with these, and that velocity.
+/// From the displacements and loads (N) at both ends of a step of h seconds, the extra force, N,
+/// and the velocity at its end: ∫q dt and ∫f dt with these, and that velocity.
 struct AddEnds {
     h: f64,
 }

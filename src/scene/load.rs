@@ -187,8 +187,8 @@ impl Table {
         Some(TablePiece { from, to, start, slope: (end - start) / (to - from) })
     }
 
-    /// Force at `t`, N, as [`Table::piece`] gives it; from the piece `last` while `t` is on it, else
-    /// from that of `t`, which takes its place.
+    /// Force at `t`, N, as [`Table::piece`] gives it; from the piece `last` while `t` is on it,
+    /// else from that of `t`, which takes its place.
     #[inline]
     pub(super) fn force_near(&self, t: f64, last: &mut TablePiece) -> f64 {
         if !(last.from <= t && t < last.to) {

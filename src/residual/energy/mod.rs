@@ -326,8 +326,8 @@ impl Ledger {
     }
 }
 
-/// From the displacements and velocities at both ends of a step, its load, N, and its blow, N s: the
-/// displacement by which the load moves in it, m, and the work of both, J, and its size. With
+/// From the displacements and velocities at both ends of a step, its load, N, and its blow, N s:
+/// the displacement by which the load moves in it, m, the work of both, J, and its size. With
 /// `by_rate`, the length of the step, s, the load moves at the mean velocity.
 struct Work {
     by_rate: Option<f64>,

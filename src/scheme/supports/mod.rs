@@ -280,8 +280,8 @@ impl Supports {
     }
 }
 
-/// From the change of velocity δ in a step of h seconds: q⁺ = q + h(v + θδ), v⁺ = v + δ, and v⁺ once
-/// more.
+/// From the change of velocity δ in a step of h seconds: q⁺ = q + h(v + θδ), v⁺ = v + δ, and v⁺
+/// once more.
 struct AddChange {
     h: f64,
     theta: f64,
