@@ -73,8 +73,8 @@ fn main() {
         let case = Case::embedded(name).expect("a built-in case");
         line(&format!("{name}, moreau-jean"), &case.scene, &jean, every(case.time.step), steps * case.time.step);
     }
-    // The contacts of a tube that starts at rest begin within the first tenths of a second; rows and
-    // statistics as in its case.
+    // The contacts of a tube that starts at rest begin within the first tenths of a second; rows
+    // and statistics as in its case.
     for name in ["tube-loose-supports", "tube-round-supports"] {
         let case = Case::embedded(name).expect("a built-in case");
         let times = TimeOptions { statistics_from: 0.0, ..case.time };
