@@ -86,7 +86,7 @@ impl Builder<'_> {
                         over time depends on how it began";
             return refuse("the motion of the base is read from a file", help);
         }
-        if let Some(line) = self.model.systems().find(|model| matches!(model, Model::Bar(_) | Model::Beam(_))) {
+        if let Some(line) = self.model.systems().find(|model| model.length().is_some()) {
             let help = "expected walls = \"moving\", or an oscillator, a chain, matrices or modal data";
             return refuse(&format!("the system is a {}, whose held ends move", line.kind()), help);
         }
@@ -278,8 +278,7 @@ impl Builder<'_> {
                 Ok((Row::new(chain.masses.iter().map(|m| m / mass).enumerate().collect()), mass))
             }
             Model::Oscillator => {
-                let moved: Vec<f64> =
-                    (0..system.degrees_of_freedom()).map(|i| if i == first { 1.0 } else { 0.0 }).collect();
+                let moved = self.rigid_motion(system.degrees_of_freedom(), Some(&[(first, 1.0)]));
                 Ok((Row::dof(0), system.mass_form(&moved, &moved)))
             }
             Model::Bodies(bodies) => {
@@ -289,11 +288,7 @@ impl Builder<'_> {
                 };
                 let parts = bodies.iter().map(of).collect::<Result<Vec<_>>>()?;
                 let mass: f64 = parts.iter().map(|part| part.1).sum();
-                let share = |(row, own): &(Row, f64)| {
-                    let share = own / mass;
-                    row.entries().iter().map(|&(i, weight)| (i, share * weight)).collect::<Vec<_>>()
-                };
-                Ok((Row::new(parts.iter().flat_map(share).collect()), mass))
+                Ok((Row::combination(parts.iter().map(|(row, own)| (own / mass, row))), mass))
             }
             Model::Matrices(_) | Model::Modal(_) => {
                 let n = system.degrees_of_freedom();

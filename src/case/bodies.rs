@@ -8,7 +8,7 @@ use super::model::{Body, Model};
 use super::system::has_damping;
 use super::value::Section;
 use crate::error::Result;
-use crate::scene::{Oscillator, Structure, System};
+use crate::scene::Structure;
 use std::ops::Range;
 
 impl Builder<'_> {
@@ -43,8 +43,6 @@ impl Builder<'_> {
     /// The model and the structure in one plane of the body `name`.
     fn one_body(&mut self, name: &str, table: &Section<'_>, two: bool) -> Result<(Model, Structure)> {
         let (kind, system) = self.kind_of(table)?;
-        self.positions.push(("system".into(), system.span.clone()));
-        self.positions.push(((if kind == "modal" { "modal data" } else { kind }).into(), system.span.clone()));
         if let ("matrices" | "modal", true) = (kind, two) {
             let title = format!("`system.planes` is 2, and the body {name:?} is given by {kind}");
             let help = "expected an oscillator, chain or beam, the same in both planes; or no planes";
@@ -54,9 +52,7 @@ impl Builder<'_> {
             return Err(self.bar_in_two_planes(system.span));
         }
         let (model, structure) = if kind == "oscillator" {
-            let [mass, damping, stiffness] =
-                ["mass", "damping", "stiffness"].map(|key| self.required(("oscillator", key), &system, key));
-            let oscillator = System::Oscillator(Oscillator { mass, damping, stiffness });
+            let oscillator = self.oscillator_of(&system);
             oscillator.validate().map_err(|error| self.at_key(error))?;
             (Model::Oscillator, Structure::clone(&oscillator.structure()))
         } else {

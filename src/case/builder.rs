@@ -83,7 +83,7 @@ impl Builder<'_> {
             .or_else(|| self.nearest(subject))
             .or_else(|| hole().and_then(|hole| self.noted(&Subject::support(&hole.name).part("gap"))))
             .unwrap_or(0..0);
-        let title = format!("{} is {value}", written(subject));
+        let title = format!("{} is {value}", written(subject, self.owner));
         let or = if wall().is_some() || hole().is_some() {
             "; or equilibrium = true in place of it: at rest between the walls and in the holes"
         } else {
@@ -117,7 +117,7 @@ impl Builder<'_> {
     pub fn whole_number(&mut self, subject: impl Into<Subject>, value: &Spanned<f64>, most: usize) -> Result<usize> {
         let subject = subject.into();
         let x = self.number(subject.clone(), value);
-        self.count(&written(&subject), x, value.span(), most)
+        self.count(&written(&subject, self.owner), x, value.span(), most)
     }
 
     pub fn count(&self, key: &str, x: f64, span: Range<usize>, most: usize) -> Result<usize> {

@@ -20,6 +20,25 @@ pub(super) struct Built {
     pub pending: Option<Damping>,
 }
 
+impl Built {
+    /// A system in one plane, of which `two` tells whether it moves in both.
+    fn of(model: Model, structure: Structure, pending: Option<Damping>, two: bool) -> Self {
+        let (system, planes) = match (two, &model) {
+            (false, _) => (structure, Planes::One),
+            (true, Model::Matrices(_) | Model::Modal(_)) => (structure, Planes::Named),
+            (true, _) => (structure.in_two_planes(), Planes::Two(structure.mass.size())),
+        };
+        // A ratio is that of a mode of one plane; in two equal planes there are two of each.
+        let pending = pending.map(|damping| match (damping, planes) {
+            (Damping::Modal(ratios), Planes::Two(_)) => {
+                Damping::Modal(ratios.iter().flat_map(|&ratio| [ratio; 2]).collect())
+            }
+            (other, _) => other,
+        });
+        Self { model, system: system.into(), planes, pending }
+    }
+}
+
 impl Builder<'_> {
     /// The system of the file and its model; `cut` if it will be reduced to modes.
     pub fn system(&mut self, file: &Section<'_>, cut: bool) -> Result<Built> {
@@ -42,7 +61,7 @@ impl Builder<'_> {
         self.positions.push(("system".into(), bodies.first().map_or(system.span.clone(), |body| body.span.clone())));
         let own = structure.damping.entries().any(|entry| entry.2 != 0.0);
         let (structure, pending) = self.damped(&system, structure, own, cut)?;
-        Ok(self.in_planes(Built { model, system: structure.into(), planes: Planes::One, pending }, two))
+        Ok(Built::of(model, structure, pending, two))
     }
 
     /// The tables of `owner` that say what vibrates, each with its kind.
@@ -59,8 +78,9 @@ impl Builder<'_> {
         )
     }
 
-    /// The one table of `owner`, a system or body, that says what vibrates.
-    pub fn kind_of<'s>(&self, owner: &Section<'s>) -> Result<(&'static str, Section<'s>)> {
+    /// The one table of `owner`, a system or body, that says what vibrates, with its kind; notes
+    /// where it stands.
+    pub fn kind_of<'s>(&mut self, owner: &Section<'s>) -> Result<(&'static str, Section<'s>)> {
         let one = self.kinds_expected();
         let mut given = Self::kinds(owner);
         let Some((kind, table)) = given.next() else {
@@ -71,21 +91,21 @@ impl Builder<'_> {
             let later = if table.span.start > other.span.start { table.span } else { other.span };
             return Err(self.source.error(later, &format!("two systems, `{kind}` and `{second}`"), &one));
         }
+        let name = if kind == "modal" { "modal data" } else { kind };
+        self.positions.push(("system".into(), table.span.clone()));
+        self.positions.push((name.into(), table.span.clone()));
         Ok((kind, table))
     }
 
     fn one_system(&mut self, system: &Section<'_>, cut: bool) -> Result<Built> {
         let (kind, table) = self.kind_of(system)?;
-        let name = if kind == "modal" { "modal data" } else { kind };
-        self.positions.push(("system".into(), table.span.clone()));
-        self.positions.push((name.into(), table.span.clone()));
         let two = self.two_planes(system.number("planes"), kind)?;
         if kind == "oscillator" {
             return self.oscillator(system, &table, two);
         }
         let (model, structure) = self.structure(system, kind, &table, two)?;
         let (structure, pending) = self.damped(system, structure, has_damping(kind, &table), cut)?;
-        Ok(self.in_planes(Built { model, system: structure.into(), planes: Planes::One, pending }, two))
+        Ok(Built::of(model, structure, pending, two))
     }
 
     /// The structure with the damping of the table of `owner`, a system or body, which may not have
@@ -112,22 +132,6 @@ impl Builder<'_> {
         })
     }
 
-    /// The system in its planes, in `two` of them if the file says so.
-    fn in_planes(&self, built: Built, two: bool) -> Built {
-        let (System::Structure(structure), true) = (&built.system, two) else { return built };
-        if matches!(built.model, Model::Matrices(_) | Model::Modal(_)) {
-            return Built { planes: Planes::Named, ..built };
-        }
-        let planes = Planes::Two(structure.mass.size());
-        let system = structure.in_two_planes().into();
-        // A ratio is that of a mode of one plane; in two planes there are two of each.
-        let pending = built.pending.map(|damping| match damping {
-            Damping::Modal(ratios) => Damping::Modal(ratios.iter().flat_map(|&ratio| [ratio; 2]).collect()),
-            other => other,
-        });
-        Built { model: built.model, system, planes, pending }
-    }
-
     fn oscillator(&mut self, system: &Section<'_>, table: &Section<'_>, two: bool) -> Result<Built> {
         for key in ["damping", "modes", "static_correction"] {
             if let Some(span) = system.span_of(key) {
@@ -137,9 +141,7 @@ impl Builder<'_> {
                 return Err(self.source.error(span, &title, help));
             }
         }
-        let [mass, damping, stiffness] =
-            ["mass", "damping", "stiffness"].map(|key| self.required(("oscillator", key), table, key));
-        let system = System::Oscillator(Oscillator { mass, damping, stiffness });
+        let system = self.oscillator_of(table);
         let (system, planes) = if two {
             system.validate().map_err(|error| self.at_key(error))?;
             (system.structure().in_two_planes().into(), Planes::Two(1))
@@ -147,6 +149,13 @@ impl Builder<'_> {
             (system, Planes::One)
         };
         Ok(Built { model: Model::Oscillator, system, planes, pending: None })
+    }
+
+    /// The oscillator that `table` describes.
+    pub fn oscillator_of(&mut self, table: &Section<'_>) -> System {
+        let [mass, damping, stiffness] =
+            ["mass", "damping", "stiffness"].map(|key| self.required(("oscillator", key), table, key));
+        System::Oscillator(Oscillator { mass, damping, stiffness })
     }
 
     /// The structure that `table` of this `kind`, in a system or body, describes, in one plane,

@@ -1,7 +1,7 @@
 //! Reads the tables `[[wall]]`, and makes the default probes.
 
 use super::builder::Builder;
-use super::model::{Model, Place};
+use super::model::Place;
 use super::place::{MOST_PLACES, Site};
 use super::planes::Planes;
 use super::value::Section;
@@ -246,6 +246,6 @@ impl Builder<'_> {
 
     /// True for systems with positions.
     pub fn has_positions(&self) -> bool {
-        matches!(self.model, Model::Bar(_) | Model::Beam(_))
+        self.model.length().is_some()
     }
 }

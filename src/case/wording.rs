@@ -2,8 +2,9 @@
 
 use crate::error::{Part, Subject};
 
-/// The subject of an error, as a case file writes it.
-pub(super) fn written(subject: &Subject) -> String {
+/// The subject of an error, as a case file writes it; `owner` is the table that says what vibrates,
+/// "system" or "body".
+pub(super) fn written(subject: &Subject, owner: &str) -> String {
     let (mut names, mut rest) = (Vec::new(), String::new());
     for part in subject.parts() {
         match part {
@@ -21,10 +22,10 @@ pub(super) fn written(subject: &Subject) -> String {
         ["static correction"] => "static_correction".to_owned(),
         ["initial state", part] => format!("initial.{part}"),
         // For an end of a structure the key is that of the end; its parts are inside that value.
-        [table @ ("bar" | "beam"), end @ ("left" | "right"), part] => format!("system.{table}.{end}: {part}"),
-        ["modal data", names @ ..] => format!("system.modal.{}", names.join(".")),
+        [table @ ("bar" | "beam"), end @ ("left" | "right"), part] => format!("{owner}.{table}.{end}: {part}"),
+        ["modal data", names @ ..] => format!("{owner}.modal.{}", names.join(".")),
         [table @ ("oscillator" | "chain" | "bar" | "beam" | "damping"), names @ ..] => {
-            [&["system", table], names].concat().join(".")
+            [&[owner, table], names].concat().join(".")
         }
         _ => return subject.to_string(),
     };

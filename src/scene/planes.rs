@@ -109,11 +109,7 @@ impl PlaneRows {
 
     /// The row of the displacement along the unit vector (y, z).
     pub(crate) fn towards(&self, [y, z]: [f64; 2]) -> Row {
-        let part = |row: &Row, share: f64| {
-            let entries = row.entries().iter().map(move |&(i, weight)| (i, share * weight));
-            entries.filter(|_| share != 0.0).collect::<Vec<_>>()
-        };
-        Row::new([part(&self.y, y), part(&self.z, z)].concat())
+        Row::combination([(y, &self.y), (z, &self.z)])
     }
 }
 

@@ -39,10 +39,16 @@ impl Row {
         Self { entries: self.entries.iter().map(|&(i, weight)| (i + by, weight)).collect() }
     }
 
+    /// The sum of rows, each with a factor; a factor of 0 leaves its row out.
+    pub(crate) fn combination<'a>(terms: impl IntoIterator<Item = (f64, &'a Self)>) -> Self {
+        let scaled = |(factor, row): (f64, &'a Self)| row.entries.iter().map(move |&(i, weight)| (i, factor * weight));
+        Self { entries: terms.into_iter().filter(|term| term.0 != 0.0).flat_map(scaled).collect() }
+    }
+
     /// The row of the displacement relative to the place of `other`: g − g'.
+    #[cfg(feature = "case")]
     pub(crate) fn relative_to(&self, other: &Self) -> Self {
-        let negative = other.entries.iter().map(|&(i, weight)| (i, -weight));
-        Self { entries: self.entries.iter().copied().chain(negative).collect() }
+        Self::combination([(1.0, self), (-1.0, other)])
     }
 
     /// True if the row is zero: no entries, or entries that cancel.
