@@ -24,8 +24,8 @@ pub fn _derivative<'py>(scene: &Bound<'py, Scene>, keys: Vec<Key>, times: Vec<f6
     let found = compute_beside(py, || Derivatives::new(inner, &tangents, &times), &mut |_| Ok(()))?;
     let dict = PyDict::new(py);
     let of =
-        |part: fn(&ContactDerivative) -> f64| found.contacts.iter().map(part).collect::<Vec<f64>>().into_pyarray(py);
-    let by = |part: fn(&ContactDerivative) -> &Vec<f64>| {
+        |part: fn(ContactDerivative<'_>) -> f64| found.contacts.iter().map(part).collect::<Vec<f64>>().into_pyarray(py);
+    let by = |part: for<'a> fn(ContactDerivative<'a>) -> &'a [f64]| {
         found.contacts.iter().flat_map(part).copied().collect::<Vec<f64>>().into_pyarray(py)
     };
     dict.set_item("wall", found.contacts.iter().map(|one| inner.wall_name(one.contact.wall)).collect::<Vec<_>>())?;
@@ -35,11 +35,11 @@ pub fn _derivative<'py>(scene: &Bound<'py, Scene>, keys: Vec<Key>, times: Vec<f6
     dict.set_item("departure_speed", of(|one| one.contact.departure_speed.unwrap_or(f64::NAN)))?;
     dict.set_item("impulse", of(|one| one.contact.impulse))?;
     dict.set_item("contact_growth", of(|one| one.growth))?;
-    dict.set_item("start_by", by(|one| &one.start_by))?;
-    dict.set_item("end_by", by(|one| &one.end_by))?;
-    dict.set_item("approach_speed_by", by(|one| &one.approach_speed_by))?;
-    dict.set_item("departure_speed_by", by(|one| &one.departure_speed_by))?;
-    dict.set_item("impulse_by", by(|one| &one.impulse_by))?;
+    dict.set_item("start_by", by(|one| one.start_by))?;
+    dict.set_item("end_by", by(|one| one.end_by))?;
+    dict.set_item("approach_speed_by", by(|one| one.approach_speed_by))?;
+    dict.set_item("departure_speed_by", by(|one| one.departure_speed_by))?;
+    dict.set_item("impulse_by", by(|one| one.impulse_by))?;
     dict.set_item("mean", found.means.as_ref().map(|means| named_means(inner, means)))?;
     let motion = found.motion;
     for (name, values) in [

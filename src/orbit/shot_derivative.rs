@@ -13,7 +13,7 @@ use super::strobe::{newton_step, vector};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
-use crate::variation::{ContactDerivative, KeyVariation, Product, SceneTangent};
+use crate::variation::{ContactDerivative, ContactDerivatives, KeyVariation, Product, SceneTangent};
 use nalgebra::DVector;
 
 /// The derivatives of a periodic orbit with respect to several keys.
@@ -26,7 +26,7 @@ pub struct ShotDerivative {
     /// per unit of the key.
     pub state: Vec<Vec<f64>>,
     /// The contacts of one orbit after that instant, with their derivatives.
-    pub contacts: Vec<ContactDerivative>,
+    pub contacts: ContactDerivatives,
     /// Of the phase at which each of these contacts begins, cycles per unit of each key.
     pub phase: Vec<Vec<f64>>,
 }
@@ -76,8 +76,8 @@ impl Shot {
             states.push(state.as_slice().to_vec());
         }
         let (second, ..) = self.once(scene, tangents, &starts)?;
-        let contacts = second.contacts().to_vec();
-        let phase = |contact: &ContactDerivative| {
+        let contacts = second.contacts().clone();
+        let phase = |contact: ContactDerivative<'_>| {
             let of_key = |(later, longer): (&f64, &f64)| (later - contact.contact.start / period * longer) / period;
             contact.start_by.iter().zip(&longer).map(of_key).collect()
         };

@@ -55,10 +55,10 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivati
     let mut header: Vec<String> = csv::CONTACT.iter().copied().chain(["growth"]).map(str::to_owned).collect();
     header.extend(keys.iter().flat_map(|key| NUMBERS.map(|(what, unit)| key.header(what, unit))));
     let rows = derivatives.contacts.iter().map(|one| {
-        let mut row = csv::contact_cells(name(scene, one.contact.wall), &one.contact);
+        let mut row = csv::contact_cells(name(scene, one.contact.wall), one.contact);
         row.push(digits(Some(one.growth)));
         for key in 0..keys.len() {
-            let lists = [&one.start_by, &one.end_by, &one.approach_speed_by, &one.departure_speed_by, &one.impulse_by];
+            let lists = [one.start_by, one.end_by, one.approach_speed_by, one.departure_speed_by, one.impulse_by];
             // A sum with 0 turns −0 into 0.
             row.extend(lists.map(|list| digits(list.get(key).map(|x| x + 0.0).filter(|x| x.is_finite()))));
         }

@@ -4,7 +4,7 @@ use super::horizon::LARGEST_GROWTH;
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
-use crate::variation::{ContactDerivative, KeyVariation, MeanDerivative, MotionDerivative, NoDerivative, SceneTangent};
+use crate::variation::{ContactDerivative, ContactDerivatives, KeyVariation, MeanDerivative, MotionDerivative, NoDerivative, SceneTangent};
 
 /// The derivatives of an exact run with respect to several keys.
 ///
@@ -26,7 +26,7 @@ use crate::variation::{ContactDerivative, KeyVariation, MeanDerivative, MotionDe
 /// let derivatives = Derivatives::new(&scene(5e-3, 3.0)?, &keys, &[0.5, 1.0])?;
 /// assert!(derivatives.ended.is_none());
 /// // Gap and load larger by the same share make a larger motion with the same instants.
-/// let first = &derivatives.contacts[0];
+/// let first = derivatives.contacts.get(0).expect("an impact");
 /// assert!((5e-3 * first.start_by[0] + 3.0 * first.start_by[1]).abs() < 1e-12);
 /// # Ok::<(), signorini::Error>(())
 /// ```
@@ -34,7 +34,7 @@ use crate::variation::{ContactDerivative, KeyVariation, MeanDerivative, MotionDe
 #[non_exhaustive]
 pub struct Derivatives {
     /// The contacts that have ended, in the order of their ends; with the derivatives by each key.
-    pub contacts: Vec<ContactDerivative>,
+    pub contacts: ContactDerivatives,
     /// Displacements and velocities of the probes at the times asked for; NaN from the time of
     /// `ended` on.
     pub motion: MotionDerivative,
@@ -85,7 +85,7 @@ impl Derivatives {
 
     /// The contacts that ended while no change of the start had grown by more than
     /// [`LARGEST_GROWTH`]: those for which a change of a key by some per cent is small.
-    pub fn predictable(&self) -> impl Iterator<Item = &ContactDerivative> {
+    pub fn predictable(&self) -> impl Iterator<Item = ContactDerivative<'_>> {
         self.contacts.iter().filter(|one| one.growth <= LARGEST_GROWTH)
     }
 
@@ -101,11 +101,11 @@ impl Derivatives {
     }
 
     fn measured_at(&self, wall: usize) -> Vec<Measured> {
-        let own: Vec<&ContactDerivative> = self.predictable().filter(|one| one.contact.wall == wall).collect();
+        let own: Vec<ContactDerivative<'_>> = self.predictable().filter(|one| one.contact.wall == wall).collect();
         let count = own.len() as f64;
-        let sum = |of: &dyn Fn(&ContactDerivative) -> (f64, &Vec<f64>), share: f64| {
+        let sum = |of: for<'a> fn(&ContactDerivative<'a>) -> (f64, &'a [f64]), share: f64| {
             let mut total = (0.0, Vec::new());
-            for (value, derivative) in own.iter().map(|contact| of(contact)) {
+            for (value, derivative) in own.iter().map(of) {
                 total.0 += share * value;
                 total.1.resize(derivative.len(), 0.0);
                 total.1.iter_mut().zip(derivative).for_each(|(sum, x): (&mut f64, _)| *sum += share * x);
@@ -113,15 +113,15 @@ impl Derivatives {
             total
         };
         let largest = own.iter().max_by(|a, b| a.contact.impulse.abs().total_cmp(&b.contact.impulse.abs()));
-        let largest = largest.map(|c| (c.contact.impulse, c.impulse_by.clone())).unwrap_or_default();
+        let largest = largest.map(|c| (c.contact.impulse, c.impulse_by.to_vec())).unwrap_or_default();
         let all = [
             ("largest_impulse", "the largest impulse", "N s", largest),
-            ("impulse", "the sum of the impulses", "N s", sum(&|c| (c.contact.impulse, &c.impulse_by), 1.0)),
+            ("impulse", "the sum of the impulses", "N s", sum(|c| (c.contact.impulse, c.impulse_by), 1.0)),
             (
                 "approach_speed",
                 "the mean approach speed",
                 "m/s",
-                sum(&|c| (c.contact.approach_speed, &c.approach_speed_by), 1.0 / count),
+                sum(|c| (c.contact.approach_speed, c.approach_speed_by), 1.0 / count),
             ),
         ];
         let measured =

@@ -11,140 +11,192 @@
 use crate::step::Contact;
 
 /// A contact, and its derivatives with respect to each key.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct ContactDerivative {
+pub struct ContactDerivative<'a> {
     /// The contact.
-    pub contact: Contact,
+    pub contact: &'a Contact,
     /// Of the time at which it begins, s per unit of the key.
-    pub start_by: Vec<f64>,
+    pub start_by: &'a [f64],
     /// Of the time at which it ends, s per unit of the key. NaN where a blow, or several impacts
     /// elsewhere at one instant, end a lasting contact: this derivative is not known.
-    pub end_by: Vec<f64>,
+    pub end_by: &'a [f64],
     /// Of the approach speed, m/s per unit of the key.
-    pub approach_speed_by: Vec<f64>,
+    pub approach_speed_by: &'a [f64],
     /// Of the departure speed, m/s per unit of the key; NaN as `end_by`.
-    pub departure_speed_by: Vec<f64>,
+    pub departure_speed_by: &'a [f64],
     /// Of the impulse, N s per unit of the key, signed as the impulse.
-    pub impulse_by: Vec<f64>,
+    pub impulse_by: &'a [f64],
     /// The largest growth of a change of the start until the contact ended.
     pub growth: f64,
+}
+
+/// The contacts of a run that have ended, in the order of their ends, with their derivatives.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ContactDerivatives {
+    keys: usize,
+    contacts: Vec<Contact>,
+    /// Of those whose growth is noted: the contacts of a step that ends the derivatives are left
+    /// out.
+    growth: Vec<f64>,
+    /// For each contact and [`Part`] one after the other a number for each key.
+    by: Vec<f64>,
+}
+
+/// A number of a contact that has a derivative.
+#[derive(Debug, Clone, Copy)]
+enum Part {
+    Start,
+    End,
+    Approach,
+    Departure,
+    Impulse,
+}
+
+/// Number of [`Part`]s.
+const PARTS: usize = Part::Impulse as usize + 1;
+
+impl ContactDerivatives {
+    /// Number of contacts.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.growth.len()
+    }
+
+    /// True without contacts.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.growth.is_empty()
+    }
+
+    /// Contact number `index`, if there is one.
+    #[must_use]
+    pub fn get(&self, index: usize) -> Option<ContactDerivative<'_>> {
+        let (contact, &growth) = self.contacts.get(index).zip(self.growth.get(index))?;
+        let by = self.by.get(index * PARTS * self.keys..)?;
+        let of = |part: Part| by.get(part as usize * self.keys..).and_then(|by| by.get(..self.keys)).unwrap_or_default();
+        Some(ContactDerivative {
+            contact,
+            start_by: of(Part::Start),
+            end_by: of(Part::End),
+            approach_speed_by: of(Part::Approach),
+            departure_speed_by: of(Part::Departure),
+            impulse_by: of(Part::Impulse),
+            growth,
+        })
+    }
+
+    /// The contacts in the order of their ends.
+    pub fn iter(&self) -> impl Iterator<Item = ContactDerivative<'_>> {
+        (0..self.len()).filter_map(|index| self.get(index))
+    }
 }
 
 /// The changes of the open contacts of each wall, and of those that have ended.
 #[derive(Debug)]
 pub(super) struct ContactChanges {
     keys: usize,
-    open: Vec<Option<Open>>,
-    ended: Vec<ContactDerivative>,
-    /// The number of those whose growth is noted.
-    noted: usize,
+    /// Whether a contact of each wall is open.
+    open: Vec<bool>,
+    /// For each wall and [`Part`] one after the other the changes by each key of its open contact.
+    changes: Vec<f64>,
+    ended: ContactDerivatives,
     /// Of the impulses of each wall up to now, N s: for each wall the keys.
-    total: Vec<Vec<f64>>,
+    total: Vec<f64>,
     /// Of the force of each wall at the end of the last stretch in contact, N.
-    force: Vec<Vec<f64>>,
-}
-
-#[derive(Debug)]
-struct Open {
-    start: Vec<f64>,
-    speed: Vec<f64>,
-    impulse: Vec<f64>,
-    end: Vec<f64>,
-    departure: Vec<f64>,
+    force: Vec<f64>,
 }
 
 impl ContactChanges {
     pub fn new(keys: usize, walls: usize) -> Self {
-        let of_walls = || vec![vec![0.0; keys]; walls];
-        let open = (0..walls).map(|_| None).collect();
-        Self { keys, open, ended: Vec::new(), noted: 0, total: of_walls(), force: of_walls() }
+        Self {
+            keys,
+            open: vec![false; walls],
+            changes: vec![0.0; walls * PARTS * keys],
+            ended: ContactDerivatives { keys, ..ContactDerivatives::default() },
+            total: vec![0.0; walls * keys],
+            force: vec![0.0; walls * keys],
+        }
     }
 
     /// Begins a contact of `wall`, unless one is open.
     pub fn begin(&mut self, wall: usize) {
-        let zero = || vec![0.0; self.keys];
-        if let Some(open) = self.open.get_mut(wall).filter(|open| open.is_none()) {
-            let unknown = || vec![f64::NAN; self.keys];
-            *open = Some(Open { start: zero(), speed: zero(), impulse: zero(), end: unknown(), departure: unknown() });
-            self.force.get_mut(wall).into_iter().for_each(|force| force.fill(0.0));
+        let Some(open) = self.open.get_mut(wall).filter(|open| !**open) else { return };
+        *open = true;
+        for part in [Part::Start, Part::End, Part::Approach, Part::Departure, Part::Impulse] {
+            let unknown = matches!(part, Part::End | Part::Departure);
+            let first = (wall * PARTS + part as usize) * self.keys;
+            let own = self.changes.get_mut(first..first + self.keys).unwrap_or_default();
+            own.fill(if unknown { f64::NAN } else { 0.0 });
         }
+        self.force.get_mut(wall * self.keys..(wall + 1) * self.keys).unwrap_or_default().fill(0.0);
     }
 
     /// Sets the changes of beginning (s) and approach speed (m/s) of the open contact of `wall`.
     pub fn set_start(&mut self, wall: usize, key: usize, [start, speed]: [f64; 2]) {
-        let Some(open) = self.open.get_mut(wall).and_then(Option::as_mut) else { return };
-        if let (Some(a), Some(b)) = (open.start.get_mut(key), open.speed.get_mut(key)) {
-            (*a, *b) = (start, speed);
-        }
+        self.set(wall, key, Part::Start, start);
+        self.set(wall, key, Part::Approach, speed);
     }
 
     /// Sets the changes of end (s) and departure speed (m/s) of the open contact of `wall`.
     pub fn set_end(&mut self, wall: usize, key: usize, [end, speed]: [f64; 2]) {
-        let Some(open) = self.open.get_mut(wall).and_then(Option::as_mut) else { return };
-        if let (Some(a), Some(b)) = (open.end.get_mut(key), open.departure.get_mut(key)) {
-            (*a, *b) = (end, speed);
-        }
+        self.set(wall, key, Part::End, end);
+        self.set(wall, key, Part::Departure, speed);
+    }
+
+    fn set(&mut self, wall: usize, key: usize, part: Part, change: f64) {
+        let at = (wall * PARTS + part as usize) * self.keys + key;
+        self.changes.get_mut(at).into_iter().for_each(|own| *own = change);
     }
 
     /// Sets the change of the force (N) of the open contact of `wall`.
     pub fn set_force(&mut self, wall: usize, key: usize, change: f64) {
-        self.force.get_mut(wall).and_then(|force| force.get_mut(key)).into_iter().for_each(|force| *force = change);
+        self.force.get_mut(wall * self.keys + key).into_iter().for_each(|force| *force = change);
     }
 
     /// That change, N.
     pub fn force(&self, wall: usize, key: usize) -> f64 {
-        self.force.get(wall).and_then(|force| force.get(key)).copied().unwrap_or(f64::NAN)
+        self.force.get(wall * self.keys + key).copied().unwrap_or(f64::NAN)
     }
 
-    /// The changes of the impulses of each wall up to now, N s, open contacts included.
-    pub fn total(&self) -> &[Vec<f64>] {
-        &self.total
+    /// The changes of the impulses of each wall up to now, N s, open contacts included: for each
+    /// wall a list of keys.
+    pub fn total(&self) -> Vec<Vec<f64>> {
+        let of = |wall: usize| self.total.get(wall * self.keys..(wall + 1) * self.keys).unwrap_or_default().to_vec();
+        (0..self.open.len()).map(of).collect()
     }
 
     /// Adds a change of the impulse (N s) of the open contact of `wall`.
     pub fn add_impulse(&mut self, wall: usize, key: usize, change: f64) {
-        self.total.get_mut(wall).and_then(|of_wall| of_wall.get_mut(key)).into_iter().for_each(|sum| *sum += change);
-        let open = self.open.get_mut(wall).and_then(Option::as_mut);
-        if let Some(impulse) = open.and_then(|open| open.impulse.get_mut(key)) {
-            *impulse += change;
+        let at = (wall * PARTS + Part::Impulse as usize) * self.keys + key;
+        for sum in self.total.get_mut(wall * self.keys + key).into_iter().chain(self.changes.get_mut(at)) {
+            *sum += change;
         }
     }
 
     /// Ends the contact of a wall.
     pub fn end(&mut self, contact: &Contact) {
-        let Some(Open { start, speed, impulse, end, departure }) =
-            self.open.get_mut(contact.wall).and_then(Option::take)
-        else {
-            return;
-        };
-        self.ended.push(ContactDerivative {
-            contact: *contact,
-            start_by: start,
-            end_by: end,
-            approach_speed_by: speed,
-            departure_speed_by: departure,
-            impulse_by: impulse,
-            growth: f64::NAN,
-        });
+        let Some(open) = self.open.get_mut(contact.wall).filter(|open| **open) else { return };
+        *open = false;
+        let of_wall = PARTS * self.keys;
+        self.ended.contacts.push(*contact);
+        let own = self.changes.get(contact.wall * of_wall..(contact.wall + 1) * of_wall).unwrap_or_default();
+        self.ended.by.extend_from_slice(own);
     }
 
     /// Notes the growth up to now with the contacts that have ended since it was last noted.
     pub fn note_growth(&mut self, growth: f64) {
-        self.ended.iter_mut().skip(self.noted).for_each(|one| one.growth = growth);
-        self.noted = self.ended.len();
+        self.ended.growth.resize(self.ended.contacts.len(), growth);
     }
 
     /// As [`Self::ended`], for good.
-    pub fn take_ended(&mut self) -> Vec<ContactDerivative> {
-        let mut ended = std::mem::take(&mut self.ended);
-        ended.truncate(std::mem::take(&mut self.noted));
-        ended
+    pub fn take_ended(&mut self) -> ContactDerivatives {
+        let none = ContactDerivatives { keys: self.keys, ..ContactDerivatives::default() };
+        std::mem::replace(&mut self.ended, none)
     }
 
-    /// The contacts that have ended and whose growth is noted, in the order of their ends: those of
-    /// a step that ends the derivatives are left out.
-    pub fn ended(&self) -> &[ContactDerivative] {
-        self.ended.get(..self.noted).unwrap_or_default()
+    /// The contacts that have ended.
+    pub fn ended(&self) -> &ContactDerivatives {
+        &self.ended
     }
 }

@@ -1,6 +1,6 @@
 //! The derivative of a run with respect to keys.
 
-use super::contact_changes::ContactDerivative;
+use super::contact_changes::ContactDerivatives;
 use super::exponents::direction;
 use super::keys::MotionDerivative;
 use super::means::MeanDerivative;
@@ -55,7 +55,7 @@ const MOST_GROWTH: f64 = 1e6;
 ///     variation.propagate(&stepper.step()?)?;
 /// }
 /// // The second impact comes 2ev/g after the first.
-/// let second = &variation.contacts()[1];
+/// let second = variation.contacts().get(1).expect("an impact");
 /// let expected = 2.0 * (2.0 * 9.81_f64).sqrt() / 9.81;
 /// assert!((second.start_by[0] / expected - 1.0).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -156,12 +156,12 @@ impl KeyVariation {
 
     /// The contacts that have ended so far, with their derivatives.
     #[must_use]
-    pub fn contacts(&self) -> &[ContactDerivative] {
+    pub fn contacts(&self) -> &ContactDerivatives {
         self.variation.keys.contacts.ended()
     }
 
     /// The same, and [`Self::motion`], for good: the variation has none of them afterwards.
-    pub(crate) fn take_results(&mut self) -> (Vec<ContactDerivative>, MotionDerivative) {
+    pub(crate) fn take_results(&mut self) -> (ContactDerivatives, MotionDerivative) {
         let keys = &mut self.variation.keys;
         (keys.contacts.take_ended(), std::mem::take(&mut keys.motion.found))
     }
@@ -178,7 +178,7 @@ impl KeyVariation {
     #[must_use]
     pub fn means(&self) -> MeanDerivative {
         let keys = &self.variation.keys;
-        keys.means.means(keys.contacts.total())
+        keys.means.means(&keys.contacts.total())
     }
 
     /// The derivative of the state now, (δq, δq̇) for each key one after the other: m and m/s per

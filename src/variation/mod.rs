@@ -71,7 +71,7 @@ mod structure;
 mod tangent;
 mod touch_change;
 
-pub use contact_changes::ContactDerivative;
+pub use contact_changes::{ContactDerivative, ContactDerivatives};
 pub use exponents::{Exponent, Exponents};
 pub(crate) use flight::FlightVariation;
 pub use key_variation::KeyVariation;

@@ -94,7 +94,7 @@ fn a_buffer_returns_the_share_that_its_damping_leaves() {
     };
     let zeta = c / (2.0 * (k * m).sqrt());
     let slope = (returned(zeta + 1e-5) - returned(zeta - 1e-5)) / 2e-5;
-    let contact = &found.contacts[0];
+    let contact = found.contacts.get(0).expect("a contact");
     let impulse = -m * v * (1.0 + returned(zeta));
     // The difference above errs by 1e-10.
     let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-8 * b.abs(), "{a} {b}");
@@ -181,7 +181,7 @@ fn a_block_is_lifted_at_the_instant_of_its_load() {
         SceneTangent::new("mass", m, |m| scene(amplitude, m)).unwrap(),
     ];
     let found = Derivatives::new(&scene(amplitude, m).unwrap(), &keys, &[]).unwrap();
-    let contact = &found.contacts[0];
+    let contact = found.contacts.get(0).expect("a contact");
     let (ratio, omega) = (m * G / amplitude, 2.0 * std::f64::consts::PI * frequency);
     let slope = 1.0 / (omega * (1.0 - ratio * ratio).sqrt());
     // Rounding of a few products.
@@ -259,7 +259,7 @@ fn a_blow_at_another_time_moves_all_that_follows() {
     near(found.motion.displacement_by[0], 0.0);
     near(found.motion.displacement_by[1], -velocity(0.02));
     assert!(!found.contacts.is_empty());
-    for contact in &found.contacts {
+    for contact in found.contacts.iter() {
         near(contact.start_by[0], 1.0);
         near(contact.approach_speed_by[0], 0.0);
         near(contact.impulse_by[0], 0.0);

@@ -61,7 +61,7 @@ fn check(scene: fn(Numbers) -> Scene, numbers: Numbers) {
     let tangents: Vec<SceneTangent> = (0..7).map(tangent).collect();
     let by = orbit.derivative(&own, &tangents).expect("derivatives");
     assert_eq!(by.contacts.len(), 1);
-    let contact = &by.contacts[0];
+    let contact = by.contacts.get(0).expect("an impact");
     let start = [contact.contact.start / orbit.forcing_period, contact.contact.approach_speed];
     for (index, name) in NAMES.into_iter().enumerate() {
         let step = 1e-3 * numbers[index];

@@ -248,7 +248,7 @@ pub(crate) fn add_sine(wave: &Harmonic, (start, unit): (f64, f64), out: &mut [f6
 fn weights(q: &[f64; TERMS], terms: usize, unit: f64) -> [f64; TERMS] {
     let mut weights = [0.0; TERMS];
     for (k, a) in q.iter().enumerate().take(terms) {
-        let (a, inverse) = (unit * a, &INVERSE[k..k + TERMS]);
+        let (a, inverse) = (unit * a, &INVERSE[k..k + terms]);
         for (weight, inverse) in weights.iter_mut().zip(inverse) {
             *weight += a * inverse;
         }
