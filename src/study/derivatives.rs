@@ -4,7 +4,9 @@ use super::horizon::LARGEST_GROWTH;
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
-use crate::variation::{ContactDerivative, ContactDerivatives, KeyVariation, MeanDerivative, MotionDerivative, NoDerivative, SceneTangent};
+use crate::variation::{
+    ContactDerivative, ContactDerivatives, KeyVariation, MeanDerivative, MotionDerivative, NoDerivative, SceneTangent,
+};
 
 /// The derivatives of an exact run with respect to several keys.
 ///

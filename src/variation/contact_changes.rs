@@ -74,7 +74,8 @@ impl ContactDerivatives {
     pub fn get(&self, index: usize) -> Option<ContactDerivative<'_>> {
         let (contact, &growth) = self.contacts.get(index).zip(self.growth.get(index))?;
         let by = self.by.get(index * PARTS * self.keys..)?;
-        let of = |part: Part| by.get(part as usize * self.keys..).and_then(|by| by.get(..self.keys)).unwrap_or_default();
+        let of =
+            |part: Part| by.get(part as usize * self.keys..).and_then(|by| by.get(..self.keys)).unwrap_or_default();
         Some(ContactDerivative {
             contact,
             start_by: of(Part::Start),

@@ -11,9 +11,6 @@ use crate::error::{Error, Result};
 use crate::scene::{Scene, System};
 use crate::step::Step;
 
-/// Number of changes of the start that are carried along to tell how fast changes grow.
-const WITNESSES: usize = 2;
-
 /// An impact that multiplies such a change by more than this counts as a graze: the approach is
 /// then known to less than half of its digits.
 const STEEPEST: f64 = 1e4;
@@ -32,8 +29,8 @@ const MOST_GROWTH: f64 = 1e6;
 /// whose series follows from that of the motion; at an event the saltation matrix
 /// ([`saltation`](super::saltation)) is applied, with the displacement of the wall in place of that
 /// of the body where the key moves the wall, and with −δe G q̇⁻ added to the departure speed where
-/// it changes the restitution. Two further columns without a key tell how fast changes grow: the
-/// derivative is given up where it is known to be worth nothing ([`NoDerivative`]).
+/// it changes the restitution. One further column without a key, the witness, tells how fast changes
+/// grow: the derivative is given up where it is known to be worth nothing ([`NoDerivative`]).
 ///
 /// ```
 /// use signorini::variation::{KeyVariation, SceneTangent};
@@ -65,14 +62,15 @@ pub struct KeyVariation {
     variation: StructureVariation,
     keys: usize,
     columns: Vec<f64>,
-    witnesses: Vec<Witness>,
+    witness: Witness,
     system: System,
     /// 1/s: a displacement times it counts as a velocity, besides the energy of its springs.
     rate: f64,
     growth: f64,
 }
 
-/// The size of a change of the start, and the least that it has had.
+/// The size of a change of the start, carried along to tell how fast changes grow, and the least
+/// that it has had.
 #[derive(Debug, Clone, Copy)]
 struct Witness {
     size: f64,
@@ -110,17 +108,17 @@ impl KeyVariation {
     }
 
     fn of(scene: &Scene, variation: StructureVariation, mut columns: Vec<f64>, keys: usize) -> Self {
-        columns.resize(columns.len() + 2 * variation.degrees_of_freedom() * WITNESSES, 0.0);
+        columns.resize(columns.len() + 2 * variation.degrees_of_freedom(), 0.0);
         let mut this = Self {
             variation,
             keys,
             columns,
-            witnesses: vec![Witness { size: 0.0, least: 0.0 }; WITNESSES],
+            witness: Witness { size: 0.0, least: 0.0 },
             system: scene.system.clone(),
             rate: 1.0 / scene.duration,
             growth: 1.0,
         };
-        (0..WITNESSES).for_each(|which| this.renew(which));
+        this.renew();
         this
     }
 
@@ -131,20 +129,17 @@ impl KeyVariation {
     pub fn propagate(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
         self.variation.propagate(step, &mut self.columns)?;
         self.variation.keys.means.add_impulses(step);
-        let struck = step.jump.iter().position(|&p| p != 0.0);
-        for which in 0..self.witnesses.len() {
-            let size = self.size_of(which);
-            let Some(witness) = self.witnesses.get_mut(which) else { break };
-            let before = std::mem::replace(&mut witness.size, size);
-            witness.least = witness.least.min(size);
-            if size == 0.0 {
-                self.renew(which);
-                continue;
-            }
+        let size = self.witness_size();
+        let before = std::mem::replace(&mut self.witness.size, size);
+        self.witness.least = self.witness.least.min(size);
+        if size == 0.0 {
+            self.renew();
+        } else {
+            let struck = step.jump.iter().position(|&p| p != 0.0);
             if let Some(wall) = struck.filter(|_| size > STEEPEST * before) {
                 return Err(NoDerivative::Graze { time: step.end, wall: name_of(&self.variation.names, wall) });
             }
-            let growth = size / witness.least;
+            let growth = size / self.witness.least;
             self.growth = self.growth.max(growth);
             if growth > MOST_GROWTH || growth.is_nan() {
                 return Err(NoDerivative::Horizon { time: step.end, growth });
@@ -195,19 +190,20 @@ impl KeyVariation {
         self.growth
     }
 
-    /// √(δq̇ᵀMδq̇ + δqᵀKδq + δqᵀMδq/T²) of a witness, √J, with T the duration: it does not grow by
+    /// √(δq̇ᵀMδq̇ + δqᵀKδq + δqᵀMδq/T²) of the witness, √J, with T the duration: it does not grow by
     /// the exchange between springs and masses.
-    fn size_of(&self, which: usize) -> f64 {
+    fn witness_size(&self) -> f64 {
         let n = self.variation.degrees_of_freedom();
-        let from = 2 * n * (self.keys + which);
-        let Some((q, v)) = self.columns.get(from..from + 2 * n).map(|change| change.split_at(n)) else { return 0.0 };
+        let Some((q, v)) = self.columns.get(2 * n * self.keys..).and_then(|witness| witness.split_at_checked(n)) else {
+            return 0.0;
+        };
         let slow = self.rate * self.rate * self.system.mass_form(q, q);
         (self.system.mass_form(v, v) + self.system.stiffness_form(q, q) + slow).sqrt()
     }
 
-    /// Begins a witness, or begins it anew once a rest has made it 0: with the velocities, or the
-    /// displacements, that impulses at the walls give.
-    fn renew(&mut self, which: usize) {
+    /// Begins the witness, or begins it anew once a rest has made it 0: with the velocities that
+    /// impulses at the walls give, and displacements of the same shape and about the same energy.
+    fn renew(&mut self) {
         let (n, body) = (self.variation.degrees_of_freedom(), &self.variation.flow.body);
         let mut change = vec![0.0; n];
         for row in 0..body.rows.count() {
@@ -216,13 +212,12 @@ impl KeyVariation {
         if body.rows.count() == 0 {
             change.iter_mut().enumerate().for_each(|(i, x)| *x = direction(i));
         }
-        let zero = vec![0.0; n];
-        let whole = if which == 0 { [zero, change] } else { [change, zero] };
-        let from = 2 * n * (self.keys + which);
-        self.columns.iter_mut().skip(from).zip(whole.iter().flatten()).for_each(|(x, new)| *x = *new);
-        let size = self.size_of(which);
-        if let Some(witness) = self.witnesses.get_mut(which) {
-            *witness = Witness { size, least: size };
-        }
+        let [mass, spring] = [self.system.mass_form(&change, &change), self.system.stiffness_form(&change, &change)];
+        let scale = (mass / (spring + self.rate * self.rate * mass)).sqrt();
+        let displaced: Vec<f64> = change.iter().map(|v| scale * v).collect();
+        let witness = self.columns.iter_mut().skip(2 * n * self.keys);
+        witness.zip(displaced.iter().chain(&change)).for_each(|(x, new)| *x = *new);
+        let size = self.witness_size();
+        self.witness = Witness { size, least: size };
     }
 }
