@@ -83,7 +83,10 @@ fn line(what: &str, scene: &dyn Fn(Numbers) -> Scene, numbers: Numbers) {
 fn main() {
     println!("{:<24} {:>9} {:>8} {:>8} {:>8} {:>9}", "exact run", "ms", "1 key", "4 keys", "7 keys", "contacts");
     println!("{:<24} {:>9} {:>8.2} {:>8.2} {:>8.2}", "target", "", 1.5, 3.0, 4.5);
-    line("body between walls", &|numbers| body(numbers, 20.0), [5e-3, 0.8, 3.0, 5.0, 1.0, 100.0, 0.2]);
+    let bodies = [5e-3, 0.8, 3.0, 5.0, 1.0, 100.0, 0.2];
+    line("body between walls", &|numbers| body(numbers, 20.0), bodies);
+    let unseen = |numbers| Scene { probes: Vec::new(), ..body(numbers, 20.0) };
+    line("body, no means asked for", &unseen, bodies);
     for masses in [2, 6, 20] {
         let scene = move |numbers: Numbers| chain(masses, numbers, 5.0);
         line(&format!("chain of {masses}"), &scene, [5e-3, 0.6, 2.0, 1.3, 1.0, 60.0, 0.6]);

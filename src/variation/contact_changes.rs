@@ -18,12 +18,13 @@ pub struct ContactDerivative<'a> {
     pub contact: &'a Contact,
     /// Of the time at which it begins, s per unit of the key.
     pub start_by: &'a [f64],
-    /// Of the time at which it ends, s per unit of the key. NaN where a blow, or several impacts
-    /// elsewhere at one instant, end a lasting contact: this derivative is not known.
+    /// Of the time at which it ends, s per unit of the key. NaN where several impacts elsewhere at
+    /// one instant end a lasting contact: this derivative is not known.
     pub end_by: &'a [f64],
     /// Of the approach speed, m/s per unit of the key.
     pub approach_speed_by: &'a [f64],
-    /// Of the departure speed, m/s per unit of the key; NaN as `end_by`.
+    /// Of the departure speed, m/s per unit of the key; NaN as `end_by`, and where a blow and an
+    /// impact at one instant end a push.
     pub departure_speed_by: &'a [f64],
     /// Of the impulse, N s per unit of the key, signed as the impulse.
     pub impulse_by: &'a [f64],

@@ -27,6 +27,29 @@ impl StructureVariation {
     }
 }
 
+impl StructureVariation {
+    /// Ends the lasting contacts that the blows at the end of `step` end, and notes by how much
+    /// their ends and departure speeds change: a rest ends without speed, a push with the speed
+    /// that the blows give, which is not known beside impacts. Neither instant moves.
+    pub fn end_with_blow(&mut self, step: &Step<'_>, columns: &[f64]) {
+        let Self { flow, walls, v, keys, .. } = self;
+        let n = v.len();
+        let struck = step.jump.iter().any(|&p| p != 0.0);
+        for contact in step.closed.iter().filter(|contact| contact.start < step.end) {
+            let Some(at) = walls.get(contact.wall) else { continue };
+            for (number, (terms, change)) in keys.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
+                let faster = match at.restitution {
+                    Some(_) => 0.0,
+                    None if struck => f64::NAN,
+                    None => flow.body.rows.dot(at.row, &change[n..]) + terms.along(contact.wall, v),
+                };
+                keys.contacts.set_end(contact.wall, number, [0.0, at.sign * faster]);
+            }
+            keys.contacts.end(contact);
+        }
+    }
+}
+
 impl ContactChanges {
     /// Notes by how much the ends and departure speeds of lasting contacts at other walls change
     /// that end with the impact of `s`, which key number `number` moves by `later` (s): of one that

@@ -9,7 +9,7 @@ use super::tangent::SceneTangent;
 use crate::error::{Error, Result};
 use crate::flow::{Arc, HeldRows, Propagator, Series};
 use crate::scene::Scene;
-use crate::step::{Contact, Path, Step};
+use crate::step::{Path, Step};
 
 /// The data of a wall for the propagation of changes.
 #[derive(Debug, Clone, Copy)]
@@ -190,9 +190,9 @@ impl StructureVariation {
         }
         let blown = self.take_blow(step, columns)?;
         // A blow ends the contact that it disturbs, and begins another.
-        let (ended, others): (Vec<&Contact>, Vec<&Contact>) =
-            step.closed.iter().partition(|contact| blown && contact.start < step.end);
-        ended.into_iter().for_each(|contact| self.keys.contacts.end(contact));
+        if blown {
+            self.end_with_blow(step, columns);
+        }
         if blown || step.jump.iter().any(|&p| p != 0.0) {
             self.keys.motion.forget(step.end);
         }
@@ -209,7 +209,8 @@ impl StructureVariation {
                 }
             }
         }
-        others.into_iter().for_each(|contact| self.keys.contacts.end(contact));
+        let others = step.closed.iter().filter(|contact| !blown || contact.start >= step.end);
+        others.for_each(|contact| self.keys.contacts.end(contact));
         Ok(())
     }
 

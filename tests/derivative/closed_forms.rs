@@ -280,6 +280,60 @@ fn a_blow_at_another_time_moves_all_that_follows() {
     assert!(matches!(&ended, Some(NoDerivative::Blow { wall, .. }) if wall == "buffer"), "{ended:?}");
 }
 
+/// A block dives into a damped buffer, from which a blow J at the time τ throws it: the buffer would
+/// have to pull at once, so that the push ends with the blow, at a speed of −(ṡ + J/m). In the
+/// buffer s = v/ω_d e^{−δt} sin ω_d t after the instant x/v at which it reaches the face. A rest that
+/// a blow ends has no departure speed, whatever the keys are.
+#[test]
+fn a_contact_that_a_blow_ends_ends_with_it() {
+    let (m, k, c, face, v, blow, time) = (2.0, 400.0, 40.0, 0.05, 1.0, -3.0, 0.08);
+    let scene = |[blow, v]: [f64; 2]| {
+        Ok(Scene::oscillator(m, 0.0, 0.0)
+            .with_wall(Wall::upper("buffer", face).with_elasticity(k, c))
+            .with_load(Load::impulse(blow, time))
+            .with_initial(&[0.0], &[v])
+            .with_duration(0.2))
+    };
+    let keys = [
+        SceneTangent::new("blow", blow, |blow| scene([blow, v])).unwrap(),
+        SceneTangent::new("velocity", v, |v| scene([blow, v])).unwrap(),
+    ];
+    let (decay, t) = (c / (2.0 * m), time - face / v);
+    let omega = (k / m - decay * decay).sqrt();
+    let (sin, cos) = (omega * t).sin_cos();
+    let fading = v / omega * (-decay * t).exp();
+    let (depth, rate) = (fading * sin, fading * (omega * cos - decay * sin));
+    let acceleration = -(k * depth + c * rate) / m;
+    let found = Derivatives::new(&scene([blow, v]).unwrap(), &keys, &[]).unwrap();
+    let push = found.contacts.get(0).expect("a push");
+    // Rounding of a few products.
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-11 * b.abs().max(1.0), "{a} {b}");
+    near(push.contact.end.unwrap(), time);
+    near(push.contact.departure_speed.unwrap(), -(rate + blow / m));
+    assert_eq!(push.end_by, [0.0, 0.0]);
+    near(push.departure_speed_by[0], -1.0 / m);
+    near(push.departure_speed_by[1], -(rate / v + acceleration * face / (v * v)));
+
+    let resting = |[blow, weight]: [f64; 2]| {
+        Ok(Scene::oscillator(m, 0.0, 0.0)
+            .with_wall(Wall::lower("floor", 0.0).with_restitution(0.5))
+            .with_load(Load::constant(-weight))
+            .with_load(Load::impulse(blow, 0.4))
+            .with_duration(1.0))
+    };
+    for blow in [1.0, -1.0] {
+        let keys = [
+            SceneTangent::new("blow", blow, |blow| resting([blow, 19.62])).unwrap(),
+            SceneTangent::new("weight", 19.62, |weight| resting([blow, weight])).unwrap(),
+        ];
+        let found = Derivatives::new(&resting([blow, 19.62]).unwrap(), &keys, &[]).unwrap();
+        let rest = found.contacts.get(0).expect("a rest");
+        near(rest.contact.end.unwrap(), 0.4);
+        assert_eq!((rest.end_by, rest.departure_speed_by), (&[0.0; 2][..], &[0.0; 2][..]));
+        near(rest.impulse_by[1], 0.4);
+    }
+}
+
 /// A block dives into a damped buffer until it strikes a rigid stop behind its face: the push ends
 /// with that impact, whose rebound would let it pull. In the buffer s = v/ω_d e^{−δt} sin ω_d t, so
 /// that the stop at the depth d is struck at the first root of s = d.

@@ -36,7 +36,7 @@ class Derivative:
     (s), ``approach_speed`` and ``departure_speed`` (m/s), ``impulse`` (N s), ``growth``;
     ``start_by``, ``end_by``, ``approach_speed_by``, ``departure_speed_by`` and ``impulse_by`` have
     the derivatives under the names of the keys, per unit of the key. Those of end and departure
-    speed are NaN where a blow, or several impacts elsewhere at once, end a lasting contact."""
+    speed are NaN where several impacts elsewhere at once end a lasting contact."""
     time: Array
     """The times asked for, s; shape (times,)."""
     displacement: Array
