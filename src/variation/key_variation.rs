@@ -29,8 +29,9 @@ const MOST_GROWTH: f64 = 1e6;
 /// whose series follows from that of the motion; at an event the saltation matrix
 /// ([`saltation`](super::saltation)) is applied, with the displacement of the wall in place of that
 /// of the body where the key moves the wall, and with −δe G q̇⁻ added to the departure speed where
-/// it changes the restitution. One further column without a key, the witness, tells how fast changes
-/// grow: the derivative is given up where it is known to be worth nothing ([`NoDerivative`]).
+/// it changes the restitution. One further column without a key, the witness, tells how fast
+/// changes grow: the derivative is given up where it is known to be worth nothing
+/// ([`NoDerivative`]).
 ///
 /// ```
 /// use signorini::variation::{KeyVariation, SceneTangent};
@@ -190,8 +191,8 @@ impl KeyVariation {
         self.growth
     }
 
-    /// √(δq̇ᵀMδq̇ + δqᵀKδq + δqᵀMδq/T²) of the witness, √J, with T the duration: it does not grow by
-    /// the exchange between springs and masses.
+    /// √(δq̇ᵀMδq̇ + δqᵀKδq + δqᵀMδq/T²) of the witness, √J, with T the duration: it does not grow
+    /// by the exchange between springs and masses.
     fn witness_size(&self) -> f64 {
         let n = self.variation.degrees_of_freedom();
         let Some((q, v)) = self.columns.get(2 * n * self.keys..).and_then(|witness| witness.split_at_checked(n)) else {

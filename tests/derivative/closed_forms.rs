@@ -280,10 +280,10 @@ fn a_blow_at_another_time_moves_all_that_follows() {
     assert!(matches!(&ended, Some(NoDerivative::Blow { wall, .. }) if wall == "buffer"), "{ended:?}");
 }
 
-/// A block dives into a damped buffer, from which a blow J at the time τ throws it: the buffer would
-/// have to pull at once, so that the push ends with the blow, at a speed of −(ṡ + J/m). In the
-/// buffer s = v/ω_d e^{−δt} sin ω_d t after the instant x/v at which it reaches the face. A rest that
-/// a blow ends has no departure speed, whatever the keys are.
+/// A block dives into a damped buffer, from which a blow J at the time τ throws it: the buffer
+/// would have to pull at once, so that the push ends with the blow, at a speed of −(ṡ + J/m). In
+/// the buffer s = v/ω_d e^{−δt} sin ω_d t after the instant x/v at which it reaches the face. A
+/// rest that a blow ends has no departure speed, whatever the keys are.
 #[test]
 fn a_contact_that_a_blow_ends_ends_with_it() {
     let (m, k, c, face, v, blow, time) = (2.0, 400.0, 40.0, 0.05, 1.0, -3.0, 0.08);
