@@ -122,10 +122,13 @@ impl Responses {
         let (unit, count) = (*unit, terms.saturating_sub(2));
         let push = unit * unit / *mass;
         let (spring, dash) = (-push * *stiffness, -unit * *damping / *mass);
-        (motion[0], motion[1]) = (start[0], start[1] * unit);
-        for k in 0..count {
-            let own = PAIRS[k] * (push * load[k] + spring * motion[k]);
-            motion[k + 2] = own + dash * INVERSE[k + 1] * motion[k + 1];
+        // Each term waits for the one before it: they stay in registers, and what does not wait is
+        // added first.
+        let [mut now, mut next] = [start[0], start[1] * unit];
+        (motion[0], motion[1]) = (now, next);
+        for (k, motion) in motion[2..count + 2].iter_mut().enumerate() {
+            *motion = PAIRS[k] * (push * load[k] + spring * now) + dash * INVERSE[k + 1] * next;
+            (now, next) = (next, *motion);
         }
         for block in blocks.iter_mut() {
             block.terms[2..*terms].fill([0.0; LANES]);
@@ -203,10 +206,8 @@ impl Block {
         let ([mut now, mut next], last) = ([terms[0], terms[1]], count + 2);
         for ((term, pair), inverse) in terms[2..last].iter_mut().zip(&PAIRS).zip(&INVERSE[1..]) {
             let (own, rub) = (spring * pair, dash * inverse);
-            for lane in 0..LANES {
-                term[lane] += own * now[lane] + rub * next[lane];
-            }
-            (now, next) = (next, *term);
+            let new = std::array::from_fn(|lane| (term[lane] + own * now[lane]) + rub * next[lane]);
+            (*term, now, next) = (new, next, new);
         }
     }
 
