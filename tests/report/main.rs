@@ -11,6 +11,8 @@ mod command;
 mod browser;
 #[cfg(all(feature = "cli", unix))]
 mod drawings;
+#[cfg(feature = "cli")]
+mod older;
 #[cfg(all(feature = "cli", unix))]
 mod realisations;
 #[cfg(feature = "cli")]
