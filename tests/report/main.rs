@@ -8,6 +8,8 @@ mod chromium;
 mod command;
 
 #[cfg(all(feature = "cli", unix))]
+mod bodies;
+#[cfg(all(feature = "cli", unix))]
 mod browser;
 #[cfg(all(feature = "cli", unix))]
 mod drawings;
