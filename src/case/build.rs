@@ -152,8 +152,8 @@ impl Builder<'_> {
     }
 
     /// Reduces the case to its slowest `modes`, under the fields of `turbulence`, with the
-    /// `damping` that is given by ratios of these modes; and its margins in a flow, which `file` asks
-    /// for.
+    /// `damping` that is given by ratios of these modes; and its margins in a flow, which `file`
+    /// asks for.
     fn reduce(
         &mut self,
         case: &mut Case,

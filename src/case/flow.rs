@@ -103,7 +103,8 @@ impl Case {
         ))
     }
 
-    /// The sliders that margins in the flow leave out: what slides under a known force holds nothing.
+    /// The sliders that margins in the flow leave out: what slides under a known force holds
+    /// nothing.
     pub(super) fn sliders_in_flow(&self) -> Option<String> {
         let names: Vec<String> = self.sliders.iter().map(|slider| format!("{:?}", slider.name)).collect();
         (self.fluid_elastic.is_some() && !names.is_empty()).then(|| {

@@ -57,7 +57,8 @@ pub(super) fn case_text(case_file: &Value) -> Option<String> {
     case_file.is_object().then(|| toml::to_string(case_file).unwrap_or_else(|_| shown()))
 }
 
-/// What a reader must know: the notes of the run, what the page leaves out, and what its files lack.
+/// What a reader must know: the notes of the run, what the page leaves out, and what its files
+/// lack.
 fn notes(summary: &Value, run: &Value, lacking: Option<String>) -> Value {
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
     let mut notes = list(&summary["notes"]);

@@ -92,8 +92,8 @@ pub struct FlowMargin {
     pub margin: Option<f64>,
 }
 
-/// The margins of the modes that move a tube in a flow, slowest modes first. A mode that is the same
-/// in two planes is listed once; rigid-body motions are left out.
+/// The margins of the modes that move a tube in a flow, slowest modes first. A mode that is the
+/// same in two planes is listed once; rigid-body motions are left out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FluidElastic {

@@ -327,7 +327,8 @@ fn wrong_tubes_among_several_are_refused_by_name() {
                  shapes = { a = [0.0], b = [1.0] }\n[[body]]\nname = \"post\"\n[body.oscillator]\nmass = 1.0\n\
                  damping = 0.0\nstiffness = 1.0\n[[turbulence]]\nbody = \"bend\"\nline = { a = 0.0, b = 1.0 }\n\
                  diameter = 0.02\ndensity = 740.0\nvelocity = 0.5\nreduced = [[0.01, 0.05], [3.0, 8.6e-7]]\n\
-                 from = 1.0\nto = 9.0\ncorrelation_length = 0.1\n[flow]\nconnors = 3.0\n[time]\nend = 2.0\nstep = 1e-3\n";
+                 from = 1.0\nto = 9.0\ncorrelation_length = 0.1\n[flow]\nconnors = 3.0\n\
+                 [time]\nend = 2.0\nstep = 1e-3\n";
     let told = Case::parse(&modal.replace("[system]", "[system]\nmodes = 2"), "bend.toml", "").unwrap_err().to_string();
     assert!(told.contains("beside the modes of the body \"bend\"") && told.contains("[body.beam]"), "{told}");
 }

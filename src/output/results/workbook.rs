@@ -18,8 +18,8 @@ const COMPRESSED: f64 = 0.75;
 
 impl Results {
     /// Writes a workbook into each folder that has tables, with sheets in the order of their names.
-    /// Returns a sentence for each table that no sheet can hold. `progress` is called with the share
-    /// of the work that is done.
+    /// Returns a sentence for each table that no sheet can hold. `progress` is called with the
+    /// share of the work that is done.
     pub(super) fn write_sheets(&mut self, progress: &mut (dyn FnMut(f64) + Send)) -> Result<Vec<String>> {
         self.record()?;
         let all = self.tables.values().map(|record| record.bytes).sum::<u64>().max(1) as f64;
