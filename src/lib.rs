@@ -69,8 +69,8 @@ pub use residual::{Finding, Refuted};
 pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
 pub use scene::{
     Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, Condensation, Connors, Damping, Face, Flat, Flats, FlowMargin,
-    FlowPiece, FluidElastic, FrictionCoefficients, Hole, MOST_DENSE, MOST_ELEMENTS, MOST_FLATS, MOST_MODES, MassMatrix,
-    ModalData, ModalPoint, Modes, PlaneRows, Reduction, SectionFault, WallTruncation, heading, matrices,
+    FlowPiece, FlowTube, FluidElastic, FrictionCoefficients, Hole, MOST_DENSE, MOST_ELEMENTS, MOST_FLATS, MOST_MODES,
+    MassMatrix, ModalData, ModalPoint, Modes, PlaneRows, Reduction, SectionFault, WallTruncation, heading, matrices,
 };
 pub use scene::{
     Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SceneKey,

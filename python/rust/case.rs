@@ -239,7 +239,7 @@ impl Case {
         self.case.notes()
     }
 
-    /// The margins of a tube in a cross flow by Connors' criterion: a `FluidElastic`, or None where
+    /// The margins of tubes in a cross flow by Connors' criterion: a `FluidElastic`, or None where
     /// the case has no table ``flow``.
     #[getter]
     fn fluid_elastic<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {

@@ -243,6 +243,9 @@ def test_margins_of_a_tube_in_a_flow_are_those_of_the_case_and_warn() -> None:
     assert tube(supports=plates, loads=LOADS).fluid_elastic is None
     with pytest.raises(ValueError, match="connors is 0.0"):
         tube(loads=[flow(0.5)], **{**own, "connors": 0.0})
+    several = sg.load("two-tubes", set={"flow.connors": 3.0}).fluid_elastic
+    assert several is not None and {one.bodies for one in several.inactive} == {("left",), ("right",)}
+    assert ("left", "right") in {one.bodies for one in several.active}
 
 
 def test_a_shaken_tube_under_its_weight_is_the_case_of_these_keys() -> None:

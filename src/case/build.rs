@@ -95,7 +95,7 @@ impl Builder<'_> {
         }
         case.check().map_err(|error| self.locate(error, &case.scene))?;
         match (modes, file.section("flow")) {
-            (Some(modes), flow) => self.reduce(&mut case, modes, (built.pending, turbulence), flow.as_ref())?,
+            (Some(modes), _) => self.reduce(&mut case, modes, (built.pending, turbulence), file)?,
             (None, Some(flow)) => return Err(self.without_flow(&flow)),
             (None, None) => self.add_sliders(&mut case)?,
         }
@@ -152,13 +152,14 @@ impl Builder<'_> {
     }
 
     /// Reduces the case to its slowest `modes`, under the fields of `turbulence`, with the
-    /// `damping` that is given by ratios of these modes.
+    /// `damping` that is given by ratios of these modes; and its margins in a flow, which `file`
+    /// asks for.
     fn reduce(
         &mut self,
         case: &mut Case,
         modes: usize,
         (damping, turbulence): (Option<Damping>, Vec<Turbulence>),
-        flow: Option<&Section<'_>>,
+        file: &Section<'_>,
     ) -> Result<()> {
         let whole = Unreduced {
             scene: case.scene.clone(),
@@ -171,7 +172,7 @@ impl Builder<'_> {
         };
         let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
         case.scene = reduction.scene.clone();
-        case.fluid_elastic = flow.map(|flow| self.flow(flow, &whole, &reduction.modes)).transpose()?;
+        case.fluid_elastic = self.flow(file, &whole, &reduction.modes)?;
         case.truncated = Some(Truncated { whole, reduction });
         Ok(())
     }

@@ -112,7 +112,23 @@ fn put(value: &mut Value, path: &[String], key: &Key, new: &Value) -> Result<()>
                 None => Err(Error::invalid("key", key, format!("an entry of that list from 0 to below {count}"))),
             }
         }
-        _ => Err(Error::invalid("key", key, format!("a list or a table before .{first}; the file has {value} there"))),
+        _ => Err(Error::invalid("key", key, in_place_of(value, path, key))),
+    }
+}
+
+/// What is needed in place of the `value` of the file, which has no parts, where `key` goes on with
+/// `path`.
+fn in_place_of(value: &Value, path: &[String], key: &Key) -> String {
+    let (whole, _) = key.parts().split_at(key.parts().len().saturating_sub(path.len()));
+    match (whole.last().map(String::as_str), value) {
+        (Some("friction"), Value::Float(_) | Value::Integer(_)) => format!(
+            "friction = {{ static = {value}, kinetic = {value} }} there, in the file or by --set: it says the same as \
+             the file's friction = {value}, and has both coefficients as keys"
+        ),
+        _ => {
+            let first = path.first().map_or("", String::as_str);
+            format!("a list or a table before .{first}; the file has {value} there")
+        }
     }
 }
 

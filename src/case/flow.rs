@@ -1,46 +1,89 @@
-//! Reads the table `[flow]`: the margins of a tube in a cross flow by Connors' criterion.
+//! Reads the table `[flow]`: the margins of tubes in a cross flow by Connors' criterion.
 
 use super::Case;
 use super::builder::Builder;
-use super::model::{Model, Place};
+use super::model::{Body, Model, Place};
 use super::value::Section;
 use crate::error::{Error, Result};
-use crate::scene::{Connors, Damping, FlowMargin, FluidElastic, Modes, Row, System};
+use crate::scene::{Connors, Damping, FlowMargin, FlowTube, FluidElastic, Modes, Row, System, Turbulence};
 use crate::study::truncation::Unreduced;
 
 impl Builder<'_> {
-    /// The margins that the table `flow` asks for, of the tube `whole` with the modes `own`.
-    pub fn flow(&mut self, flow: &Section<'_>, whole: &Unreduced, own: &Modes) -> Result<FluidElastic> {
-        let constant = self.required(("flow", "connors"), flow, "connors");
-        let span = || flow.span_of("connors").unwrap_or(flow.span.clone());
-        let Model::Beam(beam) = self.model.clone() else { return Err(self.without_flow(flow)) };
-        let Some(diameter) = beam.section.outer_diameter() else {
-            let help = "expected outer_diameter in [system.beam]: Connors' criterion is that of tubes";
-            return Err(self.source.error(span(), "`flow.connors` beside a rectangular beam", help));
+    /// The margins that the table `flow` of `file` asks for, of the tubes of `whole` with the modes
+    /// `own`; `None` without that table.
+    pub fn flow(&mut self, file: &Section<'_>, whole: &Unreduced, own: &Modes) -> Result<Option<FluidElastic>> {
+        let Some(flow) = file.section("flow") else { return Ok(None) };
+        let constant = self.required(("flow", "connors"), &flow, "connors");
+        let tables = file.sections("turbulence");
+        let body_of = |field: &&Turbulence| {
+            let table = tables.get((field.number() - 1) as usize);
+            table.and_then(|table| table.word("body")).map(|name| *name.get_ref())
         };
+        let bodies: Vec<Option<Body>> = match &self.model {
+            Model::Bodies(bodies) => bodies.iter().cloned().map(Some).collect(),
+            _ => vec![None],
+        };
+        let mut tubes = Vec::new();
+        for body in &bodies {
+            let name = body.as_ref().map(|body| body.name.as_str());
+            let fields: Vec<&Turbulence> = whole.turbulence.iter().filter(|field| body_of(field) == name).collect();
+            tubes.extend(self.tube(&flow, whole, body.as_ref(), &fields)?);
+        }
+        if tubes.is_empty() {
+            return Err(self.without_flow(&flow));
+        }
+        let margins = Connors { constant, tubes }.margins(&whole.scene, whole.damping.as_ref(), own);
+        margins.map(Some).map_err(|error| self.locate(error, &whole.scene))
+    }
+
+    /// The tube `body`, or the whole system, in the flow of `fields`; `None` without one.
+    fn tube(
+        &self,
+        flow: &Section<'_>,
+        whole: &Unreduced,
+        body: Option<&Body>,
+        fields: &[&Turbulence],
+    ) -> Result<Option<FlowTube>> {
+        let (model, name) = (body.map_or(&self.model, |body| &body.model), body.map(|body| body.name.as_str()));
+        let of = name.map_or(String::new(), |name| format!(" of the body {name:?}"));
+        let table = if body.is_some() { "body" } else { "system" };
+        let row = |x: f64| -> Result<Vec<Row>> {
+            let rows = self.planes.rows(&self.model, &Place::Position(x).on(name))?;
+            Ok(if self.planes.is_two() { vec![rows.y, rows.z] } else { vec![rows.y] })
+        };
+        let mass = if let Model::Beam(beam) = model { beam.mass_per_metre() } else { 0.0 };
+        let Some(tube) = FlowTube::in_flow(name.map(str::to_owned), mass, fields, row)? else { return Ok(None) };
+        let refused = |title: &str, help: &str| {
+            let span = flow.span_of("connors").unwrap_or(flow.span.clone());
+            Err(self.source.error(span, &format!("`flow.connors` {title}{of}"), help))
+        };
+        if !matches!(model, Model::Beam(_)) {
+            let help =
+                format!("expected [{table}.beam]: Connors' criterion takes the mass per metre of a tube from it");
+            return refused("beside the modes", &help);
+        }
         let undamped = match (&whole.damping, &whole.scene.system) {
             (Some(Damping::Modal(_)), _) => false,
-            (_, System::Structure(structure)) => structure.damping.entries().all(|entry| entry.2 == 0.0),
+            (_, System::Structure(structure)) => {
+                let own = |i: usize| body.is_none_or(|body| body.dofs.contains(&i));
+                structure.damping.entries().all(|(i, _, value)| value == 0.0 || !own(i))
+            }
             _ => true,
         };
         if undamped {
-            let help = "expected [system.damping] with ratio = that of the tube in the flow: without damping any flow \
-                        makes it unstable";
-            return Err(self.source.error(span(), "`flow.connors` without damping", help));
+            let help = format!(
+                "expected [{table}.damping] with ratio = that of the tube in the flow: without damping any flow makes \
+                 it unstable"
+            );
+            return refused("without damping", &help);
         }
-        let rows = |x: f64| -> Result<Vec<Row>> {
-            let rows = self.planes.rows(&self.model, &Place::Position(x))?;
-            Ok(if self.planes.is_two() { vec![rows.y, rows.z] } else { vec![rows.y] })
-        };
-        let connors = Connors::in_flow(constant, diameter, beam.mass_per_metre(), &whole.turbulence, rows)?;
-        let connors = connors.ok_or_else(|| self.without_flow(flow))?;
-        connors.margins(&whole.scene, whole.damping.as_ref(), own).map_err(|error| self.locate(error, &whole.scene))
+        Ok(Some(tube))
     }
 
     /// The error of a table `flow` beside no flow.
     pub fn without_flow(&self, flow: &Section<'_>) -> Error {
-        let help = "expected [[turbulence]] with density, velocity and reduced along a tube, [system.beam]: connors \
-                    takes the flow from it";
+        let help = "expected [[turbulence]] with density, velocity and reduced along a tube, [system.beam] or \
+                    [body.beam]: connors takes the flow from it";
         self.source.error(flow.span.clone(), "`flow` without the flow of a turbulence", help)
     }
 }
@@ -53,10 +96,24 @@ impl Case {
         let found = self.fluid_elastic.as_ref()?;
         let one = unstable(&found.active)?;
         Some(format!(
-            "unstable: work rates mean nothing. The flow is beyond the fluid-elastic limit with all supports active: \
-             {}; the force of this instability is not in the motion",
+            "unstable: work rates mean nothing. The flow is beyond the fluid-elastic limit with all supports \
+             active{}: {}; the force of this instability is not in the motion",
+            if self.sliders.is_empty() { "" } else { " and all sliders sliding" },
             in_words(found.connors, one)
         ))
+    }
+
+    /// The sliders that margins in the flow leave out: what slides under a known force holds
+    /// nothing.
+    pub(super) fn sliders_in_flow(&self) -> Option<String> {
+        let names: Vec<String> = self.sliders.iter().map(|slider| format!("{:?}", slider.name)).collect();
+        (self.fluid_elastic.is_some() && !names.is_empty()).then(|| {
+            format!(
+                "fluid-elastic margins count no slider ({}): while it slides it holds nothing, and its friction is \
+                 damping that ζ leaves out; while it sticks it is a pin, which no margin here has",
+                names.join(", ")
+            )
+        })
     }
 
     /// What the margins in the flow mean, where one is below 1.
@@ -66,7 +123,8 @@ impl Case {
             let one = unstable(&found.inactive)?;
             let held = if found.active.is_empty() { "" } else { "; with all of them active it is stable" };
             let words = in_words(found.connors, one);
-            Some(format!("with no support active the tube is fluid-elastically unstable: {words}{held}"))
+            let tube = if one.bodies.is_empty() { "the tube" } else { "a tube" };
+            Some(format!("with no support active {tube} is fluid-elastically unstable: {words}{held}"))
         })
     }
 }
@@ -78,10 +136,11 @@ fn unstable(margins: &[FlowMargin]) -> Option<&FlowMargin> {
 
 fn in_words(connors: f64, one: &FlowMargin) -> String {
     format!(
-        "V_e {:.4} m/s, critical {:.4} m/s, margin {:.3} by Connors with K = {connors}, in the mode of {:.4} Hz",
+        "V_e {:.4} m/s, critical {:.4} m/s, margin {:.3} by Connors with K = {connors}, in the mode of {:.4} Hz{}",
         one.effective_velocity_m_per_s,
         one.critical_velocity_m_per_s,
         one.margin.unwrap_or(f64::INFINITY),
-        one.frequency_hz
+        one.frequency_hz,
+        one.of_bodies()
     )
 }

@@ -307,7 +307,7 @@ pub(super) const LISTED: &[KeyEntry] = &[
     entry("turbulence.correlation_length", Number, "m", [REQUIRED, "a number above 0: the coherence \
         of two points falls by e over it", UNORDINARY]),
     entry("turbulence.seed", Number, "", ["0", "a whole number from 0 to 2^53", ""]),
-    entry("flow", Table, "", ["no margins", "the fluid-elastic margins of a tube in the flow of \
+    entry("flow", Table, "", ["no margins", "the fluid-elastic margins of tubes in the flow of \
         `[[turbulence]]`, see below", "without the `density`, `velocity` and `reduced` of a \
         turbulence; without damping; on other systems than a tube"]),
     entry("flow.connors", Number, "", [REQUIRED, "a number above 0: Connors' constant K of the \

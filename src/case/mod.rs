@@ -142,7 +142,7 @@ pub struct Case {
     /// The scene before the reduction to modes, and the errors of the reduction; `None` for a case
     /// that is not reduced.
     pub truncated: Option<Truncated>,
-    /// The margins of a tube in a cross flow; `None` where the file has no table `flow`.
+    /// The margins of tubes in a cross flow; `None` where the file has no table `flow`.
     pub fluid_elastic: Option<FluidElastic>,
     /// Step, recording and statistics.
     pub time: TimeOptions,

@@ -64,7 +64,7 @@ impl Model {
     }
 
     /// The body of that name; `None` where there is none.
-    pub(super) fn body(&self, name: &str) -> Option<&Body> {
+    pub(crate) fn body(&self, name: &str) -> Option<&Body> {
         let Self::Bodies(bodies) = self else { return None };
         bodies.iter().find(|body| body.name == name)
     }
@@ -215,7 +215,7 @@ pub enum Place {
 
 impl Place {
     /// The same place on the body of that name, where there is one.
-    pub(super) fn on(self, body: Option<&str>) -> Self {
+    pub(crate) fn on(self, body: Option<&str>) -> Self {
         match body {
             Some(body) => Self::On { body: body.to_owned(), place: Box::new(self) },
             None => self,
@@ -226,6 +226,18 @@ impl Place {
     #[must_use]
     pub fn point(name: &str) -> Self {
         Self::Points(vec![(name.to_owned(), 1.0)])
+    }
+
+    /// The places that it is made of, two of a relative one: the body of each, where there are
+    /// several, and where along a bar or beam it is, m.
+    #[cfg(feature = "cli")]
+    pub(crate) fn ends(&self) -> Vec<(Option<&str>, Option<f64>)> {
+        match self {
+            Self::On { body, place } => vec![(Some(body), place.position())],
+            Self::Towards { place, .. } => place.ends(),
+            Self::Relative { place, to } => [place.ends(), to.ends()].concat(),
+            place => vec![(None, place.position())],
+        }
     }
 
     /// Where along a bar or beam the place is, m; `None` of another place.

@@ -24,6 +24,7 @@ impl Case {
         notes.extend(self.fixed_walls().map(str::to_owned));
         notes.extend(self.turbulence_notes());
         notes.extend(self.flow_note());
+        notes.extend(self.sliders_in_flow());
         notes
     }
 

@@ -150,7 +150,8 @@ impl Answer {
     /// Writes the workbooks and finishes the folder; returns the last line of the command.
     fn finish(&mut self, ui: &Ui) -> Result<Option<String>> {
         let Some(results) = &mut self.results else { return Ok(self.last_line.take()) };
-        results.write_workbooks()?.iter().for_each(|said| ui.message(said));
+        let said = ui.with_bar("tables.xlsx", |bar| results.write_workbooks(&mut |share| bar.set_share(share)))?;
+        said.iter().for_each(|said| ui.message(said));
         // The report is made from the files in their places.
         let replaced = results.finish()?;
         let mut open = String::new();

@@ -6,9 +6,9 @@
 //! span.
 
 use super::colours::Places;
-use super::shape::Stations;
+use super::shape::{BodyStations, Stations};
 use crate::case::{Case, Model, Place, SupportShape};
-use crate::scene::{Face, Scene, Support};
+use crate::scene::{Beam, Face, Scene, Support};
 use signorini_figure::{Animation, View};
 use std::f64::consts::TAU;
 
@@ -30,12 +30,15 @@ const HALF_WALL: f64 = 0.012;
 const CORNERS: usize = 90;
 const HALF_FLAT: f64 = 0.7;
 
-/// The picture of a beam whose `stations` had the displacements `moved` (m, in the order of the
-/// stations, plane by plane) at the instants `time` (s); `None` for another structure and for a run
-/// of one row.
+/// The picture of a beam, or of those among several bodies, whose `stations` had the displacements
+/// `moved` (m, in the order of the stations, plane by plane) at the instants `time` (s); `None` for
+/// other structures and for a run of one row.
 #[must_use]
 pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &[Vec<f64>]) -> Option<String> {
-    let Model::Beam(beam) = &case.model else { return None };
+    let beams: Vec<(&BodyStations, &Beam)> = stations.bodies.iter().filter_map(|body| beam_of(case, body)).collect();
+    if beams.is_empty() {
+        return None;
+    }
     let [slowest, _] = case.scene.system.frequencies();
     let end = *time.last()?;
     let first = time.iter().position(|&t| t >= end - PERIODS * TAU / slowest)?;
@@ -52,29 +55,31 @@ pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &
     if stations.planes == 2 && hidden > 0 {
         caption += &format!("; without views of the last {hidden} supports");
     }
-    let count = stations.places.len();
-    let planes: Vec<&[Vec<f64>]> = moved.chunks(count).take(stations.planes).collect();
-    let side = |(plane, columns): (usize, &&[Vec<f64>])| {
-        let name = if planes.len() == 1 { "from the side" } else { ["plane y", "plane z"][plane.min(1)] };
-        let frame = |&row: &usize| {
-            stations.places.iter().zip(columns.iter()).map(|(&x, column)| (x, value(column, row))).collect()
-        };
-        let view = walls(case, plane, beam.length).into_iter();
-        let view = view.fold(View::new(name, false), |view, (look, points)| view.line(look, points));
-        view.moving(rows.iter().map(frame).collect())
+    let undrawn = undrawn(case, &beams);
+    if !undrawn.is_empty() {
+        caption += &format!("; without {}", undrawn.join(", "));
+    }
+    let motion = Motion { stations, moved };
+    let side = |body: &BodyStations, beam: &Beam, plane: usize| {
+        let seen = if stations.planes == 1 { "from the side" } else { ["plane y", "plane z"][plane.min(1)] };
+        let name = if body.name.is_empty() { seen.to_owned() } else { format!("{}, {seen}", body.name) };
+        let view = walls(case, plane, beam.length, body).into_iter();
+        let view = view.fold(View::new(&name, false), |view, (look, points)| view.line(look, points));
+        view.moving(rows.iter().map(|&row| motion.line(body, plane, row)).collect())
     };
     let mut picture = Animation::new(case.title.as_deref().unwrap_or(&case.name), &caption, SECONDS);
-    for plane in planes.iter().enumerate() {
-        picture = picture.row(SIDE / planes.len() as f64, vec![side(plane)]);
+    for (body, beam) in &beams {
+        for plane in 0..stations.planes {
+            picture = picture.row(SIDE / stations.planes as f64, vec![side(body, beam, plane)]);
+        }
     }
-    if let [y, z] = planes[..] {
+    if stations.planes == 2 {
         let paths = case.scene.supports.iter().zip(&case.written.supports).take(MOST_SUPPORTS);
         let paths = paths.filter_map(|(support, written)| {
-            let at = station(stations, &written.place)?;
-            let (y, z) = (y.get(at)?, z.get(at)?);
-            let point = |row: usize| (value(y, row), value(z, row));
-            let view = outlines(&case.scene, support).path((first..time.len()).map(point).collect());
-            Some(view.moving(rows.iter().map(|&row| vec![point(row)]).collect()))
+            let point = |row: usize| Some((motion.at(&written.place, 0, row)?, motion.at(&written.place, 1, row)?));
+            let path: Vec<(f64, f64)> = (first..time.len()).map(point).collect::<Option<_>>()?;
+            let view = outlines(&case.scene, support).path(path);
+            Some(view.moving(rows.iter().filter_map(|&row| Some(vec![point(row)?])).collect()))
         });
         let views: Vec<View> = paths.collect();
         if !views.is_empty() {
@@ -84,29 +89,69 @@ pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &
     Some(picture.to_svg())
 }
 
-fn value(column: &[f64], row: usize) -> f64 {
-    column.get(row).copied().unwrap_or(0.0)
+/// The beam that has these stations; `None` where they are on another structure.
+fn beam_of<'a>(case: &'a Case, body: &'a BodyStations) -> Option<(&'a BodyStations, &'a Beam)> {
+    let model = if body.name.is_empty() { &case.model } else { &case.model.body(&body.name)?.model };
+    if let Model::Beam(beam) = model { Some((body, beam)) } else { None }
 }
 
-/// The index of the station at a place, if it is one along the structure.
-fn station(stations: &Stations, place: &Place) -> Option<usize> {
-    let x = place.position()?;
-    let off = |i: &usize| stations.places.get(*i).map_or(f64::INFINITY, |at| (at - x).abs());
-    (0..stations.places.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
+/// The names of the bodies of `case` that are none of `beams`.
+fn undrawn(case: &Case, beams: &[(&BodyStations, &Beam)]) -> Vec<String> {
+    let Model::Bodies(bodies) = &case.model else { return Vec::new() };
+    let drawn = |name: &str| beams.iter().any(|(body, _)| body.name == name);
+    bodies.iter().filter(|body| !drawn(&body.name)).map(|body| format!("{:?}", body.name)).collect()
 }
 
-/// The walls in a plane (0 of y), each as a short line at its place with the look of its colour.
-fn walls(case: &Case, plane: usize, length: f64) -> Vec<(usize, Vec<(f64, f64)>)> {
+/// The displacements of all stations.
+struct Motion<'a> {
+    stations: &'a Stations,
+    moved: &'a [Vec<f64>],
+}
+
+impl Motion<'_> {
+    /// The displacement of station `index` of a body, m.
+    fn value(&self, body: &BodyStations, plane: usize, index: usize, row: usize) -> f64 {
+        let column = self.moved.get(plane * self.stations.count() + body.first + index);
+        column.and_then(|column| column.get(row)).copied().unwrap_or(0.0)
+    }
+
+    /// The line of a body.
+    fn line(&self, body: &BodyStations, plane: usize, row: usize) -> Vec<(f64, f64)> {
+        body.places.iter().enumerate().map(|(index, &x)| (x, self.value(body, plane, index, row))).collect()
+    }
+
+    /// The displacement of a place, of a relative one that of the first place less that of the
+    /// other; `None` where there are no stations.
+    fn at(&self, place: &Place, plane: usize, row: usize) -> Option<f64> {
+        let station = |(name, x): &(Option<&str>, Option<f64>)| {
+            let body = self.stations.bodies.iter().find(|body| body.name == name.unwrap_or_default())?;
+            let off = |i: &usize| body.places.get(*i).map_or(f64::INFINITY, |at| (at - x.unwrap_or(0.0)).abs());
+            let nearest = (0..body.places.len()).min_by(|a, b| off(a).total_cmp(&off(b)));
+            (x.is_some() || body.places.len() == 1).then_some(self.value(body, plane, nearest?, row))
+        };
+        match place.ends().as_slice() {
+            [one] => station(one),
+            [one, other] => Some(station(one)? - station(other)?),
+            _ => None,
+        }
+    }
+}
+
+/// The walls that stand beside a body in a plane (0 of y), each as a short line at its place with
+/// the look of its colour; those that bound a relative motion have no place of their own.
+fn walls(case: &Case, plane: usize, length: f64, body: &BodyStations) -> Vec<(usize, Vec<(f64, f64)>)> {
     let (scene, colours) = (&case.scene, Places::of(&case.scene));
     let mut lines = Vec::new();
-    let mut add = |name: &str, x: Option<f64>, at: f64| {
-        let Some(x) = x else { return };
-        let half = HALF_WALL * length;
-        lines.push((colours.colour(name), vec![(x - half, at), (x + half, at)]));
+    let mut add = |name: &str, place: &Place, at: f64| {
+        let [(on, Some(x))] = place.ends()[..] else { return };
+        if on.unwrap_or_default() == body.name {
+            let half = HALF_WALL * length;
+            lines.push((colours.colour(name), vec![(x - half, at), (x + half, at)]));
+        }
     };
     for (index, (wall, place)) in scene.walls.iter().zip(&case.places).enumerate() {
         if let (Face::Flat { position, direction: None, .. }, None) = (&wall.face, scene.support_of(index)) {
-            add(&wall.name, place.position(), *position);
+            add(&wall.name, place, *position);
         }
     }
     let supports = scene.supports.iter().zip(&case.written.supports);
@@ -114,7 +159,7 @@ fn walls(case: &Case, plane: usize, length: f64) -> Vec<(usize, Vec<(f64, f64)>)
         let Some(centre) = support.centre.get(plane) else { continue };
         let gap = support.gaps(&scene.walls).into_iter().fold(f64::INFINITY, f64::min);
         for side in [-gap, gap] {
-            add(&support.name, written.place.position(), centre + side);
+            add(&support.name, &written.place, centre + side);
         }
     }
     lines

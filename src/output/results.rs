@@ -218,16 +218,18 @@ impl Results {
     }
 
     /// Writes the workbooks that are asked for: `tables.xlsx` in each folder that has tables, from
-    /// these as they stand. Returns a sentence for each table that no sheet can hold.
+    /// these as they stand. Returns a sentence for each table that no sheet can hold. `progress` is
+    /// called with the share of the work that is done.
     ///
     /// # Errors
     /// [`Error::Io`] where a table cannot be read or a workbook cannot be written, and as
     /// [`Formats::check`].
-    pub fn write_workbooks(&mut self) -> Result<Vec<String>> {
+    #[cfg_attr(not(feature = "xlsx"), expect(unused_variables, reason = "there is no workbook"))]
+    pub fn write_workbooks(&mut self, progress: &mut (dyn FnMut(f64) + Send)) -> Result<Vec<String>> {
         self.formats.check()?;
         match self.formats.workbook {
             #[cfg(feature = "xlsx")]
-            true => self.write_sheets(),
+            true => self.write_sheets(progress),
             _ => Ok(Vec::new()),
         }
     }

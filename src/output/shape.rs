@@ -7,7 +7,7 @@
 
 use super::atomic::WholeFile;
 use super::csv::digits;
-use crate::case::{Case, Model, Place};
+use crate::case::{Body, Case, Model, Place};
 use crate::error::{Error, Result};
 use crate::run::Run;
 use crate::scene::{Probe, Row, Scene};
@@ -21,6 +21,12 @@ pub const FILE: &str = "shape.csv";
 /// of each plane, degrees.
 const ONE: (&str, f64) = ("displacement_", 0.0);
 const PLANES: [(&str, f64); 2] = [("displacement_y_", 0.0), ("displacement_z_", 90.0)];
+
+/// What begins the name of a station, after its plane: the body, where there are several, and how
+/// its place is told, by a position along a bar or beam or by the number of a mass.
+const BODY: &str = "of_";
+const AT: &str = "at_";
+const MASS: &str = "of_mass_";
 
 /// Stations at equal distances along a bar or beam, beside those at walls and loads; and most
 /// masses of a chain.
@@ -39,20 +45,15 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// The stations of `case`, in two planes those along y and then those along z. There are no
-    /// stations for an oscillator, for matrices and modes, whose places are not in a line, and for
-    /// a run of very many rows.
+    /// The stations of `case`, in two planes those along y and then those along z; of several
+    /// bodies, in each plane body by body. There are no stations for an oscillator that is the
+    /// system, for matrices and modes, whose places are not in a line, and for a run of very many
+    /// rows.
     #[must_use]
     pub fn of(case: &Case) -> Self {
         let places: Vec<(String, Place)> = match &case.model {
-            Model::Beam(beam) => along(case, beam.length),
-            Model::Bar(bar) => along(case, bar.length),
-            Model::Chain(chain) => {
-                let every = chain.masses.len().div_ceil(MOST_MASSES).max(1);
-                let masses = (0..chain.masses.len()).step_by(every);
-                masses.map(|i| (format!("of_mass_{i}_m"), Place::Dof(i))).collect()
-            }
-            _ => Vec::new(),
+            Model::Bodies(bodies) => bodies.iter().flat_map(|body| on_body(case, body)).collect(),
+            model => along(case, model, None),
         };
         let planes = if case.planes.is_two() { &PLANES[..] } else { &[ONE][..] };
         let rows = case.scene.duration / case.time.sample.unwrap_or(case.time.step).max(case.time.step);
@@ -117,16 +118,42 @@ impl Shape {
     }
 }
 
-/// Stations along a bar or beam of that length, m: at equal distances, and at the walls and loads,
-/// so that what is drawn touches a wall where it does.
-fn along(case: &Case, length: f64) -> Vec<(String, Place)> {
+/// The stations on one of several bodies; an oscillator is a chain of one mass.
+fn on_body<'a>(case: &'a Case, body: &'a Body) -> impl Iterator<Item = (String, Place)> + 'a {
+    let stations = match &body.model {
+        Model::Oscillator => vec![mass(0)],
+        model => along(case, model, Some(&body.name)),
+    };
+    stations.into_iter().map(|(name, place)| (format!("{BODY}{}_{name}", body.name), place.on(Some(&body.name))))
+}
+
+/// The stations along `model`, the system or the body of that name: of a bar or beam at equal
+/// distances, and at the walls and loads, so that what is drawn touches a wall where it does; of a
+/// chain its masses.
+fn along(case: &Case, model: &Model, body: Option<&str>) -> Vec<(String, Place)> {
+    let length = match model {
+        Model::Beam(beam) => beam.length,
+        Model::Bar(bar) => bar.length,
+        Model::Chain(chain) => {
+            let every = chain.masses.len().div_ceil(MOST_MASSES).max(1);
+            return (0..chain.masses.len()).step_by(every).map(mass).collect();
+        }
+        _ => return Vec::new(),
+    };
     let mut at: Vec<f64> = (0..ALONG).map(|i| length * (i as f64 / (ALONG - 1) as f64)).collect();
     let places = case.places.iter().chain(&case.written.loads);
     let supports = case.written.supports.iter().map(|support| &support.place);
-    at.extend(places.chain(supports).filter_map(Place::position));
+    at.extend(
+        places.chain(supports).flat_map(|place| place.ends()).filter(|one| one.0 == body).filter_map(|one| one.1),
+    );
     at.sort_by(f64::total_cmp);
     at.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * length);
     at.into_iter().map(|x| (column(x), Place::Position(x))).collect()
+}
+
+/// The station of a mass of a chain.
+fn mass(i: usize) -> (String, Place) {
+    (format!("{MASS}{i}_m"), Place::Dof(i))
 }
 
 /// The row of the scene that sees `place`, in modal coordinates where the case is reduced to modes.
@@ -141,16 +168,27 @@ fn row(case: &Case, place: &Place) -> Option<Row> {
 /// The column of the station at `x` m, after its plane: the digits as part of an identifier, `p`
 /// for the point and `m` for a minus.
 fn column(x: f64) -> String {
-    format!("at_{}_m", digits(Some(x)).replace('.', "p").replace('-', "m"))
+    format!("{AT}{}_m", digits(Some(x)).replace('.', "p").replace('-', "m"))
 }
 
 /// The stations of a `shape.csv`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stations {
-    /// Where they are: in m along the structure, or the numbers of masses.
-    pub places: Vec<f64>,
+    /// Those of the system, or of each body.
+    pub bodies: Vec<BodyStations>,
     /// The planes, 1 or 2, in each of which the table has a displacement of every station.
     pub planes: usize,
+}
+
+/// The stations on the system or on one of several bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyStations {
+    /// The body's name; empty where there is one system.
+    pub name: String,
+    /// Where they are: in m along the structure, or the numbers of masses.
+    pub places: Vec<f64>,
+    /// The number of its first one among those of a plane.
+    pub first: usize,
 }
 
 impl Stations {
@@ -158,29 +196,62 @@ impl Stations {
     #[must_use]
     pub fn of(header: &[String]) -> Option<Self> {
         let (first, rest) = header.split_first()?;
-        let all = |names: &[String], plane: &str| -> Option<Vec<f64>> {
-            let station = |name: &String| {
-                let inner = name.strip_prefix(plane)?.strip_suffix("_m")?;
-                let number = inner.strip_prefix("at_").or(inner.strip_prefix("of_mass_"))?;
-                number.replace('p', ".").replace('m', "-").parse::<f64>().ok()
-            };
-            names.iter().map(station).collect()
-        };
         if first != "time_s" {
             return None;
         }
-        if let Some(places) = all(rest, ONE.0) {
-            return Some(Self { places, planes: 1 });
+        if let Some(bodies) = BodyStations::all(rest, ONE.0) {
+            return Some(Self { bodies, planes: 1 });
         }
         let (y, z) = rest.split_at(rest.len() / 2);
-        let [y, z] = [all(y, PLANES[0].0)?, all(z, PLANES[1].0)?];
-        (y == z).then_some(Self { places: y, planes: 2 })
+        let [y, z] = [BodyStations::all(y, PLANES[0].0)?, BodyStations::all(z, PLANES[1].0)?];
+        (y == z).then_some(Self { bodies: y, planes: 2 })
     }
+
+    /// The number of stations in a plane.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.bodies.iter().map(|body| body.places.len()).sum()
+    }
+
+    /// The numbers of the columns after the time that have a body's stations, those along y first.
+    pub fn columns(&self, body: &BodyStations) -> impl Iterator<Item = usize> {
+        let (count, first, own) = (self.count(), body.first, body.places.len());
+        (0..self.planes).flat_map(move |plane| (0..own).map(move |k| plane * count + first + k))
+    }
+}
+
+impl BodyStations {
+    /// The bodies of columns of those `names`, which begin with `plane`.
+    fn all(names: &[String], plane: &str) -> Option<Vec<Self>> {
+        let mut bodies: Vec<Self> = Vec::new();
+        for (index, name) in names.iter().enumerate() {
+            let (body, place) = station(name.strip_prefix(plane)?.strip_suffix("_m")?)?;
+            match bodies.last_mut().filter(|last| last.name == body) {
+                Some(last) => last.places.push(place),
+                None => bodies.push(Self { name: body.to_owned(), places: vec![place], first: index }),
+            }
+        }
+        Some(bodies)
+    }
+}
+
+/// The body and the place of a station, of its name without plane and unit.
+fn station(name: &str) -> Option<(&str, f64)> {
+    let number = |text: &str| text.replace('p', ".").replace('m', "-").parse::<f64>().ok();
+    let alone = name.strip_prefix(AT).or(name.strip_prefix(MASS)).and_then(number);
+    if let Some(place) = alone {
+        return Some(("", place));
+    }
+    let named = name.strip_prefix(BODY)?;
+    [AT, MASS].into_iter().find_map(|before| {
+        let (body, place) = named.rsplit_once(before)?;
+        Some((body.strip_suffix('_')?, number(place)?))
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{ONE, PLANES, Stations, column};
+    use super::{BodyStations, ONE, PLANES, Stations, column};
 
     fn header(planes: &[(&str, f64)], places: &[f64]) -> Vec<String> {
         let stations = |plane: &str| places.iter().map(|&x| format!("{plane}{}", column(x))).collect::<Vec<_>>();
@@ -194,11 +265,35 @@ mod tests {
         for planes in [&[ONE][..], &PLANES[..]] {
             let names = header(planes, &places);
             assert!(names.iter().all(|name| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')));
-            let expected = Stations { places: places.clone(), planes: planes.len() };
+            let own = BodyStations { name: String::new(), places: places.clone(), first: 0 };
+            let expected = Stations { bodies: vec![own], planes: planes.len() };
             assert_eq!(Stations::of(&names), Some(expected));
         }
         let mass = ["time_s".to_owned(), "displacement_of_mass_7_m".to_owned()];
-        assert_eq!(Stations::of(&mass).unwrap().places, [7.0]);
+        assert_eq!(Stations::of(&mass).unwrap().bodies[0].places, [7.0]);
+    }
+
+    #[test]
+    fn bodies_keep_their_names_whatever_these_look_like() {
+        for name in ["left", "y", "mass", "at", "a-b_of_mass_2", "of_at_1_m"] {
+            for planes in [&[ONE][..], &PLANES[..]] {
+                let of = |plane: &str| {
+                    let own = [0.0, 0.5].map(|x| format!("{plane}of_{name}_{}", column(x)));
+                    own.into_iter().chain([format!("{plane}of_post_of_mass_0_m")]).collect::<Vec<_>>()
+                };
+                let mut header = vec!["time_s".to_owned()];
+                header.extend(planes.iter().flat_map(|(plane, _)| of(plane)));
+                let stations = Stations::of(&header).unwrap();
+                let body = |name: &str, places: &[f64], first| BodyStations {
+                    name: name.to_owned(),
+                    places: places.to_vec(),
+                    first,
+                };
+                assert_eq!(stations.bodies, [body(name, &[0.0, 0.5], 0), body("post", &[0.0], 2)]);
+                let last: Vec<usize> = stations.columns(&stations.bodies[1]).collect();
+                assert_eq!(last, [2, 5][..planes.len()]);
+            }
+        }
     }
 
     #[test]

@@ -11,6 +11,7 @@ use crate::case::open_regular;
 use crate::error::{Error, Result};
 use csv::StringRecord;
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, Worksheet, XlsxError};
+use std::io::{self, Write};
 use std::path::Path;
 
 /// Most rows of a sheet, with the header.
@@ -27,6 +28,9 @@ const CELL: usize = 32_767;
 
 /// Least width of a column, characters.
 const WIDTH: usize = 10;
+
+/// Rows of a table from one report of progress to the next.
+const REPORTED: u32 = 1 << 10;
 
 /// Tables of more bytes need the 64-bit lengths of a ZIP archive, which some programs cannot read:
 /// a cell `1,` becomes some 16 times as long, of at most 4 GiB.
@@ -61,11 +65,17 @@ impl Sheets {
 
     /// Adds the table at `path`, of which `record` is recorded, as the sheet that has its name
     /// without `.csv`. Returns what the table has that no sheet can hold, where there is such.
+    /// `progress` is called with the bytes that are read.
     ///
     /// # Errors
     /// [`Error::Io`] for a table that cannot be read, and for a temporary file that cannot be
     /// written.
-    pub fn add(&mut self, path: &Path, record: &Record) -> Result<Option<String>> {
+    pub fn add(
+        &mut self,
+        path: &Path,
+        record: &Record,
+        progress: &mut (dyn FnMut(u64) + Send),
+    ) -> Result<Option<String>> {
         let file = path.file_name().unwrap_or_default().to_string_lossy();
         // Excel keeps the name History for a sheet of its own.
         let name = file.strip_suffix(".csv").filter(|name| *name != "history").unwrap_or(&file);
@@ -93,6 +103,9 @@ impl Sheets {
         let mut row = 0;
         while reader.read_record(&mut cells).map_err(unread)? {
             row += 1;
+            if row % REPORTED == 0 {
+                progress(reader.position().byte());
+            }
             match put_row(sheet, row, &cells) {
                 Err(XlsxError::MaxStringLengthExceeded) => {
                     self.workbook.worksheets_mut().pop();
@@ -108,14 +121,35 @@ impl Sheets {
         Ok(None)
     }
 
-    /// Writes the workbook to `path`, whole or not at all.
+    /// Writes the workbook to `path`, whole or not at all. `progress` is called with the bytes that
+    /// are written.
     ///
     /// # Errors
     /// [`Error::Io`] where it cannot be written.
-    pub fn write(mut self, path: &Path) -> Result<()> {
-        let mut file = WholeFile::create(path)?;
-        self.workbook.save_to_writer(&mut file).map_err(|error| failure(path, &error))?;
-        file.finish()
+    pub fn write(mut self, path: &Path, progress: &mut (dyn FnMut(u64) + Send)) -> Result<()> {
+        let mut counted = CountedFile { file: WholeFile::create(path)?, written: 0, progress };
+        self.workbook.save_to_writer(&mut counted).map_err(|error| failure(path, &error))?;
+        counted.file.finish()
+    }
+}
+
+/// A file, and the bytes that are written to it.
+struct CountedFile<'a> {
+    file: WholeFile,
+    written: u64,
+    progress: &'a mut (dyn FnMut(u64) + Send),
+}
+
+impl Write for CountedFile<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.file.write(bytes)?;
+        self.written += written as u64;
+        (self.progress)(self.written);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
     }
 }
 
@@ -162,7 +196,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(format!("{name}.csv"));
         std::fs::write(&path, text).unwrap();
-        sheets.add(&path, &Record::of(text.as_bytes()).unwrap()).unwrap()
+        sheets.add(&path, &Record::of(text.as_bytes()).unwrap(), &mut |_| ()).unwrap()
     }
 
     #[test]
@@ -191,6 +225,22 @@ mod tests {
         assert_eq!(beyond(&mut sheets, "longer", &cell(1)), None);
         let names: Vec<String> = sheets.workbook.worksheets().iter().map(Worksheet::name).collect();
         assert_eq!(names, ["rows", "columns", "cell", &name, "longer"]);
+    }
+
+    #[test]
+    fn progress_tells_the_bytes_of_the_table_and_then_those_of_the_workbook() {
+        let folder = tempfile::tempdir().unwrap();
+        let [table, workbook] = ["t.csv", "t.xlsx"].map(|name| folder.path().join(name));
+        let text = format!("a,b\n{}", "1.5,-2.25\n".repeat(4096));
+        std::fs::write(&table, &text).unwrap();
+        let mut sheets = Sheets::new(folder.path()).unwrap();
+        let mut read = Vec::new();
+        sheets.add(&table, &Record::of(text.as_bytes()).unwrap(), &mut |bytes| read.push(bytes)).unwrap();
+        assert_eq!(read, [1, 2, 3, 4].map(|k| 4 + 10 * 1024 * k));
+        let mut written = Vec::new();
+        sheets.write(&workbook, &mut |bytes| written.push(bytes)).unwrap();
+        assert!(written.is_sorted());
+        assert_eq!(*written.last().unwrap(), std::fs::metadata(&workbook).unwrap().len());
     }
 
     #[test]

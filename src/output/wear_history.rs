@@ -52,11 +52,16 @@ pub fn write(results: &mut Results, found: &WearHistories) -> Result<()> {
     Ok(())
 }
 
+/// The columns of `years.csv` that have the means of its quantities.
+pub(crate) fn columns() -> Vec<String> {
+    QUANTITIES.iter().map(|quantity| format!("{}_{}", quantity.column, quantity.unit())).collect()
+}
+
 /// The header and the rows of `history.csv`.
 #[must_use]
 pub fn history(found: &WearHistories) -> (Vec<String>, Vec<Vec<String>>) {
     let mut header: Vec<String> = ["history", "year", "place"].map(str::to_owned).to_vec();
-    header.extend(QUANTITIES.map(|quantity| format!("{}_{}", quantity.column, quantity.unit())));
+    header.extend(columns());
     header.extend(["shift_y_m", "shift_z_m", "work_J"].map(str::to_owned));
     let mut rows = Vec::new();
     for point in &found.points {

@@ -17,7 +17,7 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 42] = [
+const SCRIPT: [&str; 43] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
@@ -33,6 +33,7 @@ const SCRIPT: [&str; 42] = [
     include_str!("page/js/structure.js"),
     include_str!("page/js/outlines.js"),
     include_str!("page/js/planes.js"),
+    include_str!("page/js/bodies.js"),
     include_str!("page/js/panels.js"),
     include_str!("page/js/phase.js"),
     include_str!("page/js/supports.js"),

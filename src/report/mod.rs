@@ -9,6 +9,7 @@
 //! | `scene` | what is drawn: the structure, its walls and loads |
 //! | `cards` | how reliable a run is, in sentences |
 //! | `run`, `compare`, `chart`, `stability`, `sweep`, `orbit`, `branches`, `wear` | the contents of each kind of page |
+//! | `older` | what folders of older versions lack |
 //! | `over` | other results in the figures of a page |
 //! | `paths` | absolute paths, which a page does not show |
 //! | `html` | the file itself: escapes, and what it may load (nothing) |
@@ -43,6 +44,7 @@ mod compare;
 mod folder;
 mod html;
 mod motion;
+mod older;
 mod orbit;
 mod over;
 mod paths;

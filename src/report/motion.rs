@@ -5,7 +5,7 @@ use super::column::{extremes, f32, f64, i16, u32, words};
 use super::folder::{Cells, Folder, Numbers};
 use super::scene::in_keys;
 use crate::error::{Error, Result};
-use crate::output::shape::{self, Stations};
+use crate::output::shape::{self, BodyStations, Stations};
 use serde_json::{Value, json};
 
 /// Most rows of a run that the page holds; of a longer one the rows with extremes.
@@ -68,7 +68,10 @@ pub(super) fn motion(folder: &Folder<'_>, prefix: &str, summary: &Value) -> Resu
         "left_out": left_out,
     });
     if folder.has(&named(shape::FILE)) {
-        out["shape"] = drawn_shape(&folder.numbers(&named(shape::FILE))?)?;
+        let shapes = drawn_shapes(&folder.numbers(&named(shape::FILE))?)?;
+        let alone = shapes.iter().find(|(body, _)| body.is_empty()).map(|(_, shape)| shape.clone());
+        out["shape"] = json!(alone);
+        out["bodies"] = shapes.into_iter().filter(|(body, _)| !body.is_empty()).collect();
     }
     Ok(out)
 }
@@ -150,23 +153,29 @@ fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> R
     Ok(out)
 }
 
-/// The shape: where its stations are, and their displacement over time.
-fn drawn_shape(table: &Numbers) -> Result<Value> {
+/// The shape of the system, without a name, or of each body: where its stations are, and their
+/// displacement over time.
+fn drawn_shapes(table: &Numbers) -> Result<Vec<(String, Value)>> {
     let (Some(time), Some(stations)) = (table.columns.first(), Stations::of(&table.header)) else {
         return Err(table.wrong("its columns are not time_s and the displacement at each station"));
     };
     let every = (table.count() * table.columns.len()).div_ceil(MOST_SHAPE).max(1);
     let picked = |column: &[f64]| column.iter().copied().step_by(every).collect::<Vec<_>>();
-    // Row by row, so that the shape at an instant lies together: along y, then along z.
-    let columns: Vec<Vec<f64>> = table.columns.iter().skip(1).map(|column| picked(column)).collect();
     let time = picked(time);
-    let values: Vec<f64> =
-        (0..time.len()).flat_map(|row| columns.iter().filter_map(move |c| c.get(row).copied())).collect();
-    Ok(json!({
-        "stations": stations.places,
-        "planes": stations.planes,
-        "time": f64(&time),
-        "every": every,
-        "u": i16(&values),
-    }))
+    let shape = |body: &BodyStations| {
+        // Row by row, so that the shape at an instant lies together: along y, then along z.
+        let own = stations.columns(body).filter_map(|column| table.columns.get(column + 1));
+        let columns: Vec<Vec<f64>> = own.map(|column| picked(column)).collect();
+        let values: Vec<f64> =
+            (0..time.len()).flat_map(|row| columns.iter().filter_map(move |c| c.get(row).copied())).collect();
+        let shape = json!({
+            "stations": body.places,
+            "planes": stations.planes,
+            "time": f64(&time),
+            "every": every,
+            "u": i16(&values),
+        });
+        (body.name.clone(), shape)
+    };
+    Ok(stations.bodies.iter().map(shape).collect())
 }

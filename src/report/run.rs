@@ -3,6 +3,7 @@
 use super::cards::{cards, short};
 use super::folder::Folder;
 use super::motion::motion;
+use super::older;
 use super::scene::{period, scene};
 use crate::error::Result;
 use crate::output::realisations;
@@ -10,13 +11,14 @@ use serde_json::{Value, json};
 
 /// What the page of a run shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
-    let summary = folder.json("summary.json")?;
+    let mut summary = folder.json("summary.json")?;
+    let lacking = older::complete_forces(&mut summary);
     let mut run = motion(folder, "", &summary)?;
     let label = summary["scheme"].as_str().unwrap_or_default();
     run["label"] = json!(label);
     let mut page = of_scene(&summary);
     page["facts"] = facts(&summary);
-    page["notes"] = notes(&summary, &run);
+    page["notes"] = notes(&summary, &run, lacking);
     page["margins"] = summary["scene"]["fluid_elastic"].clone();
     let draws = summary["realisations"]["count"].as_u64().filter(|count| *count > 1);
     if let (Some(count), Some(title)) = (draws, page["title"].as_str().or(folder.manifest["request"]["case"].as_str()))
@@ -55,12 +57,14 @@ pub(super) fn case_text(case_file: &Value) -> Option<String> {
     case_file.is_object().then(|| toml::to_string(case_file).unwrap_or_else(|_| shown()))
 }
 
-/// What a reader must know: the notes of the run, and what the page leaves out.
-fn notes(summary: &Value, run: &Value) -> Value {
+/// What a reader must know: the notes of the run, what the page leaves out, and what its files
+/// lack.
+fn notes(summary: &Value, run: &Value, lacking: Option<String>) -> Value {
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
     let mut notes = list(&summary["notes"]);
     notes.extend(summary["wear"].as_str().map(|text| json!(text)));
     notes.extend(list(&run["left_out"]));
+    notes.extend(lacking.map(Value::String));
     json!(notes)
 }
 

@@ -34,10 +34,20 @@ pub(super) fn scene(summary: &Value) -> Value {
     let drawn = supports.iter().filter(|one| one["shape"] != "slider");
     out.insert("supports".to_owned(), drawn.map(support).collect());
     out.insert("loads".to_owned(), loads.collect());
+    out.insert("bodies".to_owned(), list(&case["body"]).iter().map(body).collect());
     for key in ["mass", "damping", "stiffness", "length", "left", "right", "masses"] {
         out.insert(key.to_owned(), case["system"][system][key].clone());
     }
     Value::Object(out)
+}
+
+/// One of several bodies: its name, and of a bar or beam its length and ends.
+fn body(body: &Value) -> Value {
+    let of = ["bar", "beam"].map(|kind| &body[kind]).into_iter().find(|table| table.is_object());
+    let of = of.unwrap_or(&Value::Null);
+    let spans = || of["spans"].as_array().map(|spans| spans.iter().filter_map(Value::as_f64).sum::<f64>());
+    let length = of["length"].as_f64().or_else(spans);
+    json!({ "name": body["name"], "length": length, "left": of["left"], "right": of["right"] })
 }
 
 /// A support: where it is, its centre, and its outline, a circle or flats with their directions and
@@ -71,7 +81,8 @@ fn place(entry: &Value) -> Value {
 pub(super) fn in_keys(at: &Value) -> Value {
     let Some(at) = at.as_object() else { return Value::Null };
     let key = |key: &str| key.trim_end_matches("_deg").trim_end_matches("_m").trim_start_matches("row_").to_owned();
-    Value::Object(at.iter().map(|(name, value)| (key(name), value.clone())).collect())
+    let value = |value: &Value| if value.is_object() { in_keys(value) } else { value.clone() };
+    Value::Object(at.iter().map(|(name, found)| (key(name), value(found))).collect())
 }
 
 /// The period of the load, s, where one harmonic load drives the scene.

@@ -1,4 +1,4 @@
-//! Fluid-elastic stability of a tube in a cross flow, by Connors' criterion.
+//! Fluid-elastic stability of tubes in a cross flow, by Connors' criterion.
 //!
 //! A flow of the density ρ and the velocity V in the gaps between the tubes feeds energy into a
 //! mode φ of the frequency f and the damping ratio ζ, once its effective velocity V_e exceeds the
@@ -12,6 +12,10 @@
 //! the weights by the shape of the mode as in Pettigrew & Taylor 1991, doi:10.1115/1.2928755). The
 //! margin is V_c/V_e, below 1 the mode is unstable.
 //!
+//! Where supports couple tubes, a mode moves several, and both integrals are sums over them: the
+//! flow along each feeds the one mode. Its margin depends on no tube's own m₀, ρ₀ or D; V_e and V_c
+//! are told by those of the tube that gets most of what the flow feeds in.
+//!
 //! A margin is a warning, and no force: what a flow feeds into a rattling tube depends on its
 //! frequency, which moves between those of free and of held modes, so that no damping matrix of the
 //! free modes has it.
@@ -24,17 +28,33 @@ use super::row::Row;
 use super::system::positive;
 use super::{Damping, Scene, System};
 use crate::error::{Error, Result};
+use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Margins of neighbours within this share of each other are those of one motion in two planes.
 const SAME: f64 = 1e-9;
 
-/// A tube in a cross flow, for Connors' criterion.
+/// What a mode moves by less than this share of its largest displacement in the flow, stands still.
+const STILL: f64 = 1e-9;
+
+/// Frequencies within this share of each other are one: any sum of their modes is a mode as well.
+const ONE_FREQUENCY: f64 = 1e-6;
+
+/// Tubes in a cross flow, for Connors' criterion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Connors {
     /// K; above 0.
     pub constant: f64,
+    /// The tubes in the flow.
+    pub tubes: Vec<FlowTube>,
+}
+
+/// A tube in a cross flow.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FlowTube {
+    /// The name of its body; `None` where the tube is the whole system.
+    pub body: Option<String>,
     /// Outer diameter D of the tube, m.
     pub diameter: f64,
     /// Mass per metre m of the tube with the fluid that moves with it, kg/m: also m₀.
@@ -50,14 +70,16 @@ pub struct Connors {
 pub struct FlowPiece {
     /// The displacement across the tube there: a row for each plane in which it moves.
     pub at: Vec<Row>,
-    /// ρV² times the length of the piece, kg/s².
+    /// ρV² times the length of the piece, kg/s²; 0 or more.
     pub pressure: f64,
 }
 
 /// A mode in a flow.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FlowMargin {
+    /// The bodies in the flow that it moves; empty where the tube is the whole system.
+    pub bodies: Vec<String>,
     /// Its frequency f, Hz.
     pub frequency_hz: f64,
     /// Its damping ratio ζ.
@@ -70,8 +92,8 @@ pub struct FlowMargin {
     pub margin: Option<f64>,
 }
 
-/// The margins of a tube in a flow, slowest modes first. A mode that is the same in two planes is
-/// listed once; rigid-body motions are left out.
+/// The margins of the modes that move a tube in a flow, slowest modes first. A mode that is the
+/// same in two planes is listed once; rigid-body motions are left out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct FluidElastic {
@@ -81,6 +103,16 @@ pub struct FluidElastic {
     pub inactive: Vec<FlowMargin>,
     /// Of the modes with all supports active; empty without supports.
     pub active: Vec<FlowMargin>,
+}
+
+impl FlowMargin {
+    /// The bodies that the mode moves, as they stand after it: ` of "left", "right"`; nothing where
+    /// the tube is the whole system.
+    #[cfg(feature = "case")]
+    pub(crate) fn of_bodies(&self) -> String {
+        let names: Vec<String> = self.bodies.iter().map(|name| format!("{name:?}")).collect();
+        if names.is_empty() { String::new() } else { format!(" of {}", names.join(", ")) }
+    }
 }
 
 impl FluidElastic {
@@ -141,49 +173,103 @@ impl Connors {
     /// supports hold.
     pub fn margins(&self, scene: &Scene, damping: Option<&Damping>, own: &Modes) -> Result<FluidElastic> {
         positive(("flow", "connors"), self.constant)?;
-        positive(("flow", "diameter"), self.diameter)?;
-        positive(("flow", "mass"), self.mass_per_metre)?;
-        positive(("flow", "density"), self.density)?;
+        for tube in &self.tubes {
+            positive(("flow", "diameter"), tube.diameter)?;
+            positive(("flow", "mass"), tube.mass_per_metre)?;
+            positive(("flow", "density"), tube.density)?;
+        }
         let ratios = Ratios::new(scene, damping, own)?;
         let margin = |omega: f64, shape: &[f64]| self.margin(omega, ratios.of(omega, shape), shape);
-        let inactive = own.omega.iter().zip(&own.shapes).map(|(omega, shape)| margin(*omega, shape)).collect();
+        let inactive = own.omega.iter().zip(&own.shapes).filter_map(|(omega, shape)| margin(*omega, shape)).collect();
         let mut active = Vec::new();
         if let Some(held) = scene.all_active() {
             let count = own.count().min(held.structure.mass.size());
             if count > 0 {
                 let modes = Modes::lowest(&held.structure, count)?;
-                let expanded = modes.omega.iter().zip(&modes.shapes);
-                active = expanded.map(|(omega, shape)| margin(*omega, &held.expand(shape))).collect();
+                let shapes = modes.shapes.iter().map(|shape| held.expand(shape)).collect();
+                let shapes = self.apart(&modes.omega, shapes);
+                active = modes.omega.iter().zip(&shapes).filter_map(|(omega, shape)| margin(*omega, shape)).collect();
             }
         }
         Ok(FluidElastic { connors: self.constant, inactive: each_once(inactive), active: each_once(active) })
     }
 
-    /// The margin of a mode with φᵀMφ = 1 and ω (rad/s).
-    fn margin(&self, omega: f64, ratio: f64, shape: &[f64]) -> FlowMargin {
-        let square = |piece: &FlowPiece| piece.at.iter().map(|row| row.dot(shape).powi(2)).sum::<f64>();
-        let fed: f64 = self.pieces.iter().map(|piece| piece.pressure * square(piece)).sum();
-        let effective = (self.mass_per_metre / self.density * fed).sqrt();
-        let reduced = TAU * ratio * self.mass_per_metre / (self.density * self.diameter * self.diameter);
-        let critical = self.constant * (omega / TAU) * self.diameter * reduced.max(0.0).sqrt();
-        FlowMargin {
+    /// The margin of a mode with φᵀMφ = 1 and ω (rad/s); `None` where it moves no tube in the flow.
+    fn margin(&self, omega: f64, ratio: f64, shape: &[f64]) -> Option<FlowMargin> {
+        let largest: Vec<f64> = self.tubes.iter().map(|tube| tube.largest(shape)).collect();
+        let still = STILL * largest.iter().copied().fold(0.0, f64::max);
+        let moved = || self.tubes.iter().zip(&largest).filter(|(_, largest)| **largest > still).map(|(tube, _)| tube);
+        let most = moved().max_by(|a, b| a.fed(shape, shape).total_cmp(&b.fed(shape, shape)))?;
+        let effective = (most.mass_per_metre / most.density * self.fed(shape, shape)).sqrt();
+        let reduced = TAU * ratio * most.mass_per_metre / (most.density * most.diameter * most.diameter);
+        let critical = self.constant * (omega / TAU) * most.diameter * reduced.max(0.0).sqrt();
+        Some(FlowMargin {
+            bodies: moved().filter_map(|tube| tube.body.clone()).collect(),
             frequency_hz: omega / TAU,
             damping_ratio: ratio,
             effective_velocity_m_per_s: effective,
             critical_velocity_m_per_s: critical,
             margin: Some(critical / effective).filter(|margin| margin.is_finite()),
+        })
+    }
+
+    /// ∫ρV²φψ dx over all tubes, kg m/s² per m of the coordinates.
+    fn fed(&self, one: &[f64], other: &[f64]) -> f64 {
+        self.tubes.iter().map(|tube| tube.fed(one, other)).sum()
+    }
+
+    /// The modes `shapes`, where those of one frequency are replaced by the sums of them that the
+    /// flow feeds apart, ∫ρV²φᵢφⱼ = 0. Of equal tubes the one in the faster flow so has its own
+    /// margin, whatever sums of their motions a solver finds.
+    fn apart(&self, omega: &[f64], mut shapes: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+        let mut rest = shapes.as_mut_slice();
+        for group in omega.chunk_by(|a, b| (b - a).abs() <= ONE_FREQUENCY * b.abs()) {
+            let (these, after) = rest.split_at_mut(group.len().min(rest.len()));
+            rest = after;
+            let fed = DMatrix::from_fn(these.len(), these.len(), |i, j| self.fed(&these[i], &these[j]));
+            let mixed = (0..fed.nrows()).any(|i| (0..i).any(|j| fed[(i, j)].abs() > STILL * fed.trace()));
+            if mixed {
+                let turned = fed.symmetric_eigen().eigenvectors;
+                let sum = |column: usize, i: usize| {
+                    these.iter().enumerate().map(|(k, shape)| turned[(k, column)] * shape[i]).sum::<f64>()
+                };
+                let size = these.first().map_or(0, Vec::len);
+                let sums: Vec<Vec<f64>> =
+                    (0..these.len()).map(|column| (0..size).map(|i| sum(column, i)).collect()).collect();
+                these.clone_from_slice(&sums);
+            }
         }
+        shapes
+    }
+}
+
+impl FlowTube {
+    /// ∫ρV²φψ dx along it.
+    fn fed(&self, one: &[f64], other: &[f64]) -> f64 {
+        let product = |piece: &FlowPiece| piece.at.iter().map(|row| row.dot(one) * row.dot(other)).sum::<f64>();
+        self.pieces.iter().map(|piece| piece.pressure * product(piece)).sum()
+    }
+
+    /// The largest displacement of a mode at its pieces.
+    fn largest(&self, shape: &[f64]) -> f64 {
+        self.pieces.iter().flat_map(|piece| &piece.at).map(|row| row.dot(shape).abs()).fold(0.0, f64::max)
     }
 }
 
 /// The margins without those of rigid-body motions, and those of two planes once.
 fn each_once(margins: Vec<FlowMargin>) -> Vec<FlowMargin> {
-    let mut all: Vec<FlowMargin> = margins.into_iter().filter(|one| one.frequency_hz > 0.0).collect();
     let same = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
-    all.dedup_by(|b, a| {
-        same(a.frequency_hz, b.frequency_hz)
-            && same(a.damping_ratio, b.damping_ratio)
-            && same(a.effective_velocity_m_per_s, b.effective_velocity_m_per_s)
-    });
+    let mut all: Vec<FlowMargin> = Vec::new();
+    for one in margins.into_iter().filter(|one| one.frequency_hz > 0.0) {
+        let mut beside = all.iter().rev().take_while(|other| same(other.frequency_hz, one.frequency_hz));
+        let known = beside.any(|other| {
+            other.bodies == one.bodies
+                && same(other.damping_ratio, one.damping_ratio)
+                && same(other.effective_velocity_m_per_s, one.effective_velocity_m_per_s)
+        });
+        if !known {
+            all.push(one);
+        }
+    }
     all
 }

@@ -55,7 +55,7 @@ pub(crate) use checked::Checked;
 pub use condensation::Condensation;
 pub use damping::Damping;
 pub use flats::{Flat, Flats, MOST_FLATS};
-pub use fluid_elastic::{Connors, FlowMargin, FlowPiece, FluidElastic};
+pub use fluid_elastic::{Connors, FlowMargin, FlowPiece, FlowTube, FluidElastic};
 pub use forcing::{Forcing, Harmonic};
 pub use friction::FrictionCoefficients;
 pub use function::TimeFunction;

@@ -114,6 +114,13 @@ impl Scene {
         Ok(self)
     }
 
+    /// True if wall `index` is that of a slider, which alone has the name of its flat support.
+    pub(crate) fn is_slider(&self, index: usize) -> bool {
+        self.walls.get(index).is_some_and(|wall| {
+            !wall.is_round() && self.support_of(index).is_some_and(|support| support.name == wall.name)
+        })
+    }
+
     /// The scene without its last `count` sliders, after which nothing but loads was added.
     #[must_use]
     pub fn without_sliders(&self, count: usize) -> Self {

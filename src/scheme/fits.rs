@@ -25,9 +25,10 @@ pub(super) fn check(scene: &Scene, Method { scheme, backend }: Method) -> Result
         Err(Error::invalid("scheme", format!("{scheme}, with {what} {name:?}"), expected.to_owned()))
     };
     let ring = scene.holes().find(|hole| !hole.law.is_rigid());
-    if let Some(wall) = scene.walls.iter().find(|wall| wall.friction.acts()) {
+    if let Some((index, wall)) = scene.walls.iter().enumerate().find(|(_, wall)| wall.friction.acts()) {
         if let Coverage::Refused(expected) = entry.friction {
-            return refuse("friction at the wall", &wall.name, expected);
+            let place = if scene.is_slider(index) { "friction at the slider" } else { "friction at the wall" };
+            return refuse(place, &wall.name, expected);
         }
         if let (Some(ring), Coverage::Refused(expected)) = (&ring, entry.elastic_round_friction) {
             return refuse("friction and the elastic round support", ring.name, expected);

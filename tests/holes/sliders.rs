@@ -187,5 +187,5 @@ fn what_makes_no_slider_is_refused_by_name() {
         assert_eq!(error.to_string().matches("error:").count(), 1, "{error}");
     }
     let refused = run(&pressed(0.1), &Scheme::Event, &Options::with_step(1e-3)).unwrap_err();
-    assert!(refused.is_request() && refused.to_string().contains("friction at the wall \"pad\""), "{refused}");
+    assert!(refused.is_request() && refused.to_string().contains("friction at the slider \"pad\""), "{refused}");
 }

@@ -8,9 +8,13 @@ mod chromium;
 mod command;
 
 #[cfg(all(feature = "cli", unix))]
+mod bodies;
+#[cfg(all(feature = "cli", unix))]
 mod browser;
 #[cfg(all(feature = "cli", unix))]
 mod drawings;
+#[cfg(feature = "cli")]
+mod older;
 #[cfg(all(feature = "cli", unix))]
 mod realisations;
 #[cfg(feature = "cli")]

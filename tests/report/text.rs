@@ -11,7 +11,7 @@ fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
     text.split_once(from).unwrap().1.split_once(to).unwrap().0
 }
 
-fn data(page: &str) -> Value {
+pub(crate) fn data(page: &str) -> Value {
     serde_json::from_str(between(page, r#"<script type="application/json" id="data">"#, "</script>")).unwrap()
 }
 
@@ -425,7 +425,7 @@ fn a_long_run_is_drawn_from_its_extremes_and_says_so() {
 
 /// Makes the manifest in `folder` one of a version that recorded nothing of its tables and
 /// documents, so that they are read as they are.
-fn forget_records(folder: &Path) {
+pub(crate) fn forget_records(folder: &Path) {
     let path = folder.join("request.json");
     let mut manifest: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
     for records in ["tables", "documents"] {

@@ -215,6 +215,124 @@ fn what_is_below_1_is_said_and_warned_of_only_where_no_support_helps() {
     assert!(margins(&still).concat().iter().all(|one| one.margin.is_none()));
 }
 
+/// Two tubes of 2 m side by side, in flows of 0.3 and 0.6 m/s; what touches at midspan holds them
+/// together along y.
+fn pair() -> String {
+    let beam = "youngs_modulus = 2e11\ndensity = 7850.0\nouter_diameter = 19.05e-3\ninner_diameter = 15.75e-3\n\
+                added_mass = 0.565\nelements = 40\nleft = \"pinned\"\nright = \"pinned\"\n";
+    let flow = TUBE.split_once("[[turbulence]]").unwrap().1.split_once("[flow]").unwrap().0;
+    let mut text = "[system]\nplanes = 2\nmodes = 4\n[system.damping]\nratio = 0.01\n".to_owned();
+    for name in ["slow", "fast"] {
+        text += &format!("[[body]]\nname = \"{name}\"\n[body.beam]\nlength = 2.0\n{beam}");
+    }
+    text += "[[support]]\nname = \"midspan\"\nshape = \"flats\"\ndirections = [0.0]\ngap = 1e-4\n\
+             at = { body = \"slow\", position = 1.0, relative_to = { body = \"fast\", position = 1.0 } }\n";
+    for (name, velocity) in [("slow", "0.3"), ("fast", "0.6")] {
+        text += &format!(
+            "[[turbulence]]\nbody = \"{name}\"\n{}",
+            flow.replace("0.5\nreduced", &format!("{velocity}\nreduced"))
+        );
+    }
+    text + "[flow]\nconnors = 3.0\n[time]\nend = 2.0\nstep = 1e-3\n"
+}
+
+#[test]
+fn tubes_that_a_support_couples_have_the_margins_of_the_modes_that_move_both() {
+    let [inactive, active] = margins(&case(&pair()));
+    let told = |margins: &[FlowMargin]| -> Vec<(String, f64, f64)> {
+        let mut all: Vec<_> = margins
+            .iter()
+            .map(|one| (one.bodies.join("+"), one.frequency_hz, one.effective_velocity_m_per_s))
+            .collect();
+        let slow = |f: f64| (f * 100.0).round();
+        all.sort_by(|a, b| slow(a.1).total_cmp(&slow(b.1)).then(a.2.total_cmp(&b.2)));
+        all
+    };
+    // Each tube alone: sines, in both planes, each in its own flow.
+    let [first, second] = [PI / 2.0, PI].map(frequency);
+    let alone = [("slow", first, 0.3), ("fast", first, 0.6), ("slow", second, 0.3), ("fast", second, 0.6)];
+    // Along y both move as one in the first mode, whose mass and flow are those of both: V² is the
+    // mean. The second has its node where they touch, so that it is that of either; against each
+    // other they are held there, as a beam pinned and clamped over 1 m (βℓ of tan βℓ = tanh βℓ).
+    // Along z nothing holds, so that the modes of each alone are there, too.
+    let both = (0.5_f64 * (0.09 + 0.36)).sqrt();
+    let coupled = [
+        ("slow", first, 0.3),
+        ("slow+fast", first, both),
+        ("fast", first, 0.6),
+        ("slow", second, 0.3),
+        ("fast", second, 0.6),
+        ("slow+fast", frequency(3.926_602), both),
+    ];
+    for (found, wanted) in [(told(&inactive), &alone[..]), (told(&active), &coupled[..])] {
+        assert_eq!(found.len(), wanted.len(), "{found:?}");
+        for ((bodies, f, velocity), wanted) in found.iter().zip(wanted) {
+            // Errors of the elements, (kℓ)⁴/1440 of ω² for k ℓ = 0.2; integrals are as exact as the
+            // modes, whose errors count twice.
+            assert!(bodies == wanted.0 && off(*f, wanted.1) < 2e-6 && off(*velocity, wanted.2) < 1e-6, "{found:?}");
+        }
+    }
+    // Margins by hand: K f √(2πζ m) ÷ √(ρV²), whatever the diameter.
+    for one in inactive.iter().chain(&active) {
+        let pressure = 740.0 * one.effective_velocity_m_per_s.powi(2);
+        let by_hand = 3.0 * one.frequency_hz * (TAU * 0.01 * MASS / pressure).sqrt();
+        assert!(off(one.margin.unwrap(), by_hand) < 1e-12);
+    }
+}
+
+#[test]
+fn the_margin_of_a_coupled_mode_depends_on_no_tube_that_its_velocities_are_told_by() {
+    // The second tube in a heavier fluid, at the speed of the same ρV²; the larger share then is
+    // told by another m₀, ρ₀ and D, and the margin is the same.
+    let own = case(&pair());
+    let heavy = pair().replacen("density = 740.0\nvelocity = 0.6", "density = 2960.0\nvelocity = 0.3", 1);
+    let [margin, heavier] = [own, case(&heavy)].map(|case| {
+        let [_, active] = margins(&case);
+        active.into_iter().find(|one| one.bodies.len() == 2).unwrap()
+    });
+    assert!(off(heavier.margin.unwrap(), margin.margin.unwrap()) < 1e-12);
+    assert!(off(heavier.effective_velocity_m_per_s, 0.5 * margin.effective_velocity_m_per_s) < 1e-12);
+    // A tube in no flow is in no list, but its mass is in the mode that moves it.
+    let (kept, rest) =
+        pair().split_once("[[turbulence]]\nbody = \"slow\"").map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
+    let one = case(&(kept + rest.split_at(rest.find("[[turbulence]]").unwrap()).1));
+    let [inactive, active] = margins(&one);
+    assert!(inactive.iter().chain(&active).all(|one| one.bodies == ["fast"]));
+    assert!(active.iter().any(|one| off(one.effective_velocity_m_per_s, 0.6 / 2.0_f64.sqrt()) < 1e-6), "{active:?}");
+}
+
+#[test]
+fn sliders_hold_nothing_in_margins_and_a_note_names_them() {
+    let text = TUBE.replace("planes = 2\n", "").replace("direction = \"both\"\n", "");
+    let (from, to) = (text.find("[[support]]").unwrap(), text.find("[[turbulence]]").unwrap());
+    let bare = format!("{}{}", &text[..from], &text[to..]);
+    let slider = "[[slider]]\nname = \"clip\"\nat = { joint = 1 }\nnormal_force = 5.0\nfriction = 0.3\n";
+    let rubbed = case(&format!("{}{slider}{}", &text[..from], &text[to..]));
+    assert_eq!(margins(&rubbed), margins(&case(&bare)));
+    let notes = rubbed.notes().join("\n");
+    assert!(notes.contains("count no slider (\"clip\")") && notes.contains("a pin"), "{notes}");
+    assert!(!case(&bare).notes().join("\n").contains("slider"));
+}
+
+#[rustfmt::skip]
+const WRONG_PAIR: &[Wrong] = &[
+    ("a tube without damping", "[system.damping]\nratio = 0.01\n[[body]]\nname = \"slow\"", "[[body]]\nname = \"slow\"\n[body.damping]\nrayleigh = { mass = 1.0 }", "61:11", &["without damping of the body \"fast\"", "[body.damping]"]),
+];
+
+#[test]
+fn wrong_tubes_among_several_are_refused_by_name() {
+    let missed = not_refused(&pair(), WRONG_PAIR);
+    assert!(missed.is_empty(), "{missed}");
+    let modal = "[system]\n[[body]]\nname = \"bend\"\n[body.modal]\nfrequencies = [4.0]\ndamping_ratios = 0.02\n\
+                 shapes = { a = [0.0], b = [1.0] }\n[[body]]\nname = \"post\"\n[body.oscillator]\nmass = 1.0\n\
+                 damping = 0.0\nstiffness = 1.0\n[[turbulence]]\nbody = \"bend\"\nline = { a = 0.0, b = 1.0 }\n\
+                 diameter = 0.02\ndensity = 740.0\nvelocity = 0.5\nreduced = [[0.01, 0.05], [3.0, 8.6e-7]]\n\
+                 from = 1.0\nto = 9.0\ncorrelation_length = 0.1\n[flow]\nconnors = 3.0\n\
+                 [time]\nend = 2.0\nstep = 1e-3\n";
+    let told = Case::parse(&modal.replace("[system]", "[system]\nmodes = 2"), "bend.toml", "").unwrap_err().to_string();
+    assert!(told.contains("beside the modes of the body \"bend\"") && told.contains("[body.beam]"), "{told}");
+}
+
 #[rustfmt::skip]
 const WRONG: &[Wrong] = &[
     ("no constant", "connors = 3.0\n", "", "42:1", &["`connors` is missing in `flow`", "Connors' constant"]),
@@ -255,5 +373,5 @@ fn what_is_no_tube_has_no_margins() {
         "spectrum = [[1.0, 0.02], [60.0, 0.02]]",
     );
     let told = said(&plank);
-    assert!(told.contains("rectangular beam") && told.contains("outer_diameter"), "{told}");
+    assert!(told.contains("without the flow of a turbulence"), "{told}");
 }

@@ -137,7 +137,13 @@ fn friction_is_a_number_or_both_coefficients_and_keys_reach_each() {
     assert_eq!(file.case().unwrap().scene.walls[1].friction, FrictionCoefficients { sticking: 0.5, ..both });
     assert_eq!((key("support.*.friction.kinetic").word(), key("support.*.friction.static").unit()), ("kinetic", None));
     let error = file.set(&key("support.hole.friction.static"), &0.5.into()).unwrap_err().to_string();
-    assert!(error.contains("a list or a table before .static; the file has 0.3 there"), "{error}");
+    let table = "friction = { static = 0.3, kinetic = 0.3 }";
+    assert!(error.contains(&format!("expected {table} there, in the file or by --set")), "{error}");
+    // What it says to write is that, and can be varied.
+    let mut file = CaseFile::from_text(&BOTH.replace("friction = 0.3", table), "", "");
+    assert_eq!(file.case().unwrap().scene, with("friction = 0.1"));
+    file.set(&key("support.hole.friction.static"), &0.5.into()).unwrap();
+    assert_eq!(file.case().unwrap().scene.walls[0].friction.sticking, 0.5);
     let written = |friction: FrictionCoefficients| serde_json::to_value(friction).unwrap();
     assert_eq!(written(both), serde_json::json!({ "static": 0.4, "kinetic": 0.1 }));
     for friction in [both, 0.1.into()] {

@@ -277,6 +277,12 @@ fn a_case_with_a_round_support_is_refused() {
 }
 
 #[test]
+fn a_case_with_a_slider_is_refused_by_its_name() {
+    let error = Plan::new(question(&Case::embedded("dry-friction-damper").unwrap()), &Grid::default()).unwrap_err();
+    assert!(error.is_request() && error.to_string().contains("slider \"pad\" is a contact with friction"), "{error}");
+}
+
+#[test]
 fn one_thread_and_two_give_the_same_maps() {
     let families =
         [SchemeFamily::Constrained(Scheme::PaoliSchatzman), SchemeFamily::Penalty(Integrator::CentralDifference)];

@@ -46,3 +46,23 @@ fn margins_are_in_the_explanation_the_notes_the_json_and_the_pages() {
         assert!(page.contains("work rates mean nothing"));
     }
 }
+
+#[test]
+fn margins_of_several_bodies_name_them_in_all_that_shows_margins() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let case =
+        ["two-tubes", "--set", "flow.connors=3", "--set", "body.right.beam.length=1.6", "--set", "system.modes=8"];
+    let (out, _) = said(path, &[&["explain"], &case[..]].concat(), 0);
+    for words in ["Hz of \"left\", ζ", "Hz of \"right\", ζ", "Hz of \"left\", \"right\", ζ", "work rates mean nothing"]
+    {
+        assert!(out.contains(words), "{words}: {out}");
+    }
+    let (_, err) = said(path, &[&["run"], &case[..], &SHORT, &["--no-verdict", "--out", "r"]].concat(), 0);
+    assert!(err.contains("in the mode of") && err.contains("Hz of \"left\""), "{err}");
+    let summary: Value = serde_json::from_str(&fs::read_to_string(path.join("r/summary.json")).unwrap()).unwrap();
+    let active = summary["scene"]["fluid_elastic"]["active"].as_array().unwrap();
+    assert!(active.iter().any(|one| one["bodies"] == serde_json::json!(["left", "right"])), "{active:?}");
+    let page = fs::read_to_string(path.join("r/report.html")).unwrap();
+    assert!(page.contains("\"bodies\":[\"left\",\"right\"]"));
+}

@@ -1,4 +1,4 @@
-"""Fluid-elastic margins of a tube in a cross flow."""
+"""Fluid-elastic margins of tubes in a cross flow."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ class FlowMargin:
 
     Below 1 the mode is unstable; the margin is infinite where no flow reaches the mode.
     ``frequency`` is in Hz, ``damping_ratio`` a share of critical damping, ``effective_velocity``
-    and ``critical_velocity`` are in m/s.
+    and ``critical_velocity`` are in m/s. ``bodies`` are those in the flow that the mode moves, where
+    the case has several.
     """
 
     frequency: float
@@ -23,11 +24,12 @@ class FlowMargin:
     effective_velocity: float
     critical_velocity: float
     margin: float
+    bodies: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class FluidElastic:
-    """The margins of a tube by Connors' criterion with the constant ``connors``, slowest modes first.
+    """The margins of tubes by Connors' criterion with the constant ``connors``, slowest modes first.
 
     ``inactive`` are those of the modes that no support holds, ``active`` those with all supports
     active; the latter is empty without supports.
@@ -46,6 +48,7 @@ def _margin(mode: dict[str, Any]) -> FlowMargin:
         mode["effective_velocity_m_per_s"],
         mode["critical_velocity_m_per_s"],
         float("inf") if margin is None else margin,
+        tuple(mode["bodies"]),
     )
 
 

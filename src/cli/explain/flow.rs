@@ -1,4 +1,4 @@
-//! The fluid-elastic margins of a tube in a cross flow, in words.
+//! The fluid-elastic margins of tubes in a cross flow, in words.
 
 use crate::case::Case;
 use crate::scene::{FlowMargin, FluidElastic};
@@ -18,8 +18,9 @@ pub(super) fn margins(case: &Case) -> Vec<String> {
         let line = |one: &FlowMargin| {
             let margin = one.margin.map_or("no flow reaches it".to_owned(), |margin| format!("margin {margin:.3}"));
             format!(
-                "supports {supports}: {:.4} Hz, ζ {:.3} %: V_e {:.4} m/s, V_c {:.4} m/s, {margin}",
+                "supports {supports}: {:.4} Hz{}, ζ {:.3} %: V_e {:.4} m/s, V_c {:.4} m/s, {margin}",
                 one.frequency_hz,
+                one.of_bodies(),
                 100.0 * one.damping_ratio,
                 one.effective_velocity_m_per_s,
                 one.critical_velocity_m_per_s

@@ -1,6 +1,6 @@
 //! The flow along a tube that the spectra of its turbulence state.
 
-use super::{Connors, FlowPiece};
+use super::{FlowPiece, FlowTube};
 use crate::error::Result;
 use crate::scene::{Row, Turbulence, TurbulenceSpectrum};
 
@@ -11,19 +11,18 @@ const ON_EDGE: f64 = 1e-9;
 const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
-impl Connors {
-    /// The criterion for a tube of the outer diameter `diameter` (m) and the mass per metre
-    /// `mass_per_metre` (kg/m) in the flows of `fields`, whose spectra state one; `row` makes the
-    /// rows of a position (m). Where several flows reach, that with the largest ρV² counts: fields
-    /// of lift and drag are those of one flow. `None` where no field states a flow.
+impl FlowTube {
+    /// The tube `body` with the mass per metre `mass_per_metre` (kg/m) in the flows of `fields`,
+    /// whose spectra state one; `row` makes the rows of a position (m). Where several flows reach,
+    /// that with the largest ρV² counts: fields of lift and drag are those of one flow. `None`
+    /// where no field states a flow.
     pub(crate) fn in_flow(
-        constant: f64,
-        diameter: f64,
+        body: Option<String>,
         mass_per_metre: f64,
-        fields: &[Turbulence],
+        fields: &[&Turbulence],
         row: impl Fn(f64) -> Result<Vec<Row>>,
     ) -> Result<Option<Self>> {
-        let flows: Vec<Flow<'_>> = fields.iter().filter_map(Flow::of).collect();
+        let flows: Vec<Flow<'_>> = fields.iter().filter_map(|field| Flow::of(field)).collect();
         let Some(first) = flows.first() else { return Ok(None) };
         let mut edges: Vec<f64> = flows.iter().flat_map(Flow::edges).collect();
         edges.sort_by(f64::total_cmp);
@@ -33,11 +32,12 @@ impl Connors {
         for (from, to) in edges.iter().zip(edges.iter().skip(1)) {
             let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
             let pressure = flows.iter().map(|flow| flow.pressure(middle)).fold(0.0, f64::max);
-            for (point, weight) in GAUSS.iter().filter(|_| pressure > 0.0) {
+            for (point, weight) in GAUSS {
                 pieces.push(FlowPiece { at: row(middle + half * point)?, pressure: pressure * half * weight });
             }
         }
-        Ok(Some(Self { constant, diameter, mass_per_metre, density: first.density, pieces }))
+        let Flow { diameter, density, .. } = *first;
+        Ok(Some(Self { body, diameter, mass_per_metre, density, pieces }))
     }
 }
 
@@ -45,6 +45,7 @@ impl Connors {
 struct Flow<'a> {
     along: [f64; 2],
     density: f64,
+    diameter: f64,
     velocity: &'a [f64],
 }
 
@@ -52,8 +53,8 @@ impl<'a> Flow<'a> {
     /// The flow that the spectrum of `field` states.
     fn of(field: &'a Turbulence) -> Option<Self> {
         match &field.spectrum {
-            TurbulenceSpectrum::Flow { density, velocity, .. } if !velocity.is_empty() => {
-                Some(Self { along: field.along, density: *density, velocity })
+            TurbulenceSpectrum::Flow { density, diameter, velocity, .. } if !velocity.is_empty() => {
+                Some(Self { along: field.along, density: *density, diameter: *diameter, velocity })
             }
             _ => None,
         }

@@ -1,6 +1,6 @@
 //! The schemes of the maps, and the second parameter of each map.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Subject};
 use crate::scene::{Scene, WallLaw};
 use crate::scheme::{Integrator, PenaltyLaw, Scheme};
 use std::fmt;
@@ -211,11 +211,17 @@ impl Parameter {
 /// # Errors
 /// [`Error::Invalid`] for such a case.
 pub fn check(case: MapRequest<'_>) -> Result<()> {
-    if case.scene.turns_or_rubs() {
+    let scene = case.scene;
+    if scene.turns_or_rubs() {
         let expected = "walls without friction: the maps compare schemes, and most of them do not step such a scene";
-        return Err(Error::invalid("support", "round or with friction", expected));
+        let slider = scene.walls.iter().enumerate().find(|(index, _)| scene.is_slider(*index));
+        let (subject, value) = match slider {
+            Some((_, wall)) => (Subject::slider(&wall.name), "a contact with friction"),
+            None => (Subject::of("support"), "round or with friction"),
+        };
+        return Err(Error::invalid(subject, value, expected));
     }
-    if case.scene.walls.is_empty() {
+    if scene.walls.is_empty() {
         return Err(Error::invalid("wall", "missing", "a scene with a wall to hit"));
     }
     Ok(())

@@ -1,4 +1,4 @@
-// The fluid-elastic margins of a tube in a cross flow, by Connors' criterion.
+// The fluid-elastic margins of tubes in a cross flow, by Connors' criterion.
 
 function marginSection() {
   const { connors, inactive, active } = DATA.margins;
@@ -19,6 +19,8 @@ function marginSection() {
     value: (row) => (row[key] ?? Infinity) * factor,
     show: (row) => (row[key] === null ? "no flow" : digits(row[key] * factor, 4)),
   });
+  const names = (row) => row.bodies.join(", ");
+  const bodies = { name: "bodies", text: true, value: names, show: names };
   section(
     "margins",
     "Stability in the flow",
@@ -28,6 +30,7 @@ function marginSection() {
     sortable(
       [
         { name: "supports", text: true, value: (row) => row.supports, show: (row) => row.supports },
+        ...(rows.some(({ bodies }) => bodies?.length) ? [bodies] : []),
         { name: "mode", value: (row) => row.number, show: (row) => String(row.number) },
         column("frequency (Hz)", "frequency_hz"),
         column("damping (%)", "damping_ratio", 100),

@@ -18,7 +18,9 @@ function readRun(run) {
   const probes = run.probes.map((probe) => readProbe(probe, time, contacts));
   const forces = run.forces.map((f) => ({ wall: f.wall, T: decode(f.time), F: decode(f.force) }));
   const shape = run.shape && readShape(run.shape);
-  return { ...run, time, contacts, probes, forces, shape, shown: !run.hidden };
+  const named = Object.entries(run.bodies || {});
+  const bodies = Object.fromEntries(named.map(([name, own]) => [name, readShape(own)]));
+  return { ...run, time, contacts, probes, forces, shape, bodies, shown: !run.hidden };
 }
 
 /** Names of the places that contacts belong to: the walls, then the round supports. */

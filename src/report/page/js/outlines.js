@@ -31,12 +31,18 @@ function flatsOf({ round, centre, gaps, directions, reach }) {
  * where it leaves any.
  */
 function roomOf(support, axis) {
-  const { round, centre, gaps, reach } = support;
+  const { round, centre, gaps, directions, reach } = support;
   if (round) return [centre[axis] - gaps[0], centre[axis] + gaps[0]];
   const ends = flatsOf(support).flat();
   const [least, most] = extent(ends.map((point) => point[axis])) || [];
   const open = (value) => !(Math.abs(value - centre[axis]) < (OPEN_END - 0.01) * reach);
-  return [open(least) ? undefined : least, open(most) ? undefined : most];
+  /** True where a flat stands on that side: of a lone one both ends are the flat itself. */
+  const faces = (side) =>
+    directions.some((deg) => side * [Math.cos, Math.sin][axis]((deg * TURN) / 360) > 1e-9);
+  return [
+    open(least) || !faces(-1) ? undefined : least,
+    open(most) || !faces(1) ? undefined : most,
+  ];
 }
 
 /** Draws the outline of a support: X(y) and Y(z) are pixels of a point in m, `scale` those of 1 m. */

@@ -48,12 +48,17 @@ function fittingSpeed() {
 
 /** Drawing, its controls, and the cards of how far the run is to be trusted. */
 function heroSection() {
+  const bodies = Object.keys(lead.bodies).length > 0;
   const drawing =
     DATA.scene.planes === 2
       ? planesStage()
-      : DATA.scene.kind === "oscillator"
-        ? bodyStage()
-        : structureStage();
+      : bodies
+        ? bodiesStage()
+        : DATA.scene.kind === "oscillator"
+          ? bodyStage()
+          : structureStage();
+  // Of bodies in two planes, along the axis above and from the side below.
+  const below = bodies && DATA.scene.planes === 2 ? bodiesStage() : null;
   state.speed = fittingSpeed();
   const play = button("Play or pause (space)", () => toggle());
   let last = null;
@@ -124,6 +129,7 @@ function heroSection() {
     "div",
     { class: "stage" },
     drawing.box,
+    below && below.box,
     drawing.keys && drawing.keys.length ? el("div", { class: "bar" }, drawing.keys) : null,
     el("div", { class: "bar controls" }, steps, slow, clock),
   );

@@ -1,30 +1,27 @@
 // Where a structure is drawn, and what it does there.
 
 /**
- * Where the structure is drawn, in that plane of two: stations with their places x, at(t) which
- * gives the displacement of each, and the range of each over the run.
+ * Where a shape is drawn, in that plane of two: stations with their places x, at(t) which gives the
+ * displacement of each, and the range of each over the run.
  */
+function shapeStations(shape, plane) {
+  const { stations, planes, u, unit } = shape;
+  const n = stations.length;
+  const [low, high] = [new Float64Array(n), new Float64Array(n)];
+  for (let row = plane * n; row < u.length; row += planes * n) {
+    for (let k = 0; k < n; k++) {
+      low[k] = Math.min(low[k], unit * u[row + k]);
+      high[k] = Math.max(high[k], unit * u[row + k]);
+    }
+  }
+  const buffer = new Float64Array(n);
+  return { x: stations, low, high, at: (t) => shapeAt(shape, plane, t, buffer), whole: true };
+}
+
+/** The same of the structure, of one without a shape through its watched places. */
 function stationsOf(plane = 0) {
   const length = DATA.scene.length;
-  if (lead.shape) {
-    const { stations, planes, u, unit } = lead.shape;
-    const n = stations.length;
-    const [low, high] = [new Float64Array(n), new Float64Array(n)];
-    for (let row = plane * n; row < u.length; row += planes * n) {
-      for (let k = 0; k < n; k++) {
-        low[k] = Math.min(low[k], unit * u[row + k]);
-        high[k] = Math.max(high[k], unit * u[row + k]);
-      }
-    }
-    const buffer = new Float64Array(n);
-    return {
-      x: stations,
-      low,
-      high,
-      at: (t) => shapeAt(lead.shape, plane, t, buffer),
-      whole: true,
-    };
-  }
+  if (lead.shape) return shapeStations(lead.shape, plane);
   // Without a shape: the watched places, by where they are if they say so.
   const two = DATA.scene.planes === 2;
   // Places on several bodies, and relative to each other, are not on one line.

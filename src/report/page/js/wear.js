@@ -15,7 +15,9 @@ function wearColumns(table) {
   const names = [...new Set(place)];
   const rows = Array.from({ length: table.count }, (_, i) => i);
   const columns = { year: rows.filter((i) => place[i] === names[0]).map((i) => year[i]) };
-  for (const [quantity, unit, shown, factor] of WEAR_QUANTITIES)
+  // A table of an older version does not have all.
+  const known = WEAR_QUANTITIES.filter(([quantity, unit]) => table.columns[`${quantity}_${unit}`]);
+  for (const [quantity, unit, shown, factor] of known)
     for (const name of names)
       for (const part of ["", HALF_WIDTH]) {
         const values = table.columns[`${quantity}${part}_${unit}`];
