@@ -20,6 +20,7 @@ type Key = (String, f64, Py<PyAny>);
 pub fn _derivative<'py>(scene: &Bound<'py, Scene>, keys: Vec<Key>, times: Vec<f64>) -> PyResult<Bound<'py, PyDict>> {
     let py = scene.py();
     let inner = &scene.get().scene;
+    Derivatives::check(inner).map_err(raise)?;
     let tangents = keys.iter().map(|key| tangent(py, key)).collect::<PyResult<Vec<_>>>()?;
     let found = compute_beside(py, || Derivatives::new(inner, &tangents, &times), &mut |_| Ok(()))?;
     let dict = PyDict::new(py);

@@ -67,6 +67,15 @@ pub struct Measured {
 }
 
 impl Derivatives {
+    /// An error if no run of `scene` has derivatives, whatever the keys are.
+    ///
+    /// # Errors
+    /// What the exact scheme refuses, friction for one; as [`KeyVariation::new`].
+    pub fn check(scene: &Scene) -> Result<()> {
+        Stepper::new(scene, &Scheme::Event, scene.duration)?;
+        KeyVariation::new(scene, &[], &[]).map(drop)
+    }
+
     /// The derivatives of the exact run of `scene` with respect to the keys of `tangents`, with
     /// displacements and velocities of the probes at `times` (s, increasing).
     ///

@@ -45,13 +45,16 @@ impl DerivativeKeys {
     /// where none are asked for.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for another scheme than event; as [`Case::tangent`].
+    /// [`Error::Invalid`] for another scheme than event; as [`Derivatives::check`] and
+    /// [`Case::tangent`].
     pub(super) fn wanted(&self, asked: Option<&str>, case: &Case) -> Result<Option<Wanted>> {
         let Some(scheme) = self.scheme() else { return Ok(None) };
         if let Some(other) = asked.filter(|name| name.trim() != scheme) {
             let expected = "event: derivatives are those of the exact motion";
             return Err(Error::invalid("--scheme beside --derivative", other, expected));
         }
+        // Before the keys are looked at: of what no run has, no key is at fault.
+        Derivatives::check(&case.scene)?;
         let mut wanted = Wanted { keys: Vec::new(), tangents: Vec::new() };
         for name in &self.derivative {
             let key: Key = name.parse()?;
@@ -64,8 +67,6 @@ impl DerivativeKeys {
             });
             wanted.tangents.push(tangent);
         }
-        // What the derivative cannot follow is refused before anything runs.
-        crate::variation::KeyVariation::new(&case.scene, &wanted.tangents, &[])?;
         Ok(Some(wanted))
     }
 }
