@@ -181,8 +181,8 @@ impl Episodes {
     }
 
     /// Adds a part of a step of `length` seconds, at whose end the impulses `jump` (N s) act; the
-    /// rest of `impulse` acts over it. The velocities ẇ (m/s) are those at its end: before it,
-    /// after its blows, after the jump.
+    /// rest of `impulse` acts over it. The velocities ẇ (m/s) are those at its start, at its end
+    /// after its blows, and after the jump.
     pub(crate) fn observe_part(
         &mut self,
         [start, end]: [f64; 2],

@@ -78,8 +78,9 @@ impl<S: Space> Grid<S> {
         let Self { frame, rows, episodes, h, .. } = self;
         if self.divides {
             let rates = |wall: usize| {
-                let [before, after] = [&frame.after, &frame.v].map(|v| S::dot(rows, wall, v));
-                Rates { before, struck: if frame.blown { S::dot(rows, wall, &frame.struck) } else { before }, after }
+                let met = if frame.blown { &frame.struck } else { &frame.after };
+                let [before, struck, after] = [&frame.before, met, &frame.v].map(|v| S::dot(rows, wall, v));
+                Rates { before, struck, after }
             };
             let length = match frame.stretch {
                 Stretch::Part(length) | Stretch::Other(length, _) => length,

@@ -81,8 +81,9 @@ impl LocatedPlanar {
         let rates = |wall: usize| {
             let sign = if frame.normal[wall] == [0.0; 2] { -body.walls[wall].sign } else { 1.0 };
             let along = |v: &Vec<f64>| sign * division.contacts.rate_along(wall, frame.normal[wall], v);
-            let before = along(&frame.after);
-            Rates { before, struck: if frame.blown { along(&frame.struck) } else { before }, after: along(&frame.v) }
+            let before = sign * division.contacts.rate_at_start(wall, frame.normal[wall], &frame.before, length);
+            let struck = along(if frame.blown { &frame.struck } else { &frame.after });
+            Rates { before, struck, after: along(&frame.v) }
         };
         let impulses = (&frame.impulse[..], &frame.jump[..]);
         episodes.observe_part([frame.start, frame.end], length, impulses, &frame.pushing, rates);

@@ -94,6 +94,16 @@ impl PlaneContacts {
         dot(if contact.round.is_some() { normal } else { contact.point.normal }, self.pair(wall, v))
     }
 
+    /// The same at the start of a part of `length` seconds, with the velocity `v` there and the
+    /// normal in the middle, up to which that of a round wall turns.
+    pub fn rate_at_start(&self, wall: usize, normal: [f64; 2], v: &[f64], length: f64) -> f64 {
+        let along = self.rate_along(wall, normal, v);
+        let Some((_, gap)) = self.all[wall].round.filter(|(_, gap)| *gap > 0.0) else { return along };
+        let [y, z] = self.pair(wall, v);
+        let across = normal[0] * z - normal[1] * y;
+        along - 0.5 * length * across * across / gap
+    }
+
     /// The gap of a wall, m, and its outward normal.
     fn gap(&self, wall: usize, body: &Body<Matrices>, q: &Vec<f64>) -> (f64, [f64; 2]) {
         self.all[wall].gap((body, &self.impact.places), q)

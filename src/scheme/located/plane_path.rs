@@ -82,14 +82,15 @@ impl PlanePath<'_> {
 
     fn crossing(&self, contact: &PlaneContact) -> Option<(f64, Event)> {
         let (law, touch) = (self.body.walls[contact.wall].law, self.body.touch);
-        let damped = law.damping() > 0.0;
-        if contact.place == Place::Resting || !(law.is_rigid() || damped) {
+        if contact.place == Place::Resting {
             return None;
         }
+        // An elastic wall that pushes is not entered again.
+        let elastic = !law.is_rigid();
         let at = match self.round(contact) {
-            Some(_) if damped && contact.gap((self.body, self.places), &self.frame.q).0 <= touch => None,
+            Some(_) if elastic && contact.gap((self.body, self.places), &self.frame.q).0 <= touch => None,
             Some(path) => path.crossing(touch),
-            None => Some(self.flat(contact)).filter(|path| !damped || path.gap > touch)?.crossing(touch),
+            None => Some(self.flat(contact)).filter(|path| !elastic || path.gap > touch)?.crossing(touch),
         };
         at.map(|at| (at, Event::Crossing(contact.wall)))
     }

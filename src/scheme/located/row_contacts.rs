@@ -152,11 +152,12 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
         let mut first: Option<(f64, Event)> = None;
         for (wall, face) in body.walls.iter().enumerate() {
             let damped = face.law.damping() > 0.0;
-            if !face.law.is_rigid() && !damped || self.rests(wall) {
+            if self.rests(wall) {
                 continue;
             }
             let path = self.gap_path(body, wall, (delta, length));
-            if damped && path.gap <= body.touch {
+            // An elastic wall that pushes is not entered again.
+            if !face.law.is_rigid() && path.gap <= body.touch {
                 continue;
             }
             if let Some(at) = path.crossing(body.touch)
