@@ -27,16 +27,25 @@ fn most_events(scene: &Scene) -> u64 {
 /// of freedom, four million over n for n.
 pub fn affordable(scene: &Scene) -> Result<()> {
     let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
-    let most = most_events(scene);
-    for _ in 0..most {
-        if stepper.time() >= scene.duration {
-            return Ok(());
-        }
+    let mut count = 0;
+    while stepper.time() < scene.duration {
         stepper.step()?;
+        count += 1;
+        limit_events(scene, stepper.time(), count)?;
     }
-    let time = stepper.time();
+    Ok(())
+}
+
+/// An error if the exact motion of `scene` has taken too many events, `count` up to `time` (s).
+///
+/// # Errors
+/// [`Error::TooManyEvents`], as [`affordable`].
+pub(super) fn limit_events(scene: &Scene, time: f64, count: u64) -> Result<()> {
+    if count < most_events(scene) {
+        return Ok(());
+    }
     let wall = scene.walls.first().map_or_else(String::new, |w| w.name.clone());
-    Err(Error::TooManyEvents { time, wall, count: most, window: time })
+    Err(Error::TooManyEvents { time, wall, count, window: time })
 }
 
 /// Number of stretches of the other run in the duration; not a round number, so that its stops fall
