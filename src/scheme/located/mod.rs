@@ -192,7 +192,7 @@ impl<S: Space> Located<S> {
     fn bind(&mut self, frame: &Frame<S>) {
         let Self { body, programme, division, .. } = self;
         division.classify(body, frame);
-        division.contacts.set_holds(body, frame, body.h);
+        division.contacts.set_holds(body, body.h);
         for hold in &division.contacts.holds {
             let row = programme.row_of(hold.wall);
             for number in programme.walls(row) {
