@@ -146,8 +146,8 @@ impl Pass<3, 5, 0> for AddForces {
     }
 }
 
-/// From the change of velocity, mean velocity and mean displacement in a step, the diagonals of M, C
-/// and K, the load, N, the blow, N s, and 1/√m: what [`Balanced`] and [`AddForces`] write.
+/// From the change of velocity, mean velocity and mean displacement in a step, the diagonals of M,
+/// C and K, the load, N, the blow, N s, and 1/√m: what [`Balanced`] and [`AddForces`] write.
 struct DiagonalProducts {
     balanced: Balanced,
     sums: AddForces,

@@ -10,8 +10,8 @@
 //! `blow_check.rs`, round holes `round.rs`, `disk.rs`, `ring.rs`, `hole_motion.rs` and `place.rs`,
 //! friction `friction.rs`), exact motion (`arc.rs`, of structures `series.rs`, round holes
 //! `circle.rs`), steps that predict and correct (`corrected.rs`), all into `residuals.rs`, and the
-//! momentum of a whole run, of every run (`run_momentum.rs`, from the sums of `momentum_sums.rs` and
-//! `force_sums.rs`) and of a recorded one (`recorded.rs`); what a run shows of its walls
+//! momentum of a whole run, of every run (`run_momentum.rs`, from the sums of `momentum_sums.rs`
+//! and `force_sums.rs`) and of a recorded one (`recorded.rs`); what a run shows of its walls
 //! (`walls.rs`, `front.rs`) and of its momentum (`balance.rs`) is kept with its rounding error
 //! (`noise.rs`, `largest_residual.rs`), and what exceeds that and its tolerance becomes a finding
 //! (`verdict.rs`, `finding.rs`); imports no scheme and no QP.

@@ -5,8 +5,8 @@ use super::view::View;
 use crate::scene::{Row, Scene, Side, distinct};
 use crate::step::Step;
 
-/// The motion of a row in a step: displacements at both ends, m, and velocities that enter and leave
-/// the balance, m/s.
+/// The motion of a row in a step: displacements at both ends, m, and velocities that enter and
+/// leave the balance, m/s.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RowMotion {
     pub start: f64,

@@ -24,7 +24,8 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
     let mut noise = NoiseModel::new(&weights, &[16.0], 0.5);
     let unit = UNITS * f64::EPSILON;
     // A step of 0.5 s ends at −2 m with 3 m/s, under −13 N at its start, −7 N at its end, an extra
-    // force of 2 N (−8 N in the mean), and a blow of 1 N s. The largest force is that at the end with the extra one, 9 N.
+    // force of 2 N (−8 N in the mean), and a blow of 1 N s. The largest force is that at the end
+    // with the extra one, 9 N.
     let moves = StepMotion {
         from: &[0.0],
         to: &[-2.0],

@@ -35,7 +35,8 @@ fn a_step_of_the_theta_rule_leaves_what_its_terms_do() {
     let scale = |before: f64| scratch.clone().products(Scalar, &matrices, (0.5, 2.0), moves.blow, &weights, 2, before);
     // The largest force is the second body's inertia, 16 · 3 N s in half a second, over √m.
     assert_eq!([scale(0.0), scale(30.0)], [48.0 * 2.0 / 4.0, 30.0]);
-    // Of diagonal matrices in one pass with the forces: 6 N of load, −10 N of spring, −3 N of damper.
+    // Of diagonal matrices in one pass with the forces: 6 N of load, −10 N of spring, −3 N of
+    // damper.
     let (mut together, mut sums) = (scratch.clone(), ForceSums::new(2));
     let (means, diagonals) = (&mut together, matrices.diagonals().expect("diagonal matrices"));
     let hs = ((0.5, 2.0), true);
