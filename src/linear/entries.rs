@@ -109,7 +109,9 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     pub fn abs(self) -> Self {
-        Self { x: self.simd.abs_f64s(self.x), ..self }
+        // All bits but the sign. Not by `abs_f64s`, which calls functions that need not be inlined.
+        let (simd, mask) = (self.simd, self.simd.splat_u64s(u64::MAX >> 1));
+        Self { x: simd.transmute_f64s_u64s(simd.and_u64s(mask, simd.transmute_u64s_f64s(self.x))), ..self }
     }
 
     /// The largest of the lanes, and at least `so_far`. A NaN is ignored.

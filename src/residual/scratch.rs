@@ -58,14 +58,20 @@ impl Scratch {
         let [mass, spring, dashpot] = &weights.roots;
         let moved = [from, to, shown, before, after, mass, spring, dashpot];
         let motion = (moved, [&mut mean_q[..], mean_v, gained]);
-        let sizes = match balance {
+        let [path, speed, reach, strain, rub] = match balance {
             Balance::Staggered(b) => pass(simd, n, motion, &StaggeredMeans { b, h }),
             _ => pass(simd, n, motion, &ThetaMeans { theta, h }),
         };
-        let [path, speed, reach, strain, rub] = sizes.map(|size| size.largest(0.0));
         // Exact motion and the rule that predicts and corrects have another path.
         let known = matches!(balance, Balance::Theta(_) | Balance::Staggered(_));
-        StepSizes { path: if known { path } else { 0.0 }, speed, reach, strain, rub, force: force.largest(0.0) }
+        StepSizes {
+            path: if known { path.largest(0.0) } else { 0.0 },
+            speed: speed.largest(0.0),
+            reach: reach.largest(0.0),
+            strain: strain.largest(0.0),
+            rub: rub.largest(0.0),
+            force: force.largest(0.0),
+        }
     }
 
     /// Adds the terms of inertia, damping and stiffness to the balance of a step of `h` seconds
