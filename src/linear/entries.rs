@@ -71,7 +71,6 @@ mod of_some_vectors {
     columns! {
         0:; 1: a u; 2: a u b v; 3: a u b v c w; 4: a u b v c w d x; 5: a u b v c w d x e y;
         6: a u b v c w d x e y f z; 8: a u b v c w d x e y f z g s h t;
-        9: a u b v c w d x e y f z g s h t k m;
         10: a u b v c w d x e y f z g s h t k m l o;
     }
 }

@@ -60,18 +60,9 @@ impl Judge {
         if self.supports.is_some() {
             self.supports_on_grid(simd, step, beyond);
         }
-        let (hs, blow, scale) = ((h, per_h), &self.blows.impulse, self.balance.scale);
-        // A blow, or a step that was handed over, may end the sums of the run's momentum.
-        let goes_on = self.sums.whole && !self.loads.has_blows() && !matches!(step.path, Path::Handed { .. });
-        let diagonals = if goes_on { self.matrices.diagonals() } else { None };
-        let summed = diagonals.is_some();
-        self.balance.scale = match diagonals {
-            Some(diagonals) => {
-                let (means, begins) = (&mut self.scratch, self.sums.steps == 0);
-                self.sums.forces.add_products(simd, diagonals, means, (hs, begins), blow, &self.weights, n, scale)
-            }
-            None => self.scratch.products(simd, &self.matrices, hs, blow, &self.weights, n, scale),
-        };
+        let (hs, blow) = ((h, per_h), &self.blows.impulse);
+        self.balance.scale =
+            self.scratch.products(simd, &self.matrices, hs, blow, &self.weights, n, self.balance.scale);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
             if p != 0.0 {
                 for &(i, weight) in wall.row().entries() {
@@ -92,7 +83,7 @@ impl Judge {
             self.sums.displace(&self.matrices, &self.blows.beyond, &mut self.scratch.mean_q);
         }
         self.balance.observe(&self.noise, worst, sizes.path);
-        self.sum(simd, step, (per_h, summed), n);
+        self.sum(simd, step, per_h, n);
         self.begin_next_step(simd, step, n);
     }
 }

@@ -42,18 +42,6 @@ impl Matrices {
         }
     }
 
-    /// The diagonals of M, C and K, if these have no other entries.
-    #[inline(always)]
-    pub fn diagonals(&self) -> Option<[&[f64]; 3]> {
-        match self {
-            Self::One(_) => None,
-            Self::Many(operators) => {
-                let [m, c, k] = &**operators;
-                Some([m.as_diagonal()?, c.as_diagonal()?, k.as_diagonal()?])
-            }
-        }
-    }
-
     /// xᵀA x.
     #[inline(always)]
     pub fn form(&self, part: Part, x: &[f64]) -> f64 {

@@ -10,11 +10,10 @@
 //! `blow_check.rs`, round holes `round.rs`, `disk.rs`, `ring.rs`, `hole_motion.rs` and `place.rs`,
 //! friction `friction.rs`), exact motion (`arc.rs`, of structures `series.rs`, round holes
 //! `circle.rs`), steps that predict and correct (`corrected.rs`), all into `residuals.rs`, and the
-//! momentum of a whole run, of every run (`run_momentum.rs`, from the sums of `momentum_sums.rs`
-//! and `force_sums.rs`) and of a recorded one (`recorded.rs`); what a run shows of its walls
-//! (`walls.rs`, `front.rs`) and of its momentum (`balance.rs`) is kept with its rounding error
-//! (`noise.rs`, `largest_residual.rs`), and what exceeds that and its tolerance becomes a finding
-//! (`verdict.rs`, `finding.rs`); imports no scheme and no QP.
+//! momentum of a whole run, of every run (`run_momentum.rs`) and of a recorded one (`recorded.rs`);
+//! what a run shows of its walls (`walls.rs`, `front.rs`) and of its momentum (`balance.rs`) is
+//! kept with its rounding error (`noise.rs`, `largest_residual.rs`), and what exceeds that and its
+//! tolerance becomes a finding (`verdict.rs`, `finding.rs`); imports no scheme and no QP.
 
 mod arc;
 mod balance;
@@ -27,7 +26,6 @@ mod disk;
 mod energy;
 mod extent;
 mod finding;
-mod force_sums;
 mod friction;
 mod front;
 mod grid;
@@ -275,7 +273,7 @@ impl Judge {
         self.set_load_at_end(step);
         self.prepare(step);
         observe(self);
-        self.sum(Scalar, step, (1.0 / self.h, false), n);
+        self.sum(Scalar, step, 1.0 / self.h, n);
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.walls.observe_depth(index, -wall.gap(wall.row().dot(step.q)));
         }

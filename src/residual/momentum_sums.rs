@@ -1,13 +1,114 @@
 //! Sums over steps, for the check of a whole run's momentum.
 
-use super::force_sums::ForceSums;
 use super::matrices::{Matrices, Part};
 use super::scratch::Scratch;
 use super::step_motion::StepMotion;
-use crate::linear::{Lanes, Pass, pass};
+use crate::linear::{Lanes, Pass, pass, running_max};
 use crate::scene::Scene;
 use crate::step::Step;
 use pulp::Simd;
+
+/// Load and own force of the structure on one degree of freedom: their values in the last step, N,
+/// the sum of the changes of both from step to step, N, the largest sum of sizes, N, and the
+/// momentum exchanged, N s.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Forces {
+    pub load: f64,
+    pub own: f64,
+    pub changes: f64,
+    pub largest: f64,
+    pub exchanged: f64,
+}
+
+impl Forces {
+    /// Adds a step's load, own force and damper force, N; the changes of the first two from the
+    /// last step are summed, except in the `first` step of a run.
+    #[inline(always)]
+    pub fn add(&mut self, first: bool, h: f64, [load, own, damper]: [f64; 3]) {
+        if !first {
+            self.changes += (load - self.load).abs() + (own - self.own).abs();
+        }
+        (self.load, self.own) = (load, own);
+        self.largest = running_max(self.largest, load.abs() + own.abs() + damper.abs());
+        self.exchanged += h * (load + own + damper).abs();
+    }
+}
+
+/// The forces on each degree of freedom: every entry of [`Forces`] as a vector.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ForceSums {
+    pub load: Vec<f64>,
+    pub own: Vec<f64>,
+    pub changes: Vec<f64>,
+    pub largest: Vec<f64>,
+    pub exchanged: Vec<f64>,
+}
+
+impl ForceSums {
+    fn new(n: usize) -> Self {
+        let zero = || vec![0.0; n];
+        Self { load: zero(), own: zero(), changes: zero(), largest: zero(), exchanged: zero() }
+    }
+
+    /// Those on degree of freedom `i`.
+    pub fn of(&self, i: usize) -> Forces {
+        Forces {
+            load: self.load[i],
+            own: self.own[i],
+            changes: self.changes[i],
+            largest: self.largest[i],
+            exchanged: self.exchanged[i],
+        }
+    }
+
+    /// Sets those on degree of freedom `i`.
+    pub fn set(&mut self, i: usize, forces: Forces) {
+        let Forces { load, own, changes, largest, exchanged } = forces;
+        (self.load[i], self.own[i]) = (load, own);
+        (self.changes[i], self.largest[i], self.exchanged[i]) = (changes, largest, exchanged);
+    }
+
+    /// As [`Forces::add`] on each of n degrees of freedom, for the load of a step, N, and the
+    /// momentum that springs and dampers take in it, N s.
+    #[inline(always)]
+    fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        first: bool,
+        (h, per_h): (f64, f64),
+        [load, spring, damper]: [&[f64]; 3],
+        n: usize,
+    ) {
+        let Self { load: last_load, own, changes, largest, exchanged } = self;
+        let sums = [&mut last_load[..], own, changes, largest, exchanged];
+        let changed = if first { 0.0 } else { 1.0 };
+        let [] = pass(simd, n, ([load, spring, damper], sums), &AddForces { h, per_h, changed });
+    }
+}
+
+/// From the load of a step of h seconds, N, and the momentum that springs and dampers take in it, N
+/// s: the entries of [`ForceSums`] with these, in its order. The changes count `changed` times.
+struct AddForces {
+    h: f64,
+    per_h: f64,
+    changed: f64,
+}
+
+impl Pass<3, 5, 0> for AddForces {
+    #[inline(always)]
+    fn of<S: Simd>(
+        &self,
+        [load, spring, damper]: [Lanes<S>; 3],
+        [last_load, last_own, changes, largest, exchanged]: [Lanes<S>; 5],
+        _: [Lanes<S>; 0],
+    ) -> ([Lanes<S>; 5], [Lanes<S>; 0]) {
+        let (own, damper) = (spring * -self.per_h, damper * -self.per_h);
+        let change = (load - last_load).abs() + (own - last_own).abs();
+        let size = load.abs() + own.abs() + damper.abs();
+        let passed = (load + own + damper).abs() * self.h;
+        ([load, own, changes + change * self.changed, largest.max(size), exchanged + passed], [])
+    }
+}
 
 /// Sums over the steps of a run on a grid; vectors have one entry per degree of freedom or per
 /// wall.

@@ -12,8 +12,8 @@
 //! A blow changes the force of the dampers within a step, by C M⁻¹ J.
 
 use super::Judge;
-use super::force_sums::Forces;
 use super::largest_residual::LargestResidual;
+use super::momentum_sums::Forces;
 use super::pushes::place_of;
 use super::step_motion::StepMotion;
 use crate::step::{Balance, Path, Step};
@@ -53,10 +53,10 @@ impl Judge {
         all
     }
 
-    /// Adds a step (of h seconds, 1/h given), whose mean forces are in `scratch` unless they are
-    /// `summed` already; `self.q` still holds its state at the start.
+    /// Adds a step, whose mean forces are in `scratch`; `self.q` still holds its state at the
+    /// start.
     #[inline(always)]
-    pub(super) fn sum<S: Simd>(&mut self, simd: S, step: &Step<'_>, (per_h, summed): (f64, bool), n: usize) {
+    pub(super) fn sum<S: Simd>(&mut self, simd: S, step: &Step<'_>, per_h: f64, n: usize) {
         let sums = &mut self.sums;
         sums.begin(step);
         sums.steps += 1;
@@ -89,8 +89,6 @@ impl Judge {
                 self.scene.system.add_damping(1.0, &self.blows.struck, &mut risen);
                 sums.forces.changes.iter_mut().zip(risen).for_each(|(changes, force)| *changes += force.abs());
             }
-        } else if summed {
-            sums.add_ends(simd, &moves, h, n);
         } else {
             sums.add(simd, &moves, &self.scratch, (h, per_h), first, n);
         }

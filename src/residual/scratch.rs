@@ -203,8 +203,8 @@ impl Pass<8, 3, 5> for StaggeredMeans {
 
 /// From the terms of inertia, damper and spring, N s, the load, N, the blow, N s, and 1/√m: the
 /// balance with these terms, N s, and the largest force in it, N/√kg.
-pub(super) struct Balanced {
-    pub per_h: f64,
+struct Balanced {
+    per_h: f64,
 }
 
 impl Pass<6, 1, 1> for Balanced {

@@ -1,7 +1,7 @@
 //! The momentum of a whole run, worked out by hand.
 
 use super::*;
-use crate::residual::force_sums::Forces;
+use crate::residual::momentum_sums::Forces;
 use crate::scene::{PlaneRows, Row};
 
 /// The scene with a rigid round hole around the first two degrees of freedom.
@@ -51,7 +51,7 @@ fn a_force_is_said_to_change_from_the_second_step_on() {
     let alpha = Balance::GeneralizedAlpha { alpha_m: 0.0, alpha_f: 0.5, beta: 0.25, gamma: 0.5 };
     let mut alpha = judge(&scene, contract(alpha), 0.0, 2.0);
     (alpha.load_end, alpha.scratch.spring) = (vec![3.0], vec![7.0]);
-    alpha.sum(Scalar, &Claim::of(1.0, 2.0, 4.0, 0).step(), (1.0 / H, false), 1);
+    alpha.sum(Scalar, &Claim::of(1.0, 2.0, 4.0, 0).step(), 1.0 / H, 1);
     let Forces { load, own, changes, largest, exchanged } = alpha.sums.forces.of(0);
     assert_eq!([load, own, changes, largest, exchanged], [3.0, 4.0, 0.0, 7.0, 7.0 * H]);
     assert_eq!((alpha.sums.rate[0], alpha.sums.last[0]), (0.5 * H * (2.0 + 4.0), 4.0));

@@ -1,7 +1,7 @@
 //! Sums over the steps of a run, worked out by hand.
 
 use super::*;
-use crate::residual::force_sums::Forces;
+use crate::residual::momentum_sums::Forces;
 use crate::residual::step_motion::StepMotion;
 
 fn entries(forces: &Forces) -> [f64; 5] {

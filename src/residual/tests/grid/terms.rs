@@ -1,7 +1,6 @@
 //! The terms of a step's momentum balance, worked out by hand.
 
 use super::*;
-use crate::residual::force_sums::{ForceSums, Forces};
 use crate::residual::step_motion::StepMotion;
 use pulp::Scalar;
 
@@ -35,14 +34,6 @@ fn a_step_of_the_theta_rule_leaves_what_its_terms_do() {
     let scale = |before: f64| scratch.clone().products(Scalar, &matrices, (0.5, 2.0), moves.blow, &weights, 2, before);
     // The largest force is the second body's inertia, 16 · 3 N s in half a second, over √m.
     assert_eq!([scale(0.0), scale(30.0)], [48.0 * 2.0 / 4.0, 30.0]);
-    // Of diagonal matrices in one pass with the forces: 6 N of load, −10 N of spring, −3 N of
-    // damper.
-    let (mut together, mut sums) = (scratch.clone(), ForceSums::new(2));
-    let (means, diagonals) = (&mut together, matrices.diagonals().expect("diagonal matrices"));
-    let hs = ((0.5, 2.0), true);
-    assert_eq!(sums.add_products(Scalar, diagonals, means, hs, moves.blow, &weights, 2, 0.0), 24.0);
-    let Forces { load, own, changes, largest, exchanged } = sums.of(0);
-    assert_eq!(([load, own, changes, largest, exchanged], together.residual[1]), ([6.0, -10.0, 0.0, 19.0, 3.5], 83.5));
     scratch.products(Scalar, &matrices, (0.5, 2.0), moves.blow, &weights, 2, 0.0);
     assert_eq!((&scratch.inertia[..], &scratch.damper[..]), (&[8.0, 48.0][..], &[1.5, -1.0][..]));
     assert_eq!((&scratch.spring[..], &scratch.residual[..]), (&[5.0, 36.0][..], &[11.0, 83.5][..]));
