@@ -78,6 +78,8 @@ fn main() {
     for name in ["tube-loose-supports", "tube-round-supports"] {
         let case = Case::embedded(name).expect("a built-in case");
         let times = TimeOptions { statistics_from: 0.0, ..case.time };
-        line(&format!("{name}, moreau-jean, 1 s"), &case.scene, &jean, times, 1.0);
+        for (by, scheme) in [("moreau-jean", jean), ("located", Scheme::Located)] {
+            line(&format!("{name}, {by}"), &case.scene, &scheme, times, 1.0);
+        }
     }
 }

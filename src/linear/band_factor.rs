@@ -45,9 +45,9 @@ impl BandFactor {
         lower.clear();
         lower.resize(*n * *width, 0.0);
         inverse.clear();
-        inverse.extend(matrix.diagonal_entries());
-        for (i, j, value) in matrix.entries() {
-            if j < i && value != 0.0 {
+        inverse.extend(matrix.diagonal_of_rows());
+        if *width > 0 {
+            for (i, j, value) in matrix.entries().filter(|&(i, j, value)| j < i && value != 0.0) {
                 lower[i * *width + j + *width - i] = value;
             }
         }

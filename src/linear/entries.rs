@@ -70,7 +70,8 @@ mod of_some_vectors {
 
     columns! {
         0:; 1: a u; 2: a u b v; 3: a u b v c w; 4: a u b v c w d x; 5: a u b v c w d x e y;
-        6: a u b v c w d x e y f z;
+        6: a u b v c w d x e y f z; 8: a u b v c w d x e y f z g s h t;
+        10: a u b v c w d x e y f z g s h t k m l o;
     }
 }
 
@@ -107,7 +108,9 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     pub fn abs(self) -> Self {
-        Self { x: self.simd.abs_f64s(self.x), ..self }
+        // All bits but the sign. Not by `abs_f64s`, which calls functions that need not be inlined.
+        let (simd, mask) = (self.simd, self.simd.splat_u64s(u64::MAX >> 1));
+        Self { x: simd.transmute_f64s_u64s(simd.and_u64s(mask, simd.transmute_u64s_f64s(self.x))), ..self }
     }
 
     /// The largest of the lanes, and at least `so_far`. A NaN is ignored.

@@ -138,13 +138,21 @@ impl Symmetric {
     /// The diagonal, n entries.
     #[must_use]
     pub fn diagonal_entries(&self) -> Vec<f64> {
-        self.starts.iter().skip(1).map(|&end| self.values[end - 1]).collect()
+        self.diagonal_of_rows().collect()
+    }
+
+    /// The same, row by row.
+    pub(super) fn diagonal_of_rows(&self) -> impl Iterator<Item = f64> + '_ {
+        self.starts.iter().skip(1).map(|&end| self.values[end - 1])
     }
 
     /// The largest distance of an entry that is not 0 from the diagonal: 0 for a diagonal matrix, 1
     /// for a tridiagonal one.
     #[must_use]
     pub fn half_bandwidth(&self) -> usize {
+        if self.stored() == self.size() {
+            return 0;
+        }
         self.entries().filter(|e| e.2 != 0.0).map(|(i, j, _)| i - j).max().unwrap_or(0)
     }
 

@@ -46,14 +46,15 @@ impl Judge {
 
     #[inline(always)]
     fn observe_grid_of<S: Simd>(&mut self, simd: S, step: &Step<'_>, n: usize) {
+        self.set_load_at_end(step);
         // A part of a step has its blows at its end.
         let within = self.loads.has_blows() && !matches!(step.path, Path::Part { .. });
         let beyond = within && self.find_beyond(step);
         let (h, per_h) = (self.h, 1.0 / self.h);
         self.noise.begin(h, step.end);
         let moves = moves!(self, step, beyond);
-        let path = self.scratch.means(simd, self.contract.balance, h, &moves, &self.weights, n);
-        self.noise.step(simd, &moves, &self.scratch.load, &self.weights, (h, per_h), n);
+        let sizes = self.scratch.means(simd, self.contract.balance, (h, per_h), &moves, &self.weights, n);
+        self.noise.step(&sizes);
         self.noise.book(n as f64, 1.0);
         self.walls_on_grid(step, beyond);
         if self.supports.is_some() {
@@ -81,7 +82,7 @@ impl Judge {
             self.energy.displace(&self.scene, &self.matrices, h, step);
             self.sums.displace(&self.matrices, &self.blows.beyond, &mut self.scratch.mean_q);
         }
-        self.balance.observe(&self.noise, worst, path);
+        self.balance.observe(&self.noise, worst, sizes.path);
         self.sum(simd, step, per_h, n);
         self.begin_next_step(simd, step, n);
     }

@@ -27,8 +27,9 @@ impl Judge {
     /// The `place` of `hole` in `step`.
     pub(super) fn hole_motion(&self, step: &Step<'_>, hole: &Hole<'_>, place: &Place) -> HoleMotion {
         let (before, after) = (step.velocity_before, step.velocity_after);
-        let vectors = [&self.q[..], step.q, before, after, &self.blows.struck];
-        let [start, end, before, after, struck] = place.seen(vectors);
+        let [start, end, before, after] = place.seen([&self.q[..], step.q, before, after]);
+        // Without blows it is zero.
+        let [struck] = if self.loads.has_blows() { place.seen([&self.blows.struck]) } else { Default::default() };
         let [cy, cz] = hole.centre;
         let [from, to] = [start, end].map(|at| [at.value[0] - cy, at.value[1] - cz]);
         let size = start.terms + end.terms + (cy.abs() + cz.abs()) + hole.gap;

@@ -230,15 +230,6 @@ impl Judge {
         if !fits {
             return;
         }
-        match (&mut self.grid_load, step.path, &mut self.load_end[..]) {
-            (Some(forcing), Path::Grid | Path::OneRestitution | Path::Part { .. }, [load]) => {
-                *load = forcing.at(step.end)
-            }
-            (_, _, load) => {
-                load.fill(0.0);
-                self.loads.add_force_near(step.end, 1.0, load, &mut self.last_pieces);
-            }
-        }
         // Without blows these vectors stay zero.
         if self.loads.has_blows() {
             self.take_blows(step);
@@ -260,10 +251,26 @@ impl Judge {
         std::mem::swap(&mut self.load, &mut self.load_end);
     }
 
+    /// Sets the load at the end of a step.
+    #[inline(always)]
+    fn set_load_at_end(&mut self, step: &Step<'_>) {
+        match (&mut self.grid_load, step.path, &mut self.load_end[..]) {
+            (Some(forcing), Path::Grid | Path::OneRestitution | Path::Part { .. }, [load]) => {
+                *load = forcing.at(step.end)
+            }
+            (_, _, load) => {
+                // All other entries have been 0 from the beginning.
+                self.loads.clear(load);
+                self.loads.add_force_near(step.end, 1.0, load, &mut self.last_pieces);
+            }
+        }
+    }
+
     /// Checks a step by `observe`, with its sizes noted before, and its momentum summed and the
     /// depths behind the walls updated after. [`Judge::observe_grid`] does that in its own passes.
     fn observe_apart(&mut self, step: &Step<'_>, observe: impl FnOnce(&mut Self)) {
         let n = self.q.len();
+        self.set_load_at_end(step);
         self.prepare(step);
         observe(self);
         self.sum(Scalar, step, 1.0 / self.h, n);

@@ -1,9 +1,7 @@
 //! The rounding errors of a step's balances, places and forces.
 
-use super::step_motion::StepMotion;
+use super::scratch::StepSizes;
 use super::weights::Weights;
-use crate::linear::{Lanes, Pass, pass};
-use pulp::Simd;
 
 /// Rounding error of a sum in a step, in units in the last place, times √n for sums over n degrees
 /// of freedom (tests of extreme scenes allow every scheme of one degree of freedom 32).
@@ -92,26 +90,13 @@ impl NoiseModel {
         }
     }
 
-    /// As [`Self::state`] for what a step on a grid of `h` seconds (and 1/h) did, and notes the
-    /// sizes of its mean load `mean` (N), its load at the end, the extra force and its blows.
+    /// Notes the sizes of a step on a grid.
     #[inline(always)]
-    pub fn step<S: Simd>(
-        &mut self,
-        simd: S,
-        moves: &StepMotion<'_>,
-        mean: &[f64],
-        weights: &Weights,
-        (h, per_h): (f64, f64),
-        n: usize,
-    ) {
-        let [mass, spring, dashpot] = &weights.roots;
-        let moved = [moves.shown, moves.before, moves.after, mass, spring, dashpot];
-        let [speed, reach, strain, rub] = pass(simd, n, (moved, []), &MovedSizes { h });
-        (self.speed, self.reach) = (speed.largest(self.speed), reach.largest(self.reach));
-        (self.strain, self.rub) = (strain.largest(self.strain), rub.largest(self.rub));
-        let forces = [mean, moves.blow, moves.extra, moves.load_end, &weights.per_root_mass];
-        let [load] = pass(simd, n, (forces, []), &ForceSize { per_h });
-        self.load = load.largest(self.load);
+    pub fn step(&mut self, sizes: &StepSizes) {
+        let &StepSizes { speed, reach, strain, rub, force, .. } = sizes;
+        (self.speed, self.reach) = (self.speed.max(speed), self.reach.max(reach));
+        (self.strain, self.rub) = (self.strain.max(strain), self.rub.max(rub));
+        self.load = self.load.max(force);
     }
 
     /// Notes the size of a load, N/√kg.
@@ -199,44 +184,6 @@ impl NoiseModel {
         let states = self.speed.powi(2) + self.strain.powi(2) + given.powi(2);
         let flows = bodies * states + self.load * self.reach;
         self.energy += steps * (self.unit * flows);
-    }
-}
-
-/// From displacement, velocities before and after a step of h seconds, √m, √k and √c: the largest
-/// |v|√m, |q|√m, |q|√k and |v|√c, where the velocity moves the body for h.
-struct MovedSizes {
-    h: f64,
-}
-
-impl Pass<6, 0, 4> for MovedSizes {
-    #[inline(always)]
-    fn of<S: Simd>(
-        &self,
-        [q, before, after, mass, spring, dashpot]: [Lanes<S>; 6],
-        _: [Lanes<S>; 0],
-        [speed, reach, strain, rub]: [Lanes<S>; 4],
-    ) -> ([Lanes<S>; 0], [Lanes<S>; 4]) {
-        let v = before.abs().max(after.abs());
-        let q = q.abs() + v * self.h;
-        ([], [speed.max(v * mass), reach.max(q * mass), strain.max(q * spring), rub.max(v * dashpot)])
-    }
-}
-
-/// From the mean load, N, the blow, N s, the extra force and the load at the end, N, and 1/√m: the
-/// largest of these forces, N/√kg.
-struct ForceSize {
-    per_h: f64,
-}
-
-impl Pass<5, 0, 1> for ForceSize {
-    #[inline(always)]
-    fn of<S: Simd>(
-        &self,
-        [mean, blow, extra, end, per_root]: [Lanes<S>; 5],
-        _: [Lanes<S>; 0],
-        [load]: [Lanes<S>; 1],
-    ) -> ([Lanes<S>; 0], [Lanes<S>; 1]) {
-        ([], [load.max(mean.abs().max(blow.abs() * self.per_h).max(extra.abs() + end.abs()) * per_root)])
     }
 }
 

@@ -48,6 +48,8 @@ impl Judge {
             }
             (self.contract, self.h) = (own, h);
             self.blows.hide();
+        } else {
+            self.set_load_at_end(step);
         }
         self.over = over;
         let changes = step.v.iter().zip(step.velocity_after).any(|(v, after)| v != after);

@@ -10,7 +10,7 @@ pub(super) const SUM: f64 = 1e-9;
 
 /// A quantity at a place: its values in y and z, and the sum of the magnitudes of the terms of
 /// both.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct AtPlace {
     pub value: [f64; 2],
     pub terms: f64,
@@ -70,20 +70,24 @@ impl Place {
     /// What a step does at the place, from the displacements at its start and at its end and the
     /// velocities that enter and leave its balance; the start moves on for `ahead` seconds. To
     /// rounding, with the terms of all sums in any order; `None` if the entries of a row do not
-    /// follow one another.
+    /// follow one another, or one row has more of them.
     #[inline(always)]
-    pub fn near<S: Simd>(&self, simd: S, ahead: f64, vectors: [&[f64]; 4]) -> Option<NearPlace> {
-        let Some(rows) = &self.segments else { return None };
-        let mut near = NearPlace { ahead: [0.0; 2], end: [0.0; 2], speed: 0.0 };
-        for (k, row) in rows.iter().enumerate() {
-            let [(weights, start), (_, end), (_, before), (_, after)] =
-                [row.beside(vectors[0]), row.beside(vectors[1]), row.beside(vectors[2]), row.beside(vectors[3])];
-            let read = [weights, start, end, before, after];
-            let [place, end, speed] = pass(simd, weights.len(), (read, []), &NearRow { ahead });
-            (near.ahead[k], near.end[k]) = (place.sum(), end.sum());
-            near.speed += speed.sum();
+    pub fn near<S: Simd>(&self, simd: S, ahead: f64, [a, b, c, d]: [&[f64]; 4]) -> Option<NearPlace> {
+        let Some([y, z]) = &self.segments else { return None };
+        // No closures here either.
+        let (in_y, in_z) = (
+            [y.beside(a), y.beside(b), y.beside(c), y.beside(d)],
+            [z.beside(a), z.beside(b), z.beside(c), z.beside(d)],
+        );
+        let [(weight_y, a), (_, b), (_, c), (_, d)] = in_y;
+        let [(weight_z, e), (_, f), (_, g), (_, h)] = in_z;
+        let n = weight_y.len();
+        if weight_z.len() != n {
+            return None;
         }
-        Some(near)
+        let read = [weight_y, a, b, c, d, weight_z, e, f, g, h];
+        let [ahead_y, end_y, ahead_z, end_z, speed] = pass(simd, n, (read, []), &NearRows { ahead });
+        Some(NearPlace { ahead: [ahead_y.sum(), ahead_z.sum()], end: [end_y.sum(), end_z.sum()], speed: speed.sum() })
     }
 }
 
@@ -97,22 +101,24 @@ pub(super) struct NearPlace {
     pub speed: f64,
 }
 
-/// From the weights of a row, the displacements at the start and at the end of a step and the
-/// velocities that enter and leave its balance: the sums of [`NearPlace`].
-struct NearRow {
+/// From the weights of each row, the displacements that it sees at the start and at the end of a
+/// step and the velocities that enter and leave its balance: the sums of [`NearPlace`].
+struct NearRows {
     ahead: f64,
 }
 
-impl Pass<5, 0, 3> for NearRow {
+impl Pass<10, 0, 5> for NearRows {
     #[inline(always)]
     fn of<S: Simd>(
         &self,
-        [weight, start, end, before, after]: [Lanes<S>; 5],
+        [y, start_y, end_y, before_y, after_y, z, start_z, end_z, before_z, after_z]: [Lanes<S>; 10],
         _: [Lanes<S>; 0],
-        [place, last, speed]: [Lanes<S>; 3],
-    ) -> ([Lanes<S>; 0], [Lanes<S>; 3]) {
-        let ahead = start + before * self.ahead;
-        ([], [place + weight * ahead, last + weight * end, speed + (weight * after).abs()])
+        [ahead_y, last_y, ahead_z, last_z, speed]: [Lanes<S>; 5],
+    ) -> ([Lanes<S>; 0], [Lanes<S>; 5]) {
+        let way_y = y * (start_y + before_y * self.ahead);
+        let way_z = z * (start_z + before_z * self.ahead);
+        let terms = (y * after_y).abs() + (z * after_z).abs();
+        ([], [ahead_y + way_y, last_y + y * end_y, ahead_z + way_z, last_z + z * end_z, speed + terms])
     }
 }
 

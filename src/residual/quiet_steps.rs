@@ -114,17 +114,17 @@ impl Judge {
             blow: &zeros[..n],
         };
         self.noise.begin(h, quiet.end()[steps.end - 1]);
-        let path = scratch.means(simd, self.contract.balance, h, &moves, weights, n);
-        self.noise.step(simd, &moves, &scratch.load, weights, (h, per_h), n);
+        let sizes = scratch.means(simd, self.contract.balance, (h, per_h), &moves, weights, n);
+        self.noise.step(&sizes);
         self.balance.scale = scratch.products(simd, &self.matrices, (h, per_h), zeros, weights, n, self.balance.scale);
         let (largest, worst) = scratch.open(simd, per_h, weights, n, self.balance.largest);
-        if worst > self.noise.force() || path > self.noise.path() {
+        if worst > self.noise.force() || sizes.path > self.noise.path() {
             // One of the steps will be accused: see them one by one to find out when.
             return steps.for_each(|k| self.observe(&quiet.step(k)));
         }
         self.noise.book(1.0, n as f64);
         self.balance.largest = largest;
-        self.balance.observe(&self.noise, worst, path);
+        self.balance.observe(&self.noise, worst, sizes.path);
         self.energy.observe_quiet(simd, &self.matrices, (h, per_h), &moves, &scratch.load, n);
         if self.sums.whole {
             self.sums.add_all(&moves, scratch, (h, per_h), n);

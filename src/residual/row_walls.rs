@@ -3,6 +3,17 @@
 
 use super::view::View;
 use crate::scene::{Row, Scene, Side, distinct};
+use crate::step::Step;
+
+/// The motion of a row in a step: displacements at both ends, m, and velocities that enter and
+/// leave the balance, m/s.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RowMotion {
+    pub start: f64,
+    pub end: f64,
+    pub before: f64,
+    pub after: f64,
+}
 
 /// The walls of one row.
 #[derive(Debug, Clone)]
@@ -38,6 +49,13 @@ impl RowWalls {
     #[inline(always)]
     pub fn of(&self, x: &[f64]) -> f64 {
         self.row.of(x)
+    }
+
+    /// What the row does in a step that begins at the displacement `start` (m).
+    #[inline(always)]
+    pub fn seen(&self, step: &Step<'_>, start: &[f64]) -> RowMotion {
+        let [start, end, before, after] = self.row.each([start, step.q, step.velocity_before, step.velocity_after]);
+        RowMotion { start, end, before, after }
     }
 
     /// The sum of the sizes of the terms of the row times `x`.

@@ -38,32 +38,40 @@ impl Scratch {
         }
     }
 
-    /// Computes the mean load, displacement and velocity of a step of `h` seconds, and starts its
-    /// balance with what is given. Returns the difference of the displacement and the one that
-    /// follows from the velocities, m√kg.
+    /// Computes the mean load, displacement and velocity of a step of `h` seconds (and 1/h), and
+    /// starts its balance with what is given. Returns the sizes of what it did.
     #[inline(always)]
     pub fn means<S: Simd>(
         &mut self,
         simd: S,
         balance: Balance,
-        h: f64,
+        (h, per_h): (f64, f64),
         moves: &StepMotion<'_>,
         weights: &Weights,
         n: usize,
-    ) -> f64 {
-        let &StepMotion { from, to, before, after, load_start, load_end, extra, blow, .. } = moves;
+    ) -> StepSizes {
+        let &StepMotion { from, to, shown, before, after, load_start, load_end, extra, blow, .. } = moves;
         let Self { load, mean_q, mean_v, gained, residual, .. } = self;
         let theta = if let Balance::Theta(theta) = balance { theta } else { 0.0 };
-        let forces = ([load_start, load_end, extra, blow], [&mut load[..], residual]);
-        let [] = pass(simd, n, forces, &MeanLoad { theta, h });
-        let motion = ([from, to, before, after, &weights.root_mass], [&mut mean_q[..], mean_v, gained]);
-        let [path] = match balance {
+        let forces = ([load_start, load_end, extra, blow, &weights.per_root_mass], [&mut load[..], residual]);
+        let [force] = pass(simd, n, forces, &MeanLoad { theta, h, per_h });
+        let [mass, spring, dashpot] = &weights.roots;
+        let moved = [from, to, shown, before, after, mass, spring, dashpot];
+        let motion = (moved, [&mut mean_q[..], mean_v, gained]);
+        let [path, speed, reach, strain, rub] = match balance {
             Balance::Staggered(b) => pass(simd, n, motion, &StaggeredMeans { b, h }),
             _ => pass(simd, n, motion, &ThetaMeans { theta, h }),
         };
         // Exact motion and the rule that predicts and corrects have another path.
         let known = matches!(balance, Balance::Theta(_) | Balance::Staggered(_));
-        if known { path.largest(0.0) } else { 0.0 }
+        StepSizes {
+            path: if known { path.largest(0.0) } else { 0.0 },
+            speed: speed.largest(0.0),
+            reach: reach.largest(0.0),
+            strain: strain.largest(0.0),
+            rub: rub.largest(0.0),
+            force: force.largest(0.0),
+        }
     }
 
     /// Adds the terms of inertia, damping and stiffness to the balance of a step of `h` seconds
@@ -97,47 +105,78 @@ impl Scratch {
     }
 }
 
-/// From the loads at the start and at the end of a step of h seconds, the extra force, N, and the
-/// blow, N s: the mean load with the extra force, and the balance with what is given, N s.
+/// The largest sizes of what a step did, in the metric of the mass, m√kg, √J and N/√kg.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct StepSizes {
+    /// The difference of the displacement and the one that follows from the velocities.
+    pub path: f64,
+    /// |v|√m, and |q|√m, |q|√k and |v|√c, where the velocity moves the body for the whole step.
+    pub speed: f64,
+    pub reach: f64,
+    pub strain: f64,
+    pub rub: f64,
+    /// The mean load, the load at the end with the extra force, and the force of the blow.
+    pub force: f64,
+}
+
+/// From the loads at the start and at the end of a step of h seconds, the extra force, N, the blow,
+/// N s, and 1/√m: the mean load with the extra force, the balance with what is given, N s, and the
+/// largest of these forces, N/√kg.
 struct MeanLoad {
     theta: f64,
     h: f64,
+    per_h: f64,
 }
 
-impl Pass<4, 2, 0> for MeanLoad {
+impl Pass<5, 2, 1> for MeanLoad {
     #[inline(always)]
     fn of<S: Simd>(
         &self,
-        [start, end, extra, blow]: [Lanes<S>; 4],
+        [start, end, extra, blow, per_root]: [Lanes<S>; 5],
         _: [Lanes<S>; 2],
-        _: [Lanes<S>; 0],
-    ) -> ([Lanes<S>; 2], [Lanes<S>; 0]) {
+        [largest]: [Lanes<S>; 1],
+    ) -> ([Lanes<S>; 2], [Lanes<S>; 1]) {
         let load = start * (1.0 - self.theta) + end * self.theta + extra;
-        ([load, load * -self.h - blow], [])
+        let force = load.abs().max(blow.abs() * self.per_h).max(extra.abs() + end.abs()) * per_root;
+        ([load, load * -self.h - blow], [largest.max(force)])
     }
 }
 
-/// From q₀, q₁, the velocities before and after a step of h seconds and √m: mean displacement and
-/// velocity, the change of velocity, and by how much the displacement misses the way at the mean
-/// velocity, m√kg.
+/// From q₀, q₁, the displacement shown at the end, the velocities before and after a step of h
+/// seconds, √m, √k and √c: mean displacement and velocity, the change of velocity, and of
+/// [`StepSizes`] all that move.
 struct ThetaMeans {
     theta: f64,
     h: f64,
 }
 
-impl Pass<5, 3, 1> for ThetaMeans {
+impl Pass<8, 3, 5> for ThetaMeans {
     #[inline(always)]
     fn of<S: Simd>(
         &self,
-        [from, to, before, after, root_mass]: [Lanes<S>; 5],
+        [from, to, shown, before, after, mass, spring, dashpot]: [Lanes<S>; 8],
         _: [Lanes<S>; 3],
-        [path]: [Lanes<S>; 1],
-    ) -> ([Lanes<S>; 3], [Lanes<S>; 1]) {
+        so_far: [Lanes<S>; 5],
+    ) -> ([Lanes<S>; 3], [Lanes<S>; 5]) {
         let rest = 1.0 - self.theta;
         let (place, rate) = (from * rest + to * self.theta, before * rest + after * self.theta);
-        let miss = (to - from - rate * self.h).abs() * root_mass;
-        ([place, rate, after - before], [path.max(miss)])
+        let miss = (to - from - rate * self.h).abs();
+        let sizes = moved_sizes(self.h, [miss, shown, before, after], [mass, spring, dashpot], so_far);
+        ([place, rate, after - before], sizes)
     }
+}
+
+/// The sizes so far with those of a step of `h` seconds.
+#[inline(always)]
+fn moved_sizes<S: Simd>(
+    h: f64,
+    [miss, q, before, after]: [Lanes<S>; 4],
+    [mass, spring, dashpot]: [Lanes<S>; 3],
+    [path, speed, reach, strain, rub]: [Lanes<S>; 5],
+) -> [Lanes<S>; 5] {
+    let v = before.abs().max(after.abs());
+    let q = q.abs() + v * h;
+    [path.max(miss * mass), speed.max(v * mass), reach.max(q * mass), strain.max(q * spring), rub.max(v * dashpot)]
 }
 
 /// As [`ThetaMeans`] of a staggered rule, whose displacement follows from the velocity after the
@@ -147,17 +186,18 @@ struct StaggeredMeans {
     h: f64,
 }
 
-impl Pass<5, 3, 1> for StaggeredMeans {
+impl Pass<8, 3, 5> for StaggeredMeans {
     #[inline(always)]
     fn of<S: Simd>(
         &self,
-        [from, to, before, after, root_mass]: [Lanes<S>; 5],
+        [from, to, shown, before, after, mass, spring, dashpot]: [Lanes<S>; 8],
         _: [Lanes<S>; 3],
-        [path]: [Lanes<S>; 1],
-    ) -> ([Lanes<S>; 3], [Lanes<S>; 1]) {
+        so_far: [Lanes<S>; 5],
+    ) -> ([Lanes<S>; 3], [Lanes<S>; 5]) {
         let mean = (from - before * self.h) * self.b + from * (1.0 - 2.0 * self.b) + to * self.b;
-        let miss = (to - from - after * self.h).abs() * root_mass;
-        ([mean, (before + after) * 0.5, after - before], [path.max(miss)])
+        let miss = (to - from - after * self.h).abs();
+        let sizes = moved_sizes(self.h, [miss, shown, before, after], [mass, spring, dashpot], so_far);
+        ([mean, (before + after) * 0.5, after - before], sizes)
     }
 }
 

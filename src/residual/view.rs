@@ -1,6 +1,6 @@
 //! A row prepared for products.
 
-use crate::linear::Segment;
+use crate::linear::{Columns, Segment};
 use crate::scene::Row;
 
 /// A row is stored with the zeros between its entries if that makes it at most this many times as
@@ -45,6 +45,19 @@ impl View {
             Self::One(i, weight) => x.get(*i).map_or(0.0, |x| weight * x),
             Self::Run(segment) => segment.dot(x),
             Self::Wide(row) => row.dot(x),
+        }
+    }
+
+    /// The row times several vectors, each summed in the order of its entries.
+    #[inline(always)]
+    pub fn each<'a, const K: usize>(&self, vectors: [&'a [f64]; K]) -> [f64; K]
+    where
+        [&'a [f64]; K]: Columns<f64, K>,
+    {
+        match self {
+            Self::Run(segment) => segment.products(vectors).0,
+            Self::One(..) => vectors.map(|x| self.of(x)),
+            Self::Wide(row) => vectors.map(|x| row.dot(x)),
         }
     }
 

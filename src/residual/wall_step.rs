@@ -3,6 +3,7 @@
 use super::Judge;
 use super::complementarity::{expected_pressure, rebound, slack};
 use super::place::Place;
+use super::row_walls::RowMotion;
 use crate::scene::Hole;
 use crate::step::{Bound, PromisedForce, Reached, Step};
 
@@ -40,15 +41,21 @@ impl Judge {
                     continue;
                 }
             }
-            for wall in 0..walls_of_row.walls.len() {
-                self.check_wall(step, beyond, self.row_walls[place].walls[wall]);
-            }
+            self.check_row(step, beyond, place);
         }
     }
 
-    /// Checks one wall.
+    /// Checks the walls of one row.
     #[inline(never)]
-    fn check_wall(&mut self, step: &Step<'_>, beyond: bool, index: usize) {
+    fn check_row(&mut self, step: &Step<'_>, beyond: bool, place: usize) {
+        let row = self.row_walls[place].seen(step, &self.q);
+        for wall in 0..self.row_walls[place].walls.len() {
+            self.check_wall(step, beyond, &row, self.row_walls[place].walls[wall]);
+        }
+    }
+
+    /// Checks one wall of a row.
+    fn check_wall(&mut self, step: &Step<'_>, beyond: bool, row: &RowMotion, index: usize) {
         let promise = self.contract.promise;
         let wall = &self.scene.walls[index];
         let (sign, is_rigid) = (wall.side().sign(), wall.law.is_rigid());
@@ -65,17 +72,12 @@ impl Judge {
         // A bound on the displacement at the end includes what the blows add to it; everything else
         // is without that.
         let bound_there = is_rigid && promise.rigid.displacement == Some(Bound::End);
-        let end = if bound_there || !beyond { step.q } else { &self.blows.arrived };
-        let before = wall.row().dot(step.velocity_before);
-        let seen = Seen {
-            index,
-            pressure,
-            w: (wall.row().dot(&self.q), wall.row().dot(end)),
-            before,
-            struck: if is_rigid { before + wall.row().dot(&self.blows.struck) } else { before },
-            after: wall.row().dot(step.velocity_after),
-        };
-        self.walls.observe_depth(index, -wall.gap(wall.row().dot(step.q)));
+        let end = if bound_there || !beyond { row.end } else { wall.row().dot(&self.blows.arrived) };
+        // Without blows what they give is zero.
+        let given = if is_rigid && self.loads.has_blows() { wall.row().dot(&self.blows.struck) } else { 0.0 };
+        let &RowMotion { start, before, after, .. } = row;
+        let seen = Seen { index, pressure, w: (start, end), before, struck: before + given, after };
+        self.walls.observe_depth(index, -wall.gap(row.end));
         if is_rigid {
             self.hold_rigid(step, seen);
         } else {
@@ -122,7 +124,8 @@ impl Judge {
         let entries = self.scene.walls[index].row().entries();
         let speeds = |v: &[f64]| entries.iter().map(|&(i, g)| (g * v[i]).abs()).sum::<f64>();
         let kick = self.noise.kick(index, step.impulse[index]);
-        speeds(step.velocity_before) + speeds(step.velocity_after) + speeds(&self.blows.struck) + kick
+        let given = if self.loads.has_blows() { speeds(&self.blows.struck) } else { 0.0 };
+        speeds(step.velocity_before) + speeds(step.velocity_after) + given + kick
     }
 
     fn hold_elastic(&mut self, step: &Step<'_>, seen: Seen, mean: f64) {

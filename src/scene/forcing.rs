@@ -98,8 +98,12 @@ impl Forcing {
     }
 
     #[inline(always)]
-    fn irregular_by(&self, t: f64, of_table: impl FnMut(&Table) -> f64) -> f64 {
-        let tables: f64 = self.tables.iter().map(of_table).sum();
+    fn irregular_by(&self, t: f64, mut of_table: impl FnMut(&Table) -> f64) -> f64 {
+        let mut tables = 0.0;
+        // No sum of an iterator, which would be compiled by itself.
+        for table in &self.tables {
+            tables += of_table(table);
+        }
         tables + self.functions.iter().map(|(weight, function)| weight * function.at(t)).sum::<f64>()
     }
 

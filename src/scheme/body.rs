@@ -24,6 +24,8 @@ pub(super) struct Body<S: Space> {
     pub touch: f64,
     /// True if C is not zero.
     pub damped: bool,
+    /// The vector instructions of the machine.
+    pub arch: pulp::Arch,
     /// The impulsive loads ("blows"); `None` if the scene has none, as most scenes.
     pub blows: Option<Box<Blows<S>>>,
     /// Time at which the motion was started or restarted, s.
@@ -51,6 +53,7 @@ impl<S: Space> Body<S> {
             rows: S::rows(n, scene.walls.iter().map(|wall| wall.row())),
             touch: scene.touching_distance(),
             damped: matrices.damping.diagonal_entries().iter().any(|&c| c != 0.0),
+            arch: pulp::Arch::new(),
             blows: Blows::new(scene, &matrices)?.map(Box::new),
             since: 0.0,
             forces: S::forces(&scene.loads, h),

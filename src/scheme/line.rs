@@ -79,6 +79,11 @@ impl Space for Line {
     fn force(forces: &mut GridForcing, time: f64, out: &mut [f64; 1]) {
         out[0] = forces.at(time);
     }
+
+    #[inline(always)]
+    fn vectorised<R>(_: pulp::Arch, work: impl FnOnce() -> R) -> R {
+        work()
+    }
 }
 
 /// The programme in one unknown: solved by the clamp, or by another solver if one was asked for.

@@ -80,6 +80,11 @@ impl Space for Matrices {
         loads.clear(out);
         loads.add_force_near(time, 1.0, out, last);
     }
+
+    #[inline(always)]
+    fn vectorised<R>(arch: pulp::Arch, work: impl FnOnce() -> R) -> R {
+        arch.dispatch(work)
+    }
 }
 
 impl Solve<Vec<f64>> for qp::Solver {

@@ -181,6 +181,33 @@ impl<S: Space> MoreauJean<S> {
         }
         self.frozen += u64::from(frozen);
     }
+
+    /// Makes step number `step`.
+    #[inline(always)]
+    fn make(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        let Self { body, theta, b, .. } = self;
+        let h = body.h;
+        frame.begin(step, h);
+        body.theta_momentum(*theta, frame, b);
+        // Blows come first: the impact law applies to the velocity after them.
+        frame.blown = body.strike((frame.start, frame.end), 1.0, b, frame);
+        write_midpoint::<S>(h, &frame.q, frame.struck(), &mut self.ahead);
+        self.programme.free();
+        match self.programme.first_near(&self.ahead) {
+            None => self.programme.release(&self.b, (frame.start, step))?,
+            Some(row) => self.solve_contacts(row, step, frame)?,
+        }
+        let carried = self.body.blows.is_some() && self.solve_with_blows(step, frame)?;
+        add_change::<S>((h, self.theta), self.programme.x(), &mut frame.q, &mut frame.v);
+        frame.after.clone_from(&frame.v);
+        if carried {
+            self.body.shift(&mut frame.q);
+        }
+        if !self.pushed.is_empty() || !frame.pushing.is_empty() {
+            self.record_forces(frame);
+        }
+        Ok(())
+    }
 }
 
 /// Writes q + ½hv to `ahead`.
@@ -210,28 +237,7 @@ impl<S: Space> Rule<S> for MoreauJean<S> {
     }
 
     fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
-        let Self { body, theta, b, .. } = self;
-        let h = body.h;
-        frame.begin(step, h);
-        body.theta_momentum(*theta, frame, b);
-        // Blows come first: the impact law applies to the velocity after them.
-        frame.blown = body.strike((frame.start, frame.end), 1.0, b, frame);
-        write_midpoint::<S>(h, &frame.q, frame.struck(), &mut self.ahead);
-        self.programme.free();
-        match self.programme.first_near(&self.ahead) {
-            None => self.programme.release(&self.b, (frame.start, step))?,
-            Some(row) => self.solve_contacts(row, step, frame)?,
-        }
-        let carried = self.body.blows.is_some() && self.solve_with_blows(step, frame)?;
-        add_change::<S>((h, self.theta), self.programme.x(), &mut frame.q, &mut frame.v);
-        frame.after.clone_from(&frame.v);
-        if carried {
-            self.body.shift(&mut frame.q);
-        }
-        if !self.pushed.is_empty() || !frame.pushing.is_empty() {
-            self.record_forces(frame);
-        }
-        Ok(())
+        S::vectorised(self.body.arch, || self.make(step, frame))
     }
 
     fn advance_quiet(

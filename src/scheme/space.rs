@@ -56,6 +56,9 @@ pub(super) trait Space: Debug + Sized + 'static {
     /// Writes the loads at `time` (s) to `out`, N. `out` must be all zero at first, and must have
     /// been written by nothing but this function since.
     fn force(forces: &mut Self::Forces, time: f64, out: &mut Self::Vector);
+    /// Does `work`, of several degrees of freedom with the widest vector instructions of the
+    /// machine, in which each number is computed as without them. They reach what is inlined.
+    fn vectorised<R>(arch: pulp::Arch, work: impl FnOnce() -> R) -> R;
 }
 
 /// Minimises ½ xᵀA x − bᵀx under lᵢ ≤ gᵢ·x ≤ uᵢ, where elastic rows exceed their bounds by their

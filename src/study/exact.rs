@@ -6,7 +6,7 @@ use crate::residual::{Finding, Judge};
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
-use crate::statistics::{Forces, Statistics};
+use crate::statistics::{Forces, Statistics, WearTally};
 use crate::time::TimeOptions;
 use crate::trajectory::{Recorder, Trajectory};
 
@@ -27,16 +27,25 @@ fn most_events(scene: &Scene) -> u64 {
 /// of freedom, four million over n for n.
 pub fn affordable(scene: &Scene) -> Result<()> {
     let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
-    let most = most_events(scene);
-    for _ in 0..most {
-        if stepper.time() >= scene.duration {
-            return Ok(());
-        }
+    let mut count = 0;
+    while stepper.time() < scene.duration {
         stepper.step()?;
+        count += 1;
+        limit_events(scene, stepper.time(), count)?;
     }
-    let time = stepper.time();
+    Ok(())
+}
+
+/// An error if the exact motion of `scene` has taken too many events, `count` up to `time` (s).
+///
+/// # Errors
+/// [`Error::TooManyEvents`], as [`affordable`].
+pub(super) fn limit_events(scene: &Scene, time: f64, count: u64) -> Result<()> {
+    if count < most_events(scene) {
+        return Ok(());
+    }
     let wall = scene.walls.first().map_or_else(String::new, |w| w.name.clone());
-    Err(Error::TooManyEvents { time, wall, count: most, window: time })
+    Err(Error::TooManyEvents { time, wall, count, window: time })
 }
 
 /// Number of stretches of the other run in the duration; not a round number, so that its stops fall
@@ -72,13 +81,16 @@ pub fn replay(scene: &Scene, run: &Run, time: &TimeOptions) -> Result<Replay> {
     let mut judge = Judge::new(scene, stepper.contract(), stride(scene), &state.q, &state.v);
     let mut recorder = Recorder::new(scene, run.grid.rows, &state.q, &state.v);
     let mut forces = Forces::new(scene, time.statistics_from, time.force_averaging);
+    let mut wear = WearTally::new(scene, time.statistics_from, time.sectors);
     while stepper.time() < scene.duration {
         let step = stepper.step()?;
         judge.observe(&step);
         recorder.observe(&step);
         forces.observe(&step);
+        wear.observe_beside(&step, recorder.slid());
     }
     let trajectory = recorder.finish(&stepper.open_contacts());
-    let statistics = Statistics::new(scene, trajectory.contacts(), time.statistics_from).with_forces(&forces);
+    let statistics = Statistics::new(scene, trajectory.contacts(), time.statistics_from);
+    let statistics = statistics.with_forces(&forces).with_wear(&wear);
     Ok(Replay { trajectory, statistics, findings: judge.findings() })
 }

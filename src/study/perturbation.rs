@@ -17,7 +17,7 @@
 //! impact within its step separates two of its runs too, and is part of the growth they show.
 
 use super::difference::largest;
-use super::exact::affordable;
+use super::exact::limit_events;
 use super::growth::{Growth, Source};
 use crate::error::Result;
 use crate::scene::{Probe, Row, Scene};
@@ -46,7 +46,7 @@ const FEW: usize = 16;
 /// scheme ignores `step`.
 ///
 /// # Errors
-/// Errors of the runs; of exact ones also those of [`affordable`].
+/// Errors of the runs; of exact ones also those of [`affordable`](super::exact::affordable).
 pub(super) fn growth(scene: &Scene, method: &Method, step: f64, delta: f64) -> Result<Growth> {
     let watched = watching(scene);
     let spacing = scene.duration / ROWS as f64;
@@ -54,9 +54,6 @@ pub(super) fn growth(scene: &Scene, method: &Method, step: f64, delta: f64) -> R
     for rows in BEGINNINGS {
         let share = rows as f64 / ROWS as f64;
         let beginning = watched.clone().with_duration(scene.duration * share);
-        if method.scheme.is_exact() {
-            affordable(&beginning)?;
-        }
         found = within(&beginning, method, step.min(spacing), delta, spacing)?;
         if found.factor.last().is_some_and(|factor| factor.is_nan()) {
             break;
@@ -67,7 +64,7 @@ pub(super) fn growth(scene: &Scene, method: &Method, step: f64, delta: f64) -> R
 
 /// The growth along the whole run of `watched`, whose probes are compared every `spacing` seconds.
 fn within(watched: &Scene, method: &Method, step: f64, delta: f64, spacing: f64) -> Result<Growth> {
-    let base = record(watched, method, step, spacing)?;
+    let base = record(watched, method, step, spacing, None)?;
     let length = watched.gap_scale();
     let speed = largest(base.velocities()).max(length / (spacing * ROWS as f64));
     let directions = if watched.initial.v.len() > 1 { DIRECTIONS } else { 1 };
@@ -79,7 +76,7 @@ fn within(watched: &Scene, method: &Method, step: f64, delta: f64, spacing: f64)
         for (v, change) in beside.initial.v.iter_mut().zip(changes) {
             *v += delta * speed * change;
         }
-        let moved = record(&beside, method, step, spacing)?;
+        let moved = record(&beside, method, step, spacing, Some((&base, FULL * length)))?;
         for ((w, w_moved), probe) in base.displacements().iter().zip(moved.displacements()).zip(&watched.probes) {
             let seen = probe.at.dot(&beside.initial.v) - probe.at.dot(&watched.initial.v);
             start = start.max(seen.abs() / speed);
@@ -93,12 +90,12 @@ fn within(watched: &Scene, method: &Method, step: f64, delta: f64, spacing: f64)
 }
 
 /// Raises `factor` to the size of the difference of two columns at each row; NaN from the row on at
-/// which the difference is saturated.
+/// which the difference is saturated, and where `moved` has no row: its run ended soon after that.
 fn follow(time: &[f64], w: &[f64], moved: &[f64], (length, speed): (f64, f64), factor: &mut [f64]) {
     let difference = |row: usize| Some((moved.get(row)? - w.get(row)?, *time.get(row)?));
     let mut full = false;
     for (row, factor) in factor.iter_mut().enumerate() {
-        let Some((now, _)) = difference(row) else { return };
+        let now = difference(row).map_or(f64::NAN, |difference| difference.0);
         let slope = |from: usize| {
             let ((a, t), (b, u)) = (difference(from)?, difference(from + 1)?);
             Some(((b - a) / (u - t)).abs())
@@ -140,8 +137,15 @@ pub(super) fn directions_of(n: usize, direction: u64) -> Vec<f64> {
     values
 }
 
-/// The motion at rows `spacing` seconds apart, without a judge.
-fn record(scene: &Scene, method: &Method, step: f64, spacing: f64) -> Result<Trajectory> {
+/// The motion at rows `spacing` seconds apart, without a judge. Beside another run it ends with the
+/// row after the one at which a probe is more than the given distance (m) from that run's.
+fn record(
+    scene: &Scene,
+    method: &Method,
+    step: f64,
+    spacing: f64,
+    beside: Option<(&Trajectory, f64)>,
+) -> Result<Trajectory> {
     let exact = method.scheme.is_exact();
     let rows = TimeOptions { sample: Some(spacing), ..TimeOptions::with_step(step) };
     let grid = TimeGrid::stepping(scene.duration, &rows)?;
@@ -149,8 +153,24 @@ fn record(scene: &Scene, method: &Method, step: f64, spacing: f64) -> Result<Tra
     let mut stepper = Stepper::new(scene, method, step)?;
     let state = stepper.state();
     let mut recorder = Recorder::new(stepper.scene(), grid.rows, &state.q, &state.v);
+    let mut count = 0;
     while if exact { stepper.time() < scene.duration } else { stepper.index() < grid.steps } {
         recorder.observe(&stepper.step()?);
+        count += 1;
+        match beside {
+            Some((base, most)) if are_apart(recorder.displacements(), base.displacements(), most) => break,
+            None if exact => limit_events(scene, stepper.time(), count)?,
+            _ => {}
+        }
     }
     Ok(recorder.finish(&stepper.open_contacts()))
+}
+
+/// True if a column was more than `most` from that of `base` at its last row but one.
+fn are_apart(columns: &[Vec<f64>], base: &[Vec<f64>], most: f64) -> bool {
+    let apart = |(column, base): (&Vec<f64>, &Vec<f64>)| {
+        let row = column.len().checked_sub(2)?;
+        Some((column.get(row)? - base.get(row)?).abs())
+    };
+    columns.iter().zip(base).filter_map(apart).any(|apart| apart.is_nan() || apart > most)
 }

@@ -123,6 +123,11 @@ impl Recorder {
         }
     }
 
+    /// Displacements at the rows so far, m: one column per probe.
+    pub(crate) fn displacements(&self) -> &[Vec<f64>] {
+        &self.columns.displacement
+    }
+
     /// What slid between two times (s) of the last step: on a grid the whole step, of exact motion
     /// the piece since its last row.
     pub(crate) fn slid(&self) -> ([f64; 2], &[SlidingPiece]) {

@@ -1,6 +1,9 @@
 //! Rounding errors, against numbers worked out by hand.
 
 use super::*;
+use crate::residual::scratch::Scratch;
+use crate::residual::step_motion::StepMotion;
+use crate::step::Balance;
 use pulp::Scalar;
 
 /// The rounding error of the balance of a step of `span` seconds.
@@ -20,8 +23,9 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
     };
     let mut noise = NoiseModel::new(&weights, &[16.0], 0.5);
     let unit = UNITS * f64::EPSILON;
-    // A step of 0.5 s ends at −2 m with 3 m/s, under −8 N, at its end −7 N, an extra force of
-    // 2 N, and a blow of 1 N s. The largest force is that at the end with the extra one, 9 N.
+    // A step of 0.5 s ends at −2 m with 3 m/s, under −13 N at its start, −7 N at its end, an extra
+    // force of 2 N (−8 N in the mean), and a blow of 1 N s. The largest force is that at the end
+    // with the extra one, 9 N.
     let moves = StepMotion {
         from: &[0.0],
         to: &[-2.0],
@@ -29,12 +33,13 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
         before: &[-1.0],
         after: &[3.0],
         v: &[3.0],
-        load_start: &[0.0],
+        load_start: &[-13.0],
         load_end: &[-7.0],
         extra: &[2.0],
         blow: &[1.0],
     };
-    noise.step(Scalar, &moves, &[-8.0], &weights, (0.5, 2.0), 1);
+    let sizes = |moves| Scratch::new(1).means(Scalar, Balance::Theta(0.5), (0.5, 2.0), moves, &weights, 1);
+    noise.step(&sizes(&moves));
     // Way 2 + 0.5 · 3 m: 7 m√kg and 10.5 √J; 6 √J of speed, 12 √W in the damper, 4.5 N/√kg.
     let (spring, damper) = (1.5 * 10.5, 2.0 * 12.0);
     assert_eq!(noise.path(), unit * 7.0);
@@ -62,7 +67,7 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
     state.state(&[-2.0], &[-3.0], 0.5, &weights);
     assert_eq!((state.path(), force(&mut state, 0.25, 1.0)), (unit * 7.0, unit * (6.0 / 0.25 + spring + damper)));
     let mut struck = NoiseModel::new(&weights, &[], 0.5);
-    struck.step(Scalar, &StepMotion { blow: &[-10.0], ..moves }, &[-8.0], &weights, (0.5, 2.0), 1);
+    struck.step(&sizes(&StepMotion { blow: &[-10.0], ..moves }));
     assert_eq!(force(&mut struck, 1.0, 1.0), unit * (6.0 + spring + damper + 10.0));
     // Sums over four degrees of freedom have twice the rounding; one without springs has no rate.
     let mut four = weights.repeated(4);

@@ -1,6 +1,7 @@
 //! Round holes with an impact law on the velocity.
 
 use super::*;
+use crate::scene::Load;
 use crate::step::{Law, Normal, Turning};
 
 /// The law of a hole that is touched within this share of its gap, with arcs of one height.
@@ -14,6 +15,7 @@ fn a_speed_beyond_the_bound_and_a_push_beside_the_normal_count_less_the_rounding
     let (h, gap, n) = (64.0, 8.0, [0.6, 0.8]);
     let mut scene = with_hole(body([4.0; 2], 0.0), "hole", gap, RIGID);
     scene.walls[0] = scene.walls[0].clone().with_centre([2.0, -1.5]);
+    let scene = scene.with_load(Load::impulse(1.0, h));
     // 40 m from the centre, and with the blow of the step at 1 m/s on the way back.
     let mut judge = judge(&scene, law(1e-6, 0.0), h, &[26.0, 30.5]);
     judge.blows.struck.copy_from_slice(&[0.3, 0.4]);

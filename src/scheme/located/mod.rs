@@ -193,7 +193,7 @@ impl<S: Space> Located<S> {
     fn bind(&mut self, frame: &Frame<S>) {
         let Self { body, programme, division, .. } = self;
         division.classify(body, frame);
-        division.contacts.set_holds(body, frame, body.h);
+        division.contacts.set_holds(body, body.h);
         for hold in &division.contacts.holds {
             let row = programme.row_of(hold.wall);
             for number in programme.walls(row) {
@@ -210,17 +210,10 @@ impl<S: Space> Located<S> {
         self.clear = false;
         self.division.make_part(&mut self.body, step, frame)
     }
-}
 
-impl<S: Space> Rule<S> for Located<S> {
-    fn restart(&mut self, _: &Scene, time: f64, _: &Frame<S>) -> Result<()> {
-        self.body.restart(time);
-        self.division.restart();
-        self.clear = false;
-        Ok(())
-    }
-
-    fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+    /// Makes step number `step`, or its next part.
+    #[inline(always)]
+    fn make(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
         if self.division.is_under_way() {
             return self.make_part(step, frame);
         }
@@ -236,6 +229,19 @@ impl<S: Space> Rule<S> for Located<S> {
         }
         self.division.begin(&self.body, frame, first);
         self.make_part(step, frame)
+    }
+}
+
+impl<S: Space> Rule<S> for Located<S> {
+    fn restart(&mut self, _: &Scene, time: f64, _: &Frame<S>) -> Result<()> {
+        self.body.restart(time);
+        self.division.restart();
+        self.clear = false;
+        Ok(())
+    }
+
+    fn advance(&mut self, step: u64, frame: &mut Frame<S>) -> Result<()> {
+        S::vectorised(self.body.arch, || self.make(step, frame))
     }
 
     fn advance_quiet(

@@ -22,6 +22,8 @@ pub(super) struct RowContacts<S: Space> {
     places: Vec<Place>,
     /// The gap of each wall (m) and its rate (m/s) where the current step or part begins.
     gaps: Vec<(f64, f64)>,
+    /// The displacement that each wall's row sees there (m), and the velocity (m/s).
+    seen: Vec<(f64, f64)>,
     /// Walls that bound the velocity in the current step or part.
     pub holds: Vec<VelocityBound>,
     /// The walls on the other side of each wall's row.
@@ -49,6 +51,7 @@ impl<S: Space> RowContacts<S> {
             law: Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, backend)?,
             places: vec![Place::Away; walls],
             gaps: vec![(f64::INFINITY, 0.0); walls],
+            seen: vec![(0.0, 0.0); walls],
             holds: Vec::with_capacity(walls),
             opposite: scene.walls.iter().map(opposite).collect(),
             changes: vec![0.0; walls],
@@ -78,14 +81,14 @@ impl<S: Space> RowContacts<S> {
     }
 
     /// Sets the bounds of the walls at which the body rests and of elastic walls, for a part of
-    /// `length` seconds from the state of `frame`, with its contacts classified.
-    pub fn set_holds(&mut self, body: &Body<S>, frame: &Frame<S>, length: f64) {
+    /// `length` seconds from the state whose contacts were classified.
+    pub fn set_holds(&mut self, body: &Body<S>, length: f64) {
         self.holds.clear();
         for (wall, &face) in body.walls.iter().enumerate() {
             if face.law.is_rigid() && !self.rests(wall) {
                 continue;
             }
-            let (w, rate) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
+            let (w, rate) = self.seen[wall];
             let (bound, compliance) = if face.law.is_rigid() {
                 (if self.rests_between(wall) { -rate } else { rest_bound(face, w, rate, body.h) }, 0.0)
             } else {
@@ -95,23 +98,29 @@ impl<S: Space> RowContacts<S> {
         }
     }
 
-    /// The gap of a wall along the part of `length` seconds that changes the velocity by `delta`.
+    /// The gap of a wall along the part of `length` seconds that changes the velocity of its row by
+    /// `change` (m/s).
     #[inline]
-    fn gap_path(&self, body: &Body<S>, wall: usize, (delta, length): (&S::Vector, f64)) -> GapPath {
+    fn gap_path(&self, body: &Body<S>, wall: usize, (change, length): (f64, f64)) -> GapPath {
         let (gap, rate) = self.gaps[wall];
-        GapPath { gap, rate, change: body.walls[wall].sign * body.seen(wall, delta), span: length }
+        GapPath { gap, rate, change: body.walls[wall].sign * change, span: length }
     }
 }
 
 impl<S: Space> Contacts<S> for RowContacts<S> {
     /// A speed that moves the body by less than the touching distance within a step is rest.
     fn classify(&mut self, body: &Body<S>, part: &Part<S>, frame: &Frame<S>) {
-        let states = self.places.iter_mut().zip(&mut self.gaps);
-        for (wall, (face, (place, state))) in body.walls.iter().zip(states).enumerate() {
-            let gap = -face.depth(body.seen(wall, &frame.q));
-            let rate = face.sign * body.seen(wall, &frame.v);
-            *state = (gap, rate);
-            *place = if face.law.is_rigid() && gap <= body.touch {
+        for (wall, face) in body.walls.iter().enumerate() {
+            // An earlier wall of the row has seen the same.
+            let earlier = self.opposite[wall].first().filter(|&&other| other < wall);
+            self.seen[wall] = match earlier {
+                Some(&other) => self.seen[other],
+                None => (body.seen(wall, &frame.q), body.seen(wall, &frame.v)),
+            };
+            let (w, rate) = self.seen[wall];
+            let (gap, rate) = (-face.depth(w), face.sign * rate);
+            self.gaps[wall] = (gap, rate);
+            self.places[wall] = if face.law.is_rigid() && gap <= body.touch {
                 if rate.abs() <= body.touch / body.h + part.rounding(wall, &frame.v) {
                     Place::Resting
                 } else if rate > 0.0 {
@@ -129,8 +138,8 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
         self.places.contains(&Place::Struck)
     }
 
-    fn solve_contacts(&mut self, body: &Body<S>, part: &mut Part<S>, frame: &Frame<S>, length: f64) -> Solved {
-        self.set_holds(body, frame, length);
+    fn solve_contacts(&mut self, body: &Body<S>, part: &mut Part<S>, _: &Frame<S>, length: f64) -> Solved {
+        self.set_holds(body, length);
         part.solve_bounded(body, length * THETA, &self.holds).map(|()| true)
     }
 
@@ -150,12 +159,15 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
 
     fn first_event(&self, body: &Body<S>, _: &Frame<S>, (delta, length): (&S::Vector, f64)) -> Option<(f64, Event)> {
         let mut first: Option<(f64, Event)> = None;
+        // The last wall that was looked at, and the change of its row's velocity.
+        let mut last = (usize::MAX, 0.0);
         for (wall, face) in body.walls.iter().enumerate() {
-            let damped = face.law.damping() > 0.0;
             if self.rests(wall) {
                 continue;
             }
-            let path = self.gap_path(body, wall, (delta, length));
+            let same_row = self.opposite[wall].contains(&last.0);
+            last = (wall, if same_row { last.1 } else { body.seen(wall, delta) });
+            let path = self.gap_path(body, wall, (last.1, length));
             // An elastic wall that pushes is not entered again.
             if !face.law.is_rigid() && path.gap <= body.touch {
                 continue;
@@ -169,9 +181,9 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
         first
     }
 
-    fn ahead(&self, body: &Body<S>, _: &Frame<S>, event: Event, motion: (&S::Vector, f64)) -> Ahead {
+    fn ahead(&self, body: &Body<S>, _: &Frame<S>, event: Event, (delta, length): (&S::Vector, f64)) -> Ahead {
         let (Event::Crossing(wall) | Event::Reversal(wall) | Event::Slip(wall)) = event;
-        let path = self.gap_path(body, wall, motion);
+        let path = self.gap_path(body, wall, (body.seen(wall, delta), length));
         Ahead { left: path.end(), rate: path.rate + path.change, met: body.touch }
     }
 

@@ -42,7 +42,7 @@ fn a_gap_is_known_to_the_rounding_of_all_that_it_is_made_of() {
 #[test]
 fn a_speed_of_rebound_is_known_to_the_rounding_of_all_that_it_is_made_of() {
     let wall = Wall::upper("stop", 1.0).at(Row::new(vec![(0, 1.0), (1, -0.5)]));
-    let scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]).with_wall(wall);
+    let scene = two([[1.0; 2], [0.0; 2], [0.0; 2]]).with_wall(wall).with_load(Load::impulse(1.0, H));
     let mut judge = Judge::new(&scene, rigid(None, Some(Reached::Ahead(0.5))), H, &[0.0; 2], &[0.0; 2]);
     let claim = Claim {
         q: vec![0.0; 2],
