@@ -122,7 +122,7 @@ impl Change {
                 peak_force,
             });
         }
-        walls.extend(round_changes(scene, [run, against], statistics, &most, &masses));
+        walls.extend(round_changes(scene, [run, against], statistics, &most, [&masses, &speeds]));
         Self { displacement, walls }
     }
 
@@ -148,25 +148,24 @@ impl Change {
     }
 }
 
-/// The changes at the round walls of `scene`, whose walls feel `masses` (kg).
+/// The changes at the round walls of `scene`, whose walls feel `masses` (kg) and see these largest
+/// `speeds` (m/s).
 fn round_changes(
     scene: &Scene,
     runs: [&Trajectory; 2],
     statistics: [&Statistics; 2],
     most: &Largest,
-    masses: &[f64],
+    [masses, speeds]: [&[f64]; 2],
 ) -> Vec<WallChange> {
     let (from, window) = (statistics[1].from_s, statistics[1].to_s - statistics[1].from_s);
     let change = |round: Hole<'_>| {
         let index = round.index;
-        let mass = masses.get(index).copied().unwrap_or(0.0);
+        let [mass, speed] = [masses, speeds].map(|list| list.get(index).copied().unwrap_or(0.0));
         let energy = |speed: f64| 0.5 * mass * speed * speed;
         let met = |run: &Trajectory| {
             let here = run.contacts().iter().filter(|c| c.wall == index && c.start >= from);
-            let speeds = here.map(|c| c.approach_speed);
-            (speeds.clone().map(energy).sum::<f64>() / window, speeds.fold(0.0, f64::max))
+            here.map(|c| energy(c.approach_speed)).sum::<f64>() / window
         };
-        let [(power, _), (power_against, speed)] = runs.map(met);
         let contacts = match runs.map(|run| number(scene, run.contacts(), index, from)) {
             [Some(a), Some(b)] => Some(relative([a, b], most.number.max(1.0))),
             _ => None,
@@ -180,7 +179,7 @@ fn round_changes(
             kind: PlaceKind::Support,
             impulse: relative(statistics.map(|s| s.impulse(index)), most.impulse.max(mass * speed)),
             contacts,
-            impact_energy: relative([power, power_against], most.power.max(energy(speed) / window)),
+            impact_energy: relative(runs.map(met), most.power.max(energy(speed) / window)),
             contact_time: (time(statistics[0]) - time(statistics[1])).abs(),
             peak_force: 0.0,
         }

@@ -193,6 +193,30 @@ fn a_slide_begins_and_ends_where_the_load_says() {
 }
 
 #[test]
+fn a_ring_is_met_at_the_instant_and_with_the_speed_of_the_flight() {
+    // A mass without a spring flies on a straight line into an elastic ring, across it as well.
+    let (gap, start, velocity) = (2e-3, [-0.5e-3, 0.4e-3], [0.05, 0.11]);
+    for damping in [0.0, 15.0] {
+        let mut ring = hole("ring", body(), gap, 0.0, 0.0);
+        ring.law = WallLaw::Elastic { stiffness: 4e4, damping };
+        let scene = with(isotropic(1.0, 0.0, 0.0), ring).with_initial(&start, &velocity).with_duration(0.04);
+        let along = start[0] * velocity[0] + start[1] * velocity[1];
+        let [fast, far] = [velocity, start].map(|x: [f64; 2]| x[0] * x[0] + x[1] * x[1]);
+        let meets = ((along * along + fast * (gap * gap - far)).sqrt() - along) / fast;
+        let speed = (along + fast * meets) / gap;
+        for step in [1e-3, 2.5e-4, 6.25e-5] {
+            let made = made(&scene, step);
+            let first = made.trajectory.contacts()[0];
+            // The instant is that of the straight line; the normal turns by up to 0.06 rad in a step
+            // of 1 ms, whose square is left of the speed across.
+            assert!((first.start - meets).abs() < 1e-12, "{} {meets}", first.start);
+            let left = (step * fast.sqrt() / gap).powi(2) * fast.sqrt();
+            assert!((first.approach_speed - speed).abs() < left, "{step}: {} {speed}", first.approach_speed);
+        }
+    }
+}
+
+#[test]
 fn a_blow_on_a_body_that_slides_acts_at_its_instant() {
     // A mass slides round a hole at 0.3 m/s; a blow into the wall is answered there, with e = 0.
     let (gap, speed, time) = (2e-3, 0.3, 7.3e-4);

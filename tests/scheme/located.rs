@@ -149,6 +149,24 @@ fn elastic_walls_are_of_order_two_with_and_without_dashpots() {
 }
 
 #[test]
+fn contacts_with_elastic_walls_begin_at_their_instants_with_the_speed_there() {
+    for damping in [0.0, 20.0] {
+        let scene = common::elastic(damping, 0.8).with_duration(1.0);
+        let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-3)).expect("an exact run");
+        let exact = exact.trajectory.contacts();
+        let error = |step: f64, of: fn(&signorini::Contact) -> f64| {
+            let made = located(&scene, step);
+            assert_eq!(made.trajectory.contacts().len(), exact.len());
+            let pairs = made.trajectory.contacts().iter().zip(exact);
+            pairs.map(|(a, b)| (of(a) - of(b)).abs()).fold(0.0, f64::max)
+        };
+        let starts = order("starts", |step| error(step, |contact| contact.start));
+        let speeds = order("speeds", |step| error(step, |contact| contact.approach_speed));
+        assert!((1.7..2.6).contains(&starts) && (1.7..2.6).contains(&speeds), "{damping}: {starts} {speeds}");
+    }
+}
+
+#[test]
 fn blows_and_jumps_of_tables_divide_steps_at_their_instants() {
     let table = Table::new(vec![0.0777, 0.4213], vec![2.0, 1.0]).expect("a table");
     let scene = common::source(0.8, 0.8)
