@@ -8,6 +8,11 @@ pub fn loads<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (text,))
 }
 
+/// A Python object as JSON.
+pub fn dumps(object: &Bound<'_, PyAny>) -> PyResult<String> {
+    object.py().import("json")?.call_method1("dumps", (object,))?.extract()
+}
+
 /// A list of `items`.
 pub fn list<'py, T: IntoPyObject<'py>>(
     py: Python<'py>,

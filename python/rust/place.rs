@@ -1,7 +1,9 @@
 //! Locations on a structure as Python passes them, and the structure that resolves them.
 
 use crate::error::wrong;
+use crate::json::dumps;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use signorini as sg;
@@ -21,6 +23,8 @@ pub enum Place {
     Row(Vec<(usize, f64)>),
     /// Points of modal data with weights.
     Points(Vec<(String, f64)>),
+    /// The value of `at` in a case file, as JSON: known to `sg.case` only.
+    OfCase(String),
 }
 
 const EXPECTED: &str = "a number, a pair (from, to), the name of a point, or a list of pairs of a degree of freedom \
@@ -32,6 +36,9 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Place {
     fn extract(at: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         if at.is_none() {
             return Ok(Self::Only);
+        }
+        if at.is_instance_of::<PyDict>() {
+            return Ok(Self::OfCase(dumps(&at)?));
         }
         if let Ok(x) = at.extract() {
             return Ok(Self::Number(x));
@@ -107,6 +114,7 @@ impl Place {
             Self::Point(name) => format!("{name:?}"),
             Self::Row(entries) => format!("{entries:?}"),
             Self::Points(points) => format!("{points:?}"),
+            Self::OfCase(table) => format!("{table}, a place of sg.case"),
         }
     }
 
@@ -119,6 +127,7 @@ impl Place {
             Self::Point(name) => Some(json!({ "point": name })),
             Self::Row(entries) => Some(json!({ "row": entries })),
             Self::Points(points) => Some(json!({ "points": points })),
+            Self::OfCase(table) => serde_json::from_str(table).ok(),
         }
     }
 
@@ -126,6 +135,7 @@ impl Place {
     pub fn argument(&self) -> String {
         match self {
             Self::Only => String::new(),
+            Self::OfCase(table) => format!(", at={table}"),
             place => format!(", at={}", place.shown()),
         }
     }

@@ -248,6 +248,22 @@ def test_margins_of_a_tube_in_a_flow_are_those_of_the_case_and_warn() -> None:
     assert ("left", "right") in {one.bodies for one in several.active}
 
 
+def test_a_load_stands_on_one_of_several_bodies() -> None:
+    place = {"body": "a", "dof": 0}
+    body = {"mass": 1.0, "damping": 0.0, "stiffness": 100.0}
+    tables = {
+        "body": [{"name": name, "oscillator": body} for name in ("a", "b")],
+        "load": [sg.Load.constant(2.0, at=place)],
+        "wall": [{"name": "w", "at": place, "side": "upper", "position": 1.0, "restitution": 0.5}],
+        "time": {"end": 0.1, "step": 1e-3},
+    }
+    made = sg.case(tables)
+    assert tomllib.loads(made.text)["load"] == [{"constant": {"force": 2.0}, "at": place}]
+    assert repr(sg.Load.constant(2.0, at=place)) == 'Load.constant(2.0, at={"body": "a", "dof": 0})'
+    with pytest.raises(ValueError, match="a place of sg.case"):
+        sg.oscillator(mass=1.0, damping=0.0, stiffness=100.0, loads=[sg.Load.constant(2.0, at=place)])
+
+
 def test_a_shaken_tube_under_its_weight_is_the_case_of_these_keys() -> None:
     loads = [sg.Load.base(amplitude=2.0, frequency=5.0, phase=0.1, direction=0.0), sg.Load.gravity(9.81, direction=270.0)]
     made = tube(loads=loads, duration=0.1, statistics_from=0.0)
