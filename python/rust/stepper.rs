@@ -111,6 +111,10 @@ impl Stepper {
 
     /// Makes one step and returns the time reached, s.
     ///
+    /// ``located`` divides a step at its impacts, and each part counts as one here: the time
+    /// reached is then that of the impact, and the next call makes the next part. `advance` goes
+    /// on to a time whatever the parts.
+    ///
     /// Parameters
     /// ----------
     /// force : float or array of shape (degrees of freedom,), optional
@@ -152,7 +156,7 @@ impl Stepper {
     /// Returns
     /// -------
     /// int
-    ///     The number of steps.
+    ///     The number of steps; of ``located`` each part counts as one.
     ///
     /// Raises
     /// ------

@@ -150,6 +150,8 @@ def test_a_fit_says_what_it_needs() -> None:
         sg.fit(stopped, start, {"force": [1.0]})
     with pytest.raises(ValueError, match="more than the 2 keys"):
         sg.fit(stopped, start, {"start": data["start"][:2]})
+    with pytest.raises(ValueError, match=r"restitution starts from 0.5; expected from 0.6 to 1, its bounds"):
+        sg.fit(stopped, start, data, error=error, bounds={"restitution": (0.6, 1.0)})
     with pytest.raises(ValueError, match="confidence"):
         sg.fit(stopped, start, data, error=error, confidence=95.0)
     with pytest.raises(ValueError, match="wall"):

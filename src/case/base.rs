@@ -116,7 +116,7 @@ impl Builder<'_> {
             let kind = LoadKind::Harmonic { amplitude: largest * size, frequency, phase };
             let origin = match loads.is_empty() {
                 true => Origin::Base { motion: sine_in_words(amplitude, frequency), walls: WallsOverBase::Fixed },
-                false => Origin::Stated,
+                false => Origin::Dashpots,
             };
             loads.push(NewLoad { load: Load { kind, at }, place: Place::Row(Vec::new()), origin });
         }

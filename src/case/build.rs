@@ -170,6 +170,10 @@ impl Builder<'_> {
             turbulence,
             sliders: case.sliders.clone(),
         };
+        // Where the file leaves `modes` out all are kept, which condensed degrees of freedom do not
+        // have.
+        let all = whole.scene.system.degrees_of_freedom();
+        let modes = if file.required_section("system").get("modes").is_some() { modes } else { all };
         let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
         case.scene = reduction.scene.clone();
         case.fluid_elastic = self.flow(file, &whole, &reduction.modes)?;
@@ -241,10 +245,17 @@ impl Builder<'_> {
         Ok(modes.map(|modes| modes * self.planes.modes()))
     }
 
-    /// All of the `total` modes of modal data under turbulence, which acts on modes.
+    /// All of the `total` modes where every turbulence acts on modal data, which are modes already.
     fn modes_of_data(&self, file: &Section<'_>, total: usize) -> Option<usize> {
-        let modal = matches!(self.model, Model::Modal(_)) && !file.sections("turbulence").is_empty();
-        modal.then_some(total)
+        let tables = file.sections("turbulence");
+        let modal = |table: &Section<'_>| match &self.model {
+            Model::Bodies(_) => {
+                let body = table.word("body").and_then(|name| self.model.body(name.get_ref()));
+                body.is_some_and(|body| matches!(body.model, Model::Modal(_)))
+            }
+            model => matches!(model, Model::Modal(_)),
+        };
+        (!tables.is_empty() && tables.iter().all(modal)).then_some(total)
     }
 
     fn time(&mut self, time: &Section<'_>, sectors: usize) -> TimeOptions {

@@ -210,6 +210,11 @@ impl CaseFile {
         }
     }
 
+    /// The same file without the changes of its values; `None` where there are none.
+    pub(super) fn as_written(&self) -> Option<Self> {
+        self.changed.is_some().then(|| Self { changed: None, changes: Vec::new(), ..self.clone() })
+    }
+
     /// Name of the case: that of the file without folder and extension.
     #[must_use]
     pub fn name(&self) -> &str {

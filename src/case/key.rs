@@ -57,9 +57,16 @@ impl Key {
     fn pattern(&self) -> String {
         let listed = self.parts.first().is_some_and(|first| is_list(first));
         let system = usize::from(self.parts.first().is_some_and(|first| first == "body"));
+        // The parts of a field have the names of bodies and of the forms in which it is given.
+        let field = matches!(self.parts.as_slice(), [table, of, ..]
+            if table == "initial" && ["displacement", "velocity"].contains(&of.as_str()));
         let shapes = |index: usize| self.parts.get(1 + system..index).is_some_and(|path| path == ["modal", "shapes"]);
         let named = |index: usize, part: &str| {
-            (listed && index == 1) || shapes(index) || part == "*" || part.parse::<usize>().is_ok()
+            (listed && index == 1)
+                || shapes(index)
+                || (field && index > 1)
+                || part == "*"
+                || part.parse::<usize>().is_ok()
         };
         let kept = self.parts.iter().enumerate().filter(|(index, part)| !named(*index, part));
         kept.map(|(_, part)| part.as_str()).collect::<Vec<_>>().join(".")
@@ -137,6 +144,10 @@ mod tests {
         assert_eq!(key("system.beam.left.rotational").unit(), Some("N_m_per_rad"));
         assert_eq!(key("initial.displacement.3").word(), "displacement");
         assert_eq!(key("wall.*.at.position").word(), "position");
+        // A field may be given by bodies, which the case names, by planes and by points.
+        for path in ["initial.velocity.rod", "initial.velocity.y.dofs.0.1", "initial.velocity.rod.profile.1.1"] {
+            assert_eq!((key(path).pattern().as_str(), key(path).unit()), ("initial.velocity", Some("m_per_s")));
+        }
         assert_eq!(key("system.modal.shapes.tip.0").pattern(), "system.modal.shapes");
     }
 

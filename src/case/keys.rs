@@ -271,7 +271,7 @@ pub(super) const LISTED: &[KeyEntry] = &[
         the column is", "0"]),
     entry("load.base.walls", Word, "", ["`\"moving\"`", "\"moving\": walls move with the base, or \
         \"fixed\": they stay in space, and displacements are those in space", "`\"fixed\"` beside \
-        `file`, `modes`, `bar` and `beam`"]),
+        `file`, `modes`, `bar` and `beam`; another word than the other bases"]),
     entry("load.base.influence", Any, "", ["required of `matrices` and `modal`", "{ row = [[0, \
         1.0], ..] }: how far each degree of freedom moves with the base", "beside other \
         systems"]),
@@ -378,12 +378,6 @@ pub(super) const LISTED: &[KeyEntry] = &[
     inner("slider.friction.static", ""),
     inner("slider.friction.kinetic", ""),
     inner("load.base.influence.row", ""),
-    inner("initial.displacement.dofs", "m"),
-    inner("initial.displacement.y", "m"),
-    inner("initial.displacement.z", "m"),
-    inner("initial.velocity.dofs", "m_per_s"),
-    inner("initial.velocity.y", "m_per_s"),
-    inner("initial.velocity.z", "m_per_s"),
     // Places, of walls, supports, loads and probes alike.
     inner("at.body", ""),
     inner("at.relative_to", ""),

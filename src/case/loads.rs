@@ -5,7 +5,7 @@ use super::place::Site;
 use super::random::NewRandom;
 use super::table::{self, TableColumns};
 use super::value::{Section, Value};
-use super::written::{NewLoad, Origin};
+use super::written::{NewLoad, Origin, WallsOverBase};
 use crate::error::{Result, Subject};
 use crate::scene::{Load, LoadKind, RandomForce, Scene, System};
 use toml::Spanned;
@@ -18,6 +18,7 @@ impl Builder<'_> {
         for (index, table) in tables.iter().enumerate() {
             let mut made = self.load(index, table, scene.duration, &scene.system)?.into_iter();
             loads.extend(made.next());
+            self.check_walls_over_base(&loads, table)?;
             further.extend(made);
         }
         for NewLoad { load, place, origin } in loads.into_iter().chain(further) {
@@ -78,6 +79,26 @@ impl Builder<'_> {
         let kind = self.kind(index, kind, &section)?;
         let new = |site: Site| NewLoad { load: Load { kind, at: site.row }, place: site.place, origin: Origin::Stated };
         Ok(sites.into_iter().next().map(new).into_iter().collect())
+    }
+
+    /// An error at the last of `loads`, that of `table`, where it is a base with other walls than
+    /// an earlier one: displacements cannot be both relative to the base and in space.
+    fn check_walls_over_base(&self, loads: &[NewLoad], table: &Section<'_>) -> Result<()> {
+        let walls = |new: &NewLoad| if let Origin::Base { walls, .. } = &new.origin { Some(*walls) } else { None };
+        let (Some(base), Some((last, earlier))) = (table.section("base"), loads.split_last()) else { return Ok(()) };
+        let other = |new: &NewLoad| walls(new).is_some_and(|walls_there| Some(walls_there) != walls(last));
+        let Some(first) = earlier.iter().position(other) else { return Ok(()) };
+        let word = |new: &NewLoad| if walls(new) == Some(WallsOverBase::Fixed) { "fixed" } else { "moving" };
+        let title = format!(
+            "load {}: walls over the base are {:?}, and those of load {} are {:?}",
+            loads.len(),
+            word(last),
+            first + 1,
+            word(&earlier[first])
+        );
+        let help = "expected the same `walls` in every base, \"moving\" where it is left out: displacements are \
+                    relative to the base, or those in space";
+        Err(self.source.error(base.span_of("walls").unwrap_or(base.span.clone()), &title, help))
     }
 
     /// A load whose numbers or table stand in `section`.

@@ -2,7 +2,7 @@
 
 use super::case_file::CaseFile;
 use super::{Case, Embedded, Key, KeyValue, build};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scene::State;
 use std::path::Path;
 
@@ -60,7 +60,15 @@ impl CaseFile {
     /// # Errors
     /// [`crate::Error::Case`], with file, line, column and key, and what would be accepted.
     pub fn case(&self) -> Result<Case> {
-        build::case(self, None)
+        build::case(self, None).map_err(|error| self.in_lines_of_its_text(error))
+    }
+
+    /// `error` of the changed document, shown at the lines of the text, where the text has it as
+    /// well: the user knows those.
+    fn in_lines_of_its_text(&self, error: Error) -> Error {
+        let title = |error: &Error| error.to_string().lines().next().map(str::to_owned);
+        let own = self.as_written().and_then(|file| build::case(&file, None).err());
+        own.filter(|own| title(own) == title(&error)).unwrap_or(error)
     }
 
     /// Builds the case with `start` in place of its own initial state, if `start` has as many

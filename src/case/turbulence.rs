@@ -254,6 +254,18 @@ impl Case {
         self.truncated.as_ref().map_or(&[], |truncated| &truncated.whole.turbulence)
     }
 
+    /// An error for turbulence, where a motion that repeats itself is asked for.
+    #[cfg(feature = "cli")]
+    pub(crate) fn check_repeats(&self) -> Result<()> {
+        match self.turbulence().first() {
+            None => Ok(()),
+            Some(field) => {
+                let found = format!("none: turbulence {} does not repeat itself", field.number());
+                Err(Error::invalid("forcing period", found, "only constant and harmonic loads"))
+            }
+        }
+    }
+
     /// Where a spectrum ends within the band that was asked for, in sentences.
     pub(super) fn turbulence_notes(&self) -> Vec<String> {
         let note = |field: &Turbulence| {

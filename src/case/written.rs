@@ -45,6 +45,9 @@ pub enum Origin {
     },
     /// The signal along z of such a force; these come after all loads of the file.
     Second(RandomForce),
+    /// As the dashpots at a base that moves under fixed walls; these come after all loads of the
+    /// file.
+    Dashpots,
     /// As a motion of the base, of which more loads may come after all loads of the file.
     Base {
         /// The motion, in words.
@@ -146,6 +149,12 @@ impl Case {
 
 #[cfg(feature = "cli")]
 impl Case {
+    /// The number of tables `[[load]]`; the scene has more loads where one of them makes two.
+    pub(crate) fn loads_of_file(&self) -> usize {
+        let own = |origin: &&Origin| !matches!(origin, Origin::Second(_) | Origin::Dashpots);
+        self.written.origins.iter().filter(own).count()
+    }
+
     /// The row of a location of the file in the scene that is condensed but not reduced; `None`
     /// where it includes condensed degrees of freedom.
     pub(crate) fn sees(&self, place: &Place) -> Option<Row> {

@@ -79,10 +79,6 @@ impl CaseArgs {
     /// KEY=VALUE.
     pub fn file(&self, ui: &Ui) -> Result<CaseFile> {
         let mut file = case_file(&self.case, ui)?;
-        if !self.changes.set.is_empty() {
-            // Errors of the file itself are shown with its own lines, before any change.
-            file.case()?;
-        }
         for (key, value) in self.changes.pairs()? {
             file.set(&key.parse()?, &value)?;
         }
@@ -125,10 +121,9 @@ pub(super) fn built(file: &CaseFile, ui: &Ui) -> Result<Case> {
 /// Gives every rigid wall and support that restitution.
 pub(super) fn set_restitution(file: &mut CaseFile, restitution: Option<f64>) -> Result<()> {
     let Some(restitution) = restitution else { return Ok(()) };
-    // Errors of the file itself are shown with its own lines, before any change.
-    file.case()?;
     let keys = file.restitutions()?;
     if keys.is_empty() {
+        file.case()?;
         return Err(Error::invalid("--restitution", restitution, "a case with a rigid wall; this one has none"));
     }
     keys.iter().try_for_each(|key| file.set(key, &restitution.into()))

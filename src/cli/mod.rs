@@ -110,7 +110,14 @@ enum Command {
 pub fn main(stdout: Stdout) -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(text) => return answer(&with_tip(text), stdout),
+        Err(text) => {
+            let text = with_tip(text);
+            // What was asked for is not known, since the words could not be read.
+            if text.use_stderr() && std::env::args_os().skip(1).any(|word| word == "--json") {
+                Ui::new(true, true, stdout).refused(&text);
+            }
+            return answer(&text, stdout);
+        }
     };
     let ui = Ui::new(cli.quiet, cli.json, stdout);
     match execute(&cli.command, &ui) {

@@ -87,8 +87,6 @@ impl Request {
 
     /// Sets the end of the run, and leaves out rows and a window of statistics that lie beyond it.
     fn set_end(&self, file: &mut CaseFile, end: f64) -> Result<()> {
-        // Errors of the file itself are shown with its own lines, before any change.
-        file.case()?;
         for (key, beyond) in [("time.sample", f64::gt as fn(&f64, &f64) -> bool), ("time.statistics_from", f64::ge)] {
             let key: Key = key.parse()?;
             if file.get(&key)?.and_then(|value| value.number()).is_some_and(|x| beyond(&x, &end)) {

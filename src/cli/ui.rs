@@ -170,6 +170,14 @@ impl Ui {
         }
     }
 
+    /// Prints a wrong command line as the JSON document of an error; its message goes elsewhere.
+    pub fn refused(&self, error: &clap::Error) {
+        let text = error.to_string();
+        let said = text.trim().trim_start_matches("error: ");
+        // The error itself is reported next, whether or not this can be written.
+        let _ = self.document(&serde_json::json!({ "error": said, "exit_code": 2 }));
+    }
+
     /// Does `work` with a progress bar.
     pub fn with_bar<T>(&self, label: &str, work: impl FnOnce(&Bar) -> T) -> T {
         work(&Bar::new(label, None, self.quiet))

@@ -12,7 +12,7 @@ use crate::verification::verify;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Compare some 50 values with what others published or with closed forms, on this machine
+/// Compare some 60 values with what others published or with closed forms, on this machine
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  signorini verify\n\nWrites verification.html, a page to file with a report, \
     and verification.csv. Exit code 1 if a value is not within its tolerance.")]

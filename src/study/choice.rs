@@ -284,7 +284,12 @@ pub fn walls(scene: &Scene) -> Vec<(usize, String)> {
 /// The loads in words.
 #[must_use]
 pub fn loads(scene: &Scene) -> String {
-    match scene.loads.len() {
+    loads_in_words(scene.loads.len())
+}
+
+/// This number of loads in words.
+pub(crate) fn loads_in_words(count: usize) -> String {
+    match count {
         0 => "no loads".into(),
         1 => "one load".into(),
         n => format!("{n} loads, added up"),

@@ -12,6 +12,7 @@ use super::target::Target;
 use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
 use crate::scheme::Scheme;
+use crate::wear::Archard;
 
 impl Sweep {
     /// Checks what varies, each axis by itself and all together, and that anything is measured.
@@ -97,6 +98,7 @@ impl Sweep {
                 return Err(Error::invalid("[run] settle and keep", found, "less than 2^32 - 1 periods in all"));
             }
             Window::Periods { .. } => {
+                base.check_repeats()?;
                 forcing::period(&base.scene)?;
             }
             Window::Seconds { settle, keep } => {
@@ -176,9 +178,14 @@ impl Plan {
             let expected = format!("one of {known}: the case has {}", lacks(measure.scope()));
             return Err(Error::invalid("[measure] columns", measure, expected));
         }
-        let has_law = || (0..scene.supports.len()).any(|index| self.base.archard(index).is_some());
-        if let Some(measure) = self.sweep.measures.iter().find(|measure| measure.needs_law() && !has_law()) {
+        let laws: Vec<Archard> = (0..scene.supports.len()).filter_map(|index| self.base.archard(index)).collect();
+        if let Some(measure) = self.sweep.measures.iter().find(|measure| measure.needs_law() && laws.is_empty()) {
             let expected = "work_rate, or coefficient and service in [wear] beside it";
+            return Err(Error::invalid("[measure] columns", measure, expected));
+        }
+        let has_scar = || laws.iter().any(|law| law.scar.is_some());
+        if let Some(measure) = self.sweep.measures.iter().find(|measure| measure.needs_scar() && !has_scar()) {
+            let expected = "worn_volume, or a support with width and radius: sliders have no depth";
             return Err(Error::invalid("[measure] columns", measure, expected));
         }
         if self.sweep.samples == Some(Samples::Impacts) && scene.walls.is_empty() {

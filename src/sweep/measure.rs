@@ -250,9 +250,14 @@ impl Measure {
         matches!(self, Self::WorkRate | Self::ImpactShare | Self::SlidingRate | Self::FrictionPower) || self.needs_law()
     }
 
+    /// True for the depth of a scar, which a slider does not have.
+    pub(super) fn needs_scar(self) -> bool {
+        matches!(self, Self::DepthOneScar | Self::DepthAllRound)
+    }
+
     /// True for a measure that takes the law of wear of the case.
     pub(super) fn needs_law(self) -> bool {
-        matches!(self, Self::WornVolume | Self::DepthOneScar | Self::DepthAllRound)
+        self == Self::WornVolume || self.needs_scar()
     }
 }
 

@@ -118,7 +118,7 @@ pub(crate) fn merge_in(folders: &[PathBuf], out: &Path, force: bool, formats: Fo
     let mut parts = expanded(folders)?.iter().map(|folder| Part::read(folder)).collect::<Result<Vec<_>>>()?;
     parts.sort_by_key(|part| part.shard.index());
     let first = parts.first().ok_or_else(|| Error::invalid("merge", "nothing", "the folders of shards"))?;
-    check_parts(&parts, first, out)?;
+    check_parts(&parts, first, folders)?;
     let request = first.request.clone();
     let number = |key: &str| request.get(key).and_then(Value::as_u64).filter(|x| *x > 0);
     let (Some(rows), Some(length)) = (number("rows"), number("rows_of_a_chain")) else {
@@ -150,8 +150,8 @@ pub(crate) fn merge_in(folders: &[PathBuf], out: &Path, force: bool, formats: Fo
 }
 
 /// Refuses parts, sorted by their shards, that are not those of `first`, not finished, given twice
-/// or not all there.
-fn check_parts(parts: &[Part], first: &Part, out: &Path) -> Result<()> {
+/// or not all in `folders`.
+fn check_parts(parts: &[Part], first: &Part, folders: &[PathBuf]) -> Result<()> {
     let of = first.shard.of();
     for part in parts {
         if let Some(what) = manifest::differences(Some(&Value::Object(first.request.clone())), &part.request) {
@@ -186,7 +186,9 @@ fn check_parts(parts: &[Part], first: &Part, out: &Path) -> Result<()> {
     if !missing.is_empty() {
         let shown = missing.iter().take(20).cloned().collect::<Vec<_>>().join(", ");
         let more = if missing.len() > 20 { ", …" } else { "" };
-        return Err(wrong(out, format!("{} of {of} shards are missing: {shown}{more}", missing.len())));
+        let folders: Vec<_> = folders.iter().map(|folder| folder.display().to_string()).collect();
+        let reason = format!("{} of {of} shards are missing: {shown}{more}", missing.len());
+        return Err(wrong(Path::new(&folders.join(", ")), reason));
     }
     Ok(())
 }

@@ -16,9 +16,6 @@ use crate::error::{Error, Result};
 use crate::study::realisations::{PILOTS, RealisationCount};
 use csv::StringRecord;
 
-/// The end of a key that sets the seed of a random load.
-const SEED_KEY: &str = ".random.seed";
-
 /// What realisations need.
 const RANDOM: &str = "a case with a random load: without one all runs are the same";
 
@@ -92,8 +89,8 @@ impl Plan {
         if !self.base.is_random() {
             return refuse(RANDOM);
         }
-        let keys = self.sweep.axes.iter().flat_map(|axis| &axis.targets).map(|(target, _)| target.to_string());
-        if let Some(key) = keys.into_iter().find(|key| key.ends_with(SEED_KEY)) {
+        let mut targets = self.sweep.axes.iter().flat_map(|axis| &axis.targets).map(|(target, _)| target);
+        if let Some(key) = targets.find(|target| target.is_seed()) {
             let expected = "no seeds beside it: they set the same";
             return Err(Error::invalid("[[vary]] key", key, expected));
         }

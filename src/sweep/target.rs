@@ -40,6 +40,12 @@ impl Target {
         if let Self::Case(key) = self { key.unit() } else { None }
     }
 
+    /// True for the seed of a random load or of turbulence: `load.1.random.seed`,
+    /// `turbulence.1.seed`.
+    pub(super) fn is_seed(&self) -> bool {
+        matches!(self, Self::Case(key) if key.word() == "seed")
+    }
+
     /// Name of the column of its values: the last word of the key, or the whole key.
     pub(super) fn column(&self, whole: bool) -> String {
         let name = match self {

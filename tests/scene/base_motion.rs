@@ -468,3 +468,21 @@ fn walls_stay_fixed_only_where_the_forces_at_the_base_are_known() {
     let error = Case::parse(&format!("{text}[time]\nend = 1.0\nstep = 1e-3\n"), "base.toml", "").unwrap_err();
     assert!(error.to_string().contains("expected \"moving\" or \"fixed\""), "{error}");
 }
+
+#[test]
+fn bases_whose_walls_differ_are_refused() {
+    let base = |walls: &str| format!("[[load]]\nbase = {{ amplitude = 2.0, frequency = 3.0{walls} }}\n");
+    let oscillator = "[system.oscillator]\nmass = 2.0\ndamping = 0.0\nstiffness = 800.0\n";
+    let constant = "[[load]]\nconstant = { force = 1.0 }\n";
+    let parsed = |first: &str, second: &str| {
+        let time = "[time]\nend = 1.0\nstep = 1e-3\n";
+        Case::parse(&format!("{oscillator}{}{constant}{}{time}", base(first), base(second)), "base.toml", "")
+    };
+    let (fixed, moving) = (", walls = \"fixed\"", ", walls = \"moving\"");
+    for (first, second) in [(fixed, ""), ("", fixed), (fixed, moving), (moving, fixed)] {
+        let error = parsed(first, second).unwrap_err().to_string();
+        let words = ["load 3: walls over the base are", "those of load 1 are", "expected the same `walls`"];
+        assert!(words.iter().all(|word| error.contains(word)) && error.contains("--> base.toml:10:"), "{error}");
+    }
+    assert!(parsed(fixed, fixed).is_ok() && parsed("", moving).is_ok());
+}

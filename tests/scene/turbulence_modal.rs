@@ -175,3 +175,30 @@ fn a_beam_has_neither_line_nor_diameter_and_a_chain_no_turbulence() {
         assert!(said.contains(words) && said.contains("expected"), "{said}");
     }
 }
+
+#[test]
+fn a_body_by_its_modes_needs_no_number_of_modes() {
+    let alone = case(&modes());
+    let body = |text: &str| {
+        let other = "[[body]]\nname = \"other\"\n[body.oscillator]\nmass = 1.0\ndamping = 0.1\nstiffness = 1e6\n\n";
+        let tube = text.replace("[system.modal]", "[[body]]\nname = \"tube\"\n[body.modal]");
+        let tube = tube.replace("[[turbulence]]", &format!("{other}[[turbulence]]\nbody = \"tube\""));
+        tube.replace("at = { point", "at = { body = \"tube\", point")
+    };
+    let beside = case(&body(&modes()));
+    assert_eq!(beside.scene.system.degrees_of_freedom(), 3);
+    // The oscillator of 159 Hz is the fastest mode; those of the tube come before it, with the
+    // forces that they have alone, to the roundings of a product of matrices.
+    for ((own, force), (mode, alone)) in forces(&beside, beside.scene.loads.len()).iter().zip(forces(&alone, 2)) {
+        assert_eq!(*own, mode);
+        assert!(force.iter().zip(&alone).all(|(x, y)| (x.abs() - y.abs()).abs() <= 1e-12 * rms(alone.iter().copied())));
+    }
+    // A beam under turbulence still has to say how many of its modes are kept.
+    let beam = "[body.beam]\nlength = 3.0\nelements = 6\nouter_diameter = 0.02\ninner_diameter = 0.016\n\
+                youngs_modulus = 2e11\ndensity = 8000.0\nleft = \"pinned\"\nright = \"pinned\"\n";
+    let text = body(&modes()).replace("[body.oscillator]\nmass = 1.0\ndamping = 0.1\nstiffness = 1e6\n", beam);
+    let field = "[[turbulence]]\nbody = \"other\"\nspectrum = [[1.0, 0.02], [40.0, 0.02]]\nfrom = 1.0\nto = 40.0\n\
+                 correlation_length = 0.5\n[[wall]]";
+    let error = Case::parse(&text.replace("[[wall]]", field), "modes.toml", "").unwrap_err().to_string();
+    assert!(error.contains("expected modes = k in [system]"), "{error}");
+}

@@ -10,6 +10,7 @@ mod compare_seeds;
 mod derivatives;
 mod documents;
 mod error_parts;
+mod excitations;
 mod folders;
 mod formats;
 mod hazards;

@@ -99,3 +99,48 @@ fn bad_keys_and_values_are_named_with_what_would_do() {
         assert!(err.contains(words), "{set}: {err}");
     }
 }
+
+#[test]
+fn values_are_set_before_anything_of_the_case_is_checked() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    // The end asked for is later than the window's begin, which the file's end of 10 s is not.
+    let late = ["run", "rigid-walls-sine", "--end", "12", "--set", "time.statistics_from=11", "--no-verdict", "--json"];
+    let run: serde_json::Value = serde_json::from_str(&said(path, &late, 0).0).unwrap();
+    assert_eq!(run["case_file"]["time"]["statistics_from"], 11.0, "{run}");
+    // The number of modes, without which turbulence is refused, may come from the command line.
+    let text = Embedded::named("tube-in-cross-flow").unwrap().text;
+    let without: String =
+        text.lines().filter(|line| !line.starts_with("modes = 20")).map(|l| format!("{l}\n")).collect();
+    assert_ne!(without.lines().count(), text.lines().count());
+    std::fs::write(path.join("tube.toml"), without).unwrap();
+    for modes in [&["--set", "system.modes=4"][..], &["--set", "time.end=2", "--set", "system.modes=4"]] {
+        let (out, _) = said(path, &[&["explain", "tube.toml"], modes].concat(), 0);
+        assert!(out.contains("cut to 4 modes in each plane"), "{out}");
+    }
+    let run = ["run", "tube.toml", "--modes", "4", "--end", "0.02", "--no-verdict", "--out", "four"];
+    said(path, &run, 0);
+    // What is wrong in the file itself is shown at its own line, whatever else is set.
+    let line = 1 + text.lines().filter(|l| !l.starts_with("modes = 20")).position(|l| l == "[[turbulence]]").unwrap();
+    let (_, err) = said(path, &["explain", "tube.toml", "--set", "time.end=0.5"], 2);
+    assert!(err.contains(&format!("--> tube.toml:{line}:")) && err.contains("expected modes = k"), "{err}");
+}
+
+#[test]
+fn fields_of_bodies_are_set_by_their_keys() {
+    let dir = tempfile::tempdir().unwrap();
+    let body = |name: &str| {
+        format!("[[body]]\nname = \"{name}\"\n[body.oscillator]\nmass = 1.0\ndamping = 0.1\nstiffness = 100.0\n")
+    };
+    let rest = "[initial]\nvelocity = { a = 0.2, b = 0.3 }\n[time]\nend = 0.1\nstep = 1e-3\n";
+    std::fs::write(dir.path().join("two.toml"), format!("{}{}{rest}", body("a"), body("b"))).unwrap();
+    let two = CaseFile::read(dir.path().join("two.toml")).unwrap();
+    for (key, expected) in [("initial.velocity.a", [0.1, 0.3]), ("initial.velocity.b", [0.2, 0.1])] {
+        let mut set = two.clone();
+        set.set(&key.parse().unwrap(), &0.1.into()).unwrap();
+        assert_eq!(set.case().unwrap().scene.initial.v, expected, "{key}");
+    }
+    said(dir.path(), &["run", "two.toml", "--no-verdict", "--set", "initial.velocity.a=0.1"], 0);
+    let (_, err) = said(dir.path(), &["explain", "two.toml", "--set", "initial.velocity.c=0.1"], 2);
+    assert!(err.contains("unknown key `c` in `initial.velocity`"), "{err}");
+}

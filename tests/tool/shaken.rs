@@ -52,3 +52,28 @@ step = 1e-3
 "#
     )
 }
+
+/// A tube by two of its modes, between two walls in a cross flow.
+pub const IN_A_FLOW: &str = r#"
+[system.modal]
+frequencies = [10.0, 12.0]
+masses = [2.0, 3.0]
+damping_ratios = 0.05
+shapes = { left = [0.0, 0.0], middle = [1.0, 0.2], right = [0.0, 0.0] }
+[[turbulence]]
+line = { left = 0.0, middle = 0.5, right = 1.5 }
+spectrum = [[0.5, 4.0], [50.0, 4.0]]
+from = 1.0
+to = 20.0
+correlation_length = 0.1
+seed = 3
+[[wall]]
+name = "w"
+at = { point = "middle" }
+side = "both"
+gap = 2e-3
+restitution = 0.5
+[time]
+end = 0.4
+step = 1e-3
+"#;

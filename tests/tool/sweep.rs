@@ -97,6 +97,20 @@ fn measures_of_supports_are_refused_by_name_where_they_have_no_value() {
         let sweep = Sweep::new(CaseFile::embedded(case).unwrap()).vary(axis).by("moreau-jean");
         sweep.measure([measure]).plan().unwrap_err().to_string()
     };
+    // A slider has a worn volume, and no scar with a depth.
+    let mut damper = CaseFile::embedded("dry-friction-damper").unwrap();
+    for (key, value) in [("wear.coefficient", 1e-14), ("wear.service", 3e8)] {
+        damper.set(&key.parse().unwrap(), &value.into()).unwrap();
+    }
+    let of_damper = |measure: Measure| {
+        let axis = Axis::linear("slider.pad.friction", 0.1, 0.2, 2).unwrap();
+        Sweep::new(damper.clone()).vary(axis).by("moreau-jean").measure([measure]).plan()
+    };
+    assert!(of_damper(Measure::WornVolume).is_ok());
+    for measure in [Measure::DepthOneScar, Measure::DepthAllRound] {
+        let said = of_damper(measure).unwrap_err().to_string();
+        assert!(said.contains(measure.name()) && said.contains("worn_volume, or a support with width"), "{said}");
+    }
     let said = refused("rigid-walls-sine", "wall.*.restitution", Measure::WorkRate);
     assert!(said.contains("work_rate") && said.contains("the case has no support in two planes"), "{said}");
     let said = refused("tube-lattice-bars", "support.*.restitution", Measure::WornVolume);
@@ -612,7 +626,8 @@ fn shards_that_do_not_belong_together_are_not_merged() {
         let (_, err) = said(&path, &[&["merge"], folders, &["--out", "merged"]].concat(), 2);
         assert!(err.contains(words), "{folders:?}: {err}");
     };
-    refused(&["a"], "1 of 3 shards are missing: 2/3");
+    refused(&["a"], "error: a: 1 of 3 shards are missing: 2/3");
+    refused(&["a/shard-3-of-3"], "error: a/shard-3-of-3: 2 of 3 shards are missing: 1/3, 2/3");
     shard("b", "2/3", &["--set", "wall.upper.position=6e-3"]);
     refused(&["a", "b"], "a shard of another request");
     shard("c", "2/2", &[]);

@@ -1,7 +1,7 @@
 //! `sweep --seeds`: rows that equal `run --seeds` bit for bit, realisations that failed, shards and
 //! interruptions, and what is refused.
 use crate::command::{command, said};
-use crate::shaken::before_a_stop;
+use crate::shaken::{IN_A_FLOW, before_a_stop};
 use serde_json::Value;
 use signorini::case::CaseFile;
 use signorini::study::realisations::RealisationCount;
@@ -314,6 +314,28 @@ fn seeds_that_make_no_sense_are_refused_by_name() {
         &["load.1.random.seed", "no seeds beside it"],
     );
     refused(&with(&["--seeds", "3", "--vary", "load.*.random.seed=1,2"]), &["random.seed", "no seeds beside it"]);
+    fs::write(path.join("flow.toml"), IN_A_FLOW).unwrap();
+    for vary in ["turbulence.1.seed=1,2", "turbulence.*.seed=1,2"] {
+        refused(
+            &["flow.toml", "--measure", "contacts", "--seeds", "2", "--vary", vary],
+            &["turbulence.", ".seed", "no seeds beside it"],
+        );
+    }
+    refused(
+        &[
+            "flow.toml",
+            "--measure",
+            "contacts",
+            "--seeds",
+            "2",
+            "--one-at-a-time",
+            "--vary",
+            "turbulence.1.seed=1:5",
+            "--vary",
+            "wall.w.gap=1e-3:3e-3",
+        ],
+        &["turbulence.1.seed", "no seeds beside it"],
+    );
     let named = STOP_NAMED.replace("NAME", "realisation");
     fs::write(path.join("named.toml"), named).unwrap();
     refused(&["named.toml", "--measure", "contacts", "--seeds", "3"], &["realisation", "no other column"]);

@@ -215,6 +215,25 @@ fn words_are_those_of_the_field() {
     }
 }
 
+#[test]
+fn a_wrong_command_line_is_a_json_document_too() {
+    let dir = tempfile::tempdir().unwrap();
+    for (args, words) in [
+        (&["run", "--json"][..], "required arguments were not provided"),
+        (&["merge", "nope", "--json"], "--out <DIR>"),
+        (&["run", "elastic-wall", "--ends", "2", "--json"], "unexpected argument '--ends'"),
+        (&["explain", "nowhere", "--json"], "nowhere"),
+    ] {
+        let (out, err) = crate::command::said(dir.path(), args, 2);
+        let document: serde_json::Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{args:?}: {out}"));
+        assert_eq!(document["exit_code"], 2, "{args:?}");
+        let text = document["error"].as_str().unwrap();
+        assert!(text.contains(words) && err.contains(words), "{args:?}: {out}{err}");
+    }
+    let (out, _) = crate::command::said(dir.path(), &["run", "--help", "--json"], 0);
+    assert!(out.contains("Usage:"), "{out}");
+}
+
 /// With `--json` every command that writes a folder names it and its files.
 #[test]
 fn the_document_of_every_command_names_the_folder_and_its_files() {

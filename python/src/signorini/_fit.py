@@ -160,8 +160,8 @@ def fit(
     Raises
     ------
     ValueError
-        For data that do not fit the scene, as fewer contacts in its motion than in the data, and as
-        `derivative`.
+        For data that do not fit the scene, as fewer contacts in its motion than in the data, for a
+        key that starts outside of its bounds, and as `derivative`.
     RunError
         Where the search does not converge.
     ImportError
@@ -188,6 +188,10 @@ def fit(
     names, x0 = list(values), np.array(list(values.values()), np.float64)
     if not 0.0 < confidence < 1.0:
         raise ValueError(f"confidence is {confidence!r}; expected a number between 0 and 1")
+    for name, value in zip(names, x0, strict=True):
+        lowest, highest = (bounds or {}).get(name, (-np.inf, np.inf))
+        if not lowest <= value <= highest:
+            raise ValueError(f"{name} starts from {value:g}; expected from {lowest:g} to {highest:g}, its bounds")
     first = scene_of(values)
     times: Array = np.empty(0)
     if "displacement" in data:

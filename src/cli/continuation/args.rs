@@ -54,7 +54,7 @@ pub struct Args {
     /// Maximum number of switches between the first branch and any other
     #[arg(long, value_name = "N", default_value_t = 4)]
     pub(super) depth: u32,
-    /// Most points of one branch
+    /// Most points of a branch in each direction from where it begins
     #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(2..))]
     pub(super) points: u32,
     /// Draw the impacts of other results beneath the branches: the folder of a sweep or of branches

@@ -26,6 +26,7 @@ impl SceneFamily {
     pub(super) fn new(args: &Args, ui: &Ui) -> Result<Self> {
         let file = args.case.file(ui)?;
         let case = file.case()?;
+        case.check_repeats()?;
         let key = Varied::new(&file, ["--key", "--range"], &args.key, &args.range)?;
         if case.truncated.is_some() && key.key.to_string().starts_with("system.") {
             let expected = "a key outside of [system], or a case without modes: the modes of one value are not those \

@@ -17,7 +17,7 @@ use crate::run::notes;
 use crate::scene::{System, WallSpring};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::study::choice::{self, Choice};
-use model::{MOST_WALLS, excitations, supports, walls, what};
+use model::{MOST_WALLS, excitation_count, excitations, supports, walls, what};
 use penalty::Penalty;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -73,7 +73,7 @@ fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
     model.extend(choice::body(&scene));
     model.extend(supports(case));
     model.extend(walls(case));
-    model.push(choice::loads(&scene));
+    model.push(excitation_count(case));
     model.extend(excitations(case));
     model.extend(case.notes().iter().map(|note| format!("note: {note}")));
     tell("model", model);
@@ -126,7 +126,7 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
     let walls: Vec<Value> = choice::walls(&scene).into_iter().map(seen).collect();
     model.extend(choice::body(&scene));
     model.extend(supports(case));
-    model.push(choice::loads(&scene));
+    model.push(excitation_count(case));
     model.extend(excitations(case));
     let document = json!({
         "scene": summary::scene(case),

@@ -53,6 +53,16 @@ fn described(model: &Model) -> String {
     }
 }
 
+/// How many loads and fields of turbulence the file has, in words.
+pub(super) fn excitation_count(case: &Case) -> String {
+    let loads = choice::loads_in_words(case.loads_of_file());
+    match case.turbulence().iter().filter(|field| field.is_first()).count() {
+        0 => loads,
+        1 => format!("{loads}; one turbulence"),
+        n => format!("{loads}; {n} turbulences"),
+    }
+}
+
 /// Random loads, motions of the base, and the start, in words.
 pub(super) fn excitations(case: &Case) -> Vec<String> {
     let seconds = |both: bool| if both { " along y, and an independent one along z" } else { "" };
@@ -82,7 +92,7 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
             };
             Some(format!("load {}: the base moves {motion}; {walls}", index + 1))
         }
-        Origin::Stated | Origin::Second(_) => None,
+        Origin::Stated | Origin::Second(_) | Origin::Dashpots => None,
     };
     let mut lines: Vec<String> = case.written.origins.iter().enumerate().filter_map(line).collect();
     lines.extend(turbulence(case));

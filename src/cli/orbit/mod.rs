@@ -26,6 +26,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     if args.list {
         return list(&case);
     }
+    case.check_repeats()?;
     if let System::Structure(_) = case.scene.system {
         return structure(args, &case, ui);
     }

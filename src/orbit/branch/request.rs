@@ -26,7 +26,7 @@ pub struct Request {
     /// Maximum number of switches between the first branch and any other: 0 for the first branch
     /// only.
     pub depth: u32,
-    /// Most points of a branch.
+    /// Most points of a branch in each of the two directions in which it is followed.
     pub points: usize,
 }
 
