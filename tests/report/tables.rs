@@ -1,4 +1,5 @@
-//! Tables on the page of a run, in a real browser: each is there, whole, and what is said of it true.
+//! Tables on the page of a run, in a real browser: each is there, whole, and what is said of it is
+//! true.
 use crate::browser::{opened, results};
 use crate::chromium::Browser;
 use serde_json::json;
