@@ -140,8 +140,9 @@ fn a_step_that_no_scheme_of_the_request_takes_is_refused() {
 }
 
 /// A slider's normal impulse is given, 10 N times the duration: it is neither a share to compare
-/// with nor a contact. The impulses of both walls are the same to 2 %, so that the larger change as the
-/// terminal has it, over its wall's, and as the page has it, over the largest, agree to two digits.
+/// with nor a contact. The impulses of both walls are the same to 2 %, so that the larger change as
+/// the terminal has it, over its wall's, and as the page has it, over the largest, agree to two
+/// digits.
 #[test]
 fn the_card_of_a_run_with_a_slider_has_the_change_of_the_terminal() {
     let dir = tempfile::tempdir().unwrap();
