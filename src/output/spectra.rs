@@ -89,7 +89,7 @@ fn new_name(files: &[SpectrumFile], stem: &str) -> String {
 }
 
 /// The spectra of every probe, of every wall that is no flat of a support, and of every support,
-/// over the window of the statistics. Friction at flats is not in theirs.
+/// over the window of the statistics.
 ///
 /// # Errors
 /// [`crate::Error::Invalid`] for a run with too few rows.
@@ -116,6 +116,8 @@ pub(super) fn of(case: &Case, run: &Run) -> Result<Vec<SpectrumFile>> {
         here.chunks_exact(rows).map(|part| part.iter().sum::<f64>() / stretch).collect()
     };
     let of_wall = |wall: usize| averaged(motion.contact_impulses().get(wall).map_or(&[], Vec::as_slice));
+    // Scenes in which nothing rubs have no columns of friction.
+    let friction_of = |wall: usize| averaged(motion.friction_impulses().get(wall).map_or(&[], Vec::as_slice));
     for (index, wall) in scene.walls.iter().enumerate().filter(|(index, _)| scene.support_of(*index).is_none()) {
         add(&wall.name, Quantity::ContactForce, vec![("", of_wall(index))], stretch)?;
     }
@@ -129,11 +131,13 @@ pub(super) fn of(case: &Case, run: &Run) -> Result<Vec<SpectrumFile>> {
         let mut ways = [("y", Vec::new()), ("z", Vec::new())];
         for (index, wall) in support.members(&scene.walls) {
             let Face::Flat { side, direction: Some(degrees), .. } = wall.face else { continue };
-            let normal = heading(degrees).map(|x| -side.sign() * x);
-            let force = of_wall(index);
-            for ((_, sum), n) in ways.iter_mut().zip(normal) {
-                sum.resize(force.len(), 0.0);
-                sum.iter_mut().zip(&force).for_each(|(sum, f)| *sum += n * f);
+            let [y, z] = heading(degrees);
+            let normal = [y, z].map(|x| -side.sign() * x);
+            for (force, direction) in [(of_wall(index), normal), (friction_of(index), [-z, y])] {
+                for ((_, sum), share) in ways.iter_mut().zip(direction) {
+                    sum.resize(sum.len().max(force.len()), 0.0);
+                    sum.iter_mut().zip(&force).for_each(|(sum, f)| *sum += share * f);
+                }
             }
         }
         add(&support.name, Quantity::ContactForce, ways.to_vec(), stretch)?;

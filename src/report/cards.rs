@@ -3,6 +3,7 @@
 //! Only the judge decides, in its findings, whether a promise is broken; the limits here only
 //! decide where a change by refinement deserves attention.
 
+use crate::study::verdict::largest_change;
 use serde_json::{Value, json};
 
 /// Changes by refinement up to this share need no attention, and energy unaccounted for up to this
@@ -67,12 +68,13 @@ fn refinement(summary: &Value) -> Option<Value> {
         let text = "The run was not repeated with half the step.".to_owned();
         return summary["accuracy"].is_null().then(|| card("Refinement", State::Open, "Not checked".to_owned(), text));
     }
-    let pair = |wall: &Value, key: &str| [0, 1].map(|i| number(&wall[key][i]));
-    let walls = list(&check["walls"]);
-    let largest = walls.iter().flat_map(|wall| pair(wall, "impulse_n_s")).fold(0.0, |most: f64, p| most.max(p.abs()));
-    let change =
-        walls.iter().map(|wall| pair(wall, "impulse_n_s")).fold(0.0, |most: f64, [a, b]| most.max((b - a).abs()));
-    let change = if largest > 0.0 { change / largest } else { 0.0 };
+    let (walls, supports) = (list(&check["walls"]), list(&check["work_rates"]));
+    // Sliders have no impulse of their own: a scene of them alone is judged by their work rates.
+    let (what, key, places) = match walls {
+        [] if !supports.is_empty() => ("work rates", "work_rate_w", supports),
+        _ => ("impulses", "impulse_n_s", walls),
+    };
+    let change = largest_change(places.iter().map(|place| [0, 1].map(|i| number(&place[key][i]))));
     let contacts = [0, 1].map(|i| walls.iter().filter_map(|wall| wall["contacts"][i].as_u64()).sum::<u64>());
     // `null` where the horizon is before the first row.
     let displacement = check["displacement"].as_f64();
@@ -89,13 +91,16 @@ fn refinement(summary: &Value) -> Option<Value> {
         }
         Some(share) => format!("changes by {} of the gap {until}", percent(share)),
     };
-    let text = format!("Contacts {} → {}; the displacement {moved}.", contacts[0], contacts[1]);
+    let text = match walls {
+        [] => format!("The displacement {moved}."),
+        [..] => format!("Contacts {} → {}; the displacement {moved}.", contacts[0], contacts[1]),
+    };
     if !list(&check["findings"]).is_empty() {
         let verdict = "The run it was checked against is refuted".to_owned();
         return Some(card("Refinement", State::Bad, verdict, text));
     }
     let how = if check["check"]["half_step"].is_object() { "Half the step" } else { "Other rounding" };
-    let verdict = format!("{how} changes impulses by up to {}", percent(change));
+    let verdict = format!("{how} changes {what} by up to {} of the largest", percent(change));
     let state =
         if change <= SMALL && displacement.is_some_and(|share| share <= SMALL) { State::Good } else { State::Mind };
     Some(card("Refinement", state, verdict, text))

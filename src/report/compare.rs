@@ -3,10 +3,12 @@
 use super::column::{f32, f64};
 use super::folder::Folder;
 use super::motion::motion;
-use super::run::of_scene;
+use super::run::{of_scene, tell_draw};
 use crate::error::{Error, Result};
 use crate::output::compare::{DISTANCE, folder_of};
-use crate::study::compare::AGREEMENT;
+use crate::output::method_realisations;
+use crate::output::realisations;
+use crate::study::compare::{AGREEMENT, NO_EXACT_MOTION, NO_REFERENCE};
 use serde_json::{Value, json};
 
 /// Stretches in each of which the largest distance is drawn.
@@ -56,9 +58,27 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "table": table.for_page(None),
         "conclusion": folder.manifest["conclusion"],
         "agreement": AGREEMENT,
+        "reference": reference(&folder.manifest["remarks"]),
         "distance": if folder.has(DISTANCE) { distance(folder)? } else { Value::Null },
     });
+    if folder.has(method_realisations::FILE) {
+        page["compare"]["means"] = folder.cells(method_realisations::FILE)?.for_page(None);
+        let draws = folder.cells(realisations::FILE)?.column("realisation")?.into_iter().fold(1.0, f64::max);
+        page["compare"]["draws"] = json!(draws);
+        tell_draw(&mut page, folder, draws as u64);
+    }
     Ok(page)
+}
+
+/// What the errors of a comparison with these remarks are against, in words; `None` where there is
+/// no reference.
+fn reference(remarks: &Value) -> Option<&str> {
+    let mut remarks = remarks.as_array().into_iter().flatten().filter_map(Value::as_str);
+    let told = remarks.find_map(|remark| {
+        let none = remark.starts_with(NO_REFERENCE).then_some(None);
+        none.or_else(|| remark.strip_prefix(NO_EXACT_MOTION).map(Some))
+    });
+    told.unwrap_or(Some("the exact motion"))
 }
 
 /// The largest distance of each method in each stretch of the run.

@@ -17,7 +17,7 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 43] = [
+const SCRIPT: [&str; 44] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
@@ -39,6 +39,7 @@ const SCRIPT: [&str; 43] = [
     include_str!("page/js/supports.js"),
     include_str!("page/js/where.js"),
     include_str!("page/js/contacts.js"),
+    include_str!("page/js/derivatives.js"),
     include_str!("page/js/compare.js"),
     include_str!("page/js/endnames.js"),
     include_str!("page/js/cheapest.js"),

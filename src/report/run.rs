@@ -6,8 +6,13 @@ use super::motion::motion;
 use super::older;
 use super::scene::{period, scene};
 use crate::error::Result;
+use crate::output::derivatives::{FILE, STATES_FILE};
 use crate::output::realisations;
+use crate::study::horizon::LARGEST_GROWTH;
 use serde_json::{Value, json};
+
+/// Most rows of a table of derivatives that the page shows.
+const MOST_ROWS: usize = 1000;
 
 /// What the page of a run shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
@@ -20,16 +25,37 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     page["facts"] = facts(&summary);
     page["notes"] = notes(&summary, &run, lacking);
     page["margins"] = summary["scene"]["fluid_elastic"].clone();
-    let draws = summary["realisations"]["count"].as_u64().filter(|count| *count > 1);
-    if let (Some(count), Some(title)) = (draws, page["title"].as_str().or(folder.manifest["request"]["case"].as_str()))
-    {
+    tell_draw(&mut page, folder, summary["realisations"]["count"].as_u64().unwrap_or(1));
+    if folder.manifest["request"]["derivative"].is_array() {
+        page["derivatives"] = derivatives(folder)?;
+    }
+    page["runs"] = json!([run]);
+    Ok(page)
+}
+
+/// Says in title and subtitle of the page which of `count` realisations it shows, where there are
+/// several.
+pub(super) fn tell_draw(page: &mut Value, folder: &Folder<'_>, count: u64) {
+    let title = page["title"].as_str().or(folder.manifest["request"]["case"].as_str());
+    if let Some(title) = title.filter(|_| count > 1) {
         page["title"] = json!(realisations::titled(title, count));
         let subtitle = page["subtitle"].as_str().unwrap_or_default();
         let means = format!("means over {count} stand first; all drawings and other numbers are of draw 1");
         page["subtitle"] = json!(if subtitle.is_empty() { means } else { format!("{subtitle} · {means}") });
     }
-    page["runs"] = json!([run]);
-    Ok(page)
+}
+
+/// The tables of the derivatives, each with its file, its number of rows and the first of them, and
+/// the growth from which on a change is no longer small.
+fn derivatives(folder: &Folder<'_>) -> Result<Value> {
+    let mut tables = Vec::new();
+    for file in [FILE, STATES_FILE].into_iter().filter(|file| folder.has(file)) {
+        let mut cells = folder.cells(file)?;
+        let count = cells.rows.len();
+        cells.rows.truncate(MOST_ROWS);
+        tables.push(json!({ "file": file, "count": count, "table": cells.for_page(None) }));
+    }
+    Ok(json!({ "tables": tables, "growth": LARGEST_GROWTH }))
 }
 
 /// The page's data on the scene of a run with this summary, and on how reliable the run is.

@@ -12,6 +12,12 @@ use crate::scheme::{Method, Realised, Scheme, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use std::time::Instant;
 
+/// What begins the finding that names the reference where there is no exact run.
+pub(crate) const NO_EXACT_MOTION: &str = "no exact motion: errors are against ";
+
+/// What begins the finding that there is neither an exact run nor another reference.
+pub(crate) const NO_REFERENCE: &str = "no reference: ";
+
 /// Error over the gap beyond which a run no longer agrees with the reference.
 pub const AGREEMENT: f64 = 0.1;
 
@@ -219,9 +225,9 @@ fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     let mut findings = law_findings(scene, comparison);
     findings.extend(clarabel_difference(scene, comparison));
     match (&comparison.reference, &comparison.refined) {
-        (Err(error), None) => findings.push(format!("no reference: {error}")),
+        (Err(error), None) => findings.push(format!("{NO_REFERENCE}{error}")),
         (Err(_), Some((method, run))) => {
-            findings.push(format!("no exact motion: errors are against {method} with steps of {:.2e} s", run.grid.step))
+            findings.push(format!("{NO_EXACT_MOTION}{method} with steps of {:.2e} s", run.grid.step))
         }
         _ => {}
     }

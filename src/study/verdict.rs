@@ -85,7 +85,7 @@ pub struct Verdict {
     /// start has grown [`LARGEST_GROWTH`]-fold, or the last row of a run that diverged.
     pub horizon_s: f64,
     /// One entry per wall, then per round support, in the scene's order. Unlike displacements,
-    /// these are compared over the whole run.
+    /// these are compared over the whole run. Sliders have none: their normal impulse is given.
     pub walls: Vec<WallVerdict>,
     /// One entry per support, likewise.
     pub work_rates: Vec<WorkRateVerdict>,
@@ -161,13 +161,10 @@ impl Verdict {
     }
 
     /// Largest change of a wall's impulse, as a share of the largest impulse at any wall in either
-    /// run, so that a wall that is hardly touched, or in one run only, does not dominate. With one
-    /// wall this is the change over that wall's larger impulse; 0 where nothing differs.
+    /// run; 0 where nothing differs.
     #[must_use]
     pub fn impulse_change(&self) -> f64 {
-        let largest = |of: fn(&WallVerdict) -> f64| self.walls.iter().map(of).fold(0.0, f64::max);
-        let change = largest(|w| (w.impulse_n_s[1] - w.impulse_n_s[0]).abs());
-        if change == 0.0 { 0.0 } else { change / largest(|w| w.impulse_n_s[0].abs().max(w.impulse_n_s[1].abs())) }
+        largest_change(self.walls.iter().map(|wall| wall.impulse_n_s))
     }
 
     /// The walls named in the text: all where they are few, else those with the largest impulses.
@@ -262,7 +259,8 @@ impl fmt::Display for WorkRateVerdict {
 /// of the run and of its check.
 fn wall_verdicts(scene: &Scene, both: [&Statistics; 2]) -> Vec<WallVerdict> {
     let contacts = |index: usize| both.map(|s| s.walls.get(index).map_or(0, |wall| wall.contacts));
-    let flat = scene.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round()).map(|(index, wall)| WallVerdict {
+    let flat = scene.walls.iter().enumerate().filter(|(index, wall)| !wall.is_round() && !scene.is_slider(*index));
+    let flat = flat.map(|(index, wall)| WallVerdict {
         wall: wall.name.clone(),
         kind: PlaceKind::Wall,
         impulse_n_s: both.map(|s| s.impulse(index)),
@@ -277,6 +275,17 @@ fn wall_verdicts(scene: &Scene, both: [&Statistics; 2]) -> Vec<WallVerdict> {
         peak_force_n: [None, None],
     });
     flat.chain(round).collect()
+}
+
+/// Largest change of a value of the run to that of its check, as a share of the largest value in
+/// either, so that a wall that is hardly touched, or in one run only, does not dominate. With one
+/// value this is the change over the larger of the two; 0 where nothing differs.
+#[must_use]
+pub(crate) fn largest_change(values: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let (change, largest) = values.fold((0.0, 0.0), |(change, largest): (f64, f64), [before, after]| {
+        (change.max((after - before).abs()), largest.max(before.abs()).max(after.abs()))
+    });
+    if change == 0.0 { 0.0 } else { change / largest }
 }
 
 /// The change of a value in `unit`, as a share of the value after it.

@@ -17,5 +17,7 @@ mod drawings;
 mod older;
 #[cfg(all(feature = "cli", unix))]
 mod realisations;
+#[cfg(all(feature = "cli", unix))]
+mod tables;
 #[cfg(feature = "cli")]
 mod text;

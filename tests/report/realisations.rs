@@ -117,3 +117,62 @@ fn the_page_of_a_run_under_several_seeds_has_the_means_and_their_errors() {
     assert!(text.contains("The work rate has an error of"), "the card tells the error");
     tab.close();
 }
+
+#[test]
+fn the_page_of_a_comparison_under_seeds_has_the_means_and_names_its_reference() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let case = ["compare", "two-tubes", "--set", "system.modes=2", "--set", "time.sample=1e-3", "--step", "2e-4"];
+    let time = ["--set", "time.end=0.1", "--set", "time.statistics_from=0.02", "--seeds", "2", "--no-verdict"];
+    let page = results(dir.path(), &[&case[..], &time, &["--schemes", "moreau-jean,located"]].concat());
+    let mut tab = opened(&mut browser, &page);
+    let text = tab.evaluate("document.body.textContent").to_string();
+    // Friction at the tubes: the exact scheme refuses them, and the errors are against finer steps.
+    for words in [
+        "cross flow: draw 1 of 2",
+        "all drawings and other numbers are of draw 1",
+        "against moreau-jean with steps of 2.50e-5 s: draw 1 of 2 of the random loads.",
+        "Distance from moreau-jean with steps of 2.50e-5 s",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    assert!(!text.contains("exact motion, the largest"), "{text}");
+    let rows = tab.evaluate(
+        "[...document.querySelectorAll('#means tbody tr:not(.space)')].map((tr) => \
+        [...tr.children].map((td) => td.textContent))",
+    );
+    let file = fs::read_to_string(page.with_file_name("compare-realisations.csv")).unwrap();
+    let rows = rows.as_array().unwrap();
+    assert_eq!(rows.len(), file.lines().count() - 1);
+    // Both methods of one place and quantity stand together, the second with its difference.
+    let cell = |row: usize, at: usize| rows[row][at].as_str().unwrap();
+    assert_eq!([cell(0, 4), cell(1, 4)], ["moreau-jean", "located"]);
+    assert_eq!((cell(0, 0), cell(0, 2), cell(0, 6)), (cell(1, 0), cell(1, 2), "–"));
+    // Each difference that is shown without a power of ten is that of the file, to four digits.
+    let mut compared = 0;
+    for row in (1..rows.len()).step_by(2) {
+        let shown = cell(row, 6).split(" ± ").next().unwrap().replace('−', "-");
+        let begins = format!("located,{},{},{},", cell(row, 0), cell(row, 1), cell(row, 2).replace(' ', "_"));
+        let line = file.lines().find(|line| line.starts_with(&begins)).unwrap_or_else(|| panic!("{begins}: {file}"));
+        let less: f64 = line.split(',').nth(9).unwrap().parse().unwrap();
+        if let Ok(shown) = shown.parse::<f64>() {
+            assert!((shown - less).abs() <= 1e-3 * less.abs(), "{line}: {shown}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 2, "{file}");
+    tab.close();
+}
+
+#[test]
+fn a_map_of_means_promises_no_bands() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let vary = ["--vary", "support.*.gap=1e-4,2e-4", "--vary", "system.damping.ratio=0.005,0.02"];
+    let short = ["sweep", "tube-round-supports", "--set", "time.end=0.1", "--set", "time.statistics_from=0.05"];
+    let page = results(dir.path(), &[&short[..], &vary, &["--seeds", "2", "--measure", "work_rate"]].concat());
+    let mut tab = opened(&mut browser, &page);
+    let text = tab.evaluate("document.querySelector('#sweep').textContent").to_string();
+    assert!(text.contains("and the half widths of their 95 % intervals") && !text.contains("bands"), "{text}");
+    tab.close();
+}

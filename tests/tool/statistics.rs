@@ -96,9 +96,28 @@ fn the_force_of_a_spring_has_the_spectrum_of_its_displacement() {
 fn a_support_has_episodes_and_spectra_of_its_own() {
     let square = square();
     let round = square.replace("shape = \"flats\"\nsides = 4", "shape = \"round\"\nfriction = 0.2");
-    for (case, flats) in [(&square, 4), (&round, 0)] {
+    // Friction of 0.8 is up to 0.8²/(1 + 0.8²) = 39 % of the mean square.
+    let rough = square.replace("shape = \"flats\"", "shape = \"flats\"\nfriction = 0.8");
+    for (case, flats) in [(&square, 4), (&rough, 4), (&round, 0)] {
         support(case, flats);
     }
+}
+
+#[test]
+fn the_spectrum_of_a_slider_holds_the_friction_that_reverses() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = include_str!("../../cases/dry-friction-damper.toml");
+    let case = format!("{case}force_averaging = 5.026548245743669e-4\n\n[statistics]\nspectra = true\n");
+    fs::write(dir.path().join("pad.toml"), case).unwrap();
+    said(dir.path(), &["run", "pad.toml", "--no-verdict", "--out", "out"], 0);
+    let (header, spectrum) = columns(&dir.path().join("out/spectrum-pad.csv"));
+    assert_eq!(header, "frequency_Hz,contact_force_y_N2_per_Hz,contact_force_z_N2_per_Hz");
+    // The pad slides all the time (Den Hartog 1931), with ±μN = ±2 N: the variance is 4 N². In two
+    // rows of a hundred the force reverses, and their means may be anything between: 2 %.
+    let [along, normal] = [1, 2].map(|column| spectrum[column].iter().sum::<f64>() * spectrum[0][1]);
+    assert!((along / 4.0 - 1.0).abs() < 0.02, "{along}");
+    // The normal force is constant: only rounding varies.
+    assert!(normal < 1e-20, "{normal}");
 }
 
 /// Runs `case`, which has one support of so many `flats`; a round one has none.

@@ -138,3 +138,40 @@ fn a_step_that_no_scheme_of_the_request_takes_is_refused() {
     let both = ["compare", "rigid-walls-sine", "--schemes", "event,moreau-jean", "--step", "1e-3", "--end", "0.2"];
     said(dir.path(), &both, 0);
 }
+
+/// A slider's normal impulse is given, 10 N times the duration: it is neither a share to compare
+/// with nor a contact. The impulses of both walls are the same to 2 %, so that the larger change as
+/// the terminal has it, over its wall's, and as the page has it, over the largest, agree to two
+/// digits.
+#[test]
+fn the_card_of_a_run_with_a_slider_has_the_change_of_the_terminal() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 1e4\n[[slider]]\nname = \"pad\"\n\
+        normal_force = 10.0\nfriction = { static = 0.3, kinetic = 0.2 }\n[[load]]\n\
+        harmonic = { amplitude = 10.0, frequency = 17.0 }\n[initial]\nvelocity = 0.2\n[time]\nend = 0.5\n\
+        step = 2e-4\n";
+    let wall = "[[wall]]\nname = \"w\"\nside = \"both\"\ngap = 0.6e-3\nrestitution = 0.6\n";
+    let card = |name: &str, case: &str| {
+        fs::write(dir.path().join(format!("{name}.toml")), case).unwrap();
+        let case = format!("{name}.toml");
+        let (_, err) = said(dir.path(), &["run", &case, "--scheme", "moreau-jean", "--out", name], 0);
+        let page = fs::read_to_string(dir.path().join(name).join("report.html")).unwrap();
+        (line(&err, "refinement: ").to_owned(), page)
+    };
+    let (words, page) = card("both", &format!("{case}{wall}"));
+    assert!(
+        words.contains("wall \"w-lower\": impulse -1.1e-2 of its value") && !words.contains("\"pad\": imp"),
+        "{words}"
+    );
+    assert!(page.contains("Half the step changes impulses by up to 1.11 % of the largest"));
+    let summary = summary(&dir.path().join("both"));
+    assert_eq!(summary["refinement"]["walls"].as_array().unwrap().len(), 2);
+    // Of a slider alone the work rate is what changes.
+    let (words, page) = card("alone", case);
+    let share = words.split("work rate of support \"pad\" ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+    let share = 100.0 * share.parse::<f64>().unwrap().abs();
+    let told = page.split("Half the step changes work rates by up to ").nth(1).and_then(|rest| rest.split(' ').next());
+    let told: f64 = told.unwrap().replace('−', "-").parse().unwrap();
+    // Two digits there, three here.
+    assert!((told / share - 1.0).abs() < 0.06, "{told} {share}");
+}

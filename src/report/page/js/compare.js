@@ -1,4 +1,5 @@
-// The page of a comparison: the table of methods, and how far each is from the exact motion.
+// The page of a comparison: the means over realisations, the table of methods, and how far each is
+// from the reference.
 
 /** Names of the columns of compare.csv as people write them. */
 const COMPARED = [
@@ -18,6 +19,7 @@ const COMPARED = [
 ];
 
 function compareSection() {
+  const { reference, draws } = DATA.compare;
   const table = tableOf(DATA.compare.table);
   const rows = Array.from({ length: table.count }, (_, i) => i);
   const said = (name) =>
@@ -35,11 +37,53 @@ function compareSection() {
   section(
     "methods",
     "Methods",
-    `Every method on the same scene, against the exact motion${DATA.horizon ? " up to the horizon of prediction" : ""}.`,
+    "Every method on the same scene" +
+      (reference ? `, against ${reference}${DATA.horizon ? " up to the horizon of prediction" : ""}` : "") +
+      (draws > 1 ? `: draw 1 of ${draws} of the random loads.` : "."),
     conclusionOf(DATA.compare.conclusion),
     sortable(columns, rows, { height: 60 + ROW * rows.length }),
     el("div", { class: "bar controls" }, button("The table above", saved, "Save compare.csv")),
     distancePlot(),
+  );
+}
+
+/** The means of each method over the realisations, and their differences from one method's. */
+function methodMeansSection() {
+  const { means, draws } = DATA.compare;
+  const table = tableOf(means);
+  const { columns } = table;
+  const text = (name, words) => ({ name: words, text: true, value: (i) => columns[name][i], show: (i) => columns[name][i] });
+  // A column without any number is one of empty words.
+  const at = (name, i) => (Array.isArray(columns[name]) ? NaN : columns[name][i]);
+  const number = (words, name, half) => ({
+    name: words,
+    value: (i) => at(name, i),
+    show: (i) => digits(at(name, i)) + (at(half, i) >= 0 ? ` ± ${digits(at(half, i), 2)}` : ""),
+  });
+  const less = Array.from(columns.less).find((name) => typeof name === "string" && name);
+  // By place and quantity, in the order of the file, and the methods of each together.
+  const key = (i) => `${columns.place[i]} ${columns.kind[i]} ${columns.measure[i]}`;
+  const rows = Array.from({ length: table.count }, (_, i) => i);
+  const first = new Map([...rows].reverse().map((i) => [key(i), i]));
+  rows.sort((i, j) => first.get(key(i)) - first.get(key(j)) || i - j);
+  section(
+    "means",
+    "Means over realisations",
+    `Over ${draws} realisations of the random loads, with 95 % intervals` +
+      (less ? `; differences are between runs with the same seeds.` : "."),
+    sortable(
+      [
+        text("place", "place"),
+        text("kind", "kind"),
+        { ...text("measure", "mean of"), show: (i) => columns.measure[i].replace(/_/g, " ") },
+        text("unit", "unit"),
+        text("method", "method"),
+        number("mean", "mean", "half_width_95"),
+        ...(less ? [number(`less ${less}`, "difference", "difference_half_width_95")] : []),
+      ],
+      rows,
+      { height: 60 + ROW * Math.min(rows.length, 16) },
+    ),
   );
 }
 
@@ -53,7 +97,7 @@ function conclusionOf(text) {
 
 /** The distance of each method from the reference: the largest of each stretch, since |Δu| itself passes through 0. */
 function distancePlot() {
-  const { distance, agreement } = DATA.compare;
+  const { distance, agreement, reference } = DATA.compare;
   if (!distance) return null;
   const time = decode(distance.time);
   const series = distance.names
@@ -75,7 +119,7 @@ function distancePlot() {
   const plot = new Plot({
     x: "Time (s)",
     y: "|Δu| / gap",
-    alt: "Distance from the exact motion",
+    alt: `Distance from ${reference}`,
     height: 260,
     view,
     log: [false, true],
@@ -95,7 +139,7 @@ function distancePlot() {
     el(
       "h3",
       {},
-      `Distance from the exact motion, the largest of each ${prefixed(distance.stretch || 0, "s", 2)}`,
+      `Distance from ${reference}, the largest of each ${prefixed(distance.stretch || 0, "s", 2)}`,
     ),
     runChips(),
     plot.box,

@@ -240,7 +240,7 @@ function statisticsSection() {
     "statistics",
     "Walls",
     `From ${digits(statistics.from_s)} to ${digits(statistics.to_s)} s; ± is half the 95 % interval of the mean.`,
-    sortable(columns, walls, { height: Math.min(420, 40 + ROW * walls.length) }),
+    sortable(columns, walls, { height: Math.min(420, 60 + ROW * walls.length) }),
     el("div", { class: "bar controls" }, button("The table above", saved, "Save walls.csv")),
   );
 }

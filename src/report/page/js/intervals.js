@@ -53,8 +53,8 @@ function bandOf(curve, half) {
   return { ...curve, kind: "own", look, infinite: false, y: edges.flat(), draw };
 }
 
-/** What the numbers of rows with realisations are; those of effects are in a table alone. */
-const seedsText = (seeds, effects) =>
+/** What the numbers of rows with realisations are; only curves have bands. */
+const seedsText = (seeds, bands) =>
   ` Of every row there are ${seeds} of the random loads: shown are their means, and ` +
-  (effects ? "the half widths of their" : "as bands their") +
+  (bands ? "as bands their" : "the half widths of their") +
   " 95 % intervals, by Student's t.";

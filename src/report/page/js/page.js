@@ -129,6 +129,7 @@ if (DATA.kind === "run" && DATA.summary.realisations) {
   );
   whereSection();
 }
+if (DATA.compare && DATA.compare.means) methodMeansSection();
 if (lead && lead.probes.length && duration > 0) {
   if (DATA.compare && DATA.horizon) view.set(0, DATA.horizon);
   firstInstant();
@@ -158,6 +159,7 @@ if (DATA.kind === "run" && (DATA.summary.supports || []).length) {
   supportSection();
 }
 if (lead && runs.some((run) => run.contacts.count)) contactSection();
+if (DATA.derivatives) derivativeSection();
 if (DATA.margins) marginSection();
 if (DATA.kind === "run" && DATA.summary.statistics && DATA.summary.statistics.walls.length)
   statisticsSection();

@@ -8,14 +8,20 @@ function supportSection() {
   const { supports, statistics } = DATA.summary;
   const rows = supports.map((support, i) => ({ ...support, ...statistics.supports[i] }));
   const drawn = DATA.scene.supports
-    .map((support, i) => ({ support, worn: rows[i], pair: watching(support.name) }))
+    .map((support) => ({
+      support,
+      worn: rows.find((row) => row.support === support.name),
+      pair: watching(support.name),
+    }))
     .filter(({ pair, worn }) => pair && worn);
   const upper = rows.some((row) => row.upper_figure);
   section(
     "supports",
-    "Supports",
-    "Where the structure went within its supports, over the stretch of time shown above; the ring " +
-      "shows the work rate by sector, over the window of the statistics." +
+    DATA.scene.supports.length ? "Supports" : "Sliders",
+    (drawn.length
+      ? "Where the structure went within its supports, over the stretch of time shown above; the ring " +
+        "shows the work rate by sector, over the window of the statistics."
+      : "Over the window of the statistics.") +
       (upper
         ? " A work rate without friction is an upper figure: what slides is then held back by " +
           "structural damping alone."

@@ -61,6 +61,7 @@ function sweepSection() {
   const content = [];
   const basins = attractors && numeric("attractor") && axisColumns.length > 1;
   if (basins) content.push(basinMap(columns, axisColumns, attractors, tell, pick));
+  const bands = curves.length > 0 && !effects;
   if (measures.length && axisColumns.length && !basins && !effects) {
     content.push(
       axisColumns.length > 1
@@ -87,7 +88,7 @@ function sweepSection() {
       (kept.size
         ? `, or for its own report (there ${kept.size === 1 ? "is" : "are"} ${kept.size}).`
         : ".") +
-      (seeds ? seedsText(seeds, effects) : "") +
+      (seeds ? seedsText(seeds, bands) : "") +
       (unjudged ? ` ${unjudged} of ${table.count} rows are unjudged: nothing checked their steps.` : ""),
     ...content,
     command,

@@ -1,0 +1,29 @@
+// The derivatives of a run by keys of its case.
+
+function derivativeSection() {
+  const { tables, growth } = DATA.derivatives;
+  const content = tables.flatMap(({ file, count, table: packed }) => {
+    const table = tableOf(packed);
+    const rows = Array.from({ length: table.count }, (_, i) => i);
+    const first = count > table.count ? `: the first ${table.count} of ${count} rows` : "";
+    return [
+      el("h3", {}, `${file}${first}`),
+      sortable(
+        columnsOf(
+          table,
+          table.names.map((name) => [name, name]),
+        ),
+        rows,
+        { height: 60 + ROW * Math.min(rows.length, 12) },
+      ),
+    ];
+  });
+  section(
+    "derivatives",
+    "Derivatives",
+    "Of each contact, and of the state at each output time, by each key: by_KEY in a column's name. " +
+      `Where growth is above ${digits(growth)}, a small change of the start has grown as many times, ` +
+      "and a change of 1 % of a key is no longer small.",
+    ...content,
+  );
+}
