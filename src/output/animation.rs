@@ -50,7 +50,7 @@ pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &
     }
     let slowed = SECONDS / (end - begin);
     let shown = if slowed < 1.0 { format!("in {SECONDS} s") } else { format!("slowed down {slowed:.1} times") };
-    let mut caption = format!("{begin:.3} s to {end:.3} s, {shown}; in each view deflections and gaps magnified alike");
+    let mut caption = format!("{begin:.3} s to {end:.3} s, {shown}; deflections and gaps to one scale a view");
     let hidden = case.scene.supports.len().saturating_sub(MOST_SUPPORTS);
     if stations.planes == 2 && hidden > 0 {
         caption += &format!("; without views of the last {hidden} supports");
