@@ -207,8 +207,8 @@ fn a_ring_is_met_at_the_instant_and_with_the_speed_of_the_flight() {
         for step in [1e-3, 2.5e-4, 6.25e-5] {
             let made = made(&scene, step);
             let first = made.trajectory.contacts()[0];
-            // The instant is that of the straight line; the normal turns by up to 0.06 rad in a step
-            // of 1 ms, whose square is left of the speed across.
+            // The instant is that of the straight line; the normal turns by up to 0.06 rad in a
+            // step of 1 ms, whose square is left of the speed across.
             assert!((first.start - meets).abs() < 1e-12, "{} {meets}", first.start);
             let left = (step * fast.sqrt() / gap).powi(2) * fast.sqrt();
             assert!((first.approach_speed - speed).abs() < left, "{step}: {} {speed}", first.approach_speed);

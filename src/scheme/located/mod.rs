@@ -29,8 +29,8 @@
 //! accumulations), which moves it by O(h²).
 //!
 //! Loads of no duration and jumps of tables divide a step too. Elastic walls act as in moreau-jean;
-//! they divide the step where the body meets them: the force of a dashpot jumps there, and a contact
-//! begins with the speed of that instant.
+//! they divide the step where the body meets them: the force of a dashpot jumps there, and a
+//! contact begins with the speed of that instant.
 //!
 //! With round walls or friction ([`planar`], [`plane_contacts`]) the same division ends parts where
 //! a place meets a circle (`round_path.rs`), where sliding ends and where it begins; a body that
