@@ -3,12 +3,12 @@
 
 use crate::error::{Error, Result};
 use crate::residual::{Finding, Judge};
-use crate::run::Run;
+use crate::run::{Recorded, Recording, Run};
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
-use crate::statistics::{Forces, Statistics, WearTally};
+use crate::statistics::Statistics;
 use crate::time::TimeOptions;
-use crate::trajectory::{Recorder, Trajectory};
+use crate::trajectory::Trajectory;
 
 /// Most events that a reference may take: about a second. The exact scheme itself follows many more
 /// before it gives up.
@@ -79,18 +79,13 @@ pub fn replay(scene: &Scene, run: &Run, time: &TimeOptions) -> Result<Replay> {
     let mut stepper = Stepper::new(scene, &Scheme::Event, stride(scene))?;
     let state = stepper.state();
     let mut judge = Judge::new(scene, stepper.contract(), stride(scene), &state.q, &state.v);
-    let mut recorder = Recorder::new(scene, run.grid.rows, &state.q, &state.v);
-    let mut forces = Forces::new(scene, time.statistics_from, time.force_averaging);
-    let mut wear = WearTally::new(scene, time.statistics_from, time.sectors);
+    let mut recorder = Recorded::begin(&stepper, run.grid.rows, &state, time);
     while stepper.time() < scene.duration {
         let step = stepper.step()?;
         judge.observe(&step);
-        recorder.observe(&step);
-        forces.observe(&step);
-        wear.observe_beside(&step, recorder.slid());
+        Recorded::observe(&mut recorder, &step);
     }
-    let trajectory = recorder.finish(&stepper.open_contacts());
-    let statistics = Statistics::new(scene, trajectory.contacts(), time.statistics_from);
-    let statistics = statistics.with_forces(&forces).with_wear(&wear);
+    let (open, masses) = (stepper.open_contacts(), scene.wall_masses());
+    let (trajectory, statistics) = Recorded::finish(recorder, &open, (scene, &masses), time.statistics_from);
     Ok(Replay { trajectory, statistics, findings: judge.findings() })
 }
