@@ -140,20 +140,8 @@ function bodiesStage() {
     const X = (x) => a + ((b - a) * (x - ends[0])) / (ends[1] - ends[0]);
     const middle = top + each / 2 + 7;
     const Y = (u) => middle - scale * u;
-    ctx.fillStyle = clear(ink.c3, 0.2);
-    ctx.beginPath();
-    stations.x.forEach((x, i) => ctx.lineTo(X(x), Y(stations.high[i])));
-    for (let i = stations.x.length - 1; i >= 0; i--)
-      ctx.lineTo(X(stations.x[i]), Y(stations.low[i]));
-    ctx.fill();
-    ctx.setLineDash([3, 4]);
-    ctx.strokeStyle = ink.faint;
-    ctx.lineWidth = 1;
-    ctx.beginPath();
-    ctx.moveTo(a, middle);
-    ctx.lineTo(b, middle);
-    ctx.stroke();
-    ctx.setLineDash([]);
+    drawSwept(ctx, stations, X, Y);
+    drawAtRest(ctx, a, b, middle);
     if (body.length) {
       drawEnd(ctx, a, middle, -1, body.left);
       drawEnd(ctx, b, middle, 1, body.right);

@@ -165,20 +165,8 @@ function planesStage() {
     const largest = Math.max(1e-300, ...stations.high, ...Array.from(stations.low, (u) => -u));
     const scale = Math.min(high / largest, supports.length ? (0.75 * high) / reach : Infinity);
     const Y = (u) => middle - scale * u;
-    ctx.fillStyle = clear(ink.c3, 0.2);
-    ctx.beginPath();
-    stations.x.forEach((x, i) => ctx.lineTo(X(x), Y(stations.high[i])));
-    for (let i = stations.x.length - 1; i >= 0; i--)
-      ctx.lineTo(X(stations.x[i]), Y(stations.low[i]));
-    ctx.fill();
-    ctx.setLineDash([3, 4]);
-    ctx.strokeStyle = ink.faint;
-    ctx.lineWidth = 1;
-    ctx.beginPath();
-    ctx.moveTo(a, middle);
-    ctx.lineTo(b, middle);
-    ctx.stroke();
-    ctx.setLineDash([]);
+    drawSwept(ctx, stations, X, Y);
+    drawAtRest(ctx, a, b, middle);
     if (DATA.scene.length) {
       drawEnd(ctx, a, middle, -1, DATA.scene.left);
       drawEnd(ctx, b, middle, 1, DATA.scene.right);

@@ -45,6 +45,28 @@ function stationsOf(plane = 0) {
 const endsOf = (x) =>
   DATA.scene.length ? [0, DATA.scene.length] : [Math.min(...x) - 0.5, Math.max(...x) + 0.5];
 
+/** Where the stations have been: the band between their least and largest displacements. */
+function drawSwept(ctx, stations, X, Y) {
+  ctx.fillStyle = clear(ink.c3, 0.2);
+  ctx.beginPath();
+  stations.x.forEach((x, i) => ctx.lineTo(X(x), Y(stations.high[i])));
+  for (let i = stations.x.length - 1; i >= 0; i--)
+    ctx.lineTo(X(stations.x[i]), Y(stations.low[i]));
+  ctx.fill();
+}
+
+/** Where the structure is at rest: a dashed line from `a` to `b` at this height. */
+function drawAtRest(ctx, a, b, middle) {
+  ctx.setLineDash([3, 4]);
+  ctx.strokeStyle = ink.faint;
+  ctx.lineWidth = 1;
+  ctx.beginPath();
+  ctx.moveTo(a, middle);
+  ctx.lineTo(b, middle);
+  ctx.stroke();
+  ctx.setLineDash([]);
+}
+
 /** How an end of a bar or beam is held: pinned, clamped, or on a spring. */
 function drawEnd(ctx, x, middle, side, held) {
   ctx.fillStyle = ink.sheet;

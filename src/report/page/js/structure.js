@@ -235,14 +235,7 @@ function structureStage() {
         ctx.stroke();
       });
     }
-    ctx.setLineDash([3, 4]);
-    ctx.strokeStyle = ink.faint;
-    ctx.lineWidth = 1;
-    ctx.beginPath();
-    ctx.moveTo(left, middle);
-    ctx.lineTo(right, middle);
-    ctx.stroke();
-    ctx.setLineDash([]);
+    drawAtRest(ctx, left, right, middle);
     const struck = struckAt(t, memory);
     walls.forEach((wall, i) => {
       if (wall.x !== undefined) drawWall(ctx, X, wall, struck[i]);
