@@ -1,6 +1,6 @@
 //! The built-in case files.
 
-use crate::error::{Error, Result};
+use crate::error::{Result, named};
 
 /// A case file, as text, with the tables it reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,11 +65,7 @@ impl Embedded {
     /// # Errors
     /// [`Error::Unknown`], listing the names that exist.
     pub fn named(name: &str) -> Result<&'static Self> {
-        ALL.iter().find(|case| case.name == name).ok_or_else(|| Error::Unknown {
-            kind: "case",
-            name: name.to_owned(),
-            known: ALL.iter().map(|case| case.name.to_owned()).collect(),
-        })
+        named("case", name, ALL.iter().map(|case| (case.name, case)))
     }
 
     /// Time (s) and displacement (m) of the first impacts, and of two states, of the case

@@ -4,7 +4,7 @@ use super::builder::Builder;
 use super::modal::{PointFile, points};
 use super::model::{Model, Place};
 use super::value::{Section, Value};
-use crate::error::Result;
+use crate::error::{Result, counted};
 use std::ops::Range;
 
 /// A file of a line.
@@ -91,7 +91,7 @@ impl Builder<'_> {
             _ => return Err(self.refuse(value.span(), &key, wanted)),
         };
         if given.len() < 2 {
-            let title = format!("{key} has {} point{}", given.len(), if given.len() == 1 { "" } else { "s" });
+            let title = format!("{key} has {}", counted(given.len(), "point"));
             return Err(self.source.error(value.span(), &title, "expected two points or more"));
         }
         // A table in a file has its keys in the order of their names; they count as they are

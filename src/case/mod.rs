@@ -157,6 +157,12 @@ pub struct Case {
 }
 
 impl Case {
+    /// What stands above its results: its title, or its name where it has none.
+    #[must_use]
+    pub fn heading(&self) -> &str {
+        self.title.as_deref().unwrap_or(&self.name)
+    }
+
     /// True where walls, loads and probes have a place: not for one degree of freedom.
     #[cfg(feature = "cli")]
     pub(crate) fn has_places(&self) -> bool {

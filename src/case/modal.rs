@@ -3,7 +3,7 @@
 use super::builder::Builder;
 use super::report::Source;
 use super::value::{Section, Value};
-use crate::error::{Result, Subject};
+use crate::error::{Result, Subject, counted};
 use crate::scene::{ModalData, ModalPoint};
 use std::f64::consts::TAU;
 use toml::Spanned;
@@ -101,7 +101,7 @@ impl Builder<'_> {
             }
             Value::List(items) if items.len() == k => self.list(&key, subject, items),
             Value::List(items) => {
-                let title = format!("{key} has {} value{}", items.len(), if items.len() == 1 { "" } else { "s" });
+                let title = format!("{key} has {}", counted(items.len(), "value"));
                 let help = format!("expected {k}, one for each mode, or one number for all");
                 Err(self.source.error(value.span(), &title, &help))
             }
@@ -135,8 +135,7 @@ impl Builder<'_> {
                         ));
                     };
                     if items.len() != k {
-                        let title =
-                            format!("{key} has {} value{}", items.len(), if items.len() == 1 { "" } else { "s" });
+                        let title = format!("{key} has {}", counted(items.len(), "value"));
                         return Err(self.source.error(
                             shape.span(),
                             &title,
@@ -188,8 +187,7 @@ pub(super) fn points(name: &str, text: &str, file: &PointFile) -> Result<Vec<Mod
             ));
         }
         if cells.len() != k {
-            let title =
-                format!("{} value{} at the point {point:?}", cells.len(), if cells.len() == 1 { "" } else { "s" });
+            let title = format!("{} at the point {point:?}", counted(cells.len(), "value"));
             return Err(source.error(line, &title, &format!("expected {k}, {each}")));
         }
         let mut shape = Vec::with_capacity(k);

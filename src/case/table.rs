@@ -1,7 +1,7 @@
 //! Tabulated loads: two columns of a CSV file, as data loggers and spreadsheets write them.
 
 use super::report::Source;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::scene::Table;
 use std::ops::Range;
 
@@ -80,7 +80,7 @@ pub(super) fn read(name: &str, text: &str, columns: &TableColumns) -> Result<Tab
         };
         if row.len() != header.count {
             let (n, wanted) = (row.len(), header.count);
-            let title = format!("{n} value{} in a row of {wanted}", if n == 1 { "" } else { "s" });
+            let title = format!("{} in a row of {wanted}", counted(n, "value"));
             return Err(reader.source.error(line, &title, &columns.expected()));
         }
         let t = reader.number(&line, &row, header.time, &columns.time)?;
@@ -102,7 +102,7 @@ pub(super) fn read(name: &str, text: &str, columns: &TableColumns) -> Result<Tab
         time.push(t);
     }
     if time.len() < 2 {
-        let title = format!("the table has {} row{}", time.len(), if time.len() == 1 { "" } else { "s" });
+        let title = format!("the table has {}", counted(time.len(), "row"));
         let end = text.trim_end().len();
         return Err(reader.source.error(end..end, &title, &format!("{}; two rows or more", columns.expected())));
     }

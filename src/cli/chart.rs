@@ -43,7 +43,7 @@ pub struct Args {
     /// End of the run, s; the comparison ends earlier where the motion is too sensitive
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     end: Option<f64>,
-    /// Restitution of every rigid wall, 0 to 1
+    /// Restitution of every rigid wall and support, 0 to 1
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     restitution: Option<f64>,
     /// Coarsest and finest step, s [default: a sixteenth of the fastest period, and 1e6 steps,
@@ -163,7 +163,7 @@ fn any_ran(chart: &WorkPrecision) -> Result<()> {
 fn write(results: &mut Results, case: &Case, chart: &WorkPrecision, peers: &[Peer], conclusion: &str) -> Result<()> {
     output::table(&results.place("work-precision.csv")?, chart)?;
     output::walls(&results.place("work-precision-walls.csv")?, &case.scene, chart)?;
-    let title = case.title.as_deref().unwrap_or(&case.name);
+    let title = case.heading();
     let walls = case.scene.walls.iter();
     let asked: Vec<f64> = walls.filter_map(|w| w.law.restitution()).collect();
     let title = match asked.first() {

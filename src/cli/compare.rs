@@ -92,6 +92,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let findings = comparison.findings.iter();
     let conclusion = conclusion(&case, &comparison, &verdicts);
     results.add_to_manifest("conclusion", json!(conclusion));
+    results.add_to_manifest("reference", json!(comparison.reference_in_words()));
     results.add_to_manifest("remarks", json!(findings.clone().chain(&notes).collect::<Vec<_>>()));
     let mut document = document(&case, &comparison, rows, &conclusion, &notes);
     if let Some(studies) = &studies {

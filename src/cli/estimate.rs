@@ -4,7 +4,7 @@
 #[cfg(test)]
 mod tests;
 
-use crate::error::amount;
+use crate::error::{amount, counted};
 use crate::parallel::cores;
 use crate::scene::{LoadKind, Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
@@ -282,11 +282,6 @@ fn steps_in_words(scene: &Scene, method: &Method, step: f64) -> String {
 fn unknowns_in_words(scene: &Scene) -> String {
     let n = scene.system.degrees_of_freedom();
     if n > 1 { format!(" with {n} unknowns") } else { String::new() }
-}
-
-/// `1 row`, `12 rows`.
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// The fastest angular frequency that the exact scheme follows, rad/s, and its origin.

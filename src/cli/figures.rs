@@ -96,8 +96,7 @@ impl Plate {
         }
         let runs = methods.iter().map(|method| self.run(case, method, ui)).collect::<Result<Vec<Run>>>()?;
         let labels: Vec<String> = methods.iter().map(|m| label(m, integrator)).collect();
-        let title =
-            format!("{} ({})", case.title.as_deref().unwrap_or(&case.name), case.source.as_deref().unwrap_or("source"));
+        let title = format!("{} ({})", case.heading(), case.source.as_deref().unwrap_or("source"));
         if self.content == Content::Independent {
             return Ok(vec![("displacement", independent(case, &title, &labels, &runs, known)?)]);
         }

@@ -5,6 +5,7 @@ use super::formats::FileFormats;
 use super::pipeline::Answer;
 use super::sweep::{picture_messages, show_tables, status_document, status_messages, write_sensitivity};
 use crate::error::Result;
+use crate::output::request::program;
 use crate::sweep::{Merged, merge_in, write_summary};
 use serde_json::json;
 use std::path::PathBuf;
@@ -35,7 +36,7 @@ pub fn answer(args: &Args) -> Result<Answer> {
     let Merged { rows, shards, tables, request, title, picture, differing_arithmetic, unverified } = merged;
     let pictures = picture.draw(&mut results, &request, &title)?;
     let document = json!({
-        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+        "program": program(),
         "case": request.get("case"),
         "rows": rows,
         "shards": shards,

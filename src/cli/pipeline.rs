@@ -23,7 +23,7 @@ pub struct Destination {
     /// Replace the results of another request
     #[arg(long)]
     pub force: bool,
-    /// Write no report.html, nor the shape.csv or orbits.csv from which it draws motions
+    /// Write no report.html, nor shape.csv, animation.svg and orbits.csv, which draw motions
     #[arg(long)]
     pub no_report: bool,
     /// File formats of pictures and tables

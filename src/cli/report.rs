@@ -18,10 +18,10 @@ Examples:
   signorini report soft --over hard --out both.html
       two runs, or two sweeps over one key, in the same figures
 
-run, compare, chart, stability, sweep, orbit and continue write report.html beside their results
-already, unless --no-report is given.")]
+run, compare, chart, stability, sweep, orbit, continue and wear write report.html beside their
+results already, unless --no-report is given.")]
 pub struct Args {
-    /// Folder of results of run, compare, chart, stability, sweep, orbit or continue
+    /// Folder of results of run, compare, chart, stability, sweep, orbit, continue or wear
     #[arg(value_hint = clap::ValueHint::DirPath)]
     folder: PathBuf,
     /// Other results to draw in the same figures: of a run over a run, of a sweep over a sweep

@@ -1,4 +1,4 @@
-//! The arguments of `run` and `compare`: the case, its changes, and the settings of methods.
+//! The arguments of `run`, `compare` and `wear`: the case, its changes, and the settings of methods.
 
 use super::case_args::{CaseArgs, built, set_restitution};
 use super::pipeline::Destination;
@@ -10,7 +10,7 @@ use crate::qp::Backend;
 use crate::scene::System;
 use crate::scheme::{Integrator, Method, Scheme};
 
-/// Arguments common to `run` and `compare`.
+/// Arguments common to `run`, `compare` and `wear`.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Request {
     #[command(flatten)]
@@ -28,7 +28,7 @@ pub struct Request {
     /// the case's, or 1e-3]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub force_averaging: Option<f64>,
-    /// Restitution of every rigid wall and round support, 0 to 1
+    /// Restitution of every rigid wall and support, 0 to 1
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     pub restitution: Option<f64>,
     /// Modes to keep, in place of the case's

@@ -36,7 +36,7 @@ Classes, from harmless to worst, against a fine run of the same scene:
                    reference (right in kind, not exact)
   dissipative      more than 5 % of the energy arriving at the walls lost per impact, beyond what
                    restitution takes
-  frozen           the body stands still: it crosses the gap in less than a step
+  frozen           the body stands still, or crosses the gap in less than a step
   another-motion   a wall passed beyond the scheme's bound, contacts off by a factor of 2, speeds
                    above 1.5 or below 0.7 of the reference's, or no rest where rest is due
   energy-gaining   more than 1 % of the energy arriving at the walls made per impact
@@ -52,7 +52,7 @@ const KAPPA: f64 = 0.1;
 pub struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// Restitution of every rigid wall, 0 to 1
+    /// Restitution of every rigid wall and support, 0 to 1
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     restitution: Option<f64>,
     #[command(flatten)]
@@ -79,7 +79,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         plan.run(&|done| bar.set_share(done as f64 / work.max(1) as f64))
     })?;
     output::cells(&results.place("stability.csv")?, &maps)?;
-    for (name, svg) in output::maps_figures(&maps, case.title.as_deref().unwrap_or(&case.name)) {
+    for (name, svg) in output::maps_figures(&maps, case.heading()) {
         results.draw(&name, &svg)?;
     }
     let quality = lasting_contacts(&case, &maps, ui)?;

@@ -33,13 +33,13 @@ pub(super) fn check(
 
 /// The effect of half the step, method by method, in one line; each summary has all the numbers.
 pub(super) fn line(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> String {
-    let mut parts: Vec<String> = Vec::new();
+    let (mut parts, mut told) = (Vec::new(), Vec::new());
     for (row, verdict) in comparison.rows.iter().zip(verdicts) {
-        let scheme = row.method.scheme.to_string();
-        let known = |part: &String| [": ", " was"].iter().any(|end| part.starts_with(&format!("{scheme}{end}")));
-        if row.method.scheme == Scheme::Event || parts.iter().any(known) {
+        let scheme = row.method.scheme;
+        if scheme == Scheme::Event || told.contains(&scheme) {
             continue;
         }
+        told.push(scheme);
         parts.push(match verdict {
             Some(v) => format!(
                 "{scheme}: the displacement {}, impulses by up to {:.1e} of the largest, contacts {:+}",

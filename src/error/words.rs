@@ -14,6 +14,31 @@ pub(crate) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str> + Clo
     best.map(|(_, name)| name).or_else(|| begun.next())
 }
 
+/// The one of `all`, names with what each stands for, that is called `name`.
+///
+/// # Errors
+/// [`Error::Unknown`], listing the names; `kind` says what they name.
+pub(crate) fn named<T>(
+    kind: &'static str,
+    name: &str,
+    all: impl IntoIterator<Item = (&'static str, T)>,
+) -> Result<T, Error> {
+    let mut known = Vec::new();
+    for (own, value) in all {
+        if own == name.trim() {
+            return Ok(value);
+        }
+        known.push(own.to_owned());
+    }
+    Err(Error::Unknown { kind, name: name.to_owned(), known })
+}
+
+/// `1 row`, `12 rows`.
+#[cfg(feature = "case")]
+pub(crate) fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// `x` with at most `digits` significant digits, as a person writes it: without trailing zeros, and
 /// with an exponent only where it is far from 1.
 pub(crate) fn amount(x: f64, digits: usize) -> String {

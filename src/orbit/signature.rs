@@ -48,11 +48,7 @@ impl Kind {
     /// # Errors
     /// [`Error::Unknown`], listing the kinds.
     pub fn named(name: &str) -> Result<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| Error::Unknown {
-            kind: "kind of event",
-            name: name.to_owned(),
-            known: Self::ALL.iter().map(|kind| kind.name().to_owned()).collect(),
-        })
+        crate::error::named("kind of event", name, Self::ALL.map(|kind| (kind.name(), kind)))
     }
 
     /// True for a kind whose speed is an approach speed.

@@ -67,7 +67,7 @@ pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &
         let view = view.fold(View::new(&name, false), |view, (look, points)| view.line(look, points));
         view.moving(rows.iter().map(|&row| motion.line(body, plane, row)).collect())
     };
-    let mut picture = Animation::new(case.title.as_deref().unwrap_or(&case.name), &caption, SECONDS);
+    let mut picture = Animation::new(case.heading(), &caption, SECONDS);
     for (body, beam) in &beams {
         for plane in 0..stations.planes {
             picture = picture.row(SIDE / stations.planes as f64, vec![side(body, beam, plane)]);

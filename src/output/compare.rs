@@ -107,7 +107,7 @@ fn figures(results: &mut Results, case: &Case, comparison: &Comparison, span: Sp
         Some((label, run)) => runs.into_iter().chain([Labelled { label, run, reference: true, look: 0 }]).collect(),
         None => runs,
     };
-    let title = case.title.as_deref().unwrap_or(&case.name);
+    let title = case.heading();
     let sheet = FigureSet { title, scene: &case.scene, runs: &runs, span };
     for (name, svg) in sheet.figures()? {
         results.draw(name, &svg)?;
@@ -118,8 +118,7 @@ fn figures(results: &mut Results, case: &Case, comparison: &Comparison, span: Sp
 /// `distance.csv`: the largest |Δu| of any probe against the reference, over the gap scale, at each
 /// row, one column per method. Not written without a reference or a probe.
 fn distance(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
-    let exact = comparison.reference.as_ref().ok();
-    let Some(reference) = exact.or(comparison.refined.as_ref().map(|(_, run)| run)) else { return Ok(()) };
+    let Some(reference) = comparison.reference_run() else { return Ok(()) };
     let gap = case.scene.gap_scale();
     let mut names = Vec::new();
     let mut columns: Vec<Vec<f64>> = Vec::new();

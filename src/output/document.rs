@@ -1,6 +1,7 @@
 //! A chart and a stability study as the JSON documents that `--json` prints. A number that is
 //! missing or not finite is null.
 
+use super::request::program;
 use crate::case::Case;
 use crate::study::stability::lasting::{LastingForce, Quality};
 use crate::study::stability::plan::Maps;
@@ -9,7 +10,7 @@ use serde_json::{Value, json};
 
 /// `value`, an object, with the keys that every document has: program and case.
 pub(crate) fn under_head(case: &Case, mut value: Value) -> Value {
-    value["program"] = json!(format!("signorini {}", env!("CARGO_PKG_VERSION")));
+    value["program"] = json!(program());
     value["case"] = json!(case.name);
     value["title"] = json!(case.title);
     value["source"] = json!(case.source);

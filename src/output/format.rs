@@ -6,7 +6,7 @@
 //! not depend on the fonts of the machine.
 
 use super::atomic::write_whole;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, named};
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
@@ -106,11 +106,7 @@ impl FromStr for Format {
     type Err = Error;
 
     fn from_str(name: &str) -> Result<Self> {
-        Self::ALL.into_iter().find(|format| format.name() == name).ok_or_else(|| Error::Unknown {
-            kind: "format of pictures",
-            name: name.to_owned(),
-            known: Self::ALL.iter().map(ToString::to_string).collect(),
-        })
+        named("format of pictures", name, Self::ALL.map(|format| (format.name(), format)))
     }
 }
 

@@ -5,7 +5,7 @@ use super::branches::Drawn;
 use crate::error::{Error, Result};
 use crate::orbit::branch::{Family, Point};
 use crate::orbit::{Problem, path};
-use crate::scene::{Scene, Side, Wall};
+use crate::scene::{Scene, Wall};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -71,7 +71,7 @@ pub fn walls(scene: &Scene, other: &Scene, place: usize) -> Value {
     let wall = |(wall, other): (&Wall, &Wall)| {
         json!({
             "name": wall.name,
-            "side": if wall.side() == Side::Upper { "upper" } else { "lower" },
+            "side": wall.side().name(),
             "position_m": (wall.position() == other.position() && Some(wall.row()) == at).then_some(wall.position()),
             "rigid": wall.law.is_rigid(),
         })

@@ -2,10 +2,11 @@
 
 use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
+use super::request::program;
 use crate::case::read_text;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::orbit::{Admissible, ClosedForm, Event, Floquet, Judged, Kind, Orbit, Problem, Shot, Signature};
-use crate::scene::{Scene, Side, State};
+use crate::scene::{Scene, State};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -25,6 +26,16 @@ pub struct Known<'a> {
     pub admissible: Admissible,
     /// The free run over one period.
     pub judged: &'a Judged,
+}
+
+/// An orbit in a few words, by its signature as it is written.
+pub(crate) fn headline(signature: &str, symmetric: bool, periods: u64) -> String {
+    let touches = match signature {
+        "" => "touches no wall",
+        written => written,
+    };
+    let mirror = if symmetric && !signature.is_empty() { " and its mirror image" } else { "" };
+    format!("{touches}{mirror}, {}", counted(periods as usize, "forcing period"))
 }
 
 /// A number, or null if it is not finite.
@@ -58,7 +69,7 @@ impl Known<'_> {
         let walls = judged.walls.iter().zip(&scene.walls).map(|(share, wall)| {
             json!({
                 "wall": wall.name,
-                "side": if wall.side() == Side::Upper { "upper" } else { "lower" },
+                "side": wall.side().name(),
                 "position_m": wall.position(),
                 "rigid": wall.law.is_rigid(),
                 "contacts": share.contacts,
@@ -68,7 +79,7 @@ impl Known<'_> {
             })
         });
         json!({
-            "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+            "program": program(),
             "case": case,
             "forcing_period_s": orbit.forcing_period,
             "periods": orbit.signature.periods,
@@ -276,7 +287,7 @@ pub fn shot(found: &Shot, scene: &Scene, case: &str, modal: bool) -> Value {
             |((wall, contacts), impulse)| json!({ "wall": wall.name, "contacts": contacts, "impulse_n_s": impulse }),
         );
     json!({
-        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+        "program": program(),
         "case": case,
         "forcing_period_s": found.forcing_period,
         "periods": found.periods,

@@ -58,7 +58,7 @@ pub fn write(
     let label = method.to_string();
     let runs = [Labelled { label: &label, run, reference: false, look: picture.look }];
     let draws = checks.realisations.map_or(1, |study| study.count as u64);
-    let title = &realisations::titled(case.title.as_deref().unwrap_or(&case.name), draws);
+    let title = &realisations::titled(case.heading(), draws);
     let sheet = FigureSet { title, scene: &case.scene, runs: &runs, span: picture.span };
     for (name, svg) in sheet.figures()? {
         results.draw(&named(name), &svg)?;

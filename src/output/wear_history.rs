@@ -221,7 +221,7 @@ pub fn figure(case: &Case, found: &WearHistories) -> String {
     if let Some(limit) = case.wear.limit.filter(|limit| *limit < NEAR * deepest) {
         depth = depth.mark(Mark::wall(1e3 * limit, "limit"));
     }
-    let title = case.title.as_deref().unwrap_or(&case.name);
+    let title = case.heading();
     let figure = Figure::new(title, "time in service (years)");
     figure.panel(panel("gap (mm)", |state| state.gap_m)).panel(depth).to_svg()
 }

@@ -3,7 +3,7 @@
 use super::figure::Figure;
 use crate::error::amount;
 use crate::run::Run;
-use crate::scene::{LoadKind, Scene};
+use crate::scene::Scene;
 
 /// Most periods that one frame can show so that they can be told apart; beyond that a second frame
 /// shows the last ones.
@@ -88,11 +88,7 @@ impl Window {
 
 /// The period of the slowest harmonic load, s.
 fn load_period(scene: &Scene) -> Option<f64> {
-    let periods = scene.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Harmonic { frequency, .. } if *frequency > 0.0 => Some(1.0 / frequency),
-        _ => None,
-    });
-    periods.reduce(f64::max)
+    scene.harmonic_frequencies().filter(|frequency| *frequency > 0.0).map(f64::recip).reduce(f64::max)
 }
 
 /// The mean time between upward passages of the displacement through its mean, s.

@@ -1,6 +1,6 @@
 //! The choice of solver.
 
-use crate::error::Error;
+use crate::error::{Error, named};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -46,10 +46,6 @@ impl FromStr for Backend {
     type Err = Error;
 
     fn from_str(name: &str) -> Result<Self, Error> {
-        Self::ALL.into_iter().find(|backend| backend.name() == name).ok_or_else(|| Error::Unknown {
-            kind: "QP solver",
-            name: name.to_owned(),
-            known: Self::ALL.iter().map(ToString::to_string).collect(),
-        })
+        named("QP solver", name, Self::ALL.map(|backend| (backend.name(), backend)))
     }
 }

@@ -3,7 +3,9 @@
 //! Only the judge decides, in its findings, whether a promise is broken; the limits here only
 //! decide where a change by refinement deserves attention.
 
+use crate::residual::Refuted;
 use crate::study::verdict::largest_change;
+use serde::Deserialize;
 use serde_json::{Value, json};
 
 /// Changes by refinement up to this share need no attention, and energy unaccounted for up to this
@@ -17,7 +19,7 @@ const SCATTER: f64 = 0.1;
 pub(super) fn cards(summary: &Value) -> Vec<Value> {
     let checks = [refinement(summary), realisations(summary), accuracy(summary), modes(summary)];
     let judged = [contact(summary), energy(summary), momentum(summary)];
-    checks.into_iter().flatten().chain(judged).collect()
+    run(summary).into_iter().chain(checks.into_iter().flatten()).chain(judged).collect()
 }
 
 /// The state of a card: the promise is kept, needs attention, is broken, or was not checked.
@@ -179,9 +181,41 @@ fn modes(summary: &Value) -> Option<Value> {
     Some(card("Modes", state, verdict, text))
 }
 
-/// The judge's findings of these kinds, one sentence each.
-fn found(summary: &Value, kinds: &[&str]) -> Vec<String> {
-    let here = |finding: &&Value| finding["refuted"].as_str().is_some_and(|kind| kinds.contains(&kind));
+/// What a card of the judge is about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Promise {
+    Contact,
+    Energy,
+    Momentum,
+    /// The run as a whole.
+    Run,
+}
+
+/// The promise that a finding says is broken.
+fn promise(finding: &Value) -> Promise {
+    match Refuted::deserialize(&finding["refuted"]) {
+        Ok(
+            Refuted::Penetration
+            | Refuted::Tension
+            | Refuted::Complementarity
+            | Refuted::WallLaw
+            | Refuted::Normal
+            | Refuted::Friction,
+        ) => Promise::Contact,
+        Ok(Refuted::Energy) => Promise::Energy,
+        Ok(Refuted::MomentumBalance | Refuted::Impulses | Refuted::Kinematics) => Promise::Momentum,
+        // Another version may know further promises; the card then tells its reason.
+        Ok(Refuted::NotFinite | Refuted::Diverged) | Err(_) => Promise::Run,
+    }
+}
+
+/// The judge's findings about this promise.
+fn findings(summary: &Value, about: Promise) -> impl Iterator<Item = &Value> {
+    list(&summary["findings"]).iter().filter(move |finding| promise(finding) == about)
+}
+
+/// The judge's findings about this promise, one sentence each.
+fn broken(summary: &Value, about: Promise) -> Vec<String> {
     let sentence = |finding: &Value| {
         let wall = finding["wall"].as_str().map_or_else(String::new, |wall| format!(" at {wall}"));
         format!(
@@ -192,7 +226,18 @@ fn found(summary: &Value, kinds: &[&str]) -> Vec<String> {
             short(number(&finding["time_s"]))
         )
     };
-    list(&summary["findings"]).iter().filter(here).map(sentence).collect()
+    findings(summary, about).map(sentence).collect()
+}
+
+/// The card of a run that diverged or has a result that is not finite.
+fn run(summary: &Value) -> Option<Value> {
+    let sentence = |finding: &Value| {
+        let reason = finding["reason"].as_str().unwrap_or("Refuted by the judge");
+        format!("At t = {} s: {reason}.", short(number(&finding["time_s"])))
+    };
+    let sentences: Vec<String> = findings(summary, Promise::Run).map(sentence).collect();
+    let verdict = "Refuted by the judge: do not use its numbers".to_owned();
+    (!sentences.is_empty()).then(|| card("Run", State::Bad, verdict, sentences.join(" ")))
 }
 
 /// The card of a promise that the judge checks.
@@ -205,7 +250,7 @@ fn judged(title: &str, broken: &[String], verdict: (&str, String), text: String)
 
 fn contact(summary: &Value) -> Value {
     let residuals = &summary["residuals"];
-    let broken = found(summary, &["penetration", "tension", "complementarity", "wall_law", "normal", "friction"]);
+    let broken = broken(summary, Promise::Contact);
     let text = format!(
         "Deepest {} µm behind a rigid wall; strongest pull {} N.",
         short(1e6 * number(&residuals["penetration_m"])),
@@ -234,7 +279,7 @@ fn energy(summary: &Value) -> Value {
         part("final_j")
     );
     let open = number(&energy["residual"]).abs();
-    let broken = found(summary, &["energy"]);
+    let broken = broken(summary, Promise::Energy);
     if broken.is_empty() && open > SMALL {
         let verdict =
             format!("{} of the energy exchanged is unaccounted for; the scheme promises no less", percent(open));
@@ -246,7 +291,7 @@ fn energy(summary: &Value) -> Value {
 
 fn momentum(summary: &Value) -> Value {
     let residuals = &summary["residuals"];
-    let broken = found(summary, &["momentum_balance", "impulses", "kinematics"]);
+    let broken = broken(summary, Promise::Momentum);
     let kept = format!("Every step's balance closes to {}", short(number(&residuals["force_balance"])));
     let text = format!("{} N where it is worst.", short(number(&residuals["force_balance_n"])));
     judged("Momentum", &broken, ("Refuted by the judge", kept), text)
@@ -265,10 +310,28 @@ mod tests {
 
     #[test]
     fn a_finding_is_never_green() {
-        let finding = json!({ "refuted": "energy", "residual": 0.5, "tolerance": 1e-9, "time_s": 1.0, "wall": null });
-        let cards = cards(&json!({ "findings": [finding], "residuals": {} }));
-        let energy = cards.iter().find(|card| card["title"] == "Energy").unwrap();
-        assert_eq!(energy["state"], "bad");
-        assert!(energy["text"].as_str().unwrap().contains("0.5 where 1e−9"));
+        let kinds = [
+            ("energy", "Energy", "0.5 where 1e−9"),
+            ("penetration", "Contact conditions", "0.5 where 1e−9"),
+            ("tension", "Contact conditions", "tension"),
+            ("complementarity", "Contact conditions", "complementarity"),
+            ("wall_law", "Contact conditions", "wall law"),
+            ("normal", "Contact conditions", "normal"),
+            ("friction", "Contact conditions", "friction"),
+            ("momentum_balance", "Momentum", "momentum balance"),
+            ("impulses", "Momentum", "impulses"),
+            ("kinematics", "Momentum", "kinematics"),
+            ("not_finite", "Run", "At t = 1 s: why."),
+            ("diverged", "Run", "At t = 1 s: why."),
+            ("of_a_later_version", "Run", "At t = 1 s: why."),
+        ];
+        for (kind, title, text) in kinds {
+            let finding =
+                json!({ "refuted": kind, "residual": 0.5, "tolerance": 1e-9, "reason": "why", "time_s": 1.0 });
+            let cards = cards(&json!({ "findings": [finding], "residuals": {} }));
+            let bad: Vec<_> = cards.iter().filter(|card| card["state"] == "bad").collect();
+            assert_eq!((bad.len(), &bad[0]["title"]), (1, &json!(title)), "{kind}");
+            assert!(bad[0]["text"].as_str().unwrap().contains(text), "{:?}", bad[0]);
+        }
     }
 }

@@ -2,13 +2,14 @@
 
 use super::column::{f32, f64};
 use super::folder::Folder;
-use super::motion::motion;
+use super::motion::{add_left_out, motion};
+use super::older;
 use super::run::{of_scene, tell_draw};
 use crate::error::{Error, Result};
 use crate::output::compare::{DISTANCE, folder_of};
 use crate::output::method_realisations;
 use crate::output::realisations;
-use crate::study::compare::{AGREEMENT, NO_EXACT_MOTION, NO_REFERENCE};
+use crate::study::compare::AGREEMENT;
 use serde_json::{Value, json};
 
 /// Stretches in each of which the largest distance is drawn.
@@ -53,12 +54,13 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let horizon = horizons.into_iter().find(|t| t.is_finite());
     page["horizon"] = json!(horizon.filter(|t| *t < page["duration"].as_f64().unwrap_or(0.0) * (1.0 - 1e-9)));
     page["notes"] = folder.manifest["remarks"].clone();
+    runs.iter_mut().for_each(|run| add_left_out(&mut page["notes"], run));
     page["runs"] = json!(runs);
     page["compare"] = json!({
         "table": table.for_page(None),
         "conclusion": folder.manifest["conclusion"],
         "agreement": AGREEMENT,
-        "reference": reference(&folder.manifest["remarks"]),
+        "reference": older::reference(folder.manifest),
         "distance": if folder.has(DISTANCE) { distance(folder)? } else { Value::Null },
     });
     if folder.has(method_realisations::FILE) {
@@ -68,17 +70,6 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         tell_draw(&mut page, folder, draws as u64);
     }
     Ok(page)
-}
-
-/// What the errors of a comparison with these remarks are against, in words; `None` where there is
-/// no reference.
-fn reference(remarks: &Value) -> Option<&str> {
-    let mut remarks = remarks.as_array().into_iter().flatten().filter_map(Value::as_str);
-    let told = remarks.find_map(|remark| {
-        let none = remark.starts_with(NO_REFERENCE).then_some(None);
-        none.or_else(|| remark.strip_prefix(NO_EXACT_MOTION).map(Some))
-    });
-    told.unwrap_or(Some("the exact motion"))
 }
 
 /// The largest distance of each method in each stretch of the run.

@@ -7,6 +7,7 @@
 
 use super::column::base64;
 use crate::error::{Error, Result, escaped};
+use crate::output::request::program;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
@@ -69,11 +70,10 @@ pub(super) fn file(title: &str, data: &Value) -> Result<String> {
     let failed = |error: serde_json::Error| Error::io("the report", error.to_string(), false).caused_by(error);
     let data = in_script(&serde_json::to_string(data).map_err(failed)?);
     let script = format!("\"use strict\";\n(() => {{\n{}}})();\n", SCRIPT.concat());
-    let program = format!("signorini {}", env!("CARGO_PKG_VERSION"));
     let marks = [
         ("%STYLE_HASH%", hash(STYLE)),
         ("%SCRIPT_HASH%", hash(&script)),
-        ("%PROGRAM%", program),
+        ("%PROGRAM%", program()),
         ("%TITLE%", in_text(&escaped(title))),
         ("%STYLE%", STYLE.to_owned()),
         ("%DATA%", data),

@@ -76,6 +76,18 @@ pub(super) fn motion(folder: &Folder<'_>, prefix: &str, summary: &Value) -> Resu
     Ok(out)
 }
 
+/// Adds to the notes of a page what the drawings of `run` leave out, each sentence once.
+pub(super) fn add_left_out(notes: &mut Value, run: &mut Value) {
+    let left_out = run["left_out"].take();
+    let mut all = notes.as_array().cloned().unwrap_or_default();
+    for sentence in left_out.as_array().into_iter().flatten() {
+        if !all.contains(sentence) {
+            all.push(sentence.clone());
+        }
+    }
+    *notes = Value::Array(all);
+}
+
 /// Columns that supports add after those of the walls: four of each round one, and the work of
 /// each.
 fn beside(summary: &Value) -> usize {

@@ -8,7 +8,8 @@ use serde_json::{Value, json};
 /// stretch. Returns a sentence that names the walls and supports of which the summary has neither.
 pub(super) fn complete_forces(summary: &mut Value) -> Option<String> {
     let mut lacking = Vec::new();
-    for wall in summary["statistics"]["walls"].as_array_mut().into_iter().flatten() {
+    let walls = summary.pointer_mut("/statistics/walls").and_then(Value::as_array_mut);
+    for wall in walls.into_iter().flatten() {
         let force = &wall["force"];
         if wall.get("largest_force").is_some() || force.is_null() {
             continue;
@@ -40,10 +41,49 @@ pub(super) fn histories(manifest: &Value) -> &Value {
     if stated.is_null() { &manifest["request"]["histories"] } else { stated }
 }
 
+/// What the errors of a comparison are against, in words; `None` where there is no reference. An
+/// older version wrote it into a remark alone.
+pub(super) fn reference(manifest: &Value) -> Option<&str> {
+    if let Some(stated) = manifest.get("reference") {
+        return stated.as_str();
+    }
+    let mut remarks = manifest["remarks"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    let told = remarks.find_map(|remark| {
+        let none = remark.starts_with("no reference: ").then_some(None);
+        none.or_else(|| remark.strip_prefix("no exact motion: errors are against ").map(Some))
+    });
+    told.unwrap_or(Some("the exact motion"))
+}
+
 /// A sentence that names those of `columns` that the `header` of the table `file` does not have.
 pub(super) fn without_columns(file: &str, header: &[String], columns: &[String]) -> Option<String> {
     let lacking: Vec<&str> = columns.iter().filter(|column| !header.contains(column)).map(String::as_str).collect();
     (!lacking.is_empty()).then(|| {
         format!("{file} has no {}: an older version wrote it. The same study again has it", lacking.join(", "))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{complete_forces, reference};
+    use serde_json::json;
+
+    #[test]
+    fn a_summary_of_another_shape_lacks_nothing_by_name() {
+        let walls = json!({ "statistics": { "walls": [3, [], { "force": [] }], "supports": 3 } });
+        for mut summary in [json!([]), json!(3), json!({ "statistics": 3 }), json!({ "statistics": [] })] {
+            assert_eq!(complete_forces(&mut summary), None);
+        }
+        let lacking = complete_forces(&mut walls.clone()).unwrap();
+        assert!(lacking.starts_with("summary.json has no largest force of null"), "{lacking}");
+    }
+
+    #[test]
+    fn the_reference_of_an_older_comparison_is_read_from_its_remarks() {
+        let of = |remark: &str| reference(&json!({ "remarks": ["chaos", remark] })).map(str::to_owned);
+        assert_eq!(of("not chaotic").as_deref(), Some("the exact motion"));
+        assert_eq!(of("no exact motion: errors are against event").as_deref(), Some("event"));
+        assert_eq!(of("no reference: it failed"), None);
+        assert_eq!(reference(&json!({ "reference": null, "remarks": ["chaos"] })), None);
+    }
 }

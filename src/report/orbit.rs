@@ -5,6 +5,7 @@ use super::column;
 use super::folder::{Folder, Numbers};
 use super::run::case_text;
 use crate::error::Result;
+use crate::output::periodic;
 use serde_json::{Value, json};
 
 /// Most walls whose impulses are among the facts; a table has all.
@@ -70,16 +71,10 @@ fn motion(table: &Numbers, walls: usize) -> Result<Value> {
 
 /// The orbit in a few words.
 fn headline(document: &Value) -> String {
-    let periods = match document["periods"].as_u64() {
-        Some(1) => "one forcing period".to_owned(),
-        Some(n) => format!("{n} forcing periods"),
-        None => String::new(),
-    };
-    match document["signature"].as_str() {
-        Some("") => format!("touches no wall, {periods}"),
-        Some(written) if document["symmetric"] == true => format!("{written} and its mirror image, {periods}"),
-        Some(written) => format!("{written}, {periods}"),
-        None => periods,
+    let symmetric = document["symmetric"] == true;
+    match (document["signature"].as_str(), document["periods"].as_u64()) {
+        (Some(signature), Some(periods)) => periodic::headline(signature, symmetric, periods),
+        _ => String::new(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Other results in the figures of a page: a run over a run, a sweep over a sweep.
 
 use super::folder::Folder;
-use super::motion::motion;
+use super::motion::{add_left_out, motion};
 use super::scene::scene;
 use super::sweep::{SAMPLES, TABLE};
 use crate::error::{Error, Result};
@@ -45,6 +45,7 @@ fn run(page: &mut Value, other: &Folder<'_>, name: &str) -> Result<()> {
     }
     let scheme = summary["scheme"].as_str().unwrap_or_default();
     added["label"] = json!(format!("{scheme}, {name}"));
+    add_left_out(&mut page["notes"], &mut added);
     if let Some(runs) = page["runs"].as_array_mut() {
         runs.push(added);
     }

@@ -2,7 +2,7 @@
 
 use super::cards::{cards, short};
 use super::folder::Folder;
-use super::motion::motion;
+use super::motion::{add_left_out, motion};
 use super::older;
 use super::scene::{period, scene};
 use crate::error::Result;
@@ -23,7 +23,8 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     run["label"] = json!(label);
     let mut page = of_scene(&summary);
     page["facts"] = facts(&summary);
-    page["notes"] = notes(&summary, &run, lacking);
+    page["notes"] = notes(&summary, lacking);
+    add_left_out(&mut page["notes"], &mut run);
     page["margins"] = summary["scene"]["fluid_elastic"].clone();
     tell_draw(&mut page, folder, summary["realisations"]["count"].as_u64().unwrap_or(1));
     if folder.manifest["request"]["derivative"].is_array() {
@@ -83,13 +84,10 @@ pub(super) fn case_text(case_file: &Value) -> Option<String> {
     case_file.is_object().then(|| toml::to_string(case_file).unwrap_or_else(|_| shown()))
 }
 
-/// What a reader must know: the notes of the run, what the page leaves out, and what its files
-/// lack.
-fn notes(summary: &Value, run: &Value, lacking: Option<String>) -> Value {
-    let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
-    let mut notes = list(&summary["notes"]);
+/// What a reader must know: the notes of the run, and what its files lack.
+fn notes(summary: &Value, lacking: Option<String>) -> Value {
+    let mut notes = summary["notes"].as_array().cloned().unwrap_or_default();
     notes.extend(summary["wear"].as_str().map(|text| json!(text)));
-    notes.extend(list(&run["left_out"]));
     notes.extend(lacking.map(Value::String));
     json!(notes)
 }

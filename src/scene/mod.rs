@@ -239,6 +239,14 @@ impl Scene {
         self
     }
 
+    /// Frequencies of the harmonic loads, Hz, in the order of the loads.
+    pub(crate) fn harmonic_frequencies(&self) -> impl Iterator<Item = f64> {
+        self.loads.iter().filter_map(|load| match load.kind {
+            LoadKind::Harmonic { frequency, .. } => Some(frequency),
+            _ => None,
+        })
+    }
+
     /// Index of the wall of that name.
     ///
     /// # Errors

@@ -18,6 +18,15 @@ pub enum Side {
 }
 
 impl Side {
+    /// `lower` or `upper`, as case files and tables write it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lower => "lower",
+            Self::Upper => "upper",
+        }
+    }
+
     /// The sign of the wall's force on the body: +1 for a lower wall, −1 for an upper one.
     #[must_use]
     pub fn sign(self) -> f64 {

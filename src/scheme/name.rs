@@ -2,7 +2,7 @@
 
 use super::generalized_alpha::RHO;
 use super::{Integrator, PenaltyLaw, Scheme};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, named};
 use std::fmt;
 use std::str::FromStr;
 
@@ -63,10 +63,7 @@ impl FromStr for Scheme {
     /// its epsilon or its stiffness.
     fn from_str(text: &str) -> Result<Self> {
         let (name, settings) = text.split_once(':').unwrap_or((text, ""));
-        let mut scheme = Self::ALL.into_iter().find(|scheme| scheme.entry().name == name).ok_or_else(|| {
-            let known = Self::ALL.map(|scheme| scheme.entry().name.to_owned()).to_vec();
-            Error::Unknown { kind: "scheme", name: name.to_owned(), known }
-        })?;
+        let mut scheme = named("scheme", name, Self::ALL.map(|scheme| (scheme.entry().name, scheme)))?;
         let entry = scheme.entry();
         if entry.settings.is_empty() && !settings.trim().is_empty() {
             return Err(Error::invalid(format!("setting of {name}"), settings, "none: this scheme has no settings"));

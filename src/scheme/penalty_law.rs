@@ -1,6 +1,6 @@
 //! The springs that replace rigid walls in a penalty run, and the integrators.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, named};
 use crate::scene::{Scene, Side, Wall, WallLaw};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -162,11 +162,7 @@ impl FromStr for Integrator {
     type Err = Error;
 
     fn from_str(name: &str) -> Result<Self> {
-        Self::ALL.into_iter().find(|i| i.name() == name).ok_or_else(|| Error::Unknown {
-            kind: "integrator",
-            name: name.to_owned(),
-            known: Self::ALL.iter().map(|i| i.name().to_owned()).collect(),
-        })
+        named("integrator", name, Self::ALL.map(|integrator| (integrator.name(), integrator)))
     }
 }
 

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::linear::{Factor, Symmetric};
 use crate::qp::Backend;
 use crate::run::Run;
-use crate::scene::{MOST_DENSE, Scene, Side, Structure, System, Wall, WallLaw};
+use crate::scene::{MOST_DENSE, Scene, Structure, System, Wall, WallLaw};
 use crate::scheme::{Coverage, Method, Scheme, SchemeKind, Stepper};
 
 /// A method and the reason for it.
@@ -259,7 +259,7 @@ pub fn walls(scene: &Scene) -> Vec<(usize, String)> {
     let several = matches!(scene.system, System::Structure(_));
     let [slowest, _] = scene.system.frequencies();
     let line = |(index, (wall, mass)): (usize, (&Wall, f64))| {
-        let side = if wall.side() == Side::Upper { "upper" } else { "lower" };
+        let side = wall.side().name();
         let law = match wall.law {
             WallLaw::Rigid { restitution } => format!("rigid, restitution {restitution}"),
             WallLaw::Elastic { stiffness, damping } if several => {

@@ -1,6 +1,6 @@
 //! Rows that start one from another.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, named};
 use std::str::FromStr;
 
 /// The direction in which the values of an axis are taken, if each row starts from the end of the
@@ -28,12 +28,6 @@ impl FromStr for Follow {
     type Err = Error;
 
     fn from_str(word: &str) -> Result<Self> {
-        Self::ALL.iter().find(|(name, _)| *name == word.trim()).map(|(_, follow)| *follow).ok_or_else(|| {
-            Error::Unknown {
-                kind: "direction to follow",
-                name: word.to_owned(),
-                known: Self::ALL.map(|(name, _)| name.to_owned()).to_vec(),
-            }
-        })
+        named("direction to follow", word, Self::ALL)
     }
 }

@@ -1,7 +1,7 @@
 //! Measures: the quantities computed for every row, by name.
 
 use super::table::HALF_WIDTH;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, named};
 use crate::scene::Scene;
 use std::fmt;
 use std::str::FromStr;
@@ -271,10 +271,6 @@ impl FromStr for Measure {
     type Err = Error;
 
     fn from_str(name: &str) -> Result<Self> {
-        MEASURES.iter().find(|entry| entry.1 == name.trim()).map(|entry| entry.0).ok_or_else(|| Error::Unknown {
-            kind: "measure",
-            name: name.to_owned(),
-            known: MEASURES.iter().map(|entry| entry.1.to_owned()).collect(),
-        })
+        named("measure", name, MEASURES.iter().map(|entry| (entry.1, entry.0)))
     }
 }

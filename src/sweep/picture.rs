@@ -2,7 +2,7 @@
 
 use super::columns::{Source, SweepAxis, is_half_width, of};
 use super::measure::Measure;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, named};
 use crate::output::results::Results;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -42,11 +42,7 @@ impl FromStr for Kind {
     type Err = Error;
 
     fn from_str(word: &str) -> Result<Self> {
-        Self::ALL.iter().find(|(name, _)| *name == word.trim()).map(|(_, kind)| *kind).ok_or_else(|| Error::Unknown {
-            kind: "kind of figure",
-            name: word.to_owned(),
-            known: Self::ALL.map(|(name, _)| name.to_owned()).to_vec(),
-        })
+        named("kind of figure", word, Self::ALL)
     }
 }
 

@@ -9,7 +9,7 @@ use super::random::Random;
 use super::sample::Samples;
 use super::target::Target;
 use crate::case::{CaseFile, KeyValue};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, named};
 use crate::study::realisations::RealisationCount;
 use std::str::FromStr;
 
@@ -51,15 +51,7 @@ impl FromStr for Kernel {
     type Err = Error;
 
     fn from_str(word: &str) -> Result<Self> {
-        match word.trim() {
-            "scalar" => Ok(Self::Scalar),
-            "batch" => Ok(Self::Batch),
-            other => Err(Error::Unknown {
-                kind: "kernel",
-                name: other.to_owned(),
-                known: ["scalar", "batch"].map(str::to_owned).to_vec(),
-            }),
-        }
+        named("kernel", word, [("scalar", Self::Scalar), ("batch", Self::Batch)])
     }
 }
 

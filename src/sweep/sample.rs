@@ -1,6 +1,6 @@
 //! Instants of a row: which are kept, and their columns.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, named};
 use crate::scene::Scene;
 use std::fmt;
 use std::str::FromStr;
@@ -44,6 +44,14 @@ pub enum Samples {
 }
 
 impl Samples {
+    /// The word for it in a sweep file.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Periods => "periods",
+            Self::Impacts => "impacts",
+        }
+    }
+
     /// Columns after the row's number.
     #[must_use]
     pub fn columns(self, scene: &Scene) -> Vec<String> {
@@ -68,10 +76,7 @@ impl Samples {
 
 impl fmt::Display for Samples {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Periods => "periods",
-            Self::Impacts => "impacts",
-        })
+        f.write_str(self.name())
     }
 }
 
@@ -79,14 +84,6 @@ impl FromStr for Samples {
     type Err = Error;
 
     fn from_str(word: &str) -> Result<Self> {
-        match word.trim() {
-            "periods" => Ok(Self::Periods),
-            "impacts" => Ok(Self::Impacts),
-            other => Err(Error::Unknown {
-                kind: "kind of samples",
-                name: other.to_owned(),
-                known: ["no", "periods", "impacts"].map(str::to_owned).to_vec(),
-            }),
-        }
+        named("kind of samples", word, [Self::Periods, Self::Impacts].map(|kind| (kind.name(), kind)))
     }
 }

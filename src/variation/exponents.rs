@@ -3,7 +3,7 @@
 use super::no_derivative::NoDerivative;
 use super::product::Variation;
 use crate::error::{Error, Result};
-use crate::scene::{LoadKind, Scene};
+use crate::scene::Scene;
 use crate::step::Step;
 use std::f64::consts::TAU;
 
@@ -82,10 +82,7 @@ impl Exponents {
         if !(from.is_finite() && to.is_finite() && from < to) {
             return Err(Error::invalid("window", format_args!("from {from:?} to {to:?}"), "two times, s, in order"));
         }
-        let fastest = scene.loads.iter().filter_map(|load| match load.kind {
-            LoadKind::Harmonic { frequency, .. } => Some(TAU * frequency),
-            _ => None,
-        });
+        let fastest = scene.harmonic_frequencies().map(|frequency| TAU * frequency);
         let own = scene.system.frequencies()[1];
         let omega = Some(fastest.fold(own, f64::max)).filter(|omega| *omega > 0.0).unwrap_or(1.0 / (to - from));
         let mut changes: Vec<f64> = (0..size * count).map(direction).collect();

@@ -673,6 +673,7 @@ fn bad_requests_are_named_before_anything_runs() {
     for (args, words) in [
         (&["--vary", vary][..], "one measure or more"),
         (&["--measure", "contacts"], "--vary KEY=FROM:TO:POINTS"),
+        (&["--measure", "contacts", "--vary", vary, "--samples", "no"], "named \"no\"; there is periods, impacts"),
         (&["--measure", "contact", "--vary", vary], "did you mean contacts?"),
         (&["--measure", "contacts", "--vary", "load.1.harmonic.frequency=4:4:3"], "the range is empty"),
         (&["--measure", "contacts", "--vary", "load.1.harmonic.frequency=4:x:3"], "KEY=FROM:TO:POINTS"),

@@ -3,6 +3,8 @@
 use crate::cli::case_args::CaseArgs;
 use crate::cli::pipeline::Destination;
 use crate::orbit::SETTLE;
+use crate::orbit::branch::Label;
+use clap::builder::PossibleValuesParser;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -70,7 +72,7 @@ pub struct Args {
     /// Which special points: fold, period-doubling, symmetry-breaking, grazing-in, grazing-out
     /// [default: all of them]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',', requires = "second", hide_possible_values = true,
-        value_parser = ["fold", "period-doubling", "symmetry-breaking", "grazing-in", "grazing-out"])]
+        value_parser = PossibleValuesParser::new(Label::WITH_LOCUS.map(Label::name)))]
     pub(super) locus: Vec<String>,
     #[command(flatten)]
     pub(super) place: Destination,

@@ -66,6 +66,6 @@ impl SceneFamily {
 
     /// The title of pictures.
     pub(super) fn title(&self) -> &str {
-        self.case.title.as_deref().unwrap_or(&self.case.name)
+        self.case.heading()
     }
 }

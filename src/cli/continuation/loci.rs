@@ -13,8 +13,7 @@ pub(super) fn follow(family: &SceneFamily, second: &Varied, found: &Graph, args:
     let (key, names) = (&family.key, &args.locus);
     let scene = |[first, other]: [f64; 2]| family.scene_with(&[(key, first), (second, other)]);
     let has_locus = |label: Label| {
-        let named = ["fold", "period-doubling", "symmetry-breaking", "grazing-in", "grazing-out"];
-        named.contains(&label.name()) && (names.is_empty() || names.iter().any(|name| name == label.name()))
+        Label::WITH_LOCUS.contains(&label) && (names.is_empty() || names.iter().any(|name| name == label.name()))
     };
     let wanted: Vec<_> = found.specials.iter().filter(|special| has_locus(special.label)).collect();
     let ranges = [key.range, second.range];

@@ -111,10 +111,11 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
     let [slowest, fastest] = case.scene.system.frequencies().map(|omega| omega / TAU);
     let [own, event] =
         times.each_ref().map(|time| time.as_ref().map(|time| json!({ "seconds": time.seconds, "set_by": time.cause })));
+    let masses = case.scene.wall_masses();
     let seen = |(index, words): (usize, String)| {
         let wall = case.scene.walls.get(index);
         let stiffness = wall.and_then(|wall| wall.law.spring()).map(|spring| spring.stiffness);
-        let mass = masses(case).get(index).copied();
+        let mass = masses.get(index).copied();
         json!({
             "name": wall.map(|wall| &wall.name),
             "mass_kg": mass,
@@ -178,17 +179,13 @@ fn solver(case: &Case, method: &Method) -> &'static str {
     }
 }
 
-fn masses(case: &Case) -> Vec<f64> {
-    case.scene.wall_masses()
-}
-
 /// The step compared with the fastest motion, and with each elastic wall.
 fn step(case: &Case) -> Vec<String> {
     let [_, omega] = case.scene.system.frequencies();
     let h = case.time.step;
     let resolved = if omega > 0.0 { format!(", h ω = {:.2e}", h * omega) } else { String::new() };
     let mut lines = vec![format!("{h:e} s, {:.0} steps{resolved}", case.scene.duration / h)];
-    let flats = case.scene.walls.iter().zip(masses(case)).filter(|(wall, _)| !wall.is_round());
+    let flats = case.scene.walls.iter().zip(case.scene.wall_masses()).filter(|(wall, _)| !wall.is_round());
     for (wall, mass) in flats.take(MOST_WALLS) {
         if let Some(WallSpring { stiffness, .. }) = wall.law.spring() {
             lines.push(format!("{:?}: h² k_a/m = {:.2e}", wall.name, h * h * stiffness / mass));

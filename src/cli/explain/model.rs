@@ -63,9 +63,13 @@ pub(super) fn excitation_count(case: &Case) -> String {
     }
 }
 
+/// Where a random force acts that may have an independent twin in the second plane.
+fn in_planes(both: bool) -> &'static str {
+    if both { " along y, and an independent one along z" } else { "" }
+}
+
 /// Random loads, motions of the base, and the start, in words.
 pub(super) fn excitations(case: &Case) -> Vec<String> {
-    let seconds = |both: bool| if both { " along y, and an independent one along z" } else { "" };
     let line = |(index, origin): (usize, &Origin)| match origin {
         Origin::Random { force, file, both } => {
             let density = match (&force.density, file) {
@@ -80,7 +84,7 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
             Some(format!(
                 "load {}: random{}, {density}, seed {}: a table of {rows} rows, the same for every step and scheme",
                 index + 1,
-                seconds(*both),
+                in_planes(*both),
                 force.seed
             ))
         }
@@ -107,7 +111,7 @@ fn turbulence(case: &Case) -> Vec<String> {
     let fields = case.turbulence();
     let line = |field: &Turbulence| {
         let others = fields.iter().filter(|other| other.number() == field.number()).count() > 1;
-        let both = if others { " along y, and an independent one along z" } else { "" };
+        let both = in_planes(others);
         let rms = field.root_mean_squares(case.scene.duration).unwrap_or_default();
         let [least, most] =
             [rms.iter().copied().fold(f64::INFINITY, f64::min), rms.iter().copied().fold(0.0, f64::max)];

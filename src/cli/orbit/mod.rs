@@ -11,12 +11,12 @@ use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::{Error, Result};
 use crate::orbit::{Floquet, Kind, Orbit, Problem};
-use crate::output::periodic::Known;
+use crate::output::periodic::{self, Known};
 use crate::output::table::Table;
 use crate::scene::System;
 use list::list;
 use structure::structure;
-use written::{periods_in_words, write_document};
+use written::write_document;
 
 /// Instants of the motion over one orbit.
 const POINTS: u32 = 2000;
@@ -45,7 +45,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     if !judged.motion.is_empty() {
         known.motion(&results.place("orbit.csv")?)?;
         known.contacts(&results.place("contacts.csv")?)?;
-        let title = format!("{}: {}", case.title.as_deref().unwrap_or(&case.name), headline(&problem, &orbit));
+        let title = format!("{}: {}", case.heading(), headline(&problem, &orbit));
         results.draw("phase", &known.portrait(&title))?;
         results.draw("motion", &known.picture(&title))?;
     }
@@ -73,13 +73,8 @@ fn fault(known: &Known<'_>) -> Option<Error> {
 
 /// The orbit in a few words.
 fn headline(problem: &Problem, orbit: &Orbit) -> String {
-    let symmetric = if orbit.signature.symmetric { ", symmetric" } else { "" };
-    let periods = periods_in_words(orbit.signature.periods);
-    match orbit.signature.written(problem.scene()).as_str() {
-        "" => format!("touches no wall, {periods}"),
-        written if orbit.signature.symmetric => format!("{written} and mirror, {periods}{symmetric}"),
-        written => format!("{written}, {periods}"),
-    }
+    let signature = &orbit.signature;
+    periodic::headline(&signature.written(problem.scene()), signature.symmetric, signature.periods.into())
 }
 
 /// Shows an orbit of one degree of freedom.

@@ -1,10 +1,11 @@
 //! An orbit of a structure.
 
 use super::args::Args;
-use super::written::{periods_in_words, write_document};
+use super::written::write_document;
 use crate::case::Case;
 use crate::cli::pipeline::Answer;
 use crate::cli::ui::Ui;
+use crate::error::counted;
 use crate::error::{Error, Result};
 use crate::orbit::{Shot, shoot};
 use crate::output::periodic::{read_shot, shot};
@@ -34,7 +35,7 @@ pub(super) fn structure(args: &Args, case: &Case, ui: &Ui) -> Result<Answer> {
 /// Shows an orbit of a structure.
 fn show_structure(answer: &mut Answer, found: &Shot, scene: &Scene) {
     let period = f64::from(found.periods) * found.forcing_period;
-    answer.prose(format!("orbit: {}, period {period:.9} s", periods_in_words(found.periods)));
+    answer.prose(format!("orbit: {}, period {period:.9} s", counted(found.periods as usize, "forcing period")));
     let multipliers = found.multipliers.iter().take(4).map(|[re, im]| match im {
         0.0 => format!("{re:.9}"),
         im => format!("{re:.9} {im:+.9}i"),

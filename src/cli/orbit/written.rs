@@ -11,8 +11,3 @@ pub(super) fn write_document(results: &mut Results, document: Value) -> Result<V
     write_whole(&results.place("orbit.json")?, json::text(&document).as_bytes())?;
     Ok(document)
 }
-
-/// The length of an orbit.
-pub(super) fn periods_in_words(count: u32) -> String {
-    if count == 1 { "1 forcing period".to_owned() } else { format!("{count} forcing periods") }
-}

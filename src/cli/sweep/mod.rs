@@ -11,6 +11,7 @@ use super::estimate::time_in_words;
 use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
+use crate::output::request::program;
 use crate::output::results::Results;
 use crate::study::realisations::RealisationCount;
 use crate::sweep::{
@@ -151,7 +152,7 @@ fn planned(plan: &Plan) -> Answer {
 /// The sweep as a document: `summary.json`.
 fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
     json!({
-        "program": format!("signorini {}", env!("CARGO_PKG_VERSION")),
+        "program": program(),
         "case": plan.case().name,
         "title": plan.case().title,
         "rows": finished.rows,

@@ -35,6 +35,10 @@ pub enum Label {
 }
 
 impl Label {
+    /// Those that can be followed in the plane of two keys.
+    pub const WITH_LOCUS: [Self; 5] =
+        [Self::Fold, Self::PeriodDoubling, Self::SymmetryBreaking, Self::GrazingIn, Self::GrazingOut];
+
     /// Its name, as tables write it.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -3,6 +3,7 @@
 mod scene;
 
 use super::detail::Detail;
+use super::request::program;
 use super::supports;
 use crate::case::{Case, FileRead};
 use crate::error::{Error, Result};
@@ -100,7 +101,7 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         impulse_whole_run_n_s.insert(wall.as_str(), run.trajectory.impulse(wall)?);
     }
     let summary = Summary {
-        program: format!("signorini {}", env!("CARGO_PKG_VERSION")),
+        program: program(),
         case: &case.name,
         refuted: !run.findings.is_empty(),
         findings: &run.findings,

@@ -2,7 +2,7 @@
 
 use crate::case::{Body, Case, Model, Place};
 use crate::scene::{
-    BarEnd, BeamEnd, BeamSection, Damping, Face, FrictionCoefficients, Scene, Side, Support, System, Wall, WallLaw,
+    BarEnd, BeamEnd, BeamSection, Damping, Face, FrictionCoefficients, Scene, Support, System, Wall, WallLaw,
 };
 use crate::study::choice;
 use serde_json::{Map, Value, json};
@@ -258,7 +258,7 @@ fn support(support: &Support, place: Option<&Place>, walls: &[Wall]) -> Value {
 }
 
 fn wall(wall: &Wall) -> Value {
-    let side = if wall.side() == Side::Upper { "upper" } else { "lower" };
+    let side = wall.side().name();
     let law = match wall.law {
         WallLaw::Rigid { restitution } => json!({ "restitution": restitution }),
         WallLaw::Elastic { stiffness, damping } => {

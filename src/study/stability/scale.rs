@@ -1,6 +1,6 @@
 //! The frequency by which the steps of a scene are measured.
 
-use crate::scene::{LoadKind, Scene};
+use crate::scene::Scene;
 use std::f64::consts::TAU;
 
 /// A frequency with fewer periods in the duration than this is not used: the body hardly begins to
@@ -63,10 +63,7 @@ impl Scale {
         let total = scene.system.mass_form(&vec![1.0; scene.initial.q.len()], &vec![1.0; scene.initial.q.len()]);
         let mass = scene.wall_masses().into_iter().reduce(f64::min).unwrap_or(total);
         let [spring, _] = scene.system.frequencies();
-        let sine = scene.loads.iter().filter_map(|load| match load.kind {
-            LoadKind::Harmonic { frequency, .. } => Some(TAU * frequency),
-            _ => None,
-        });
+        let sine = scene.harmonic_frequencies().map(|frequency| TAU * frequency);
         let slowest = TAU / scene.duration;
         let flight = first_contact.map(|t| TAU / t).filter(|w| *w < FASTEST_FLIGHT * slowest);
         let candidates = [

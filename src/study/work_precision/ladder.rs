@@ -1,7 +1,7 @@
 //! The steps that are tried. Their ratios are powers of two, so that the rows of all runs coincide.
 
 use crate::error::{Error, Result};
-use crate::scene::{LoadKind, Scene};
+use crate::scene::Scene;
 use crate::time::{MOST_STEPS, TimeOptions};
 
 /// Fewest steps of a run over the duration, and over the fastest period of the scene.
@@ -80,10 +80,7 @@ impl Ladder {
 /// (with several degrees of freedom the slowest mode; finer steps resolve the others one by one).
 fn fastest_period(scene: &Scene) -> f64 {
     let natural = std::f64::consts::TAU / scene.system.frequencies()[0];
-    let loads = scene.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Harmonic { frequency, .. } if *frequency > 0.0 => Some(1.0 / frequency),
-        _ => None,
-    });
+    let loads = scene.harmonic_frequencies().filter(|frequency| *frequency > 0.0).map(f64::recip);
     // At most 10⁵ steps in the coarsest run, however short the periods of the scene.
     loads.chain([natural]).fold(f64::INFINITY, f64::min).max(COARSE_A_PERIOD * 1e-5 * scene.duration)
 }

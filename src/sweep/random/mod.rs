@@ -8,7 +8,7 @@ mod sobol;
 pub use normal::Normal;
 pub use sobol::MOST_DIMENSIONS;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, named};
 use crate::hash;
 use std::str::FromStr;
 
@@ -40,11 +40,7 @@ impl FromStr for Design {
     type Err = Error;
 
     fn from_str(word: &str) -> Result<Self> {
-        Self::ALL.iter().find(|entry| entry.0 == word.trim()).map(|entry| entry.1).ok_or_else(|| Error::Unknown {
-            kind: "random design",
-            name: word.to_owned(),
-            known: Self::ALL.map(|entry| entry.0.to_owned()).to_vec(),
-        })
+        named("random design", word, Self::ALL)
     }
 }
 

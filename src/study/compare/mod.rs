@@ -1,4 +1,7 @@
-//! Several methods on one scene, compared with the exact motion.
+//! Several methods on one scene, compared with the exact motion; what explains their differences is
+//! told by `findings.rs`.
+
+mod findings;
 
 use super::choice::choose;
 use super::difference;
@@ -8,15 +11,9 @@ use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{LoadKind, Scene, System, WallLaw};
-use crate::scheme::{Method, Realised, Scheme, Stepper};
+use crate::scheme::{Method, Scheme, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use std::time::Instant;
-
-/// What begins the finding that names the reference where there is no exact run.
-pub(crate) const NO_EXACT_MOTION: &str = "no exact motion: errors are against ";
-
-/// What begins the finding that there is neither an exact run nor another reference.
-pub(crate) const NO_REFERENCE: &str = "no reference: ";
 
 /// Error over the gap beyond which a run no longer agrees with the reference.
 pub const AGREEMENT: f64 = 0.1;
@@ -86,6 +83,24 @@ pub struct Comparison {
     pub findings: Vec<String>,
 }
 
+impl Comparison {
+    /// The run that errors are against: the exact one, or the refined one in its place.
+    #[must_use]
+    pub fn reference_run(&self) -> Option<&Run> {
+        self.reference.as_ref().ok().or(self.refined.as_ref().map(|(_, run)| run))
+    }
+
+    /// What errors are against, in words; `None` where there is no reference.
+    #[must_use]
+    pub fn reference_in_words(&self) -> Option<String> {
+        match (&self.reference, &self.refined) {
+            (Ok(_), _) => Some("the exact motion".to_owned()),
+            (_, Some((method, run))) => Some(format!("{method} with steps of {:.2e} s", run.grid.step)),
+            (Err(_), None) => None,
+        }
+    }
+}
+
 /// The methods of the main comparison: the constrained QP by its own solver and through Clarabel,
 /// and every penalty.
 #[must_use]
@@ -144,7 +159,7 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
     let growth = growth.map(|g| g.until(scene.duration));
     let refined = refined.map(|run| (stand_in, run));
     let mut comparison = Comparison { rows, reference, refined, horizon, growth, growth_by, findings: Vec::new() };
-    comparison.findings = findings(scene, &comparison);
+    comparison.findings = findings::of(scene, &comparison);
     Ok(comparison)
 }
 
@@ -219,121 +234,6 @@ fn step_ns(scene: &Scene, method: &Method, time: &TimeOptions) -> Result<f64> {
 #[must_use]
 pub fn is_aperiodic(scene: &Scene) -> bool {
     scene.loads.iter().any(|load| matches!(load.kind, LoadKind::Table(_)))
-}
-
-fn findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
-    let mut findings = law_findings(scene, comparison);
-    findings.extend(clarabel_difference(scene, comparison));
-    match (&comparison.reference, &comparison.refined) {
-        (Err(error), None) => findings.push(format!("{NO_REFERENCE}{error}")),
-        (Err(_), Some((method, run))) => {
-            findings.push(format!("{NO_EXACT_MOTION}{method} with steps of {:.2e} s", run.grid.step))
-        }
-        _ => {}
-    }
-    findings.extend(growth_finding(scene, comparison));
-    findings
-}
-
-/// Where the methods realise another restitution than the walls ask for.
-fn law_findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
-    let mut findings = Vec::new();
-    let asked: Vec<f64> = scene.walls.iter().map(|wall| wall.law).filter_map(|law| law.restitution()).collect();
-    let realised = |restitution| {
-        comparison.rows.iter().map(|row| row.method.scheme).find(|s| s.entry().restitution == restitution)
-    };
-    if comparison.rows.iter().any(|row| row.method.scheme.is_lossless()) {
-        findings.push(if asked.iter().all(|&e| e == 1.0) {
-            "every wall has e = 1, the limit of a lossless penalty spring: QP and penalty converge to one \
-             motion, the penalty as ε → 0 and h²k_w/m → 0 both"
-                .into()
-        } else {
-            let mut distinct: Vec<f64> = Vec::new();
-            for e in &asked {
-                if !distinct.contains(e) {
-                    distinct.push(*e);
-                }
-            }
-            let e = distinct.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-            format!(
-                "the walls ask for e = {e}, a lossless penalty spring tends to e = 1: the two do not \
-                     converge to one another"
-            )
-        });
-    }
-    if let Some(scheme) = realised(Realised::Zero).filter(|_| asked.iter().any(|&e| e > 0.0)) {
-        findings.push(format!("{scheme} on positions tends to e = 0: it does not converge to walls that rebound"));
-    }
-    if let Some(scheme) = realised(Realised::ByChance).filter(|_| !asked.is_empty()) {
-        findings.push(format!(
-            "{scheme} shows what goes wrong: by chance it realises an e between 1/3 and 3, and it gains energy"
-        ));
-    }
-    findings
-}
-
-/// Whether a perturbation of the start grows, and up to when errors are taken for that reason.
-fn growth_finding(scene: &Scene, comparison: &Comparison) -> Option<String> {
-    let held = comparison.reference.is_ok() || comparison.refined.is_some();
-    let by =
-        comparison.growth_by.filter(|by| *by != Source::Saltation).map_or_else(String::new, |by| format!(" ({by})"));
-    // A table need not repeat itself, and random loads do not.
-    let [chaotic, predictable] =
-        if is_aperiodic(scene) { ["sensitive", "not sensitive"] } else { ["chaos", "not chaotic"] };
-    let growth = comparison.growth.filter(|_| held)?;
-    Some(if comparison.horizon < scene.duration {
-        format!(
-            "{chaotic}: a perturbation of the start grows {growth:.1e}-fold over the run{by}, and \
-             {LARGEST_GROWTH:e}-fold by t = {:.3} s; errors are taken up \
-             to then, later compare impulses, contact counts and RMS",
-            comparison.horizon
-        )
-    } else {
-        format!(
-            "{predictable}: a perturbation of the start never grows beyond {growth:.1}-fold{by}, so errors are \
-             taken over the whole run"
-        )
-    })
-}
-
-/// How much solving through Clarabel changed, where a method was run both ways.
-fn clarabel_difference(scene: &Scene, comparison: &Comparison) -> Option<String> {
-    let through = comparison.rows.iter().find(|r| r.method.backend == Backend::Clarabel)?;
-    let own = comparison
-        .rows
-        .iter()
-        .find(|r| r.method.scheme == through.method.scheme && r.method.backend != Backend::Clarabel)?;
-    let (a, b) = (own.outcome.as_ref().ok()?, through.outcome.as_ref().ok()?);
-    let gap = scene.gap_scale();
-    let (mut near, mut all) = (0.0_f64, 0.0_f64);
-    for (t, difference) in difference::rows(&a.trajectory, &b.trajectory) {
-        let difference = difference / gap;
-        all = all.max(difference);
-        if t <= comparison.horizon {
-            near = near.max(difference);
-        }
-    }
-    let until = a.trajectory.time().iter().take_while(|t| **t <= comparison.horizon).count();
-    let walls = a.trajectory.contact_forces().iter().zip(b.trajectory.contact_forces());
-    let pairs = walls.flat_map(|(x, y)| x.iter().zip(y).take(until));
-    let force = pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
-    let scale = a.residuals.force_scale_n.max(f64::MIN_POSITIVE);
-    // Clarabel's solution is polished by the same routine that the condensed solver uses.
-    let both = if a.backend == Backend::Condensed {
-        "; the same exact solve ends both, so a difference shows only where other walls push"
-    } else {
-        ""
-    };
-    Some(format!(
-        "{} by {} against every contact step through Clarabel ({} QPs, {} interior-point iterations): \
-         displacement differs by at most {near:.1e} of the gap \
-         up to the horizon ({all:.1e} over the run), force by {:.1e} of the largest{both}",
-        own.method.scheme,
-        a.backend,
-        b.counters.qp_solves,
-        b.counters.interior_point_iterations,
-        force / scale
-    ))
 }
 
 /// Checks that at least one method succeeded.
