@@ -103,7 +103,7 @@ impl Builder<'_> {
                         let key = format!("{}.beam.spans", self.owner);
                         return Err(self.refuse(span.span(), &key, "numbers above 0, in m"));
                     }
-                    reached += span.get_ref();
+                    reached = decimal(reached + span.get_ref());
                     self.joints.push(reached);
                 }
                 self.positions.push((("beam", "length").into(), spans.span()));
@@ -155,5 +155,22 @@ impl Builder<'_> {
             }
             _ => Err(self.refuse_as(end.span(), &key)),
         }
+    }
+}
+
+/// `x` to 12 digits: the sum of two numbers of few decimals as a person writes it, 1.7 for 0.8 + 0.9
+/// rather than 1.7000000000000002, so that places given by their distance from the start agree.
+fn decimal(x: f64) -> f64 {
+    format!("{x:.11e}").parse().unwrap_or(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::decimal;
+
+    #[test]
+    fn sums_of_spans_are_those_of_a_person() {
+        assert_eq!([decimal(0.8 + 0.9), decimal(0.1 + 0.2), decimal(3.0)], [1.7, 0.3, 3.0]);
+        assert_eq!(decimal(f64::INFINITY), f64::INFINITY);
     }
 }

@@ -1,6 +1,7 @@
 //! Tables for the terminal: as wide as it allows, with no number broken over two lines.
 
 use comfy_table::{CellAlignment, ContentArrangement, Table as Grid, presets};
+use serde_json::{Value, json};
 
 /// Space between two columns.
 const BETWEEN: usize = 2;
@@ -46,6 +47,12 @@ impl Table {
     pub fn within(mut self, width: usize) -> Self {
         self.widest = Some(width);
         self
+    }
+
+    /// Its header and its rows, for a page.
+    #[must_use]
+    pub fn document(&self) -> Value {
+        json!({ "header": self.header, "rows": self.rows })
     }
 
     /// The table in at most `width` characters (as wide as needed where `width` is `None`). Where

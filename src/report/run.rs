@@ -46,8 +46,8 @@ pub(super) fn tell_draw(page: &mut Value, folder: &Folder<'_>, count: u64) {
     }
 }
 
-/// The tables of the derivatives, each with its file, its number of rows and the first of them, and
-/// the growth from which on a change is no longer small.
+/// What 1 % more of each key changes; the tables of the derivatives, each with its file, its number
+/// of rows and the first of them; and the growth from which on a change is no longer small.
 fn derivatives(folder: &Folder<'_>) -> Result<Value> {
     let mut tables = Vec::new();
     for file in [FILE, STATES_FILE].into_iter().filter(|file| folder.has(file)) {
@@ -56,7 +56,8 @@ fn derivatives(folder: &Folder<'_>) -> Result<Value> {
         cells.rows.truncate(MOST_ROWS);
         tables.push(json!({ "file": file, "count": count, "table": cells.for_page(None) }));
     }
-    Ok(json!({ "tables": tables, "growth": LARGEST_GROWTH }))
+    let [effects, remarks] = ["effects", "effect_remarks"].map(|key| &folder.manifest[key]);
+    Ok(json!({ "tables": tables, "growth": LARGEST_GROWTH, "effects": effects, "remarks": remarks }))
 }
 
 /// The page's data on the scene of a run with this summary, and on how reliable the run is.

@@ -8,7 +8,7 @@ use crate::output::results::Results;
 use crate::scheme::Scheme;
 use crate::study::derivatives::Derivatives;
 use crate::variation::SceneTangent;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Keys by which a run is differentiated.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -82,6 +82,9 @@ impl Wanted {
         if !found.motion.time.is_empty() {
             output::write_states(&results.place(STATES_FILE)?, &case.scene, &self.keys, &found)?;
         }
+        let effects = output::table(&case.scene, &self.keys, &found).map(|table| table.document());
+        results.add_to_manifest("effects", json!(effects));
+        results.add_to_manifest("effect_remarks", json!(output::remarks(&self.keys, &found)));
         Ok(found)
     }
 
