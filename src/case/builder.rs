@@ -72,9 +72,8 @@ impl Builder<'_> {
         let Error::Invalid { subject, value, expected } = &error else { return error };
         // An initial displacement that is not written is 0: in that case the error is shown at the
         // wall behind which it lies.
-        let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.row().dot(&scene.initial.q)) < 0.0;
         let start = Subject::from(("initial state", "displacement"));
-        let wall = || scene.walls.iter().find(behind).filter(|_| *subject == start);
+        let wall = || scene.wall_before(&scene.initial.q).filter(|_| *subject == start);
         let outside = |wall: &&Wall| wall.holds_out(&scene.initial.q);
         let hole = || scene.walls.iter().find(outside).filter(|_| *subject == start);
         let span = self

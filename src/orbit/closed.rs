@@ -81,8 +81,8 @@ struct Linear {
 /// [`Problem::admissible`] checks it.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a scene that does not validate, loads other than constants and sines of
-/// one frequency, more than 200 degrees of freedom, or a body that no spring holds (its steady
+/// [`Error::Invalid`] for a scene that does not validate, round walls, friction, loads other than
+/// constants and sines of one frequency, more than 200 degrees of freedom, or a body that no spring holds (its steady
 /// motion is not determined).
 pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
     scene.validate()?;
@@ -90,6 +90,11 @@ pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
         let found = format!("round, at the support {:?}", hole.name);
         let expected = "walls and flats: in a round hole no orbit in closed form is known";
         return Err(Error::invalid("support", found, expected));
+    }
+    if let Some((index, wall)) = scene.walls.iter().enumerate().find(|(_, wall)| wall.friction.acts()) {
+        let place = if scene.is_slider(index) { "slider" } else { "wall" };
+        let expected = "no friction: where contacts stick and slip no orbit in closed form is known";
+        return Err(Error::invalid(place, format!("with friction, at {:?}", wall.name), expected));
     }
     let period = forcing_period(scene)?;
     let all = frequencies(scene);

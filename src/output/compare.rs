@@ -76,6 +76,7 @@ fn with_findings(mut document: Value, case: &Case, comparison: &Comparison, row:
         "agrees_until_s": row.agrees_until,
         "largest_displacement_m": run.map(|run| largest(run.trajectory.displacements())),
         "penetration_m": run.map(|run| penetration(case, run)),
+        "largest_force_n": run.and_then(largest_force),
         "peak_force_n": run.and_then(|run| peak(case, run)),
         "seconds_per_step": row.step_ns.map(|ns| 1e-9 * ns),
         "failure": row.outcome.as_ref().err().map(ToString::to_string),
@@ -138,7 +139,7 @@ fn distance(results: &mut Results, case: &Case, comparison: &Comparison) -> Resu
 
 /// `compare.csv`: one row per method.
 fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
-    let columns: [csv::Column<'_, &Row>; 16] = [
+    let columns: [csv::Column<'_, &Row>; 17] = [
         ("method", &|row| row.method.to_string()),
         ("step_s", &|row| digits(ran(row).filter(|_| !row.method.scheme.is_exact()).map(|run| run.grid.step))),
         ("restitution", &|row| digits(row.restitution.map(|e| e.median))),
@@ -149,6 +150,7 @@ fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Resul
         ("agrees_until_s", &|row| digits(row.agrees_until)),
         ("largest_displacement_m", &|row| digits(ran(row).map(|run| largest(run.trajectory.displacements())))),
         ("penetration_m", &|row| digits(ran(row).map(|run| penetration(case, run)))),
+        ("largest_force_N", &|row| digits(ran(row).and_then(largest_force))),
         ("peak_force_N", &|row| digits(ran(row).and_then(|run| peak(case, run)))),
         ("energy_residual", &|row| digits(ran(row).map(|run| run.residuals.energy.residual))),
         ("complementarity_residual", &|row| digits(ran(row).map(|run| run.residuals.complementarity))),
@@ -191,6 +193,14 @@ pub(super) fn penetration(case: &Case, run: &Run) -> f64 {
     let rigid =
         case.scene.walls.iter().map(|wall| wall.law).zip(&run.residuals.depth_m).filter(|(law, _)| law.is_rigid());
     rigid.fold(0.0, |most, (_, depth)| most.max(*depth))
+}
+
+/// Largest force of all walls and round supports in the window, N: of elastic ones at an instant, of
+/// rigid ones the largest mean over a stretch, as in the tables of a run.
+pub(super) fn largest_force(run: &Run) -> Option<f64> {
+    let walls = run.statistics.walls.iter().filter_map(|wall| wall.largest_force);
+    let supports = run.statistics.supports.iter().filter_map(|support| support.force.as_ref()?.largest);
+    walls.chain(supports).map(|largest| largest.mean_n).reduce(f64::max)
 }
 
 /// Largest force of all contacts in the window whose force is finite, N.

@@ -2,7 +2,7 @@
 //! of all quantities.
 
 use super::cheapest::time;
-use super::compare::{largest, peak, penetration};
+use super::compare::{largest, largest_force, peak, penetration};
 use super::site::Site;
 use super::table::Table;
 use crate::case::Case;
@@ -36,7 +36,7 @@ pub fn overview(case: &Case, comparison: &Comparison) -> Table {
         let contacts: usize = Site::all(case).filter_map(|site| site.contacts(run)).sum();
         let error = if row.method.scheme.is_exact() { "exact".into() } else { error(row) };
         let mut line = vec![row.method.to_string(), error, contacts.to_string()];
-        line.extend([force(case, run), taken.unwrap_or_else(|| "-".into())]);
+        line.extend([force(largest_force(run)), taken.unwrap_or_else(|| "-".into())]);
         if refuted {
             line.push(if is_refuted(row) { "REFUTED" } else { "kept" }.into());
         }
@@ -111,10 +111,8 @@ fn error(row: &Row) -> String {
     row.error.map_or_else(|| none().to_owned(), short)
 }
 
-/// The largest force, N; rigid impacts have an impulse, and no finite force.
-fn force(case: &Case, run: &Run) -> String {
-    let touched = Site::all(case).any(|site| site.contacts(run).is_some_and(|count| count > 0));
-    peak(case, run).map_or_else(|| if touched { "impacts" } else { "-" }.to_owned(), |f| format!("{f:.2}"))
+fn force(newtons: Option<f64>) -> String {
+    newtons.map_or_else(|| "-".to_owned(), |newtons| format!("{newtons:.2}"))
 }
 
 /// All quantities, one column per method, since there are more quantities than methods.
@@ -147,7 +145,9 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
     });
     quantity("max |u| (mm)", &|_, run| format!("{:.4}", 1e3 * largest(run.trajectory.displacements())));
     quantity("penetration (mm)", &|_, run| short(1e3 * penetration(case, run)));
-    quantity("peak force (N)", &|_, run| force(case, run));
+    quantity("largest force (N)", &|_, run| force(largest_force(run)));
+    // Of rigid impacts, which have an impulse and no finite force, there is none.
+    quantity("peak force (N)", &|_, run| force(peak(case, run)));
     let all: Vec<Site<'_>> = Site::all(case).collect();
     if all.len() > MOST_WALLS {
         quantity("Σ|impulse| (N s)", &|_, run| {

@@ -121,7 +121,7 @@ pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
             let one = find(study, place, *measure);
             row.push(one.map_or_else(|| "-".to_owned(), |one| with_interval(one.mean, one.half_width_95)));
             let deviation = one.and_then(|one| one.standard_deviation);
-            let text = deviation.map_or_else(|| "-".to_owned(), |s| with_decimals(s, decimals(s)));
+            let text = deviation.map_or_else(|| "-".to_owned(), |s| with_interval(s, None));
             row.extend((study.count > 1).then_some(text));
         }
         row
@@ -170,14 +170,32 @@ pub(super) fn with_decimals(x: f64, decimals: usize) -> String {
     format!("{x:.decimals$}")
 }
 
+/// A half width below this share of the value is rounding: the value has no interval.
+const EXACT: f64 = 1e-12;
+
+/// Below this size numbers are written with a power of ten.
+const SMALL: f64 = 1e-4;
+
 /// A value with two digits of its half width, or with three of its own.
 pub(crate) fn with_interval(x: f64, half: Option<f64>) -> String {
+    let half = half.filter(|half| *half > EXACT * x.abs());
+    let size = x.abs().max(half.unwrap_or(0.0));
+    if !(f64::MIN_POSITIVE..SMALL).contains(&size) {
+        return in_decimals(x, half);
+    }
+    let power = size.log10().floor();
+    let scaled = |x: f64| x / 10_f64.powf(power);
+    let digits = in_decimals(scaled(x), half.map(scaled));
+    if half.is_some() { format!("({digits})e{power}") } else { format!("{digits}e{power}") }
+}
+
+fn in_decimals(x: f64, half: Option<f64>) -> String {
     match half {
-        Some(half) if half > 0.0 => {
+        Some(half) => {
             let decimals = decimals(half);
             format!("{} ± {}", with_decimals(x, decimals), with_decimals(half, decimals))
         }
-        _ => with_decimals(x, decimals(x) + 1),
+        None => with_decimals(x, decimals(x) + 1),
     }
 }
 
@@ -193,7 +211,13 @@ mod tests {
             (1234.5, Some(56.7), "1234 ± 57"),
             (0.001_234_5, None, "0.00123"),
             (0.0, Some(0.0), "0.00"),
-            (2.5e-5, Some(1.3e-6), "0.0000250 ± 0.0000013"),
+            (2.5e-4, Some(1.3e-5), "0.000250 ± 0.000013"),
+            (2.5e-5, Some(1.3e-6), "(2.50 ± 0.13)e-5"),
+            (-7.4549e-13, Some(7.41e-14), "(-7.45 ± 0.74)e-13"),
+            (1e-19, Some(3.2e-8), "(0.0 ± 3.2)e-8"),
+            (2.65e-8, None, "2.65e-8"),
+            // A given force, whose mean is it to rounding.
+            (2.0, Some(4e-16), "2.00"),
         ] {
             assert_eq!(with_interval(x, half), text);
         }

@@ -1,6 +1,6 @@
 //! Moves a state that lies behind rigid walls and holes to them.
 
-use super::{Face, Row, Scene, Side, System, Wall};
+use super::{Face, Row, Scene, Wall};
 
 /// Most passes over the walls and holes behind which the state lies.
 const PASSES: usize = 50;
@@ -9,52 +9,21 @@ impl Scene {
     /// Moves an initial state that lies behind rigid walls and holes to them, by the smallest
     /// moves, so that it is valid; velocities stay.
     pub(crate) fn step_out_of_walls(&mut self) {
+        let touch = self.touching_distance();
+        let Self { walls, initial, .. } = self;
         // Several walls may require different moves: each is applied in turn, in several passes.
         for _ in 0..PASSES {
             let mut moved = false;
-            for wall in self.walls.iter().filter(|wall| wall.law.is_rigid() && !wall.is_round()) {
-                let w = wall.row().dot(&self.initial.q);
-                let beyond = match wall.side() {
-                    Side::Upper => (w - wall.position()).max(0.0),
-                    Side::Lower => (w - wall.position()).min(0.0),
-                };
-                if beyond == 0.0 {
-                    continue;
-                }
-                moved = true;
-                if let (System::Oscillator(_), [(0, 1.0)]) = (&self.system, wall.row().entries()) {
-                    self.initial.q = vec![wall.position()];
-                    continue;
-                }
-                // The smallest move that brings w = g · q to the wall, and its rounding on the free
-                // side.
-                let square: f64 = wall.row().entries().iter().map(|(_, weight)| weight * weight).sum();
-                let size = self.initial.q.iter().fold(wall.position().abs(), |most, q| most.max(q.abs()));
-                let by = beyond + (4.0 * f64::EPSILON * size).copysign(beyond);
-                for &(index, weight) in wall.row().entries() {
-                    if let Some(q) = self.initial.q.get_mut(index) {
-                        *q -= by * weight / square;
-                    }
+            for wall in walls.iter() {
+                if wall.is_before(&initial.q, touch) || wall.holds_out(&initial.q) {
+                    move_onto(wall, &mut initial.q);
+                    moved = true;
                 }
             }
-            moved |= self.step_out_of_holes();
             if !moved {
                 break;
             }
         }
-    }
-
-    /// One pass over the rigid holes. Returns whether the state was behind one.
-    fn step_out_of_holes(&mut self) -> bool {
-        let mut moved = false;
-        let Self { walls, initial, .. } = self;
-        for wall in walls.iter() {
-            if wall.holds_out(&initial.q) {
-                move_onto(wall, &mut initial.q);
-                moved = true;
-            }
-        }
-        moved
     }
 
     /// Moves an initial state that touches the rigid walls `pressed`, up to rounding, exactly onto
@@ -72,7 +41,11 @@ impl Scene {
 /// Moves `q` onto a wall by the smallest move.
 fn move_onto(wall: &Wall, q: &mut [f64]) {
     match &wall.face {
-        Face::Flat { at, position, .. } => move_along(at, at.dot(q) - position, q),
+        Face::Flat { at, position, .. } => match at.entries() {
+            // To the bit, where a degree of freedom stands at the wall.
+            [(index, 1.0)] => q.iter_mut().skip(*index).take(1).for_each(|q| *q = *position),
+            _ => move_along(at, at.dot(q) - position, q),
+        },
         Face::Round { at, centre, gap } => {
             let [y, z] = [0, 1].map(|axis: usize| at.dot(q)[axis] - centre[axis]);
             let distance = y.hypot(z);

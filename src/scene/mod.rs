@@ -83,6 +83,10 @@ pub use wall::{Face, Side, Wall};
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 
+/// A start closer to a wall than this share of the displacements there is on it: more than the
+/// rounding of a static equilibrium on a wall.
+const ON_WALL: f64 = 1e-9;
+
 /// Displacements and velocities at one instant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -275,7 +279,7 @@ impl Scene {
 
     /// The gap of the scene, m: the smallest of half the distances between an upper and a lower
     /// wall on one row and of the gaps of round supports; else the largest distance of a wall from
-    /// the initial position. `None` where there is none above 0.
+    /// the initial position, unless the start is on it. `None` where there is none above 0.
     pub(crate) fn gap(&self) -> Option<f64> {
         let positive = |x: &f64| x.is_finite() && *x > 0.0;
         let (place, lower) = self.lower_walls();
@@ -283,7 +287,13 @@ impl Scene {
         let spans = uppers.flat_map(|(upper, place)| {
             lower[place].iter().map(move |lower| 0.5 * (upper.position() - lower.position()))
         });
-        let start = |w: &Wall| w.gap(w.row().dot(&self.initial.q)).abs();
+        // A start on a wall is off it by rounding.
+        let largest = self.initial.q.iter().fold(0.0, |largest: f64, q| largest.max(q.abs()));
+        let start = |w: &Wall| {
+            let gap = w.gap(w.row().dot(&self.initial.q)).abs();
+            let weights: f64 = w.row().entries().iter().map(|(_, weight)| weight.abs()).sum();
+            if gap > ON_WALL * (w.position().abs() + weights * largest) { gap } else { 0.0 }
+        };
         let least = spans.chain(self.holes().map(|hole| hole.gap)).filter(positive).reduce(f64::min);
         least.or_else(|| self.walls.iter().map(start).filter(positive).reduce(f64::max))
     }

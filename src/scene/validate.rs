@@ -65,9 +65,7 @@ impl Scene {
         for (wall, place) in self.walls.iter().zip(place) {
             check_crossing(wall, &lower[place])?;
         }
-        for wall in self.walls.iter().filter(|wall| !wall.is_round()) {
-            self.check_start(wall)?;
-        }
+        self.check_start()?;
         self.check_supports(|name, row| self.check_row(|| Subject::support(name), row))
     }
 
@@ -103,14 +101,19 @@ impl Scene {
         Ok(())
     }
 
-    fn check_start(&self, wall: &Wall) -> Result<()> {
+    fn check_start(&self) -> Result<()> {
+        let Some(wall) = self.wall_before(&self.initial.q) else { return Ok(()) };
         let w = wall.row().dot(&self.initial.q);
-        if wall.law.is_rigid() && wall.gap(w) < 0.0 {
-            let relation = if wall.side() == Side::Upper { "at most" } else { "at least" };
-            let expected = format!("{relation} {:?}, the position of the rigid wall {:?}", wall.position(), wall.name);
-            return Err(Error::invalid(("initial state", "displacement"), format_args!("{w:?}"), expected));
-        }
-        Ok(())
+        let relation = if wall.side() == Side::Upper { "at most" } else { "at least" };
+        let expected = format!("{relation} {:?}, the position of the rigid wall {:?}", wall.position(), wall.name);
+        Err(Error::invalid(("initial state", "displacement"), format_args!("{w:?}"), expected))
+    }
+
+    /// The first flat rigid wall behind which the structure is at `q`, by more than the rounding of
+    /// a place on it.
+    pub(crate) fn wall_before(&self, q: &[f64]) -> Option<&Wall> {
+        let touch = self.touching_distance();
+        self.walls.iter().find(|wall| wall.is_before(q, touch))
     }
 }
 

@@ -281,6 +281,11 @@ impl Wall {
         self.side().sign() * (w - self.position())
     }
 
+    /// True for a flat rigid wall if the structure at `q` is behind it by more than `touch` (m).
+    pub(crate) fn is_before(&self, q: &[f64], touch: f64) -> bool {
+        self.law.is_rigid() && !self.is_round() && self.gap(self.row().dot(q)) < -touch
+    }
+
     /// Signed force r on the body (N) of an elastic or penalised wall at the coordinate `w` (m) and
     /// its rate `wdot` (m/s).
     #[must_use]

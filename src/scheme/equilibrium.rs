@@ -20,6 +20,11 @@ const LOOSE: [f64; 2] = [1e-10, 1e-8];
 /// scale: the rounding of a factor of K.
 const SETTLED: f64 = 1e-13;
 
+/// Where K leaves motions free, the factor resolves less. There the answer is settled if a
+/// programme moves it by less than this share, and no less than the programme before: moves shrink
+/// from programme to programme until only rounding is left.
+const ROUNDED: f64 = 1e-8;
+
 /// The displacements (m, one per degree of freedom) at which the scene rests under its constant
 /// loads alone, between its walls: the minimiser of
 ///
@@ -49,7 +54,7 @@ pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
     let pull = pull(scene, &force, scale);
     let a = Symmetric::sum(&[(1.0, &structure.stiffness), (pull, &structure.mass)]);
     let mut held = StaticProgramme::new(scene, a, scale).map_err(|failure| refused(scene, &failure))?;
-    let mut q = vec![0.0; n];
+    let (mut q, mut before) = (vec![0.0; n], f64::INFINITY);
     for _ in 0..MOST_ROUNDS {
         let mut b = force.clone();
         scene.system.add_mass(pull, &q, &mut b);
@@ -57,12 +62,13 @@ pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
         let size = x.iter().fold(scale, |most, x| most.max(x.abs()));
         let moved = x.iter().zip(&q).map(|(new, old)| (new - old).abs()).fold(0.0, f64::max);
         q.copy_from_slice(x);
-        if moved <= SETTLED * size {
+        if moved <= SETTLED * size || (before <= moved && moved <= ROUNDED * size) {
             let mut rest = Scene { initial: State { q, v: vec![0.0; n] }, ..scene.clone() };
-            rest.press_onto(&held.pressed());
+            rest.press_onto(&held.pressed(&scene.walls));
             rest.step_out_of_walls();
             return Ok(rest.initial.q);
         }
+        before = moved;
     }
     let key = Subject::from(("initial state", "equilibrium"));
     let value = "not found: the constant loads move the structure, and neither its stiffness nor a wall holds it";
@@ -113,19 +119,20 @@ impl StaticProgramme {
         Ok(Self::Holes { solver: Box::new(solver), bounds })
     }
 
-    /// The holes and walls that press, where there are holes: a hole counts as touched within 1e-12
-    /// of its gap, which is less than the rounding of displacements of many gaps.
-    fn pressed(&self) -> Vec<usize> {
-        let Self::Holes { solver, bounds } = self else { return Vec::new() };
-        let forces = &solver.solution().multiplier;
-        let rows = |bound: &DiskBound| if matches!(bound, DiskBound::Disk { .. }) { 2 } else { 1 };
-        let mut next = 0;
-        let presses = |bound: &DiskBound| {
-            let first = next;
-            next += rows(bound);
-            forces.get(first..next).is_some_and(|forces| forces.iter().any(|force| *force != 0.0))
+    /// The holes and walls that press: the rounding of a displacement of many gaps is more than the
+    /// distance within which a wall counts as touched.
+    fn pressed(&self, walls: &[Wall]) -> Vec<usize> {
+        let solution = match self {
+            Self::Walls { solver, .. } => solver.solution(),
+            Self::Holes { solver, .. } => solver.solution(),
         };
-        let found: Vec<bool> = bounds.iter().map(presses).collect();
+        let mut next = 0;
+        let presses = |wall: &Wall| {
+            let first = next;
+            next += if wall.is_round() { 2 } else { 1 };
+            solution.multiplier.get(first..next).is_some_and(|forces| forces.iter().any(|force| *force != 0.0))
+        };
+        let found: Vec<bool> = walls.iter().map(presses).collect();
         (0..found.len()).filter(|&index| found[index]).collect()
     }
 
@@ -172,7 +179,7 @@ fn refused(scene: &Scene, failure: &Failure) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Chain, Load};
+    use crate::scene::{Chain, Load, Row};
 
     /// Three masses of `mass` (kg) without a ground, between springs of `stiffness` (N/m).
     fn floating(mass: f64, stiffness: f64) -> Scene {
@@ -217,5 +224,31 @@ mod tests {
     fn what_nothing_holds_and_nothing_pushes_stays_where_it_is() {
         assert_eq!(equilibrium(&Scene::oscillator(1.0, 0.0, 0.0)), Ok(vec![0.0]));
         assert_eq!(equilibrium(&floating(2.0, 50.0)), Ok(vec![0.0; 3]));
+    }
+
+    /// Three masses between springs, whose first and last stand at levers of two lengths.
+    fn levered(load: f64, walls: [Wall; 2]) -> Scene {
+        let chain = Chain { masses: vec![2.0; 3], springs: vec![50.0; 2], grounds: [30.0, 40.0] };
+        let scene = Scene::structure(chain.structure().unwrap()).with_load(Load::constant(load));
+        walls.into_iter().fold(scene, Scene::with_wall)
+    }
+
+    #[test]
+    fn a_snug_place_and_a_wall_that_presses_are_met_to_rounding() {
+        for position in [0.0, 1e-4, -0.37] {
+            for weights in [vec![(2, 1.0)], vec![(0, 0.3), (2, 0.7)], vec![(0, -1.0), (1, 0.1), (2, 0.7)]] {
+                let row = Row::new(weights);
+                let snug = [Wall::upper("upper", position).at(row.clone()), Wall::lower("lower", position).at(row)];
+                let mut scene = levered(3.0, snug);
+                scene.initial.q = equilibrium(&scene).unwrap();
+                scene.initial.v = vec![0.0; 3];
+                let w = scene.walls[0].row().dot(&scene.initial.q);
+                // Rounding of three displacements below 0.5 m.
+                assert!((w - position).abs() < 1e-15, "{w:e} at {position}");
+                assert_eq!(scene.validate(), Ok(()));
+                // The start is on both walls, so that their distance from it is no length.
+                assert!(scene.gap().is_none() && scene.gap_scale() > 1e-5, "{:e}", scene.gap_scale());
+            }
+        }
     }
 }

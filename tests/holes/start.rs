@@ -2,6 +2,7 @@
 
 use crate::random_structures::Draws;
 use crate::rubbing::{self, body, change_hole, hole, isotropic, load, random_scene, turned, with, with_flats};
+use signorini::case::CaseFile;
 use signorini::linear::Symmetric;
 use signorini::{Load, Row, Scene, Stepper, Structure, equilibrium};
 
@@ -109,6 +110,39 @@ fn a_turned_scene_rests_turned() {
         let wanted = [cos * q[0] - sin * q[1], sin * q[0] + cos * q[1]];
         for (found, wanted) in other.iter().zip(wanted) {
             assert!((found - wanted).abs() < 1e-15, "{degrees}: {found} {wanted}");
+        }
+    }
+}
+
+/// A free steel tube of 2 m in two round holes under its weight of 17.75 N in any direction: only
+/// the holes hold it, with the forces of a beam on two supports.
+#[test]
+fn a_free_tube_lies_in_two_holes_whatever_the_direction_of_its_weight() {
+    let text = |place: f64, degrees: f64| {
+        let hole = |name: &str, at: f64| {
+            format!("[[support]]\nname = \"{name}\"\nat = {{ position = {at} }}\nshape = \"round\"\ngap = 1e-3\n")
+        };
+        format!(
+            "[system]\nplanes = 2\n[system.beam]\nlength = 2.0\nyoungs_modulus = 2e11\ndensity = 8000.0\n\
+             outer_diameter = 0.02\ninner_diameter = 0.016\nelements = 8\nleft = \"free\"\nright = \"free\"\n\
+             {}{}[[load]]\ndirection = {degrees}\ngravity = {{ acceleration = 9.81 }}\n\
+             [initial]\nequilibrium = true\n[time]\nend = 1e-3\nstep = 1e-5\n",
+            hole("a", 0.5),
+            hole("b", place)
+        )
+    };
+    let weight = 8000.0 * 0.25 * std::f64::consts::PI * (0.02_f64.powi(2) - 0.016_f64.powi(2)) * 2.0 * 9.81;
+    for degrees in [0.0, 90.0, 180.0, 200.0, 270.0] {
+        for place in [1.2, 1.5, 1.75] {
+            let case = CaseFile::from_text(&text(place, degrees), "tube.toml", "").case().unwrap();
+            let mut stepper = Stepper::new(&case.scene, &rubbing::MOREAU_JEAN, 1e-5).unwrap();
+            let step = stepper.step().unwrap();
+            let far = weight * 0.5 / (place - 0.5);
+            for (impulse, wanted) in step.impulse.iter().zip([weight - far, far]) {
+                // Rounding of the displacements (1e-16 of 1 mm) times the stiffness of an element (2e7 N/m), and of
+                // its factor.
+                assert!((impulse / 1e-5 - wanted).abs() < 1e-6, "{degrees}°, {place} m: {:?}", step.impulse);
+            }
         }
     }
 }

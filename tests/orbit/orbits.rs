@@ -2,7 +2,7 @@
 
 use signorini::linear::Symmetric;
 use signorini::orbit::{ClosedForm, Event, Kind, Orbit, Problem, Signature, closed_forms, shoot};
-use signorini::{Error, Load, Scene, Scheme, State, Stepper, Structure, Wall};
+use signorini::{Error, FrictionCoefficients, Load, Row, Scene, Scheme, Slider, State, Stepper, Structure, Wall};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// The oscillator of the source at a frequency (Hz) and restitution.
@@ -191,6 +191,17 @@ fn the_ball_on_the_table() {
     }
     // Its steady motion without the table is not determined.
     assert!(closed_forms(problem.scene(), 1).unwrap_err().to_string().contains("springs hold"));
+    let slider = Slider {
+        name: "pad".to_owned(),
+        at: Row::dof(0),
+        normal_force: 10.0,
+        friction: FrictionCoefficients::from(0.2),
+    };
+    let refused = closed_forms(&source(5.0, 0.8).with_slider(&slider).unwrap(), 1).unwrap_err();
+    assert!(refused.is_request() && refused.to_string().contains("slider is with friction, at \"pad\""), "{refused}");
+    let pad = signorini::Slider::new("pad", Row::dof(0), 10.0, 0.2);
+    let refused = closed_forms(&source(5.0, 0.8).with_slider(&pad).unwrap(), 1).unwrap_err();
+    assert!(refused.is_request() && refused.to_string().contains("slider is with friction, at \"pad\""), "{refused}");
 }
 
 #[test]

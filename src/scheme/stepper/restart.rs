@@ -2,7 +2,7 @@
 
 use super::Stepper;
 use crate::error::{Error, Result};
-use crate::scene::{State, Wall};
+use crate::scene::State;
 use crate::scheme::Scheme;
 use crate::time::MOST_STEPS;
 
@@ -59,9 +59,7 @@ impl Stepper {
                 return Err(Error::invalid(("state", part), x, "finite numbers"));
             }
         }
-        let touch = self.scene.touching_distance();
-        let behind = |wall: &&Wall| wall.law.is_rigid() && wall.gap(wall.row().dot(&state.q)) < -touch;
-        if let (true, Some(wall)) = (exact, self.scene.walls.iter().find(behind)) {
+        if let (true, Some(wall)) = (exact, self.scene.wall_before(&state.q)) {
             let found = format!("{:?} at the rigid wall {:?}", wall.row().dot(&state.q), wall.name);
             let expected = format!("a place before it, which stands at {:?}", wall.position());
             return Err(Error::invalid(("state", "displacement"), found, expected));

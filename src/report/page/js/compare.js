@@ -10,6 +10,7 @@ const COMPARED = [
   ["agrees_until_s", "agrees until (s)"],
   ["largest_displacement_m", "max |u| (m)"],
   ["penetration_m", "penetration (m)"],
+  ["largest_force_N", "largest force (N)"],
   ["peak_force_N", "peak force (N)"],
   ["energy_residual", "energy residual"],
   ["complementarity_residual", "complementarity"],
