@@ -131,6 +131,7 @@ fn add_messages(
     let failure = comparison.rows.iter().filter_map(|row| Some((row.method, row.outcome.as_ref().err()?)));
     answer.messages(failure.map(|(method, error)| format!("- {method} failed: {error}")));
     if !args.verbose {
+        answer.messages(case.instability());
         let count = findings.count() + notes.len();
         let more = (count > 0).then(|| format!("--verbose shows all quantities and the notes, {count} of them"));
         answer.remarks(more);

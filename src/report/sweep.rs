@@ -107,6 +107,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "seeds_asked": seeds.map(seeds_asked),
             "unjudged": summary["status"]["unjudged"].as_u64().unwrap_or(0),
         },
+        "notes": folder.manifest["remarks"],
         "case": folder.manifest["case_text"],
         "summary": { "status": summary["status"], "first_error": summary["first_error"], MANIFEST: request },
     });

@@ -180,18 +180,23 @@ pub(super) struct Study {
     pub case_text: String,
     pub title: String,
     pub picture: Picture,
+    /// What a reader of the results must know.
+    pub notes: Vec<String>,
 }
 
 impl Study {
     pub fn of(plan: &Plan) -> Result<Self> {
         let sweep = &plan.sweep;
-        Ok(Self { case_text: sweep.case.text()?, title: sweep.title.clone(), picture: sweep.picture.clone() })
+        let (title, picture) = (sweep.title.clone(), sweep.picture.clone());
+        Ok(Self { case_text: sweep.case.text()?, title, picture, notes: plan.notes() })
     }
 
     pub fn read(manifest: &Value) -> Self {
         let text = |key: &str| manifest[key].as_str().unwrap_or_default().to_owned();
         let picture = Picture::from_document(&manifest["picture"]);
-        Self { case_text: text("case_text"), title: text("title"), picture }
+        let notes = manifest["remarks"].as_array().into_iter().flatten();
+        let notes = notes.filter_map(Value::as_str).map(str::to_owned).collect();
+        Self { case_text: text("case_text"), title: text("title"), picture, notes }
     }
 }
 
@@ -203,6 +208,7 @@ pub(super) fn record_request(results: &mut Results, study: &Study, shard: Shard)
         ("case_text", json!(study.case_text)),
         ("title", json!(study.title)),
         ("picture", study.picture.document()),
+        ("remarks", json!(study.notes)),
     ] {
         results.add_to_manifest(key, value);
     }

@@ -161,6 +161,7 @@ fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
         "command_line": command_line(),
         "status": status_document(&finished.tables),
         "first_error": finished.tables.first_error,
+        "notes": plan.notes(),
         "threads": finished.threads,
         "wall_clock_s": finished.seconds,
         "request": plan.request(),
