@@ -14,7 +14,7 @@ use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::choice;
 use crate::study::compare::{Comparison, Row};
-use crate::study::difference::rows;
+use crate::study::difference::{error_length, rows};
 use crate::study::verdict::Verdict;
 use serde_json::{Value, json};
 
@@ -116,17 +116,18 @@ fn figures(results: &mut Results, case: &Case, comparison: &Comparison, span: Sp
     Ok(())
 }
 
-/// `distance.csv`: the largest |Δu| of any probe against the reference, over the gap scale, at each
-/// row, one column per method. Not written without a reference or a probe.
+/// `distance.csv`: the largest |Δu| of any probe against the reference, over the gap or
+/// without one over the largest displacement, at each row, one column per method. Not written
+/// without a reference or a probe.
 fn distance(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<()> {
     let Some(reference) = comparison.reference_run() else { return Ok(()) };
-    let gap = case.scene.gap_scale();
+    let length = error_length(&case.scene, &reference.trajectory);
     let mut names = Vec::new();
     let mut columns: Vec<Vec<f64>> = Vec::new();
     for row in comparison.rows.iter().filter(|row| !row.method.scheme.is_exact()) {
         let Ok(run) = &row.outcome else { continue };
         names.push(row.method.to_string());
-        columns.push(rows(&run.trajectory, &reference.trajectory).map(|(_, distance)| distance / gap).collect());
+        columns.push(rows(&run.trajectory, &reference.trajectory).map(|(_, distance)| distance / length).collect());
     }
     if columns.iter().all(Vec::is_empty) {
         return Ok(());

@@ -8,6 +8,7 @@ use super::table::Table;
 use crate::case::Case;
 use crate::run::Run;
 use crate::study::compare::{Comparison, FINER, Row, is_aperiodic};
+use crate::study::difference::error_length;
 use crate::study::verdict::Verdict;
 
 /// Most walls that get rows of their own in the table of all quantities; above that it shows sums
@@ -24,7 +25,7 @@ const UNSEEN: f64 = 1.0;
 #[must_use]
 pub fn overview(case: &Case, comparison: &Comparison) -> Table {
     let refuted = comparison.rows.iter().any(is_refuted);
-    let mut header = vec!["method", "error / gap", "contacts", "largest force (N)", "time"];
+    let mut header = vec!["method", error_heading(case), "contacts", "largest force (N)", "time"];
     if refuted {
         header.push("judge");
     }
@@ -54,7 +55,7 @@ pub fn conclusion(case: &Case, comparison: &Comparison, verdicts: &[Option<Verdi
         (_, Some((method, _))) => format!("a run by {method} with steps {FINER} times finer"),
         (Err(error), None) => return format!("there is no reference to compare with: {error}"),
     };
-    let length = case.scene.gap_scale();
+    let length = comparison.reference_run().map_or(1.0, |run| error_length(&case.scene, &run.trajectory));
     let distance = |x: f64| match case.scene.gap() {
         Some(_) => format!("{} of the gap", share(x)),
         None => format!("{} m", share(x * length)),
@@ -105,7 +106,12 @@ fn short(x: f64) -> String {
     if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") }
 }
 
-/// The error of the displacement over the gap.
+/// What stands above errors of the displacement.
+fn error_heading(case: &Case) -> &'static str {
+    if case.scene.gap().is_some() { "error / gap" } else { "error / max |u|" }
+}
+
+/// The error of the displacement over its length.
 fn error(row: &Row) -> String {
     let none = || if row.method.scheme.is_exact() { "reference" } else { "-" };
     row.error.map_or_else(|| none().to_owned(), short)
@@ -137,7 +143,7 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
         quantity("  from", &|row, _| spread(row).map_or_else(dash, |e| format!("{:.2}", e.least)));
         quantity("  to", &|row, _| spread(row).map_or_else(dash, |e| format!("{:.2}", e.largest)));
     }
-    quantity("error / gap", &|row, _| error(row));
+    quantity(error_heading(case), &|row, _| error(row));
     quantity("agrees until (s)", &|row, _| {
         row.agrees_until.map_or_else(dash, |t| {
             if t >= comparison.horizon.max(case.scene.duration) { "end".into() } else { format!("{t:.3}") }

@@ -16,7 +16,8 @@ const SLOW: f64 = 1e-2;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Change {
-    /// Largest |Δu| of any probe over [`Scene::gap_scale`], at the rows up to the time asked for.
+    /// Largest |Δu| of any probe over the gap, or without one over the largest displacement, at the
+    /// rows up to the time asked for.
     pub displacement: f64,
     /// One entry per wall, then per round support, in the scene's order.
     pub walls: Vec<WallChange>,
@@ -75,9 +76,9 @@ impl Change {
         let statistics = [run.1, against.1];
         let (run, against) = (run.0, against.0);
         let from = statistics[1].from_s;
-        let gap = scene.gap_scale();
+        let length = difference::error_length(scene, against);
         let rows = difference::rows(run, against).take_while(|(t, _)| *t <= until * (1.0 + 1e-12));
-        let displacement = rows.fold(0.0, |largest, (_, difference)| worse(largest, difference / gap));
+        let displacement = rows.fold(0.0, |largest, (_, difference)| worse(largest, difference / length));
         let speeds = wall_speeds(scene, against);
         let masses = scene.wall_masses();
         let window = statistics[1].to_s - from;
@@ -221,16 +222,16 @@ fn number(scene: &Scene, contacts: &[Contact], wall: usize, from: f64) -> Option
 }
 
 /// The time (s) up to which the displacements of two runs with the same rows agree at every probe
-/// to within `tolerance` of the gap scale.
+/// to within `tolerance` of the gap, or without one of the largest displacement.
 #[must_use]
 pub fn agree_until(scene: &Scene, run: &Trajectory, against: &Trajectory, tolerance: f64) -> f64 {
-    let gap = scene.gap_scale();
+    let length = difference::error_length(scene, against);
     if against.displacements().is_empty() {
         return scene.duration;
     }
     let mut until = 0.0;
     for (t, difference) in difference::rows(run, against) {
-        let agrees = difference <= tolerance * gap;
+        let agrees = difference <= tolerance * length;
         if !agrees {
             return until;
         }

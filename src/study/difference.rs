@@ -28,6 +28,13 @@ pub(crate) fn largest(columns: &[Vec<f64>]) -> f64 {
     columns.iter().flatten().fold(0.0, |most, x| most.max(x.abs()))
 }
 
+/// The length (m) of which errors of the displacement are shares: the gap of the scene; without
+/// one, as where there is no wall, the largest displacement in the motion `against`.
+pub(crate) fn error_length(scene: &Scene, against: &Trajectory) -> f64 {
+    let largest = || Some(largest(against.displacements())).filter(|largest| *largest > 0.0);
+    scene.gap().or_else(largest).unwrap_or_else(|| scene.gap_scale())
+}
+
 /// The largest speed at each wall, m/s, in the scene's order: seen by the probe on the wall's row;
 /// where there is none, the larger of the fastest contact and the fastest probe.
 pub(crate) fn wall_speeds(scene: &Scene, motion: &Trajectory) -> Vec<f64> {

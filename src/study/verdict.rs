@@ -1,6 +1,7 @@
 //! The refinement verdict: the same run with half the step, and the change that makes.
 
 use super::change::Change;
+use super::difference::error_length;
 use super::exact::{Replay, replay, stride};
 use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::Result;
@@ -152,7 +153,7 @@ impl Verdict {
             work_rates: work_rates.collect(),
             check,
             displacement: compared.then_some(change.displacement),
-            length_m: scene.gap_scale(),
+            length_m: error_length(scene, &again.trajectory),
             is_gap: scene.gap().is_some(),
             horizon_s,
             walls: wall_verdicts(scene, [&run.statistics, &again.statistics]),

@@ -41,9 +41,9 @@ pub struct Args {
     /// Scheme [default: chosen from the scene; see `signorini explain`]
     #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
     pub(super) scheme: Option<String>,
-    /// Find scheme and step for this error, 1e-3 or 0.1%, as a share of the gap and of each wall's
-    /// impulse and contact statistics; exit code 1 if it is not kept to the end; for a case reduced
-    /// to modes, find the number of modes too. Under random loads it is a share of the mean forces
+    /// Find scheme and step for this error, 1e-3 or 0.1%, as a share of the gap (without one, of the
+    /// largest displacement) and of each wall's impulse and contact statistics; exit code 1 if it
+    /// is not kept to the end; for a case reduced to modes, find the number of modes too. Under random loads it is a share of the mean forces
     /// and work rates over realisations: find the coarsest step whose part in their errors is
     /// within it, and as many seeds as its interval and theirs take; exit code 1 where no step or
     /// no number of seeds keeps it

@@ -36,8 +36,8 @@ pub enum Against {
 /// The error asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
-    /// Largest error allowed: of the displacement over the gap scale, and of the quantities of each
-    /// wall in the sense of [`Change`](crate::study::change::Change). Above 0, below 1.
+    /// Largest error allowed: of the displacement over the gap, or without one over the
+    /// largest displacement, and of the quantities of each wall in the sense of [`Change`](crate::study::change::Change). Above 0, below 1.
     pub tolerance: f64,
     /// The method to refine; with `None` it is chosen for the scene.
     pub method: Option<Method>,
@@ -65,6 +65,10 @@ impl Target {
         if self.tolerance > 0.0 && self.tolerance < 1.0 {
             return Ok(());
         }
-        Err(Error::invalid("accuracy", self.tolerance, "a number above 0 and below 1, as a share of the gap"))
+        Err(Error::invalid(
+            "accuracy",
+            self.tolerance,
+            "a number above 0 and below 1, as a share of the gap or of the largest displacement",
+        ))
     }
 }

@@ -181,12 +181,12 @@ fn row(
     row
 }
 
-/// Largest error over the gap up to the horizon, and the time up to which run and reference agree.
+/// Largest error over the gap, or without one over the largest displacement, up to the horizon, and the time up to which run and reference agree.
 fn against(scene: &Scene, run: &Run, reference: &Run, horizon: f64) -> (Option<f64>, Option<f64>) {
-    let gap = scene.gap_scale();
+    let length = difference::error_length(scene, &reference.trajectory);
     let (mut error, mut until) = (None, None);
     for (t, difference) in difference::rows(&run.trajectory, &reference.trajectory) {
-        let difference = difference / gap;
+        let difference = difference / length;
         if t <= horizon * (1.0 + 1e-12) {
             error = Some(difference::worse(error.unwrap_or(0.0), difference));
         }

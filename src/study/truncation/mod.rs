@@ -12,6 +12,7 @@ mod choose;
 pub use choose::{ChosenModes, MOST_CHOSEN, ModesLevel, choose_modes};
 
 use super::change::{Change, relative};
+use super::difference::error_length;
 use crate::error::Result;
 use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
@@ -230,7 +231,7 @@ impl Truncation {
             degrees_of_freedom: cuts[0].degrees_of_freedom,
             static_correction: whole.static_correction,
             displacement: change.displacement,
-            length_m: cuts[0].scene.gap_scale(),
+            length_m: error_length(scene, &against.trajectory),
             walls,
             findings: Vec::new(),
         }

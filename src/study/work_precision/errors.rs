@@ -3,7 +3,7 @@
 use super::graph::{Graph, Scales};
 use crate::scene::Scene;
 use crate::step::Contact;
-use crate::study::difference::largest;
+use crate::study::difference::{error_length, largest};
 use crate::trajectory::Trajectory;
 
 /// Errors of a run against a reference that shares its rows.
@@ -48,7 +48,7 @@ impl Yardstick {
         let speed = largest(trajectory.velocities());
         let speed = trajectory.contacts().iter().fold(speed, |a, c| a.max(c.approach_speed));
         let speed = if speed > 0.0 { speed } else { 1.0 };
-        let scales = Scales { duration: until.min(scene.duration), length: scene.gap_scale(), speed };
+        let scales = Scales { duration: until.min(scene.duration), length: error_length(scene, &trajectory), speed };
         let fastest = fastest(trajectory.velocities());
         Self { scene: scene.clone(), trajectory, step, scales, fastest }
     }
