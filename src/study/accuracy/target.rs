@@ -37,7 +37,8 @@ pub enum Against {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
     /// Largest error allowed: of the displacement over the gap, or without one over the
-    /// largest displacement, and of the quantities of each wall in the sense of [`Change`](crate::study::change::Change). Above 0, below 1.
+    /// largest displacement, and of the quantities of each wall in the sense of
+    /// [`Change`](crate::study::change::Change). Above 0, below 1.
     pub tolerance: f64,
     /// The method to refine; with `None` it is chosen for the scene.
     pub method: Option<Method>,
