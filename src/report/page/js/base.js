@@ -44,10 +44,11 @@ function decode(column) {
   return new kinds[kind](bytes.buffer);
 }
 
-/** A table of the data: its columns by name. */
+/** A table of the data: its columns by name, and the numbers of its rows. */
 function tableOf(table) {
   const columns = Object.fromEntries(table.columns.map((c) => [c.name, decode(c.values)]));
-  return { count: table.rows, names: table.columns.map((c) => c.name), columns };
+  const rows = Array.from({ length: table.rows }, (_, i) => i);
+  return { count: table.rows, rows, names: table.columns.map((c) => c.name), columns };
 }
 
 const clamp = (x, least, most) => Math.min(Math.max(x, least), most);

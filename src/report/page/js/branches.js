@@ -57,6 +57,7 @@ function readBranches(data) {
     speedsOf,
     state,
     orbits,
+    rowsOf: (number) => table.rows.filter((i) => columns.branch[i] === number),
     multipliers: (i) => multipliersOf(columns, i),
   };
 }

@@ -73,7 +73,7 @@ function contactSection() {
     },
     sorted: (i) => columns[i].label && histogram.show(columns[i]),
   });
-  const saved = () => {
+  const lines = () => {
     const header = [
       "wall",
       "start_s",
@@ -87,18 +87,14 @@ function contactSection() {
       wallOf(row),
       ...["start", "end", "impulse", "peak", "approach", "departure"].map((key) => of(key)(row)),
     ];
-    save(
-      "contacts.csv",
-      csvText([header, ...rows.filter(([run]) => run === lead).map(line)]),
-      "text/csv",
-    );
+    return [header, ...rows.filter(([run]) => run === lead).map(line)];
   };
   section(
     "contacts",
     "Contacts",
     `${counted(rows.length)} contacts. Sort by a column to see how it is distributed; click a row to go there.`,
     el("div", { class: "two long" }, table, histogram.box),
-    el("div", { class: "bar controls" }, button("All digits", saved, "Save contacts.csv")),
+    saveBar("contacts.csv", lines, "All digits"),
   );
 }
 
@@ -227,20 +223,15 @@ function statisticsSection() {
       1e3,
     ),
   ];
-  const saved = () =>
-    save(
-      "walls.csv",
-      csvText([
-        columns.map((c) => c.name),
-        ...walls.map((wall) => columns.map((c) => c.value(wall))),
-      ]),
-      "text/csv",
-    );
+  const lines = () => [
+    columns.map((c) => c.name),
+    ...walls.map((wall) => columns.map((c) => c.value(wall))),
+  ];
   section(
     "statistics",
     "Walls",
     `From ${digits(statistics.from_s)} to ${digits(statistics.to_s)} s; ± is half the 95 % interval of the mean.`,
     sortable(columns, walls, { height: Math.min(420, 60 + ROW * walls.length) }),
-    el("div", { class: "bar controls" }, button("The table above", saved, "Save walls.csv")),
+    saveBar("walls.csv", lines),
   );
 }

@@ -49,9 +49,9 @@ function effectBars(columns, rows, name) {
 }
 
 /** The lines of each measure and place of a table of effects or shares, by its name in words. */
-function linesByMeasure(columns, count) {
+function linesByMeasure({ columns, rows }) {
   const groups = new Map();
-  for (let i = 0; i < count; i++) {
+  for (const i of rows) {
     const name = `${columns.measure[i]} ${columns.place[i] || ""}`.replace(/_/g, " ").trim();
     if (!groups.has(name)) groups.set(name, []);
     groups.get(name).push(i);
@@ -60,9 +60,10 @@ function linesByMeasure(columns, count) {
 }
 
 /** The diagrams of all measures and places, with what the colours stand for. */
-function effectDiagrams(columns, count) {
+function effectDiagrams(effects) {
+  const { columns, rows } = effects;
   const words = ["at the lower bound", "at the upper bound"];
-  const hollow = Array.from({ length: count }, (_, i) => i).some((i) => !isSeen(columns, i));
+  const hollow = rows.some((i) => !isSeen(columns, i));
   return [
     el(
       "div",
@@ -70,7 +71,7 @@ function effectDiagrams(columns, count) {
       words.map((text, side) => swatch(text, () => lookOf(BOUND_LOOKS[side]).colour())),
       hollow ? el("span", { class: "help" }, "hollow: not distinguished from none") : null,
     ),
-    ...linesByMeasure(columns, count).map(([name, rows]) => effectBars(columns, rows, name)),
+    ...linesByMeasure(effects).map(([name, lines]) => effectBars(columns, lines, name)),
   ];
 }
 
@@ -86,7 +87,7 @@ const namedColumns = (columns) =>
     }));
 
 function effectsSection(effects, seeds) {
-  const { columns, count } = effects;
+  const { columns, rows } = effects;
   const number = (name, title) => ({
     name: title,
     value: (i) => columns[name][i],
@@ -114,7 +115,7 @@ function effectsSection(effects, seeds) {
       (seeds
         ? ` Means over ${seeds} of the random loads, of differences under the same seeds; ± is the half width of the 95 % interval, by Student's t.`
         : ""),
-    ...effectDiagrams(columns, count),
+    ...effectDiagrams(effects),
     sortable(
       [
         ...namedColumns(columns),
@@ -126,8 +127,8 @@ function effectsSection(effects, seeds) {
         effect,
         ...(seeds ? [seen] : []),
       ],
-      Array.from({ length: count }, (_, i) => i),
-      { height: 60 + ROW * Math.min(count, 16) },
+      rows,
+      { height: 60 + ROW * Math.min(rows.length, 16) },
     ),
   );
 }

@@ -142,9 +142,8 @@ function orbitForces(over) {
 /** The contacts of the free run over one period. */
 function contactTable() {
   const table = tableOf(DATA.orbit.contacts);
-  const { columns, count } = table;
-  if (!count) return;
-  const rows = Array.from({ length: count }, (_, i) => i);
+  const { columns, rows } = table;
+  if (!rows.length) return;
   const phase = (i) => columns.start_s[i] / DATA.orbit.forcing;
   const number = (name, text, n = 6) => ({
     name: text,
@@ -169,20 +168,7 @@ function contactTable() {
       rows,
       { height: 400 },
     ),
-    el(
-      "div",
-      { class: "bar controls" },
-      button(
-        "The table above",
-        () =>
-          save(
-            "contacts.csv",
-            csvText([table.names, ...rows.map((i) => table.names.map((name) => columns[name][i]))]),
-            "text/csv",
-          ),
-        "Save contacts.csv",
-      ),
-    ),
+    saveBar("contacts.csv", () => linesOf(table)),
   );
 }
 

@@ -34,7 +34,7 @@ function shareBars(columns, rows, name) {
 }
 
 function sharesSection(shares, seeds, caution) {
-  const { columns, count } = shares;
+  const { columns } = shares;
   const share = {
     name: "share (%)",
     value: (i) => columns.share[i],
@@ -48,11 +48,11 @@ function sharesSection(shares, seeds, caution) {
       "third degree; interactions: what no sum of such polynomials gives" +
       (seeds ? "; realisations: what the means scatter by chance" : "") +
       `. A share within some % of 0 may be chance.${caution ? ` ${caution[0].toUpperCase()}${caution.slice(1)}.` : ""}`,
-    ...linesByMeasure(columns, count).map(([name, lines]) => shareBars(columns, lines, name)),
+    ...linesByMeasure(shares).map(([name, lines]) => shareBars(columns, lines, name)),
     sortable(
       [...namedColumns(columns), share, rows],
-      Array.from({ length: count }, (_, i) => i),
-      { height: 60 + ROW * Math.min(count, 16) },
+      shares.rows,
+      { height: 60 + ROW * Math.min(shares.count, 16) },
     ),
   );
 }

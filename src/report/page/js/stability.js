@@ -117,7 +117,6 @@ function stabilitySection() {
   );
   impactSection();
   const lasting = tableOf(DATA.stability.lasting);
-  const rows = Array.from({ length: lasting.count }, (_, i) => i);
   section(
     "lasting",
     "Contacts that last",
@@ -127,7 +126,7 @@ function stabilitySection() {
         lasting,
         lasting.names.map((name) => [name, name.replace(/_/g, " ")]),
       ),
-      rows,
+      lasting.rows,
       { height: 420 },
     ),
   );

@@ -70,13 +70,6 @@ function sweepSection() {
     );
   }
   if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns[0], pick, { over, view }));
-  const rows = Array.from({ length: table.count }, (_, i) => i);
-  const saved = () =>
-    save(
-      "sweep.csv",
-      csvText([table.names, ...rows.map((i) => table.names.map((name) => columns[name][i]))]),
-      "text/csv",
-    );
   if (effects) effectsSection(tableOf(effects), seeds);
   if (shares) sharesSection(tableOf(shares), seeds, DATA.sweep.caution);
   section(
@@ -103,10 +96,10 @@ function sweepSection() {
         table,
         table.names.map((name) => [name, columnLabel(name)]),
       ),
-      rows,
+      table.rows,
       { height: 400, pick },
     ),
-    el("div", { class: "bar controls" }, button("The table above", saved, "Save sweep.csv")),
+    saveBar("sweep.csv", () => linesOf(table)),
   );
 }
 

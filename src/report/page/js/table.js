@@ -107,3 +107,17 @@ function columnsOf(table, named) {
       };
     });
 }
+
+/** A table of the data as lines of cells, the header first. */
+const linesOf = ({ names, rows, columns }) => [
+  names,
+  ...rows.map((i) => names.map((name) => columns[name][i])),
+];
+
+/** A button that saves `lines()` as a CSV file. */
+const saveBar = (file, lines, title = "The table above", words = `Save ${file}`) =>
+  el(
+    "div",
+    { class: "bar controls" },
+    button(title, () => save(file, csvText(lines()), "text/csv"), words),
+  );

@@ -11,9 +11,9 @@ const WEAR_QUANTITIES = [
 
 /** The rows of years.csv with a column for each quantity of each place, as in a sweep. */
 function wearColumns(table) {
+  const { rows } = table;
   const { place, year } = table.columns;
   const names = [...new Set(place)];
-  const rows = Array.from({ length: table.count }, (_, i) => i);
   const columns = { year: rows.filter((i) => place[i] === names[0]).map((i) => year[i]) };
   // A table of an older version does not have all.
   const known = WEAR_QUANTITIES.filter(([quantity, unit]) => table.columns[`${quantity}_${unit}`]);
