@@ -92,6 +92,10 @@ function digits(x, n = 4) {
   return minus(mantissa.replace(/\.?0+$/, "")) + "·10" + raised(+exponent);
 }
 
+/** A number with the half width of its interval, where it has one; of such a number n digits. */
+const plusMinus = (x, half, n = 4) =>
+  Number.isFinite(half) ? `${digits(x, n)} ± ${digits(half, 2)}` : digits(x);
+
 /** A number with a prefixed unit: 0.0031 s becomes 3.1 ms. */
 function prefixed(x, unit, n = 3) {
   if (!Number.isFinite(x)) return "–";

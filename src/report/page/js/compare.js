@@ -45,13 +45,13 @@ function methodMeansSection() {
   const { means, draws } = DATA.compare;
   const table = tableOf(means);
   const { columns, rows } = table;
-  const text = (name, words) => ({ name: words, text: true, value: (i) => columns[name][i], show: (i) => columns[name][i] });
+  const text = (name, words) => wordColumn(words, (i) => columns[name][i]);
   // A column without any number is one of empty words.
   const at = (name, i) => (Array.isArray(columns[name]) ? NaN : columns[name][i]);
   const number = (words, name, half) => ({
     name: words,
     value: (i) => at(name, i),
-    show: (i) => digits(at(name, i)) + (at(half, i) >= 0 ? ` ± ${digits(at(half, i), 2)}` : ""),
+    show: (i) => plusMinus(at(name, i), at(half, i)),
   });
   const less = Array.from(columns.less).find((name) => typeof name === "string" && name);
   // By place and quantity, in the order of the file, and the methods of each together.

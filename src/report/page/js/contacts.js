@@ -23,10 +23,8 @@ function contactSection() {
     show: (row) => digits(value(row), 5),
   });
   const columns = [
-    one
-      ? null
-      : { name: "method", text: true, value: ([run]) => run.label, show: ([run]) => run.label },
-    { name: "wall", text: true, value: wallOf, show: wallOf },
+    one ? null : wordColumn("method", ([run]) => run.label),
+    wordColumn("wall", wallOf),
     { name: "from (s)", up: true, value: of("start"), show: (row) => of("start")(row).toFixed(6) },
     lasting
       ? {
@@ -175,13 +173,11 @@ function statisticsSection() {
   const column = (name, value, half, factor = 1) => ({
     name,
     value: (wall) => number(value(wall)) * factor,
-    show: (wall) => {
-      const [x, h] = [number(value(wall)) * factor, half ? number(half(wall)) * factor : NaN];
-      return Number.isFinite(x) ? digits(x) + (h > 0 ? ` ± ${digits(h, 2)}` : "") : "–";
-    },
+    show: (wall) =>
+      plusMinus(number(value(wall)) * factor, half ? half(wall) * factor || null : null),
   });
   const columns = [
-    { name: "wall", text: true, value: (wall) => wall.wall, show: (wall) => wall.wall },
+    wordColumn("wall", (wall) => wall.wall),
     column("contacts", (w) => w.contacts),
     column(
       "contacts a second",

@@ -97,17 +97,9 @@ function effectsSection(effects, seeds) {
   const effect = {
     name: "effect",
     value: (i) => columns.effect[i],
-    show: (i) =>
-      Number.isFinite(half[i])
-        ? `${digits(columns.effect[i], 3)} ± ${digits(half[i], 2)}`
-        : digits(columns.effect[i], 4),
+    show: (i) => plusMinus(columns.effect[i], half[i], 3),
   };
-  const seen = {
-    name: "distinguished from none",
-    text: true,
-    value: (i) => (isSeen(columns, i) ? "yes" : "no"),
-    show: (i) => (isSeen(columns, i) ? "yes" : "no"),
-  };
+  const seen = wordColumn("distinguished from none", (i) => (isSeen(columns, i) ? "yes" : "no"));
   section(
     "effects",
     "Effects",

@@ -157,7 +157,7 @@ function contactTable() {
     "Of the free run by the exact scheme over one period.",
     sortable(
       [
-        { name: "wall", text: true, value: (i) => columns.wall[i], show: (i) => columns.wall[i] },
+        wordColumn("wall", (i) => columns.wall[i]),
         { name: "phase (cycles)", value: phase, show: (i) => digits(phase(i), 7) },
         number("approach_speed_m_per_s", "approach (m/s)"),
         number("departure_speed_m_per_s", "departure (m/s)"),

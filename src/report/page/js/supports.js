@@ -110,20 +110,12 @@ function supportTable(rows) {
   const number = (name, value, half) => ({
     name,
     value: (row) => value(row) ?? NaN,
-    show: (row) => {
-      const [x, h] = [value(row), half && half(row)];
-      return digits(x) + (h > 0 ? ` ± ${digits(h, 2)}` : "");
-    },
+    show: (row) => plusMinus(value(row), (half && half(row)) || null),
   });
   const worn = (key, factor) => (row) => row.worn && row.worn[key] * factor;
   const columns = [
-    { name: "support", text: true, value: (row) => row.support, show: (row) => row.support },
-    {
-      name: "work rate is",
-      text: true,
-      value: (row) => (row.upper_figure ? "upper figure" : "with friction"),
-      show: (row) => (row.upper_figure ? "upper figure" : "with friction"),
-    },
+    wordColumn("support", (row) => row.support),
+    wordColumn("work rate is", (row) => (row.upper_figure ? "upper figure" : "with friction")),
     number(
       "work rate (W)",
       (row) => row.work_rate_w,

@@ -92,6 +92,9 @@ function sortable(columns, rows, options = {}) {
   return box;
 }
 
+/** A column of words. */
+const wordColumn = (name, of) => ({ name, text: true, value: of, show: of });
+
 /** Columns of a table of the data, all of them or those named: [name, text of the header]. */
 function columnsOf(table, named) {
   return named
