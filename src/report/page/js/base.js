@@ -64,6 +64,16 @@ function before(list, x) {
   return from - 1;
 }
 
+/** The index of the entry of the list that is nearest to x. */
+const nearestTo = (list, x) =>
+  list.reduce((best, y, i) => (Math.abs(y - x) < Math.abs(list[best] - x) ? i : best), 0);
+
+/** The cubic from a to b with the slopes c and d at its ends, at the share s of its length. */
+function cubic(a, b, c, d, s) {
+  const r = 1 - s;
+  return a * (1 + 2 * s) * r * r + c * s * r * r + b * s * s * (3 - 2 * s) - d * s * s * r;
+}
+
 /** Least and largest finite value of a list, or undefined. */
 function extent(values) {
   let [least, most] = [Infinity, -Infinity];

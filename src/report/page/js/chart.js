@@ -183,8 +183,7 @@ function chartSection() {
     }));
     reasons.replaceChildren(...floors.map(({ floor }) => el("li", {}, `${floor.reason}.`)));
     told.replaceChildren(...[cheapestTable(cheapest, data.error)].filter((table) => table));
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
   };
   tellNearest(
     plot,

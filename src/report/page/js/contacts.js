@@ -141,8 +141,7 @@ function histogramOf(columns, rows, wallOf) {
       plot.X = padded([lo, lo + BINS * bin], 0.02);
       plot.Y = [0, 1.08 * Math.max(1, ...plot.series.map((s) => Math.max(...s.y)))];
     };
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
     shown = column;
   };
   let shown = columns.find((column) => column.name.startsWith("impulse"));

@@ -156,10 +156,7 @@ function locusSection() {
     "loci",
     "Loci",
     "Where the special points of the branches move in the plane of two keys.",
-    chips(items, () => {
-      plot.dirty = true;
-      refresh();
-    }),
+    chips(items, () => plot.redraw()),
     plot.box,
   );
 }

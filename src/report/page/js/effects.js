@@ -11,36 +11,51 @@ const BOUND_LOOKS = [3, 2];
 function effectBars(columns, rows, name) {
   const unit = columns.unit[rows[0]];
   const label = name + (unit ? ` (${unit})` : "");
-  const level = (k) => rows.length - k;
-  const draw = (ctx, plot) => {
-    rows.forEach((i, k) => {
-      const base = plot.sx(columns.base[i]);
-      const ends = [columns.at_low[i], columns.at_high[i]].map((x, side) => [plot.sx(x), side]);
-      // The longer half first, so that both show where they lie on one side.
-      ends.sort(([a], [b]) => Math.abs(b - base) - Math.abs(a - base));
-      for (const [end, side] of ends) {
-        if (!Number.isFinite(end)) continue;
-        ctx.strokeStyle = ctx.fillStyle = lookOf(BOUND_LOOKS[side]).colour();
-        ctx.lineWidth = 1.4;
-        const place = [Math.min(base, end), plot.sy(level(k)) - 8, Math.abs(end - base), 16];
-        if (!isSeen(columns, i)) ctx.fillStyle = ink.paper;
-        ctx.fillRect(...place);
-        ctx.strokeRect(...place);
-      }
-    });
-    ctx.strokeStyle = ink.ink;
-    ctx.beginPath();
-    ctx.moveTo(plot.sx(columns.base[rows[0]]), plot.y0);
-    ctx.lineTo(plot.sx(columns.base[rows[0]]), plot.y1);
-    ctx.stroke();
+  const bar = (ctx, plot, i, y) => {
+    const base = plot.sx(columns.base[i]);
+    const ends = [columns.at_low[i], columns.at_high[i]].map((x, side) => [plot.sx(x), side]);
+    // The longer half first, so that both show where they lie on one side.
+    ends.sort(([a], [b]) => Math.abs(b - base) - Math.abs(a - base));
+    for (const [end, side] of ends) {
+      if (!Number.isFinite(end)) continue;
+      ctx.strokeStyle = ctx.fillStyle = lookOf(BOUND_LOOKS[side]).colour();
+      ctx.lineWidth = 1.4;
+      const place = [Math.min(base, end), y - 8, Math.abs(end - base), 16];
+      if (!isSeen(columns, i)) ctx.fillStyle = ink.paper;
+      ctx.fillRect(...place);
+      ctx.strokeRect(...place);
+    }
   };
   const values = rows.flatMap((i) => [columns.base[i], columns.at_low[i], columns.at_high[i]]);
-  const plot = new Plot({
+  return barPlot(columns, rows, {
     x: label,
+    alt: `Effects on ${label}`,
+    values,
+    base: columns.base[rows[0]],
+    bar,
+  });
+}
+
+/**
+ * Bars of the keys in these rows, the first above. Options: x, alt, values (what the axis spans),
+ * base (where an upright line stands), bar(ctx, plot, i, y) draws that of row i at the height y.
+ */
+function barPlot(columns, rows, { x, alt, values, base, bar }) {
+  const level = (k) => rows.length - k;
+  const draw = (ctx, plot) => {
+    rows.forEach((i, k) => bar(ctx, plot, i, plot.sy(level(k))));
+    ctx.strokeStyle = ink.ink;
+    ctx.beginPath();
+    ctx.moveTo(plot.sx(base), plot.y0);
+    ctx.lineTo(plot.sx(base), plot.y1);
+    ctx.stroke();
+  };
+  const plot = new Plot({
+    x,
     height: 60 + 28 * rows.length,
     left: 210,
     narrow: 140,
-    alt: `Effects on ${label}`,
+    alt,
     yTicks: rows.map((i, k) => [level(k), String(columns.key[i])]),
     range: () => [0.4, rows.length + 0.6],
     series: [{ kind: "own", look: lookOf(0), x: values, y: [], draw }],

@@ -96,11 +96,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
         .flatMap((s) => s.rows.map((i, k) => ({ x: s.x[k], y: s.y[k], i })));
     tellNearest(plot, points, ({ i }) => tell(i));
     plot.click = () => plot.found && pick(plot.found.i);
-    const redraw = () => {
-      plot.dirty = true;
-      refresh();
-    };
-    return [items.length > 1 ? chips(items, redraw) : null, plot.box];
+    return [items.length > 1 ? chips(items, () => plot.redraw()) : null, plot.box];
   };
   return el(
     "div",

@@ -132,11 +132,7 @@ function orbitForces(over) {
       hidden: () => !items[n].shown,
     })),
   });
-  const redraw = () => {
-    plot.dirty = true;
-    refresh();
-  };
-  return el("div", {}, chips(items, redraw), plot.box);
+  return el("div", {}, chips(items, () => plot.redraw()), plot.box);
 }
 
 /** The contacts of the free run over one period. */

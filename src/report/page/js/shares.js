@@ -5,32 +5,19 @@ const NO_KEY = ["interactions", "realisations"];
 
 /** A bar for the share of each line, in per cent. */
 function shareBars(columns, rows, name) {
-  const level = (k) => rows.length - k;
-  const shares = rows.map((i) => 100 * columns.share[i]);
-  const draw = (ctx, plot) => {
-    const none = plot.sx(0);
-    shares.forEach((share, k) => {
-      const end = plot.sx(share);
-      ctx.fillStyle = NO_KEY.includes(columns.key[rows[k]]) ? ink.faint : lookOf(2).colour();
-      ctx.fillRect(Math.min(none, end), plot.sy(level(k)) - 8, Math.abs(end - none), 16);
-    });
-    ctx.strokeStyle = ink.ink;
-    ctx.beginPath();
-    ctx.moveTo(none, plot.y0);
-    ctx.lineTo(none, plot.y1);
-    ctx.stroke();
+  const share = (i) => 100 * columns.share[i];
+  const bar = (ctx, plot, i, y) => {
+    const [none, end] = [plot.sx(0), plot.sx(share(i))];
+    ctx.fillStyle = NO_KEY.includes(columns.key[i]) ? ink.faint : lookOf(2).colour();
+    ctx.fillRect(Math.min(none, end), y - 8, Math.abs(end - none), 16);
   };
-  const plot = new Plot({
+  return barPlot(columns, rows, {
     x: `Share of the variance of ${name} (%)`,
-    height: 60 + 28 * rows.length,
-    left: 210,
-    narrow: 140,
     alt: `Shares in the variance of ${name}`,
-    yTicks: rows.map((i, k) => [level(k), String(columns.key[i])]),
-    range: () => [0.4, rows.length + 0.6],
-    series: [{ kind: "own", look: lookOf(0), x: [0, 100, ...shares], y: [], draw }],
+    values: [0, 100, ...rows.map(share)],
+    base: 0,
+    bar,
   });
-  return plot.box;
 }
 
 function sharesSection(shares, seeds, caution) {

@@ -173,16 +173,10 @@ function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
     const both = [samples.columns[choice.name], theirs].filter((list) => list);
     const span = extent(both.flatMap((list) => extent(list) || [])) || [0, 1];
     plot.range = () => padded(span, 0.05);
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
   };
   fill();
-  plot.click = (x) => {
-    let nearest = 0;
-    for (let i = 0; i < axis.length; i++)
-      if (Math.abs(axis[i] - x) < Math.abs(axis[nearest] - x)) nearest = i;
-    pick(nearest);
-  };
+  plot.click = (x) => pick(nearestTo(axis, x));
   return el(
     "div",
     {},
@@ -215,8 +209,7 @@ function measureMap(columns, [first, second], measures, tell, pick) {
   const fill = () => {
     const span = extent(columns[choice.name]) || [0, 1];
     range = span[0] > 0 && span[0] < 0.5 * span[1] ? [0, span[1]] : span;
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
   };
   const toneOf = (i) => {
     const value = columns[choice.name][i];
