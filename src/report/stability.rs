@@ -7,20 +7,7 @@ use crate::study::stability::impact::PHASES;
 use serde_json::{Value, json};
 
 /// The columns of the maps that the page draws or shows as text.
-const SHOWN: [&str; 12] = [
-    "scheme",
-    "parameter",
-    "value",
-    "case_value",
-    "step_s",
-    "class",
-    "reason",
-    "energy_growth_per_impact",
-    "largest_speed_over_reference",
-    "contacts",
-    "reference_contacts_least",
-    "reference_contacts_most",
-];
+const SHOWN: [&str; 6] = ["scheme", "parameter", "value", "step_s", "class", "reason"];
 
 /// What the page of a stability study shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {

@@ -86,9 +86,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let axes: Vec<Value> = request["vary"].as_array().cloned().unwrap_or_default();
     let keys = axes.len();
     let summary = if folder.has("summary.json") { folder.json("summary.json")? } else { Value::Null };
-    let program = folder.manifest["program"].as_str().unwrap_or_default();
     let mut page = json!({
-        "program": program,
         "title": summary["title"],
         "subtitle": match seeds {
             Some(count) => format!("{} rows × {}", table.rows.len(), in_words(count)),
