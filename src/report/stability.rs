@@ -3,6 +3,7 @@
 use super::folder::Folder;
 use super::run::case_text;
 use crate::error::Result;
+use crate::study::stability::class::Class;
 use crate::study::stability::impact::PHASES;
 use serde_json::{Value, json};
 
@@ -17,6 +18,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "subtitle": "where each scheme fails",
         "stability": {
             "maps": maps.for_page(Some(&SHOWN)),
+            "classes": Class::ALL.map(Class::name),
             "conclusion": folder.manifest["conclusion"],
             "safe": folder.manifest["safe_steps"],
             "impacts": folder.cells("impact-map.csv")?.for_page(Some(&["phase", "restitution"])),

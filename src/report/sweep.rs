@@ -5,7 +5,7 @@ use super::html::FILE;
 use crate::error::{Error, Result};
 use crate::output::manifest::MANIFEST;
 use crate::study::realisations::RealisationCount;
-use crate::sweep::{SENSITIVITY_TABLES, asked, caution, coefficients, in_words};
+use crate::sweep::{NO_KEY, SENSITIVITY_TABLES, asked, caution, coefficients, in_words};
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::Path;
@@ -103,6 +103,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "kept": kept(folder.path, &table),
             "seeds": seeds.map(in_words),
             "seeds_asked": seeds.map(seeds_asked),
+            "no_key": NO_KEY,
             "unjudged": summary["status"]["unjudged"].as_u64().unwrap_or(0),
         },
         "case": folder.manifest["case_text"],

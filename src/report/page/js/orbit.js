@@ -5,9 +5,6 @@
 // events: [{ wall, kind, phase, speed }], multipliers: [[re, im], …] }; walls are { name, side,
 // position (m; null where it is not known), rigid }.
 
-/** Kinds of events whose number is a speed towards the wall. */
-const APPROACHES = ["impact", "rest", "chatter", "enter"];
-
 /** A complex number; of a pair of conjugates both at once. */
 function complexText([re, im], n = 4) {
   return im ? `${digits(re, n)} ${im < 0 ? "−" : "+"} ${digits(Math.abs(im), n)} i` : digits(re, n);

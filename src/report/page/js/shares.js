@@ -1,14 +1,11 @@
 // The shares of keys in the variance of each measure over the rows of a random design: bars, a table.
 
-/** What is no key in the table: it is drawn in grey. */
-const NO_KEY = ["interactions", "realisations"];
-
-/** A bar for the share of each line, in per cent. */
+/** A bar for the share of each line, in per cent; what is no key is grey. */
 function shareBars(columns, rows, name) {
   const share = (i) => 100 * columns.share[i];
   const bar = (ctx, plot, i, y) => {
     const [none, end] = [plot.sx(0), plot.sx(share(i))];
-    ctx.fillStyle = NO_KEY.includes(columns.key[i]) ? ink.faint : lookOf(2).colour();
+    ctx.fillStyle = DATA.sweep.no_key.includes(columns.key[i]) ? ink.faint : lookOf(2).colour();
     ctx.fillRect(Math.min(none, end), y - 8, Math.abs(end - none), 16);
   };
   return barPlot(columns, rows, {

@@ -8,14 +8,9 @@ function sweepSection() {
   const axisColumns = axes.map((axis) => axis.column).filter(numeric);
   const attractors = readAttractors();
   const over = readOver();
-  const measures = table.names.filter(
-    (name) =>
-      !["row", "status", "error", "direction", "seeds"].includes(name) &&
-      !isHalfWidth(name) &&
-      !(attractors && name === "attractor") &&
-      !axes.some((axis) => axis.column === name) &&
-      numeric(name),
-  );
+  const measures = table.names
+    .slice(table.names.indexOf("error") + 1)
+    .filter((name) => !isHalfWidth(name) && !(attractors && name === "attractor") && numeric(name));
   const kept = new Set(DATA.sweep.kept);
   const command = el("pre", { class: "command", hidden: true });
   const tell = (i) =>
