@@ -2,8 +2,8 @@
 
 use super::axis::{Axis, Extent, Scale};
 use super::class::Class;
-use super::look::{LABEL, SMALL, TITLE, WIDTH};
-use super::plot_area::{PlotArea, draw_axes};
+use super::look::{LABEL, SMALL, TITLE, WIDTH, draw_heading};
+use super::plot_area::{PlotArea, draw_axes, draw_labels};
 use super::regions::letter_places;
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
@@ -103,20 +103,12 @@ impl HeatMap {
         let total = top + HEIGHT + 50.0 + 18.0 * legend_rows as f64;
         let missing = self.has_missing(x_edges.len().saturating_sub(1) * y_edges.len().saturating_sub(1));
         let mut canvas = Canvas::new(WIDTH, total, &self.title);
-        for (i, line) in title.iter().enumerate() {
-            let y = 22.0 + 17.0 * i as f64;
-            canvas.text(Text { bold: true, ..Text::new(left + width / 2.0, y, line, TITLE, Anchor::Middle) });
-        }
+        draw_heading(&mut canvas, &title, left + width / 2.0);
         let frame =
             PlotArea { x: left, y: top, width, height: HEIGHT, x_axis: &x_axis, y_axis: &y_axis, envelopes: false };
         self.draw_cells(&mut canvas, &frame, &x_edges, &y_edges);
         draw_axes(&mut canvas, &frame, true, true);
-        let label = text::shorten(&x_side.label, LABEL, width - 150.0);
-        canvas.text(Text::new(left + width / 2.0, top + HEIGHT + 33.0, &label, LABEL, Anchor::Middle));
-        for (i, line) in text::wrap(&y_side.label, LABEL, HEIGHT, 2).iter().enumerate() {
-            let text = Text::new(18.0 + 14.0 * i as f64, top + HEIGHT / 2.0, line, LABEL, Anchor::Middle);
-            canvas.text(Text { upwards: true, ..text });
-        }
+        draw_labels(&mut canvas, &frame, [&x_side.label, &y_side.label], width - 150.0);
         match &self.cells {
             Cells::Empty => {}
             Cells::Classes(classes, _) => draw_keys(&mut canvas, classes, left, top + HEIGHT + 44.0, width),

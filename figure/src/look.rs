@@ -1,6 +1,6 @@
 //! The look of curves: what distinguishes a curve from its neighbours, in colour and in greyscale.
 
-use super::svg::{Canvas, Stroke};
+use super::svg::{Anchor, Canvas, Stroke, Text};
 
 /// Width of every figure: 160 mm.
 pub(super) const WIDTH: f64 = 640.0;
@@ -130,5 +130,13 @@ impl Marker {
                 canvas.path(&[vec![(x - d, y), (x + d, y)], vec![(x, y - d), (x, y + d)]], Stroke::solid(colour, 1.4));
             }
         }
+    }
+}
+
+/// Draws the lines of the title of a figure, centred at `x`.
+pub(super) fn draw_heading(canvas: &mut Canvas, lines: &[String], x: f64) {
+    for (i, line) in lines.iter().enumerate() {
+        let y = 22.0 + 17.0 * i as f64;
+        canvas.text(Text { bold: true, ..Text::new(x, y, line, TITLE, Anchor::Middle) });
     }
 }

@@ -3,8 +3,9 @@
 use super::axis::Axis;
 use super::curve::{Curve, Mark, MarkKind, Stems};
 use super::envelope::Envelope;
-use super::look::{FRAME, GRID, Look, Role, SMALL};
+use super::look::{FRAME, GRID, LABEL, Look, Role, SMALL};
 use super::svg::{Anchor, Canvas, Stroke, Text};
+use super::text;
 use super::thin::{Spot, never_goes_back, thin};
 
 /// Opacity of the band about a curve: bands that overlap remain visible.
@@ -237,6 +238,21 @@ pub(super) fn draw_axes(canvas: &mut Canvas, frame: &PlotArea<'_>, beside: bool,
             let text = Text::new(end, bottom + 28.0, "×10", SMALL, Anchor::End);
             canvas.text(Text { exponent: Some(power), ..text });
         }
+    }
+}
+
+/// Draws the labels of both axes; that of the horizontal one is shortened to `room`.
+pub(super) fn draw_labels(canvas: &mut Canvas, frame: &PlotArea<'_>, [x_label, y_label]: [&str; 2], room: f64) {
+    let label = text::shorten(x_label, LABEL, room);
+    canvas.text(Text::new(frame.across(0.5), frame.y + frame.height + 33.0, &label, LABEL, Anchor::Middle));
+    draw_upwards(canvas, &text::wrap(y_label, LABEL, frame.height, 2), 18.0, frame.up(0.5));
+}
+
+/// Draws the lines of a label of the vertical axis, the first at `x`.
+pub(super) fn draw_upwards(canvas: &mut Canvas, lines: &[String], x: f64, middle: f64) {
+    for (i, line) in lines.iter().enumerate() {
+        let text = Text::new(x + 14.0 * i as f64, middle, line, LABEL, Anchor::Middle);
+        canvas.text(Text { upwards: true, ..text });
     }
 }
 

@@ -3,10 +3,10 @@
 
 use super::axis::{Axis, Extent, Scale};
 use super::legend::Legend;
-use super::look::{LABEL, Look, Role, TITLE, WIDTH, colour, look};
+use super::look::{Look, Role, TITLE, WIDTH, colour, draw_heading, look};
 use super::overlay::{Line, Overlay, Sign};
-use super::plot_area::{PlotArea, draw_axes, draw_grid};
-use super::svg::{Anchor, Canvas, Stroke, Text};
+use super::plot_area::{PlotArea, draw_axes, draw_grid, draw_labels};
+use super::svg::{Canvas, Stroke};
 use super::text;
 
 /// Height of the frame, and side of a cell: 0.2 mm.
@@ -121,10 +121,7 @@ impl Scatter {
         let top = 24.0 + 17.0 * title.len() as f64;
         let legend = Legend::new(self.entries(), WIDTH - 20.0);
         let mut canvas = Canvas::new(WIDTH, top + HEIGHT + 46.0 + legend.height(), &self.title);
-        for (i, line) in title.iter().enumerate() {
-            let y = 22.0 + 17.0 * i as f64;
-            canvas.text(Text { bold: true, ..Text::new(WIDTH / 2.0, y, line, TITLE, Anchor::Middle) });
-        }
+        draw_heading(&mut canvas, &title, WIDTH / 2.0);
         let [x_axis, y_axis] = &self.axes;
         let frame = PlotArea { x: LEFT, y: top, width, height: HEIGHT, x_axis, y_axis, envelopes: false };
         draw_grid(&mut canvas, &frame);
@@ -135,13 +132,7 @@ impl Scatter {
         self.overlay.draw(&mut canvas, &frame);
         canvas.close_window();
         draw_axes(&mut canvas, &frame, true, true);
-        let [x_label, y_label] = &self.labels;
-        let label = text::shorten(x_label, LABEL, width);
-        canvas.text(Text::new(LEFT + width / 2.0, top + HEIGHT + 33.0, &label, LABEL, Anchor::Middle));
-        for (i, line) in text::wrap(y_label, LABEL, HEIGHT, 2).iter().enumerate() {
-            let text = Text::new(18.0 + 14.0 * i as f64, top + HEIGHT / 2.0, line, LABEL, Anchor::Middle);
-            canvas.text(Text { upwards: true, ..text });
-        }
+        draw_labels(&mut canvas, &frame, self.labels.each_ref().map(String::as_str), width);
         legend.draw(&mut canvas, 10.0, top + HEIGHT + 42.0, WIDTH - 20.0);
         canvas.finish()
     }

@@ -6,7 +6,7 @@ use super::layout::Layout;
 use super::legend::Legend;
 use super::look::{LABEL, Look, Role, SMALL, TITLE, WIDTH, colour, look};
 use super::panel::{Entry, Panel};
-use super::plot_area::{PlotArea, draw_axes, draw_grid};
+use super::plot_area::{PlotArea, draw_axes, draw_grid, draw_upwards};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 
@@ -168,11 +168,7 @@ impl Figure {
             let text = Text::new(*left, y - head + 17.0, &heading, LABEL, Anchor::Start);
             canvas.text(Text { bold: true, ..text });
         }
-        let middle = y + height / 2.0;
-        for (k, line) in layout.y_labels[index].iter().enumerate() {
-            let text = Text::new(layout.aside + 18.0 + 14.0 * k as f64, middle, line, LABEL, Anchor::Middle);
-            canvas.text(Text { upwards: true, ..text });
-        }
+        draw_upwards(canvas, &layout.y_labels[index], layout.aside + 18.0, y + height / 2.0);
     }
 
     /// Distinct labels in order of appearance, each with its look.

@@ -164,23 +164,23 @@ impl Canvas {
 
     /// A closed outline with its own filling.
     pub(super) fn shape(&mut self, corners: &[(f64, f64)], fill: &str, stroke: Stroke) {
-        self.out.push_str("<path d=\"");
-        for (i, &(x, y)) in corners.iter().enumerate() {
-            self.out.push(if i == 0 { 'M' } else { 'L' });
-            self.pair(x, y);
-        }
+        self.outline(corners);
         let _ =
             writeln!(self.out, "Z\" fill=\"{fill}\" stroke=\"{}\" stroke-width=\"{}\"/>", stroke.colour, stroke.width);
     }
 
     /// A closed outline filled with a translucent colour, so that overlapping areas remain visible.
     pub(super) fn area(&mut self, corners: &[(f64, f64)], fill: &str, opacity: f64) {
+        self.outline(corners);
+        let _ = writeln!(self.out, "Z\" fill=\"{fill}\" fill-opacity=\"{opacity}\"/>");
+    }
+
+    fn outline(&mut self, corners: &[(f64, f64)]) {
         self.out.push_str("<path d=\"");
         for (i, &(x, y)) in corners.iter().enumerate() {
             self.out.push(if i == 0 { 'M' } else { 'L' });
             self.pair(x, y);
         }
-        let _ = writeln!(self.out, "Z\" fill=\"{fill}\" fill-opacity=\"{opacity}\"/>");
     }
 
     pub(super) fn circle(&mut self, x: f64, y: f64, radius: f64, fill: &str, stroke: Stroke) {
@@ -196,22 +196,24 @@ impl Canvas {
     }
 
     pub(super) fn rect(&mut self, x: f64, y: f64, width: f64, height: f64, fill: &str) {
-        self.rect_open(x, y, width, height);
+        self.open("rect", x, y, width, height);
         let _ = writeln!(self.out, " fill=\"{fill}\"/>");
     }
 
     /// A rectangle with an outline and no filling.
     pub(super) fn frame(&mut self, x: f64, y: f64, width: f64, height: f64, stroke: Stroke) {
-        self.rect_open(x, y, width, height);
+        self.open("rect", x, y, width, height);
         let _ = writeln!(self.out, " stroke=\"{}\" stroke-width=\"{}\"/>", stroke.colour, stroke.width);
     }
 
-    fn rect_open(&mut self, x: f64, y: f64, width: f64, height: f64) {
-        for (name, value) in [("<rect x=\"", x), ("\" y=\"", y), ("\" width=\"", width), ("\" height=\"", height)] {
+    /// Opens an element and gives it its place and its size.
+    fn open(&mut self, element: &str, x: f64, y: f64, width: f64, height: f64) {
+        let _ = write!(self.out, "<{element}");
+        for (name, value) in [(" x=\"", x), (" y=\"", y), (" width=\"", width), (" height=\"", height)] {
             self.out.push_str(name);
             self.number(value);
+            self.out.push('"');
         }
-        self.out.push('"');
     }
 
     pub(super) fn text(&mut self, text: Text<'_>) {
@@ -249,11 +251,8 @@ impl Canvas {
     /// It is a nested `svg` element, which needs no identifier, so that figures can be combined on
     /// one page.
     pub(super) fn open_window(&mut self, x: f64, y: f64, width: f64, height: f64) {
-        for (name, value) in [("<svg x=\"", x), ("\" y=\"", y), ("\" width=\"", width), ("\" height=\"", height)] {
-            self.out.push_str(name);
-            self.number(value);
-        }
-        self.out.push_str("\" viewBox=\"");
+        self.open("svg", x, y, width, height);
+        self.out.push_str(" viewBox=\"");
         for value in [x, y, width, height] {
             self.number(value);
             self.out.push(' ');

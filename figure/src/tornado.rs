@@ -2,7 +2,7 @@
 //! lower to that at the upper bound of the input.
 
 use super::axis::{Axis, Extent, Scale};
-use super::look::{FRAME, GRID, LABEL, SMALL, TITLE, WIDTH, colour};
+use super::look::{FRAME, GRID, LABEL, SMALL, TITLE, WIDTH, colour, draw_heading};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 
@@ -82,10 +82,7 @@ impl Tornado {
         let top = 20.0 + 17.0 * title.len() as f64;
         let height = |frame: &Bars| 56.0 + PITCH * frame.bars.len() as f64;
         let mut canvas = Canvas::new(WIDTH, top + self.frames.iter().map(height).sum::<f64>() + 30.0, &self.title);
-        for (i, line) in title.iter().enumerate() {
-            let y = 22.0 + 17.0 * i as f64;
-            canvas.text(Text { bold: true, ..Text::new(WIDTH / 2.0, y, line, TITLE, Anchor::Middle) });
-        }
+        draw_heading(&mut canvas, &title, WIDTH / 2.0);
         let mut y = top;
         for frame in &self.frames {
             frame.draw(&mut canvas, left, y);

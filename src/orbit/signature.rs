@@ -26,7 +26,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    const ALL: [Self; 7] =
+    pub(crate) const ALL: [Self; 7] =
         [Self::Impact, Self::Rest, Self::Chatter, Self::Release, Self::Enter, Self::Leave, Self::Again];
 
     /// Its name, as signatures are written.

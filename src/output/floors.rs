@@ -1,7 +1,7 @@
 //! The floors of a chart: how near penalties can come to rigid walls, and why no nearer.
 
 use super::cheapest::percent;
-use super::work_precision::law_label;
+use super::work_precision::{column, law_label};
 use crate::error::amount;
 use crate::study::work_precision::{Errors, Floor, Quantity, WorkPrecision};
 use serde_json::{Value, json};
@@ -47,14 +47,15 @@ pub(crate) fn sentences(chart: &WorkPrecision) -> Vec<String> {
 pub(crate) fn rows(chart: &WorkPrecision) -> Value {
     let row = |floor: &Floor| {
         let shown = |error: Option<f64>| error.map(|at| json!({ "at": at, "label": mark(floor, at) }));
-        Some(json!({
+        let mut row = json!({
             "law": law_label(floor.law),
             "reason": reason(floor)?,
-            "displacement_error_over_gap": shown(of(floor, Quantity::Displacement)),
-            "impulse_error_of_the_worst_wall": shown(of(floor, Quantity::Impulse)),
-            "contact_time_error": shown(of(floor, Quantity::ContactTime)),
             "velocity_graph_error": shown(floor.errors.as_ref().map(|errors| errors.velocity)),
-        }))
+        });
+        for quantity in Quantity::ALL {
+            row[column(quantity)] = json!(shown(of(floor, quantity)));
+        }
+        Some(row)
     };
     chart.floors.iter().filter_map(row).collect()
 }

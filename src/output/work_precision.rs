@@ -54,12 +54,19 @@ fn number(x: Option<f64>) -> String {
     x.map_or_else(String::new, |x| format!("{x:.16e}"))
 }
 
+/// The name of the column of an error.
+pub(crate) const fn column(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Displacement => "displacement_error_over_gap",
+        Quantity::Impulse => "impulse_error_of_the_worst_wall",
+        Quantity::ContactTime => "contact_time_error",
+    }
+}
+
 fn header() -> Vec<String> {
-    let errors = |prefix: &str| {
-        let columns = ["displacement_error_over_gap", "velocity_graph_error", "impulse_error_of_the_worst_wall"];
-        let contacts = ["contact_time_error", "contacts_missing", "contacts_spurious"];
-        columns.into_iter().chain(contacts).map(|name| format!("{prefix}{name}")).collect::<Vec<_>>()
-    };
+    let [displacement, impulse, contact_time] = Quantity::ALL.map(column);
+    let errors = [displacement, "velocity_graph_error", impulse, contact_time, "contacts_missing", "contacts_spurious"];
+    let errors = |prefix: &str| errors.map(|name| format!("{prefix}{name}"));
     let mut header = vec!["method".to_owned(), "step_s".to_owned(), "seconds".to_owned(), "on_front".to_owned()];
     header.extend(errors(""));
     header.extend(errors("own_"));

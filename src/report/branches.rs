@@ -4,6 +4,7 @@ use super::column;
 use super::folder::{Cells, Folder};
 use super::run::case_text;
 use crate::error::Result;
+use crate::orbit::Kind;
 use crate::output::{orbits, overlay};
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -77,6 +78,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "path": folder.manifest["request"]["key"],
         "command": folder.manifest["orbit_command"],
         "branches": document["branches"],
+        "approaches": Kind::ALL.into_iter().filter(|kind| kind.is_approach()).map(Kind::name).collect::<Vec<_>>(),
         "specials": document["specials"],
         "walls": document["walls"],
         "place": document["place"],

@@ -3,9 +3,11 @@
 use super::folder::Folder;
 use super::run::case_text;
 use crate::error::Result;
-use crate::output::work_precision::label;
+use crate::output::work_precision::{column, label};
 use crate::scheme::Method;
+use crate::study::work_precision::Quantity;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// The columns that the page draws or shows as text.
 const SHOWN: [&str; 12] = [
@@ -43,6 +45,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "labels": (0..table.rows.len()).map(|row| short(table.text(row, "method"))).collect::<Vec<_>>(),
             "conclusion": told("conclusion"),
             "cheapest": told("cheapest"),
+            "names": BTreeMap::from(Quantity::ALL.map(|quantity| (column(quantity), quantity.name()))),
             "floors": told("floors"),
             "orders": told("orders"),
             "programs": told("other_programs"),

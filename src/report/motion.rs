@@ -184,7 +184,6 @@ fn drawn_shapes(table: &Numbers) -> Result<Vec<(String, Value)>> {
             "stations": body.places,
             "planes": stations.planes,
             "time": f64(&time),
-            "every": every,
             "u": i16(&values),
         });
         (body.name.clone(), shape)

@@ -3,24 +3,12 @@
 use super::folder::Folder;
 use super::run::case_text;
 use crate::error::Result;
+use crate::study::stability::class::Class;
 use crate::study::stability::impact::PHASES;
 use serde_json::{Value, json};
 
 /// The columns of the maps that the page draws or shows as text.
-const SHOWN: [&str; 12] = [
-    "scheme",
-    "parameter",
-    "value",
-    "case_value",
-    "step_s",
-    "class",
-    "reason",
-    "energy_growth_per_impact",
-    "largest_speed_over_reference",
-    "contacts",
-    "reference_contacts_least",
-    "reference_contacts_most",
-];
+const SHOWN: [&str; 6] = ["scheme", "parameter", "value", "step_s", "class", "reason"];
 
 /// What the page of a stability study shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
@@ -30,6 +18,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "subtitle": "where each scheme fails",
         "stability": {
             "maps": maps.for_page(Some(&SHOWN)),
+            "classes": Class::ALL.map(Class::name),
             "conclusion": folder.manifest["conclusion"],
             "safe": folder.manifest["safe_steps"],
             "impacts": folder.cells("impact-map.csv")?.for_page(Some(&["phase", "restitution"])),

@@ -5,7 +5,7 @@ use super::html::FILE;
 use crate::error::{Error, Result};
 use crate::output::manifest::MANIFEST;
 use crate::study::realisations::RealisationCount;
-use crate::sweep::{SENSITIVITY_TABLES, asked, caution, coefficients, in_words};
+use crate::sweep::{NO_KEY, SENSITIVITY_TABLES, asked, caution, coefficients, in_words};
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::Path;
@@ -86,9 +86,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let axes: Vec<Value> = request["vary"].as_array().cloned().unwrap_or_default();
     let keys = axes.len();
     let summary = if folder.has("summary.json") { folder.json("summary.json")? } else { Value::Null };
-    let program = folder.manifest["program"].as_str().unwrap_or_default();
     let mut page = json!({
-        "program": program,
         "title": summary["title"],
         "subtitle": match seeds {
             Some(count) => format!("{} rows × {}", table.rows.len(), in_words(count)),
@@ -105,6 +103,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "kept": kept(folder.path, &table),
             "seeds": seeds.map(in_words),
             "seeds_asked": seeds.map(seeds_asked),
+            "no_key": NO_KEY,
             "unjudged": summary["status"]["unjudged"].as_u64().unwrap_or(0),
         },
         "notes": folder.manifest["remarks"],

@@ -4,7 +4,7 @@
 //!
 //! Studies over several runs: `choice.rs` (scheme and solver), `compare.rs`, `horizon.rs` and
 //! `perturbation.rs` (growth of a small change), `attractor/` (which motion a start leads to),
-//! `difference.rs` and `change.rs` (between two runs), `verdict.rs` (half the step),
+//! `difference.rs` and `change.rs` (between two runs), `verdict/` (half the step),
 //! `realisations/` (means over random loads with their intervals), `wear_history/` (gaps that
 //! grow by wear), `derivatives.rs` (what a key changes), `truncation/`, `accuracy/`,
 //! `work_precision/`, `stability/` (runs in parallel: feature `cli`).

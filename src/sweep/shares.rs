@@ -38,9 +38,8 @@ const FEW: usize = 3;
 /// The columns of `shares.csv`.
 pub(super) const HEADER: [&str; 6] = ["key", "place", "measure", "unit", "share", "rows"];
 
-/// What is no key in the column `key`.
-const INTERACTIONS: &str = "interactions";
-const SCATTER: &str = "realisations";
+/// What is no key in the column `key`: what interactions have, and what the means scatter.
+pub(crate) const NO_KEY: [&str; 2] = ["interactions", "realisations"];
 
 /// The shares in the variance of one measure at one place.
 #[derive(Debug, Clone, PartialEq)]
@@ -181,8 +180,9 @@ fn parts(points: &[Point], keys: impl Iterator<Item = String>, variance: Option<
     let mut parts: Vec<(String, f64)> = keys.enumerate().map(|(axis, key)| (key, of_key(axis))).collect();
     let rest = (n - 1) as f64 * noise / total;
     let of_realisations = variance.map(|variance| variance * (n - 1) as f64 / total);
-    parts.push((INTERACTIONS.to_owned(), rest - of_realisations.unwrap_or(0.0)));
-    parts.extend(of_realisations.map(|share| (SCATTER.to_owned(), share)));
+    let [interactions, scatter] = NO_KEY.map(str::to_owned);
+    parts.push((interactions, rest - of_realisations.unwrap_or(0.0)));
+    parts.extend(of_realisations.map(|share| (scatter, share)));
     Some(parts)
 }
 

@@ -162,7 +162,7 @@ pub(super) fn label(column: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::label;
+    use super::{HALF_WIDTH, label};
 
     #[test]
     fn labels_say_quantity_and_unit() {
@@ -170,5 +170,11 @@ mod tests {
         assert_eq!(label("approach_speed_max_upper_m_per_s"), "Approach speed max upper (m/s)");
         assert_eq!(label("contacts_upper"), "Contacts upper (–)");
         assert_eq!(label("impulse_upper_N_s"), "Impulse upper (N s)");
+    }
+
+    #[test]
+    fn the_page_knows_the_columns_of_half_widths() {
+        let script = include_str!("../report/page/js/intervals.js");
+        assert!(script.contains(&format!("HALF_WIDTH = {HALF_WIDTH:?};")));
     }
 }

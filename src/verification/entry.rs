@@ -41,6 +41,18 @@ pub(super) struct Expected {
     pub found: fn(&Run) -> Option<f64>,
 }
 
+/// A value that an entry must give, by its fields in their order.
+pub(super) const fn value(
+    quantity: &'static str,
+    unit: &'static str,
+    value: f64,
+    tolerance: f64,
+    reason: &'static str,
+    found: fn(&Run) -> Option<f64>,
+) -> Expected {
+    Expected { quantity, unit, value, tolerance, reason, found }
+}
+
 impl Entry {
     pub fn name(&self) -> &'static str {
         match self.scene {

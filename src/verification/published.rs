@@ -1,6 +1,6 @@
 //! Values of other programs and of benchmarks.
 
-use super::entry::{Entry, Expected, Scene};
+use super::entry::{Entry, Scene, value};
 use super::quantity::{contact, displacement, last_displacement, velocity, work_rate};
 
 const PRINTED: &str = "the digits that the source prints";
@@ -15,14 +15,14 @@ macro_rules! sdnd104 {
             changes: &[("load.1.harmonic.amplitude", $amplitude)],
             method: "moreau-jean",
             source: "code_aster SDND104 (V5.01.104)",
-            values: &[Expected {
-                quantity: "work rate of wear, 4 to 12 s",
-                unit: "W",
-                value: $value,
-                tolerance: $tolerance,
-                reason: "5e-4 of the value, as in the source; of the body that sticks, rounding",
-                found: work_rate,
-            }],
+            values: &[value(
+                "work rate of wear, 4 to 12 s",
+                "W",
+                $value,
+                $tolerance,
+                "5e-4 of the value, as in the source; of the body that sticks, rounding",
+                work_rate,
+            )],
         }
     };
 }
@@ -35,19 +35,14 @@ macro_rules! sdnl32 {
             changes: &[("wall.stop.stiffness", $stiffness)],
             method: "event",
             source: "SDNL32 of VPCS and code_aster (V5.02.032)",
-            values: &[$(Expected {
-                quantity: concat!("displacement of the tip at ", $at, " s"),
-                unit: "m",
-                value: $value,
-                tolerance: 4e-5,
-                reason: "1 % of the largest displacement: the source's values differ by that much from those of an \
-                         independent program with 40 elements",
-                found: |run| displacement(run, $at),
-            }),+],
+            values: &[$(value(concat!("displacement of the tip at ", $at, " s"), "m", $value, 4e-5,
+                "1 % of the largest displacement: the source's values differ by that much from those of an \
+                independent program with 40 elements", |run| displacement(run, $at))),+],
         }
     };
 }
 
+#[rustfmt::skip]
 pub(super) const ENTRIES: &[Entry] = &[
     Entry {
         scene: Scene::BuiltIn("code-aster-sdnd101"),
@@ -55,30 +50,11 @@ pub(super) const ENTRIES: &[Entry] = &[
         method: "event",
         source: "code_aster SDND101",
         values: &[
-            Expected {
-                quantity: "largest force of the stop",
-                unit: "N",
-                value: 9950.37,
-                tolerance: 5e-3,
-                reason: PRINTED,
-                found: |run| contact(run, 0)?.peak_force,
-            },
-            Expected {
-                quantity: "impulse of the stop",
-                unit: "N s",
-                value: -198.020,
-                tolerance: 5e-4,
-                reason: PRINTED,
-                found: |run| contact(run, 0).map(|contact| contact.impulse),
-            },
-            Expected {
-                quantity: "end of the contact",
-                unit: "s",
-                value: 0.03126,
-                tolerance: 5e-6,
-                reason: PRINTED,
-                found: |run| contact(run, 0)?.end,
-            },
+            value("largest force of the stop", "N", 9950.37, 5e-3, PRINTED,
+                |run| contact(run, 0)?.peak_force),
+            value("impulse of the stop", "N s", -198.020, 5e-4, PRINTED,
+                |run| contact(run, 0).map(|contact| contact.impulse)),
+            value("end of the contact", "s", 0.03126, 5e-6, PRINTED, |run| contact(run, 0)?.end),
         ],
     },
     Entry {
@@ -86,14 +62,9 @@ pub(super) const ENTRIES: &[Entry] = &[
         changes: &[],
         method: "moreau-jean",
         source: "code_aster SDND101",
-        values: &[Expected {
-            quantity: "largest force of the stop",
-            unit: "N",
-            value: 9950.37,
-            tolerance: 1.0,
-            reason: "1e-4 of the value: the step of 1e-5 s is a thousandth of the period against the stop",
-            found: |run| contact(run, 0)?.peak_force,
-        }],
+        values: &[value("largest force of the stop", "N", 9950.37, 1.0,
+            "1e-4 of the value: the step of 1e-5 s is a thousandth of the period against the stop",
+            |run| contact(run, 0)?.peak_force)],
     },
     Entry {
         scene: Scene::BuiltIn("code-aster-sdnd108a"),
@@ -101,46 +72,16 @@ pub(super) const ENTRIES: &[Entry] = &[
         method: "event",
         source: "code_aster SDND108A",
         values: &[
-            Expected {
-                quantity: "begin of the contact",
-                unit: "s",
-                value: 0.540_312_423_74,
-                tolerance: 1e-11,
-                reason: PRINTED,
-                found: |run| contact(run, 0).map(|contact| contact.start),
-            },
-            Expected {
-                quantity: "end of the contact",
-                unit: "s",
-                value: 0.885_456_153_07,
-                tolerance: 1e-11,
-                reason: PRINTED,
-                found: |run| contact(run, 0)?.end,
-            },
-            Expected {
-                quantity: "largest force of the floor",
-                unit: "N",
-                value: 74.80741,
-                tolerance: 5e-6,
-                reason: PRINTED,
-                found: |run| contact(run, 0)?.peak_force,
-            },
-            Expected {
-                quantity: "displacement at 1 s",
-                unit: "m",
-                value: -1.332_162_981_855,
-                tolerance: 5e-13,
-                reason: PRINTED,
-                found: |run| displacement(run, 1.0),
-            },
-            Expected {
-                quantity: "displacement at 1.1 s",
-                unit: "m",
-                value: -0.856_394_405_035,
-                tolerance: 5e-13,
-                reason: PRINTED,
-                found: last_displacement,
-            },
+            value("begin of the contact", "s", 0.540_312_423_74, 1e-11, PRINTED,
+                |run| contact(run, 0).map(|contact| contact.start)),
+            value("end of the contact", "s", 0.885_456_153_07, 1e-11, PRINTED,
+                |run| contact(run, 0)?.end),
+            value("largest force of the floor", "N", 74.80741, 5e-6, PRINTED,
+                |run| contact(run, 0)?.peak_force),
+            value("displacement at 1 s", "m", -1.332_162_981_855, 5e-13, PRINTED,
+                |run| displacement(run, 1.0)),
+            value("displacement at 1.1 s", "m", -0.856_394_405_035, 5e-13, PRINTED,
+                last_displacement),
         ],
     },
     Entry {
@@ -149,22 +90,11 @@ pub(super) const ENTRIES: &[Entry] = &[
         method: "moreau-jean",
         source: "code_aster SDND100 (V5.01.100)",
         values: &[
-            Expected {
-                quantity: "displacement where it stays",
-                unit: "m",
-                value: 5e-5,
-                tolerance: 1e-8,
-                reason: "2e-4 of the amplitude that friction takes in a half swing, by steps of 1e-5 s",
-                found: last_displacement,
-            },
-            Expected {
-                quantity: "work rate of wear over 0.15 s",
-                unit: "W",
-                value: 0.24,
-                tolerance: 2.4e-4,
-                reason: "1e-3 of the value",
-                found: work_rate,
-            },
+            value("displacement where it stays", "m", 5e-5, 1e-8,
+                "2e-4 of the amplitude that friction takes in a half swing, by steps of 1e-5 s",
+                last_displacement),
+            value("work rate of wear over 0.15 s", "W", 0.24, 2.4e-4, "1e-3 of the value",
+                work_rate),
         ],
     },
     sdnd104!(15.0, 15.2671, 7.6e-3),
@@ -178,18 +108,13 @@ pub(super) const ENTRIES: &[Entry] = &[
         changes: &[],
         method: "event",
         source: "code_aster SDND125",
-        values: &[Expected {
-            quantity: "force of the left pair at 0.68044 s",
-            unit: "N",
-            value: 1_698.446_690_744_79,
-            tolerance: 0.02,
-            reason: "1e-5 of the value: the source has explicit steps of 1e-6 s",
+        values: &[value("force of the left pair at 0.68044 s", "N", 1_698.446_690_744_79, 0.02,
+            "1e-5 of the value: the source has explicit steps of 1e-6 s",
             // The stop's law in the state at the end.
-            found: |run| match run.state.q[..] {
+            |run| match run.state.q[..] {
                 [left, middle, _] => Some(1e7 * (left - middle - 0.1).max(0.0)),
                 _ => None,
-            },
-        }],
+            })],
     },
     Entry {
         scene: Scene::BuiltIn("siconos-oscillator"),
@@ -197,22 +122,10 @@ pub(super) const ENTRIES: &[Entry] = &[
         method: "event",
         source: "Siconos LinearOscillatorED",
         values: &[
-            Expected {
-                quantity: "instant of the first impact",
-                unit: "s",
-                value: 4.966_983_943_889e-3,
-                tolerance: 5e-16,
-                reason: PRINTED,
-                found: |run| contact(run, 0).map(|contact| contact.start),
-            },
-            Expected {
-                quantity: "speed of the first impact",
-                unit: "m/s",
-                value: 316.258_786,
-                tolerance: 5e-7,
-                reason: PRINTED,
-                found: |run| contact(run, 0).map(|contact| contact.approach_speed),
-            },
+            value("instant of the first impact", "s", 4.966_983_943_889e-3, 5e-16, PRINTED,
+                |run| contact(run, 0).map(|contact| contact.start)),
+            value("speed of the first impact", "m/s", 316.258_786, 5e-7, PRINTED,
+                |run| contact(run, 0).map(|contact| contact.approach_speed)),
         ],
     },
     Entry {
@@ -221,38 +134,14 @@ pub(super) const ENTRIES: &[Entry] = &[
         method: "event",
         source: "Siconos BouncingBallED-TwoContacts, reference file",
         values: &[
-            Expected {
-                quantity: "displacement at 0.92 s",
-                unit: "m",
-                value: 0.816_863_194_677_513_1,
-                tolerance: 1e-13,
-                reason: "rounding of both programs over 4 impacts",
-                found: |run| displacement(run, 0.92),
-            },
-            Expected {
-                quantity: "displacement at 1.9 s",
-                unit: "m",
-                value: 0.264_829_028_234_805_4,
-                tolerance: 1e-13,
-                reason: "rounding of both programs over 7 impacts",
-                found: |run| displacement(run, 1.9),
-            },
-            Expected {
-                quantity: "displacement at 2.88 s",
-                unit: "m",
-                value: 0.451_845_064_179_520_6,
-                tolerance: 1e-13,
-                reason: "rounding of both programs",
-                found: |run| displacement(run, 2.88),
-            },
-            Expected {
-                quantity: "displacement at 4.8 s",
-                unit: "m",
-                value: 0.033_415_485_411_028_92,
-                tolerance: 1e-12,
-                reason: "rounding of both programs",
-                found: |run| displacement(run, 4.8),
-            },
+            value("displacement at 0.92 s", "m", 0.816_863_194_677_513_1, 1e-13,
+                "rounding of both programs over 4 impacts", |run| displacement(run, 0.92)),
+            value("displacement at 1.9 s", "m", 0.264_829_028_234_805_4, 1e-13,
+                "rounding of both programs over 7 impacts", |run| displacement(run, 1.9)),
+            value("displacement at 2.88 s", "m", 0.451_845_064_179_520_6, 1e-13,
+                "rounding of both programs", |run| displacement(run, 2.88)),
+            value("displacement at 4.8 s", "m", 0.033_415_485_411_028_92, 1e-12,
+                "rounding of both programs", |run| displacement(run, 4.8)),
         ],
     },
     Entry {
@@ -260,14 +149,9 @@ pub(super) const ENTRIES: &[Entry] = &[
         changes: &[],
         method: "moreau-jean",
         source: "Siconos FrictionOscillator; closed form 15 - √205",
-        values: &[Expected {
-            quantity: "displacement where it sticks",
-            unit: "m",
-            value: 0.682_178_936_724,
-            tolerance: 2e-4,
-            reason: "the rest is found to the order of the step, 1e-3 s; Siconos has 0.682044 with 1e-2 s",
-            found: last_displacement,
-        }],
+        values: &[value("displacement where it sticks", "m", 0.682_178_936_724, 2e-4,
+            "the rest is found to the order of the step, 1e-3 s; Siconos has 0.682044 with 1e-2 s",
+            last_displacement)],
     },
     Entry {
         scene: Scene::Own("siconos-bouncing-ball", include_str!("scenes/siconos-bouncing-ball.toml")),
@@ -275,38 +159,14 @@ pub(super) const ENTRIES: &[Entry] = &[
         method: "moreau-jean",
         source: "Siconos BouncingBallTS, reference file: the same scheme",
         values: &[
-            Expected {
-                quantity: "displacement at 0.5 s",
-                unit: "m",
-                value: 0.174_488_499_999_999_1,
-                tolerance: 1e-12,
-                reason: "rounding of 100 steps",
-                found: |run| displacement(run, 0.5),
-            },
-            Expected {
-                quantity: "velocity at 1 s",
-                unit: "m/s",
-                value: -1.3734,
-                tolerance: 1e-12,
-                reason: "rounding of 200 steps",
-                found: |run| velocity(run, 1.0),
-            },
-            Expected {
-                quantity: "displacement at 2 s",
-                unit: "m",
-                value: 1.059_962_500_000_67e-3,
-                tolerance: 1e-12,
-                reason: "rounding of 400 steps",
-                found: |run| displacement(run, 2.0),
-            },
-            Expected {
-                quantity: "displacement at 5 s",
-                unit: "m",
-                value: 0.151_353_680_262_514,
-                tolerance: 1e-12,
-                reason: "rounding of 1000 steps",
-                found: |run| displacement(run, 5.0),
-            },
+            value("displacement at 0.5 s", "m", 0.174_488_499_999_999_1, 1e-12,
+                "rounding of 100 steps", |run| displacement(run, 0.5)),
+            value("velocity at 1 s", "m/s", -1.3734, 1e-12, "rounding of 200 steps",
+                |run| velocity(run, 1.0)),
+            value("displacement at 2 s", "m", 1.059_962_500_000_67e-3, 1e-12,
+                "rounding of 400 steps", |run| displacement(run, 2.0)),
+            value("displacement at 5 s", "m", 0.151_353_680_262_514, 1e-12,
+                "rounding of 1000 steps", |run| displacement(run, 5.0)),
         ],
     },
     Entry {
@@ -315,30 +175,12 @@ pub(super) const ENTRIES: &[Entry] = &[
         method: "event",
         source: "ANSYS VM65, after Thomson 1965, example 4.6-1",
         values: &[
-            Expected {
-                quantity: "begin of the contact",
-                unit: "s",
-                value: 0.071_982,
-                tolerance: 5e-7,
-                reason: PRINTED,
-                found: |run| contact(run, 0).map(|contact| contact.start),
-            },
-            Expected {
-                quantity: "speed of the impact",
-                unit: "in/s",
-                value: 27.785,
-                tolerance: 5e-4,
-                reason: PRINTED,
-                found: |run| contact(run, 0).map(|contact| contact.approach_speed),
-            },
-            Expected {
-                quantity: "largest penetration",
-                unit: "in",
-                value: -0.550_665_6,
-                tolerance: 5e-8,
-                reason: "the digits of the closed form that are printed here",
-                found: last_displacement,
-            },
+            value("begin of the contact", "s", 0.071_982, 5e-7, PRINTED,
+                |run| contact(run, 0).map(|contact| contact.start)),
+            value("speed of the impact", "in/s", 27.785, 5e-4, PRINTED,
+                |run| contact(run, 0).map(|contact| contact.approach_speed)),
+            value("largest penetration", "in", -0.550_665_6, 5e-8,
+                "the digits of the closed form that are printed here", last_displacement),
         ],
     },
 ];

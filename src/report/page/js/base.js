@@ -44,10 +44,11 @@ function decode(column) {
   return new kinds[kind](bytes.buffer);
 }
 
-/** A table of the data: its columns by name. */
+/** A table of the data: its columns by name, and the numbers of its rows. */
 function tableOf(table) {
   const columns = Object.fromEntries(table.columns.map((c) => [c.name, decode(c.values)]));
-  return { count: table.rows, names: table.columns.map((c) => c.name), columns };
+  const rows = Array.from({ length: table.rows }, (_, i) => i);
+  return { count: table.rows, rows, names: table.columns.map((c) => c.name), columns };
 }
 
 const clamp = (x, least, most) => Math.min(Math.max(x, least), most);
@@ -61,6 +62,16 @@ function before(list, x) {
     else to = middle;
   }
   return from - 1;
+}
+
+/** The index of the entry of the list that is nearest to x. */
+const nearestTo = (list, x) =>
+  list.reduce((best, y, i) => (Math.abs(y - x) < Math.abs(list[best] - x) ? i : best), 0);
+
+/** The cubic from a to b with the slopes c and d at its ends, at the share s of its length. */
+function cubic(a, b, c, d, s) {
+  const r = 1 - s;
+  return a * (1 + 2 * s) * r * r + c * s * r * r + b * s * s * (3 - 2 * s) - d * s * s * r;
 }
 
 /** Least and largest finite value of a list, or undefined. */
@@ -90,6 +101,10 @@ function digits(x, n = 4) {
   const [mantissa, exponent] = x.toExponential(n - 1).split("e");
   return minus(mantissa.replace(/\.?0+$/, "")) + "·10" + raised(+exponent);
 }
+
+/** A number with the half width of its interval, where it has one; of such a number n digits. */
+const plusMinus = (x, half, n = 4) =>
+  Number.isFinite(half) ? `${digits(x, n)} ± ${digits(half, 2)}` : digits(x);
 
 /** A number with a prefixed unit: 0.0031 s becomes 3.1 ms. */
 function prefixed(x, unit, n = 3) {

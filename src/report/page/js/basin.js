@@ -71,7 +71,7 @@ function basinMap(columns, [first, second], attractors, tell, pick) {
         () => `rgb(${tone})`,
       ),
     );
-  const others = Array.from({ length: attractors.count }, (_, i) => i).filter(
+  const others = attractors.rows.filter(
     (i) => attractors.columns.attractor[i] > ATTRACTOR_TONES.length,
   );
   if (others.length) {
@@ -93,7 +93,7 @@ function basinMap(columns, [first, second], attractors, tell, pick) {
 
 /** The attractors as a table. */
 function attractorSection(attractors) {
-  const { columns, count } = attractors;
+  const { columns, rows } = attractors;
   const number = (name, title, n = 4) => ({
     name: title,
     value: (i) => columns[name][i],
@@ -129,8 +129,8 @@ function attractorSection(attractors) {
         list("approach_speeds_m_per_s", "approach speeds"),
         list("multipliers", "multipliers"),
       ],
-      Array.from({ length: count }, (_, i) => i),
-      { height: 60 + ROW * Math.min(count, 14) },
+      rows,
+      { height: 60 + ROW * Math.min(rows.length, 14) },
     ),
   );
 }

@@ -173,7 +173,3 @@ function bodiesStage() {
   };
   return new Stage(rows.length * each + 22, "The bodies from the side", paint);
 }
-
-/** The number of the station nearest to x. */
-const nearestTo = (stations, x) =>
-  stations.reduce((best, other, k) => (Math.abs(other - x) < Math.abs(stations[best] - x) ? k : best), 0);

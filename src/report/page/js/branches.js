@@ -18,6 +18,9 @@ const BRANCH_LOOKS = {
   "passes a wall": { colour: () => ink.faint, dash: [1.4, 2.4], width: 1.2 },
 };
 
+/** True for an event whose speed is one towards the wall. */
+const isApproach = ({ kind }) => DATA.continue.approaches.includes(kind);
+
 /** The points of the branches, as the page needs them. */
 function readBranches(data) {
   const table = tableOf(data.points);
@@ -30,7 +33,7 @@ function readBranches(data) {
   const speedsOf = (i) => {
     const { events } = branchAt(i);
     return Array.from(speeds.subarray(first[i], first[i + 1])).filter((_, k) =>
-      APPROACHES.includes(events[k].kind),
+      isApproach(events[k]),
     );
   };
   const top = speeds.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
@@ -57,6 +60,7 @@ function readBranches(data) {
     speedsOf,
     state,
     orbits,
+    rowsOf: (number) => table.rows.filter((i) => columns.branch[i] === number),
     multipliers: (i) => multipliersOf(columns, i),
   };
 }
@@ -76,7 +80,7 @@ function branchMeasures(points) {
   const phasesOf = (i) => {
     const { events } = points.branchAt(i);
     const own = Array.from(points.phases.subarray(points.first[i], points.first[i + 1]), cycle);
-    return own.filter((_, k) => APPROACHES.includes(events[k].kind));
+    return own.filter((_, k) => isApproach(events[k]));
   };
   const column = (name) => (i) => [columns[name][i]];
   return [

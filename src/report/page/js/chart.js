@@ -183,8 +183,7 @@ function chartSection() {
     }));
     reasons.replaceChildren(...floors.map(({ floor }) => el("li", {}, `${floor.reason}.`)));
     told.replaceChildren(...[cheapestTable(cheapest, data.error)].filter((table) => table));
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
   };
   tellNearest(
     plot,
@@ -217,7 +216,6 @@ function chartSection() {
 
 /** Every point with its errors. */
 function pointsSection(table) {
-  const rows = Array.from({ length: table.count }, (_, i) => i);
   const columns = columnsOf(table, [
     ["method", "Method"],
     ["step_s", "Step (s)"],
@@ -226,21 +224,11 @@ function pointsSection(table) {
     ["contacts_missing", "Missing"],
     ["contacts_spurious", "Spurious"],
   ]);
-  const saved = () =>
-    save(
-      "work-precision.csv",
-      csvText([table.names, ...rows.map((i) => table.names.map((name) => table.columns[name][i]))]),
-      "text/csv",
-    );
   section(
     "points",
     "Points",
     "Every run: its step, its time and its errors, and the contacts that it misses or has beyond the reference's.",
-    sortable(columns, rows, { height: 360 }),
-    el(
-      "div",
-      { class: "bar controls" },
-      button("The table above", saved, "Save work-precision.csv"),
-    ),
+    sortable(columns, table.rows, { height: 360 }),
+    saveBar("work-precision.csv", () => linesOf(table)),
   );
 }

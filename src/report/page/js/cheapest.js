@@ -1,15 +1,8 @@
 // The cheapest method of each kind at each error: a row for each error, a column for each kind.
 
-/** The names of the errors of CHARTED for which the cheapest methods are known. */
-const CHEAPEST_OF = {
-  displacement_error_over_gap: "displacement",
-  impulse_error_of_the_worst_wall: "impulse",
-  contact_time_error: "contact time",
-};
-
 /** The table for the error of that column of work-precision.csv; null where nothing is known of it. */
 function cheapestTable(cheapest, column) {
-  const rows = (cheapest || []).filter((row) => row.error === CHEAPEST_OF[column]);
+  const rows = (cheapest || []).filter((row) => row.error === DATA.chart.names[column]);
   if (!rows.length) return null;
   const kinds = [...new Set(rows.map((row) => row.kind))];
   const tolerances = [...new Set(rows.map((row) => row.tolerance))];

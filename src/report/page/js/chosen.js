@@ -80,8 +80,6 @@ function chosenOrbit(points, choice) {
   const command = el("pre", { class: "command", tabindex: 0 });
   const listeners = [];
   const numbers = DATA.continue.branches.map(({ branch }) => branch);
-  const rowsOf = (number) =>
-    Array.from(columns.branch, (_, i) => i).filter((i) => columns.branch[i] === number);
   let rows = [];
   const go = (i) => {
     choice.row = i;
@@ -100,7 +98,7 @@ function chosenOrbit(points, choice) {
     numbers.map((number) => [String(number), `branch ${number}`]),
     String(numbers[0]),
     (number) => {
-      const own = rowsOf(+number);
+      const own = points.rowsOf(+number);
       if (own.length) go(own[own.length >> 1]);
     },
   );
@@ -118,7 +116,7 @@ function chosenOrbit(points, choice) {
   const update = () => {
     const i = choice.row;
     const number = columns.branch[i];
-    if (!rows.includes(i)) rows = rowsOf(number);
+    if (!rows.includes(i)) rows = points.rowsOf(number);
     slider.max = rows.length - 1;
     slider.value = rows.indexOf(i);
     branch.value = String(number);

@@ -22,19 +22,12 @@ const COMPARED = [
 function compareSection() {
   const { reference, draws } = DATA.compare;
   const table = tableOf(DATA.compare.table);
-  const rows = Array.from({ length: table.count }, (_, i) => i);
   const said = (name) =>
     Array.isArray(table.columns[name]) && table.columns[name].some((word) => word);
   const columns = columnsOf(
     table,
     COMPARED.filter(([name]) => !["refuted", "failure"].includes(name) || said(name)),
   );
-  const saved = () =>
-    save(
-      "compare.csv",
-      csvText([table.names, ...rows.map((i) => table.names.map((name) => table.columns[name][i]))]),
-      "text/csv",
-    );
   section(
     "methods",
     "Methods",
@@ -42,8 +35,8 @@ function compareSection() {
       (reference ? `, against ${reference}${DATA.horizon ? " up to the horizon of prediction" : ""}` : "") +
       (draws > 1 ? `: draw 1 of ${draws} of the random loads.` : "."),
     conclusionOf(DATA.compare.conclusion),
-    sortable(columns, rows, { height: 60 + ROW * rows.length }),
-    el("div", { class: "bar controls" }, button("The table above", saved, "Save compare.csv")),
+    sortable(columns, table.rows, { height: 60 + ROW * table.count }),
+    saveBar("compare.csv", () => linesOf(table)),
     distancePlot(),
   );
 }
@@ -52,19 +45,18 @@ function compareSection() {
 function methodMeansSection() {
   const { means, draws } = DATA.compare;
   const table = tableOf(means);
-  const { columns } = table;
-  const text = (name, words) => ({ name: words, text: true, value: (i) => columns[name][i], show: (i) => columns[name][i] });
+  const { columns, rows } = table;
+  const text = (name, words) => wordColumn(words, (i) => columns[name][i]);
   // A column without any number is one of empty words.
   const at = (name, i) => (Array.isArray(columns[name]) ? NaN : columns[name][i]);
   const number = (words, name, half) => ({
     name: words,
     value: (i) => at(name, i),
-    show: (i) => digits(at(name, i)) + (at(half, i) >= 0 ? ` ± ${digits(at(half, i), 2)}` : ""),
+    show: (i) => plusMinus(at(name, i), at(half, i)),
   });
   const less = Array.from(columns.less).find((name) => typeof name === "string" && name);
   // By place and quantity, in the order of the file, and the methods of each together.
   const key = (i) => `${columns.place[i]} ${columns.kind[i]} ${columns.measure[i]}`;
-  const rows = Array.from({ length: table.count }, (_, i) => i);
   const first = new Map([...rows].reverse().map((i) => [key(i), i]));
   rows.sort((i, j) => first.get(key(i)) - first.get(key(j)) || i - j);
   section(

@@ -23,10 +23,8 @@ function contactSection() {
     show: (row) => digits(value(row), 5),
   });
   const columns = [
-    one
-      ? null
-      : { name: "method", text: true, value: ([run]) => run.label, show: ([run]) => run.label },
-    { name: "wall", text: true, value: wallOf, show: wallOf },
+    one ? null : wordColumn("method", ([run]) => run.label),
+    wordColumn("wall", wallOf),
     { name: "from (s)", up: true, value: of("start"), show: (row) => of("start")(row).toFixed(6) },
     lasting
       ? {
@@ -73,7 +71,7 @@ function contactSection() {
     },
     sorted: (i) => columns[i].label && histogram.show(columns[i]),
   });
-  const saved = () => {
+  const lines = () => {
     const header = [
       "wall",
       "start_s",
@@ -87,18 +85,14 @@ function contactSection() {
       wallOf(row),
       ...["start", "end", "impulse", "peak", "approach", "departure"].map((key) => of(key)(row)),
     ];
-    save(
-      "contacts.csv",
-      csvText([header, ...rows.filter(([run]) => run === lead).map(line)]),
-      "text/csv",
-    );
+    return [header, ...rows.filter(([run]) => run === lead).map(line)];
   };
   section(
     "contacts",
     "Contacts",
     `${counted(rows.length)} contacts. Sort by a column to see how it is distributed; click a row to go there.`,
     el("div", { class: "two long" }, table, histogram.box),
-    el("div", { class: "bar controls" }, button("All digits", saved, "Save contacts.csv")),
+    saveBar("contacts.csv", lines, "All digits"),
   );
 }
 
@@ -147,8 +141,7 @@ function histogramOf(columns, rows, wallOf) {
       plot.X = padded([lo, lo + BINS * bin], 0.02);
       plot.Y = [0, 1.08 * Math.max(1, ...plot.series.map((s) => Math.max(...s.y)))];
     };
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
     shown = column;
   };
   let shown = columns.find((column) => column.name.startsWith("impulse"));
@@ -179,13 +172,11 @@ function statisticsSection() {
   const column = (name, value, half, factor = 1) => ({
     name,
     value: (wall) => number(value(wall)) * factor,
-    show: (wall) => {
-      const [x, h] = [number(value(wall)) * factor, half ? number(half(wall)) * factor : NaN];
-      return Number.isFinite(x) ? digits(x) + (h > 0 ? ` ± ${digits(h, 2)}` : "") : "–";
-    },
+    show: (wall) =>
+      plusMinus(number(value(wall)) * factor, half ? half(wall) * factor || null : null),
   });
   const columns = [
-    { name: "wall", text: true, value: (wall) => wall.wall, show: (wall) => wall.wall },
+    wordColumn("wall", (wall) => wall.wall),
     column("contacts", (w) => w.contacts),
     column(
       "contacts a second",
@@ -227,20 +218,15 @@ function statisticsSection() {
       1e3,
     ),
   ];
-  const saved = () =>
-    save(
-      "walls.csv",
-      csvText([
-        columns.map((c) => c.name),
-        ...walls.map((wall) => columns.map((c) => c.value(wall))),
-      ]),
-      "text/csv",
-    );
+  const lines = () => [
+    columns.map((c) => c.name),
+    ...walls.map((wall) => columns.map((c) => c.value(wall))),
+  ];
   section(
     "statistics",
     "Walls",
     `From ${digits(statistics.from_s)} to ${digits(statistics.to_s)} s; ± is half the 95 % interval of the mean.`,
     sortable(columns, walls, { height: Math.min(420, 60 + ROW * walls.length) }),
-    el("div", { class: "bar controls" }, button("The table above", saved, "Save walls.csv")),
+    saveBar("walls.csv", lines),
   );
 }

@@ -18,8 +18,6 @@ function branchSection() {
       value: (row) => (row[key] === null || row[key] === undefined ? (text ? "" : NaN) : row[key]),
       show: (row) => (text ? String(row[key] ?? "") || "–" : digits(row[key], 9)),
     }));
-  const rowsOf = (number) =>
-    Array.from(points.value, (_, i) => i).filter((i) => points.columns.branch[i] === number);
   const branches = DATA.continue.branches.map((branch) => ({
     ...branch,
     signature: signatureText(branch.signature, branch.symmetric, branch.events.length),
@@ -48,7 +46,7 @@ function branchSection() {
       {
         height: 60 + ROW * Math.min(branches.length, 12),
         pick: (branch) => {
-          const rows = rowsOf(branch.branch);
+          const rows = points.rowsOf(branch.branch);
           if (rows.length) select(rows[rows.length >> 1]);
         },
       },
@@ -60,9 +58,9 @@ function branchSection() {
     leads: (special.leads_to || []).join(" "),
   }));
   const rowOf = (special) =>
-    rowsOf(special.branch).find(
-      (i) => points.label(i) === special.label && points.value[i] === special.value,
-    );
+    points
+      .rowsOf(special.branch)
+      .find((i) => points.label(i) === special.label && points.value[i] === special.value);
   if (specials.length)
     section(
       "specials",
@@ -91,7 +89,7 @@ function branchSection() {
   if (DATA.continue.loci) locusSection();
   pointSection(points, select);
   // A stable orbit in the middle of what is in view of the first branch.
-  const rows = rowsOf(1);
+  const rows = points.rowsOf(1);
   const stable = rows.filter((i) => points.columns.stable[i] && !points.label(i));
   const inView = stable.filter((i) => points.value[i] >= plot.view.lo && points.value[i] <= plot.view.hi);
   const initial = [inView, stable, rows].find((list) => list.length) || [];
@@ -100,9 +98,7 @@ function branchSection() {
 
 /** All orbits as a table. */
 function pointSection(points, select) {
-  const rows = Array.from({ length: points.count }, (_, i) => i);
-  const shown = points.names.filter((name) => !["admissible"].includes(name));
-  const values = (i) => points.names.map((name) => points.columns[name][i]);
+  const shown = points.names.filter((name) => name !== "admissible");
   section(
     "orbits",
     "All orbits",
@@ -112,18 +108,10 @@ function pointSection(points, select) {
         points,
         shown.map((name) => [name, columnLabel(name)]),
       ),
-      rows,
+      points.rows,
       { height: 360, pick: select },
     ),
-    el(
-      "div",
-      { class: "bar controls" },
-      button(
-        "The table above",
-        () => save("branches.csv", csvText([points.names, ...rows.map(values)]), "text/csv"),
-        "Save the table",
-      ),
-    ),
+    saveBar("branches.csv", () => linesOf(points), "The table above", "Save the table"),
   );
 }
 
@@ -133,9 +121,7 @@ function locusSection() {
   const [first, second] = DATA.continue.loci.keys;
   const numbers = [...new Set(table.columns.locus)];
   const items = numbers.map((number, n) => {
-    const rows = Array.from(table.columns.locus, (_, i) => i).filter(
-      (i) => table.columns.locus[i] === number,
-    );
+    const rows = table.rows.filter((i) => table.columns.locus[i] === number);
     return {
       label: `${number} ${table.columns.label[rows[0]]}`,
       look: lookOf(n),
@@ -170,10 +156,7 @@ function locusSection() {
     "loci",
     "Loci",
     "Where the special points of the branches move in the plane of two keys.",
-    chips(items, () => {
-      plot.dirty = true;
-      refresh();
-    }),
+    chips(items, () => plot.redraw()),
     plot.box,
   );
 }

@@ -4,7 +4,6 @@ function derivativeSection() {
   const { tables, growth } = DATA.derivatives;
   const content = tables.flatMap(({ file, count, table: packed }) => {
     const table = tableOf(packed);
-    const rows = Array.from({ length: table.count }, (_, i) => i);
     const first = count > table.count ? `: the first ${table.count} of ${count} rows` : "";
     return [
       el("h3", {}, `${file}${first}`),
@@ -13,8 +12,8 @@ function derivativeSection() {
           table,
           table.names.map((name) => [name, name]),
         ),
-        rows,
-        { height: 60 + ROW * Math.min(rows.length, 12) },
+        table.rows,
+        { height: 60 + ROW * Math.min(table.count, 12) },
       ),
     ];
   });

@@ -90,13 +90,8 @@ function branchPlot(points, choice, select) {
   plot.over = (ctx) => {
     ring(ctx);
     if (choice.row === null) return;
-    for (const y of choice.measure.of(choice.row)) {
-      ctx.strokeStyle = ink.ink;
-      ctx.lineWidth = 2;
-      ctx.beginPath();
-      ctx.arc(plot.sx(points.value[choice.row]), plot.sy(y), 6.5, 0, TURN);
-      ctx.stroke();
-    }
+    for (const y of choice.measure.of(choice.row))
+      drawRing(ctx, plot.sx(points.value[choice.row]), plot.sy(y), 6.5, ink.ink);
   };
   plot.click = () => plot.found && select(plot.found.i);
   const fill = () => {
@@ -104,8 +99,7 @@ function branchPlot(points, choice, select) {
     plot.y = choice.measure.text;
     plot.log = [false, Boolean(choice.measure.log)];
     plot.marks = choice.measure.log ? [{ y: 1, dash: [2, 3], label: "stable below 1" }] : [];
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
   };
   fill();
   const pick = selection(

@@ -11,36 +11,51 @@ const BOUND_LOOKS = [3, 2];
 function effectBars(columns, rows, name) {
   const unit = columns.unit[rows[0]];
   const label = name + (unit ? ` (${unit})` : "");
-  const level = (k) => rows.length - k;
-  const draw = (ctx, plot) => {
-    rows.forEach((i, k) => {
-      const base = plot.sx(columns.base[i]);
-      const ends = [columns.at_low[i], columns.at_high[i]].map((x, side) => [plot.sx(x), side]);
-      // The longer half first, so that both show where they lie on one side.
-      ends.sort(([a], [b]) => Math.abs(b - base) - Math.abs(a - base));
-      for (const [end, side] of ends) {
-        if (!Number.isFinite(end)) continue;
-        ctx.strokeStyle = ctx.fillStyle = lookOf(BOUND_LOOKS[side]).colour();
-        ctx.lineWidth = 1.4;
-        const place = [Math.min(base, end), plot.sy(level(k)) - 8, Math.abs(end - base), 16];
-        if (!isSeen(columns, i)) ctx.fillStyle = ink.paper;
-        ctx.fillRect(...place);
-        ctx.strokeRect(...place);
-      }
-    });
-    ctx.strokeStyle = ink.ink;
-    ctx.beginPath();
-    ctx.moveTo(plot.sx(columns.base[rows[0]]), plot.y0);
-    ctx.lineTo(plot.sx(columns.base[rows[0]]), plot.y1);
-    ctx.stroke();
+  const bar = (ctx, plot, i, y) => {
+    const base = plot.sx(columns.base[i]);
+    const ends = [columns.at_low[i], columns.at_high[i]].map((x, side) => [plot.sx(x), side]);
+    // The longer half first, so that both show where they lie on one side.
+    ends.sort(([a], [b]) => Math.abs(b - base) - Math.abs(a - base));
+    for (const [end, side] of ends) {
+      if (!Number.isFinite(end)) continue;
+      ctx.strokeStyle = ctx.fillStyle = lookOf(BOUND_LOOKS[side]).colour();
+      ctx.lineWidth = 1.4;
+      const place = [Math.min(base, end), y - 8, Math.abs(end - base), 16];
+      if (!isSeen(columns, i)) ctx.fillStyle = ink.paper;
+      ctx.fillRect(...place);
+      ctx.strokeRect(...place);
+    }
   };
   const values = rows.flatMap((i) => [columns.base[i], columns.at_low[i], columns.at_high[i]]);
-  const plot = new Plot({
+  return barPlot(columns, rows, {
     x: label,
+    alt: `Effects on ${label}`,
+    values,
+    base: columns.base[rows[0]],
+    bar,
+  });
+}
+
+/**
+ * Bars of the keys in these rows, the first above. Options: x, alt, values (what the axis spans),
+ * base (where an upright line stands), bar(ctx, plot, i, y) draws that of row i at the height y.
+ */
+function barPlot(columns, rows, { x, alt, values, base, bar }) {
+  const level = (k) => rows.length - k;
+  const draw = (ctx, plot) => {
+    rows.forEach((i, k) => bar(ctx, plot, i, plot.sy(level(k))));
+    ctx.strokeStyle = ink.ink;
+    ctx.beginPath();
+    ctx.moveTo(plot.sx(base), plot.y0);
+    ctx.lineTo(plot.sx(base), plot.y1);
+    ctx.stroke();
+  };
+  const plot = new Plot({
+    x,
     height: 60 + 28 * rows.length,
     left: 210,
     narrow: 140,
-    alt: `Effects on ${label}`,
+    alt,
     yTicks: rows.map((i, k) => [level(k), String(columns.key[i])]),
     range: () => [0.4, rows.length + 0.6],
     series: [{ kind: "own", look: lookOf(0), x: values, y: [], draw }],
@@ -49,9 +64,9 @@ function effectBars(columns, rows, name) {
 }
 
 /** The lines of each measure and place of a table of effects or shares, by its name in words. */
-function linesByMeasure(columns, count) {
+function linesByMeasure({ columns, rows }) {
   const groups = new Map();
-  for (let i = 0; i < count; i++) {
+  for (const i of rows) {
     const name = `${columns.measure[i]} ${columns.place[i] || ""}`.replace(/_/g, " ").trim();
     if (!groups.has(name)) groups.set(name, []);
     groups.get(name).push(i);
@@ -60,9 +75,10 @@ function linesByMeasure(columns, count) {
 }
 
 /** The diagrams of all measures and places, with what the colours stand for. */
-function effectDiagrams(columns, count) {
+function effectDiagrams(effects) {
+  const { columns, rows } = effects;
   const words = ["at the lower bound", "at the upper bound"];
-  const hollow = Array.from({ length: count }, (_, i) => i).some((i) => !isSeen(columns, i));
+  const hollow = rows.some((i) => !isSeen(columns, i));
   return [
     el(
       "div",
@@ -70,7 +86,7 @@ function effectDiagrams(columns, count) {
       words.map((text, side) => swatch(text, () => lookOf(BOUND_LOOKS[side]).colour())),
       hollow ? el("span", { class: "help" }, "hollow: not distinguished from none") : null,
     ),
-    ...linesByMeasure(columns, count).map(([name, rows]) => effectBars(columns, rows, name)),
+    ...linesByMeasure(effects).map(([name, lines]) => effectBars(columns, lines, name)),
   ];
 }
 
@@ -86,7 +102,7 @@ const namedColumns = (columns) =>
     }));
 
 function effectsSection(effects, seeds) {
-  const { columns, count } = effects;
+  const { columns, rows } = effects;
   const number = (name, title) => ({
     name: title,
     value: (i) => columns[name][i],
@@ -96,17 +112,9 @@ function effectsSection(effects, seeds) {
   const effect = {
     name: "effect",
     value: (i) => columns.effect[i],
-    show: (i) =>
-      Number.isFinite(half[i])
-        ? `${digits(columns.effect[i], 3)} ± ${digits(half[i], 2)}`
-        : digits(columns.effect[i], 4),
+    show: (i) => plusMinus(columns.effect[i], half[i], 3),
   };
-  const seen = {
-    name: "distinguished from none",
-    text: true,
-    value: (i) => (isSeen(columns, i) ? "yes" : "no"),
-    show: (i) => (isSeen(columns, i) ? "yes" : "no"),
-  };
+  const seen = wordColumn("distinguished from none", (i) => (isSeen(columns, i) ? "yes" : "no"));
   section(
     "effects",
     "Effects",
@@ -114,7 +122,7 @@ function effectsSection(effects, seeds) {
       (seeds
         ? ` Means over ${seeds} of the random loads, of differences under the same seeds; ± is the half width of the 95 % interval, by Student's t.`
         : ""),
-    ...effectDiagrams(columns, count),
+    ...effectDiagrams(effects),
     sortable(
       [
         ...namedColumns(columns),
@@ -126,8 +134,8 @@ function effectsSection(effects, seeds) {
         effect,
         ...(seeds ? [seen] : []),
       ],
-      Array.from({ length: count }, (_, i) => i),
-      { height: 60 + ROW * Math.min(count, 16) },
+      rows,
+      { height: 60 + ROW * Math.min(rows.length, 16) },
     ),
   );
 }

@@ -16,11 +16,8 @@ const halfWidthsOf = (columns, name) => {
 };
 
 /** A number of a row, with its interval where it has one. */
-function withInterval(columns, name, i) {
-  const half = (halfWidthsOf(columns, name) || [])[i];
-  const value = digits(columns[name][i]);
-  return Number.isFinite(half) ? `${value} ± ${digits(half, 2)}` : value;
-}
+const withInterval = (columns, name, i) =>
+  plusMinus(columns[name][i], (halfWidthsOf(columns, name) || [])[i]);
 
 /** The band of the intervals about a curve; null where it has none. */
 function bandOf(curve, half) {

@@ -153,6 +153,26 @@ function drawMarker(ctx, kind, x, y, r) {
   }
 }
 
+/** A dot with a rim in the colour of the ground. */
+function drawDot(ctx, x, y, r, colour, rim = 1.5) {
+  ctx.fillStyle = colour;
+  ctx.strokeStyle = ink.paper;
+  ctx.lineWidth = rim;
+  ctx.beginPath();
+  ctx.arc(x, y, r, 0, TURN);
+  ctx.fill();
+  ctx.stroke();
+}
+
+/** A ring about a point that is pointed at. */
+function drawRing(ctx, x, y, r, colour) {
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = 2;
+  ctx.beginPath();
+  ctx.arc(x, y, r, 0, TURN);
+  ctx.stroke();
+}
+
 /** The pattern of what a wall keeps the body out of. */
 function hatch(ctx) {
   if (hatching) return hatching;

@@ -19,8 +19,7 @@ function marginSection() {
     value: (row) => (row[key] ?? Infinity) * factor,
     show: (row) => (row[key] === null ? "no flow" : digits(row[key] * factor, 4)),
   });
-  const names = (row) => row.bodies.join(", ");
-  const bodies = { name: "bodies", text: true, value: names, show: names };
+  const bodies = wordColumn("bodies", (row) => row.bodies.join(", "));
   section(
     "margins",
     "Stability in the flow",
@@ -29,7 +28,7 @@ function marginSection() {
       "in the motion.",
     sortable(
       [
-        { name: "supports", text: true, value: (row) => row.supports, show: (row) => row.supports },
+        wordColumn("supports", (row) => row.supports),
         ...(rows.some(({ bodies }) => bodies?.length) ? [bodies] : []),
         { name: "mode", value: (row) => row.number, show: (row) => String(row.number) },
         column("frequency (Hz)", "frequency_hz"),

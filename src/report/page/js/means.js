@@ -4,7 +4,6 @@
 function meansSection({ count, estimates, checks }, title, runs) {
   const judged = estimates.some(({ error }) => error);
   const words = (measure) => measure.replace(/_/g, " ");
-  const name = (title, of) => ({ name: title, text: true, value: of, show: of });
   /** A share of the mean, in per cent. */
   const share = (row, x) => digits((100 * x) / Math.abs(row.mean), 2);
   const part = (key) => ({
@@ -34,14 +33,13 @@ function meansSection({ count, estimates, checks }, title, runs) {
         : "."),
     sortable(
       [
-        name("place", (row) => row.place),
-        name("mean of", (row) => words(row.measure)),
-        name("unit", (row) => row.unit),
+        wordColumn("place", (row) => row.place),
+        wordColumn("mean of", (row) => words(row.measure)),
+        wordColumn("unit", (row) => row.unit),
         {
           name: "mean",
           value: (row) => row.mean,
-          show: ({ mean, half_width_95: half }) =>
-            half === null ? digits(mean) : `${digits(mean)} ± ${digits(half, 2)}`,
+          show: ({ mean, half_width_95: half }) => plusMinus(mean, half),
         },
         ...(judged ? errors : []),
       ],

@@ -10,10 +10,13 @@ const DIRECTION_MARKERS = { up: "triangle", down: "down" };
 /** A bend of a curve of more than this share of its range is where something happens. */
 const BEND = 0.03;
 
+/** The numbers of the values of a list, from the least on. */
+const orderOf = (x) => Array.from(x, (_, i) => i).sort((i, j) => x[i] - x[j]);
+
 /** The values of the axis about which a measure does not go on as beside it. */
 function eventful(columns, axis, measures) {
   const found = [];
-  const order = Array.from(columns[axis], (_, i) => i).sort((i, j) => columns[axis][i] - columns[axis][j]);
+  const order = orderOf(columns[axis]);
   const x = order.map((i) => columns[axis][i]);
   for (const name of measures) {
     const y = order.map((i) => columns[name][i]);
@@ -41,7 +44,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
   const unitOf = (name) => (/\((.*)\)$/.exec(columnLabel(name)) || ["", ""])[1];
   const units = [...new Set(measures.map(unitOf))];
   // From left to right, also where the values fall.
-  const rows = Array.from(columns[axis], (_, i) => i).sort((i, j) => columns[axis][i] - columns[axis][j]);
+  const rows = orderOf(columns[axis]);
   // Up and down are curves of their own colours; else a measure of a place has the place's colour.
   const directions = bothDirections(columns.direction) ? ["up", "down"] : [undefined];
   const itemOf = (name, n) => {
@@ -68,7 +71,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
   /** The same measure of the other sweep: thin and pale, in its colour. */
   const paleCurve = (item) => {
     const [x, y] = [over.columns[axis], over.columns[item.name]];
-    const along = Array.from(x, (_, i) => i).sort((i, j) => x[i] - x[j]);
+    const along = orderOf(x);
     const look = { ...item.look, dash: [], width: 3, behind: true };
     const series = { kind: "line", look, alpha: 0.4, hidden: () => !item.shown };
     return { ...series, x: along.map((i) => x[i]), y: along.map((i) => y[i]) };
@@ -93,11 +96,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
         .flatMap((s) => s.rows.map((i, k) => ({ x: s.x[k], y: s.y[k], i })));
     tellNearest(plot, points, ({ i }) => tell(i));
     plot.click = () => plot.found && pick(plot.found.i);
-    const redraw = () => {
-      plot.dirty = true;
-      refresh();
-    };
-    return [items.length > 1 ? chips(items, redraw) : null, plot.box];
+    return [items.length > 1 ? chips(items, () => plot.redraw()) : null, plot.box];
   };
   return el(
     "div",

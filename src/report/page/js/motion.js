@@ -92,12 +92,7 @@ function stateAt(probe, t) {
   const h = T[i + 1] - T[i];
   if (h <= 0) return [Q[i + 1], V[i + 1]];
   const s = clamp((t - T[i]) / h, 0, 1);
-  const r = 1 - s;
-  const q =
-    Q[i] * (1 + 2 * s) * r * r +
-    h * V[i] * s * r * r +
-    Q[i + 1] * s * s * (3 - 2 * s) -
-    h * V[i + 1] * s * s * r;
+  const q = cubic(Q[i], Q[i + 1], h * V[i], h * V[i + 1], s);
   return [q, V[i] + s * (V[i + 1] - V[i])];
 }
 

@@ -5,9 +5,6 @@
 // events: [{ wall, kind, phase, speed }], multipliers: [[re, im], …] }; walls are { name, side,
 // position (m; null where it is not known), rigid }.
 
-/** Kinds of events whose number is a speed towards the wall. */
-const APPROACHES = ["impact", "rest", "chatter", "enter"];
-
 /** A complex number; of a pair of conjugates both at once. */
 function complexText([re, im], n = 4) {
   return im ? `${digits(re, n)} ${im < 0 ? "−" : "+"} ${digits(Math.abs(im), n)} i` : digits(re, n);
@@ -53,7 +50,7 @@ function refined(T, Q, V, forcing) {
     for (let k = 1; k < PARTS; k++) {
       const s = k / PARTS;
       const r = 1 - s;
-      const q = a * (1 + 2 * s) * r * r + c * s * r * r + b * s * s * (3 - 2 * s) - d * s * s * r;
+      const q = cubic(a, b, c, d, s);
       const v = (6 * s * r * (b - a) + c * r * (1 - 3 * s) + d * s * (3 * s - 2)) / h;
       add(T[i] + s * (T[i + 1] - T[i]), q, v);
     }
@@ -116,15 +113,7 @@ function orbitPlots(shown) {
   };
   over.range = () => span(line.y, "q");
   const index = (t) => clamp(before(line.x, t), 0, line.x.length - 1);
-  const dot = (ctx, plot, x, y) => {
-    ctx.fillStyle = ink.c2;
-    ctx.strokeStyle = ink.paper;
-    ctx.lineWidth = 1.5;
-    ctx.beginPath();
-    ctx.arc(plot.sx(x), plot.sy(y), 5, 0, TURN);
-    ctx.fill();
-    ctx.stroke();
-  };
+  const dot = (ctx, plot, x, y) => drawDot(ctx, plot.sx(x), plot.sy(y), 5, ink.c2);
   const tip = el("div", { class: "tip", hidden: true });
   over.box.append(tip);
   over.hover = (x, place) => {
@@ -161,12 +150,7 @@ function orbitPlots(shown) {
     curve.x = closed(orbit.Q, length);
     curve.y = closed(orbit.V, fast);
     [line.x, line.y] = [Array.from(orbit.T), Array.from(orbit.Q, (q) => q * length)];
-    const mark = (axis) => (wall) => ({
-      [axis]: wall.position * length,
-      side: wall.side,
-      label: axis === "y" ? wall.name : "",
-      soft: !wall.rigid,
-    });
+    const mark = (axis) => wallMark(axis, length, ({ rigid }) => !rigid);
     const known = orbit.walls.filter((wall) => wall.position !== null);
     portrait.marks = known.map(mark("x"));
     over.marks = known.map(mark("y"));
@@ -174,8 +158,7 @@ function orbitPlots(shown) {
       over.view.full = padded([line.x[0], line.x[line.x.length - 1]], 0.03);
       [over.view.lo, over.view.hi] = over.view.full;
     }
-    for (const plot of plots) plot.dirty = true;
-    refresh();
+    for (const plot of plots) plot.redraw();
   };
   return { portrait, over, update };
 }

@@ -31,15 +31,7 @@ function timed(plot, read, show) {
 
 /** The values of the curves at the cursor, as dots and in a box beside it. */
 function drawReadings(ctx, plot, x, readings, show) {
-  for (const [run, y] of readings) {
-    ctx.fillStyle = run.look.colour();
-    ctx.strokeStyle = ink.paper;
-    ctx.lineWidth = 1.2;
-    ctx.beginPath();
-    ctx.arc(x, plot.sy(y), 3.4, 0, TURN);
-    ctx.fill();
-    ctx.stroke();
-  }
+  for (const [run, y] of readings) drawDot(ctx, x, plot.sy(y), 3.4, run.look.colour(), 1.2);
   const lines = readings.map(([run, y]) => (readings.length > 1 ? `${run.label}  ` : "") + show(y));
   if (!lines.length) return;
   const width = Math.max(...lines.map((line) => ctx.measureText(line).width)) + 16;
@@ -60,17 +52,17 @@ function drawReadings(ctx, plot, x, readings, show) {
   });
 }
 
+/** The line of a wall across an axis in units of which `factor` are a metre. */
+const wallMark = (axis, factor, isSoft) => (wall) => ({
+  [axis]: wall.position * factor,
+  side: wall.side,
+  label: axis === "y" ? wall.name : "",
+  soft: isSoft(wall),
+});
+
 /** Lines of the walls that a watched place can meet. */
-function wallMarks(probe, factor, axis) {
-  return probe.walls
-    .map((i) => DATA.scene.walls[i])
-    .map((wall) => ({
-      [axis]: wall.position * factor,
-      side: wall.side,
-      label: axis === "y" ? wall.name : "",
-      soft: isElastic(wall),
-    }));
-}
+const wallMarks = (probe, factor, axis) =>
+  probe.walls.map((i) => DATA.scene.walls[i]).map(wallMark(axis, factor, isElastic));
 
 const horizonMark = (label) => ({
   x: DATA.horizon,

@@ -132,19 +132,14 @@ function orbitForces(over) {
       hidden: () => !items[n].shown,
     })),
   });
-  const redraw = () => {
-    plot.dirty = true;
-    refresh();
-  };
-  return el("div", {}, chips(items, redraw), plot.box);
+  return el("div", {}, chips(items, () => plot.redraw()), plot.box);
 }
 
 /** The contacts of the free run over one period. */
 function contactTable() {
   const table = tableOf(DATA.orbit.contacts);
-  const { columns, count } = table;
-  if (!count) return;
-  const rows = Array.from({ length: count }, (_, i) => i);
+  const { columns, rows } = table;
+  if (!rows.length) return;
   const phase = (i) => columns.start_s[i] / DATA.orbit.forcing;
   const number = (name, text, n = 6) => ({
     name: text,
@@ -158,7 +153,7 @@ function contactTable() {
     "Of the free run by the exact scheme over one period.",
     sortable(
       [
-        { name: "wall", text: true, value: (i) => columns.wall[i], show: (i) => columns.wall[i] },
+        wordColumn("wall", (i) => columns.wall[i]),
         { name: "phase (cycles)", value: phase, show: (i) => digits(phase(i), 7) },
         number("approach_speed_m_per_s", "approach (m/s)"),
         number("departure_speed_m_per_s", "departure (m/s)"),
@@ -169,20 +164,7 @@ function contactTable() {
       rows,
       { height: 400 },
     ),
-    el(
-      "div",
-      { class: "bar controls" },
-      button(
-        "The table above",
-        () =>
-          save(
-            "contacts.csv",
-            csvText([table.names, ...rows.map((i) => table.names.map((name) => columns[name][i]))]),
-            "text/csv",
-          ),
-        "Save contacts.csv",
-      ),
-    ),
+    saveBar("contacts.csv", () => linesOf(table)),
   );
 }
 

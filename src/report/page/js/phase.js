@@ -107,21 +107,14 @@ function phasePlot(choice) {
   const changed = () => {
     if (plot.dropped) return;
     if (period) strobe();
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
   };
   view.listeners.push(changed);
   if (period) strobe();
   plot.over = (ctx) => {
     if (!lead.shown) return;
     const [q, v] = stateAt(probe, now());
-    ctx.fillStyle = ink.c2;
-    ctx.strokeStyle = ink.paper;
-    ctx.lineWidth = 1.5;
-    ctx.beginPath();
-    ctx.arc(plot.sx(q * factor), plot.sy(v * fast), 5, 0, TURN);
-    ctx.fill();
-    ctx.stroke();
+    drawDot(ctx, plot.sx(q * factor), plot.sy(v * fast), 5, ink.c2);
   };
   if (!period) return el("div", {}, plot.box);
   const told = el("span");
@@ -208,8 +201,7 @@ function contactPhases(index) {
   view.listeners.push(() => {
     if (plot.dropped) return;
     fill();
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
   });
   const points = () =>
     series
@@ -228,11 +220,7 @@ function contactPhases(index) {
     const { start, wall, approach } = lead.contacts;
     const k = before(start, now());
     if (k < 0 || !walls.includes(wall[k]) || now() - start[k] > period / 2) return;
-    ctx.strokeStyle = ink.c2;
-    ctx.lineWidth = 2;
-    ctx.beginPath();
-    ctx.arc(plot.sx(phase(start[k])), plot.sy(approach[k] * factor), 7, 0, TURN);
-    ctx.stroke();
+    drawRing(ctx, plot.sx(phase(start[k])), plot.sy(approach[k] * factor), 7, ink.c2);
   };
   const names = walls
     .map((wall, n) => `${n % 2 ? "□" : "●"} ${DATA.scene.walls[wall].name}`)

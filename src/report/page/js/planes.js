@@ -45,11 +45,7 @@ function planesStage() {
   const loadPlaces = planes
     ? [...new Set(loads.map(({ at }) => at && (at.position ?? at.dof)))].filter(Number.isFinite)
     : [];
-  const nearest = (x) =>
-    planes[0].x.reduce(
-      (best, other, k) => (Math.abs(other - x) < Math.abs(planes[0].x[best] - x) ? k : best),
-      0,
-    );
+  const nearest = (x) => nearestTo(planes[0].x, x);
   const inKey = (x) => (DATA.scene.length ? { position: x } : { dof: x });
 
   const drawTrail = (ctx, [y, z], X, Y, t, colour) => {
@@ -69,16 +65,6 @@ function planesStage() {
       ctx.stroke();
     }
     ctx.globalAlpha = 1;
-  };
-
-  const dot = (ctx, x, y, r, colour) => {
-    ctx.fillStyle = colour;
-    ctx.strokeStyle = ink.paper;
-    ctx.lineWidth = 1.5;
-    ctx.beginPath();
-    ctx.arc(x, y, r, 0, TURN);
-    ctx.fill();
-    ctx.stroke();
   };
 
   /** The arrow of a support's force at the point (y, z), m, towards the inside. */
@@ -136,12 +122,12 @@ function planesStage() {
     for (const one of watched) {
       if (!one.pair) continue;
       const at = one.pair.map((probe) => stateAt(probe, t)[0]);
-      dot(ctx, X(at[0]), Y(at[1]), 5, one.colour());
+      drawDot(ctx, X(at[0]), Y(at[1]), 5, one.colour());
       drawPush(ctx, one, at, X, Y, struck);
     }
     if (alone) {
       const at = alone.map((probe) => stateAt(probe, t)[0]);
-      if (!watched.some(({ pair }) => pair)) dot(ctx, X(at[0]), Y(at[1]), 5, ink.c1);
+      if (!watched.some(({ pair }) => pair)) drawDot(ctx, X(at[0]), Y(at[1]), 5, ink.c1);
       const [fy, fz] = forceAt(null, t);
       drawArrow(ctx, X(at[0]), Y(at[1]), (40 * fy) / force, (-40 * fz) / force, ink.accent, 2.2);
     }
@@ -203,7 +189,7 @@ function planesStage() {
       if (fresh > 0) {
         ctx.globalAlpha = fresh;
         const k = nearest(x);
-        dot(ctx, X(x), Y(stations.at(t)[k]), 4 + 4 * Math.sqrt(share), colour());
+        drawDot(ctx, X(x), Y(stations.at(t)[k]), 4 + 4 * Math.sqrt(share), colour());
         ctx.globalAlpha = 1;
       }
     }

@@ -35,13 +35,15 @@ class Plot {
     this.box = el("div", { class: "plot" }, this.under, this.overlay);
     this.dirty = true;
     drawings.push(this);
-    const changed = () => {
-      this.dirty = true;
-      refresh();
-    };
+    const changed = () => this.redraw();
     if (this.view) this.view.listeners.push(changed);
     new ResizeObserver(changed).observe(this.box);
     listen(this);
+  }
+
+  redraw() {
+    this.dirty = true;
+    refresh();
   }
 
   get shown() {

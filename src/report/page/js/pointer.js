@@ -82,12 +82,7 @@ function tellNearest(plot, points, text) {
     );
   };
   plot.over = (ctx) => {
-    if (!plot.found) return;
-    ctx.strokeStyle = ink.c2;
-    ctx.lineWidth = 2;
-    ctx.beginPath();
-    ctx.arc(plot.sx(plot.found.x), edgeOf(plot, plot.found.y), 8, 0, TURN);
-    ctx.stroke();
+    if (plot.found) drawRing(ctx, plot.sx(plot.found.x), edgeOf(plot, plot.found.y), 8, ink.c2);
   };
 }
 

@@ -1,40 +1,24 @@
 // The shares of keys in the variance of each measure over the rows of a random design: bars, a table.
 
-/** What is no key in the table: it is drawn in grey. */
-const NO_KEY = ["interactions", "realisations"];
-
-/** A bar for the share of each line, in per cent. */
+/** A bar for the share of each line, in per cent; what is no key is grey. */
 function shareBars(columns, rows, name) {
-  const level = (k) => rows.length - k;
-  const shares = rows.map((i) => 100 * columns.share[i]);
-  const draw = (ctx, plot) => {
-    const none = plot.sx(0);
-    shares.forEach((share, k) => {
-      const end = plot.sx(share);
-      ctx.fillStyle = NO_KEY.includes(columns.key[rows[k]]) ? ink.faint : lookOf(2).colour();
-      ctx.fillRect(Math.min(none, end), plot.sy(level(k)) - 8, Math.abs(end - none), 16);
-    });
-    ctx.strokeStyle = ink.ink;
-    ctx.beginPath();
-    ctx.moveTo(none, plot.y0);
-    ctx.lineTo(none, plot.y1);
-    ctx.stroke();
+  const share = (i) => 100 * columns.share[i];
+  const bar = (ctx, plot, i, y) => {
+    const [none, end] = [plot.sx(0), plot.sx(share(i))];
+    ctx.fillStyle = DATA.sweep.no_key.includes(columns.key[i]) ? ink.faint : lookOf(2).colour();
+    ctx.fillRect(Math.min(none, end), y - 8, Math.abs(end - none), 16);
   };
-  const plot = new Plot({
+  return barPlot(columns, rows, {
     x: `Share of the variance of ${name} (%)`,
-    height: 60 + 28 * rows.length,
-    left: 210,
-    narrow: 140,
     alt: `Shares in the variance of ${name}`,
-    yTicks: rows.map((i, k) => [level(k), String(columns.key[i])]),
-    range: () => [0.4, rows.length + 0.6],
-    series: [{ kind: "own", look: lookOf(0), x: [0, 100, ...shares], y: [], draw }],
+    values: [0, 100, ...rows.map(share)],
+    base: 0,
+    bar,
   });
-  return plot.box;
 }
 
 function sharesSection(shares, seeds, caution) {
-  const { columns, count } = shares;
+  const { columns } = shares;
   const share = {
     name: "share (%)",
     value: (i) => columns.share[i],
@@ -48,11 +32,11 @@ function sharesSection(shares, seeds, caution) {
       "third degree; interactions: what no sum of such polynomials gives" +
       (seeds ? "; realisations: what the means scatter by chance" : "") +
       `. A share within some % of 0 may be chance.${caution ? ` ${caution[0].toUpperCase()}${caution.slice(1)}.` : ""}`,
-    ...linesByMeasure(columns, count).map(([name, lines]) => shareBars(columns, lines, name)),
+    ...linesByMeasure(shares).map(([name, lines]) => shareBars(columns, lines, name)),
     sortable(
       [...namedColumns(columns), share, rows],
-      Array.from({ length: count }, (_, i) => i),
-      { height: 60 + ROW * Math.min(count, 16) },
+      shares.rows,
+      { height: 60 + ROW * Math.min(shares.count, 16) },
     ),
   );
 }

@@ -1,7 +1,6 @@
 // Stability studies: where each scheme fails, one impact, contacts that last.
 
-/** Classes of stability, from harmless to worst, and the curve colours they are shown in. */
-const CLASSES = ["stable", "dissipative", "frozen", "another-motion", "energy-gaining", "diverged"];
+/** The tones of the classes of stability, from harmless to worst. */
 const CLASS_TONES = {
   light: [
     [214, 232, 224],
@@ -21,7 +20,7 @@ const CLASS_TONES = {
   ],
 };
 const classTone = (word) =>
-  CLASS_TONES[isDark() ? "dark" : "light"][CLASSES.indexOf(word)] || [128, 128, 128];
+  CLASS_TONES[isDark() ? "dark" : "light"][DATA.stability.classes.indexOf(word)] || [128, 128, 128];
 
 /** A class of stability in its tone. */
 const classSwatch = (word) => swatch(word, () => `rgb(${classTone(word)})`);
@@ -103,11 +102,7 @@ function stabilitySection() {
     // Above the map: over it, the name would hide its cells.
     return el("div", {}, el("h3", {}, scheme[rows[0]].replace(":integrator=", ", ")), plot.box);
   });
-  const legend = el(
-    "div",
-    { class: "bar" },
-    CLASSES.map(classSwatch),
-  );
+  const legend = el("div", { class: "bar" }, DATA.stability.classes.map(classSwatch));
   section(
     "maps",
     "Where each scheme fails",
@@ -117,7 +112,6 @@ function stabilitySection() {
   );
   impactSection();
   const lasting = tableOf(DATA.stability.lasting);
-  const rows = Array.from({ length: lasting.count }, (_, i) => i);
   section(
     "lasting",
     "Contacts that last",
@@ -127,7 +121,7 @@ function stabilitySection() {
         lasting,
         lasting.names.map((name) => [name, name.replace(/_/g, " ")]),
       ),
-      rows,
+      lasting.rows,
       { height: 420 },
     ),
   );

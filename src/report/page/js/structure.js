@@ -108,10 +108,7 @@ function structureStage() {
     for (const load of loads) {
       const x = placeOf(load.at);
       if (x === undefined) continue;
-      let i = 0;
-      stations.x.forEach((other, k) => {
-        if (Math.abs(other - x) < Math.abs(stations.x[i] - x)) i = k;
-      });
+      const i = nearestTo(stations.x, x);
       drawArrow(ctx, X(x), Y(u[i]), 0, (-46 * forceOf(load, t)) / force, ink.accent, 2.4);
     }
   };

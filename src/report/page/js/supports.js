@@ -86,20 +86,11 @@ function supportPlot({ support, worn, pair: [y, z] }) {
     const around = (c, size) => [c * factor - shown * size, c * factor + shown * size];
     [plot.X, plot.Y] = [around(centre[0], w), around(centre[1], h)];
   };
-  view.listeners.push(() => {
-    plot.dirty = true;
-    refresh();
-  });
+  view.listeners.push(() => plot.redraw());
   plot.over = (ctx) => {
     if (!lead.shown) return;
     const [w, u] = [y, z].map((probe) => at(probe)(now()));
-    ctx.fillStyle = placeColour(support.name);
-    ctx.strokeStyle = ink.paper;
-    ctx.lineWidth = 1.5;
-    ctx.beginPath();
-    ctx.arc(plot.sx(w), plot.sy(u), 5, 0, TURN);
-    ctx.fill();
-    ctx.stroke();
+    drawDot(ctx, plot.sx(w), plot.sy(u), 5, placeColour(support.name));
   };
   const told = most > 0 ? `highest sector: ${digits(most)} W` : "no work of wear";
   return el("div", {}, el("div", { class: "bar help" }, told), plot.box);
@@ -110,20 +101,12 @@ function supportTable(rows) {
   const number = (name, value, half) => ({
     name,
     value: (row) => value(row) ?? NaN,
-    show: (row) => {
-      const [x, h] = [value(row), half && half(row)];
-      return digits(x) + (h > 0 ? ` ± ${digits(h, 2)}` : "");
-    },
+    show: (row) => plusMinus(value(row), (half && half(row)) || null),
   });
   const worn = (key, factor) => (row) => row.worn && row.worn[key] * factor;
   const columns = [
-    { name: "support", text: true, value: (row) => row.support, show: (row) => row.support },
-    {
-      name: "work rate is",
-      text: true,
-      value: (row) => (row.upper_figure ? "upper figure" : "with friction"),
-      show: (row) => (row.upper_figure ? "upper figure" : "with friction"),
-    },
+    wordColumn("support", (row) => row.support),
+    wordColumn("work rate is", (row) => (row.upper_figure ? "upper figure" : "with friction")),
     number(
       "work rate (W)",
       (row) => row.work_rate_w,

@@ -8,14 +8,9 @@ function sweepSection() {
   const axisColumns = axes.map((axis) => axis.column).filter(numeric);
   const attractors = readAttractors();
   const over = readOver();
-  const measures = table.names.filter(
-    (name) =>
-      !["row", "status", "error", "direction", "seeds"].includes(name) &&
-      !isHalfWidth(name) &&
-      !(attractors && name === "attractor") &&
-      !axes.some((axis) => axis.column === name) &&
-      numeric(name),
-  );
+  const measures = table.names
+    .slice(table.names.indexOf("error") + 1)
+    .filter((name) => !isHalfWidth(name) && !(attractors && name === "attractor") && numeric(name));
   const kept = new Set(DATA.sweep.kept);
   const command = el("pre", { class: "command", hidden: true });
   const tell = (i) =>
@@ -70,13 +65,6 @@ function sweepSection() {
     );
   }
   if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns[0], pick, { over, view }));
-  const rows = Array.from({ length: table.count }, (_, i) => i);
-  const saved = () =>
-    save(
-      "sweep.csv",
-      csvText([table.names, ...rows.map((i) => table.names.map((name) => columns[name][i]))]),
-      "text/csv",
-    );
   if (effects) effectsSection(tableOf(effects), seeds);
   if (shares) sharesSection(tableOf(shares), seeds, DATA.sweep.caution);
   section(
@@ -103,10 +91,10 @@ function sweepSection() {
         table,
         table.names.map((name) => [name, columnLabel(name)]),
       ),
-      rows,
+      table.rows,
       { height: 400, pick },
     ),
-    el("div", { class: "bar controls" }, button("The table above", saved, "Save sweep.csv")),
+    saveBar("sweep.csv", () => linesOf(table)),
   );
 }
 
@@ -180,16 +168,10 @@ function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
     const both = [samples.columns[choice.name], theirs].filter((list) => list);
     const span = extent(both.flatMap((list) => extent(list) || [])) || [0, 1];
     plot.range = () => padded(span, 0.05);
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
   };
   fill();
-  plot.click = (x) => {
-    let nearest = 0;
-    for (let i = 0; i < axis.length; i++)
-      if (Math.abs(axis[i] - x) < Math.abs(axis[nearest] - x)) nearest = i;
-    pick(nearest);
-  };
+  plot.click = (x) => pick(nearestTo(axis, x));
   return el(
     "div",
     {},
@@ -222,8 +204,7 @@ function measureMap(columns, [first, second], measures, tell, pick) {
   const fill = () => {
     const span = extent(columns[choice.name]) || [0, 1];
     range = span[0] > 0 && span[0] < 0.5 * span[1] ? [0, span[1]] : span;
-    plot.dirty = true;
-    refresh();
+    plot.redraw();
   };
   const toneOf = (i) => {
     const value = columns[choice.name][i];

@@ -92,6 +92,9 @@ function sortable(columns, rows, options = {}) {
   return box;
 }
 
+/** A column of words. */
+const wordColumn = (name, of) => ({ name, text: true, value: of, show: of });
+
 /** Columns of a table of the data, all of them or those named: [name, text of the header]. */
 function columnsOf(table, named) {
   return named
@@ -107,3 +110,17 @@ function columnsOf(table, named) {
       };
     });
 }
+
+/** A table of the data as lines of cells, the header first. */
+const linesOf = ({ names, rows, columns }) => [
+  names,
+  ...rows.map((i) => names.map((name) => columns[name][i])),
+];
+
+/** A button that saves `lines()` as a CSV file. */
+const saveBar = (file, lines, title = "The table above", words = `Save ${file}`) =>
+  el(
+    "div",
+    { class: "bar controls" },
+    button(title, () => save(file, csvText(lines()), "text/csv"), words),
+  );

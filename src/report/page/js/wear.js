@@ -1,30 +1,19 @@
 // Wear over the years at supports whose gaps grow: curves with their intervals, and the table.
 
-/** The quantities of years.csv that are drawn, their unit on the page and what it is in theirs. */
-const WEAR_QUANTITIES = [
-  ["gap", "m", "mm", 1e3],
-  ["depth_deepest", "m", "mm", 1e3],
-  ["depth_all_round", "m", "mm", 1e3],
-  ["depth_one_scar", "m", "mm", 1e3],
-  ["work_rate", "W", "W", 1],
-];
-
-/** The rows of years.csv with a column for each quantity of each place, as in a sweep. */
+/** The rows of years.csv with a column for each quantity of each place, as in a sweep; m as mm. */
 function wearColumns(table) {
+  const { rows } = table;
   const { place, year } = table.columns;
   const names = [...new Set(place)];
-  const rows = Array.from({ length: table.count }, (_, i) => i);
   const columns = { year: rows.filter((i) => place[i] === names[0]).map((i) => year[i]) };
-  // A table of an older version does not have all.
-  const known = WEAR_QUANTITIES.filter(([quantity, unit]) => table.columns[`${quantity}_${unit}`]);
-  for (const [quantity, unit, shown, factor] of known)
+  for (const column of table.names.filter((name) => !["year", "place"].includes(name))) {
+    const [, quantity, unit] = /^(.*)_(\w+)$/.exec(column);
+    const [shown, factor] = unit === "m" ? ["mm", 1e3] : [unit, 1];
     for (const name of names)
-      for (const part of ["", HALF_WIDTH]) {
-        const values = table.columns[`${quantity}${part}_${unit}`];
-        columns[`${quantity}${part}_${name.replace(/-/g, "_")}_${shown}`] = rows
-          .filter((i) => place[i] === name)
-          .map((i) => factor * values[i]);
-      }
+      columns[`${quantity}_${name.replace(/-/g, "_")}_${shown}`] = rows
+        .filter((i) => place[i] === name)
+        .map((i) => factor * table.columns[column][i]);
+  }
   return columns;
 }
 

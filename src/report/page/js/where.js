@@ -115,7 +115,7 @@ function wherePlot(supports, measure) {
   };
   const told = supports.map(({ name, position }, i) => {
     const [value, half] = values[i];
-    return `${name} at ${digits(position)} m: ${digits(value)}${half > 0 ? ` ± ${digits(half, 2)}` : ""}`;
+    return `${name} at ${digits(position)} m: ${plusMinus(value, half || null)}`;
   });
   const plot = new Plot({
     x: "Position along the structure (m)",

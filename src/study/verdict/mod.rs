@@ -1,9 +1,8 @@
-//! The refinement verdict: the same run with half the step, and the change that makes.
+//! The refinement verdict: the same run with half the step, and the change that makes. `words.rs`
+//! puts it into words.
 
-use super::change::Change;
-use super::difference::error_length;
-use super::exact::{Replay, replay, stride};
-use super::horizon::{Growth, LARGEST_GROWTH};
+mod words;
+
 use crate::error::Result;
 use crate::parallel::both;
 use crate::residual::{Finding, Refuted};
@@ -11,15 +10,15 @@ use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Stepper};
 use crate::statistics::{PlaceKind, Statistics};
+use crate::study::change::Change;
+use crate::study::difference::error_length;
+use crate::study::exact::{Replay, replay, stride};
+use crate::study::horizon::{Growth, LARGEST_GROWTH};
 use crate::time::TimeOptions;
 use serde::Serialize;
-use std::fmt;
 
 /// Cost of a verdict, in runs like the one it checks.
 pub const COST: f64 = 2.0;
-
-/// Most walls that the text of a verdict names one by one.
-const MOST_NAMED: usize = 4;
 
 /// How a run was checked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -168,91 +167,10 @@ impl Verdict {
         largest_change(self.walls.iter().map(|wall| wall.impulse_n_s))
     }
 
-    /// The walls named in the text: all where they are few, else those with the largest impulses.
-    fn foremost(&self) -> Vec<&WallVerdict> {
-        let mut walls: Vec<&WallVerdict> = self.walls.iter().collect();
-        if walls.len() > MOST_NAMED {
-            walls.sort_by(|a, b| b.impulse_n_s[0].abs().total_cmp(&a.impulse_n_s[0].abs()));
-            walls.truncate(MOST_NAMED);
-        }
-        walls
-    }
-
-    /// The supports named in the text: those with the largest work rates.
-    fn hardest(&self) -> Vec<&WorkRateVerdict> {
-        let mut supports: Vec<&WorkRateVerdict> = self.work_rates.iter().collect();
-        if supports.len() > MOST_NAMED {
-            supports.sort_by(|a, b| b.work_rate_w[0].total_cmp(&a.work_rate_w[0]));
-            supports.truncate(MOST_NAMED);
-        }
-        supports
-    }
-
-    /// What the check changes in the displacement, as the rest of a sentence.
-    pub(crate) fn displacement_words(&self) -> String {
-        let horizon = match self.horizon_s {
-            t if t < 0.1 => format!("{t:.3e}"),
-            t => format!("{t:.4}"),
-        };
-        match self.displacement {
-            None => format!(
-                "was not compared: beyond t = {horizon} s, before the first row, a change of the start has grown \
-                 {LARGEST_GROWTH:.0e}-fold, or a run has diverged"
-            ),
-            Some(share) if self.is_gap => format!("changes by {share:.1e} of the gap up to t = {horizon} s"),
-            Some(share) => format!("changes by {:.1e} m up to t = {horizon} s", share * self.length_m),
-        }
-    }
-
     /// By how many contacts the check exceeds the run, all walls together.
     #[must_use]
     pub fn contacts_gained(&self) -> i64 {
         self.walls.iter().map(|w| w.contacts[1] as i64 - w.contacts[0] as i64).sum()
-    }
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.check {
-            Check::HalfStep { step_s } => write!(f, "with half the step, {step_s:.3e} s,")?,
-            Check::OtherRounding { .. } => f.write_str("the exact scheme has no step; with other roundings")?,
-        }
-        write!(f, " the displacement {}", self.displacement_words())?;
-        for wall in self.foremost() {
-            write!(f, "; {} {:?}: impulse {}", wall.kind.word(), wall.wall, relative(wall.impulse_n_s, "N s"))?;
-            let [before, after] = wall.contacts;
-            if before == after {
-                write!(f, ", {before} contacts as before")?
-            } else {
-                write!(f, ", contacts {before} → {after}")?
-            }
-            if let [Some(before), Some(after)] = wall.peak_force_n {
-                write!(f, ", peak force {}", relative([before, after], "N"))?;
-            }
-        }
-        if self.walls.len() > MOST_NAMED {
-            write!(
-                f,
-                "; all {} walls: impulse {:.1e} of the largest wall's at most, contacts {:+}",
-                self.walls.len(),
-                self.impulse_change(),
-                self.contacts_gained()
-            )?;
-        }
-        self.hardest().into_iter().try_for_each(|support| write!(f, "; {support}"))
-    }
-}
-
-impl fmt::Display for WorkRateVerdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "work rate of support {:?} {}", self.support, relative(self.work_rate_w, "W"))?;
-        let [before, after] = self.work_rate_w;
-        match self.half_width_95_w {
-            Some(half) if before != after && (after - before).abs() <= half => {
-                write!(f, ", within the run's own interval of ± {:.1e}", half / after.abs())
-            }
-            _ => Ok(()),
-        }
     }
 }
 
@@ -287,75 +205,4 @@ pub(crate) fn largest_change(values: impl Iterator<Item = [f64; 2]>) -> f64 {
         (change.max((after - before).abs()), largest.max(before.abs()).max(after.abs()))
     });
     if change == 0.0 { 0.0 } else { change / largest }
-}
-
-/// The change of a value in `unit`, as a share of the value after it.
-fn relative([before, after]: [f64; 2], unit: &str) -> String {
-    if before == after {
-        "unchanged".into()
-    } else if after == 0.0 {
-        format!("{before:.1e} {unit} → none")
-    } else {
-        format!("{:+.1e} of its value", (after - before) / after.abs())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn verdict(impulses: &[[f64; 2]]) -> Verdict {
-        let wall = |(i, &impulse_n_s): (usize, &[f64; 2])| WallVerdict {
-            wall: format!("wall-{i}"),
-            kind: PlaceKind::Wall,
-            impulse_n_s,
-            contacts: [1, 1],
-            peak_force_n: [None, None],
-        };
-        let walls = impulses.iter().enumerate().map(wall).collect();
-        Verdict {
-            check: Check::HalfStep { step_s: 1e-3 },
-            displacement: Some(0.0),
-            length_m: 1e-3,
-            is_gap: true,
-            horizon_s: 1.0,
-            walls,
-            work_rates: Vec::new(),
-            findings: Vec::new(),
-        }
-    }
-
-    #[test]
-    fn a_wall_that_only_one_run_touches_is_measured_by_the_largest() {
-        let one_run_only = verdict(&[[-2.0, -2.0], [0.5, 0.0], [0.0, -0.25]]);
-        assert!((one_run_only.impulse_change() - 0.25).abs() < 1e-15);
-        assert!(one_run_only.to_string().contains("5.0e-1 N s → none"), "{one_run_only}");
-        assert!(verdict(&[[1.0, 0.8]]).to_string().contains("impulse -2.5e-1 of its value"));
-        assert!(verdict(&[[0.0, 0.0], [0.0, 0.0]]).impulse_change() == 0.0);
-        assert!((verdict(&[[1.0, 0.8]]).impulse_change() - 0.2).abs() < 1e-15);
-    }
-
-    #[test]
-    fn a_work_rate_that_changes_less_than_it_scatters_says_so() {
-        let said = |work_rate_w, half_width_95_w| {
-            let support = WorkRateVerdict { support: "plate".to_owned(), work_rate_w, half_width_95_w };
-            Verdict { work_rates: vec![support], ..verdict(&[]) }.to_string()
-        };
-        assert!(said([0.01, 0.02], Some(0.002)).ends_with("; work rate of support \"plate\" +5.0e-1 of its value"));
-        let within = said([0.01, 0.0104], Some(0.001));
-        assert!(within.ends_with("+3.8e-2 of its value, within the run's own interval of ± 9.6e-2"), "{within}");
-        assert!(said([0.01, 0.01], Some(0.001)).ends_with("unchanged"));
-        assert!(said([0.01, 0.0], Some(0.1)).contains("1.0e-2 W → none"));
-    }
-
-    #[test]
-    fn a_displacement_that_was_not_compared_or_has_no_gap_does_not_read_as_a_share_of_it() {
-        let mut said = Verdict { displacement: Some(1.3e-8), length_m: 2e-3, ..verdict(&[]) };
-        assert_eq!(said.displacement_words(), "changes by 1.3e-8 of the gap up to t = 1.0000 s");
-        said.is_gap = false;
-        assert_eq!(said.displacement_words(), "changes by 2.6e-11 m up to t = 1.0000 s");
-        (said.displacement, said.horizon_s) = (None, 2e-5);
-        let words = said.displacement_words();
-        assert!(words.starts_with("was not compared: beyond t = 2.000e-5 s"), "{words}");
-    }
 }
