@@ -65,9 +65,7 @@ impl Judge {
             self.scratch.products(simd, &self.matrices, hs, blow, &self.weights, n, self.balance.scale);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
             if p != 0.0 {
-                for &(i, weight) in wall.row().entries() {
-                    self.scratch.residual[i] -= weight * p;
-                }
+                wall.row().add_transposed(-p, &mut self.scratch.residual);
             }
         }
         if within {

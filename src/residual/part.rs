@@ -154,8 +154,8 @@ impl Judge {
         self.walls.observe_force(&mut self.noise, index, (pressure, pressure.abs()), true);
         let wall = &self.scene.walls[index];
         let noise = self.noise.velocity(self.speeds(step, index), self.noise.span);
-        let terms = row.entries().iter().map(|&(i, g)| (g * step.q[i]).abs()).sum::<f64>() + wall.position().abs();
-        self.walls.observe_gap(&self.noise, index, (gap, terms), pressure);
+        let size = row.size(step.q) + wall.position().abs();
+        self.walls.observe_gap(&self.noise, index, (gap, size), pressure);
         // The rebounds end within a step if the acceleration of the part presses the body so; in
         // two planes, of the last one of some length.
         let rests = step.resting.contains(&index) && {
@@ -187,18 +187,13 @@ impl Judge {
             self.balance.raise_scale(s.inertia[i].abs().max(self.blows.impulse[i].abs()) / (self.h * root));
         }
         for (wall, &p) in self.scene.walls.iter().zip(step.jump).filter(|(_, p)| **p != 0.0) {
-            for &(i, weight) in wall.row().entries() {
-                s.residual[i] -= weight * p;
-            }
+            wall.row().add_transposed(-p, &mut s.residual);
         }
         if let Some(supports) = &self.supports {
             let at_end = Step { impulse: step.jump, friction: &supports.friction_at_end(step), ..*step };
             for (_, at, [push, rub]) in pushes(&self.scene, &at_end) {
-                for (row, force) in [(&at.y, push[0] + rub[0]), (&at.z, push[1] + rub[1])] {
-                    for &(i, weight) in row.entries() {
-                        s.residual[i] -= weight * force;
-                    }
-                }
+                at.y.add_transposed(-(push[0] + rub[0]), &mut s.residual);
+                at.z.add_transposed(-(push[1] + rub[1]), &mut s.residual);
             }
         }
         let (largest, worst) = s.open(Scalar, 1.0 / self.h, &self.weights, step.v.len(), self.balance.largest);

@@ -35,8 +35,6 @@ pub(super) fn smooth(scene: &Scene, q: &[f64], v: &[f64], walls: &[f64], out: &m
     scene.system.add_damping(-1.0, v, out);
     scene.system.add_stiffness(-1.0, q, out);
     for (wall, &r) in scene.walls.iter().zip(walls).filter(|(wall, _)| !wall.law.is_rigid()) {
-        for &(i, weight) in wall.row().entries() {
-            out[i] += weight * r;
-        }
+        wall.row().add_transposed(r, out);
     }
 }

@@ -78,8 +78,7 @@ impl Judge {
                 for &(i, g) in wall.row().entries() {
                     s.residual[i] += weight * g * r;
                 }
-                let terms: f64 = wall.row().entries().iter().map(|&(i, g)| (g * s.mean_q[i]).abs()).sum();
-                let size = terms + wall.position().abs() + rate.abs() * t;
+                let size = wall.row().size(&s.mean_q) + wall.position().abs() + rate.abs() * t;
                 if rigid {
                     self.walls.observe_gap(&self.noise, index, (gap, size), pressure);
                     continue;
