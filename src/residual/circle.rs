@@ -72,11 +72,8 @@ impl Judge {
             let [y, z] = hole.offset(step.q);
             let distance = y.hypot(z);
             self.walls.observe_depth(place, distance - gap);
-            let (push, jump) = (step.hole_push(place), step.jump[place]);
-            if let (Some(sum), Some(size)) = (supports.impulse.get_mut(place), supports.size.get_mut(place)) {
-                *sum = [sum[0] + push[0], sum[1] + push[1]];
-                *size += step.impulse[place];
-            }
+            let jump = step.jump[place];
+            supports.give(place, step.hole_push(place), step.impulse[place]);
             self.extent.speed = self.extent.speed.max(terms(hole.at, step.v)).max(terms(hole.at, &self.scratch.spring));
             self.walls.tension = self.walls.tension.max(-jump);
             let (Some(law), true) = (self.contract.promise.circle, jump != 0.0) else { continue };
