@@ -1,7 +1,7 @@
 //! The energy ledger of the exact motion of one degree of freedom: powers integrated along an arc,
 //! and the jump at its end.
 
-use super::{Flows, Ledger, stored};
+use super::{Flows, Ledger};
 use crate::flow::Arc;
 use crate::linear::running_max;
 use crate::scene::{Scene, System};
@@ -137,21 +137,10 @@ impl Ledger {
         let struck = 0.5 * first(blow) * (v_end + mid);
         flows.work += struck;
         flows.passed += struck.abs();
-        let mut walls = 0.0;
-        for (index, wall) in scene.walls.iter().enumerate() {
-            if step.jump[index] != 0.0 {
-                flows.impact -= 0.5 * step.jump[index] * (mid + first(step.v));
-            }
-            if wall.law.is_rigid() {
-                continue;
-            }
-            let now = stored(wall, wall.row().dot(step.q), step.force[index] != 0.0);
-            walls += now;
-            let held = std::mem::replace(&mut self.held[index], now);
-            if wall.law.damping() > 0.0 {
-                flows.dashpot -= now - held;
-            }
+        for jump in step.jump.iter().filter(|jump| **jump != 0.0) {
+            flows.impact -= 0.5 * jump * (mid + first(step.v));
         }
+        let walls = self.store(scene, step, &mut flows);
         let (q, v) = (first(step.q), first(step.v));
         self.book(0.5 * (mass * v * v + stiffness * q * q) + walls, flows);
         open

@@ -3,18 +3,22 @@
 mod account;
 mod arc;
 mod series;
+mod walls;
+mod work;
 
 pub use account::Energy;
 pub(super) use arc::{Along, Instants};
 pub(super) use series::Moved;
+pub(super) use walls::stored;
 
 use super::matrices::{Matrices, Part};
-use super::pushes::pushes;
 use super::step_motion::StepMotion;
-use crate::linear::{Lanes, Pass, pass, running_max};
+use crate::linear::{pass, running_max};
 use crate::scene::{Forcing, Scene, Wall};
 use crate::step::{Balance, Contract, QuietSteps, Step};
 use pulp::Simd;
+use walls::{half, observe_supports};
+use work::Work;
 
 #[derive(Debug, Clone)]
 pub(super) struct Ledger {
@@ -209,52 +213,6 @@ impl Ledger {
         (self.report.initial_j, self.report.largest_j) = (self.energy, self.energy);
     }
 
-    /// Adds the flows at the walls; returns the energy that they store after the step, J.
-    #[inline(never)]
-    fn observe_walls(
-        &mut self,
-        scene: &Scene,
-        h: f64,
-        (q0, q1): (&[f64], &[f64]),
-        step: &Step<'_>,
-        staggered: bool,
-        flows: &mut Flows,
-    ) -> f64 {
-        let (before, after) = (step.velocity_before, step.velocity_after);
-        let mut walls = 0.0;
-        for (index, (wall, &p)) in scene.walls.iter().zip(step.impulse).enumerate() {
-            if wall.law.is_rigid() {
-                if p != 0.0 {
-                    flows.impact -= p * 0.5 * (wall.row().dot(before) + wall.row().dot(after));
-                }
-                continue;
-            }
-            let rate = 0.5 * (wall.row().dot(before) + wall.row().dot(after));
-            let (w0, w1) = (wall.coordinate(q0), wall.coordinate(q1));
-            let touches = p != 0.0;
-            let now =
-                if staggered { half(wall, w0, h * wall.row().dot(after), touches) } else { stored(wall, w1, touches) };
-            walls += now;
-            let held = std::mem::replace(&mut self.held[index], now);
-            let damping = wall.law.damping();
-            if damping > 0.0 {
-                if touches {
-                    let plate = |w: f64| (-wall.gap(w)).max(0.0);
-                    let rate = if staggered { rate } else { (plate(w1) - plate(w0)) / h };
-                    flows.dashpot += damping * rate * rate * h;
-                    // Where contact begins with the body already behind the face, the energy of the
-                    // spring there counts as supplied by the wall.
-                    flows.dashpot -= if held == 0.0 { wall.law.energy(-wall.gap(w0)) } else { 0.0 };
-                } else {
-                    // What a damped wall stores when contact ends is dissipated: spring and dashpot
-                    // relax against each other.
-                    flows.dashpot += held;
-                }
-            }
-        }
-        walls
-    }
-
     /// Adds to load work and damping, J, the part of the blows' work that the dampers take:
     /// [`Ledger::observe_grid`] is given the blows without it.
     pub fn damp(&mut self, lost: f64) {
@@ -324,54 +282,6 @@ impl Ledger {
         let residual = if self.residual == 0.0 { 0.0 } else { self.residual.abs() / exchanged };
         Energy { final_j: self.energy, residual_j: self.residual, exchanged_j: exchanged, residual, ..self.report }
     }
-}
-
-/// From the displacements and velocities at both ends of a step, its load, N, and its blow, N s:
-/// the displacement by which the load moves in it, m, and the work of both, J, and its size. With
-/// `by_rate`, the length of the step, s, the load moves at the mean velocity.
-struct Work {
-    by_rate: Option<f64>,
-}
-
-impl Pass<6, 3, 0> for Work {
-    #[inline(always)]
-    fn of<S: Simd>(
-        &self,
-        [from, to, before, after, load, blow]: [Lanes<S>; 6],
-        _: [Lanes<S>; 3],
-        _: [Lanes<S>; 0],
-    ) -> ([Lanes<S>; 3], [Lanes<S>; 0]) {
-        let rate = (before + after) * 0.5;
-        let shift = match self.by_rate {
-            Some(h) => rate * h,
-            None => to - from,
-        };
-        let (pulled, struck) = (load * shift, blow * rate);
-        ([shift, pulled + struck, pulled.abs() + struck.abs()], [])
-    }
-}
-
-/// Adds the flows at round holes, and those of friction.
-#[inline(never)]
-fn observe_supports(scene: &Scene, step: &Step<'_>, rates: &[[[f64; 2]; 2]], flows: &mut Flows) {
-    for (index, _, [push, rub]) in pushes(scene, step) {
-        let [before, after] = rates.get(index).copied().unwrap_or_default();
-        let work = |force: [f64; 2]| 0.5 * (force[0] * (before[0] + after[0]) + force[1] * (before[1] + after[1]));
-        let rigid = scene.walls[index].law.is_rigid();
-        flows.impact -= if rigid { work(push) } else { 0.0 };
-        flows.friction -= work(rub);
-    }
-}
-
-/// Energy stored in a wall at displacement `w`, J; 0 for a damped wall that does not touch the
-/// body.
-pub(super) fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
-    if wall.law.damping() > 0.0 && !touching { 0.0 } else { wall.law.energy(-wall.gap(w)) }
-}
-
-/// Energy stored half a step on the way from `w` to `w + shift`: the mean of both ends.
-fn half(wall: &Wall, w: f64, shift: f64, touching: bool) -> f64 {
-    0.5 * (stored(wall, w, touching) + stored(wall, w + shift, touching))
 }
 
 #[cfg(test)]

@@ -53,16 +53,10 @@ impl Ledger {
             flows.work += struck;
             flows.passed += struck.abs();
         }
-        let mut walls = 0.0;
-        for (index, wall) in scene.walls.iter().enumerate() {
-            flows.impact -= 0.5 * step.jump[index] * (wall.row().dot(mid) + wall.row().dot(step.v));
-            let now = stored(wall, wall.row().dot(step.q), step.force[index] != 0.0);
-            walls += now;
-            let held = std::mem::replace(&mut self.held[index], now);
-            if wall.law.damping() > 0.0 {
-                flows.dashpot -= now - held;
-            }
+        for (wall, jump) in scene.walls.iter().zip(step.jump) {
+            flows.impact -= 0.5 * jump * (wall.row().dot(mid) + wall.row().dot(step.v));
         }
+        let walls = self.store(scene, step, &mut flows);
         for hole in scene.holes().filter(|hole| step.jump[hole.index] != 0.0) {
             let (jump, [y, z]) = (step.jump[hole.index], step.normal[hole.index]);
             let [before, after] = [mid, step.v].map(|v| hole.seen(v));
