@@ -79,6 +79,7 @@ use quiet_scratch::QuietScratch;
 use row_walls::RowWalls;
 use scales::Scales;
 use scratch::Scratch;
+use series::SeriesScratch;
 use std::sync::Arc;
 use supports::Supports;
 use walls::WallCheck;
@@ -112,6 +113,7 @@ pub struct Judge {
     load_end: Vec<f64>,
     blows: Blows,
     scratch: Scratch,
+    series: SeriesScratch,
     /// Impulses over a part of a step, one entry a wall, N s.
     over: Vec<f64>,
     /// The vector instructions of the machine.
@@ -196,6 +198,7 @@ impl Judge {
             load_end: zero(),
             blows: Blows::new(n),
             scratch: Scratch::new(n),
+            series: SeriesScratch::new(n),
             over: vec![0.0; scene.walls.len()],
             arch: pulp::Arch::new(),
             quiet_scratch: QuietScratch::new(scene, contract, &weights, blows),
@@ -214,20 +217,7 @@ impl Judge {
     pub fn observe(&mut self, step: &Step<'_>) {
         let (n, walls) = (self.q.len(), self.scene.walls.len());
         let planar = if self.supports.is_some() { walls } else { 0 };
-        let moved = [step.q, step.v, step.velocity_before, step.velocity_after, step.extra];
-        let pushed = [step.impulse, step.jump, step.force];
-        if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != walls) {
-            return;
-        }
-        if [step.friction.len(), step.normal.len(), step.turned.len()] != [planar; 3] {
-            return;
-        }
-        let fits = match step.path {
-            Path::Series(series) => series.degrees_of_freedom() == n,
-            Path::Exact(_) => n == 1,
-            Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => true,
-        };
-        if !fits {
+        if !step.fits(n, walls, planar) {
             return;
         }
         // Without blows these vectors stay zero.

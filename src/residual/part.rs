@@ -65,11 +65,13 @@ impl Judge {
         for index in 0..self.scene.walls.len() {
             self.rebound_at_end(step, length, index);
         }
-        self.supports_at_end(step);
-        self.jump_momentum(step);
+        let friction = self.supports.as_ref().map_or_else(Vec::new, |supports| supports.friction_at_end(step));
+        let at_end = Step { velocity_after: step.v, impulse: step.jump, friction: &friction, ..*step };
+        self.supports_at_end(step, &at_end);
+        self.jump_momentum(step, &at_end);
         let mid: Vec<f64> = step.velocity_after.iter().zip(&self.blows.struck).map(|(v, struck)| v + struck).collect();
         let (blow, left) = (&self.blows.impulse, step.velocity_after);
-        self.energy.observe_series(&self.scene, step, Moved::default(), blow, left, &mid);
+        self.energy.observe_series(step, Moved::default(), blow, left, &mid);
         let sums = &mut self.sums;
         sums.begin(step);
         for ((seen, size), &p) in sums.seen.iter_mut().zip(&mut sums.sizes).zip(step.jump) {
@@ -79,11 +81,10 @@ impl Judge {
         self.extent.observe(Scalar, step.q, step.v, &self.weights, step.v.len());
     }
 
-    /// Checks the impulses of round walls and of friction at the end of a part.
-    fn supports_at_end(&mut self, step: &Step<'_>) {
+    /// Checks the impulses of round walls and of friction `at_end` of a part.
+    fn supports_at_end(&mut self, step: &Step<'_>, at_end: &Step<'_>) {
         let Some(mut supports) = self.supports.take() else { return };
         let scene = std::sync::Arc::clone(&self.scene);
-        let after = Step { velocity_after: step.v, impulse: step.jump, ..*step };
         for hole in scene.holes() {
             if hole.law.is_rigid() {
                 self.rebound_at_hole(step, &hole, &mut supports);
@@ -94,16 +95,12 @@ impl Judge {
             // A hole that pushed over the part only did so along the normal there, halfway.
             let [y, z] = if struck || distance == 0.0 { step.normal[place] } else { offset.map(|x| x / distance) };
             let rub = FrictionImpulse { place, friction: hole.friction, impulse, tangent: [-z, y] };
-            self.check_friction_at_end(&after, hole.at, &rub, &mut supports);
+            self.check_friction_at_end(at_end, hole.at, &rub, &mut supports);
         }
-        let at_end = Step { friction: &supports.friction_at_end(step), ..after };
-        self.rub_flats_at_end(&at_end, &mut supports);
-        for (index, _, [push, rub]) in pushes(&scene, &at_end) {
+        self.rub_flats_at_end(at_end, &mut supports);
+        for (index, _, [push, rub]) in pushes(&scene, at_end) {
             let force = [push[0] + rub[0], push[1] + rub[1]];
-            if let (Some([y, z]), Some(size)) = (supports.impulse.get_mut(index), supports.size.get_mut(index)) {
-                (*y, *z) = (*y + force[0], *z + force[1]);
-                *size += force[0].hypot(force[1]);
-            }
+            supports.give(index, force, force[0].hypot(force[1]));
         }
         self.supports = Some(supports);
     }
@@ -154,8 +151,8 @@ impl Judge {
         self.walls.observe_force(&mut self.noise, index, (pressure, pressure.abs()), true);
         let wall = &self.scene.walls[index];
         let noise = self.noise.velocity(self.speeds(step, index), self.noise.span);
-        let terms = row.entries().iter().map(|&(i, g)| (g * step.q[i]).abs()).sum::<f64>() + wall.position().abs();
-        self.walls.observe_gap(&self.noise, index, (gap, terms), pressure);
+        let size = row.size(step.q) + wall.position().abs();
+        self.walls.observe_gap(&self.noise, index, (gap, size), pressure);
         // The rebounds end within a step if the acceleration of the part presses the body so; in
         // two planes, of the last one of some length.
         let rests = step.resting.contains(&index) && {
@@ -173,8 +170,8 @@ impl Judge {
         self.walls.observe_rebound(&self.noise, index, (slack, noise + edge), pressure);
     }
 
-    /// Checks the momentum that the velocity gains at the end of a part.
-    fn jump_momentum(&mut self, step: &Step<'_>) {
+    /// Checks the momentum that the velocity gains at the end of a part, by the impulses `at_end`.
+    fn jump_momentum(&mut self, step: &Step<'_>, at_end: &Step<'_>) {
         let s = &mut self.scratch;
         for ((gained, v), after) in s.gained.iter_mut().zip(step.v).zip(step.velocity_after) {
             *gained = v - after;
@@ -187,19 +184,11 @@ impl Judge {
             self.balance.raise_scale(s.inertia[i].abs().max(self.blows.impulse[i].abs()) / (self.h * root));
         }
         for (wall, &p) in self.scene.walls.iter().zip(step.jump).filter(|(_, p)| **p != 0.0) {
-            for &(i, weight) in wall.row().entries() {
-                s.residual[i] -= weight * p;
-            }
+            wall.row().add_transposed(-p, &mut s.residual);
         }
-        if let Some(supports) = &self.supports {
-            let at_end = Step { impulse: step.jump, friction: &supports.friction_at_end(step), ..*step };
-            for (_, at, [push, rub]) in pushes(&self.scene, &at_end) {
-                for (row, force) in [(&at.y, push[0] + rub[0]), (&at.z, push[1] + rub[1])] {
-                    for &(i, weight) in row.entries() {
-                        s.residual[i] -= weight * force;
-                    }
-                }
-            }
+        for (_, at, [push, rub]) in pushes(&self.scene, at_end) {
+            at.y.add_transposed(-(push[0] + rub[0]), &mut s.residual);
+            at.z.add_transposed(-(push[1] + rub[1]), &mut s.residual);
         }
         let (largest, worst) = s.open(Scalar, 1.0 / self.h, &self.weights, step.v.len(), self.balance.largest);
         self.balance.largest = largest;

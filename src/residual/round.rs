@@ -51,10 +51,7 @@ impl Judge {
             if !scene.walls[index].is_round() {
                 supports.rates[index] = [at.dot(step.velocity_before), at.dot(step.velocity_after)];
             }
-            if let (Some([y, z]), Some(size)) = (supports.impulse.get_mut(index), supports.size.get_mut(index)) {
-                (*y, *z) = (*y + force[0], *z + force[1]);
-                *size += force[0].hypot(force[1]);
-            }
+            supports.give(index, force, force[0].hypot(force[1]));
         }
     }
 

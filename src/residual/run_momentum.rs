@@ -71,18 +71,20 @@ impl Judge {
             return;
         }
         let (h, first) = (self.h, sums.steps == 1);
-        let moves = StepMotion::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
-        if matches!(self.contract.balance, Balance::GeneralizedAlpha { .. }) {
+        let loads = (&self.load[..], &self.load_end[..]);
+        let moves = StepMotion::of(step, (h, per_h), (&self.q, step.q), loads, &self.blows.impulse);
+        if let Some(previous) = &self.previous {
             // For generalized-α, the force at the end of the step, which includes dampers and the
             // walls that are springs.
             for i in 0..n {
                 let load = self.load_end[i];
                 sums.rate[i] += 0.5 * h * (sums.last[i] + step.velocity_after[i]);
                 let mut forces = sums.forces.of(i);
-                forces.add(first, h, [load, self.scratch.spring[i] - load, 0.0]);
+                let force = previous.force[i] + step.extra[i];
+                forces.add(first, h, [load, force - load, 0.0]);
                 sums.forces.set(i, forces);
             }
-            sums.add_ends(simd, &moves, h, n);
+            sums.add_ends(simd, &moves, n);
             // The dampers' force rises at a blow, and may have fallen again at the end of the step.
             if self.loads.has_blows() && self.blows.struck.iter().any(|&v| v != 0.0) {
                 let mut risen = vec![0.0; n];
@@ -90,7 +92,7 @@ impl Judge {
                 sums.forces.changes.iter_mut().zip(risen).for_each(|(changes, force)| *changes += force.abs());
             }
         } else {
-            sums.add(simd, &moves, &self.scratch, (h, per_h), first, n);
+            sums.add(simd, &moves, &self.scratch, first, n);
         }
     }
 

@@ -101,6 +101,14 @@ impl Supports {
         }
     }
 
+    /// Adds an impulse (N s, along y and z) of the wall `index`, and its magnitude.
+    pub fn give(&mut self, index: usize, impulse: [f64; 2], magnitude: f64) {
+        if let (Some([y, z]), Some(size)) = (self.impulse.get_mut(index), self.size.get_mut(index)) {
+            (*y, *z) = (*y + impulse[0], *z + impulse[1]);
+            *size += magnitude;
+        }
+    }
+
     /// Length of the last part, s.
     pub fn part_length(&self) -> f64 {
         self.length

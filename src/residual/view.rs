@@ -67,10 +67,7 @@ impl View {
         match self {
             Self::One(i, weight) => x.get(*i).map_or(0.0, |x| (weight * x).abs()),
             Self::Run(segment) => segment.size(x),
-            Self::Wide(row) => {
-                let terms = row.entries().iter().filter_map(|&(i, weight)| x.get(i).map(|x| (weight * x).abs()));
-                terms.sum()
-            }
+            Self::Wide(row) => row.size(x),
         }
     }
 }

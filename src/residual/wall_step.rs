@@ -121,11 +121,10 @@ impl Judge {
     /// rounding error, m/s. What the loads give and the impulse of the wall takes away may be far
     /// larger than the velocities at both ends.
     pub(super) fn speeds(&self, step: &Step<'_>, index: usize) -> f64 {
-        let entries = self.scene.walls[index].row().entries();
-        let speeds = |v: &[f64]| entries.iter().map(|&(i, g)| (g * v[i]).abs()).sum::<f64>();
+        let row = self.scene.walls[index].row();
         let kick = self.noise.kick(index, step.impulse[index]);
-        let given = if self.loads.has_blows() { speeds(&self.blows.struck) } else { 0.0 };
-        speeds(step.velocity_before) + speeds(step.velocity_after) + given + kick
+        let given = if self.loads.has_blows() { row.size(&self.blows.struck) } else { 0.0 };
+        row.size(step.velocity_before) + row.size(step.velocity_after) + given + kick
     }
 
     fn hold_elastic(&mut self, step: &Step<'_>, seen: Seen, mean: f64) {

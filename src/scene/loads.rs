@@ -1,7 +1,8 @@
 //! The loads of a scene as vectors over its degrees of freedom.
 
 use super::forcing::Forcing;
-use super::load::{Load, Table, TablePiece};
+use super::load::Load;
+use super::table::{Table, TablePiece};
 use super::row::{Row, distinct};
 use crate::linear::Segment;
 

@@ -64,6 +64,11 @@ impl Row {
         self.entries.iter().map(|&(i, weight)| weight * q.get(i).copied().unwrap_or(0.0)).sum()
     }
 
+    /// Σ |gᵢ xᵢ|, the size of the terms of [`Row::dot`].
+    pub(crate) fn size(&self, x: &[f64]) -> f64 {
+        self.entries.iter().map(|&(i, weight)| (weight * x.get(i).copied().unwrap_or(0.0)).abs()).sum()
+    }
+
     /// Adds gᵀ `force` to `out`; entries beyond its length are left out.
     #[inline]
     pub(crate) fn add_transposed(&self, force: f64, out: &mut [f64]) {

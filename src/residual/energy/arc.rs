@@ -1,7 +1,7 @@
 //! The energy ledger of the exact motion of one degree of freedom: powers integrated along an arc,
 //! and the jump at its end.
 
-use super::{Flows, Ledger, stored};
+use super::{Flows, Ledger};
 use crate::flow::Arc;
 use crate::linear::running_max;
 use crate::scene::{Scene, System};
@@ -83,8 +83,8 @@ impl Along {
 
 impl Ledger {
     /// Starts a panel with the body and its load; returns the largest of their forces so far, N.
-    pub fn sample(&self, scene: &Scene, at: &mut Instants, along: &mut Along) -> f64 {
-        let [m, c, k] = numbers(scene);
+    pub fn sample(&self, at: &mut Instants, along: &mut Along) -> f64 {
+        let [m, c, k] = numbers(&self.scene);
         let n = at.count;
         let (weight, q, v, load) = (&at.weight[..n], &at.q[..n], &at.v[..n], &at.load[..n]);
         let (force, energy) = (&mut at.force[..n], &mut at.energy[..n]);
@@ -117,8 +117,8 @@ impl Ledger {
     /// face is decided by rounding. The wall stores energy only while it touches; what it stores
     /// when contact ends counts as dissipated, since spring and dashpot then relax against each
     /// other.
-    pub fn observe_arc(&mut self, scene: &Scene, step: &Step<'_>, arc: &Arc, blow: &[f64], along: &Along) -> f64 {
-        let [mass, _, stiffness] = numbers(scene);
+    pub fn observe_arc(&mut self, step: &Step<'_>, arc: &Arc, blow: &[f64], along: &Along) -> f64 {
+        let [mass, _, stiffness] = numbers(&self.scene);
         let mut flows = along.flows;
         let mut open = 0.0;
         let v_end = if step.end > step.start { arc.state(step.end).1 } else { first(step.velocity_before) };
@@ -137,21 +137,10 @@ impl Ledger {
         let struck = 0.5 * first(blow) * (v_end + mid);
         flows.work += struck;
         flows.passed += struck.abs();
-        let mut walls = 0.0;
-        for (index, wall) in scene.walls.iter().enumerate() {
-            if step.jump[index] != 0.0 {
-                flows.impact -= 0.5 * step.jump[index] * (mid + first(step.v));
-            }
-            if wall.law.is_rigid() {
-                continue;
-            }
-            let now = stored(wall, wall.row().dot(step.q), step.force[index] != 0.0);
-            walls += now;
-            let held = std::mem::replace(&mut self.held[index], now);
-            if wall.law.damping() > 0.0 {
-                flows.dashpot -= now - held;
-            }
+        for jump in step.jump.iter().filter(|jump| **jump != 0.0) {
+            flows.impact -= 0.5 * jump * (mid + first(step.v));
         }
+        let walls = self.store(step, &mut flows);
         let (q, v) = (first(step.q), first(step.v));
         self.book(0.5 * (mass * v * v + stiffness * q * q) + walls, flows);
         open
