@@ -1,6 +1,6 @@
 //! The state of a scheme on a grid, and the results of its last step.
 
-use super::space::{Space, zero};
+use super::space::{Space, add_change, zero};
 use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Contract, Path, Step};
@@ -163,6 +163,13 @@ impl<S: Space> Frame<S> {
             self.impulse[wall] = h * force;
             self.pushing.push(wall);
         }
+    }
+
+    /// Advances the state by a step of the θ-rule, (h, θ), that changes the velocity by `delta`.
+    #[inline(always)]
+    pub fn add_change(&mut self, rule: (f64, f64), delta: &S::Vector) {
+        add_change::<S>(rule, delta, &mut self.q, &mut self.v);
+        self.after.clone_from(&self.v);
     }
 
     /// Velocity to which impact laws refer, m/s: before the step, with its blows.

@@ -30,7 +30,7 @@ use super::entry::{Coverage, Realised, SchemeEntry, SchemeKind};
 use super::frame::{Frame, all_finite};
 use super::programme::Programme;
 use super::rule::Rule;
-use super::space::{Space, zero};
+use super::space::{Space, add_change, zero};
 use super::supports::TURNING;
 use crate::error::Result;
 use crate::qp::Backend;
@@ -198,8 +198,7 @@ impl<S: Space> MoreauJean<S> {
             Some(row) => self.solve_contacts(row, step, frame)?,
         }
         let carried = self.body.blows.is_some() && self.solve_with_blows(step, frame)?;
-        add_change::<S>((h, self.theta), self.programme.x(), &mut frame.q, &mut frame.v);
-        frame.after.clone_from(&frame.v);
+        frame.add_change((h, self.theta), self.programme.x());
         if carried {
             self.body.shift(&mut frame.q);
         }
@@ -215,15 +214,6 @@ impl<S: Space> MoreauJean<S> {
 fn write_midpoint<S: Space>(h: f64, q: &S::Vector, v: &S::Vector, ahead: &mut S::Vector) {
     for (ahead, (q, v)) in ahead.as_mut().iter_mut().zip(q.as_ref().iter().zip(v.as_ref())) {
         *ahead = q + 0.5 * h * v;
-    }
-}
-
-/// Adds δ, and the displacement that follows from it, to the state.
-#[inline(always)]
-fn add_change<S: Space>((h, theta): (f64, f64), delta: &S::Vector, q: &mut S::Vector, v: &mut S::Vector) {
-    for ((q, v), d) in q.as_mut().iter_mut().zip(v.as_mut()).zip(delta.as_ref()) {
-        *q += h * (*v + theta * d);
-        *v += d;
     }
 }
 

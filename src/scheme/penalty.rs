@@ -28,7 +28,7 @@ use super::entry::{Coverage, ONES_FOR_FRICTION, Realised, SchemeEntry, SchemeKin
 use super::frame::Frame;
 use super::newton::{ForceLawSolver, LawResponse};
 use super::rule::Rule;
-use super::space::{Space, zero};
+use super::space::{Space, add_change, zero};
 use super::{Counters, Integrator};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
@@ -301,10 +301,7 @@ impl<S: Space> Rule<S> for Penalty<S> {
             if inside {
                 self.solve_contacts(frame, step)?;
             }
-            for ((q, v), d) in frame.q.as_mut().iter_mut().zip(frame.v.as_mut()).zip(self.delta.as_ref()) {
-                *q += h * (*v + theta * d);
-                *v += d;
-            }
+            add_change::<S>((h, theta), &self.delta, &mut frame.q, &mut frame.v);
         }
         frame.after.clone_from(&frame.v);
         if blown {

@@ -71,7 +71,7 @@ impl DiskProgramme {
     }
 
     /// The minimiser of the last programme.
-    pub fn x(&self) -> &[f64] {
+    pub fn x(&self) -> &Vec<f64> {
         &self.solver.solution().x
     }
 

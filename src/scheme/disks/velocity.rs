@@ -37,12 +37,7 @@ impl Velocity {
         self.bind(held);
         self.solve(step, held)?;
         let carried = held.body.blows.is_some() && self.solve_with_blows(step, held)?;
-        let frame = &mut held.frame;
-        for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(self.bounds.x()) {
-            *q += h * (*v + theta * d);
-            *v += d;
-        }
-        frame.after.clone_from(&frame.v);
+        held.frame.add_change((h, theta), self.bounds.x());
         if carried {
             held.body.shift(&mut held.frame.q);
         }

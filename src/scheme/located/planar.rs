@@ -58,11 +58,7 @@ impl LocatedPlanar {
         {
             return false;
         }
-        for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(&*delta) {
-            *q += body.h * (*v + THETA * d);
-            *v += d;
-        }
-        frame.after.clone_from(&frame.v);
+        frame.add_change((body.h, THETA), delta);
         division.contacts.forget();
         true
     }
