@@ -97,12 +97,8 @@ impl Problem {
         for (index, event) in signature.events.iter().enumerate() {
             let Some(boundary) = self.boundary(event.wall) else { continue };
             let from = boundary.after(event.kind, orbit.speeds[index]);
-            let until = match orbit.phases.get(index + 1) {
-                Some(phase) => *phase,
-                None => orbit.phases[0] + signature.cycles(),
-            };
             let start = orbit.phases[index] * self.forcing_period();
-            let span = until * self.forcing_period() - start;
+            let span = orbit.next_phase(index) * self.forcing_period() - start;
             self.fly(&mut arc, from.state, [start, span], &touching[index], None);
             flights.push((arc.start_jet()[2], arc.jet(span)[2], arc.propagator()));
         }
