@@ -191,6 +191,13 @@ impl WallSpring {
         self.stiffness + self.damping / tau
     }
 
+    /// 1/(τ²(k_a + c_a/τ)), m/s per N s: the change of velocity per impulse of spring and dashpot,
+    /// in a step of the θ-rule in which `tau` is θ times its length, s.
+    #[inline]
+    pub(crate) fn compliance(&self, tau: f64) -> f64 {
+        1.0 / (tau * tau * self.over(tau))
+    }
+
     /// k_a(w − g) + c_a(w − plate)/τ, N: the force against a body that arrives at `w` (m) after
     /// `tau` seconds, at a wall at `position` whose dashpot began at `plate`, as if it could pull.
     #[inline]

@@ -132,9 +132,9 @@ impl<S: Space> GeneralizedAlpha<S> {
         let body = Body::<S>::new(scene, h)?;
         let rule = ChungHulbert::new(&body, balance)?;
         let (gap, walls) = (scene.gap_scale(), body.walls.len());
-        let place = Programme::new(scene, rule.matrix(&body), gap, |k, c| 1.0 / (k + c / h), backend)?;
+        let place = Programme::new(scene, rule.matrix(&body), gap, |spring| 1.0 / spring.over(h), backend)?;
         let rate =
-            Programme::over(scene, WallLaw::is_rigid, rule.velocity_matrix(&body), gap / h, |_, _| 0.0, backend)?;
+            Programme::over(scene, WallLaw::is_rigid, rule.velocity_matrix(&body), gap / h, |_| 0.0, backend)?;
         Ok(Self {
             rule,
             closed: false,

@@ -95,8 +95,8 @@ impl<S: Space> MoreauJean<S> {
     pub fn new(scene: &Scene, theta: f64, h: f64, backend: Backend) -> Result<Self> {
         let body = Body::<S>::new(scene, h)?;
         let ht = h * theta;
-        let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
-        let programme = Programme::new(scene, body.theta_matrix(theta), scene.gap_scale() / h, compliance, backend)?;
+        let (a, scale) = (body.theta_matrix(theta), scene.gap_scale() / h);
+        let programme = Programme::new(scene, a, scale, |spring| spring.compliance(ht), backend)?;
         let (b, ahead, last) = (zero::<S>(body.n), zero::<S>(body.n), vec![0.0; programme.count_rows()]);
         let pushed = Vec::with_capacity(scene.walls.len());
         Ok(Self { body, theta, programme, b, ahead, last, pushed, frozen: 0 })

@@ -40,8 +40,8 @@ impl Alpha {
         let mut alpha = Self {
             closed: false,
             held: vec![0.0; scene.walls.len()],
-            place: DiskProgramme::new(scene, rule.matrix(body), gap, |k, c| 1.0 / (k + c / h))?,
-            rate: DiskProgramme::new(scene, rule.velocity_matrix(body), gap / h, |_, _| 0.0)?,
+            place: DiskProgramme::new(scene, rule.matrix(body), gap, |spring| 1.0 / spring.over(h))?,
+            rate: DiskProgramme::new(scene, rule.velocity_matrix(body), gap / h, |_| 0.0)?,
             zero: vec![0.0; body.n],
             start: vec![[0.0; 2]; held.rounds.len()],
             rule,

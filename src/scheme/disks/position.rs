@@ -21,7 +21,7 @@ impl Position {
     pub fn new(scene: &Scene, held: &HoleBody) -> Result<Self> {
         let (h, m) = (held.body.h, &held.body.matrices);
         let a = Symmetric::sum(&[(1.0 / (h * h), &m.mass), (1.0 / h, &m.damping), (1.0, &m.stiffness)]);
-        let bounds = DiskProgramme::new(scene, a, scene.gap_scale(), |k, c| 1.0 / (k + c / h))?;
+        let bounds = DiskProgramme::new(scene, a, scene.gap_scale(), |spring| 1.0 / spring.over(h))?;
         Ok(Self { bounds, b: vec![0.0; held.body.n] })
     }
 

@@ -22,9 +22,8 @@ pub(super) struct Velocity {
 impl Velocity {
     pub fn new(scene: &Scene, theta: f64, held: &HoleBody) -> Result<Self> {
         let ht = held.body.h * theta;
-        let compliance = move |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
-        let bounds =
-            DiskProgramme::new(scene, held.body.theta_matrix(theta), scene.gap_scale() / held.body.h, compliance)?;
+        let (a, scale) = (held.body.theta_matrix(theta), scene.gap_scale() / held.body.h);
+        let bounds = DiskProgramme::new(scene, a, scale, |spring| spring.compliance(ht))?;
         Ok(Self { theta, bounds, b: vec![0.0; held.body.n] })
     }
 

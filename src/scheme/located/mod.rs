@@ -123,9 +123,8 @@ impl<S: Space> Located<S> {
     pub fn new(scene: &Scene, h: f64, backend: Backend) -> Result<Self> {
         let body = Body::<S>::new(scene, h)?;
         let ht = h * THETA;
-        let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
-        let scale = scene.gap_scale() / h;
-        let programme = Programme::new(scene, body.theta_matrix(THETA), scale, compliance, backend)?;
+        let (a, scale) = (body.theta_matrix(THETA), scene.gap_scale() / h);
+        let programme = Programme::new(scene, a, scale, |spring| spring.compliance(ht), backend)?;
         let division = Division::new(scene, &body, RowContacts::new(scene, &body, backend)?, backend)?;
         let [b, arrived, after, ahead] = [(); 4].map(|()| zero::<S>(body.n));
         Ok(Self { body, programme, division, b, arrived, after, ahead, clear: false })
