@@ -127,7 +127,7 @@ impl<S: Space> MoreauJean<S> {
                 // p = −h[k_a(w_θ − g) + c_a(w_θ − plate)/θh] with w_θ = w + hθẇ + hθ²δ.
                 (Some(spring), _) => {
                     let offset = h * spring.force(w + ht * before, wall.g, wall.plate(w), ht);
-                    -offset / (ht * ht * spring.over(ht))
+                    -offset / (ht * ht * spring.stiffness_over(ht))
                 }
                 (_, Some(restitution)) if wall.depth(reach) >= -body.touch => {
                     let epsilon = if wall.sign * struck <= 0.0 { restitution } else { 1.0 };

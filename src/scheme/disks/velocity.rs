@@ -53,7 +53,7 @@ impl Velocity {
                 // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
                 (Some(spring), _) => {
                     let offset = h * spring.force(w + ht * before, face.g, face.plate(w), ht);
-                    self.bounds.bind_wall(wall, face, -offset / (ht * ht * spring.over(ht)));
+                    self.bounds.bind_wall(wall, face, -offset / (ht * ht * spring.stiffness_over(ht)));
                 }
                 (_, Some(restitution)) if face.depth(w + 0.5 * h * struck) >= -held.body.touch => {
                     let epsilon = if face.sign * struck <= 0.0 { restitution } else { 1.0 };
