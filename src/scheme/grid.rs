@@ -22,8 +22,6 @@ pub(super) struct Grid<S: Space> {
     h: f64,
     /// True if the rule divides steps.
     divides: bool,
-    /// True if the extra force of the last step may not be 0.
-    forced: bool,
 }
 
 impl<S: Space> Grid<S> {
@@ -35,15 +33,13 @@ impl<S: Space> Grid<S> {
         let rows = S::rows(scene.initial.q.len(), scene.walls.iter().map(|wall| wall.row()));
         let divides = contract.divides;
         let episodes = Episodes::new(scene, masses, contract);
-        Ok(Self { rule, frame, episodes, rows, h, divides, forced: false })
+        Ok(Self { rule, frame, episodes, rows, h, divides })
     }
 
     /// As [`Motion::advance`].
     #[inline]
     pub fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        if extra.is_some() || self.forced {
-            self.force(extra);
-        }
+        self.frame.force(extra);
         self.rule.advance(step, &mut self.frame)?;
         self.frame.check(step)?;
         if !self.frame.pushing.is_empty() || !self.episodes.idle() {
@@ -54,7 +50,7 @@ impl<S: Space> Grid<S> {
 
     /// As [`Motion::advance_quiet`].
     pub fn advance_quiet(&mut self, step: u64, until: u64, quiet: Option<&mut QuietSteps>) -> Result<u64> {
-        if self.forced || !self.frame.pushing.is_empty() || !self.episodes.idle() {
+        if self.frame.forced || !self.frame.pushing.is_empty() || !self.episodes.idle() {
             return Ok(step);
         }
         let reached = self.rule.advance_quiet(step, until, &mut self.frame, quiet)?;
@@ -62,14 +58,6 @@ impl<S: Space> Grid<S> {
             self.frame.check(reached - 1)?;
         }
         Ok(reached)
-    }
-
-    /// Sets the extra force of the step. Not inlined: most runs have none.
-    #[inline(never)]
-    fn force(&mut self, extra: Option<&[f64]>) {
-        // A staggered rule has half of the last step's extra force in the frame.
-        self.forced = extra.is_some() || self.frame.extra.as_ref().iter().any(|&force| force != 0.0);
-        self.frame.force(extra);
     }
 
     /// Passes the last step to the contact episodes. Not inlined: most steps touch no wall.

@@ -71,8 +71,6 @@ pub(super) struct Disks {
     rule: DiskRule,
     episodes: Episodes,
     turned: f64,
-    /// True if the extra force of the last step may not be 0.
-    forced: bool,
 }
 
 impl Disks {
@@ -96,7 +94,6 @@ impl Disks {
             held,
             episodes: Episodes::new(scene, scene.wall_masses(), contract),
             turned: 0.0,
-            forced: false,
         })
     }
 
@@ -126,10 +123,7 @@ impl Disks {
 
 impl Motion for Disks {
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        if extra.is_some() || self.forced {
-            self.held.frame.force(extra);
-            self.forced = extra.is_some();
-        }
+        self.held.frame.force(extra);
         self.held.frame.normal.fill([0.0; 2]);
         self.held.frame.begin(step, self.held.body.h);
         self.rule.advance(step, &mut self.held)?;
@@ -155,7 +149,6 @@ impl Motion for Disks {
         }
         self.held.frame.normal.fill([0.0; 2]);
         self.episodes.forget();
-        self.forced = false;
         Ok(())
     }
 

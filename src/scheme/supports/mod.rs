@@ -80,8 +80,6 @@ pub(super) struct Supports {
     given: Vec<f64>,
     memory: WarmStart,
     episodes: Episodes,
-    /// True if the extra force of the last step may not be 0.
-    forced: bool,
     /// The vector instructions of the machine.
     arch: pulp::Arch,
 }
@@ -111,7 +109,6 @@ impl Supports {
             given: vec![0.0; contacts],
             memory,
             episodes: Episodes::new(scene, scene.wall_masses(), contract),
-            forced: false,
             arch: pulp::Arch::new(),
             places,
             reach: WallsInPlay::new(scene, theta, points),
@@ -250,10 +247,7 @@ impl Supports {
     /// Makes step number `step` under the extra force.
     #[inline(always)]
     fn make<S: Simd>(&mut self, simd: S, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        if extra.is_some() || self.forced {
-            self.frame.force(extra);
-            self.forced = extra.is_some();
-        }
+        self.frame.force(extra);
         let h = self.body.h;
         self.take_back_impulses();
         self.frame.normal.fill([0.0; 2]);
@@ -324,7 +318,6 @@ impl Motion for Supports {
         self.frame.normal.fill([0.0; 2]);
         self.episodes.forget();
         self.memory.begin(scene, q, v);
-        self.forced = false;
         Ok(())
     }
 
