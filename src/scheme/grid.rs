@@ -36,30 +36,6 @@ impl<S: Space> Grid<S> {
         Ok(Self { rule, frame, episodes, rows, h, divides })
     }
 
-    /// As [`Motion::advance`].
-    #[inline]
-    pub fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        self.frame.force(extra);
-        self.rule.advance(step, &mut self.frame)?;
-        self.frame.check(step)?;
-        if !self.frame.pushing.is_empty() || !self.episodes.idle() {
-            self.record_episodes();
-        }
-        Ok(())
-    }
-
-    /// As [`Motion::advance_quiet`].
-    pub fn advance_quiet(&mut self, step: u64, until: u64, quiet: Option<&mut QuietSteps>) -> Result<u64> {
-        if self.frame.forced || !self.frame.pushing.is_empty() || !self.episodes.idle() {
-            return Ok(step);
-        }
-        let reached = self.rule.advance_quiet(step, until, &mut self.frame, quiet)?;
-        if reached > step {
-            self.frame.check(reached - 1)?;
-        }
-        Ok(reached)
-    }
-
     /// Passes the last step to the contact episodes. Not inlined: most steps touch no wall.
     #[inline(never)]
     fn record_episodes(&mut self) {
@@ -89,39 +65,43 @@ impl<S: Space> Grid<S> {
         };
         episodes.observe(frame.start, *h, &frame.impulse, &frame.pushing, rates);
     }
-
-    /// As [`Motion::is_divided`].
-    #[inline]
-    pub fn is_divided(&self) -> bool {
-        self.frame.unfinished
-    }
-
-    /// As [`Motion::step`].
-    #[inline(always)]
-    pub fn step(&self, index: u64) -> Step<'_> {
-        self.frame.step(index, self.episodes.closed())
-    }
 }
 
 impl<S: Space> Motion for Grid<S> {
+    #[inline]
     fn is_divided(&self) -> bool {
-        self.is_divided()
+        self.frame.unfinished
     }
 
+    #[inline]
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        self.advance(step, extra)
+        self.frame.force(extra);
+        self.rule.advance(step, &mut self.frame)?;
+        self.frame.check(step)?;
+        if !self.frame.pushing.is_empty() || !self.episodes.idle() {
+            self.record_episodes();
+        }
+        Ok(())
     }
 
     fn advance_quiet(&mut self, step: u64, until: u64, quiet: Option<&mut QuietSteps>) -> Result<u64> {
-        self.advance_quiet(step, until, quiet)
+        if self.frame.forced || !self.frame.pushing.is_empty() || !self.episodes.idle() {
+            return Ok(step);
+        }
+        let reached = self.rule.advance_quiet(step, until, &mut self.frame, quiet)?;
+        if reached > step {
+            self.frame.check(reached - 1)?;
+        }
+        Ok(reached)
     }
 
     fn flush(&mut self, tiny: f64) {
         self.frame.flush(tiny, self.h, self.rule.carried());
     }
 
+    #[inline(always)]
     fn step(&self, index: u64) -> Step<'_> {
-        self.step(index)
+        self.frame.step(index, self.episodes.closed())
     }
 
     fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
