@@ -21,7 +21,6 @@
 
 use super::StructureEvent;
 use super::closed_row::{ClosedRow, side_of};
-use super::rows::size;
 use crate::error::{Error, Result};
 use crate::qp::{Failure, Rhs};
 use crate::scheme::exact::{TAIL_CHANGE, TAIL_HEIGHT, TIME_UNITS, noise};
@@ -56,7 +55,7 @@ impl StructureEvent {
         let pull = self.body.answer_size(row, &self.sizes.instant);
         // Where forces balance, the velocity has the rounding error of their terms over the last
         // stretch.
-        let own = noise(size(&self.body, row, &self.v) + pull * self.series.longest()) + self.turned_speed(row);
+        let own = noise(self.body.size(row, &self.v) + pull * self.series.longest()) + self.turned_speed(row);
         if self.closed_rows.len() < 2 {
             return own;
         }
@@ -72,6 +71,11 @@ impl StructureEvent {
         let rate = self.rate_of(closed_row);
         let quiet = self.quiet(s.row);
         if s.both { rate.abs() > quiet } else { rate < -quiet }
+    }
+
+    /// True if the structure approaches any closed wall.
+    pub(super) fn is_any_approached(&self) -> bool {
+        (0..self.closed_rows.len()).any(|closed_row| self.is_approached(closed_row))
     }
 
     /// ẇ away from the wall, m/s.
@@ -103,18 +107,15 @@ impl StructureEvent {
     /// Applies the impact law from the present velocity until no closed wall is approached.
     fn strike(&mut self) -> Result<()> {
         self.closed_rows.iter_mut().for_each(|s| s.push = [0.0; 2]);
-        if let [closed_row] = self.closed_rows[..] {
-            let rate = self.rate_of(0);
-            let push = -(1.0 + closed_row.restitution) * rate / self.body.delassus(closed_row.row, closed_row.row);
-            self.body.add_column(closed_row.row, closed_row.sign * push, &mut self.v);
-            self.closed_rows[0].push[side_of(closed_row.sign * push)] = push.abs();
+        if self.closed_rows.len() == 1 {
+            self.strike_alone(0);
             return Ok(());
         }
         if self.is_struck_in_turn() {
             return self.strike_in_turn();
         }
         for pass in 0..=PASSES {
-            if !(0..self.closed_rows.len()).any(|closed_row| self.is_approached(closed_row)) {
+            if !self.is_any_approached() {
                 break;
             }
             if pass == PASSES || !self.pass(false)? {
@@ -122,6 +123,14 @@ impl StructureEvent {
             }
         }
         Ok(())
+    }
+
+    /// Applies Newton's law to one closed wall by itself.
+    fn strike_alone(&mut self, closed_row: usize) {
+        let s = self.closed_rows[closed_row];
+        let push = -s.sign * (1.0 + s.restitution) * self.rate_of(closed_row) / self.body.delassus(s.row, s.row);
+        self.body.add_column(s.row, push, &mut self.v);
+        self.closed_rows[closed_row].push[side_of(push)] += push.abs();
     }
 
     /// True if a closed row that is not approached flew up from an impact just before, too short to
@@ -147,16 +156,13 @@ impl StructureEvent {
         for _ in 0..IN_TURN {
             let approached = (0..count).filter(|&at| self.is_approached(at));
             let Some(at) = approached.max_by(|&a, &b| weighed(self, a).total_cmp(&weighed(self, b))) else { break };
-            let s = self.closed_rows[at];
             first = first.max(weighed(self, at));
-            let push = -s.sign * (1.0 + s.restitution) * self.rate_of(at) / self.body.delassus(s.row, s.row);
-            self.body.add_column(s.row, push, &mut self.v);
-            self.closed_rows[at].push[side_of(push)] += push.abs();
+            self.strike_alone(at);
         }
         let struck = |s: &ClosedRow| s.push != [0.0; 2];
         let left =
             (0..count).filter(|&at| struck(&self.closed_rows[at])).map(|at| weighed(self, at)).fold(0.0, f64::max);
-        if left > ACCUMULATED * first && !(0..count).any(|at| self.is_approached(at)) {
+        if left > ACCUMULATED * first && !self.is_any_approached() {
             return Ok(());
         }
         self.closed_rows.iter_mut().filter(|s| struck(s)).for_each(|s| s.restitution = 0.0);
@@ -174,7 +180,7 @@ impl StructureEvent {
     fn in_turn(&mut self) -> Result<()> {
         self.closed_rows.iter_mut().for_each(|s| s.restitution = 0.0);
         for _ in 0..TURNS {
-            if !(0..self.closed_rows.len()).any(|closed_row| self.is_approached(closed_row)) {
+            if !self.is_any_approached() {
                 return Ok(());
             }
             if !self.pass(false)? {
@@ -333,8 +339,8 @@ impl StructureEvent {
 
     /// Rounding error of the displacement of a row here, m.
     pub(super) fn resolution(&self, row: usize, position: f64) -> f64 {
-        let moved = self.series.span() * size(&self.body, row, self.series.term(1));
-        noise(size(&self.body, row, &self.q) + moved + position.abs())
+        let moved = self.series.span() * self.body.size(row, self.series.term(1));
+        noise(self.body.size(row, &self.q) + moved + position.abs())
     }
 }
 
