@@ -34,9 +34,9 @@
 //!
 //! With round walls or friction ([`planar`], [`plane_contacts`]) the same division ends parts where
 //! a place meets a circle (`round_path.rs`), where sliding ends and where it begins; a body that
-//! slides along a circle is guided by an impulse along the middle of its path (`plane_bound.rs`).
-//! There the rest of a step of more than 64 parts has no rebounds, and implicit-euler takes over
-//! after 256 more.
+//! slides along a circle is guided by an impulse along the middle of its path (`plane_bound.rs`,
+//! `plane_holds.rs`). There the rest of a step of more than 64 parts has no rebounds, and
+//! implicit-euler takes over after 256 more.
 //!
 //! Order 2 through impacts. More than 64 parts of one step (dense chatter, or a
 //! step that does not resolve the motion between two walls) are given up: the rest of that step is
@@ -52,6 +52,7 @@ mod planar;
 mod plane_bound;
 mod plane_contact;
 mod plane_contacts;
+mod plane_holds;
 mod plane_path;
 mod response;
 mod round_path;
