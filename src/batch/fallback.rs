@@ -5,7 +5,7 @@ use super::outcome::{AtWall, By, Outcome, grown};
 use super::series::REACH;
 use crate::error::Result;
 use crate::flow::Arc;
-use crate::scene::{Oscillator, Scene};
+use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper};
 use crate::step::{Path, Step};
 use crate::variation::{OscillatorVariation, saltation};
@@ -71,12 +71,7 @@ pub(super) fn follow(lane: &Lane, settle: u32, strobes: &mut [[f64; 2]]) -> Resu
 
 impl Window {
     fn new(lane: &Lane, scene: &Scene) -> Result<Self> {
-        let Oscillator { mass, damping, stiffness } = lane.body;
-        let (sigma, natural) = (0.5 * damping / mass, stiffness / mass);
-        let excess = sigma * sigma - natural;
-        let own = if excess > 0.0 { sigma + excess.sqrt() } else { natural.sqrt() };
-        let omega = |multiple: u32| std::f64::consts::TAU * f64::from(multiple) / lane.period;
-        let rate = lane.sines.iter().map(|s| omega(s.multiple)).fold(own, f64::max).max(REACH / lane.period);
+        let rate = lane.fastest().max(REACH / lane.period);
         Ok(Self {
             walls: [AtWall::default(); 2],
             extent: [f64::NEG_INFINITY, f64::INFINITY],

@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::scene::{Load, LoadKind, Oscillator, Row, Scene, Side, System, Wall, WallLaw};
+use std::f64::consts::TAU;
 
 /// Relative tolerance within which a frequency times a period counts as an integer: rounding of
 /// both.
@@ -180,6 +181,20 @@ impl Lane {
         }
         let sine = |s: &Sine| Load::harmonic(s.amplitude, f64::from(s.multiple) / self.period, s.phase);
         self.sines.iter().map(sine).fold(scene, Scene::with_load)
+    }
+
+    /// The fastest rate of the motion, 1/s: of the body or of a sine.
+    pub(super) fn fastest(&self) -> f64 {
+        let Oscillator { mass, damping, stiffness } = self.body;
+        let (sigma, natural) = (0.5 * damping / mass, stiffness / mass);
+        let excess = sigma * sigma - natural;
+        let own = if excess > 0.0 { sigma + excess.sqrt() } else { natural.sqrt() };
+        self.sines.iter().map(|sine| self.omega(sine)).fold(own, f64::max)
+    }
+
+    /// ω of a sine, rad/s.
+    pub(super) fn omega(&self, sine: &Sine) -> f64 {
+        TAU * f64::from(sine.multiple) / self.period
     }
 }
 

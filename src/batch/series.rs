@@ -75,13 +75,9 @@ impl LaneConstants {
     pub fn of(lane: &Lane) -> Option<Self> {
         let (m, period) = (lane.body.mass, lane.period);
         let (sigma, natural) = (0.5 * lane.body.damping / m, lane.body.stiffness / m);
-        let excess = sigma * sigma - natural;
-        let own = if excess > 0.0 { sigma + excess.sqrt() } else { natural.sqrt() };
-        let omega = |multiple: u32| std::f64::consts::TAU * f64::from(multiple) / period;
-        let fastest = lane.sines.iter().map(|s| omega(s.multiple)).fold(own, f64::max);
         // A body without frequencies of its own or of a load still takes at least one step per
         // period.
-        let steps = (fastest * period / REACH).max(1.0);
+        let steps = (lane.fastest() * period / REACH).max(1.0);
         if steps.is_nan() || steps > MOST_STEPS {
             return None;
         }
@@ -96,7 +92,7 @@ impl LaneConstants {
         let waves: Vec<Wave> = lane
             .sines
             .iter()
-            .map(|sine| Wave::of([alpha, kappa], sine.amplitude * unit, omega(sine.multiple) * d, sine.phase))
+            .map(|sine| Wave::of([alpha, kappa], sine.amplitude * unit, lane.omega(sine) * d, sine.phase))
             .collect();
         let [v, r] = [rate(&free), sum(&integral)];
         Some(Self {
@@ -109,7 +105,7 @@ impl LaneConstants {
             impulse: cut(&free),
             integral: cut(&integral),
             whole: [sum(&free), v, r],
-            bound: bound([alpha, kappa], push, lane.sines.iter().map(|s| (s.amplitude * unit, omega(s.multiple) * d))),
+            bound: bound([alpha, kappa], push, lane.sines.iter().map(|s| (s.amplitude * unit, lane.omega(s) * d))),
             waves,
         })
     }

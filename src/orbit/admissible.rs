@@ -83,12 +83,8 @@ impl Problem {
             }
             let from = boundary.after(event.kind, orbit.speeds[index]);
             found.largest = found.largest.max(from.state[0].abs());
-            let until = match orbit.phases.get(index + 1) {
-                Some(phase) => *phase,
-                None => orbit.phases[0] + signature.cycles(),
-            };
             let start = orbit.phases[index] * self.forcing_period();
-            let span = until * self.forcing_period() - start;
+            let span = orbit.next_phase(index) * self.forcing_period() - start;
             match event.kind {
                 // Accumulating impacts are run by the exact scheme, which finds all contacts
                 // itself.

@@ -15,6 +15,7 @@ use super::forcing::{forcing_period, frequencies};
 use super::periodic::Orbit;
 use super::problem::Problem;
 use super::signature::Signature;
+use super::strobe::{is_stable, square};
 use super::symmetry::mirror;
 use crate::error::{Error, Result};
 use crate::scene::{LoadKind, Row, Scene, System, Wall};
@@ -45,7 +46,7 @@ impl ClosedForm {
     /// True if all multipliers lie inside the unit circle.
     #[must_use]
     pub fn is_stable(&self) -> bool {
-        self.multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
+        is_stable(&self.multipliers)
     }
 
     /// The orbit of a problem of one degree of freedom.
@@ -119,7 +120,6 @@ pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
             // Each pair of walls is looked at once.
             if periods % 2 == 1 && opposite.as_ref().and_then(|of| of.get(index)).is_some_and(|other| index < *other) {
                 linear.solve(wall, restitution, &part, -1.0, &mut |phase, speed, multipliers| {
-                    let square = |[re, im]: [f64; 2]| [re * re - im * im, 2.0 * re * im];
                     let multipliers = multipliers.into_iter().map(square).collect();
                     found.push(ClosedForm { wall: index, periods, symmetric: true, phase, speed, multipliers });
                 });

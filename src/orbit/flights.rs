@@ -39,11 +39,8 @@ impl Problem {
             if event.kind == Kind::Chatter {
                 continue;
             }
-            let until = match whole.phases.get(index + 1) {
-                Some(next) => *next,
-                None => whole.phases[0] + whole.signature.cycles(),
-            };
-            let (start, span) = (phase * self.forcing_period(), (until - phase) * self.forcing_period());
+            let start = phase * self.forcing_period();
+            let span = (whole.next_phase(index) - phase) * self.forcing_period();
             let from = boundary.after(event.kind, whole.speeds[index]).state;
             let support = (event.kind == Kind::Rest).then_some(event.wall);
             self.fly(&mut arc, from, [start, span], &touching[index], support);

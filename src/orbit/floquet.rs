@@ -4,6 +4,7 @@ use super::boundary::BoundaryLaw;
 use super::periodic::Orbit;
 use super::problem::Problem;
 use super::signature::Kind;
+use super::strobe::{is_stable, square};
 use crate::error::Result;
 use crate::variation::saltation::{IDENTITY, Matrix2, entry, impact, multiply};
 
@@ -39,7 +40,7 @@ impl Floquet {
     /// True if all multipliers lie inside the unit circle: runs settle on such orbits.
     #[must_use]
     pub fn is_stable(&self) -> bool {
-        self.multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
+        is_stable(&self.multipliers)
     }
 
     /// The multipliers of a 2 × 2 derivative with the given trace and determinant, over half an
@@ -54,8 +55,7 @@ impl Floquet {
         if !half {
             return Self { multipliers: own, half: None, trace, determinant };
         }
-        let square = |[re, im]: &[f64; 2]| [re * re - im * im, 2.0 * re * im];
-        Self { multipliers: own.iter().map(square).collect(), half: Some(own), trace, determinant }
+        Self { multipliers: own.iter().copied().map(square).collect(), half: Some(own), trace, determinant }
     }
 }
 
@@ -97,12 +97,8 @@ impl Problem {
         for (index, event) in signature.events.iter().enumerate() {
             let Some(boundary) = self.boundary(event.wall) else { continue };
             let from = boundary.after(event.kind, orbit.speeds[index]);
-            let until = match orbit.phases.get(index + 1) {
-                Some(phase) => *phase,
-                None => orbit.phases[0] + signature.cycles(),
-            };
             let start = orbit.phases[index] * self.forcing_period();
-            let span = until * self.forcing_period() - start;
+            let span = orbit.next_phase(index) * self.forcing_period() - start;
             self.fly(&mut arc, from.state, [start, span], &touching[index], None);
             flights.push((arc.start_jet()[2], arc.jet(span)[2], arc.propagator()));
         }

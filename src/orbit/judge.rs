@@ -194,8 +194,7 @@ impl Problem {
         let mut best: Option<(f64, f64, [f64; 2])> = None;
         for (index, event) in whole.signature.events.iter().enumerate() {
             let (Some(boundary), Some(phase)) = (self.boundary(event.wall), whole.phases.get(index)) else { continue };
-            let until = whole.phases.get(index + 1).copied().unwrap_or_else(|| whole.phases[0] + turn);
-            let span = (until - phase) * period;
+            let span = (whole.next_phase(index) - phase) * period;
             let free =
                 touching.get(index).is_none_or(Vec::is_empty) && !matches!(event.kind, Kind::Rest | Kind::Chatter);
             if free && best.is_none_or(|(_, longest, _)| span > longest) {

@@ -33,6 +33,12 @@ impl Orbit {
         f64::from(self.signature.periods) * self.forcing_period
     }
 
+    /// The instant of the event after number `index`, which may fall into the next period, in
+    /// cycles of the forcing period from t = 0.
+    pub(super) fn next_phase(&self, index: usize) -> f64 {
+        self.phases.get(index + 1).copied().unwrap_or_else(|| self.phases[0] + self.signature.cycles())
+    }
+
     /// The same orbit with all of its events: the mirror half of a symmetric one added. `mirror` is
     /// the wall opposite to each wall.
     pub(super) fn unfolded(&self, mirror: Option<&[usize]>) -> Self {

@@ -3,7 +3,7 @@
 use super::periodic::{Orbit, REPEATED};
 use super::problem::Problem;
 use super::signature::{Kind, Signature};
-use super::watch::{Passage, Watch, gathered};
+use super::watch::{Passage, Watch, gathered, orbit_of};
 use crate::error::{Error, Result};
 use crate::scheme::{Scheme, Stepper};
 
@@ -87,16 +87,7 @@ impl Problem {
         for passage in passages.iter_mut().skip(count - first) {
             passage.phase += f64::from(periods);
         }
-        let orbit = Orbit {
-            signature: Signature {
-                events: passages.iter().map(|passage| passage.event).collect(),
-                periods,
-                symmetric: false,
-            },
-            phases: passages.iter().map(|passage| passage.phase).collect(),
-            speeds: passages.iter().map(|passage| passage.speed).collect(),
-            forcing_period: self.forcing_period(),
-        };
+        let orbit = orbit_of(&passages, periods, self.forcing_period());
         if orbit.signature.chatters() {
             // An orbit with chatter is run from one release from rest to the next, and is exact
             // already.

@@ -8,8 +8,9 @@
 use super::forcing::forcing_period;
 use super::orbit_run::{OrbitRun, Recorded, run};
 use super::periodic::{Orbit, REPEATED};
-use super::signature::{MOST_PERIODS, Signature};
-use super::strobe::{Scales, multipliers, newton_step, state, vector};
+use super::signature::MOST_PERIODS;
+use super::strobe::{Scales, is_stable, multipliers, newton_step, state, vector};
+use super::watch::orbit_of;
 use crate::error::{Error, Result};
 use crate::scene::{Scene, State};
 use crate::scheme::{Scheme, Stepper};
@@ -99,7 +100,7 @@ impl Shot {
     /// True if all multipliers lie inside the unit circle.
     #[must_use]
     pub fn is_stable(&self) -> bool {
-        self.multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
+        is_stable(&self.multipliers)
     }
 }
 
@@ -242,20 +243,10 @@ impl Shooting<'_> {
                  nearly grazes, or it has not settled yet"
             )));
         };
-        let orbit = Orbit {
-            signature: Signature {
-                events: motion.passages.iter().map(|p| p.event).collect(),
-                periods,
-                symmetric: false,
-            },
-            phases: motion.passages.iter().map(|p| p.phase).collect(),
-            speeds: motion.passages.iter().map(|p| p.speed).collect(),
-            forcing_period: self.period,
-        };
         Ok(Shot {
             periods,
             forcing_period: self.period,
-            orbit,
+            orbit: orbit_of(&motion.passages, periods, self.period),
             time,
             state: state(&x),
             multipliers: multipliers(&motion.derivative).iter().map(|z| [z.re, z.im]).collect(),

@@ -80,3 +80,13 @@ pub(crate) fn multipliers(derivative: &DMatrix<f64>) -> Vec<Complex<f64>> {
     all.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.im.total_cmp(&a.im)));
     all
 }
+
+/// True if all multipliers, real and imaginary part, lie inside the unit circle.
+pub(super) fn is_stable(multipliers: &[[f64; 2]]) -> bool {
+    multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
+}
+
+/// The square of a multiplier.
+pub(super) fn square([re, im]: [f64; 2]) -> [f64; 2] {
+    [re * re - im * im, 2.0 * re * im]
+}

@@ -1,6 +1,7 @@
 //! The events of an exact run.
 
-use super::signature::{Event, Kind};
+use super::periodic::Orbit;
+use super::signature::{Event, Kind, Signature};
 use crate::scene::{Scene, Wall};
 use crate::step::{Path, Step};
 
@@ -150,4 +151,15 @@ pub(super) fn gathered(passages: Vec<Passage>, scene: &Scene) -> Vec<Passage> {
         kept.push(passage);
     }
     kept
+}
+
+/// The orbit of these events in `periods` forcing periods of `forcing_period` seconds.
+pub(super) fn orbit_of(passages: &[Passage], periods: u32, forcing_period: f64) -> Orbit {
+    let events = passages.iter().map(|passage| passage.event).collect();
+    Orbit {
+        signature: Signature { events, periods, symmetric: false },
+        phases: passages.iter().map(|passage| passage.phase).collect(),
+        speeds: passages.iter().map(|passage| passage.speed).collect(),
+        forcing_period,
+    }
 }

@@ -11,11 +11,12 @@
 //! and as the last resort after [`super::pivoting`], for rows so nearly dependent that rounding
 //! decides the signs there.
 
+use super::clamp::ordered_bounds;
 use super::delassus::Delassus;
 use super::envelope::DEPENDENT;
 use super::side::Side;
 use super::sums::dot;
-use super::{Failure, NOISE, ROUNDING, ULPS};
+use super::{Failure, NOISE, ROUNDING, Rhs, ULPS};
 
 /// The rows in play, the factor of W on them, and work space for all m rows.
 pub(super) struct ActiveSet {
@@ -64,20 +65,18 @@ impl ActiveSet {
     pub(super) fn solve(
         &mut self,
         system: &Delassus,
-        lo: &[f64],
-        hi: &[f64],
+        rhs: &Rhs,
         scale: f64,
         limit: u64,
         r: &mut [f64],
     ) -> Result<u64, Failure> {
-        let bounds = |row: usize| super::clamp::ordered_bounds(lo[row], hi[row]);
         let mut pivots = 0;
         // A bound of the last active set may be infinite in this programme.
-        self.keep(system, |row, side, _| (if side == Side::Lower { lo[row] } else { hi[row] }).is_finite());
+        self.keep(system, |row, side, _| side.bound(rhs, row).is_finite());
         // The start is valid once no force has the wrong sign; each round removes a row, so this
         // ends.
         loop {
-            self.balance(system, bounds);
+            self.balance(system, rhs);
             let before = self.rows.len();
             self.keep(system, |_, side, force| side.sign() * force >= 0.0);
             if self.rows.len() == before {
@@ -90,9 +89,9 @@ impl ActiveSet {
             for (&row, &force) in self.rows.iter().zip(&self.force) {
                 r[row] = force;
             }
-            let Some((row, side)) = self.worst(system, bounds, scale, r) else { return Ok(pivots) };
-            self.enter(system, bounds, row, side, r, &mut pivots, limit)?;
-            self.balance(system, bounds);
+            let Some(entering) = self.worst(system, rhs, scale, r) else { return Ok(pivots) };
+            pivots += self.enter(system, rhs, entering, limit.saturating_sub(pivots), r)?;
+            self.balance(system, rhs);
             // Only rounding gives a wrong sign here, to a force that is zero: set it to 0.
             for (force, side) in self.force.iter_mut().zip(&self.sides) {
                 if side.sign() * *force < 0.0 {
@@ -104,13 +103,7 @@ impl ActiveSet {
 
     /// The row not in play with the largest violation in units of √Wᵢᵢ, if any is violated by more
     /// than rounding.
-    fn worst(
-        &mut self,
-        system: &Delassus,
-        bounds: impl Fn(usize) -> (f64, f64),
-        scale: f64,
-        r: &[f64],
-    ) -> Option<(usize, Side)> {
+    fn worst(&mut self, system: &Delassus, rhs: &Rhs, scale: f64, r: &[f64]) -> Option<(usize, Side)> {
         let mut worst = (0.0, None);
         self.y.copy_from_slice(&system.y);
         self.rows.iter().for_each(|&row| system.push(row, r[row], &mut self.y));
@@ -120,7 +113,7 @@ impl ActiveSet {
                 continue;
             }
             let y = self.y[row];
-            let (lo, hi) = bounds(row);
+            let (lo, hi) = ordered_bounds(rhs.lo[row], rhs.hi[row]);
             let (excess, side) = if y < lo { (lo - y, Side::Lower) } else { (y - hi, Side::Upper) };
             if excess > ROUNDING * scale.max(system.y[row].abs())
                 && excess / system.weight[row] > worst.0
@@ -155,23 +148,17 @@ impl ActiveSet {
         blocking
     }
 
-    /// Brings a violated row into play, dropping rows whose force falls to zero on the way.
-    #[allow(clippy::too_many_arguments)]
+    /// Brings a violated row into play, dropping rows whose force falls to zero on the way. Returns
+    /// the number of pivots; fails after `limit`.
     fn enter(
         &mut self,
         system: &Delassus,
-        bounds: impl Fn(usize) -> (f64, f64),
-        row: usize,
-        side: Side,
-        r: &mut [f64],
-        pivots: &mut u64,
+        rhs: &Rhs,
+        (row, side): (usize, Side),
         limit: u64,
-    ) -> Result<(), Failure> {
-        loop {
-            *pivots += 1;
-            if *pivots > limit {
-                return Err(Failure::NotSolved { status: "the active set did not settle" });
-            }
+        r: &mut [f64],
+    ) -> Result<u64, Failure> {
+        for pivots in 1..=limit {
             let k = self.rows.len();
             let independent = self.extend_factor(system, k, row);
             // W_SS d = −W_Sp σ keeps the rows in play where they are while row p is pushed with σ.
@@ -184,13 +171,11 @@ impl ActiveSet {
             // W.
             let y = self.rows.iter().zip(&self.force).fold(system.y[row], |y, (&j, f)| y + system.entry(row, j) * f)
                 + system.entry(row, row) * r[row];
-            let (lo, hi) = bounds(row);
-            let bound = if side == Side::Lower { lo } else { hi };
             let pivot = self.factor[k * self.m + k].powi(2);
-            let reaching = (side.sign() * (bound - y)).max(0.0) / pivot;
+            let reaching = (side.sign() * (side.bound(rhs, row) - y)).max(0.0) / pivot;
             let mut full = if independent { reaching } else { f64::INFINITY };
             if full.min(blocking.0).is_infinite() {
-                self.check_crossing(system, &bounds, (row, side))?;
+                self.check_crossing(system, rhs, (row, side))?;
                 // The bounds do not cross: a row that is not parallel to one in play is brought
                 // onto its own by what is left of its pivot.
                 if pivot <= DEPENDENT * system.entry(row, row) {
@@ -206,7 +191,7 @@ impl ActiveSet {
             if full <= blocking.0 {
                 self.rows.push(row);
                 self.sides.push(side);
-                return Ok(());
+                return Ok(pivots);
             }
             if let Some(i) = blocking.1 {
                 self.rows.remove(i);
@@ -215,23 +200,15 @@ impl ActiveSet {
                 self.refactor(system, i);
             }
         }
+        Err(Failure::NotSolved { status: "the active set did not settle" })
     }
 
     /// An error if the bounds of the rows in play and that of `row`, which depends on them, cross:
     /// by Farkas's lemma, as in `pivoting`.
-    fn check_crossing(
-        &self,
-        system: &Delassus,
-        bounds: impl Fn(usize) -> (f64, f64),
-        (row, side): (usize, Side),
-    ) -> Result<(), Failure> {
-        let term = |row: usize, side: Side, part: f64| {
-            let (lo, hi) = bounds(row);
-            part * if side == Side::Lower { lo } else { hi }
-        };
-        let own = term(row, side, side.sign());
+    fn check_crossing(&self, system: &Delassus, rhs: &Rhs, (row, side): (usize, Side)) -> Result<(), Failure> {
+        let own = side.sign() * side.bound(rhs, row);
         let (sum, size) = (0..self.rows.len()).fold((own, own.abs()), |(sum, size), i| {
-            let term = term(self.rows[i], self.sides[i], self.change[i]);
+            let term = self.change[i] * self.sides[i].bound(rhs, self.rows[i]);
             (sum + term, size + term.abs())
         });
         if sum <= NOISE * size {
@@ -252,11 +229,9 @@ impl ActiveSet {
     }
 
     /// Forces that put every row in play exactly on its bound: W_SS r = bound − y_free.
-    fn balance(&mut self, system: &Delassus, bounds: impl Fn(usize) -> (f64, f64)) {
-        for (i, (&row, &side)) in self.rows.iter().zip(&self.sides).enumerate() {
-            let (lo, hi) = bounds(row);
-            let bound = if side == Side::Lower { lo } else { hi };
-            self.force[i] = bound - system.y[row];
+    fn balance(&mut self, system: &Delassus, rhs: &Rhs) {
+        for (i, (&row, side)) in self.rows.iter().zip(&self.sides).enumerate() {
+            self.force[i] = side.bound(rhs, row) - system.y[row];
         }
         triangular(&self.factor, self.m, self.rows.len(), &mut self.force);
     }

@@ -141,7 +141,7 @@ impl Condensed {
         // Far above the few exchanges per row ever seen. Without a limit, a defect of the method
         // would hang; with it, the solve fails.
         let limit = 100 + 50 * r.len() as u64;
-        let pivots = play.solve(system, rhs.lo, rhs.hi, largest, limit, r)?;
+        let pivots = play.solve(system, rhs, largest, limit, r)?;
         let forces = r.to_vec();
         pivoting.clear();
         play.rows().for_each(|(row, side)| pivoting.call(row, side));

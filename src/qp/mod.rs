@@ -43,7 +43,8 @@
 //! (several unknowns, by exchanging the active set), `elimination.rs` (many rows in contact on a
 //! narrow band), `redundant_rows.rs` (many more rows than degrees of freedom), `active_set.rs` (the
 //! dual active-set method that `redundant_rows.rs` uses, and the last resort), `coulomb.rs`
-//! (contacts with friction, which are no programme, by `lemke.rs` and `dependent.rs`), `disks/`
+//! (contacts with friction, which are no programme: `coulomb/unknowns.rs`, `lemke.rs` and
+//! `dependent.rs`), `disks/`
 //! (disks beside bounds: `disks/one.rs` in closed form, `disks/newton.rs` several, `disks/cones.rs`
 //! by Clarabel), `sums.rs` (sums over slices).
 

@@ -99,7 +99,7 @@ impl RedundantRows {
         // Ten exchanges for each row that can be in play: beyond that, rounding makes the method
         // cycle.
         let limit = 100 + 10 * self.rank as u64;
-        let pivots = self.play.solve(system, rhs.lo, rhs.hi, scale, limit, r).ok()?;
+        let pivots = self.play.solve(system, rhs, scale, limit, r).ok()?;
         self.touch(system, rhs, scale, r);
         pivoting.clear();
         if self.touching.len() > self.play.rows().count() {

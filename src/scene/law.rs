@@ -187,8 +187,15 @@ impl WallSpring {
     /// k_a + c_a/τ, N/m: what the force grows by per displacement that the body makes over `tau`
     /// seconds.
     #[inline]
-    pub(crate) fn over(&self, tau: f64) -> f64 {
+    pub(crate) fn stiffness_over(&self, tau: f64) -> f64 {
         self.stiffness + self.damping / tau
+    }
+
+    /// 1/(τ²(k_a + c_a/τ)), m/s per N s: the change of velocity per impulse of spring and dashpot,
+    /// in a step of the θ-rule in which `tau` is θ times its length, s.
+    #[inline]
+    pub(crate) fn compliance(&self, tau: f64) -> f64 {
+        1.0 / (tau * tau * self.stiffness_over(tau))
     }
 
     /// k_a(w − g) + c_a(w − plate)/τ, N: the force against a body that arrives at `w` (m) after
@@ -204,6 +211,6 @@ impl WallSpring {
     #[inline]
     pub(crate) fn freed_radius(&self, gap: f64, from: [f64; 2], tau: f64) -> f64 {
         let plate = from[0].hypot(from[1]).max(gap);
-        (self.stiffness * gap + self.damping * plate / tau) / self.over(tau)
+        (self.stiffness * gap + self.damping * plate / tau) / self.stiffness_over(tau)
     }
 }

@@ -207,13 +207,13 @@ impl<S: Space> ChungHulbert<S> {
     /// ones.
     #[inline]
     pub fn renew(&mut self, body: &Body<S>, frame: &Frame<S>, changed: bool, push: impl FnOnce(&mut S::Vector)) {
-        let Self { alpha: [alpha_m, alpha_f, ..], force, past, a, mass, .. } = self;
+        let Self { alpha, force, past, a, mass, .. } = self;
         force.clone_from(&body.load);
         S::add_product(&body.damping, -1.0, &frame.v, force);
         S::add_product(&body.stiffness, -1.0, &frame.q, force);
         push(force);
         if changed {
-            let mu = (1.0 - *alpha_m) / (1.0 - *alpha_f);
+            let mu = mu(*alpha);
             (0..body.n).for_each(|i| a[i] = (past[i] + force[i]) / mu);
             S::solve(mass, a);
         }

@@ -41,7 +41,7 @@ impl FlatRow {
     pub fn spring_bound(&self, w: f64, rate: f64, (length, theta): (f64, f64)) -> (f64, f64) {
         let Some(spring) = self.law.spring() else { return (0.0, 0.0) };
         let st = length * theta;
-        let compliance = 1.0 / (st * st * spring.over(st));
+        let compliance = spring.compliance(st);
         (-length * spring.force(w + st * rate, self.g, self.plate(w), st) * compliance, compliance)
     }
 }

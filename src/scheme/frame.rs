@@ -1,6 +1,6 @@
 //! The state of a scheme on a grid, and the results of its last step.
 
-use super::space::{Space, zero};
+use super::space::{Space, add_change, zero};
 use crate::error::{Error, Result};
 use crate::scene::{Loads, Scene};
 use crate::step::{Contact, Contract, Path, Step};
@@ -41,6 +41,8 @@ pub(super) struct Frame<S: Space> {
     pub blown: bool,
     /// The caller's extra force, N, as it enters the momentum balance.
     pub extra: S::Vector,
+    /// True if the extra force of the last step may not be 0.
+    pub forced: bool,
     /// Impulse (N s) and force (N) of each wall, signed.
     pub impulse: Vec<f64>,
     pub force: Vec<f64>,
@@ -81,6 +83,7 @@ impl<S: Space> Frame<S> {
             v,
             blown: false,
             extra: zero::<S>(n),
+            forced: false,
             impulse: vec![0.0; walls],
             force: vec![0.0; walls],
             jump: vec![0.0; walls],
@@ -103,11 +106,23 @@ impl<S: Space> Frame<S> {
             kept.as_mut().copy_from_slice(v);
         }
         self.extra.as_mut().fill(0.0);
+        self.forced = false;
         self.take_back_impulses();
     }
 
     /// Sets the extra force, N, of the step; none is zero.
+    #[inline(always)]
     pub fn force(&mut self, extra: Option<&[f64]>) {
+        if extra.is_some() || self.forced {
+            self.set_extra(extra);
+        }
+    }
+
+    /// Not inlined: most runs have no extra force.
+    #[inline(never)]
+    fn set_extra(&mut self, extra: Option<&[f64]>) {
+        // A staggered rule has half of the last step's extra force in the frame.
+        self.forced = extra.is_some() || self.extra.as_ref().iter().any(|&force| force != 0.0);
         match extra {
             Some(extra) => self.extra.as_mut().copy_from_slice(extra),
             None => self.extra.as_mut().fill(0.0),
@@ -163,6 +178,13 @@ impl<S: Space> Frame<S> {
             self.impulse[wall] = h * force;
             self.pushing.push(wall);
         }
+    }
+
+    /// Advances the state by a step of the θ-rule, (h, θ), that changes the velocity by `delta`.
+    #[inline(always)]
+    pub fn add_change(&mut self, rule: (f64, f64), delta: &S::Vector) {
+        add_change::<S>(rule, delta, &mut self.q, &mut self.v);
+        self.after.clone_from(&self.v);
     }
 
     /// Velocity to which impact laws refer, m/s: before the step, with its blows.

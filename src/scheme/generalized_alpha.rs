@@ -132,9 +132,8 @@ impl<S: Space> GeneralizedAlpha<S> {
         let body = Body::<S>::new(scene, h)?;
         let rule = ChungHulbert::new(&body, balance)?;
         let (gap, walls) = (scene.gap_scale(), body.walls.len());
-        let place = Programme::new(scene, rule.matrix(&body), gap, |k, c| 1.0 / (k + c / h), backend)?;
-        let rate =
-            Programme::over(scene, WallLaw::is_rigid, rule.velocity_matrix(&body), gap / h, |_, _| 0.0, backend)?;
+        let place = Programme::new(scene, rule.matrix(&body), gap, |spring| 1.0 / spring.stiffness_over(h), backend)?;
+        let rate = Programme::over(scene, WallLaw::is_rigid, rule.velocity_matrix(&body), gap / h, |_| 0.0, backend)?;
         Ok(Self {
             rule,
             closed: false,
@@ -183,7 +182,7 @@ impl<S: Space> GeneralizedAlpha<S> {
                     // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
                     Some(spring) => {
                         let plate = wall.plate(place.seen(row, &frame.q));
-                        -spring.force(ahead, wall.g, plate, h) / spring.over(h)
+                        -spring.force(ahead, wall.g, plate, h) / spring.stiffness_over(h)
                     }
                     None => wall.g - ahead,
                 };

@@ -22,8 +22,6 @@ pub(super) struct Grid<S: Space> {
     h: f64,
     /// True if the rule divides steps.
     divides: bool,
-    /// True if the extra force of the last step may not be 0.
-    forced: bool,
 }
 
 impl<S: Space> Grid<S> {
@@ -35,41 +33,7 @@ impl<S: Space> Grid<S> {
         let rows = S::rows(scene.initial.q.len(), scene.walls.iter().map(|wall| wall.row()));
         let divides = contract.divides;
         let episodes = Episodes::new(scene, masses, contract);
-        Ok(Self { rule, frame, episodes, rows, h, divides, forced: false })
-    }
-
-    /// As [`Motion::advance`].
-    #[inline]
-    pub fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        if extra.is_some() || self.forced {
-            self.force(extra);
-        }
-        self.rule.advance(step, &mut self.frame)?;
-        self.frame.check(step)?;
-        if !self.frame.pushing.is_empty() || !self.episodes.idle() {
-            self.record_episodes();
-        }
-        Ok(())
-    }
-
-    /// As [`Motion::advance_quiet`].
-    pub fn advance_quiet(&mut self, step: u64, until: u64, quiet: Option<&mut QuietSteps>) -> Result<u64> {
-        if self.forced || !self.frame.pushing.is_empty() || !self.episodes.idle() {
-            return Ok(step);
-        }
-        let reached = self.rule.advance_quiet(step, until, &mut self.frame, quiet)?;
-        if reached > step {
-            self.frame.check(reached - 1)?;
-        }
-        Ok(reached)
-    }
-
-    /// Sets the extra force of the step. Not inlined: most runs have none.
-    #[inline(never)]
-    fn force(&mut self, extra: Option<&[f64]>) {
-        // A staggered rule has half of the last step's extra force in the frame.
-        self.forced = extra.is_some() || self.frame.extra.as_ref().iter().any(|&force| force != 0.0);
-        self.frame.force(extra);
+        Ok(Self { rule, frame, episodes, rows, h, divides })
     }
 
     /// Passes the last step to the contact episodes. Not inlined: most steps touch no wall.
@@ -101,39 +65,43 @@ impl<S: Space> Grid<S> {
         };
         episodes.observe(frame.start, *h, &frame.impulse, &frame.pushing, rates);
     }
-
-    /// As [`Motion::is_divided`].
-    #[inline]
-    pub fn is_divided(&self) -> bool {
-        self.frame.unfinished
-    }
-
-    /// As [`Motion::step`].
-    #[inline(always)]
-    pub fn step(&self, index: u64) -> Step<'_> {
-        self.frame.step(index, self.episodes.closed())
-    }
 }
 
 impl<S: Space> Motion for Grid<S> {
+    #[inline]
     fn is_divided(&self) -> bool {
-        self.is_divided()
+        self.frame.unfinished
     }
 
+    #[inline]
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        self.advance(step, extra)
+        self.frame.force(extra);
+        self.rule.advance(step, &mut self.frame)?;
+        self.frame.check(step)?;
+        if !self.frame.pushing.is_empty() || !self.episodes.idle() {
+            self.record_episodes();
+        }
+        Ok(())
     }
 
     fn advance_quiet(&mut self, step: u64, until: u64, quiet: Option<&mut QuietSteps>) -> Result<u64> {
-        self.advance_quiet(step, until, quiet)
+        if self.frame.forced || !self.frame.pushing.is_empty() || !self.episodes.idle() {
+            return Ok(step);
+        }
+        let reached = self.rule.advance_quiet(step, until, &mut self.frame, quiet)?;
+        if reached > step {
+            self.frame.check(reached - 1)?;
+        }
+        Ok(reached)
     }
 
     fn flush(&mut self, tiny: f64) {
         self.frame.flush(tiny, self.h, self.rule.carried());
     }
 
+    #[inline(always)]
     fn step(&self, index: u64) -> Step<'_> {
-        self.step(index)
+        self.frame.step(index, self.episodes.closed())
     }
 
     fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {

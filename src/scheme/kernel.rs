@@ -112,14 +112,6 @@ impl Kernel {
         }
     }
 
-    /// As [`Motion::flush`].
-    pub fn flush(&mut self, tiny: f64) {
-        match self {
-            Self::Line(grid) => grid.flush(tiny),
-            Self::Other(motion) => motion.flush(tiny),
-        }
-    }
-
     /// As [`Motion::step`]. Inlined, so that the compiler leaves out the fields that a caller does
     /// not read.
     #[inline(always)]
@@ -138,11 +130,11 @@ impl Kernel {
         }
     }
 
-    /// As [`Motion::restart`].
-    pub fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
+    /// The same, to change it.
+    pub fn motion_mut(&mut self) -> &mut dyn Motion {
         match self {
-            Self::Line(grid) => grid.restart(scene, time, q, v),
-            Self::Other(motion) => motion.restart(scene, time, q, v),
+            Self::Line(grid) => grid,
+            Self::Other(motion) => &mut **motion,
         }
     }
 }

@@ -30,7 +30,7 @@ use super::entry::{Coverage, Realised, SchemeEntry, SchemeKind};
 use super::frame::{Frame, all_finite};
 use super::programme::Programme;
 use super::rule::Rule;
-use super::space::{Space, zero};
+use super::space::{Space, add_change, zero};
 use super::supports::TURNING;
 use crate::error::Result;
 use crate::qp::Backend;
@@ -95,8 +95,8 @@ impl<S: Space> MoreauJean<S> {
     pub fn new(scene: &Scene, theta: f64, h: f64, backend: Backend) -> Result<Self> {
         let body = Body::<S>::new(scene, h)?;
         let ht = h * theta;
-        let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
-        let programme = Programme::new(scene, body.theta_matrix(theta), scene.gap_scale() / h, compliance, backend)?;
+        let (a, scale) = (body.theta_matrix(theta), scene.gap_scale() / h);
+        let programme = Programme::new(scene, a, scale, |spring| spring.compliance(ht), backend)?;
         let (b, ahead, last) = (zero::<S>(body.n), zero::<S>(body.n), vec![0.0; programme.count_rows()]);
         let pushed = Vec::with_capacity(scene.walls.len());
         Ok(Self { body, theta, programme, b, ahead, last, pushed, frozen: 0 })
@@ -127,7 +127,7 @@ impl<S: Space> MoreauJean<S> {
                 // p = −h[k_a(w_θ − g) + c_a(w_θ − plate)/θh] with w_θ = w + hθẇ + hθ²δ.
                 (Some(spring), _) => {
                     let offset = h * spring.force(w + ht * before, wall.g, wall.plate(w), ht);
-                    -offset / (ht * ht * spring.over(ht))
+                    -offset / (ht * ht * spring.stiffness_over(ht))
                 }
                 (_, Some(restitution)) if wall.depth(reach) >= -body.touch => {
                     let epsilon = if wall.sign * struck <= 0.0 { restitution } else { 1.0 };
@@ -198,8 +198,7 @@ impl<S: Space> MoreauJean<S> {
             Some(row) => self.solve_contacts(row, step, frame)?,
         }
         let carried = self.body.blows.is_some() && self.solve_with_blows(step, frame)?;
-        add_change::<S>((h, self.theta), self.programme.x(), &mut frame.q, &mut frame.v);
-        frame.after.clone_from(&frame.v);
+        frame.add_change((h, self.theta), self.programme.x());
         if carried {
             self.body.shift(&mut frame.q);
         }
@@ -215,15 +214,6 @@ impl<S: Space> MoreauJean<S> {
 fn write_midpoint<S: Space>(h: f64, q: &S::Vector, v: &S::Vector, ahead: &mut S::Vector) {
     for (ahead, (q, v)) in ahead.as_mut().iter_mut().zip(q.as_ref().iter().zip(v.as_ref())) {
         *ahead = q + 0.5 * h * v;
-    }
-}
-
-/// Adds δ, and the displacement that follows from it, to the state.
-#[inline(always)]
-fn add_change<S: Space>((h, theta): (f64, f64), delta: &S::Vector, q: &mut S::Vector, v: &mut S::Vector) {
-    for ((q, v), d) in q.as_mut().iter_mut().zip(v.as_mut()).zip(delta.as_ref()) {
-        *q += h * (*v + theta * d);
-        *v += d;
     }
 }
 

@@ -82,7 +82,7 @@ impl<S: Space> PaoliSchatzman<S> {
         let body = Body::<S>::new(scene, h)?;
         let m = &body.matrices;
         let a = Symmetric::sum(&[(1.0 / (h * h), &m.mass), (0.5 / h, &m.damping), (0.25, &m.stiffness)]);
-        let compliance = |k: f64, c: f64| 1.0 / (0.25 * k + 0.5 * c / h);
+        let compliance = |spring: WallSpring| 1.0 / (0.25 * spring.stiffness + 0.5 * spring.damping / h);
         let programme = Programme::<S>::new(scene, a, scene.gap_scale(), compliance, backend)?;
         let differ = |row: usize| {
             let mut rigid = programme.walls(row).filter_map(|number| programme.wall(number).law.restitution());

@@ -98,7 +98,7 @@ impl<S: Space> Position<S> {
         let body = Body::<S>::new(scene, h)?;
         let (ht, m) = (h * theta, &body.matrices);
         let a = Symmetric::sum(&[(1.0 / (ht * ht), &m.mass), (1.0 / ht, &m.damping), (1.0, &m.stiffness)]);
-        let programme = Programme::new(scene, a, scene.gap_scale(), |k, c| 1.0 / (k + c / h), backend)?;
+        let programme = Programme::new(scene, a, scene.gap_scale(), |spring| 1.0 / spring.stiffness_over(h), backend)?;
         let (n, walls) = (body.n, body.walls.len());
         let (held, holding) = (vec![0.0; walls], Vec::with_capacity(walls));
         let square = |wall: &Wall| wall.row().entries().iter().map(|entry| entry.1 * entry.1).sum();
@@ -122,7 +122,7 @@ impl<S: Space> Position<S> {
                 let wall = programme.wall(number);
                 let bound = match wall.law.spring() {
                     // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
-                    Some(spring) => -spring.force(w, wall.g, wall.plate(w), body.h) / spring.over(body.h),
+                    Some(spring) => -spring.force(w, wall.g, wall.plate(w), body.h) / spring.stiffness_over(body.h),
                     None => wall.g - w - shift,
                 };
                 programme.bind(row, number, bound);

@@ -13,7 +13,7 @@ use super::wall_rows::WallRows;
 use crate::error::{Error, Result};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{self, Backend, Failure};
-use crate::scene::{Scene, Wall, WallLaw};
+use crate::scene::{Scene, Wall, WallLaw, WallSpring};
 
 /// The programme, its bounds, and the solver that answers it.
 #[derive(Debug)]
@@ -32,13 +32,12 @@ pub(super) struct Programme<S: Space> {
 
 impl<S: Space> Programme<S> {
     /// The programme with the matrix `a`, a typical size `scale` of g·x (for the solver's
-    /// tolerances), and the compliance of each elastic wall's row as a function of its stiffness
-    /// and damping.
+    /// tolerances), and the compliance of each elastic wall's row.
     pub fn new(
         scene: &Scene,
         a: Symmetric,
         scale: f64,
-        compliance: impl Fn(f64, f64) -> f64,
+        compliance: impl Fn(WallSpring) -> f64,
         backend: Backend,
     ) -> Result<Self> {
         Self::over(scene, |_| true, a, scale, compliance, backend)
@@ -50,14 +49,14 @@ impl<S: Space> Programme<S> {
         wanted: impl Fn(&WallLaw) -> bool,
         a: Symmetric,
         scale: f64,
-        compliance: impl Fn(f64, f64) -> f64,
+        compliance: impl Fn(WallSpring) -> f64,
         backend: Backend,
     ) -> Result<Self> {
         let layout = WallRows::new(scene, wanted);
         let (n, m) = (a.size(), layout.count());
         let first: Vec<&Wall> =
             (0..m).filter_map(|row| layout.first(row).and_then(|wall| scene.walls.get(wall))).collect();
-        let soft = |wall: &&Wall| wall.law.spring().map_or(0.0, |s| compliance(s.stiffness, s.damping));
+        let soft = |wall: &&Wall| wall.law.spring().map_or(0.0, &compliance);
         let g = Rows::new(n, first.iter().map(|wall| wall.row().entries()));
         let problem = qp::Problem { a, g, compliance: first.iter().map(soft).collect() };
         let solver = S::Solver::new(problem, backend, scale).map_err(|f| failure(&f, None, 0.0, 0))?;
@@ -289,7 +288,7 @@ mod tests {
         let scene =
             Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("one", 1.0)).with_wall(Wall::upper("other", 1.0));
         let unit = Symmetric::diagonal(&[1.0]);
-        let mut programme = Programme::<Line>::new(&scene, unit, 1.0, |_, _| 0.0, Backend::Auto).expect("sound");
+        let mut programme = Programme::<Line>::new(&scene, unit, 1.0, |_| 0.0, Backend::Auto).expect("sound");
         // Minimise ½x² − 3x for x ≤ 1: the bound pulls with −2.
         let mut solve = |bound: &[usize]| {
             programme.free();

@@ -84,6 +84,16 @@ pub(super) fn zero<S: Space>(n: usize) -> S::Vector {
     S::vector(&vec![0.0; n])
 }
 
+/// Adds the change `delta` of the velocity in `h` seconds, and the displacement that follows from
+/// it by the θ-rule, to the state.
+#[inline(always)]
+pub(super) fn add_change<S: Space>((h, theta): (f64, f64), delta: &S::Vector, q: &mut S::Vector, v: &mut S::Vector) {
+    for ((q, v), d) in q.as_mut().iter_mut().zip(v.as_mut()).zip(delta.as_ref()) {
+        *q += h * (*v + theta * d);
+        *v += d;
+    }
+}
+
 /// The error for a step whose matrix is not positive definite.
 pub(super) fn indefinite(fault: impl std::fmt::Display) -> Error {
     Error::invalid(("system", "matrices"), fault, "a positive definite mass")

@@ -42,7 +42,7 @@ impl<S: Space> Staggered<S> {
         let m = &body.matrices;
         let a = Symmetric::sum(&[(1.0, &m.mass), (0.5 * body.h, &m.damping)]);
         let half_step = S::factor(&a)?;
-        let programme = Programme::new(scene, a, scene.gap_scale() / body.h, |_, _| 0.0, Backend::Auto)?;
+        let programme = Programme::new(scene, a, scene.gap_scale() / body.h, |_| 0.0, Backend::Auto)?;
         let (n, walls) = (body.n, body.walls.len());
         Ok(Self {
             v: zero::<S>(n),

@@ -57,7 +57,7 @@ impl<S: Space> StartForce<S> {
             let mass = body.matrices.mass.clone();
             let scale = scene.gap_scale() / (body.h * body.h);
             let mut programme: Programme<S> =
-                Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, Backend::Auto)?;
+                Programme::over(scene, WallLaw::is_rigid, mass, scale, |_| 0.0, Backend::Auto)?;
             for row in 0..programme.count_rows() {
                 for number in programme.walls(row) {
                     if resting.contains(&programme.wall(number).index) {

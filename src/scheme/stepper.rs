@@ -178,7 +178,7 @@ impl Stepper {
             return Ok(());
         }
         if index & (BLOCK - 1) == BLOCK - 1 {
-            self.kernel.flush(self.tiny);
+            self.kernel.motion_mut().flush(self.tiny);
         }
         self.due = self.due_from(index + 1);
         Ok(())

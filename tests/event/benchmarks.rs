@@ -11,7 +11,7 @@ fn run(scene: &Scene, stride: f64) -> (Event, Vec<Contact>) {
     let mut contacts = Vec::new();
     while !event.is_done() {
         event.advance(0.0).unwrap();
-        contacts.extend_from_slice(event.closed());
+        contacts.extend_from_slice(event.step().closed);
     }
     contacts.extend(event.open_contacts());
     (event, contacts)
@@ -48,7 +48,7 @@ fn sdnd108a_a_falling_body_meets_an_elastic_floor() {
     let (mut contacts, mut at_one) = (Vec::new(), f64::NAN);
     while !event.is_done() {
         event.advance(0.0).unwrap();
-        contacts.extend_from_slice(event.closed());
+        contacts.extend_from_slice(event.step().closed);
         if event.end() == 1.0 {
             at_one = event.q()[0];
         }
@@ -265,11 +265,11 @@ fn an_extra_force_lifts_a_resting_body() {
         .with_duration(1.0);
     let mut event = Event::new(&scene, 0.25).unwrap();
     event.advance(0.5).unwrap();
-    assert_eq!((event.end(), event.q()[0], event.force()[0]), (0.25, 0.0, 0.5));
+    assert_eq!((event.end(), event.q()[0], event.step().force[0]), (0.25, 0.0, 0.5));
     event.advance(3.0).unwrap();
     assert_eq!(event.end(), 0.5);
     near(event.q()[0], 0.5 * 2.0 * 0.0625, 1e-16);
-    assert_eq!(event.closed().len(), 1);
+    assert_eq!(event.step().closed.len(), 1);
 }
 
 #[test]

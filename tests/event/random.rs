@@ -16,7 +16,7 @@ fn follow(scene: &Scene, stride: f64) -> Result<u64, Error> {
     while !event.is_done() {
         event.advance(0.0)?;
         steps += 1;
-        let (from, to) = (event.start(), event.end());
+        let (from, to) = (event.step().start, event.end());
         assert!(to >= from);
         let span = scene.walls.iter().map(|w| w.position().abs()).fold(scene.gap_scale(), f64::max);
         for (index, wall) in scene.walls.iter().enumerate() {
@@ -31,17 +31,17 @@ fn follow(scene: &Scene, stride: f64) -> Result<u64, Error> {
                 assert!(!rigid || wall.gap(q) >= -slack, "gap {:e} at {t}, slack {slack:e}", wall.gap(q));
             }
             let sign = wall.side().sign();
-            assert!(sign * event.jump()[index] >= 0.0);
-            assert!(sign * event.force()[index] >= 0.0);
+            assert!(sign * event.step().jump[index] >= 0.0);
+            assert!(sign * event.step().force[index] >= 0.0);
         }
-        if event.jump().iter().any(|&p| p != 0.0) {
+        if event.step().jump.iter().any(|&p| p != 0.0) {
             // A blow in the instant of an impact changes the speed that arrives.
             let blow = |load: &Load| matches!(load.kind, LoadKind::Impulse { time, .. } if time == to);
             let blown = scene.loads.iter().any(blow);
             let (before, after) = (event.velocity_left().abs(), event.v()[0].abs());
             assert!(after <= before || blown, "an impact from {before} m/s to {after} m/s at {to} s");
         }
-        for contact in event.closed() {
+        for contact in event.step().closed {
             assert!(contact.end.is_some_and(|end| end >= contact.start), "{contact:?}");
             assert!(contact.approach_speed >= 0.0 && contact.departure_speed.is_some_and(|v| v >= 0.0), "{contact:?}");
         }

@@ -11,7 +11,7 @@ fn follow(scene: &Scene, stride: f64) -> (Event, Vec<Contact>) {
     let mut contacts = Vec::new();
     while !event.is_done() {
         event.advance(0.0).expect("followed to the end");
-        contacts.extend_from_slice(event.closed());
+        contacts.extend_from_slice(event.step().closed);
     }
     contacts.extend(event.open_contacts());
     (event, contacts)

@@ -9,7 +9,7 @@ fn settle(scene: &Scene, stride: f64) -> (Event, Vec<signorini::Contact>) {
     let mut contacts = Vec::new();
     while !event.is_done() {
         event.advance(0.0).expect("followed to the end");
-        contacts.extend_from_slice(event.closed());
+        contacts.extend_from_slice(event.step().closed);
     }
     (event, contacts)
 }

@@ -32,8 +32,8 @@ fn run(scene: &Scene) -> (Vec<Reference>, Vec<Contact>, Vec<f64>) {
         if event.end().fract() == 0.0 {
             states.push((event.end(), event.q()[0], event.v()[0]));
         }
-        contacts.extend_from_slice(event.closed());
-        for (sum, p) in impulse.iter_mut().zip(event.impulse()) {
+        contacts.extend_from_slice(event.step().closed);
+        for (sum, p) in impulse.iter_mut().zip(event.step().impulse) {
             *sum += p.abs();
         }
     }

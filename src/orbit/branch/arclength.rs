@@ -12,7 +12,7 @@ pub(super) type Vector = DVector<f64>;
 const STEPS: [f64; 3] = [3e-3, 5e-2, 1e-9];
 
 /// Factor by which a step grows after one that succeeded.
-const GROWTH: f64 = 1.3;
+pub(super) const GROWTH: f64 = 1.3;
 
 /// Most iterations of the correction in a step that is accepted.
 const QUICK: usize = 8;

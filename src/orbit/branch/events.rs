@@ -36,11 +36,7 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
         let Some(boundary) = problem.boundary(event.wall) else { continue };
         let speed = orbit.speeds[index] / curve.scales.speed;
         let start = orbit.phases[index] * problem.forcing_period();
-        let next = match orbit.phases.get(index + 1) {
-            Some(phase) => *phase,
-            None => orbit.phases[0] + signature.cycles(),
-        };
-        let lasts = next - orbit.phases[index];
+        let lasts = orbit.next_phase(index) - orbit.phases[index];
         let mut add = |label, value| found.push(Test { label, event: index, value });
         match (event.kind, boundary.law) {
             (Kind::Impact | Kind::Rest | Kind::Enter, _) => add(Label::GrazingOut, speed),

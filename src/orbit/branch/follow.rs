@@ -5,12 +5,9 @@ use super::arclength::{Stride, beyond, locate, scaled, turns_little, unit};
 use super::curve::{Curve, Linear, Vector};
 use super::events::{Test, point, tests};
 use super::label::Label;
-use super::line::{End, Line, Passed};
+use super::line::{End, LEAST_LOOP, Line, Passed};
 use super::point::Point;
 use crate::error::Result;
-
-/// Least number of points after which a curve may be found closed.
-const LEAST_LOOP: usize = 6;
 
 /// The point at which a step begins.
 struct StepStart {

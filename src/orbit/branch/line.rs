@@ -6,6 +6,9 @@ use super::label::Label;
 use super::point::Point;
 use crate::error::Result;
 
+/// Least number of points after which a curve may be found closed.
+pub(super) const LEAST_LOOP: usize = 6;
+
 /// Why a branch ends.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]

@@ -8,12 +8,13 @@ use super::super::admissible::Admissible;
 use super::super::equations::{Closure, Equations, Scales};
 use super::super::periodic::Orbit;
 use super::super::problem::Problem;
+use super::arclength::{GROWTH, Vector, beyond, bordered, extended, tangent, turns_little, unit};
 use super::label::Label;
 use super::line::End;
 use super::request::Special;
 use crate::error::{Error, Result};
 use crate::scene::Scene;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 /// A scene for each pair of values of two keys.
 ///
@@ -23,11 +24,6 @@ pub type Plane<'a> = dyn Fn([f64; 2]) -> Result<Scene> + 'a;
 
 /// The first, the longest and the shortest step, in the scaled unknowns.
 const STEPS: [f64; 3] = [3e-3, 5e-2, 1e-7];
-
-/// Factor by which a step grows after one that succeeded; least cosine between the tangents at its
-/// ends.
-const GROWTH: f64 = 1.3;
-const TURN: f64 = 0.97;
 
 /// Most iterations of a correction, and the size of its step below which it has converged.
 const ITERATIONS: usize = 10;
@@ -118,10 +114,8 @@ pub fn locus(plane: &Plane<'_>, special: &Special, second: f64, ranges: [[f64; 2
         widths: ranges.map(|[low, high]| high - low),
     };
     let y = traced.gather(&problem, start);
-    let count = y.len();
-    let along = DVector::from_fn(count, |i, _| if i + 1 == count { 1.0 } else { 0.0 });
-    let (y, matrix) = traced.correct(&y, &along)?;
-    let tangent = traced.tangent(&matrix, &along)?;
+    let along = unit(y.len(), y.len() - 1);
+    let (y, tangent) = traced.correct(&y, &along)?;
     let ahead = traced.follow(y.clone(), tangent.clone(), ranges, most)?;
     let behind = traced.follow(y, -tangent, ranges, most)?;
     let mut points: Vec<OnLocus> = behind.0.into_iter().skip(1).rev().collect();
@@ -140,12 +134,12 @@ struct Traced<'a> {
 }
 
 impl Traced<'_> {
-    fn values(&self, y: &DVector<f64>) -> [f64; 2] {
+    fn values(&self, y: &Vector) -> [f64; 2] {
         let n = y.len() - 2;
         [y[n] * self.widths[0], y[n + 1] * self.widths[1]]
     }
 
-    fn problem(&self, y: &DVector<f64>) -> Result<Problem> {
+    fn problem(&self, y: &Vector) -> Result<Problem> {
         let problem = Problem::new((self.plane)(self.values(y))?)?;
         if self.orbit.signature.symmetric && !problem.is_symmetric() {
             return Err(Error::no_orbit("a key takes the scene's mirror symmetry away, which the orbit has"));
@@ -153,22 +147,21 @@ impl Traced<'_> {
         Ok(problem)
     }
 
-    fn gather(&self, problem: &Problem, values: [f64; 2]) -> DVector<f64> {
+    fn gather(&self, problem: &Problem, values: [f64; 2]) -> Vector {
         let unknowns = Equations::new(problem, &self.orbit.signature, self.scales).gather(&self.orbit);
         let keys = [values[0] / self.widths[0], values[1] / self.widths[1]];
-        DVector::from_iterator(unknowns.len() + 2, unknowns.iter().copied().chain(keys))
+        Vector::from_iterator(unknowns.len() + 2, unknowns.iter().copied().chain(keys))
     }
 
-    /// The residual of the equations and the test function.
-    fn residual(&self, y: &DVector<f64>) -> Result<DVector<f64>> {
-        let problem = self.problem(y)?;
-        let equations = Equations::new(&problem, &self.orbit.signature, self.scales);
+    /// The residual of the equations and the test function at `y`, in the scene of its keys.
+    fn residual(&self, problem: &Problem, y: &Vector) -> Result<Vector> {
+        let equations = Equations::new(problem, &self.orbit.signature, self.scales);
         let n = equations.unknowns();
-        let mut residual = DVector::zeros(n);
+        let mut residual = Vector::zeros(n);
         let mut jacobian = |turn: Closure| {
             let mut matrix = DMatrix::zeros(n, n);
             let into = Some((&mut matrix, turn));
-            equations.evaluate(&problem, &mut problem.arc(), y.as_slice(), &mut residual, into);
+            equations.evaluate(problem, &mut problem.arc(), y.as_slice(), &mut residual, into);
             matrix.determinant()
         };
         let test = match self.label {
@@ -178,86 +171,68 @@ impl Traced<'_> {
                 jacobian(Closure::Same);
                 match self.label {
                     Label::GrazingOut => y[2 * self.event + 1],
-                    _ => self.admissible(&problem, y)?.nearest.map_or(1.0, |nearest| nearest.gap / self.scales.length),
+                    _ => self.admissible(problem, y)?.nearest.map_or(1.0, |nearest| nearest.gap / self.scales.length),
                 }
             }
         };
-        Ok(DVector::from_iterator(n + 1, residual.iter().copied().chain([test])))
+        Ok(extended(&residual, test))
     }
 
-    fn admissible(&self, problem: &Problem, y: &DVector<f64>) -> Result<Admissible> {
+    fn admissible(&self, problem: &Problem, y: &Vector) -> Result<Admissible> {
         let equations = Equations::new(problem, &self.orbit.signature, self.scales);
         problem.admissible(&equations.orbit(y.as_slice(), problem))
     }
 
-    /// (n + 1) × (n + 2), by differences.
-    fn matrix(&self, y: &DVector<f64>) -> Result<DMatrix<f64>> {
-        let count = y.len();
+    /// The residual at `y` and its derivatives, (n + 1) × (n + 2), by differences. The test
+    /// function has another magnitude: its row is scaled to that of the others.
+    fn linear(&self, y: &Vector) -> Result<(Vector, DMatrix<f64>)> {
+        let problem = self.problem(y)?;
+        let mut residual = self.residual(&problem, y)?;
+        let (count, last) = (y.len(), y.len() - 2);
         let mut matrix = DMatrix::zeros(count - 1, count);
         for column in 0..count {
             let moved = |step: f64| {
                 let mut y = y.clone();
                 y[column] += step;
-                self.residual(&y)
+                // The last two unknowns are the keys, which make another scene.
+                if column < last { self.residual(&problem, &y) } else { self.residual(&self.problem(&y)?, &y) }
             };
             let slope = match (moved(DIFFERENCE), moved(-DIFFERENCE)) {
                 (Ok(above), Ok(below)) => (above - below) / (2.0 * DIFFERENCE),
-                (Ok(above), Err(_)) => (above - self.residual(y)?) / DIFFERENCE,
-                (Err(_), Ok(below)) => (self.residual(y)? - below) / DIFFERENCE,
+                (Ok(above), Err(_)) => (above - &residual) / DIFFERENCE,
+                (Err(_), Ok(below)) => (&residual - below) / DIFFERENCE,
                 (Err(error), Err(_)) => return Err(error),
             };
             matrix.set_column(column, &slope);
         }
-        Ok(matrix)
+        let size = matrix.row(last).amax().max(f64::MIN_POSITIVE);
+        matrix.row_mut(last).iter_mut().for_each(|slope| *slope /= size);
+        residual[last] /= size;
+        Ok((residual, matrix))
     }
 
-    fn bordered(matrix: &DMatrix<f64>, border: &DVector<f64>) -> DMatrix<f64> {
-        let n = matrix.nrows();
-        // The test function has another magnitude: its row is scaled to that of the others.
-        let size = matrix.row(n - 1).amax().max(f64::MIN_POSITIVE);
-        DMatrix::from_fn(n + 1, n + 1, |i, j| match i {
-            i if i + 1 < n => matrix[(i, j)],
-            i if i < n => matrix[(i, j)] / size,
-            _ => border[j],
-        })
-    }
-
-    fn tangent(&self, matrix: &DMatrix<f64>, along: &DVector<f64>) -> Result<DVector<f64>> {
-        let count = along.len();
-        let right = DVector::from_fn(count, |i, _| if i + 1 == count { 1.0 } else { 0.0 });
-        let tangent = Self::bordered(matrix, along).lu().solve(&right);
-        let tangent = tangent.filter(|t| t.iter().all(|x| x.is_finite())).ok_or_else(singular)?;
-        let norm = tangent.norm();
-        Ok(tangent / norm)
-    }
-
-    /// The point of the locus in the plane through `guess` with the normal `border`.
-    fn correct(&self, guess: &DVector<f64>, border: &DVector<f64>) -> Result<(DVector<f64>, DMatrix<f64>)> {
+    /// The point of the locus in the plane through `guess` with the normal `border`, and the unit
+    /// tangent there in the direction of that normal.
+    fn correct(&self, guess: &Vector, border: &Vector) -> Result<(Vector, Vector)> {
         let mut y = guess.clone();
         for _ in 0..ITERATIONS {
-            let (residual, matrix) = (self.residual(&y)?, self.matrix(&y)?);
-            let n = residual.len();
-            let size = matrix.row(n - 1).amax().max(f64::MIN_POSITIVE);
-            let right = DVector::from_fn(n + 1, |i, _| match i {
-                i if i + 1 < n => residual[i],
-                i if i < n => residual[i] / size,
-                _ => border.dot(&(&y - guess)),
-            });
-            let step = Self::bordered(&matrix, border).lu().solve(&right).ok_or_else(singular)?;
+            let (residual, matrix) = self.linear(&y)?;
+            let right = extended(&residual, border.dot(&(&y - guess)));
+            let step = bordered(&matrix, border).lu().solve(&right).ok_or_else(singular)?;
             let length = step.norm();
             if !length.is_finite() || length > 1.0 {
                 return Err(Error::no_orbit("Newton's method led too far from the locus"));
             }
             y -= step;
             if length <= CLOSE {
-                return Ok((y, matrix));
+                return Ok((y, tangent(&matrix, border).map_err(|_| singular())?));
             }
         }
         Err(Error::no_orbit("Newton's method did not converge"))
     }
 
     /// Why no body can follow the orbit at `y`, apart from the quantity that is 0 on the locus.
-    fn reason(&self, problem: &Problem, y: &DVector<f64>) -> Result<Option<String>> {
+    fn reason(&self, problem: &Problem, y: &Vector) -> Result<Option<String>> {
         let mut found = self.admissible(problem, y)?;
         let least = self.orbit.signature.events.iter().enumerate().filter(|(i, event)| {
             event.kind != super::super::signature::Kind::Release
@@ -271,21 +246,17 @@ impl Traced<'_> {
 
     fn follow(
         &self,
-        mut y: DVector<f64>,
-        mut tangent: DVector<f64>,
+        mut y: Vector,
+        mut tangent: Vector,
         ranges: [[f64; 2]; 2],
         most: usize,
     ) -> Result<(Vec<OnLocus>, End)> {
         let n = y.len() - 2;
-        let mut points = vec![self.point(&y)?];
+        let mut points = vec![self.point(&self.problem(&y)?, &y)];
         let mut step = STEPS[0];
         while points.len() < most {
-            let tried = self.correct(&(&y + &tangent * step), &tangent).and_then(|(next, matrix)| {
-                let turned = self.tangent(&matrix, &tangent)?;
-                Ok((next, turned))
-            });
-            let (next, turned) = match tried {
-                Ok((next, turned)) if turned.dot(&tangent) >= TURN => (next, turned),
+            let (next, turned) = match self.correct(&(&y + &tangent * step), &tangent) {
+                Ok((next, turned)) if turns_little(&tangent, &turned) => (next, turned),
                 tried => {
                     step *= 0.5;
                     if step < STEPS[2] {
@@ -296,15 +267,12 @@ impl Traced<'_> {
                 }
             };
             let values = self.values(&next);
-            let beyond = (0..2).find(|&k| !(ranges[k][0]..=ranges[k][1]).contains(&values[k]));
-            if let Some(k) = beyond {
-                let bound = if values[k] < ranges[k][0] { ranges[k][0] } else { ranges[k][1] };
+            if let Some((k, bound)) = (0..2).find_map(|k| Some((k, beyond(ranges[k], values[k])?))) {
                 let share = (bound - self.values(&y)[k]) / (values[k] - self.values(&y)[k]);
                 let mut guess = &y + (&next - &y) * share;
                 guess[n + k] = bound / self.widths[k];
-                let fixed = DVector::from_fn(n + 2, |i, _| if i == n + k { 1.0 } else { 0.0 });
-                if let Ok((last, _)) = self.correct(&guess, &fixed) {
-                    let mut last = self.point(&last)?;
+                if let Ok((last, _)) = self.correct(&guess, &unit(n + 2, n + k)) {
+                    let mut last = self.point(&self.problem(&last)?, &last);
                     last.values[k] = bound;
                     points.push(last);
                 }
@@ -314,17 +282,16 @@ impl Traced<'_> {
             if let Some(reason) = self.reason(&problem, &next)? {
                 return Ok((points, End::Stuck(reason)));
             }
-            points.push(self.point(&next)?);
+            points.push(self.point(&problem, &next));
             (y, tangent) = (next, turned);
             step = (step * GROWTH).min(STEPS[1]);
         }
         Ok((points, End::Points))
     }
 
-    fn point(&self, y: &DVector<f64>) -> Result<OnLocus> {
-        let problem = self.problem(y)?;
-        let orbit = Equations::new(&problem, &self.orbit.signature, self.scales).orbit(y.as_slice(), &problem);
-        Ok(OnLocus { values: self.values(y), orbit })
+    fn point(&self, problem: &Problem, y: &Vector) -> OnLocus {
+        let orbit = Equations::new(problem, &self.orbit.signature, self.scales).orbit(y.as_slice(), problem);
+        OnLocus { values: self.values(y), orbit }
     }
 }
 

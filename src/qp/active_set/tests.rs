@@ -16,7 +16,7 @@ fn solved(
     let mut play = ActiveSet::new(system.count());
     start.iter().for_each(|&(row, side)| play.push(system, row, side));
     let mut r = vec![f64::NAN; system.count()];
-    (play.solve(system, lo, hi, 1.0, limit, &mut r), r)
+    (play.solve(system, &Rhs { b: &[], lo, hi }, 1.0, limit, &mut r), r)
 }
 
 #[test]
@@ -151,8 +151,8 @@ fn squeezed(lower: f64, upper: f64) -> Failure {
     let system = Dense::rigid([[1.0], [1.0]]).at_rest();
     let mut play = ActiveSet::new(2);
     play.push(&system, 0, Side::Lower);
-    let bounds = |row: usize| if row == 0 { (lower, INF) } else { (-INF, upper) };
-    play.enter(&system, bounds, 1, Side::Upper, &mut [0.0; 2], &mut 0, 9).expect_err("nothing gives way")
+    let rhs = Rhs { b: &[], lo: &[lower, -INF], hi: &[INF, upper] };
+    play.enter(&system, &rhs, (1, Side::Upper), 9, &mut [0.0; 2]).expect_err("nothing gives way")
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn the_rows_that_push_are_found_in_all_units() {
             }
             interior.find(&system, &rhs, violation, length, &mut play).expect("solved");
             let mut r = vec![0.0; m];
-            ActiveSet::new(m).solve(&system, &lo, &hi, length, 999, &mut r).expect("feasible");
+            ActiveSet::new(m).solve(&system, &rhs, length, 999, &mut r).expect("feasible");
             let side = |r: f64| if r > 0.0 { Side::Lower } else { Side::Upper };
             let pushing: Vec<_> = (0..m).filter(|&i| r[i] != 0.0).map(|i| (i, side(r[i]))).collect();
             assert_eq!(play.called().collect::<Vec<_>>(), pushing, "trial {trial}.{step}");

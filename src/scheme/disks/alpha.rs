@@ -40,8 +40,8 @@ impl Alpha {
         let mut alpha = Self {
             closed: false,
             held: vec![0.0; scene.walls.len()],
-            place: DiskProgramme::new(scene, rule.matrix(body), gap, |k, c| 1.0 / (k + c / h))?,
-            rate: DiskProgramme::new(scene, rule.velocity_matrix(body), gap / h, |_, _| 0.0)?,
+            place: DiskProgramme::new(scene, rule.matrix(body), gap, |spring| 1.0 / spring.stiffness_over(h))?,
+            rate: DiskProgramme::new(scene, rule.velocity_matrix(body), gap / h, |_| 0.0)?,
             zero: vec![0.0; body.n],
             start: vec![[0.0; 2]; held.rounds.len()],
             rule,
@@ -118,7 +118,7 @@ impl Alpha {
                 // |r| = k_a s⁺ + c_a(s⁺ − s₊)/h, written in Δ.
                 Some(spring) => {
                     let plate = face.plate(body.seen(wall, &frame.q));
-                    -spring.force(ahead, face.g, plate, body.h) / spring.over(body.h)
+                    -spring.force(ahead, face.g, plate, body.h) / spring.stiffness_over(body.h)
                 }
                 None => face.g - ahead,
             };

@@ -6,7 +6,7 @@ use super::super::programme::failure;
 use crate::error::{Error, Result};
 use crate::linear::{Rows, Symmetric};
 use crate::qp::{DiskBound, DiskCounters, DiskProblem, DiskSolver, Failure};
-use crate::scene::{Face, Row, Scene, WallLaw};
+use crate::scene::{Face, Row, Scene, WallSpring};
 
 /// A programme over all walls and holes, and its bounds in a step.
 #[derive(Debug)]
@@ -20,10 +20,9 @@ pub(in crate::scheme) struct DiskProgramme {
 
 impl DiskProgramme {
     /// With the matrix `a`, a typical size `scale` of the rows' values, and the compliance of
-    /// elastic walls and holes as a function of stiffness and damping.
-    pub fn new(scene: &Scene, a: Symmetric, scale: f64, compliance: impl Fn(f64, f64) -> f64) -> Result<Self> {
-        let soft = |law: &WallLaw| law.spring().map_or(0.0, |s| compliance(s.stiffness, s.damping));
-        let yields: Vec<f64> = scene.walls.iter().map(|wall| soft(&wall.law)).collect();
+    /// elastic walls and holes.
+    pub fn new(scene: &Scene, a: Symmetric, scale: f64, compliance: impl Fn(WallSpring) -> f64) -> Result<Self> {
+        let compliance = scene.walls.iter().map(|wall| wall.law.spring().map_or(0.0, &compliance)).collect();
         let (mut rows, mut blocks, mut first): (Vec<&Row>, _, _) = (Vec::new(), Vec::new(), Vec::new());
         for wall in &scene.walls {
             first.push(rows.len());
@@ -35,7 +34,7 @@ impl DiskProgramme {
         }
         let count = blocks.len();
         let g = Rows::new(a.size(), rows.iter().map(|row| row.entries()));
-        let problem = DiskProblem { a, g, blocks, compliance: yields };
+        let problem = DiskProblem { a, g, blocks, compliance };
         let solver = DiskSolver::new(problem, scale).map_err(|fault| failure(&fault, None, 0.0, 0))?;
         let names = (0..count).map(|index| scene.wall_name(index).unwrap_or_default().to_owned()).collect();
         Ok(Self { solver, bounds: vec![DiskBound::OPEN; count], first, names })
@@ -71,7 +70,7 @@ impl DiskProgramme {
     }
 
     /// The minimiser of the last programme.
-    pub fn x(&self) -> &[f64] {
+    pub fn x(&self) -> &Vec<f64> {
         &self.solver.solution().x
     }
 

@@ -37,14 +37,14 @@ use velocity::Velocity;
 
 /// The scheme of a motion.
 #[derive(Debug)]
-enum Rule {
+enum DiskRule {
     Position(Box<Position>),
     Alpha(Box<Alpha>),
     Velocity(Box<Velocity>),
     Springs(Box<Springs>),
 }
 
-impl Rule {
+impl DiskRule {
     fn advance(&mut self, step: u64, held: &mut HoleBody) -> Result<()> {
         match self {
             Self::Position(rule) => rule.advance(step, held),
@@ -68,11 +68,9 @@ impl Rule {
 #[derive(Debug)]
 pub(super) struct Disks {
     held: HoleBody,
-    rule: Rule,
+    rule: DiskRule,
     episodes: Episodes,
     turned: f64,
-    /// True if the extra force of the last step may not be 0.
-    forced: bool,
 }
 
 impl Disks {
@@ -82,19 +80,20 @@ impl Disks {
         let held = HoleBody::new(scene, h)?;
         Ok(Self {
             rule: match contract.balance {
-                Balance::GeneralizedAlpha { .. } => Rule::Alpha(Box::new(Alpha::new(scene, contract.balance, &held)?)),
+                Balance::GeneralizedAlpha { .. } => {
+                    DiskRule::Alpha(Box::new(Alpha::new(scene, contract.balance, &held)?))
+                }
                 _ if contract.promise.elastic.law == Law::Gradient => {
-                    Rule::Springs(Box::new(Springs::new(scene, &held)?))
+                    DiskRule::Springs(Box::new(Springs::new(scene, &held)?))
                 }
                 Balance::Theta(theta) if contract.promise.hole.is_none() => {
-                    Rule::Velocity(Box::new(Velocity::new(scene, theta, &held)?))
+                    DiskRule::Velocity(Box::new(Velocity::new(scene, theta, &held)?))
                 }
-                _ => Rule::Position(Box::new(Position::new(scene, &held)?)),
+                _ => DiskRule::Position(Box::new(Position::new(scene, &held)?)),
             },
             held,
             episodes: Episodes::new(scene, scene.wall_masses(), contract),
             turned: 0.0,
-            forced: false,
         })
     }
 
@@ -124,10 +123,7 @@ impl Disks {
 
 impl Motion for Disks {
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        if extra.is_some() || self.forced {
-            self.held.frame.force(extra);
-            self.forced = extra.is_some();
-        }
+        self.held.frame.force(extra);
         self.held.frame.normal.fill([0.0; 2]);
         self.held.frame.begin(step, self.held.body.h);
         self.rule.advance(step, &mut self.held)?;
@@ -137,7 +133,7 @@ impl Motion for Disks {
     }
 
     fn flush(&mut self, tiny: f64) {
-        let carried = if let Rule::Alpha(rule) = &mut self.rule { rule.carried() } else { [None, None] };
+        let carried = if let DiskRule::Alpha(rule) = &mut self.rule { rule.carried() } else { [None, None] };
         self.held.frame.flush(tiny, self.held.body.h, carried);
     }
 
@@ -148,12 +144,11 @@ impl Motion for Disks {
     fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
         self.held.frame.restart(time, q, v);
         self.held.body.restart(time);
-        if let Rule::Alpha(rule) = &mut self.rule {
+        if let DiskRule::Alpha(rule) = &mut self.rule {
             rule.restart(&self.held);
         }
         self.held.frame.normal.fill([0.0; 2]);
         self.episodes.forget();
-        self.forced = false;
         Ok(())
     }
 
@@ -175,7 +170,7 @@ impl Motion for Disks {
         counters.qp_fallbacks += fallbacks;
         counters.interior_point_iterations += iterations;
         counters.largest_turn_rad = self.turned;
-        if let Rule::Springs(rule) = &self.rule {
+        if let DiskRule::Springs(rule) = &self.rule {
             counters.newton_iterations = rule.iterations();
         }
     }

@@ -21,7 +21,7 @@ impl Position {
     pub fn new(scene: &Scene, held: &HoleBody) -> Result<Self> {
         let (h, m) = (held.body.h, &held.body.matrices);
         let a = Symmetric::sum(&[(1.0 / (h * h), &m.mass), (1.0 / h, &m.damping), (1.0, &m.stiffness)]);
-        let bounds = DiskProgramme::new(scene, a, scene.gap_scale(), |k, c| 1.0 / (k + c / h))?;
+        let bounds = DiskProgramme::new(scene, a, scene.gap_scale(), |spring| 1.0 / spring.stiffness_over(h))?;
         Ok(Self { bounds, b: vec![0.0; held.body.n] })
     }
 
@@ -69,7 +69,7 @@ impl Position {
             let w = body.seen(wall, q);
             let bound = match face.law.spring() {
                 // As in implicit-euler between walls: |r| = k_a s⁺ + c_a(s⁺ − s₊)/h.
-                Some(spring) => -spring.force(w, face.g, face.plate(w), body.h) / spring.over(body.h),
+                Some(spring) => -spring.force(w, face.g, face.plate(w), body.h) / spring.stiffness_over(body.h),
                 None => face.g - w - shift.map_or(0.0, |shift| body.seen(wall, shift)),
             };
             self.bounds.bind_wall(wall, face, bound);

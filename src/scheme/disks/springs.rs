@@ -106,12 +106,7 @@ impl Springs {
         if self.reaches(held, &free) {
             self.solve_contacts(step, held, free)?;
         }
-        let frame = &mut held.frame;
-        for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(&self.delta) {
-            *q += h * (*v + THETA * d);
-            *v += d;
-        }
-        frame.after.clone_from(&frame.v);
+        held.frame.add_change((h, THETA), &self.delta);
         if blown {
             held.body.shift(&mut held.frame.q);
         }

@@ -22,9 +22,8 @@ pub(super) struct Velocity {
 impl Velocity {
     pub fn new(scene: &Scene, theta: f64, held: &HoleBody) -> Result<Self> {
         let ht = held.body.h * theta;
-        let compliance = move |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
-        let bounds =
-            DiskProgramme::new(scene, held.body.theta_matrix(theta), scene.gap_scale() / held.body.h, compliance)?;
+        let (a, scale) = (held.body.theta_matrix(theta), scene.gap_scale() / held.body.h);
+        let bounds = DiskProgramme::new(scene, a, scale, |spring| spring.compliance(ht))?;
         Ok(Self { theta, bounds, b: vec![0.0; held.body.n] })
     }
 
@@ -37,12 +36,7 @@ impl Velocity {
         self.bind(held);
         self.solve(step, held)?;
         let carried = held.body.blows.is_some() && self.solve_with_blows(step, held)?;
-        let frame = &mut held.frame;
-        for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(self.bounds.x()) {
-            *q += h * (*v + theta * d);
-            *v += d;
-        }
-        frame.after.clone_from(&frame.v);
+        held.frame.add_change((h, theta), self.bounds.x());
         if carried {
             held.body.shift(&mut held.frame.q);
         }
@@ -59,7 +53,7 @@ impl Velocity {
                 // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
                 (Some(spring), _) => {
                     let offset = h * spring.force(w + ht * before, face.g, face.plate(w), ht);
-                    self.bounds.bind_wall(wall, face, -offset / (ht * ht * spring.over(ht)));
+                    self.bounds.bind_wall(wall, face, -offset / (ht * ht * spring.stiffness_over(ht)));
                 }
                 (_, Some(restitution)) if face.depth(w + 0.5 * h * struck) >= -held.body.touch => {
                     let epsilon = if face.sign * struck <= 0.0 { restitution } else { 1.0 };

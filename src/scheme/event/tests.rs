@@ -96,7 +96,7 @@ fn a_step_shows_where_it_came_from_and_the_wall_that_carries_the_body() {
     while event.end() < 4.0 {
         let v = event.v().to_vec();
         event.advance(0.0).unwrap();
-        assert_eq!(event.velocity_before(), v);
+        assert_eq!(event.step().velocity_before, v);
         rests.push((event.end(), event.rests_on()));
     }
     // It arrives within the second step.

@@ -15,13 +15,13 @@ impl Event {
         self.time >= self.clock.duration
     }
 
-    /// Time at the start of the last step, s.
+    /// The last step.
     #[must_use]
-    pub fn start(&self) -> f64 {
-        self.shown.start
+    pub fn step(&self) -> Step<'_> {
+        Motion::step(self, self.steps)
     }
 
-    /// Time at its end, s: the present.
+    /// The present, s.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.time
@@ -39,40 +39,10 @@ impl Event {
         std::slice::from_ref(&self.v)
     }
 
-    /// Velocity at the start of the last step, m/s, from the right: a slice of one.
-    #[must_use]
-    pub fn velocity_before(&self) -> &[f64] {
-        &self.shown.before
-    }
-
     /// Velocity at the end of the last step from the left, m/s: before the jump at that instant.
     #[must_use]
     pub fn velocity_left(&self) -> f64 {
         self.velocity_left
-    }
-
-    /// Impulse of each wall over the last step, N s, signed, including its jump.
-    #[must_use]
-    pub fn impulse(&self) -> &[f64] {
-        &self.shown.impulse
-    }
-
-    /// The part of it that acted at the instant of the end, N s.
-    #[must_use]
-    pub fn jump(&self) -> &[f64] {
-        &self.shown.jump
-    }
-
-    /// Force of each wall now, N, signed.
-    #[must_use]
-    pub fn force(&self) -> &[f64] {
-        &self.shown.force
-    }
-
-    /// Contact episodes that ended in the last step.
-    #[must_use]
-    pub fn closed(&self) -> &[Contact] {
-        &self.shown.closed
     }
 
     /// Open contact episodes.

@@ -265,11 +265,7 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
 
     fn take(&mut self, body: &Body<S>, frame: &mut Frame<S>, length: f64, theta: f64) {
         let part = &mut self.part;
-        for ((q, v), d) in frame.q.as_mut().iter_mut().zip(frame.v.as_mut()).zip(part.delta.as_ref()) {
-            *q += length * (*v + theta * d);
-            *v += d;
-        }
-        frame.after.clone_from(&frame.v);
+        frame.add_change((length, theta), &part.delta);
         for push in &part.pushes {
             frame.push(push.wall, push.impulse, length);
             if let (Some(friction), Some(normal)) = (frame.friction.get_mut(push.wall), frame.normal.get_mut(push.wall))

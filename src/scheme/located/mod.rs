@@ -34,9 +34,9 @@
 //!
 //! With round walls or friction ([`planar`], [`plane_contacts`]) the same division ends parts where
 //! a place meets a circle (`round_path.rs`), where sliding ends and where it begins; a body that
-//! slides along a circle is guided by an impulse along the middle of its path (`plane_bound.rs`).
-//! There the rest of a step of more than 64 parts has no rebounds, and implicit-euler takes over
-//! after 256 more.
+//! slides along a circle is guided by an impulse along the middle of its path (`plane_bound.rs`,
+//! `plane_holds.rs`). There the rest of a step of more than 64 parts has no rebounds, and
+//! implicit-euler takes over after 256 more.
 //!
 //! Order 2 through impacts. More than 64 parts of one step (dense chatter, or a
 //! step that does not resolve the motion between two walls) are given up: the rest of that step is
@@ -52,6 +52,7 @@ mod planar;
 mod plane_bound;
 mod plane_contact;
 mod plane_contacts;
+mod plane_holds;
 mod plane_path;
 mod response;
 mod round_path;
@@ -123,9 +124,8 @@ impl<S: Space> Located<S> {
     pub fn new(scene: &Scene, h: f64, backend: Backend) -> Result<Self> {
         let body = Body::<S>::new(scene, h)?;
         let ht = h * THETA;
-        let compliance = |k: f64, c: f64| 1.0 / (ht * ht * (k + c / ht));
-        let scale = scene.gap_scale() / h;
-        let programme = Programme::new(scene, body.theta_matrix(THETA), scale, compliance, backend)?;
+        let (a, scale) = (body.theta_matrix(THETA), scene.gap_scale() / h);
+        let programme = Programme::new(scene, a, scale, |spring| spring.compliance(ht), backend)?;
         let division = Division::new(scene, &body, RowContacts::new(scene, &body, backend)?, backend)?;
         let [b, arrived, after, ahead] = [(); 4].map(|()| zero::<S>(body.n));
         Ok(Self { body, programme, division, b, arrived, after, ahead, clear: false })

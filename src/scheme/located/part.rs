@@ -52,7 +52,7 @@ pub(super) struct Part<S: Space> {
     pub polynomial: S::Polynomial,
     factor: S::Factor,
     /// A⁻¹gᵀ of the wall that holds.
-    solve_contacts: S::Vector,
+    column: S::Vector,
     /// The change of the velocity, m/s.
     pub delta: S::Vector,
     pub pushes: Vec<Push>,
@@ -73,7 +73,7 @@ impl<S: Space> Part<S> {
             load_end: vector(),
             mean: vector(),
             b: vector(),
-            solve_contacts: vector(),
+            column: vector(),
             delta: vector(),
             pushes: Vec::with_capacity(scene.walls.len()),
             solves: 0,
@@ -131,10 +131,10 @@ impl<S: Space> Part<S> {
             return;
         }
         self.solves += 1;
-        self.solve_contacts.as_mut().fill(0.0);
-        S::add_transposed(&body.rows, hold.wall, 1.0, &mut self.solve_contacts);
-        S::solve(&mut self.factor, &mut self.solve_contacts);
-        let impulse = -beyond / (body.seen(hold.wall, &self.solve_contacts) + hold.compliance);
+        self.column.as_mut().fill(0.0);
+        S::add_transposed(&body.rows, hold.wall, 1.0, &mut self.column);
+        S::solve(&mut self.factor, &mut self.column);
+        let impulse = -beyond / (body.seen(hold.wall, &self.column) + hold.compliance);
         // Solved again rather than added, so that the balance keeps its rounding where both cancel.
         S::add_transposed(&body.rows, hold.wall, impulse, &mut self.b);
         self.delta.clone_from(&self.b);

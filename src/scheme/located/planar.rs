@@ -24,8 +24,6 @@ pub(in crate::scheme) struct LocatedPlanar {
     b: Vec<f64>,
     delta: Vec<f64>,
     episodes: Episodes,
-    /// True if the extra force of the last step may not be 0.
-    forced: bool,
 }
 
 impl LocatedPlanar {
@@ -42,7 +40,6 @@ impl LocatedPlanar {
             delta: zero(),
             division: Division::new(scene, &body, contacts, Backend::Auto)?,
             episodes: Episodes::new(scene, scene.wall_masses(), contract),
-            forced: false,
             body,
         })
     }
@@ -58,11 +55,7 @@ impl LocatedPlanar {
         {
             return false;
         }
-        for ((q, v), d) in frame.q.iter_mut().zip(&mut frame.v).zip(&*delta) {
-            *q += body.h * (*v + THETA * d);
-            *v += d;
-        }
-        frame.after.clone_from(&frame.v);
+        frame.add_change((body.h, THETA), delta);
         division.contacts.forget();
         true
     }
@@ -92,10 +85,7 @@ impl LocatedPlanar {
 
 impl Motion for LocatedPlanar {
     fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        if extra.is_some() || self.forced {
-            self.frame.force(extra);
-            self.forced = extra.is_some();
-        }
+        self.frame.force(extra);
         self.frame.normal.fill([0.0; 2]);
         if self.division.is_under_way() {
             self.division.make_part(&mut self.body, step, &mut self.frame)?;
@@ -133,7 +123,6 @@ impl Motion for LocatedPlanar {
         self.division.restart();
         self.division.contacts.begin(scene, q, v);
         self.episodes.forget();
-        self.forced = false;
         Ok(())
     }
 

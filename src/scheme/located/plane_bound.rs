@@ -65,8 +65,7 @@ impl Ring {
 
     /// n·ẇ⁺ beyond the bound over the impulse, m/s per N s.
     pub fn compliance(&self, length: f64) -> f64 {
-        let st = self.theta * length;
-        1.0 / (st * st * self.spring.over(st))
+        self.spring.compliance(self.theta * length)
     }
 }
 

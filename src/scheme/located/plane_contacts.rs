@@ -18,7 +18,7 @@ use super::super::supports::{contact_points, dot};
 use super::contacts::{Ahead, Contacts, Event, Place, Solved};
 use super::impact::Impact;
 use super::part::{Part, THETA, size_of};
-use super::plane_bound::{Guide, PlaneBound, Plate, Ring};
+use super::plane_bound::PlaneBound;
 use super::plane_contact::PlaneContact;
 use super::plane_path::PlanePath;
 use super::response::Response;
@@ -26,7 +26,7 @@ use crate::error::Result;
 use crate::scene::{Row, Scene};
 
 /// A part shorter than this share of the step ends at a blow, and no rigid contact acts in it.
-const INSTANT: f64 = 1e-12;
+pub(super) const INSTANT: f64 = 1e-12;
 
 /// Parts of a step after its rebounds are given up.
 const PARTS_WITHOUT_REBOUND: u32 = 256;
@@ -37,7 +37,7 @@ const SLOW: f64 = 1e4;
 /// The walls of a scene in two planes.
 #[derive(Debug)]
 pub(super) struct PlaneContacts {
-    all: Vec<PlaneContact>,
+    pub(super) all: Vec<PlaneContact>,
     rows: Vec<Row>,
     pub impact: Impact,
     /// The response over a whole step, and that over the last part.
@@ -105,7 +105,7 @@ impl PlaneContacts {
     }
 
     /// The gap of a wall, m, and its outward normal.
-    fn gap(&self, wall: usize, body: &Body<Matrices>, q: &Vec<f64>) -> (f64, [f64; 2]) {
+    pub(super) fn gap(&self, wall: usize, body: &Body<Matrices>, q: &Vec<f64>) -> (f64, [f64; 2]) {
         self.all[wall].gap((body, &self.impact.places), q)
     }
 
@@ -149,48 +149,6 @@ impl PlaneContacts {
         part.pushes.iter().for_each(|push| self.all[push.wall].pushes = true);
         Ok(self.settled)
     }
-
-    /// The contact of a wall with this guide over a part.
-    fn velocity_bound(
-        &self,
-        wall: usize,
-        (body, frame): (&Body<Matrices>, &Frame<Matrices>),
-        guide: Guide,
-    ) -> PlaneBound {
-        let contact = &self.all[wall];
-        PlaneBound {
-            wall,
-            rows: contact.point.rows,
-            guide,
-            friction: contact.friction(),
-            kinetic: contact.point.friction.sliding,
-            compliance: 0.0,
-            slides: 0.0,
-            sign: if contact.round.is_some() { 1.0 } else { body.walls[wall].sign },
-            from: contact.offset(&self.impact.places, &frame.q),
-            rate: self.pair(wall, &frame.v),
-            acceleration: contact.acceleration,
-        }
-    }
-
-    /// The contact of an elastic wall over a part of `length` seconds of the weight θ.
-    fn spring(&self, wall: usize, state: (&Body<Matrices>, &Frame<Matrices>), span: (f64, f64)) -> PlaneBound {
-        let (body, frame) = state;
-        let (face, contact, (length, theta)) = (body.walls[wall], &self.all[wall], span);
-        if let (Some((_, gap)), Some(spring)) = (contact.round, face.law.spring()) {
-            let from = contact.offset(&self.impact.places, &frame.q);
-            let distance = from[0].hypot(from[1]);
-            let plate =
-                if theta == THETA && distance >= gap { Plate::Body } else { Plate::Distance(distance.max(gap)) };
-            let ring = Ring { spring, gap, plate, theta };
-            let compliance = ring.compliance(length);
-            return PlaneBound { compliance, ..self.velocity_bound(wall, state, Guide::Ring(ring)) };
-        }
-        let (w, rate) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
-        let (bound, compliance) = face.spring_bound(w, rate, span);
-        let guide = Guide::Flat(contact.point.normal, -face.sign * (rate + bound));
-        PlaneBound { compliance, ..self.velocity_bound(wall, state, guide) }
-    }
 }
 
 impl Contacts<Matrices> for PlaneContacts {
@@ -223,21 +181,7 @@ impl Contacts<Matrices> for PlaneContacts {
     ) -> Solved {
         self.holds.clear();
         for wall in 0..self.all.len() {
-            let contact = self.all[wall];
-            if !body.walls[wall].law.is_rigid() {
-                let spring = self.spring(wall, (body, frame), (length, THETA));
-                self.holds.push(PlaneBound { slides: contact.slides(), ..spring });
-                continue;
-            }
-            if contact.place != Place::Resting || length <= INSTANT * body.h {
-                continue;
-            }
-            let behind = (-self.gap(wall, body, &frame.q).0).max(0.0) / body.h;
-            let guide = match contact.round {
-                None => Guide::Flat(contact.normal, -behind),
-                Some(_) => Guide::Chord { return_rate: 2.0 * behind },
-            };
-            self.holds.push(PlaneBound { slides: contact.slides(), ..self.velocity_bound(wall, (body, frame), guide) });
+            self.holds.extend(self.hold(wall, (body, frame), length));
         }
         self.solve(body, part, &frame.v, (length, THETA))
     }
@@ -252,17 +196,7 @@ impl Contacts<Matrices> for PlaneContacts {
         self.holds.clear();
         self.impact.wedged.clear();
         for wall in 0..self.all.len() {
-            let hold = if body.walls[wall].law.is_rigid() {
-                let (gap, normal) = self.gap(wall, body, &frame.q);
-                let guide = match self.all[wall].round {
-                    None => Guide::Flat(normal, gap / length),
-                    Some((_, gap)) => Guide::End { gap },
-                };
-                self.velocity_bound(wall, (body, frame), guide)
-            } else {
-                self.spring(wall, (body, frame), (length, 1.0))
-            };
-            self.holds.push(hold);
+            self.holds.push(self.hold_at_end(wall, (body, frame), length));
         }
         self.solve(body, part, &frame.v, (length, 1.0))
     }

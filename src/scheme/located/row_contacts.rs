@@ -48,7 +48,7 @@ impl<S: Space> RowContacts<S> {
         };
         let (mass, scale) = (body.matrices.mass.clone(), scene.gap_scale() / body.h);
         Ok(Self {
-            law: Programme::over(scene, WallLaw::is_rigid, mass, scale, |_, _| 0.0, backend)?,
+            law: Programme::over(scene, WallLaw::is_rigid, mass, scale, |_| 0.0, backend)?,
             places: vec![Place::Away; walls],
             gaps: vec![(f64::INFINITY, 0.0); walls],
             seen: vec![(0.0, 0.0); walls],

@@ -69,7 +69,7 @@ impl Stepper {
             let found = format!("{distance:?} m from the centre of the round support {:?}", wall.name);
             return Err(Error::invalid(("state", "displacement"), found, "a place inside of its hole"));
         }
-        self.kernel.restart(&self.scene, time, &state.q, &state.v)?;
+        self.kernel.motion_mut().restart(&self.scene, time, &state.q, &state.v)?;
         let (made, from) = self.before;
         self.before = (made + (self.index - from), index);
         self.index = index;

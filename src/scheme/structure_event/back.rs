@@ -54,7 +54,7 @@ impl StructureEvent {
     /// it where it is if no such displacement is found.
     fn put_into_holes(&mut self) {
         let mass = self.scene.system.structure().mass.clone();
-        let Ok(mut bounds) = DiskProgramme::new(&self.scene, mass, self.length, |_, _| 0.0) else { return };
+        let Ok(mut bounds) = DiskProgramme::new(&self.scene, mass, self.length, |_| 0.0) else { return };
         for (index, wall) in self.scene.walls.iter().enumerate() {
             match wall.hole(index) {
                 Some(Hole { centre, gap, .. }) => bounds.bind_hole(index, DiskBound::Disk { centre, radius: gap }),

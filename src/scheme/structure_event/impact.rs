@@ -21,10 +21,9 @@
 
 use super::StructureEvent;
 use super::closed_row::{ClosedRow, side_of};
-use super::rows::size;
 use crate::error::{Error, Result};
 use crate::qp::{Failure, Rhs};
-use crate::scheme::exact::{TAIL_CHANGE, TAIL_HEIGHT, TIME_UNITS, noise};
+use crate::scheme::exact::noise;
 
 /// Maximum number of programmes at one instant before one with e = 0 over all closed walls ends the
 /// impact.
@@ -56,7 +55,7 @@ impl StructureEvent {
         let pull = self.body.answer_size(row, &self.sizes.instant);
         // Where forces balance, the velocity has the rounding error of their terms over the last
         // stretch.
-        let own = noise(size(&self.body, row, &self.v) + pull * self.series.longest()) + self.turned_speed(row);
+        let own = noise(self.body.size(row, &self.v) + pull * self.series.longest()) + self.turned_speed(row);
         if self.closed_rows.len() < 2 {
             return own;
         }
@@ -72,6 +71,11 @@ impl StructureEvent {
         let rate = self.rate_of(closed_row);
         let quiet = self.quiet(s.row);
         if s.both { rate.abs() > quiet } else { rate < -quiet }
+    }
+
+    /// True if the structure approaches any closed wall.
+    pub(super) fn is_any_approached(&self) -> bool {
+        (0..self.closed_rows.len()).any(|closed_row| self.is_approached(closed_row))
     }
 
     /// ẇ away from the wall, m/s.
@@ -103,18 +107,15 @@ impl StructureEvent {
     /// Applies the impact law from the present velocity until no closed wall is approached.
     fn strike(&mut self) -> Result<()> {
         self.closed_rows.iter_mut().for_each(|s| s.push = [0.0; 2]);
-        if let [closed_row] = self.closed_rows[..] {
-            let rate = self.rate_of(0);
-            let push = -(1.0 + closed_row.restitution) * rate / self.body.delassus(closed_row.row, closed_row.row);
-            self.body.add_column(closed_row.row, closed_row.sign * push, &mut self.v);
-            self.closed_rows[0].push[side_of(closed_row.sign * push)] = push.abs();
+        if self.closed_rows.len() == 1 {
+            self.strike_alone(0);
             return Ok(());
         }
         if self.is_struck_in_turn() {
             return self.strike_in_turn();
         }
         for pass in 0..=PASSES {
-            if !(0..self.closed_rows.len()).any(|closed_row| self.is_approached(closed_row)) {
+            if !self.is_any_approached() {
                 break;
             }
             if pass == PASSES || !self.pass(false)? {
@@ -122,6 +123,14 @@ impl StructureEvent {
             }
         }
         Ok(())
+    }
+
+    /// Applies Newton's law to one closed wall by itself.
+    fn strike_alone(&mut self, closed_row: usize) {
+        let s = self.closed_rows[closed_row];
+        let push = -s.sign * (1.0 + s.restitution) * self.rate_of(closed_row) / self.body.delassus(s.row, s.row);
+        self.body.add_column(s.row, push, &mut self.v);
+        self.closed_rows[closed_row].push[side_of(push)] += push.abs();
     }
 
     /// True if a closed row that is not approached flew up from an impact just before, too short to
@@ -147,16 +156,13 @@ impl StructureEvent {
         for _ in 0..IN_TURN {
             let approached = (0..count).filter(|&at| self.is_approached(at));
             let Some(at) = approached.max_by(|&a, &b| weighed(self, a).total_cmp(&weighed(self, b))) else { break };
-            let s = self.closed_rows[at];
             first = first.max(weighed(self, at));
-            let push = -s.sign * (1.0 + s.restitution) * self.rate_of(at) / self.body.delassus(s.row, s.row);
-            self.body.add_column(s.row, push, &mut self.v);
-            self.closed_rows[at].push[side_of(push)] += push.abs();
+            self.strike_alone(at);
         }
         let struck = |s: &ClosedRow| s.push != [0.0; 2];
         let left =
             (0..count).filter(|&at| struck(&self.closed_rows[at])).map(|at| weighed(self, at)).fold(0.0, f64::max);
-        if left > ACCUMULATED * first && !(0..count).any(|at| self.is_approached(at)) {
+        if left > ACCUMULATED * first && !self.is_any_approached() {
             return Ok(());
         }
         self.closed_rows.iter_mut().filter(|s| struck(s)).for_each(|s| s.restitution = 0.0);
@@ -174,7 +180,7 @@ impl StructureEvent {
     fn in_turn(&mut self) -> Result<()> {
         self.closed_rows.iter_mut().for_each(|s| s.restitution = 0.0);
         for _ in 0..TURNS {
-            if !(0..self.closed_rows.len()).any(|closed_row| self.is_approached(closed_row)) {
+            if !self.is_any_approached() {
                 return Ok(());
             }
             if !self.pass(false)? {
@@ -243,98 +249,10 @@ impl StructureEvent {
         Error::Qp { time: self.time, step: self.steps, wall: None, reason: reason.to_owned(), cause: None }
     }
 
-    /// Sets the restitution to 0 in the closed rows whose flight after the impact is the tail of an
-    /// accumulation, or too short to be resolved in double precision. Returns whether there is any.
-    fn stick(&mut self) -> Result<bool> {
-        // An upper bound of the pressing acceleration: most flights are far too high for a tail,
-        // and need no closer look.
-        self.derivatives[0].copy_from_slice(&self.q);
-        self.derivatives[1].copy_from_slice(&self.v);
-        self.forces(0);
-        let short = TIME_UNITS * f64::EPSILON * self.time;
-        let mut any = false;
-        for closed_row in 0..self.closed_rows.len() {
-            let s = self.closed_rows[closed_row];
-            let (rate, position) = (self.rate_of(closed_row), self.places[s.row].bound[side_of(s.sign)]);
-            let most = self.body.answer_size(s.row, &self.rhs_size) + self.bend_size(s.row, 0);
-            let resolved = self.resolution(s.row, position);
-            let low = self.low(s.row) + TAIL_HEIGHT * self.places[s.row].travel + resolved;
-            // A row at rest that the impact presses does not fly: in the trial it is held.
-            let wanted = s.push[side_of(s.sign)] > 0.0 && s.restitution > 0.0 && rate > self.quiet(s.row);
-            // Reactions of other held rows press too, with the size of the forces that they
-            // balance: no bound is known then.
-            let most = if self.closed_rows.len() > 1 { f64::INFINITY } else { most };
-            self.closed_rows[closed_row].candidate =
-                wanted && (rate * rate <= 4.0 * most * low || rate <= most * short);
-            any |= self.closed_rows[closed_row].candidate;
-            self.places[s.row].drifts &= !wanted || self.closed_rows[closed_row].candidate;
-        }
-        if !any {
-            return Ok(false);
-        }
-        self.departing.copy_from_slice(&self.v);
-        self.reclassify();
-        self.settle(None)?;
-        // The stretch that led here is kept unchanged, since the step shows it.
-        std::mem::swap(&mut self.series, &mut self.flight);
-        self.begin_series(self.limit());
-        self.measure();
-        let mut found = false;
-        for closed_row in 0..self.closed_rows.len() {
-            let s = self.closed_rows[closed_row];
-            if s.candidate && self.is_tail(closed_row, short) {
-                self.closed_rows[closed_row].restitution = 0.0;
-                found = true;
-            }
-            self.closed_rows[closed_row].candidate = false;
-        }
-        std::mem::swap(&mut self.series, &mut self.flight);
-        self.v.copy_from_slice(&self.departing);
-        Ok(found)
-    }
-
-    /// True if the flight of a closed row in the series just begun is a tail.
-    ///
-    /// Sticking at once removes the momentum and the energy of the whole tail: under a steady
-    /// pressing force its impacts sum up to the same impulse.
-    fn is_tail(&self, closed_row: usize, short: f64) -> bool {
-        let s = self.closed_rows[closed_row];
-        let (c, unit) = (self.series.seen(s.row), self.series.unit());
-        let rate = s.sign * c[1] / unit;
-        let press = -2.0 * s.sign * c[2] / (unit * unit);
-        let large = self.lean(s.row) * (self.body.answer_size(s.row, &self.sizes.force[0]) + self.bend_size(s.row, 0));
-        if press <= noise(large) || rate <= 0.0 {
-            return false;
-        }
-        let (height, flight) = (0.5 * rate * rate / press, 2.0 * rate / press);
-        let position = self.places[s.row].bound[side_of(s.sign)];
-        // A height within the rounding error of the gap in this time is no flight, nor is one
-        // within that of the whole stretch where such an error may have begun it.
-        let until = if self.places[s.row].drifts { 1.0 } else { (flight / unit).min(1.0) };
-        if height <= self.rounding_until(s.row, position, until).below() || flight <= short {
-            return true;
-        }
-        if height >= self.low(s.row) || s.restitution >= 1.0 {
-            return false;
-        }
-        let remaining = flight / (1.0 - s.restitution) / unit;
-        let (mut change, mut power) = (0.0, remaining);
-        for (k, c) in c.iter().enumerate().skip(3) {
-            change += (k * (k - 1)) as f64 * c.abs() * power;
-            power *= remaining;
-        }
-        change / (unit * unit) <= TAIL_CHANGE * press
-    }
-
-    /// The height below which a flight may be a tail, m.
-    fn low(&self, row: usize) -> f64 {
-        TAIL_HEIGHT * self.length.min(self.places[row].travel)
-    }
-
     /// Rounding error of the displacement of a row here, m.
     pub(super) fn resolution(&self, row: usize, position: f64) -> f64 {
-        let moved = self.series.span() * size(&self.body, row, self.series.term(1));
-        noise(size(&self.body, row, &self.q) + moved + position.abs())
+        let moved = self.series.span() * self.body.size(row, self.series.term(1));
+        noise(self.body.size(row, &self.q) + moved + position.abs())
     }
 }
 

@@ -83,7 +83,7 @@ impl StructureEvent {
         if self.closed_rows.is_empty() {
             return Ok(false);
         }
-        let struck = (0..self.closed_rows.len()).any(|closed_row| self.is_approached(closed_row));
+        let struck = self.is_any_approached();
         if struck {
             if blown {
                 self.end_rests();

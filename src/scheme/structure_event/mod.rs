@@ -10,6 +10,7 @@
 //! | `pace.rs` | how long a series is to be where events follow one another quickly |
 //! | `instant.rs` | what happens at one instant, and the episodes of contact |
 //! | `impact.rs` | impacts, at several walls at once |
+//! | `tail.rs` | accumulations of impacts, which end in lasting contact |
 //! | `rest.rs` | which touching walls push where the speed is 0 |
 //! | `closed_row.rs` | a closed row at an instant, and what becomes of it |
 //! | `round.rs` | round holes: rows that turn |
@@ -31,6 +32,7 @@ mod rows;
 mod search;
 mod start;
 mod stretch;
+mod tail;
 mod view;
 
 use super::exact::{CHANGES_AT_ONCE, Clock, ExactWall, StepOutput};

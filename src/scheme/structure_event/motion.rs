@@ -3,7 +3,7 @@
 
 use super::StructureEvent;
 use super::round::bend;
-use super::rows::{Sizes, WallRow, size};
+use super::rows::{Sizes, WallRow};
 use crate::flow::{HeldRow, SeriesStart, Touching};
 use crate::scheme::exact::Phase;
 
@@ -89,8 +89,7 @@ impl StructureEvent {
             let spring = -b.stiffness * (body.rows.dot(row, x) - position);
             let dashpot = -b.damping * body.rows.dot(row, rate);
             body.rows.add_transposed(row, spring + dashpot, rhs);
-            let large =
-                b.stiffness * (size(body, row, x_size) + position.abs()) + b.damping * size(body, row, rate_size);
+            let large = b.stiffness * (body.size(row, x_size) + position.abs()) + b.damping * body.size(row, rate_size);
             for &(i, g) in body.rows.row(row) {
                 rhs_size[i] += g.abs() * large;
             }

@@ -1,6 +1,6 @@
 //! The rows of the walls: bounds, which are held, and the rounding errors there.
 
-use crate::flow::{SeriesBody, TERMS};
+use crate::flow::TERMS;
 use crate::scene::{Scene, Side};
 use crate::scheme::exact::noise;
 
@@ -113,11 +113,6 @@ impl Sizes {
             work: zero(),
         }
     }
-}
-
-/// Σ |gⱼ| |xⱼ|; of a hole in any direction.
-pub(super) fn size(body: &SeriesBody, row: usize, x: &[f64]) -> f64 {
-    body.size(row, x)
 }
 
 /// A polynomial whose first root is sought.

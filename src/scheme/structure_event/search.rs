@@ -3,7 +3,7 @@
 use super::StructureEvent;
 use super::closed_row::Cause;
 use super::root::highest;
-use super::rows::{FirstRoot, LeadingZeros, Rounding, RowPolynomial, SIGNS, size};
+use super::rows::{FirstRoot, LeadingZeros, Rounding, RowPolynomial, SIGNS};
 use crate::flow::TERMS;
 use crate::scheme::exact::{Phase, noise};
 
@@ -145,7 +145,7 @@ impl StructureEvent {
         [
             self.resolution(row, position),
             // Where forces balance, the velocity has the rounding error of their terms.
-            noise(size(&self.body, row, self.series.term(1))) + 2.0 * second,
+            noise(self.body.size(row, self.series.term(1))) + 2.0 * second,
             second,
             noise(answer(&self.sizes.force[1])) * unit * unit * unit / 6.0,
         ]
@@ -173,7 +173,7 @@ impl StructureEvent {
             return self.round_travel(round, x);
         }
         let terms = (1..self.series.seen(row).len()).rev();
-        terms.fold(0.0, |sum, k| x * (sum + size(&self.body, row, self.series.term(k))))
+        terms.fold(0.0, |sum, k| x * (sum + self.body.size(row, self.series.term(k))))
     }
 
     /// Rounding errors of the first coefficients of the force on held row number `k`, N.

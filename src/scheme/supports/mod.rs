@@ -23,6 +23,8 @@
 //! exceeds the gap, the body stands still between opposite sides of a hole: such steps are counted,
 //! and so is the largest angle by which a normal turned.
 //!
+//! `view.rs` has the motion as the stepper drives it.
+//!
 //! `located` steps such scenes with order 2 ([`super::located`]). Why others do not: the bound of
 //! paoli-schatzman, |w⁺ + e w⁻| ≤ (1+e)γ, does not keep energy on a circle (with e = 1, over a way
 //! of 200 gaps, it lost 95 % to gained 60 % at h v = γ/10), and newmark does not keep it on any
@@ -34,6 +36,7 @@ mod friction_contacts;
 mod linear;
 mod normal;
 mod points;
+mod view;
 mod walls_in_play;
 mod warm_start;
 
@@ -43,20 +46,17 @@ pub(super) use friction_contacts::FrictionContacts;
 pub(super) use normal::{CROSSING, TURNING, closed_hole_state, dot, hole_state};
 pub(super) use points::{ContactPoint, contact_points};
 
-use super::Counters;
 use super::body::Body;
 use super::frame::Frame;
 use super::matrices::Matrices;
-use super::motion::Motion;
 use super::space::Space;
 use crate::contact::{Episodes, Rates};
 use crate::error::Result;
 use crate::linear::{Factor, Lanes, Pass, pass, update};
-use crate::qp::Backend;
-use crate::scene::{Checked, Scene, Wall};
-use crate::step::{Contact, Contract, Step};
+use crate::scene::{Checked, Wall};
+use crate::step::Contract;
 use normal::HoleState;
-use pulp::{Simd, WithSimd};
+use pulp::Simd;
 use walls_in_play::WallsInPlay;
 use warm_start::WarmStart;
 
@@ -80,8 +80,6 @@ pub(super) struct Supports {
     given: Vec<f64>,
     memory: WarmStart,
     episodes: Episodes,
-    /// True if the extra force of the last step may not be 0.
-    forced: bool,
     /// The vector instructions of the machine.
     arch: pulp::Arch,
 }
@@ -111,7 +109,6 @@ impl Supports {
             given: vec![0.0; contacts],
             memory,
             episodes: Episodes::new(scene, scene.wall_masses(), contract),
-            forced: false,
             arch: pulp::Arch::new(),
             places,
             reach: WallsInPlay::new(scene, theta, points),
@@ -227,33 +224,11 @@ impl Supports {
             }
         });
     }
-}
 
-/// A step, made with the widest vector instructions that the machine has. Each number is computed
-/// as without them.
-struct Advance<'a> {
-    supports: &'a mut Supports,
-    step: u64,
-    extra: Option<&'a [f64]>,
-}
-
-impl WithSimd for Advance<'_> {
-    type Output = Result<()>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Result<()> {
-        self.supports.make(simd, self.step, self.extra)
-    }
-}
-
-impl Supports {
     /// Makes step number `step` under the extra force.
     #[inline(always)]
     fn make<S: Simd>(&mut self, simd: S, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        if extra.is_some() || self.forced {
-            self.frame.force(extra);
-            self.forced = extra.is_some();
-        }
+        self.frame.force(extra);
         let h = self.body.h;
         self.take_back_impulses();
         self.frame.normal.fill([0.0; 2]);
@@ -297,59 +272,6 @@ impl Pass<1, 3, 0> for AddChange {
     ) -> ([Lanes<S>; 3], [Lanes<S>; 0]) {
         let after = v + change;
         ([q + (v + change * self.theta) * self.h, after, after], [])
-    }
-}
-
-impl Motion for Supports {
-    fn advance(&mut self, step: u64, extra: Option<&[f64]>) -> Result<()> {
-        self.arch.dispatch(Advance { supports: self, step, extra })
-    }
-
-    fn flush(&mut self, tiny: f64) {
-        self.frame.flush(tiny, self.body.h, [None, None]);
-    }
-
-    fn step(&self, index: u64) -> Step<'_> {
-        Step {
-            wedged: &self.sweeps.wedged,
-            resting: &self.reach.resting,
-            ..self.frame.step(index, self.episodes.closed())
-        }
-    }
-
-    fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
-        self.take_back_impulses();
-        self.frame.restart(time, q, v);
-        self.body.restart(time);
-        self.frame.normal.fill([0.0; 2]);
-        self.episodes.forget();
-        self.memory.begin(scene, q, v);
-        self.forced = false;
-        Ok(())
-    }
-
-    fn end(&self) -> f64 {
-        self.frame.end
-    }
-
-    fn state(&self) -> (&[f64], &[f64]) {
-        (&self.frame.q, &self.frame.v)
-    }
-
-    fn open_contacts(&self) -> Vec<Contact> {
-        self.episodes.still_open()
-    }
-
-    fn count(&self, counters: &mut Counters) {
-        counters.qp_solves += self.sweeps.solves;
-        counters.qp_unsettled = self.sweeps.unsettled;
-        counters.wedged_steps = self.sweeps.gave_up;
-        counters.frozen_steps = self.memory.frozen;
-        counters.largest_turn_rad = self.memory.turned;
-    }
-
-    fn backend(&self) -> Option<Backend> {
-        None
     }
 }
 

@@ -88,14 +88,13 @@ impl WallsInPlay {
         places: &ContactRows,
         (warm, did): ([f64; 2], State),
     ) -> Option<FrictionContact> {
-        let (face, point, ht) = (body.walls[wall], self.points[wall], body.h * self.theta);
+        let (face, point) = (body.walls[wall], self.points[wall]);
         let (bound, compliance) = match (face.law.spring(), face.law.restitution()) {
             // As in moreau-jean: the row exceeds a bound on δ by compliance times impulse.
-            (Some(spring), _) => {
+            (Some(_), _) => {
                 let (w, before) = (body.seen(wall, &frame.q), body.seen(wall, &frame.v));
-                let offset = body.h * spring.force(w + ht * before, face.g, face.plate(w), ht);
-                let compliance = 1.0 / (ht * ht * spring.over(ht));
-                (-face.sign * (before - offset * compliance), compliance)
+                let (bound, compliance) = face.spring_bound(w, before, (body.h, self.theta));
+                (-face.sign * (before + bound), compliance)
             }
             (_, Some(restitution)) if face.depth(body.seen(wall, &self.ahead)) >= -body.touch => {
                 let struck = body.seen(wall, frame.struck());

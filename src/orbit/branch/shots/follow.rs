@@ -6,11 +6,8 @@ use super::step_start::{StepStart, Tests};
 use crate::error::{Error, Result};
 use crate::orbit::branch::arclength::{Stride, Vector, beyond, locate, turns_little};
 use crate::orbit::branch::label::Label;
-use crate::orbit::branch::line::{End, Line, Passed};
+use crate::orbit::branch::line::{End, LEAST_LOOP, Line, Passed};
 use crate::orbit::branch::point::Point;
-
-/// Least number of points after which a curve may be found closed.
-const LEAST_LOOP: usize = 6;
 
 /// Multipliers closer than this to the unit circle lie on it to rounding.
 const ON_CIRCLE: f64 = 1e-9;

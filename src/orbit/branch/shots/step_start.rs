@@ -8,9 +8,9 @@ use crate::orbit::branch::point::Point;
 use crate::orbit::floquet::Floquet;
 use crate::orbit::orbit_run::{OrbitRun, Touch};
 use crate::orbit::periodic::Orbit;
-use crate::orbit::signature::{Event, Signature};
+use crate::orbit::signature::Event;
 use crate::orbit::strobe::{Strobe, multipliers, state};
-use crate::orbit::watch::Passage;
+use crate::orbit::watch::{Passage, orbit_of};
 use nalgebra::{Complex, DMatrix};
 
 /// The point at which a step begins.
@@ -91,14 +91,8 @@ impl Shots<'_> {
 
     /// The orbit whose run is `motion`, and whose map has the multipliers `own`.
     pub(super) fn point(&self, y: &Vector, period: f64, motion: &OrbitRun, own: Vec<Complex<f64>>) -> Point {
-        let signature =
-            Signature { events: events(&motion.passages).collect(), periods: self.periods, symmetric: self.symmetric };
-        let orbit = Orbit {
-            signature,
-            phases: motion.passages.iter().map(|p| p.phase).collect(),
-            speeds: motion.passages.iter().map(|p| p.speed).collect(),
-            forcing_period: period,
-        };
+        let mut orbit = orbit_of(&motion.passages, self.periods, period);
+        orbit.signature.symmetric = self.symmetric;
         let approaches = motion.passages.iter().filter(|p| p.event.kind.is_approach());
         let nearest = motion.touches.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
         let flight = |phase: f64| motion.passages.iter().filter(|p| p.phase <= phase).count();

@@ -118,9 +118,9 @@ fn follow(scene: &Scene, stride: f64, units: Units) -> StepOutput {
     while !event.is_done() {
         event.advance(0.0).unwrap();
         state.push([event.end() / time, event.q()[0] / units.length, event.v()[0] / units.speed()]);
-        impulse.extend(event.impulse().iter().map(|p| p / (units.force() * time)));
-        force.extend(event.force().iter().map(|f| f / units.force()));
-        contacts.extend(event.closed().iter().map(|c| Contact {
+        impulse.extend(event.step().impulse.iter().map(|p| p / (units.force() * time)));
+        force.extend(event.step().force.iter().map(|f| f / units.force()));
+        contacts.extend(event.step().closed.iter().map(|c| Contact {
             start: c.start / time,
             end: c.end.map(|t| t / time),
             impulse: c.impulse / (units.force() * time),
