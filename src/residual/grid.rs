@@ -62,8 +62,7 @@ impl Judge {
             self.supports_on_grid(simd, step, beyond);
         }
         let moves = moves!(self, step, per_h, beyond);
-        self.balance.scale =
-            self.scratch.products(simd, &self.matrices, &moves, &self.weights, n, self.balance.scale);
+        self.balance.scale = self.scratch.products(simd, &self.matrices, &moves, &self.weights, n, self.balance.scale);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
             if p != 0.0 {
                 wall.row().add_transposed(-p, &mut self.scratch.residual);

@@ -2,8 +2,8 @@
 
 use super::forcing::Forcing;
 use super::load::Load;
-use super::table::{Table, TablePiece};
 use super::row::{Row, distinct};
+use super::table::{Table, TablePiece};
 use crate::linear::Segment;
 
 /// All loads, sorted by where they act: one sum over time for each row, however many degrees of

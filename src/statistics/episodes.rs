@@ -1,8 +1,8 @@
 //! Contact episodes of walls and supports, joined over short rests.
 
-use super::{Statistics, by_wall};
 use super::distribution::Distribution;
 use super::place::{ContactPlace, PlaceKind};
+use super::{Statistics, by_wall};
 use crate::scene::Scene;
 use crate::step::Contact;
 use serde::Serialize;

@@ -27,6 +27,9 @@ struct SupportContacts {
     contacts: Vec<Contact>,
 }
 
+/// A distance slid in a step below this share of the gap scale is the rounding of a place.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// A contact of a support.
 #[derive(Debug, Clone, Copy)]
 enum Contact {
@@ -37,6 +40,7 @@ enum Contact {
 impl SlidingContacts {
     /// The contacts of `scene` as the scheme sees it.
     pub fn new(scene: &Scene) -> Self {
+        let rounding = ROUNDING * scene.gap_scale();
         let of = |(support, blows): (&Support, Vec<Blow>)| {
             let contact = |(index, wall): (usize, &Wall)| {
                 let rigid = wall.law.is_rigid();
@@ -54,7 +58,7 @@ impl SlidingContacts {
             let at = support.at.clone();
             let [y, z] = [&at.y, &at.z].map(|row| Segment::following(row.entries()));
             let segments = y.zip(z).map(|(y, z)| [y, z]);
-            SupportContacts { section: Section { at, segments, blows }, contacts }
+            SupportContacts { section: Section { at, segments, blows, rounding }, contacts }
         };
         let supports = scene.supports.iter().zip(Blow::all(scene)).map(of).collect();
         Self { walls: scene.walls.len(), supports }

@@ -63,6 +63,8 @@ pub(super) struct Section {
     /// Its rows, if the entries of each follow one another.
     pub segments: Option<[Segment; 2]>,
     pub blows: Vec<Blow>,
+    /// A distance (m) below the rounding of places, over which nothing slides.
+    pub rounding: f64,
 }
 
 impl Section {
@@ -99,12 +101,17 @@ impl Piece<'_> {
         let [before, after] = section.both_along(blank.normal, [step.velocity_before, step.velocity_after]);
         let before = before + blown;
         let (impulse, friction) = (share * blank.impulse, share * blank.friction);
+        let sliding = sliding_distance(to - from, before, after);
+        // What sticks has the velocity of rounding, whose work is none.
+        if sliding <= section.rounding {
+            return SlidingPiece { impulse, friction, ..*blank };
+        }
         SlidingPiece {
             impulse,
             friction,
             work: work_of_impulse(impulse, before, after),
             dissipated: -0.5 * friction * (before + after),
-            sliding: sliding_distance(to - from, before, after),
+            sliding,
             ..*blank
         }
     }

@@ -44,7 +44,10 @@ fn a_step_of_the_theta_rule_leaves_what_its_terms_do() {
     // The load is the largest force where nothing moves.
     let still = StepMotion { to: &[0.0; 2], from: &[0.0; 2], before: &[0.0; 2], after: &[0.0; 2], ..moves };
     scratch.means(Scalar, Balance::Theta(0.25), &still, &weights, 2);
-    assert_eq!(scratch.products(Scalar, &matrices, &StepMotion { blow: &[0.0; 2], ..still }, &weights, 2, 0.0), 6.0 / 2.0);
+    assert_eq!(
+        scratch.products(Scalar, &matrices, &StepMotion { blow: &[0.0; 2], ..still }, &weights, 2, 0.0),
+        6.0 / 2.0
+    );
 }
 
 #[test]
