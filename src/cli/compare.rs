@@ -13,7 +13,7 @@ use super::{values, verdicts};
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::compare as output;
-use crate::output::compare_table::{all_quantities, conclusion, overview, remark};
+use crate::output::compare_table::{all_quantities, conclusion, force_remark, overview, remark};
 use crate::output::document::under_head;
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
@@ -104,6 +104,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         answer.remarks(remark(&case));
     } else {
         answer.table(overview(&case, &comparison), "compare.csv");
+        answer.remarks(force_remark(&case, &comparison));
     }
     answer.prose(conclusion);
     if let Some(studies) = &studies {

@@ -7,6 +7,7 @@ use super::site::Site;
 use super::table::Table;
 use crate::case::Case;
 use crate::run::Run;
+use crate::scheme::Scheme;
 use crate::study::compare::{Comparison, FINER, Row, is_aperiodic};
 use crate::study::difference::error_length;
 use crate::study::verdict::Verdict;
@@ -179,6 +180,19 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
     quantity("compl. residual", &|_, run| short(run.residuals.complementarity));
     quantity("ns / step", &|row, _| row.step_ns.map_or_else(dash, |ns| format!("{ns:.0}")));
     Table::new(&header, rows).in_blocks()
+}
+
+/// What the largest force is, where walls of one kind stand beside springs in their place.
+#[must_use]
+pub fn force_remark(case: &Case, comparison: &Comparison) -> Option<String> {
+    let rigid = case.scene.walls.iter().any(|wall| wall.law.is_rigid());
+    let springs = comparison.rows.iter().any(|row| matches!(row.method.scheme, Scheme::Penalty { .. }));
+    (rigid && springs).then(|| {
+        format!(
+            "largest force: at rigid walls the largest mean over {:e} s, of a penalty's springs that at an instant",
+            case.time.force_averaging
+        )
+    })
 }
 
 /// The remark below the table, if one is needed.

@@ -126,18 +126,26 @@ fn episodes(cells: &Cells) -> Result<Value> {
     }))
 }
 
-/// The force of each wall over the rows, within contacts of finite force, and 0 elsewhere. An
-/// impact has no finite force; its impulse is among the contacts.
+/// The force of each wall, and the magnitude of that of each round support, over the rows, within
+/// contacts of finite force, and 0 elsewhere. An impact has no finite force; its impulse is among
+/// the contacts.
 fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> Result<Vec<Value>> {
-    let walls = summary["scene"]["walls"].as_array().map_or(&[][..], Vec::as_slice);
+    let list = |key: &str| summary["scene"][key].as_array().map_or(&[][..], Vec::as_slice);
+    let (walls, supports) = (list("walls"), list("supports"));
     let (start, end) = (contacts.column("start_s")?, contacts.column("end_s")?);
     let peak = contacts.column("peak_force_N")?;
     // `motion` has checked the number of columns.
     let from = table.columns.len().saturating_sub(2 * walls.len() + beside(summary));
+    let column = |index: usize| table.columns.get(index).map_or(&[][..], Vec::as_slice);
+    let of_wall = |(index, wall)| (wall, column(from + 2 * index).to_vec());
+    let of_hole = |(index, hole)| {
+        let [y, z] = [0, 2].map(|part: usize| column(from + 2 * walls.len() + 4 * index + part));
+        (hole, y.iter().zip(z).map(|(y, z)| y.hypot(*z)).collect::<Vec<f64>>())
+    };
+    let holes = supports.iter().filter(|support| support["shape"] == "round").enumerate().map(of_hole);
     let mut out = Vec::new();
-    for (index, wall) in walls.iter().enumerate() {
-        let name = wall["name"].as_str().unwrap_or_default();
-        let force = table.columns.get(from + 2 * index).map_or(&[][..], Vec::as_slice);
+    for (place, force) in walls.iter().enumerate().map(of_wall).chain(holes) {
+        let name = place["name"].as_str().unwrap_or_default();
         let mut shown = vec![0.0; force.len()];
         let here = (0..peak.len()).filter(|&k| peak[k].is_finite() && contacts.text(k, "wall") == name);
         let mut any = false;
@@ -160,7 +168,7 @@ fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> R
             kept = extremes(&[&shown], shown.len(), MOST_ROWS).unwrap_or(kept);
         }
         let at = |column: &[f64]| kept.iter().filter_map(|&i| column.get(i).copied()).collect::<Vec<_>>();
-        out.push(json!({ "wall": index, "time": f64(&at(time)), "force": f32(at(&shown).into_iter()) }));
+        out.push(json!({ "place": name, "time": f64(&at(time)), "force": f32(at(&shown).into_iter()) }));
     }
     Ok(out)
 }

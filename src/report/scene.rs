@@ -35,9 +35,11 @@ pub(super) fn scene(summary: &Value) -> Value {
     out.insert("supports".to_owned(), drawn.map(support).collect());
     out.insert("loads".to_owned(), loads.collect());
     out.insert("bodies".to_owned(), list(&case["body"]).iter().map(body).collect());
-    for key in ["mass", "damping", "stiffness", "length", "left", "right", "masses"] {
-        out.insert(key.to_owned(), case["system"][system][key].clone());
+    let of = &case["system"][system];
+    for key in ["mass", "damping", "stiffness", "left", "right", "masses"] {
+        out.insert(key.to_owned(), of[key].clone());
     }
+    out.insert("length".to_owned(), json!(length(of)));
     Value::Object(out)
 }
 
@@ -45,9 +47,13 @@ pub(super) fn scene(summary: &Value) -> Value {
 fn body(body: &Value) -> Value {
     let of = ["bar", "beam"].map(|kind| &body[kind]).into_iter().find(|table| table.is_object());
     let of = of.unwrap_or(&Value::Null);
+    json!({ "name": body["name"], "length": length(of), "left": of["left"], "right": of["right"] })
+}
+
+/// The length of a bar or beam: its own, or the sum of its spans.
+fn length(of: &Value) -> Option<f64> {
     let spans = || of["spans"].as_array().map(|spans| spans.iter().filter_map(Value::as_f64).sum::<f64>());
-    let length = of["length"].as_f64().or_else(spans);
-    json!({ "name": body["name"], "length": length, "left": of["left"], "right": of["right"] })
+    of["length"].as_f64().or_else(spans)
 }
 
 /// A support: where it is, its centre, and its outline, a circle or flats with their directions and

@@ -16,7 +16,7 @@ function readRun(run) {
   contacts.wall = decode(run.contacts.wall).map((name) => numberOf.get(name));
   contacts.largest = contacts.impulse.reduce((most, p) => Math.max(most, Math.abs(p)), 0) || 1;
   const probes = run.probes.map((probe) => readProbe(probe, time, contacts));
-  const forces = run.forces.map((f) => ({ wall: f.wall, T: decode(f.time), F: decode(f.force) }));
+  const forces = run.forces.map((f) => ({ place: f.place, T: decode(f.time), F: decode(f.force) }));
   const shape = run.shape && readShape(run.shape);
   const named = Object.entries(run.bodies || {});
   const bodies = Object.fromEntries(named.map(([name, own]) => [name, readShape(own)]));

@@ -150,7 +150,7 @@ function forcePlot() {
   const series = runs.flatMap((run) =>
     run.forces.map((force) => ({
       look: { ...run.look, dash: [] },
-      colour: runs.length > 1 ? null : () => placeColour(DATA.scene.walls[force.wall].name),
+      colour: runs.length > 1 ? null : () => placeColour(force.place),
       x: force.T,
       y: force.F,
       hidden: () => !run.shown,
@@ -233,8 +233,16 @@ function motionSection() {
     (several ? ["Q"] : ["Q", "V"]).map((key) => motionPlot(index, key, several)),
   );
   const all = [...panels.flat(), impulsePlot(), forcePlot()].filter((plot) => plot);
-  const axis = all[all.length - 1];
-  Object.assign(axis, { x: "Time (s)", bottom: 40, height: axis.height + 30 });
+  // The last plot that is seen has the axis of time.
+  let axis = null;
+  const putAxis = () => {
+    const seen = all.filter((plot) => !plot.box.hidden);
+    const last = seen[seen.length - 1];
+    if (last === axis) return;
+    if (axis) Object.assign(axis, { x: undefined, bottom: 10, height: axis.height - 30 }).redraw();
+    if (last) Object.assign(last, { x: "Time (s)", bottom: 40, height: last.height + 30 }).redraw();
+    axis = last;
+  };
   if (DATA.horizon) all.forEach((plot, i) => plot.marks.push(horizonMark(i === 0)));
   const show = () => {
     panels.forEach((plots, i) =>
@@ -242,6 +250,7 @@ function motionSection() {
         plot.box.hidden = !choices[i].shown;
       }),
     );
+    putAxis();
     refreshAll();
   };
   show();

@@ -19,15 +19,16 @@ const WHERE_MEASURES = [
   ],
 ];
 
-/** The supports that have a position along the structure, in its order: two or more. */
+/** Supports that have a position along the structure: where there are two or more. One between two
+ *  bodies stands on both. */
 function placedSupports() {
   const { supports, statistics } = DATA.summary;
-  const placed = DATA.scene.supports.map(({ name, at }) => ({
-    name,
-    position: at && at.position,
-    worn: (supports || []).find(({ support }) => support === name),
-    contact: statistics.supports.find(({ support }) => support === name),
-  }));
+  const placed = DATA.scene.supports.flatMap(({ name, at }) => {
+    const worn = (supports || []).find(({ support }) => support === name);
+    const contact = statistics.supports.find(({ support }) => support === name);
+    const places = [at, at && at.body && at.relative_to].filter((place) => place);
+    return places.map(({ body, position }) => ({ name, body, position, worn, contact }));
+  });
   const known = placed.filter(({ position, worn, contact }) => position >= 0 && worn && contact);
   return known.length > 1 ? known.sort((a, b) => a.position - b.position) : [];
 }
@@ -50,7 +51,13 @@ function whereSection() {
   const box = el("div");
   const build = () => {
     dropPlots(box);
-    box.replaceChildren(wherePlot(supports, WHERE_MEASURES[choice.index]));
+    const measure = WHERE_MEASURES[choice.index];
+    const bodies = DATA.scene.bodies.length ? DATA.scene.bodies : [DATA.scene];
+    const plots = bodies.map(({ name, length }) => {
+      const here = supports.filter(({ body }) => body === name);
+      return here.length ? wherePlot(here, measure, name, length) : null;
+    });
+    box.replaceChildren(...plots.filter((plot) => plot));
     refreshAll();
   };
   const names = WHERE_MEASURES.map(([, label], i) => [String(i), label]);
@@ -73,13 +80,13 @@ function whereSection() {
   build();
 }
 
-/** Bars at the supports over the line of the structure. */
-function wherePlot(supports, measure) {
+/** Bars at the supports over the line of the structure, or of one of its bodies. */
+function wherePlot(supports, measure, body, ownLength) {
   const values = supports.map((support) => valueWhere(support, measure));
   const ends = values.flatMap(([value, half]) => [value - (half || 0), value + (half || 0)]);
   const highest = Math.max(0, ...ends.filter(Number.isFinite));
   const last = supports[supports.length - 1].position;
-  const length = DATA.scene.length > 0 ? DATA.scene.length : last + supports[0].position;
+  const length = ownLength > 0 ? ownLength : last + supports[0].position;
   const draw = (ctx, plot) => {
     const floor = plot.sy(0);
     ctx.textAlign = "center";
@@ -118,7 +125,7 @@ function wherePlot(supports, measure) {
     return `${name} at ${digits(position)} m: ${plusMinus(value, half || null)}`;
   });
   const plot = new Plot({
-    x: "Position along the structure (m)",
+    x: `Position along ${body || "the structure"} (m)`,
     y: measure[1],
     height: 260,
     left: 80,
