@@ -28,7 +28,7 @@ impl Judge {
                 self.energy.reach(largest);
             }
         }
-        let open = self.energy.observe_arc(&self.scene, step, arc, &self.blows.impulse, &along);
+        let open = self.energy.observe_arc(step, arc, &self.blows.impulse, &along);
         if !lasts {
             return;
         }
@@ -55,7 +55,7 @@ impl Judge {
 
     /// Adds up what acts at the instants of a panel, and checks the force laws of the walls there.
     fn sample(&mut self, arc: &Arc, at: &mut Instants, along: &mut Along) {
-        let force = self.energy.sample(&self.scene, at, along);
+        let force = self.energy.sample(at, along);
         self.noise.load(force * self.weights.per_root_mass.first().copied().unwrap_or(1.0));
         let (mut low, mut high, mut fastest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
         for (&q, v) in at.q[..at.count].iter().zip(&at.v) {

@@ -76,10 +76,10 @@ impl Judge {
         std::mem::swap(s, s_end);
         std::mem::swap(force, force_end);
         self.previous = Some(previous);
-        let moves = StepMotion::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
-        let (hs, n) = ((h, 1.0 / h), self.q.len());
+        let (hs, loads) = ((h, 1.0 / h), (&self.load[..], &self.load_end[..]));
+        let moves = StepMotion::of(step, hs, (&self.q, step.q), loads, &self.blows.impulse);
         let rates = self.supports.as_ref().map_or(&[][..], |supports| &supports.rates);
-        self.energy.observe_grid(Scalar, &self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, rates, n);
+        self.energy.observe_grid(Scalar, &moves, step, &self.scratch.load, rates, self.q.len());
         self.balance.observe(&self.noise, worst, path);
     }
 }

@@ -7,9 +7,10 @@ use pulp::{Scalar, Simd, WithSimd};
 
 /// What a step did, from the judge's own record of its start; borrows some of its fields.
 macro_rules! moves {
-    ($judge:expr, $step:expr, $beyond:expr) => {
+    ($judge:expr, $step:expr, $per_h:expr, $beyond:expr) => {
         StepMotion::of(
             $step,
+            ($judge.h, $per_h),
             (&$judge.q, if $beyond { &$judge.blows.arrived } else { $step.q }),
             (&$judge.load, &$judge.load_end),
             &$judge.blows.impulse,
@@ -52,17 +53,16 @@ impl Judge {
         let beyond = within && self.find_beyond(step);
         let (h, per_h) = (self.h, 1.0 / self.h);
         self.noise.begin(h, step.end);
-        let moves = moves!(self, step, beyond);
-        let sizes = self.scratch.means(simd, self.contract.balance, (h, per_h), &moves, &self.weights, n);
+        let moves = moves!(self, step, per_h, beyond);
+        let sizes = self.scratch.means(simd, self.contract.balance, &moves, &self.weights, n);
         self.noise.step(&sizes);
         self.noise.book(n as f64, 1.0);
         self.walls_on_grid(step, beyond);
         if self.supports.is_some() {
             self.supports_on_grid(simd, step, beyond);
         }
-        let (hs, blow) = ((h, per_h), &self.blows.impulse);
-        self.balance.scale =
-            self.scratch.products(simd, &self.matrices, hs, blow, &self.weights, n, self.balance.scale);
+        let moves = moves!(self, step, per_h, beyond);
+        self.balance.scale = self.scratch.products(simd, &self.matrices, &moves, &self.weights, n, self.balance.scale);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse) {
             if p != 0.0 {
                 wall.row().add_transposed(-p, &mut self.scratch.residual);
@@ -73,11 +73,11 @@ impl Judge {
         }
         let worst;
         (self.balance.largest, worst) = self.scratch.open(simd, per_h, &self.weights, n, self.balance.largest);
-        let moves = moves!(self, step, beyond);
+        let moves = moves!(self, step, per_h, beyond);
         let rates = self.supports.as_ref().map_or(&[][..], |supports| &supports.rates);
-        self.energy.observe_grid(simd, &self.scene, &self.matrices, hs, &moves, step, &self.scratch.load, rates, n);
+        self.energy.observe_grid(simd, &moves, step, &self.scratch.load, rates, n);
         if beyond {
-            self.energy.displace(&self.scene, &self.matrices, h, step);
+            self.energy.displace(h, step);
             self.sums.displace(&self.matrices, &self.blows.beyond, &mut self.scratch.mean_q);
         }
         self.balance.observe(&self.noise, worst, sizes.path);

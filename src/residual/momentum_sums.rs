@@ -175,25 +175,18 @@ impl MomentumSums {
         }
     }
 
-    /// Adds a step of `h` seconds (and 1/h), whose mean forces are in `means`.
+    /// Adds a step, whose mean forces are in `means`.
     #[inline(always)]
-    pub fn add<S: Simd>(
-        &mut self,
-        simd: S,
-        moves: &StepMotion<'_>,
-        means: &Scratch,
-        (h, per_h): (f64, f64),
-        first: bool,
-        n: usize,
-    ) {
-        self.forces.add(simd, first, (h, per_h), [&means.load, &means.spring, &means.damper], n);
-        self.add_ends(simd, moves, h, n);
+    pub fn add<S: Simd>(&mut self, simd: S, moves: &StepMotion<'_>, means: &Scratch, first: bool, n: usize) {
+        let hs = (moves.h, moves.per_h);
+        self.forces.add(simd, first, hs, [&means.load, &means.spring, &means.damper], n);
+        self.add_ends(simd, moves, n);
     }
 
     /// Adds the state at the ends of a step and its loads.
     #[inline(always)]
-    pub fn add_ends<S: Simd>(&mut self, simd: S, moves: &StepMotion<'_>, h: f64, n: usize) {
-        let &StepMotion { from, shown, load_start, load_end, extra, after, .. } = moves;
+    pub fn add_ends<S: Simd>(&mut self, simd: S, moves: &StepMotion<'_>, n: usize) {
+        let &StepMotion { h, from, shown, load_start, load_end, extra, after, .. } = moves;
         let sums = [&mut self.place[..], &mut self.load, &mut self.last];
         let [] = pass(simd, n, ([from, shown, load_start, load_end, extra, after], sums), &AddEnds { h });
     }
@@ -208,11 +201,12 @@ impl MomentumSums {
 
     /// Adds n steps of one degree of freedom without extra force, after the first.
     #[inline(always)]
-    pub fn add_all(&mut self, moves: &StepMotion<'_>, means: &Scratch, (h, per_h): (f64, f64), n: usize) {
+    pub fn add_all(&mut self, moves: &StepMotion<'_>, means: &Scratch, n: usize) {
         let ([place], [load]) = (&mut self.place[..], &mut self.load[..]) else {
             return;
         };
         let (mean, spring, damper) = (&means.load[..n], &means.spring[..n], &means.damper[..n]);
+        let &StepMotion { h, per_h, .. } = moves;
         let mut sum = self.forces.of(0);
         for i in 0..n {
             sum.add(false, h, own([mean[i], spring[i], damper[i]], per_h));

@@ -71,7 +71,7 @@ impl Judge {
         self.jump_momentum(step, &at_end);
         let mid: Vec<f64> = step.velocity_after.iter().zip(&self.blows.struck).map(|(v, struck)| v + struck).collect();
         let (blow, left) = (&self.blows.impulse, step.velocity_after);
-        self.energy.observe_series(&self.scene, step, Moved::default(), blow, left, &mid);
+        self.energy.observe_series(step, Moved::default(), blow, left, &mid);
         let sums = &mut self.sums;
         sums.begin(step);
         for ((seen, size), &p) in sums.seen.iter_mut().zip(&mut sums.sizes).zip(step.jump) {

@@ -102,6 +102,8 @@ impl Judge {
         }
         let (before, after) = quiet.velocities();
         let moves = StepMotion {
+            h,
+            per_h,
             from: &places[..n],
             to: &places[1..=n],
             shown: &places[1..=n],
@@ -114,9 +116,9 @@ impl Judge {
             blow: &zeros[..n],
         };
         self.noise.begin(h, quiet.end()[steps.end - 1]);
-        let sizes = scratch.means(simd, self.contract.balance, (h, per_h), &moves, weights, n);
+        let sizes = scratch.means(simd, self.contract.balance, &moves, weights, n);
         self.noise.step(&sizes);
-        self.balance.scale = scratch.products(simd, &self.matrices, (h, per_h), zeros, weights, n, self.balance.scale);
+        self.balance.scale = scratch.products(simd, &self.matrices, &moves, weights, n, self.balance.scale);
         let (largest, worst) = scratch.open(simd, per_h, weights, n, self.balance.largest);
         if worst > self.noise.force() || sizes.path > self.noise.path() {
             // One of the steps will be accused: see them one by one to find out when.
@@ -125,9 +127,9 @@ impl Judge {
         self.noise.book(1.0, n as f64);
         self.balance.largest = largest;
         self.balance.observe(&self.noise, worst, sizes.path);
-        self.energy.observe_quiet(simd, &self.matrices, (h, per_h), &moves, &scratch.load, n);
+        self.energy.observe_quiet(simd, &moves, &scratch.load, n);
         if self.sums.whole {
-            self.sums.add_all(&moves, scratch, (h, per_h), n);
+            self.sums.add_all(&moves, scratch, n);
         }
         self.sums.steps += n as u64;
         self.extent.observe(simd, &places[1..=n], moves.after, weights, n);

@@ -71,7 +71,8 @@ impl Judge {
             return;
         }
         let (h, first) = (self.h, sums.steps == 1);
-        let moves = StepMotion::of(step, (&self.q, step.q), (&self.load, &self.load_end), &self.blows.impulse);
+        let loads = (&self.load[..], &self.load_end[..]);
+        let moves = StepMotion::of(step, (h, per_h), (&self.q, step.q), loads, &self.blows.impulse);
         if matches!(self.contract.balance, Balance::GeneralizedAlpha { .. }) {
             // For generalized-α, the force at the end of the step, which includes dampers and the
             // walls that are springs.
@@ -82,7 +83,7 @@ impl Judge {
                 forces.add(first, h, [load, self.scratch.spring[i] - load, 0.0]);
                 sums.forces.set(i, forces);
             }
-            sums.add_ends(simd, &moves, h, n);
+            sums.add_ends(simd, &moves, n);
             // The dampers' force rises at a blow, and may have fallen again at the end of the step.
             if self.loads.has_blows() && self.blows.struck.iter().any(|&v| v != 0.0) {
                 let mut risen = vec![0.0; n];
@@ -90,7 +91,7 @@ impl Judge {
                 sums.forces.changes.iter_mut().zip(risen).for_each(|(changes, force)| *changes += force.abs());
             }
         } else {
-            sums.add(simd, &moves, &self.scratch, (h, per_h), first, n);
+            sums.add(simd, &moves, &self.scratch, first, n);
         }
     }
 

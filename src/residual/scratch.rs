@@ -38,19 +38,18 @@ impl Scratch {
         }
     }
 
-    /// Computes the mean load, displacement and velocity of a step of `h` seconds (and 1/h), and
-    /// starts its balance with what is given. Returns the sizes of what it did.
+    /// Computes the mean load, displacement and velocity of a step, and starts its balance with what
+    /// is given. Returns the sizes of what it did.
     #[inline(always)]
     pub fn means<S: Simd>(
         &mut self,
         simd: S,
         balance: Balance,
-        (h, per_h): (f64, f64),
         moves: &StepMotion<'_>,
         weights: &Weights,
         n: usize,
     ) -> StepSizes {
-        let &StepMotion { from, to, shown, before, after, load_start, load_end, extra, blow, .. } = moves;
+        let &StepMotion { h, per_h, from, to, shown, before, after, load_start, load_end, extra, blow, .. } = moves;
         let Self { load, mean_q, mean_v, gained, residual, .. } = self;
         let theta = if let Balance::Theta(theta) = balance { theta } else { 0.0 };
         let forces = ([load_start, load_end, extra, blow, &weights.per_root_mass], [&mut load[..], residual]);
@@ -74,20 +73,19 @@ impl Scratch {
         }
     }
 
-    /// Adds the terms of inertia, damping and stiffness to the balance of a step of `h` seconds
-    /// (and 1/h). Returns the largest force in it so far, N/√kg: `scale` before.
-    #[allow(clippy::too_many_arguments)]
+    /// Adds the terms of inertia, damping and stiffness to the balance of a step. Returns the
+    /// largest force in it so far, N/√kg: `scale` before.
     #[inline(always)]
     pub fn products<S: Simd>(
         &mut self,
         simd: S,
         matrices: &Matrices,
-        (h, per_h): (f64, f64),
-        blow: &[f64],
+        moves: &StepMotion<'_>,
         weights: &Weights,
         n: usize,
         scale: f64,
     ) -> f64 {
+        let &StepMotion { h, per_h, blow, .. } = moves;
         matrices.product(Part::Mass, 1.0, &self.gained[..n], &mut self.inertia[..n]);
         matrices.product(Part::Damping, h, &self.mean_v[..n], &mut self.damper[..n]);
         matrices.product(Part::Stiffness, h, &self.mean_q[..n], &mut self.spring[..n]);

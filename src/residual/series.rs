@@ -37,7 +37,7 @@ impl Judge {
             self.strike_holes(step);
         }
         let s = &mut self.scratch;
-        self.energy.observe_series(&self.scene, step, moved, &self.blows.impulse, &s.damper, &s.spring);
+        self.energy.observe_series(step, moved, &self.blows.impulse, &s.damper, &s.spring);
     }
 
     /// Integrates over the stretch, and checks the walls' laws at the nodes. Leaves ∫ of the net

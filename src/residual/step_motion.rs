@@ -6,6 +6,9 @@ use crate::step::Step;
 /// did, one entry per step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StepMotion<'a> {
+    /// The length of a step, s, and one over it.
+    pub h: f64,
+    pub per_h: f64,
     /// Displacements at the start and at the end, the latter without what blows add to it, m.
     pub from: &'a [f64],
     pub to: &'a [f64],
@@ -24,16 +27,17 @@ pub(super) struct StepMotion<'a> {
 }
 
 impl<'a> StepMotion<'a> {
-    /// Those of a step from the displacement `from` to `to`, with its loads at both ends and its
-    /// blows.
+    /// Those of a step of `h` seconds (and 1/h) from the displacement `from` to `to`, with its loads
+    /// at both ends and its blows.
     #[inline(always)]
     pub fn of(
         step: &Step<'a>,
+        (h, per_h): (f64, f64),
         (from, to): (&'a [f64], &'a [f64]),
         (load_start, load_end): (&'a [f64], &'a [f64]),
         blow: &'a [f64],
     ) -> Self {
         let &Step { q: shown, velocity_before: before, velocity_after: after, v, extra, .. } = step;
-        Self { from, to, shown, before, after, v, load_start, load_end, extra, blow }
+        Self { h, per_h, from, to, shown, before, after, v, load_start, load_end, extra, blow }
     }
 }

@@ -83,8 +83,8 @@ impl Along {
 
 impl Ledger {
     /// Starts a panel with the body and its load; returns the largest of their forces so far, N.
-    pub fn sample(&self, scene: &Scene, at: &mut Instants, along: &mut Along) -> f64 {
-        let [m, c, k] = numbers(scene);
+    pub fn sample(&self, at: &mut Instants, along: &mut Along) -> f64 {
+        let [m, c, k] = numbers(&self.scene);
         let n = at.count;
         let (weight, q, v, load) = (&at.weight[..n], &at.q[..n], &at.v[..n], &at.load[..n]);
         let (force, energy) = (&mut at.force[..n], &mut at.energy[..n]);
@@ -117,8 +117,8 @@ impl Ledger {
     /// face is decided by rounding. The wall stores energy only while it touches; what it stores
     /// when contact ends counts as dissipated, since spring and dashpot then relax against each
     /// other.
-    pub fn observe_arc(&mut self, scene: &Scene, step: &Step<'_>, arc: &Arc, blow: &[f64], along: &Along) -> f64 {
-        let [mass, _, stiffness] = numbers(scene);
+    pub fn observe_arc(&mut self, step: &Step<'_>, arc: &Arc, blow: &[f64], along: &Along) -> f64 {
+        let [mass, _, stiffness] = numbers(&self.scene);
         let mut flows = along.flows;
         let mut open = 0.0;
         let v_end = if step.end > step.start { arc.state(step.end).1 } else { first(step.velocity_before) };
@@ -140,7 +140,7 @@ impl Ledger {
         for jump in step.jump.iter().filter(|jump| **jump != 0.0) {
             flows.impact -= 0.5 * jump * (mid + first(step.v));
         }
-        let walls = self.store(scene, step, &mut flows);
+        let walls = self.store(step, &mut flows);
         let (q, v) = (first(step.q), first(step.v));
         self.book(0.5 * (mass * v * v + stiffness * q * q) + walls, flows);
         open

@@ -17,11 +17,14 @@ use crate::linear::{pass, running_max};
 use crate::scene::{Forcing, Scene, Wall};
 use crate::step::{Balance, Contract, QuietSteps, Step};
 use pulp::Simd;
+use std::sync::Arc;
 use walls::{half, observe_supports};
 use work::Work;
 
 #[derive(Debug, Clone)]
 pub(super) struct Ledger {
+    scene: Arc<Scene>,
+    matrices: Matrices,
     contract: Contract,
     pub gap_scale: f64,
     report: Energy,
@@ -61,7 +64,7 @@ struct Flows {
 }
 
 impl Ledger {
-    pub fn new(scene: &Scene, contract: Contract, q: &[f64], v: &[f64]) -> Self {
+    pub fn new(scene: &Arc<Scene>, contract: Contract, q: &[f64], v: &[f64]) -> Self {
         let touching = |wall: &Wall| {
             let (w, rate) = (wall.coordinate(q), wall.rate(q, v));
             stored(wall, w, wall.law_force(w, rate) != 0.0)
@@ -71,6 +74,8 @@ impl Ledger {
         let room = || vec![0.0; q.len().max(QuietSteps::capacity())];
         let energy = 0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + walls;
         Self {
+            scene: Arc::clone(scene),
+            matrices: Matrices::new(&scene.system),
             contract,
             gap_scale: scene.gap_scale(),
             report: Energy { initial_j: energy, largest_j: energy, ..Energy::default() },
@@ -89,56 +94,43 @@ impl Ledger {
         }
     }
 
-    /// Adds one step of `h` seconds (and 1/h) on a grid under the mean load `load` (N); n degrees
-    /// of freedom. `rates` are the velocities that enter and leave the balance at the places of
-    /// walls that push or rub, m/s.
+    /// Adds one step on a grid under the mean load `load` (N); n degrees of freedom. `rates` are the
+    /// velocities that enter and leave the balance at the places of walls that push or rub, m/s.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
     pub fn observe_grid<S: Simd>(
         &mut self,
         simd: S,
-        scene: &Scene,
-        matrices: &Matrices,
-        (h, per_h): (f64, f64),
         moves: &StepMotion<'_>,
         step: &Step<'_>,
         load: &[f64],
         rates: &[[[f64; 2]; 2]],
         n: usize,
     ) {
+        let &StepMotion { h, from: q0, to: q1, .. } = moves;
         if let (Some(b), false) = (self.staggered(), self.started) {
-            self.start(scene, matrices, (h, b), moves.from, moves.before);
+            self.start((h, b), q0, moves.before);
         }
         self.started = true;
-        let mut flows = self.flows(simd, matrices, (h, per_h), moves, load, n);
-        let (q0, q1) = (moves.from, moves.to);
+        let mut flows = self.flows(simd, moves, load, n);
         let walls = if self.springs || step.impulse.iter().any(|&p| p != 0.0) {
-            self.observe_walls(scene, h, (q0, q1), step, self.staggered().is_some(), &mut flows)
+            self.observe_walls(h, (q0, q1), step, &mut flows)
         } else {
             0.0
         };
         if !step.friction.is_empty() {
-            observe_supports(scene, step, rates, &mut flows);
+            observe_supports(&self.scene, step, rates, &mut flows);
         }
-        let energy = self.after(matrices, h, (q0, q1), (moves.after, moves.v), n);
+        let energy = self.after(h, (q0, q1), (moves.after, moves.v), n);
         self.book(energy + walls, flows);
     }
 
     /// Adds n steps of one degree of freedom in which no wall touches it, after the first step.
-    pub fn observe_quiet<S: Simd>(
-        &mut self,
-        simd: S,
-        matrices: &Matrices,
-        (h, per_h): (f64, f64),
-        moves: &StepMotion<'_>,
-        load: &[f64],
-        n: usize,
-    ) {
-        let flows = self.flows(simd, matrices, (h, per_h), moves, load, n);
+    pub fn observe_quiet<S: Simd>(&mut self, simd: S, moves: &StepMotion<'_>, load: &[f64], n: usize) {
+        let flows = self.flows(simd, moves, load, n);
         let (q0, q1, after, v) = (&moves.from[..n], &moves.to[..n], &moves.after[..n], &moves.v[..n]);
         let (mut energy, mut largest) = (self.energy, self.report.largest_j);
         for i in 0..n {
-            energy = self.after(matrices, h, (&q0[i..=i], &q1[i..=i]), (&after[i..=i], &v[i..=i]), 1);
+            energy = self.after(moves.h, (&q0[i..=i], &q1[i..=i]), (&after[i..=i], &v[i..=i]), 1);
             largest = running_max(largest, energy);
         }
         self.report.largest_j = largest;
@@ -149,17 +141,10 @@ impl Ledger {
     /// balance and `v` shown; under a staggered rule that of half a step from `q0`, back where `h`
     /// is negative.
     #[inline(always)]
-    fn after(
-        &mut self,
-        matrices: &Matrices,
-        h: f64,
-        (q0, q1): (&[f64], &[f64]),
-        (after, v): (&[f64], &[f64]),
-        n: usize,
-    ) -> f64 {
+    fn after(&mut self, h: f64, (q0, q1): (&[f64], &[f64]), (after, v): (&[f64], &[f64]), n: usize) -> f64 {
         match self.staggered() {
-            Some(b) => self.half_step(matrices, (h, b), q0, after, n),
-            None => 0.5 * (matrices.form(Part::Mass, &v[..n]) + matrices.form(Part::Stiffness, &q1[..n])),
+            Some(b) => self.half_step((h, b), q0, after, n),
+            None => 0.5 * (self.matrices.form(Part::Mass, &v[..n]) + self.matrices.form(Part::Stiffness, &q1[..n])),
         }
     }
 
@@ -175,16 +160,8 @@ impl Ledger {
 
     /// Work of the loads and dissipation by the structure's damping.
     #[inline(always)]
-    fn flows<S: Simd>(
-        &mut self,
-        simd: S,
-        matrices: &Matrices,
-        (h, per_h): (f64, f64),
-        moves: &StepMotion<'_>,
-        load: &[f64],
-        n: usize,
-    ) -> Flows {
-        let &StepMotion { from, to, before, after, blow, .. } = moves;
+    fn flows<S: Simd>(&mut self, simd: S, moves: &StepMotion<'_>, load: &[f64], n: usize) -> Flows {
+        let &StepMotion { h, per_h, from, to, before, after, blow, .. } = moves;
         let (shift, work, passed) = (&mut self.shift[..n], &mut self.work[..n], &mut self.passed[..n]);
         let terms = ([from, to, before, after, load, blow], [&mut *shift, work, passed]);
         let [] = match self.contract.balance {
@@ -197,19 +174,19 @@ impl Ledger {
             flows.work += work;
             flows.passed += passed;
         }
-        flows.damping = matrices.form(Part::Damping, &self.shift[..n]) * per_h;
+        flows.damping = self.matrices.form(Part::Damping, &self.shift[..n]) * per_h;
         flows
     }
 
     /// Sets the energy at the start of a staggered rule: half a step before the first instant.
     #[cold]
-    fn start(&mut self, scene: &Scene, matrices: &Matrices, (h, b): (f64, f64), q: &[f64], before: &[f64]) {
-        for (wall, held) in scene.walls.iter().zip(&mut self.held) {
+    fn start(&mut self, (h, b): (f64, f64), q: &[f64], before: &[f64]) {
+        for (wall, held) in self.scene.walls.iter().zip(&mut self.held) {
             let (w, rate) = (wall.row().dot(q), wall.row().dot(before));
             *held = half(wall, w, -h * rate, wall.law_force(w, rate) != 0.0);
         }
         let n = q.len();
-        self.energy = self.half_step(matrices, (-h, b), q, before, n) + self.held.iter().sum::<f64>();
+        self.energy = self.half_step((-h, b), q, before, n) + self.held.iter().sum::<f64>();
         (self.report.initial_j, self.report.largest_j) = (self.energy, self.energy);
     }
 
@@ -224,11 +201,11 @@ impl Ledger {
     /// Adds the work of the blows of the last step beyond its rule: they work at their own
     /// instants, where the velocity is not the mean of the step's ends, and the difference is the
     /// work of the forces that depend on the displacement over the displacement that the blows add.
-    pub fn displace(&mut self, scene: &Scene, matrices: &Matrices, h: f64, step: &Step<'_>) {
+    pub fn displace(&mut self, h: f64, step: &Step<'_>) {
         let after = step.velocity_after;
         let staggered = self.staggered();
-        let mut energy = self.after(matrices, -h, (step.q, step.q), (after, step.v), step.q.len());
-        for (wall, held) in scene.walls.iter().zip(&mut self.held) {
+        let mut energy = self.after(-h, (step.q, step.q), (after, step.v), step.q.len());
+        for (wall, held) in self.scene.walls.iter().zip(&mut self.held) {
             let (w, touching) = (wall.coordinate(step.q), *held != 0.0);
             *held = match staggered {
                 Some(_) => half(wall, w, -h * wall.row().dot(after), touching),
@@ -244,19 +221,19 @@ impl Ledger {
     /// (1−4b)(½hv)ᵀK(½hv)] with x̄ = q + ½hv, which the staggered balance conserves. A negative `h`
     /// looks back.
     #[inline(always)]
-    fn half_step(&mut self, matrices: &Matrices, (h, b): (f64, f64), q: &[f64], v: &[f64], n: usize) -> f64 {
+    fn half_step(&mut self, (h, b): (f64, f64), q: &[f64], v: &[f64], n: usize) -> f64 {
         let (q, v) = (&q[..n], &v[..n]);
         let (shift, middle) = (&mut self.shift[..n], &mut self.middle[..n]);
         for i in 0..n {
             shift[i] = 0.5 * h * v[i];
             middle[i] = q[i] + shift[i];
         }
-        let mut strain = matrices.form(Part::Stiffness, middle);
+        let mut strain = self.matrices.form(Part::Stiffness, middle);
         let beside = 1.0 - 4.0 * b;
         if beside != 0.0 {
-            strain -= beside * matrices.form(Part::Stiffness, shift);
+            strain -= beside * self.matrices.form(Part::Stiffness, shift);
         }
-        0.5 * (matrices.form(Part::Mass, v) + strain)
+        0.5 * (self.matrices.form(Part::Mass, v) + strain)
     }
 
     #[inline(always)]

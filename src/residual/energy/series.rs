@@ -30,15 +30,7 @@ impl Ledger {
 
     /// Adds a stretch and the jump at its end, where the velocity goes from `left` by blows (N s)
     /// to `mid` and by impacts to the step's.
-    pub fn observe_series(
-        &mut self,
-        scene: &Scene,
-        step: &Step<'_>,
-        moved: Moved,
-        blow: &[f64],
-        left: &[f64],
-        mid: &[f64],
-    ) {
+    pub fn observe_series(&mut self, step: &Step<'_>, moved: Moved, blow: &[f64], left: &[f64], mid: &[f64]) {
         let mut flows = Flows {
             work: moved.work,
             passed: moved.passed,
@@ -53,22 +45,23 @@ impl Ledger {
             flows.work += struck;
             flows.passed += struck.abs();
         }
-        for (wall, jump) in scene.walls.iter().zip(step.jump) {
+        for (wall, jump) in self.scene.walls.iter().zip(step.jump) {
             flows.impact -= 0.5 * jump * (wall.row().dot(mid) + wall.row().dot(step.v));
         }
-        let walls = self.store(scene, step, &mut flows);
-        for hole in scene.holes().filter(|hole| step.jump[hole.index] != 0.0) {
+        let walls = self.store(step, &mut flows);
+        for hole in self.scene.holes().filter(|hole| step.jump[hole.index] != 0.0) {
             let (jump, [y, z]) = (step.jump[hole.index], step.normal[hole.index]);
             let [before, after] = [mid, step.v].map(|v| hole.seen(v));
             flows.impact += 0.5 * jump * (y * (before[0] + after[0]) + z * (before[1] + after[1]));
         }
         if !step.friction.is_empty() {
-            for (_, at, [_, rub]) in pushes(scene, step).filter(|(index, ..)| step.jump[*index] != 0.0) {
+            for (_, at, [_, rub]) in pushes(&self.scene, step).filter(|(index, ..)| step.jump[*index] != 0.0) {
                 let [before, after] = [mid, step.v].map(|v| at.dot(v));
                 flows.friction -= 0.5 * (rub[0] * (before[0] + after[0]) + rub[1] * (before[1] + after[1]));
             }
         }
-        let system = &scene.system;
-        self.book(0.5 * (system.mass_form(step.v, step.v) + system.stiffness_form(step.q, step.q)) + walls, flows);
+        let system = &self.scene.system;
+        let own = 0.5 * (system.mass_form(step.v, step.v) + system.stiffness_form(step.q, step.q));
+        self.book(own + walls, flows);
     }
 }

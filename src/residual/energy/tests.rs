@@ -8,7 +8,7 @@ fn small_residuals_add_up_beside_a_large_one() {
     let (balance, tolerances) = (Balance::Theta(0.5), Tolerances::of(Conserves::Nothing));
     let promise = Promise::springs(Law::Ends(0.5));
     let contract = Contract { balance, promise, instant: 1.0, tolerances, divides: false };
-    let mut ledger = Ledger::new(&Scene::oscillator(1.0, 0.0, 0.0), contract, &[0.0], &[0.0]);
+    let mut ledger = Ledger::new(&Arc::new(Scene::oscillator(1.0, 0.0, 0.0)), contract, &[0.0], &[0.0]);
     // 1 J that came from nowhere, then many times a work without effect, each below half an ulp of
     // that.
     let (small, count) = (0.25 * f64::EPSILON, 4096);

@@ -10,16 +10,15 @@ impl Ledger {
     #[inline(never)]
     pub(super) fn observe_walls(
         &mut self,
-        scene: &Scene,
         h: f64,
         (q0, q1): (&[f64], &[f64]),
         step: &Step<'_>,
-        staggered: bool,
         flows: &mut Flows,
     ) -> f64 {
         let (before, after) = (step.velocity_before, step.velocity_after);
+        let staggered = self.staggered().is_some();
         let mut walls = 0.0;
-        for (index, (wall, &p)) in scene.walls.iter().zip(step.impulse).enumerate() {
+        for (index, (wall, &p)) in self.scene.walls.iter().zip(step.impulse).enumerate() {
             if wall.law.is_rigid() {
                 if p != 0.0 {
                     flows.impact -= p * 0.5 * (wall.row().dot(before) + wall.row().dot(after));
@@ -54,9 +53,9 @@ impl Ledger {
 
     /// Takes what elastic walls store at the end of exact motion in place of what they stored
     /// before, which the flow of their dashpots lacks; returns what they store now, J.
-    pub(super) fn store(&mut self, scene: &Scene, step: &Step<'_>, flows: &mut Flows) -> f64 {
+    pub(super) fn store(&mut self, step: &Step<'_>, flows: &mut Flows) -> f64 {
         let mut walls = 0.0;
-        for (index, wall) in scene.walls.iter().enumerate().filter(|(_, wall)| !wall.law.is_rigid()) {
+        for (index, wall) in self.scene.walls.iter().enumerate().filter(|(_, wall)| !wall.law.is_rigid()) {
             let now = stored(wall, wall.row().dot(step.q), step.force[index] != 0.0);
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);

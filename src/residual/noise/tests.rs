@@ -27,6 +27,8 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
     // force of 2 N (−8 N in the mean), and a blow of 1 N s. The largest force is that at the end
     // with the extra one, 9 N.
     let moves = StepMotion {
+        h: 0.5,
+        per_h: 2.0,
         from: &[0.0],
         to: &[-2.0],
         shown: &[-2.0],
@@ -38,7 +40,7 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
         extra: &[2.0],
         blow: &[1.0],
     };
-    let sizes = |moves| Scratch::new(1).means(Scalar, Balance::Theta(0.5), (0.5, 2.0), moves, &weights, 1);
+    let sizes = |moves| Scratch::new(1).means(Scalar, Balance::Theta(0.5), moves, &weights, 1);
     noise.step(&sizes(&moves));
     // Way 2 + 0.5 · 3 m: 7 m√kg and 10.5 √J; 6 √J of speed, 12 √W in the damper, 4.5 N/√kg.
     let (spring, damper) = (1.5 * 10.5, 2.0 * 12.0);

@@ -179,7 +179,7 @@ fn the_rounding_of_a_momentum_is_that_of_the_largest_one_and_of_the_instants_of_
     let mut judge = start(&scene, 0.0, 3.0);
     let made = Made { before: vec![1.0 + more], ..made };
     let along = energy::Along::default();
-    let open = judge.energy.observe_arc(&scene, &made.along(Path::Exact(&arc)), &arc, &[0.0], &along);
+    let open = judge.energy.observe_arc(&made.along(Path::Exact(&arc)), &arc, &[0.0], &along);
     // Two units of 12 N s, and two of 1 N/s over the time since the start, for half a second.
     let rounding = f64::EPSILON * (2.0 * 12.0 + 2.0 * (time + span) * span);
     assert_less(open, 4.0 * more, rounding);

@@ -13,6 +13,8 @@ fn forces_are_summed_by_size_and_by_change_except_at_the_start() {
     let mut sums = MomentumSums::new(&two([[1.0; 2]; 3]), &[1.0, 2.0], &[0.0; 2]);
     let zeros = [0.0; 2];
     let moves = StepMotion {
+        h: 0.5,
+        per_h: 2.0,
         from: &[1.0, 2.0],
         to: &zeros,
         shown: &[3.0, -1.0],
@@ -27,13 +29,13 @@ fn forces_are_summed_by_size_and_by_change_except_at_the_start() {
     let mut means = Scratch::new(2);
     // Springs and dampers are given as impulses with the opposite sign, over half a second.
     (means.load, means.spring, means.damper) = (vec![3.0, 1.0], vec![2.0, -1.0], vec![-1.0, 1.0]);
-    sums.add(Scalar, &moves, &means, (0.5, 2.0), true, 2);
+    sums.add(Scalar, &moves, &means, true, 2);
     assert_eq!(entries(&sums.forces.of(0)), [3.0, -4.0, 0.0, 3.0 + 4.0 + 2.0, 0.5 * 1.0]);
     assert_eq!(entries(&sums.forces.of(1)), [1.0, 2.0, 0.0, 1.0 + 2.0 + 2.0, 0.5 * 1.0]);
     // Ends by the trapezoid rule, the extra force all the while.
     assert_eq!((&sums.place[..], &sums.load[..]), (&[0.25 * 4.0, 0.25 * 1.0][..], &[1.0 + 1.0, -0.5 - 0.5][..]));
     (means.load, means.spring, means.damper) = (vec![1.0, 1.0], vec![1.0, 1.0], vec![0.0, 0.25]);
-    sums.add(Scalar, &moves, &means, (0.5, 2.0), false, 2);
+    sums.add(Scalar, &moves, &means, false, 2);
     assert_eq!(entries(&sums.forces.of(0)), [1.0, -2.0, 2.0 + 2.0, 9.0, 0.5 + 0.5 * 1.0]);
     assert_eq!(entries(&sums.forces.of(1)), [1.0, -2.0, 0.0 + 4.0, 5.0, 0.5 + 0.5 * 1.5]);
     assert_eq!((&sums.place[..], &sums.load[..]), (&[2.0, 0.5][..], &[4.0, -2.0][..]));
@@ -44,6 +46,8 @@ fn steps_of_one_degree_of_freedom_are_summed_together() {
     let mut sums = MomentumSums::new(&Scene::oscillator(1.0, 0.0, 0.0), &[1.0], &[5.0]);
     let zeros = [0.0; 3];
     let moves = StepMotion {
+        h: 0.5,
+        per_h: 2.0,
         from: &[1.0, 2.0, 4.0],
         to: &zeros,
         shown: &[2.0, 4.0, 8.0],
@@ -57,7 +61,7 @@ fn steps_of_one_degree_of_freedom_are_summed_together() {
     };
     let mut means = Scratch::new(3);
     (means.load, means.spring, means.damper) = (vec![2.0, 4.0, 6.0], vec![1.0, 1.0, 2.0], vec![0.0, 0.5, 0.0]);
-    sums.add_all(&moves, &means, (0.5, 2.0), 3);
+    sums.add_all(&moves, &means, 3);
     // Forces of springs −2, −2 and −4 N, of the damper −1 N in the second step, from 0 before.
     let changes = (2.0 + 2.0) + (2.0 + 0.0) + (2.0 + 2.0);
     assert_eq!(entries(&sums.forces.of(0)), [6.0, -4.0, changes, 10.0, 0.5 * (0.0 + 1.0 + 2.0)]);
