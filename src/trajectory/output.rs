@@ -65,7 +65,7 @@ impl OutputRecorder {
             recorder.states.displacement = vec![Vec::new(); probes.len()];
             recorder.states.velocity = recorder.states.displacement.clone();
             recorder.state = [vec![0.0; n], vec![0.0; n]];
-            recorder.last.1 = seen(probes, q, v);
+            recorder.last.1.extend(seen(probes, q, v));
         }
         recorder
     }
@@ -81,7 +81,10 @@ impl OutputRecorder {
             let states = self.states_within(step, time, probes);
             self.push(time, &states);
         }
-        self.last = (step.end, seen(probes, step.q, step.v));
+        let (end, states) = &mut self.last;
+        *end = step.end;
+        states.clear();
+        states.extend(seen(probes, step.q, step.v));
     }
 
     /// Adds the steps from index `from` on of `quiet`, as [`OutputRecorder::observe`] adds each.
@@ -123,7 +126,7 @@ impl OutputRecorder {
             Path::Exact(_) | Path::Series(_) => {
                 let [mut q, mut v] = std::mem::take(&mut self.state);
                 step.path.state(time, &mut q, &mut v);
-                let states = seen(probes, &q, &v);
+                let states = seen(probes, &q, &v).collect();
                 self.state = [q, v];
                 return states;
             }
@@ -140,8 +143,8 @@ impl OutputRecorder {
 }
 
 /// Displacement and velocity of each probe.
-fn seen(probes: &[Row], q: &[f64], v: &[f64]) -> Vec<[f64; 2]> {
-    probes.iter().map(|probe| [probe.dot(q), probe.dot(v)]).collect()
+fn seen(probes: &[Row], q: &[f64], v: &[f64]) -> impl Iterator<Item = [f64; 2]> {
+    probes.iter().map(move |probe| [probe.dot(q), probe.dot(v)])
 }
 
 /// True if `time` lies before `end` by more than rounding.
