@@ -1,5 +1,7 @@
 //! From the steps of a run to its rows.
 
+mod exact;
+
 use super::Trajectory;
 use super::columns::Columns;
 use super::output::OutputRecorder;
@@ -87,12 +89,13 @@ impl Recorder {
             self.planar.observe(step);
         }
         self.columns.contacts.extend_from_slice(step.closed);
+        let exact = matches!(step.path, Path::Exact(_) | Path::Series(_));
+        if !exact {
+            self.wear(step);
+            self.pending.iter_mut().zip(step.impulse).for_each(|(sum, p)| *sum += p);
+        }
         match step.path {
             Path::Grid | Path::OneRestitution => {
-                self.wear(step);
-                for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
-                    *sum += p;
-                }
                 // The grid divides the spacing of the rows, so a row's time and a step's end differ
                 // by rounding only.
                 let due = self.due;
@@ -101,10 +104,6 @@ impl Recorder {
                 }
             }
             Path::Part { .. } => {
-                self.wear(step);
-                for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
-                    *sum += p;
-                }
                 // Rows are due where steps end, up to the rounding of both products.
                 let due = self.due;
                 if step.end >= due * (1.0 - ROW_UNITS * f64::EPSILON) {
@@ -119,7 +118,7 @@ impl Recorder {
                 }
             }
             Path::Exact(_) | Path::Series(_) => self.observe_exact(step),
-            Path::Handed { .. } => self.observe_handed(step),
+            Path::Handed { .. } => self.push_between(step),
         }
     }
 
@@ -172,22 +171,9 @@ impl Recorder {
         }
     }
 
-    /// Adds what slid at the end of a step of exact motion, from `from` (s) on, and its contacts.
-    fn wear_exactly(&mut self, step: &Step<'_>, from: f64) {
-        if !self.worn.is_empty() {
-            let Self { worn, columns, .. } = self;
-            worn.add(step, [from, step.end]);
-            worn.close(step.closed, |wear| columns.contact_wear.push(wear));
-        }
-    }
-
-    /// Adds a step whose ends need not fall on rows: between them the displacement is interpolated
-    /// linearly.
-    fn observe_handed(&mut self, step: &Step<'_>) {
-        self.wear(step);
-        for (sum, p) in self.pending.iter_mut().zip(step.impulse) {
-            *sum += p;
-        }
+    /// Adds the rows within a step whose ends need not fall on rows: between them the displacement
+    /// is interpolated linearly.
+    fn push_between(&mut self, step: &Step<'_>) {
         loop {
             let row = self.columns.time.len() as u64;
             let due = self.due;
@@ -209,71 +195,6 @@ impl Recorder {
                 // As after a part: one with an impact may follow.
                 break;
             }
-        }
-    }
-
-    fn observe_exact(&mut self, step: &Step<'_>) {
-        let path = step.path;
-        let mut from = step.start;
-        if step.start == 0.0 && step.end == 0.0 {
-            self.wear_exactly(step, step.start);
-            self.restart(step);
-            return;
-        }
-        // States are right-continuous: a row at the very end of this arc belongs to the next arc,
-        // or is the run's last.
-        loop {
-            let row = self.columns.time.len() as u64;
-            let due = self.due;
-            if row >= self.rows || due >= step.end {
-                break;
-            }
-            let [mut q, mut v] = std::mem::take(&mut self.state);
-            path.state(due, &mut q, &mut v);
-            for (wall, sum) in self.pending.iter_mut().enumerate() {
-                *sum += path.contact_impulse(wall, from, due);
-            }
-            if !self.worn.is_empty() {
-                self.worn.add(step, [from, due]);
-            }
-            if let Path::Series(series) = path {
-                self.planar.follow(series, [from, due]);
-            }
-            self.push(due, &q, &v);
-            self.state = [q, v];
-            from = due;
-        }
-        self.wear_exactly(step, from);
-        if let Path::Series(series) = path {
-            self.planar.follow(series, [from, step.end]);
-            self.planar.jump(step);
-        }
-        for (wall, ((sum, &whole), &jump)) in self.pending.iter_mut().zip(step.impulse).zip(step.jump).enumerate() {
-            *sum += if from > step.start { path.contact_impulse(wall, from, step.end) + jump } else { whole };
-        }
-        if step.end >= self.end {
-            self.push(self.end, step.q, step.v);
-        }
-    }
-
-    /// Adds an impact at t = 0 to the first row.
-    fn restart(&mut self, step: &Step<'_>) {
-        let t = &mut self.columns;
-        for (column, row) in t.displacement.iter_mut().zip(&self.probes) {
-            column[0] = row.dot(step.q);
-        }
-        for (column, row) in t.velocity.iter_mut().zip(&self.probes) {
-            column[0] = row.dot(step.v);
-        }
-        for (column, &p) in t.impulse.iter_mut().zip(step.impulse).filter(|(_, p)| **p != 0.0) {
-            column.resize(1, 0.0);
-            column[0] += p;
-        }
-        for (column, hole) in t.hole_impulse.iter_mut().zip(&self.planar.walls) {
-            column.iter_mut().zip(step.hole_push(*hole)).for_each(|(column, push)| column[0] += push);
-        }
-        for (column, &work) in t.wear_work.iter_mut().zip(&self.worn.work) {
-            column[0] = work;
         }
     }
 
