@@ -1,7 +1,8 @@
 //! All loads on one degree of freedom, sorted by kind.
 
 use super::function::TimeFunction;
-use super::load::{Load, LoadKind, Table};
+use super::load::{Load, LoadKind};
+use super::table::Table;
 use crate::elementary::{TOGETHER, sines};
 use std::f64::consts::TAU;
 

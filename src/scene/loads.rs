@@ -1,8 +1,9 @@
 //! The loads of a scene as vectors over its degrees of freedom.
 
 use super::forcing::Forcing;
-use super::load::{Load, Table, TablePiece};
+use super::load::Load;
 use super::row::{Row, distinct};
+use super::table::{Table, TablePiece};
 use crate::linear::Segment;
 
 /// All loads, sorted by where they act: one sum over time for each row, however many degrees of

@@ -8,7 +8,8 @@
 //! users), `checked.rs` (a validated scene), `wall.rs`, `law.rs` (all that differs between rigid,
 //! elastic and penalised walls), `planes.rs` (a structure doubled into two planes, and directions
 //! there), `support.rs` (walls around a place), `slider.rs` (places that rub under a known force),
-//! `friction.rs` (coefficients of friction), `load.rs`, `random/` (random forces as tables),
+//! `friction.rs` (coefficients of friction), `load.rs`, `table.rs` (a force
+//! sampled over time), `random/` (random forces as tables),
 //! `turbulence/` (random forces along a line, on modes), `fluid_elastic.rs` (the stability of a
 //! tube in that flow), `held.rs` (a structure held at places), `clear.rs` (a start moved out of
 //! walls), `function.rs`, `forcing.rs`, `scene_key.rs` (the path of a number of a scene), `row.rs`
@@ -44,6 +45,7 @@ mod slider;
 mod structure;
 mod support;
 mod system;
+mod table;
 mod turbulence;
 mod validate;
 mod wall;
@@ -61,7 +63,7 @@ pub use friction::FrictionCoefficients;
 pub use function::TimeFunction;
 pub(crate) use grid_forcing::GridForcing;
 pub use law::{WallLaw, WallSpring};
-pub use load::{Load, LoadKind, Table};
+pub use load::{Load, LoadKind};
 pub(crate) use loads::LastPieces;
 pub use loads::Loads;
 pub use modal::{MOST_DENSE, MOST_MODES, Modes, Reduction, WallTruncation};
@@ -75,6 +77,7 @@ pub use slider::Slider;
 pub use structure::Structure;
 pub use support::{Hole, Support};
 pub use system::{Oscillator, System};
+pub use table::Table;
 pub use turbulence::{Turbulence, TurbulenceSpectrum};
 #[cfg(test)]
 pub(crate) use validate::counted;
