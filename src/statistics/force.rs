@@ -2,6 +2,7 @@
 
 use super::batch::{BATCHES, Sums};
 use super::largest_force::{LargestForce, LargestStretch};
+use super::step_force::{impulse, piece};
 use super::support::{SupportForce, SupportTally};
 use crate::scene::Scene;
 use crate::step::{Path, Step};
@@ -10,9 +11,6 @@ use serde::{Deserialize, Serialize};
 /// Maximum number of averaging intervals in a window; they are longer where a window would hold
 /// more. They cost time where a contact lasts.
 const MOST_STRETCHES: f64 = 1e6;
-
-/// Gauss's rule of two points on [0, 1].
-const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 
 /// The force of one wall over the window.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -260,89 +258,5 @@ impl Forces {
     }
 }
 
-/// Impulse (N s) of a wall between two times in a step (s), without the jump at its end.
-fn impulse(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> f64 {
-    match step.path {
-        _ if step.impulse[wall] == 0.0 => 0.0,
-        Path::Exact(_) | Path::Series(_) => step.path.contact_impulse(wall, from, to),
-        _ => even_force(step, wall) * (to - from),
-    }
-}
-
-/// The force (N) of a wall over a step on a grid, constant over it.
-fn even_force(step: &Step<'_>, wall: usize) -> f64 {
-    (step.impulse[wall] - step.jump[wall]) / (step.end - step.start)
-}
-
-/// Impulse (N s) of a wall over a piece of a step, without the jump at its end, and ∫ of the
-/// squared force, N² s.
-fn piece(step: &Step<'_>, wall: usize, [from, to]: [f64; 2]) -> (f64, f64) {
-    let rate = match step.path {
-        Path::Exact(arc) => arc.fastest_motion(),
-        Path::Series(series) => series.rate(),
-        Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => {
-            let force = even_force(step, wall);
-            return (impulse(step, wall, [from, to]), force * force * (to - from));
-        }
-    };
-    // Each part is half a radian of the fastest motion, so one radian of the squared force.
-    let parts = ((to - from) * rate * 2.0).ceil().clamp(1.0, 1e6);
-    let span = (to - from) / parts;
-    let force = |part: f64, node: f64| step.path.contact_force(wall, from + span * (part + node));
-    let mut square = 0.0;
-    let mut part = 0.0;
-    while part < parts {
-        square += GAUSS.iter().map(|&node| force(part, node).powi(2)).sum::<f64>() * 0.5 * span;
-        part += 1.0;
-    }
-    (impulse(step, wall, [from, to]), square)
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Wall;
-
-    #[test]
-    fn impulses_are_averaged_over_the_intervals_of_a_window_that_begins_later() {
-        // A window from 2 to 12 s, in intervals of 0.1 s.
-        let scene = Scene::oscillator(1.0, 0.0, 1.0).with_wall(Wall::upper("wall", 1.0)).with_duration(12.0);
-        let mut forces = Forces::new(&scene, 2.0, 0.1);
-        let mut push = |start: f64, p: f64| {
-            forces.observe(&Step {
-                index: 0,
-                start,
-                end: start + 0.01,
-                q: &[0.0],
-                v: &[0.0],
-                velocity_before: &[0.0],
-                velocity_after: &[0.0],
-                impulse: &[p],
-                jump: &[0.0],
-                force: &[100.0 * p],
-                friction: &[],
-                normal: &[],
-                turned: &[],
-                wedged: &[],
-                resting: &[],
-                extra: &[0.0],
-                closed: &[],
-                path: Path::Grid,
-            });
-        };
-        // Before the window; at its beginning; two in one interval; and three close to the end, the
-        // last two of them in one interval again.
-        for start in [1.5, 2.02, 5.32, 5.35, 11.02, 11.92, 11.94] {
-            push(start, -2.0);
-        }
-        let wall = forces.statistics(0, 0).expect("a window");
-        assert_eq!((wall.impulse_n_s, wall.rms_averaged_over_s), (-12.0, Some(0.1)));
-        // 12 N s in 10 s; squares of 2, 4, 2 and 4 N s, each over 0.1 s and 10 s. Ten roundings.
-        assert!((wall.mean_n - 1.2).abs() < 1e-15);
-        assert!((wall.rms_n - 40.0_f64.sqrt()).abs() < 1e-14, "{}", wall.rms_n);
-        // The two that end at 5.36 s lie within one stretch of 0.1 s; so do those that end at 11.95
-        // s, later.
-        let largest = wall.largest.expect("pushes");
-        assert!((largest.mean_n - 40.0).abs() < 1e-9 && (largest.at_s - 5.31).abs() < 1e-9, "{largest:?}");
-    }
-}
+mod tests;

@@ -21,6 +21,7 @@ mod force;
 mod largest_force;
 mod place;
 mod spectrum;
+mod step_force;
 mod student;
 mod summary;
 mod support;
