@@ -6,12 +6,13 @@ use super::forcing;
 use super::layout::Layout;
 use super::measure::{Measure, Scope};
 use super::plan::Plan;
-use super::request::{Sweep, Window};
+use super::request::{Kernel, Sweep, Window};
 use super::sample::Samples;
 use super::target::Target;
 use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
-use crate::scheme::Scheme;
+use crate::scene::Scene;
+use crate::scheme::{Scheme, check_exact};
 use crate::wear::Archard;
 
 impl Sweep {
@@ -136,6 +137,17 @@ impl Sweep {
             return Err(Error::invalid("follow", followed.label(), expected));
         }
         Ok(())
+    }
+}
+
+impl Sweep {
+    /// An error where the exact motion is needed and `scene` has none: before the settings that
+    /// belong to it are looked at, of which none is at fault.
+    pub(super) fn check_exact(&self, scene: &Scene) -> Result<()> {
+        if let Some(measure) = self.measures.iter().find(|measure| measure.needs_event()) {
+            check_exact(scene, format!("the measure {measure}"))?;
+        }
+        if self.kernel == Kernel::Batch { check_exact(scene, "kernel = \"batch\"") } else { Ok(()) }
     }
 }
 
