@@ -96,7 +96,7 @@ function contactSection() {
   section(
     "contacts",
     "Contacts",
-    `${counted(rows.length)} contacts. Sort by a column to see how it is distributed; click a row to go there.`,
+    `${counted(rows.length)} ${rows.length === 1 ? "contact" : "contacts"}. Sort by a column to see how it is distributed; click a row to go there.`,
     el("div", { class: "two long" }, table, histogram.box),
     el("div", { class: "bar controls" }, button("All digits", saved, "Save contacts.csv")),
   );
