@@ -13,7 +13,7 @@ use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::scheme::{Scheme, check_exact};
-use crate::wear::Archard;
+use crate::wear::{Archard, SCAR};
 
 impl Sweep {
     /// Checks what varies, each axis by itself and all together, and that anything is measured.
@@ -197,7 +197,7 @@ impl Plan {
         }
         let has_scar = || laws.iter().any(|law| law.scar.is_some());
         if let Some(measure) = self.sweep.measures.iter().find(|measure| measure.needs_scar() && !has_scar()) {
-            let expected = "worn_volume, or a support with width and radius: sliders have no depth";
+            let expected = format!("worn_volume, or {SCAR}");
             return Err(Error::invalid("[measure] columns", measure, expected));
         }
         if self.sweep.samples == Some(Samples::Impacts) && scene.walls.is_empty() {
