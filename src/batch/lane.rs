@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::scene::{Load, LoadKind, Oscillator, Row, Scene, Side, System, Wall, WallLaw};
+use crate::scheme::check_exact;
 use std::f64::consts::TAU;
 
 /// Relative tolerance within which a frequency times a period counts as an integer: rounding of
@@ -77,6 +78,7 @@ impl Lane {
     /// that does not have an integer number of periods in `period`.
     pub fn of(scene: &Scene, period: f64) -> Result<Self> {
         scene.validate()?;
+        check_exact(scene, "a lane of a batch")?;
         let System::Oscillator(body) = scene.system else {
             let found = format!("{} degrees of freedom", scene.system.degrees_of_freedom());
             return Err(Error::invalid("system", found, "an oscillator: a lane of a batch has one degree of freedom"));

@@ -173,8 +173,8 @@ pub(super) const LISTED: &[KeyEntry] = &[
         the radius of a rigid hole", "as for a wall; a hole beside `static_correction`, around \
         massless degrees of freedom"]),
     entry("support.stiffness", Number, "N_per_m", ["a rigid support", "a number above 0: elastic \
-        flats or hole", "as for a wall; an elastic hole with friction, or in other schemes than \
-        `moreau-jean`, `implicit-euler` and `penalty`"]),
+        flats or hole", "as for a wall; an elastic hole in other schemes than `moreau-jean`, \
+        `located`, `implicit-euler` and `penalty`, with friction in others than `located`"]),
     entry("support.damping", Number, "N_s_per_m", ["0", "a number, 0 or more: of an elastic \
         support", "as for a wall"]),
     entry("support.friction", Any, "", ["0", "a number from 0 to 10, or { static = .., kinetic = .. } \

@@ -7,7 +7,7 @@ use super::{Case, SupportShape, TimeOptions};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::study::wear_history::{HISTORIES, WearingSupport, YEAR};
-use crate::wear::{Archard, Bearing, Growth, Opening, Scar};
+use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -83,8 +83,9 @@ impl Builder<'_> {
             return Err(self.source.error(limit.span(), "`wear.limit` beside tubes of different walls", help));
         }
         let Some(&wall) = walls.first() else {
-            let help = "expected [system.beam]: the limit is a share of the wall of a tube";
-            return Err(self.source.error(limit.span(), "`wear.limit` without a tube", help));
+            let help = "expected [system.beam] with outer_diameter and inner_diameter: the limit is a share of the \
+                        wall thickness of a tube";
+            return Err(self.source.error(limit.span(), "`wear.limit` without the wall of a tube", help));
         };
         if wear.get("service").is_none() {
             return Err(self.source.error(limit.span(), "`wear` has a limit and no service", SERVICE));
@@ -131,15 +132,20 @@ impl Case {
     /// The supports of the case that wear.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a support with a wear coefficient and without a width, and under
-    /// `wear` for a case in which nothing wears.
+    /// [`Error::Invalid`] for a support with a wear coefficient and without a width, and for a case
+    /// in which nothing wears, or sliders alone.
     pub fn wearing_supports(&self) -> Result<Vec<WearingSupport>> {
         let mut wearing = Vec::new();
+        let mut sliders = false;
         for (index, support) in self.scene.supports.iter().enumerate() {
             let written = self.written.supports.get(index);
             // A slider has no gap that could grow.
             let slides = written.is_some_and(|written| written.shape == SupportShape::Slider);
-            let Some(law) = self.archard(index).filter(|_| !slides) else { continue };
+            let Some(law) = self.archard(index) else { continue };
+            if slides {
+                sliders = true;
+                continue;
+            }
             if law.scar.is_none() {
                 let expected = "a support with a width: its depth is the worn volume over 2πRw";
                 return Err(Error::invalid("support", format!("{:?}", support.name), expected));
@@ -149,8 +155,12 @@ impl Case {
             wearing.push(WearingSupport { name, gaps, growth, law });
         }
         if wearing.is_empty() {
+            let case = format!("the case {:?}", self.name);
+            if sliders {
+                return Err(Error::invalid(case, "one in which only sliders wear", SCAR));
+            }
             let expected = "a case with supports, and coefficient and service in [wear]: depths follow from these";
-            return Err(Error::invalid("wear", &self.name, expected));
+            return Err(Error::invalid(case, "one in which nothing wears", expected));
         }
         Ok(wearing)
     }

@@ -7,7 +7,7 @@ mod tests;
 use crate::error::{amount, counted};
 use crate::parallel::cores;
 use crate::scene::{LoadKind, Scene, System};
-use crate::scheme::{Method, Scheme, Stepper};
+use crate::scheme::{Method, Scheme, Stepper, check_exact};
 use crate::study::choice::choose;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -42,6 +42,8 @@ pub struct DurationEstimate {
     runs: Vec<CountedRun>,
     /// Work that follows, in units of this one: what is left of both is told.
     following: f64,
+    /// The word before the time that the share done gives.
+    about: &'static str,
 }
 
 /// A run of the work, or one of several kinds of runs in it.
@@ -70,7 +72,7 @@ impl DurationEstimate {
     #[must_use]
     pub fn of_run(scene: &Scene, method: &Method, step: f64) -> Self {
         let run = CountedRun { scene: scene.clone(), method: *method, step, count: 1.0, words: ["about", "more"] };
-        Self { cause: steps_in_words(scene, method, step), runs: vec![run], following: 0.0 }
+        Self { cause: steps_in_words(scene, method, step), runs: vec![run], following: 0.0, about: "about" }
     }
 
     /// The same for work that consists of `count` such runs.
@@ -87,17 +89,27 @@ impl DurationEstimate {
         Self { following, ..self }
     }
 
+    /// The same for work that goes on faster than it begins: what its first share gives is a bound.
+    #[must_use]
+    pub fn at_most(self) -> Self {
+        Self { about: "at most about", ..self }
+    }
+
     /// The same for `count` such runs that share all cores.
     #[must_use]
     pub fn on_all_cores(self, count: f64) -> Self {
         self.times(count / (cores() as f64).min(count.max(1.0)))
     }
 
-    /// That of a comparison of `methods` with each other and with the exact scheme.
+    /// That of a comparison of `methods` with each other and, where it takes the scene, with the
+    /// exact scheme.
     #[must_use]
     pub fn of_comparison(scene: &Scene, methods: &[Method], step: f64) -> Self {
         let mut exact = Self::of_each_exact_run(scene, step);
         if let Some(method) = methods.iter().find(|method| method.scheme != Scheme::Event) {
+            if exact.runs.is_empty() {
+                return Self::of_run(scene, method, step).times(methods.len() as f64);
+            }
             exact.cause = format!("{}; the others take {}", exact.cause, steps_in_words(scene, method, step));
         }
         exact
@@ -110,8 +122,8 @@ impl DurationEstimate {
         let exact = Self::of_each_exact_run(scene, step);
         let method = method.filter(|m| m.scheme != Scheme::Event).unwrap_or_else(|| choose(scene).method);
         let finest = Self::of_run(scene, &method, scene.duration / most_steps as f64);
-        let cause =
-            format!("{}; steps are halved until there are {:.1e} of them at most", exact.cause, most_steps as f64);
+        let halved = format!("steps are halved until there are {:.1e} of them at most", most_steps as f64);
+        let cause = if exact.runs.is_empty() { halved } else { format!("{}; {halved}", exact.cause) };
         let mut runs = exact.runs;
         // Recording and judging cost about as much as stepping; all coarser runs together cost as
         // much as the finest.
@@ -123,7 +135,7 @@ impl DurationEstimate {
         // The exact motion of a structure is given up after about a second if it has too many
         // events.
         runs.retain(|run| run.method.scheme != Scheme::Event || matches!(scene.system, System::Oscillator(_)));
-        Self { cause, runs, following: 0.0 }
+        Self { cause, runs, following: 0.0, about: "about" }
     }
 
     /// That of a chart of `methods`, each at several steps, where no run may take longer than
@@ -132,7 +144,10 @@ impl DurationEstimate {
     pub fn of_chart(scene: &Scene, methods: &[Method], levels: u32, longest: f64) -> Self {
         let exact = Self::of_each_exact_run(scene, scene.duration);
         let count = counted(methods.len(), "method");
-        let cause = format!("{count} at up to {levels} steps each, --longest {longest} s a run; {}", exact.cause);
+        let mut cause = format!("{count} at up to {levels} steps each, --longest {longest} s a run");
+        if !exact.runs.is_empty() {
+            cause = format!("{cause}; {}", exact.cause);
+        }
         Self { cause, ..exact }
     }
 
@@ -143,7 +158,7 @@ impl DurationEstimate {
         let moreau = Method::new(Scheme::MoreauJean { theta: 0.5 });
         let Self { cause, mut runs, .. } = Self::of_comparison(scene, &[moreau], step);
         runs.extend(Self::of_run(scene, &moreau, step).times(count).runs);
-        Self { cause, runs, following: 0.0 }
+        Self { cause, runs, following: 0.0, about: "about" }
     }
 
     /// That of maps with `rows` rows and `work` steps in all.
@@ -151,12 +166,15 @@ impl DurationEstimate {
     pub fn of_maps(scene: &Scene, work: u64, rows: usize) -> Self {
         let (unknowns, rows) = (unknowns_in_words(scene), counted(rows, "row"));
         let cause = format!("{:.1e} steps{unknowns} in {rows}, set by the slowest frequency and time.end", work as f64);
-        Self { cause, runs: Vec::new(), following: 0.0 }
+        Self { cause, runs: Vec::new(), following: 0.0, about: "about" }
     }
 
     /// For work with runs of the exact motion whose number is not known, each of which may take
-    /// long.
+    /// long; without a run where the exact scheme refuses the scene.
     fn of_each_exact_run(scene: &Scene, step: f64) -> Self {
+        if check_exact(scene, "an estimate").is_err() {
+            return Self { cause: String::new(), runs: Vec::new(), following: 0.0, about: "about" };
+        }
         let mut exact = Self::of_run(scene, &Method::new(Scheme::Event), step);
         exact.runs.iter_mut().for_each(|run| run.words = ["about", "for each run of the exact motion"]);
         exact
@@ -170,7 +188,8 @@ impl DurationEstimate {
         }
         if share > LEAST_SHARE {
             let left = elapsed * (1.0 + self.following - share) / share;
-            return (left >= WORTH_SAYING).then(|| format!("about {} more: {}", time_in_words(left), self.cause));
+            return (left >= WORTH_SAYING)
+                .then(|| format!("{} {} more: {}", self.about, time_in_words(left), self.cause));
         }
         // No part of the work has finished: either a single step takes this long, or the work
         // before the first step does.

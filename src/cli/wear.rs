@@ -173,7 +173,8 @@ impl Followed<'_> {
         let options = Options::new(case.time);
         let plan = WearPlan { supports, scene: &scene, method, options: &options, histories, service };
         let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step).times(WINDOWS);
-        let estimate = estimate.on_all_cores(histories as f64);
+        let estimate = estimate.on_all_cores(histories as f64).at_most();
+        // Windows lengthen as gaps grow.
         let (found, there) = ui
             .with_estimate("wear", estimate, |bar| journal.follow(&plan, members, &mut |share| bar.set_share(share)))?;
         // The study has told of its own, but of the first.

@@ -177,8 +177,14 @@ fn growths(case: &Case, found: &WearHistories) -> impl Iterator<Item = String> {
             Growth::Shifted,
             "the gap grows by the mean wear of tube and support, and its centre moves to the deeper side",
         ),
-        (Growth::Flats, "each flat recedes by its scar, of tube and flat together"),
-        (Growth::Kept, "the gaps stay as they are: flats wear, and growth = \"flats\" of the support lets them recede"),
+        (
+            Growth::Flats,
+            "each flat recedes by its scar, of tube and flat together, and the gap is the least of its flats",
+        ),
+        (
+            Growth::Kept,
+            "the gaps stay as they are, told is the least: flats wear, and growth = \"flats\" of the support lets them recede",
+        ),
     ];
     ways.into_iter().filter_map(|(way, words)| {
         let own = case.written.supports.iter().filter(|support| support.growth == way);

@@ -128,16 +128,17 @@ fn page_of(folder: &Folder<'_>, other: Option<&Folder<'_>>) -> Result<String> {
     }
     let word = |key: &str| manifest[key].as_str();
     let name = manifest["request"]["case"].as_str().unwrap_or(command);
-    let title = contents["title"].as_str().or(word("title")).unwrap_or(name).to_owned();
+    let titles = [contents["title"].as_str(), word("title")];
+    let title = titles.into_iter().flatten().find(|title| !title.is_empty()).unwrap_or(name).to_owned();
     let mut data = Map::new();
     data.insert("kind".to_owned(), json!(command));
     data.insert("program".to_owned(), json!(word("program").unwrap_or("signorini")));
     data.insert("name".to_owned(), json!(name));
-    data.insert("title".to_owned(), json!(title));
     data.insert("command".to_owned(), json!(word("command_line")));
     if let Value::Object(contents) = contents {
         data.extend(contents);
     }
+    data.insert("title".to_owned(), json!(title));
     let mut data = Value::Object(data);
     paths::shorten(&mut data);
     html::file(&title, &data)

@@ -218,6 +218,15 @@ impl Scene {
         Ok(())
     }
 
+    /// Refuses to keep so few `modes` that a place of a support no longer moves in both planes.
+    pub(super) fn check_kept_planes(&self, modes: usize) -> Result<()> {
+        let stuck = |support: &&Support| check_planes(&support.name, &support.at).is_err();
+        self.supports.iter().find(stuck).map_or(Ok(()), |support| {
+            let value = format!("{modes}, with which the support {:?} moves along one line at most", support.name);
+            Err(Error::invalid("modes", value, "more, so that the place of each support moves in both planes"))
+        })
+    }
+
     fn check_hole(&self, wall: &Wall, owner: &Subject, gap: f64) -> Result<()> {
         positive(owner.clone().part("gap"), gap)?;
         if !wall.law.is_linear() {

@@ -46,7 +46,8 @@ pub enum Coverage {
     /// The scheme steps scenes with it; at round supports by this law, in words that follow the
     /// scheme's name.
     Stepped(&'static str),
-    /// It refuses them; what is expected in its place, with the reason.
+    /// It refuses them, for this reason; what is accepted in its place follows from the other
+    /// schemes' entries.
     Refused(&'static str),
 }
 
@@ -82,17 +83,15 @@ pub struct SchemeEntry {
     pub elastic_round_friction: Coverage,
 }
 
-/// What a scheme without friction expects instead.
-pub(super) const ONES_FOR_FRICTION: &str = "moreau-jean or located, the schemes for friction";
+/// Why a scheme without a law of friction refuses it.
+pub(super) const NO_LAW_OF_FRICTION: &str = "this scheme has no law of friction";
 
-/// What a scheme that bounds displacements expects where there is friction.
-pub(super) const NO_SPEED_TO_STICK_AT: &str = "moreau-jean, located or no friction: a bound on the displacement leaves \
-                                               a contact no velocity at which it could stick";
+/// Why a scheme that bounds displacements refuses friction.
+pub(super) const NO_SPEED_TO_STICK_AT: &str =
+    "a bound on the displacement leaves a contact no velocity at which it could stick";
 
-/// What a scheme that gains or loses energy on a circle expects instead.
-pub(super) const NO_ENERGY_ON_A_CIRCLE: &str = "moreau-jean: this scheme does not keep the energy of a body in a \
-                                                round hole";
+/// Why a scheme that gains or loses energy on a circle refuses round supports.
+pub(super) const NO_ENERGY_ON_A_CIRCLE: &str = "this scheme does not keep the energy of a body in a round hole";
 
-/// What a scheme that cannot step through the law of an elastic round support expects instead.
-pub(super) const ONES_FOR_RINGS: &str =
-    "moreau-jean, located, implicit-euler or penalty, the schemes for elastic round supports";
+/// Why a scheme refuses elastic round supports through whose law it cannot step.
+pub(super) const NO_LAW_OF_RINGS: &str = "this scheme has no law of an elastic round support";

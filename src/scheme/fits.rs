@@ -1,44 +1,96 @@
 //! Which scenes a scheme refuses, and why: from its entry.
 
 use super::entry::Coverage;
-use super::{Integrator, Method, Scheme, SchemeKind};
+use super::{Integrator, Method, Scheme};
 use crate::error::{Error, Result, Subject};
 use crate::qp::Backend;
-use crate::scene::Scene;
+use crate::scene::{Scene, Wall};
+use std::fmt::Display;
+
+/// What of a scene a scheme has no rule for.
+struct Refusal {
+    /// In words, with the name of the place.
+    found: String,
+    /// True where the scheme would take the scene without friction.
+    without_friction: bool,
+    why: &'static str,
+}
+
+/// What `scheme` refuses of the supports, sliders and friction of `scene`: of several, what would
+/// be refused without friction as well comes first.
+fn refusal(scene: &Scene, scheme: Scheme) -> Option<Refusal> {
+    let entry = scheme.entry();
+    let refused = |coverage: Coverage, what: &str, name: &str, without_friction: bool| match coverage {
+        Coverage::Refused(why) => Some(Refusal { found: format!("{what} {name:?}"), without_friction, why }),
+        Coverage::Stepped(_) => None,
+    };
+    let ring = scene.holes().find(|hole| !hole.law.is_rigid());
+    let hole = scene.holes().next();
+    let found =
+        ring.as_ref().and_then(|ring| refused(entry.elastic_round, "the elastic round support", ring.name, false));
+    let found = found.or_else(|| refused(entry.round, "the round support", hole?.name, false));
+    found.or_else(|| {
+        let (index, wall) = scene.walls.iter().enumerate().find(|(_, wall)| wall.friction.acts())?;
+        let place = match () {
+            () if wall.is_round() => "friction at the round support",
+            () if scene.is_slider(index) => "friction at the slider",
+            () => "friction at the wall",
+        };
+        let alone = refused(entry.friction, place, &wall.name, true);
+        alone.or_else(|| {
+            refused(entry.elastic_round_friction, "friction and the elastic round support", ring?.name, true)
+        })
+    })
+}
+
+/// A wall whose law no quadratic programme takes.
+fn bent_wall(scene: &Scene, scheme: Scheme) -> Option<&Wall> {
+    scene.walls.iter().find(|wall| scheme.has_qp() && !wall.law.is_linear())
+}
+
+/// What would be accepted in place of what is refused: one of `schemes`, or the scene without it.
+fn expected(schemes: &[&str], refusal: &Refusal) -> String {
+    let mut choices = schemes.to_vec();
+    if refusal.without_friction {
+        choices.push("no friction");
+    }
+    let last = choices.pop().unwrap_or("a scene without it");
+    let others = choices.join(", ");
+    let or = if others.is_empty() { "" } else { " or " };
+    format!("{others}{or}{last}: {}", refusal.why)
+}
+
+/// Refuses `scene` where the exact scheme does, for `asked`, which no other scheme can give.
+///
+/// # Errors
+/// [`Error::Invalid`]: what of the scene it is, and what would be accepted.
+pub(crate) fn check_exact(scene: &Scene, asked: impl Display) -> Result<()> {
+    match refusal(scene, Scheme::Event) {
+        Some(refusal) => {
+            let found = format!("asked for {asked}, with {}", refusal.found);
+            Err(Error::invalid("the exact motion", found, expected(&[], &refusal)))
+        }
+        None => Ok(()),
+    }
+}
 
 /// Refuses `scene` where `method` has no rule for its walls or supports.
 ///
 /// # Errors
 /// [`Error::Invalid`]: what of the scene it is, and what would be accepted.
 pub(super) fn check(scene: &Scene, Method { scheme, backend }: Method) -> Result<()> {
-    let entry = scheme.entry();
-    if entry.kind == SchemeKind::Qp
-        && let Some(wall) = scene.walls.iter().find(|wall| !wall.law.is_linear())
-    {
+    if let Some(wall) = bent_wall(scene, scheme) {
         let expected = "a rigid or an elastic wall, or the scheme penalty, which steps through that law";
         return Err(Error::invalid(Subject::wall(&wall.name).part("law"), "the φ² penalty", expected));
     }
+    if let Some(refused) = refusal(scene, scheme) {
+        let takes = |other: &Scheme| refusal(scene, *other).is_none() && bent_wall(scene, *other).is_none();
+        let schemes: Vec<_> = Scheme::ALL.iter().filter(|one| takes(one)).map(|one| one.entry().name).collect();
+        let found = format!("{scheme}, with {}", refused.found);
+        return Err(Error::invalid("scheme", found, expected(&schemes, &refused)));
+    }
     if !scene.turns_or_rubs() {
         return Ok(());
-    }
-    let refuse = |what: &str, name: &str, expected: &str| {
-        Err(Error::invalid("scheme", format!("{scheme}, with {what} {name:?}"), expected.to_owned()))
-    };
-    let ring = scene.holes().find(|hole| !hole.law.is_rigid());
-    if let Some((index, wall)) = scene.walls.iter().enumerate().find(|(_, wall)| wall.friction.acts()) {
-        if let Coverage::Refused(expected) = entry.friction {
-            let place = if scene.is_slider(index) { "friction at the slider" } else { "friction at the wall" };
-            return refuse(place, &wall.name, expected);
-        }
-        if let (Some(ring), Coverage::Refused(expected)) = (&ring, entry.elastic_round_friction) {
-            return refuse("friction and the elastic round support", ring.name, expected);
-        }
-    }
-    if let (Some(ring), Coverage::Refused(expected)) = (&ring, entry.elastic_round) {
-        return refuse("the elastic round support", ring.name, expected);
-    }
-    if let (Some(hole), Coverage::Refused(expected)) = (scene.holes().next(), entry.round) {
-        return refuse("the round support", hole.name, expected);
     }
     if let Scheme::Penalty { integrator, .. } = scheme
         && integrator != Integrator::DiscreteGradient
@@ -47,7 +99,7 @@ pub(super) fn check(scene: &Scene, Method { scheme, backend }: Method) -> Result
                         round hole";
         return Err(Error::invalid("integrator", integrator, expected));
     }
-    if backend != Backend::Auto && entry.kind != SchemeKind::Exact {
+    if backend != Backend::Auto && !scheme.is_exact() {
         let expected = "auto: with round supports or friction a step is no quadratic programme, and sweeps over its \
                         contacts solve it";
         return Err(Error::invalid("QP solver", backend, expected));

@@ -37,7 +37,7 @@
 use super::Counters;
 use super::body::Body;
 use super::chung_hulbert::{ChungHulbert, weights};
-use super::entry::{Coverage, NO_SPEED_TO_STICK_AT, ONES_FOR_RINGS, Realised, SchemeEntry, SchemeKind};
+use super::entry::{Coverage, NO_LAW_OF_RINGS, NO_SPEED_TO_STICK_AT, Realised, SchemeEntry, SchemeKind};
 use super::flat_row::FlatRow;
 use super::frame::Frame;
 use super::programme::Programme;
@@ -72,7 +72,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
         "has the law of moreau-jean, after it has put the body within the circle, which it never \
                              passes",
     ),
-    elastic_round: Coverage::Refused(ONES_FOR_RINGS),
+    elastic_round: Coverage::Refused(NO_LAW_OF_RINGS),
     friction: Coverage::Refused(NO_SPEED_TO_STICK_AT),
     elastic_round_friction: Coverage::Refused(NO_SPEED_TO_STICK_AT),
 };

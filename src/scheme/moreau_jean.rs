@@ -57,9 +57,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     ),
     elastic_round: Coverage::Stepped("presses with the force of the ring at θ"),
     friction: Coverage::Stepped("keeps Coulomb's law with the velocity at the end of the step"),
-    elastic_round_friction: Coverage::Refused(
-        "located, no friction, or rigid round supports: the normal of an elastic one follows from the step's end",
-    ),
+    elastic_round_friction: Coverage::Refused("the normal of an elastic round support follows from the step's end"),
 };
 
 /// What every step with this θ satisfies.

@@ -26,7 +26,7 @@
 use super::Counters;
 use super::body::Body;
 use super::entry::{
-    Coverage, NO_ENERGY_ON_A_CIRCLE, ONES_FOR_FRICTION, ONES_FOR_RINGS, Realised, SchemeEntry, SchemeKind,
+    Coverage, NO_ENERGY_ON_A_CIRCLE, NO_LAW_OF_FRICTION, NO_LAW_OF_RINGS, Realised, SchemeEntry, SchemeKind,
 };
 use super::frame::{Frame, Stretch};
 use super::programme::Programme;
@@ -51,9 +51,9 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     order: Some(1),
     fails: "order 1 at e > 0; penetrates by up to 2ehv/(1+e)",
     round: Coverage::Refused(NO_ENERGY_ON_A_CIRCLE),
-    elastic_round: Coverage::Refused(ONES_FOR_RINGS),
-    friction: Coverage::Refused(ONES_FOR_FRICTION),
-    elastic_round_friction: Coverage::Refused(ONES_FOR_FRICTION),
+    elastic_round: Coverage::Refused(NO_LAW_OF_RINGS),
+    friction: Coverage::Refused(NO_LAW_OF_FRICTION),
+    elastic_round_friction: Coverage::Refused(NO_LAW_OF_FRICTION),
 };
 
 /// What every step satisfies.

@@ -27,7 +27,7 @@
 mod alone;
 
 use super::body::Body;
-use super::entry::{Coverage, ONES_FOR_FRICTION, Realised, SchemeEntry, SchemeKind};
+use super::entry::{Coverage, NO_LAW_OF_FRICTION, Realised, SchemeEntry, SchemeKind};
 use super::frame::Frame;
 use super::newton::{ForceLawSolver, LawResponse};
 use super::rule::Rule;
@@ -55,8 +55,8 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
          tends to restitution 1",
     ),
     elastic_round: Coverage::Stepped("(discrete-gradient) keeps energy and angular momentum"),
-    friction: Coverage::Refused(ONES_FOR_FRICTION),
-    elastic_round_friction: Coverage::Refused(ONES_FOR_FRICTION),
+    friction: Coverage::Refused(NO_LAW_OF_FRICTION),
+    elastic_round_friction: Coverage::Refused(NO_LAW_OF_FRICTION),
 };
 
 /// What every step by this integrator satisfies.

@@ -67,7 +67,8 @@ impl PenaltyLaw {
         !matches!(*self, Self::Linear { damping, .. } if damping > 0.0)
     }
 
-    /// Checks the numbers, and that `scene` has rigid walls or round holes to replace.
+    /// Checks the numbers, and that `scene` has rigid walls or round holes to replace; not whether
+    /// the scheme takes the scene.
     ///
     /// # Errors
     /// [`Error::Invalid`] naming `epsilon`, `stiffness` or `damping`.
@@ -79,21 +80,24 @@ impl PenaltyLaw {
                 Err(Error::invalid(key, format_args!("{x:?}"), "a finite number above 0"))
             }
         };
-        let key = match *self {
-            Self::Quartic { epsilon } => positive("epsilon", epsilon).map(|()| "epsilon")?,
+        let (key, value) = match *self {
+            Self::Quartic { epsilon } => positive("epsilon", epsilon).map(|()| ("epsilon", epsilon))?,
             Self::Linear { stiffness, damping } => {
                 positive("stiffness", stiffness)?;
                 if !(damping.is_finite() && damping >= 0.0) {
                     return Err(Error::invalid("damping", format_args!("{damping:?}"), "a finite number, 0 or more"));
                 }
-                "stiffness"
+                ("stiffness", stiffness)
             }
         };
         let walls = &scene.walls;
         if !walls.iter().any(|wall| wall.law.is_rigid()) {
-            return Err(Error::invalid(key, self, "a scene with a rigid wall for the penalty to stand in for"));
+            let found = format!("{value:e}, and no wall or support is rigid");
+            return Err(Error::invalid(key, found, "a scene with a rigid wall for the penalty to stand in for"));
         }
-        walls.iter().try_for_each(|wall| self.at(wall, walls).map(|_| ()))
+        // Where there is friction no value of the law is at fault: the scheme refuses the scene.
+        let smooth = walls.iter().filter(|wall| !wall.friction.acts());
+        smooth.map(|wall| self.at(wall, walls)).try_for_each(|law| law.map(|_| ()))
     }
 }
 
@@ -169,6 +173,7 @@ impl FromStr for Integrator {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{Row, Slider};
 
     #[test]
     fn names_of_integrators_round_trip() {
@@ -195,7 +200,11 @@ mod tests {
             let error = law.validate(&scene(wall)).unwrap_err().to_string();
             assert!(error.contains("stiffness") && error.contains(facing), "{error}");
         }
-        assert!(law.validate(&scene(&walls[1])).is_err_and(|e| e.to_string().contains("rigid wall")));
+        let elastic = law.validate(&scene(&walls[1])).unwrap_err().to_string();
+        assert!(elastic.starts_with("epsilon is 1e-9, and no wall or support is rigid; expected"), "{elastic}");
+        // A slider has no wall facing it: the law is not at fault.
+        let slider = Slider { name: "pad".to_owned(), at: Row::dof(0), normal_force: 1.0, friction: 0.2.into() };
+        assert_eq!(law.validate(&scene(&walls[1]).with_slider(&slider).unwrap()), Ok(()));
         assert!(PenaltyLaw::Linear { stiffness: 1e8, damping: 0.0 }.validate(&scene(&walls[0])).is_ok());
         let at = crate::scene::PlaneRows::doubled(&crate::scene::Row::dof(0), 1);
         let round = Wall::round("hole", at, 0.5);

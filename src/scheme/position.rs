@@ -19,7 +19,7 @@
 use super::Counters;
 use super::body::Body;
 use super::entry::{
-    Coverage, NO_ENERGY_ON_A_CIRCLE, NO_SPEED_TO_STICK_AT, ONES_FOR_FRICTION, ONES_FOR_RINGS, Realised, SchemeEntry,
+    Coverage, NO_ENERGY_ON_A_CIRCLE, NO_LAW_OF_FRICTION, NO_LAW_OF_RINGS, NO_SPEED_TO_STICK_AT, Realised, SchemeEntry,
     SchemeKind,
 };
 use super::frame::Frame;
@@ -64,9 +64,9 @@ pub(super) const NEWMARK: SchemeEntry = SchemeEntry {
     order: Some(1),
     fails: "**gains energy**",
     round: Coverage::Refused(NO_ENERGY_ON_A_CIRCLE),
-    elastic_round: Coverage::Refused(ONES_FOR_RINGS),
-    friction: Coverage::Refused(ONES_FOR_FRICTION),
-    elastic_round_friction: Coverage::Refused(ONES_FOR_FRICTION),
+    elastic_round: Coverage::Refused(NO_LAW_OF_RINGS),
+    friction: Coverage::Refused(NO_LAW_OF_FRICTION),
+    elastic_round_friction: Coverage::Refused(NO_LAW_OF_FRICTION),
 };
 
 /// What every step with this θ satisfies: walls on the displacement at its end, by the force there.

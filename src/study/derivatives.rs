@@ -3,7 +3,7 @@
 use super::horizon::LARGEST_GROWTH;
 use crate::error::Result;
 use crate::scene::Scene;
-use crate::scheme::{Scheme, Stepper};
+use crate::scheme::{Scheme, Stepper, check_exact};
 use crate::variation::{
     ContactDerivative, ContactDerivatives, KeyVariation, MeanDerivative, MotionDerivative, NoDerivative, SceneTangent,
 };
@@ -72,6 +72,7 @@ impl Derivatives {
     /// # Errors
     /// What the exact scheme refuses, friction for one; as [`KeyVariation::new`].
     pub fn check(scene: &Scene) -> Result<()> {
+        check_exact(scene, "derivatives")?;
         Stepper::new(scene, &Scheme::Event, scene.duration)?;
         KeyVariation::new(scene, &[], &[]).map(drop)
     }

@@ -6,13 +6,14 @@ use super::forcing;
 use super::layout::Layout;
 use super::measure::{Measure, Scope};
 use super::plan::Plan;
-use super::request::{Sweep, Window};
+use super::request::{Kernel, Sweep, Window};
 use super::sample::Samples;
 use super::target::Target;
 use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
-use crate::scheme::Scheme;
-use crate::wear::Archard;
+use crate::scene::Scene;
+use crate::scheme::{Scheme, check_exact};
+use crate::wear::{Archard, SCAR};
 
 impl Sweep {
     /// Checks what varies, each axis by itself and all together, and that anything is measured.
@@ -139,6 +140,17 @@ impl Sweep {
     }
 }
 
+impl Sweep {
+    /// An error where the exact motion is needed and `scene` has none: before the settings that
+    /// belong to it are looked at, of which none is at fault.
+    pub(super) fn check_exact(&self, scene: &Scene) -> Result<()> {
+        if let Some(measure) = self.measures.iter().find(|measure| measure.needs_event()) {
+            check_exact(scene, format!("the measure {measure}"))?;
+        }
+        if self.kernel == Kernel::Batch { check_exact(scene, "kernel = \"batch\"") } else { Ok(()) }
+    }
+}
+
 /// The error of an axis that is varied from the case, which gives it no value.
 fn no_centre(axis: &Axis) -> Error {
     let key = axis.targets.first().map_or_else(String::new, |(target, _)| target.to_string());
@@ -185,7 +197,7 @@ impl Plan {
         }
         let has_scar = || laws.iter().any(|law| law.scar.is_some());
         if let Some(measure) = self.sweep.measures.iter().find(|measure| measure.needs_scar() && !has_scar()) {
-            let expected = "worn_volume, or a support with width and radius: sliders have no depth";
+            let expected = format!("worn_volume, or {SCAR}");
             return Err(Error::invalid("[measure] columns", measure, expected));
         }
         if self.sweep.samples == Some(Samples::Impacts) && scene.walls.is_empty() {

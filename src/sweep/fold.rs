@@ -70,7 +70,7 @@ impl Fold {
     }
 
     /// What the runs say of themselves, by status: how many, which, and what the first of them
-    /// says; then the measures that only some of them have.
+    /// says; then the measures that only some of them have, or none.
     fn reasons(&self, runs: &[StringRecord], good: &[&StringRecord]) -> Vec<String> {
         let reason = |run: &&StringRecord| run.get(self.error).unwrap_or_default().to_owned();
         let tells = |run: &&StringRecord| !Status::is_good_word(self.word(run)) || !reason(run).is_empty();
@@ -89,15 +89,23 @@ impl Fold {
             let reason = if reason.is_empty() { reason } else { format!(": {reason}") };
             Some(format!("{status}in {} of {} realisations ({}){reason}", group.len(), runs.len(), self.listed(group)))
         };
-        let lacks = |column: &usize| {
-            let with = good.iter().filter(|run| number(run, *column).is_some()).count();
-            with > 0 && with < good.len()
-        };
-        let lacking: Vec<&str> =
-            self.measures().filter(lacks).filter_map(|column| Some(self.header.get(column)?.as_str())).collect();
-        let lacking = (!lacking.is_empty())
-            .then(|| format!("some realisations have no value, so there is no mean, of {}", lacking.join(", ")));
-        groups.iter().filter_map(told).chain(lacking).collect()
+        let mut told: Vec<String> = groups.iter().filter_map(told).collect();
+        let [mut some, mut all] = [Vec::new(), Vec::new()];
+        for (column, name) in self.header.iter().enumerate().skip(self.measures().start) {
+            let with = good.iter().filter(|run| number(run, column).is_some()).count();
+            if with > 0 && with < good.len() {
+                some.push(name.as_str());
+            // What all lack, each run may have said already.
+            } else if with == 0 && !good.is_empty() && !told.iter().any(|words| words.contains(name.as_str())) {
+                all.push(name.as_str());
+            }
+        }
+        for (which, columns) in [("some realisations have no value", some), ("no realisation has a value", all)] {
+            if !columns.is_empty() {
+                told.push(format!("{which}, so there is no mean, of {}", columns.join(", ")));
+            }
+        }
+        told
     }
 
     /// The numbers of realisations.
@@ -171,6 +179,14 @@ mod tests {
         ]);
         assert_eq!((row[3].as_str(), row[5].as_str()), ("handed", "2.0"));
         assert_eq!(row[4], "handed in 1 of 2 realisations (1): 2 stretches; in 1 of 2 realisations (2): no derivative");
+        // What no run has is named once, by the runs or here.
+        for (said, told) in [
+            ("", "no realisation has a value, so there is no mean, of impact_share_a"),
+            ("no impact_share_a: elastic", "in 2 of 2 realisations (1, 2): no impact_share_a: elastic"),
+        ] {
+            let row = folded(&[["4", "1", "1e-3", "ok", said, "1", ""], ["4", "2", "1e-3", "ok", said, "3", ""]]);
+            assert_eq!((row[3].as_str(), row[4].as_str(), row[7].as_str()), ("ok", told, ""));
+        }
         let row = folded(&[["4", "1", "1e-3", "failed", "x", "", ""], ["4", "2", "1e-3", "ok", "", "3", "1"]]);
         assert_eq!(row[2..4], ["1", "partial"].map(str::to_owned));
         assert_eq!(row[5..7], ["3.0", ""].map(str::to_owned));

@@ -13,7 +13,7 @@
 //! | `measure`, `sample` | the quantities computed for a row, by name |
 //! | `forcing` | the period of the loads |
 //! | `plan`, `headers` | the rows, by number, and the columns of the tables |
-//! | `row`, `status` | one row: built, run, measured |
+//! | `row`, `lacking`, `status` | one row: built, run, measured; why a measure has no value |
 //! | `realisations`, `fold` | rows with several realisations of their random loads, and the means over them |
 //! | `until_interval`, `run_set`, `seeds` | how many that are, where intervals decide; which are run together |
 //! | `batched` | rows of one degree of freedom side by side, by [`batch`](crate::batch) |
@@ -76,6 +76,7 @@ mod found;
 mod headers;
 mod instants;
 mod keys;
+mod lacking;
 mod layout;
 mod maps;
 mod means;

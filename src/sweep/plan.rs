@@ -68,6 +68,7 @@ impl Sweep {
     pub fn plan(self) -> Result<Plan> {
         self.check_axes()?;
         let base = self.case.case()?;
+        self.check_exact(&base.scene)?;
         let method = match &self.scheme {
             Some(name) => base.method(name)?,
             None if self.kernel == Kernel::Batch => Method::new(Scheme::Event),

@@ -1,5 +1,6 @@
 //! One row: builds its case, runs it and computes the measures.
 
+use super::lacking;
 use super::measure::Measure;
 use super::plan::{Plan, Point};
 use super::row_observer::RowObserver;
@@ -66,8 +67,8 @@ struct Done {
     end: State,
     handed: usize,
     findings: Vec<Finding>,
-    /// Why a measure has no value.
-    note: Option<String>,
+    /// Why measures have no value.
+    notes: Vec<String>,
 }
 
 impl Plan {
@@ -92,11 +93,12 @@ impl Plan {
         match self.build(point, start).and_then(|(case, method)| self.perform(case, method, judged)) {
             Ok(done) => {
                 (row.measures, row.samples, row.end) = (done.measures, done.samples, Some(done.end));
-                row.error = done.note.unwrap_or_default();
+                let mut notes = done.notes;
                 if done.handed > 0 {
                     row.status = Status::Handed;
-                    row.error = format!("{} stretches of impacts by moreau-jean", done.handed);
+                    notes.insert(0, format!("{} stretches of impacts by moreau-jean", done.handed));
                 }
+                row.error = notes.join("; ");
                 self.check_finite(row);
                 if !done.findings.is_empty() {
                     row.status = Status::Refuted;
@@ -182,13 +184,14 @@ impl Plan {
         }
         let (open, note) = (stepper.open_contacts(), observer.note());
         let (measures, samples) = observer.finish(&self.sweep, &case, stepper.checked(), &open);
+        let lacking = lacking::reasons(&self.sweep.measures, &measures, &case);
         Ok(Done {
             measures,
             samples,
             end: stepper.state(),
             handed: stepper.handed().len(),
             findings: judge.map_or_else(Vec::new, |judge| judge.findings()),
-            note,
+            notes: note.into_iter().chain(lacking).collect(),
         })
     }
 }
@@ -214,6 +217,28 @@ mod tests {
     use super::Status;
     use crate::case::CaseFile;
     use crate::sweep::{Axis, Measure, Sweep};
+
+    /// What rows say of measures of supports without a value.
+    #[test]
+    fn a_cell_without_a_value_has_its_reason_in_the_row() {
+        let case = "[system]\nplanes = 2\n[system.oscillator]\nmass = 1.0\ndamping = 2.0\nstiffness = 1000.0\n\
+                    [[support]]\nname = \"b\"\nshape = \"flats\"\nsides = 4\ngap = 1e-3\nstiffness = 1e6\n\
+                    width = 0.02\nradius = 0.01\n[wear]\ncoefficient = 1e-14\nservice = 3e8\n\
+                    [[load]]\ndirection = 10.0\nharmonic = { amplitude = 12.0, frequency = 5.0 }\n\
+                    [time]\nend = 0.3\nstep = 1e-3\n";
+        let elastic = "no impact_share_b: an elastic support has no impacts, only forces";
+        let through = "; no depth_one_scar_b_m: one scar of that volume would cut the tube in two";
+        for (key, values, told) in [
+            ("wear.service", [3e8, 1e14], [elastic.to_owned(), format!("{elastic}{through}")]),
+            ("load.1.harmonic.amplitude", [12.0, 0.1], [elastic.to_owned(), elastic.to_owned()]),
+        ] {
+            let axis = Axis::linear(key, values[0], values[1], 2).expect("an axis");
+            let sweep = Sweep::new(CaseFile::from_text(case, "b", ".")).vary(axis);
+            let plan = sweep.measure([Measure::ImpactShare, Measure::DepthOneScar]).plan().expect("a plan");
+            let errors: Vec<_> = plan.rows(2).expect("rows").into_iter().map(|row| row.error).collect();
+            assert_eq!(errors, told);
+        }
+    }
 
     #[test]
     fn a_row_with_a_measure_that_is_not_finite_is_not_ok() {

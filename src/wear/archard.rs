@@ -28,6 +28,10 @@ pub struct Archard {
     pub scar: Option<Scar>,
 }
 
+/// What is expected where a depth is asked for and sliders alone wear.
+#[cfg(feature = "case")]
+pub(crate) const SCAR: &str = "a support with width and radius: sliders have no depth";
+
 /// The geometry of a scar on a tube.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Scar {

@@ -24,6 +24,8 @@ mod sectors;
 mod stretch;
 mod work;
 
+#[cfg(feature = "case")]
+pub(crate) use archard::SCAR;
 pub use archard::{Archard, Bearing, Scar, Worn};
 pub(crate) use contacts::SlidingContacts;
 pub use depth::{all_round, flat_area, flat_depth, moon_area, moon_depth};

@@ -209,12 +209,23 @@ fn friction_takes_energy_and_without_friction_the_scene_is_the_same_as_before() 
 
 #[test]
 fn other_schemes_refuse_friction() {
-    for (scheme, words) in [
-        (Scheme::PaoliSchatzman, "moreau-jean or located, the schemes for friction"),
-        (Scheme::Event, "moreau-jean, located or no friction"),
-        (Scheme::GeneralizedAlpha { rho: 0.8 }, "moreau-jean, located or no friction"),
+    let hole = hole("hole", body(), 1e-3, 0.0, 0.2);
+    let elastic = with(isotropic(1.0, 0.2, 100.0), hole.clone().with_elasticity(1e6, 0.0));
+    let rigid = with(isotropic(1.0, 0.2, 100.0), hole);
+    let (alpha, flats) = (Scheme::GeneralizedAlpha { rho: 0.8 }, &pressed());
+    for (scheme, scene, words) in [
+        (Scheme::PaoliSchatzman, flats, "expected moreau-jean, located or no friction: this scheme has no law"),
+        (Scheme::Event, flats, "expected moreau-jean, located or no friction: where"),
+        (alpha, flats, "expected moreau-jean, located or no friction: a bound"),
+        (alpha, &rigid, "friction at the round support \"hole\"; expected moreau-jean, located or no friction"),
+        (Scheme::PaoliSchatzman, &rigid, "the round support \"hole\"; expected moreau-jean or located: this scheme"),
+        // What is named is not refused next.
+        (MOREAU_JEAN, &elastic, "expected located or no friction: the normal"),
+        (Scheme::ImplicitEuler, &elastic, "expected located or no friction: a bound"),
+        (Scheme::Event, &elastic, "the elastic round support \"hole\"; expected located: the force"),
+        (alpha, &elastic, "the elastic round support \"hole\"; expected located: this scheme"),
     ] {
-        let error = Stepper::new(&pressed(), &scheme, 1e-4).unwrap_err();
+        let error = Stepper::new(scene, &scheme, 1e-4).unwrap_err();
         assert!(error.is_request() && error.to_string().contains(words), "{error}");
     }
 }

@@ -219,7 +219,7 @@ fn other_integrators_and_friction_are_refused() {
     let mut rubs = free();
     rubs.walls[0].friction = 0.2.into();
     let error = Stepper::new(&rubs, &penalty(linear(1e6, 0.0)), 1e-4).unwrap_err();
-    let expected = "moreau-jean or located, the schemes for friction";
+    let expected = "expected moreau-jean, located or no friction: this scheme has no law of friction";
     assert!(error.is_request() && error.to_string().contains(expected), "{error}");
 }
 

@@ -399,6 +399,14 @@ fn the_page_of_a_sweep_knows_the_runs_kept_of_its_rows() {
     }
     said(dir.path(), &["report", "s"], 0);
     assert_eq!(data(&page())["sweep"]["kept"], serde_json::json!([2]));
+    // A case without a title stands under its name.
+    let untitled = "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0\n\
+                    [[wall]]\nname = \"stop\"\nside = \"both\"\ngap = 1e-3\n[time]\nend = 0.1\nstep = 1e-3\n";
+    fs::write(dir.path().join("cart.toml"), untitled).unwrap();
+    for request in [&["run"][..], &["sweep", "--vary", "wall.*.gap=1e-3,2e-3", "--measure", "contacts"]] {
+        said(dir.path(), &[request, &["cart.toml", "--force", "--out", "s"]].concat(), 0);
+        assert_eq!(data(&page())["title"], "cart", "{request:?}");
+    }
 }
 
 #[test]

@@ -276,6 +276,7 @@ fn a_wrong_request_exits_with_2_and_says_what_would_be_accepted() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("taken"), "a file").unwrap();
     let case = "rigid-walls-sine";
+    let (dry, vary, normal) = ("dry-friction-damper", "--vary", "slider.pad.normal_force=1,2");
     let requests: &[(&[&str], &str)] = &[
         (&["run", "nowhere.toml"], "nowhere.toml"),
         (&["compare", "nowhere"], "signorini new"),
@@ -301,6 +302,10 @@ fn a_wrong_request_exits_with_2_and_says_what_would_be_accepted() {
         (&["run", case, "--out", "taken/here"], "taken"),
         (&["compare", case, "--end", "0.1", "--out", "taken"], "taken"),
         (&["compare", "bouncing-ball", "--end", "0.1", "--epsilon", "1e-9"], "stiffness"),
+        (&["run", dry, "--scheme", "penalty", "--epsilon", "1e-9"], "expected moreau-jean, located or no friction"),
+        (&["sweep", dry, vary, normal, "--measure", "lyapunov"], "the measure lyapunov, with friction at the slider"),
+        (&["sweep", dry, vary, normal, "--measure", "attractor"], "\"pad\"; expected no friction"),
+        (&["sweep", dry, vary, normal, "--measure", "impacts", "--kernel", "batch"], "\"pad\"; expected no friction"),
         (&["run", case, "--scheme", "event", "--qp", "clarabel"], "quadratic"),
         (&["run", case, "--scheme", "event:qp=clarabel"], "quadratic"),
         (&["run", case, "--scheme", "penalty:epsilon=1e-9", "--epsilon", "1e-6"], "either"),
@@ -476,6 +481,8 @@ fn wrong_requests_about_structures_exit_with_2() {
     let dir = tempfile::tempdir().unwrap();
     let static_tube = TUBE.replace("modes = 2", "modes = 2\nstatic_correction = true").replace("stiffness = 1e6\n", "");
     fs::write(dir.path().join("static.toml"), static_tube).unwrap();
+    let free = TUBE.split("[[wall]]").next().unwrap().replace("pinned", "free").replace("modes = 2", "planes = 2");
+    fs::write(dir.path().join("free.toml"), free + "[time]\nend = 0.05\nstep = 2e-5\n").unwrap();
     let requests: &[(&[&str], &str)] = &[
         (&["run", "rigid-walls-sine", "--modes", "1"], "one degree of freedom"),
         (&["explain", "rigid-walls-sine", "--modes", "1"], "one degree of freedom"),
@@ -484,6 +491,8 @@ fn wrong_requests_about_structures_exit_with_2() {
         (&["compare", "tube-loose-supports", "--modes", "121"], "from 1 to 120"),
         (&["run", "static.toml", "--restitution", "0.5"], "cannot rebound"),
         (&["run", "chain-20", "--qp", "clamp"], "more than one unknown"),
+        (&["run", "two-tubes", "--modes", "1"], "modes is 1, with which the support"),
+        (&["run", "free.toml", "--modes", "1"], "modes is 1\n"),
         (&["run", "chain-200", "--sample", "1e-7", "--step", "1e-7"], "time.sample"),
     ];
     for (request, hint) in requests {

@@ -239,7 +239,10 @@ fn a_flat_that_slides_steadily_recedes_as_its_volume_grows_evenly() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("slider.toml"), SLIDER).unwrap();
     let (_, err) = said(dir.path(), &["wear", "slider.toml", "--out", "w"], 0);
-    assert!(err.contains("each flat recedes by its scar"), "{err}");
+    assert!(
+        err.contains("each flat recedes by its scar, of tube and flat together, and the gap is the least"),
+        "{err}"
+    );
     // 10 N times the mean of |V sin|, 2V/π.
     let (mass, damping, omega) = (1.0_f64, 2.0_f64, TAU * 20.0);
     let rate = 10.0 * 4.0 / TAU * 20.0 / (mass * mass * omega * omega + damping * damping).sqrt();
@@ -466,7 +469,10 @@ fn what_does_not_wear_by_gaps_is_refused_by_name() {
         let (_, err) = said(dir.path(), &[&["wear"], args].concat(), 2);
         assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
     };
-    refused(&["rigid-walls-sine"], &["with supports", "coefficient and service"]);
+    refused(&["rigid-walls-sine"], &["the case \"rigid-walls-sine\" is one in which nothing wears", "with supports"]);
+    let law = ["--set", "wear.service=1", "--set", "wear.coefficient=1e-14"];
+    let sliders = ["only sliders wear", "expected a support", "sliders have no depth"];
+    refused(&[&["dry-friction-damper"][..], &law].concat(), &sliders);
     refused(&["whirl-in-a-hole", "--set", "wear.service=1", "--set", "wear.coefficient=1e-14"], &["hole", "width"]);
     refused(&[&WHIRL[..], &["--histories", "2"]].concat(), &["--histories", "random load"]);
     refused(&[&TUBE[..], &["--histories", "0"]].concat(), &["--histories", "1 or more"]);
@@ -475,7 +481,10 @@ fn what_does_not_wear_by_gaps_is_refused_by_name() {
     }
     refused(&[&TUBE[..], &["--scheme", "event"]].concat(), &["event", "friction"]);
     refused(&[&TUBE[..], &["--set", "wear.limit=0"]].concat(), &["wear: limit", "share of the wall"]);
-    refused(&[&WHIRL[..], &["--set", "wear.limit=0.4"]].concat(), &["limit", "[system.beam]"]);
+    refused(
+        &[&WHIRL[..], &["--set", "wear.limit=0.4"]].concat(),
+        &["without the wall", "[system.beam] with outer_diameter and"],
+    );
     assert!(fs::read_dir(dir.path()).unwrap().next().is_none_or(|entry| {
         let folder = entry.unwrap().path();
         fs::read_dir(folder).unwrap().count() < 2

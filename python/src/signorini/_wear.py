@@ -37,9 +37,9 @@ class WearStudy:
     """Histories of the wear at ``supports``, whose gaps grow by it.
 
     ``years`` has the columns of ``years.csv``: means over the histories with the half widths of
-    their 95 % intervals (``gap_m``, ``depth_deepest_m``, ``depth_all_round_m``,
-    ``depth_one_scar_m``, ``work_rate_W`` and the same with ``half_width_95`` in the name), a row
-    for each ``year`` and ``place``. ``history`` has those of ``history.csv``, a row for each
+    their 95 % intervals (``gap_m``, of flats the least; ``depth_deepest_m``,
+    ``depth_all_round_m``, ``depth_one_scar_m``, ``work_rate_W`` and the same with
+    ``half_width_95`` in the name), a row for each ``year`` and ``place``. ``history`` has those of ``history.csv``, a row for each
     history as well. ``limit`` is the depth up to which the tube may wear, m, or None, and
     ``limit_years`` says when each support reaches it. ``histories`` is their number and
     ``windows`` how many runs they took. ``first`` is the study of the first windows, with its

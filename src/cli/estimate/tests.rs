@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene::{Load, Wall};
+use crate::scene::{Load, Row, Slider, Wall};
 
 #[test]
 fn times_are_told_in_words() {
@@ -17,13 +17,14 @@ fn times_are_told_in_words() {
 
 #[test]
 fn the_rest_is_extrapolated_from_what_is_done() {
-    let estimate = DurationEstimate { cause: "reasons".to_owned(), runs: Vec::new(), following: 0.0 };
+    let estimate = DurationEstimate { cause: "reasons".to_owned(), runs: Vec::new(), following: 0.0, about: "about" };
     let second = Duration::from_secs(1);
     assert_eq!(estimate.message(second, 0.01).as_deref(), Some("about 99 s more: reasons"));
     assert!(estimate.message(second, 0.9).is_none() && estimate.message(second, 1.0).is_none());
     // A second is a tenth of this work, after which as much as three times of it follows.
     let followed = estimate.followed_by(3.0);
     assert_eq!(followed.message(second, 0.1).as_deref(), Some("about 39 s more: reasons"));
+    assert_eq!(followed.at_most().message(second, 0.1).as_deref(), Some("at most about 39 s more: reasons"));
 }
 
 /// One degree of freedom at 100 THz, with a wall that it does not reach: the whole run is a single
@@ -49,6 +50,17 @@ fn work_of_which_nothing_is_done_is_told_from_a_trial() {
         let line = of(each);
         assert!(line.contains("for each run of the exact motion: ") && line.contains("the fastest mode"), "{line}");
         assert!(["h for", "days", "years"].iter().any(|unit| line.contains(unit)), "{line}");
+    }
+    // What the exact scheme refuses at once takes no time.
+    let slider = Slider { name: "pad".to_owned(), at: Row::dof(0), normal_force: 1.0, friction: 0.2.into() };
+    let rubs = stiff().with_slider(&slider).unwrap();
+    for each in [
+        DurationEstimate::of_comparison(&rubs, &[moreau], 1e-9),
+        DurationEstimate::of_search(&rubs, None, 1e-9, 1 << 40),
+        DurationEstimate::of_chart(&rubs, &[moreau, event], 8, 1.0),
+    ] {
+        assert!(each.cause.contains("steps") && !each.cause.contains("exact"), "{}", each.cause);
+        assert!(each.runs.iter().all(|run| run.method.scheme != Scheme::Event), "{each:?}");
     }
     // A run of a moment gets no message.
     let soon = Scene::oscillator(1.0, 0.0, 100.0).with_wall(Wall::upper("stop", 1.0));

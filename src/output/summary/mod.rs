@@ -132,8 +132,8 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
             "impact power only: contact is frictionless and the motion normal to the wall, so there is no \
              sliding wear here"
         } else {
-            "the work rates of sliding are under `supports`; one without friction is an upper figure; the impact \
-             power of walls is that of their normal motion alone"
+            "each support and slider has its work rate of sliding; one without friction is an upper figure; the \
+             impact power of walls is that of their normal motion alone"
         },
         checks,
         notes: run.notes.iter().cloned().chain(case.notes()).chain(supports::warnings(case, run)).collect(),

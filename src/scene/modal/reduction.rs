@@ -145,6 +145,7 @@ impl Scene {
             Start::Kept => self.keep_start(&mut scene, modes)?,
             Start::Left => scene.initial = State { q: vec![0.0; modes], v: vec![0.0; modes] },
         }
+        scene.check_kept_planes(modes)?;
         let (mut walls, coupling) = self.truncation(structure, &kept, next_omega, &scene)?;
         if static_correction {
             for (wall, truncation) in scene.walls.iter_mut().zip(&mut walls) {

@@ -16,9 +16,9 @@ use crate::scene::{LoadKind, Scene};
 use crate::scheme::entry::{Coverage, Realised, SchemeEntry, SchemeKind};
 use crate::step::{Balance, Conserves, Contract, Promise, Tolerances};
 
-/// What a scene with friction expects instead.
-const NO_STICKING: &str = "moreau-jean, located or no friction: where a contact sticks, slips or turns round in the \
-                           middle of an impact, the exact scheme has no law for it";
+/// Why friction is refused.
+const NO_STICKING: &str = "where a contact sticks, slips or turns round in the middle of an impact, the exact scheme \
+                           has no law for it";
 
 /// What is known of the exact schemes beside their motion.
 pub(super) const ENTRY: SchemeEntry = SchemeEntry {
@@ -32,7 +32,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     order: None,
     fails: "gives up, with an error, at more than a million events in a twentieth of the run",
     round: Coverage::Stepped("is exact"),
-    elastic_round: Coverage::Refused("a scheme with a step: the force of an elastic hole has no series of its own"),
+    elastic_round: Coverage::Refused("the force of an elastic hole has no series of its own"),
     friction: Coverage::Refused(NO_STICKING),
     elastic_round_friction: Coverage::Refused(NO_STICKING),
 };

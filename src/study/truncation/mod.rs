@@ -13,7 +13,7 @@ pub use choose::{ChosenModes, MOST_CHOSEN, ModesLevel, choose_modes};
 
 use super::change::{Change, relative};
 use super::difference::error_length;
-use crate::error::Result;
+use crate::error::{Error, Result, Subject};
 use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
 use crate::scene::{Damping, Load, Modes, Reduction, Scene, Slider, Turbulence};
@@ -59,10 +59,11 @@ impl Unreduced {
     /// # Errors
     /// As [`Scene::reduced`] and [`Scene::with_slider`].
     pub fn cut(&self, modes: usize) -> Result<Reduction> {
-        let mut reduction = match self.start {
-            Start::Given => self.scene.reduced(modes, self.static_correction)?,
-            Start::Equilibrium => self.scene.reduced_without_start(modes, self.static_correction)?,
+        let reduction = match self.start {
+            Start::Given => self.scene.reduced(modes, self.static_correction),
+            Start::Equilibrium => self.scene.reduced_without_start(modes, self.static_correction),
         };
+        let mut reduction = reduction.map_err(|error| self.of_one_plane(error, modes))?;
         if self.start == Start::Equilibrium {
             reduction.scene.initial.q = equilibrium(&reduction.scene)?;
         }
@@ -74,6 +75,21 @@ impl Unreduced {
         }
         reduction.scene.loads.extend(self.turbulent_loads(&reduction.modes, self.scene.duration)?);
         Ok(reduction)
+    }
+
+    /// The error that `modes` in all planes are too few or too many, with the number of one plane,
+    /// which is the one that was asked for.
+    fn of_one_plane(&self, error: Error, modes: usize) -> Error {
+        match error {
+            Error::Invalid { subject, value, expected } if subject == Subject::of("modes") => {
+                let value = match value.strip_prefix(&modes.to_string()) {
+                    Some(rest) => format!("{}{rest}", modes / self.planes),
+                    None => value,
+                };
+                Error::Invalid { subject, value, expected }
+            }
+            other => other,
+        }
     }
 
     /// The loads of all fields of turbulence on `modes`, from 0 to `end` (s).

@@ -55,10 +55,11 @@ impl fmt::Display for Verdict {
         for wall in self.foremost() {
             write!(f, "; {} {:?}: impulse {}", wall.kind.word(), wall.wall, relative(wall.impulse_n_s, "N s"))?;
             let [before, after] = wall.contacts;
-            if before == after {
-                write!(f, ", {before} contacts as before")?
-            } else {
-                write!(f, ", contacts {before} → {after}")?
+            match before {
+                _ if before != after => write!(f, ", contacts {before} → {after}")?,
+                0 => f.write_str(", no contact as before")?,
+                1 => f.write_str(", 1 contact as before")?,
+                _ => write!(f, ", {before} contacts as before")?,
             }
             if let [Some(before), Some(after)] = wall.peak_force_n {
                 write!(f, ", peak force {}", relative([before, after], "N"))?;
@@ -129,6 +130,7 @@ mod tests {
 
     #[test]
     fn a_wall_that_only_one_run_touches_is_measured_by_the_largest() {
+        assert!(verdict(&[[1.0, 1.1]]).to_string().contains(", 1 contact as before"));
         let one_run_only = verdict(&[[-2.0, -2.0], [0.5, 0.0], [0.0, -0.25]]);
         assert!((one_run_only.impulse_change() - 0.25).abs() < 1e-15);
         assert!(one_run_only.to_string().contains("5.0e-1 N s → none"), "{one_run_only}");
