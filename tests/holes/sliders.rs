@@ -189,3 +189,41 @@ fn what_makes_no_slider_is_refused_by_name() {
     let refused = run(&pressed(0.1), &Scheme::Event, &Options::with_step(1e-3)).unwrap_err();
     assert!(refused.is_request() && refused.to_string().contains("friction at the slider \"pad\""), "{refused}");
 }
+
+/// A slider between two masses that knock against each other.
+const KNOCKING: &str = "[[body]]\nname = \"p\"\n[body.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 800.0\n\
+    [[body]]\nname = \"q\"\n[body.oscillator]\nmass = 1.5\ndamping = 0.1\nstiffness = 300.0\n\
+    [[wall]]\nname = \"knock\"\nat = { body = \"p\", dof = 0, relative_to = { body = \"q\", dof = 0 } }\n\
+    side = \"both\"\ngap = 3e-3\nrestitution = 0.6\n\
+    [[slider]]\nname = \"rub\"\nat = { body = \"p\", dof = 0, relative_to = { body = \"q\", dof = 0 } }\n\
+    normal_force = 2.0\nfriction = 0.2\n\
+    [[load]]\nat = { body = \"p\", dof = 0 }\nharmonic = { amplitude = 5.0, frequency = 3.0 }\n\
+    [time]\nend = 1.0\nstep = 1e-4\n";
+
+/// The normal force never ends, whatever strikes elsewhere.
+#[test]
+fn the_contact_of_a_slider_is_one() {
+    let case = file(KNOCKING).case().unwrap();
+    for scheme in [Scheme::Located, MOREAU_JEAN] {
+        let run = run(&case.scene, &scheme, &Options::new(case.time)).unwrap();
+        let of = |name: &str| {
+            let walls = run.trajectory.walls();
+            run.trajectory.contacts().iter().filter(|contact| walls[contact.wall].starts_with(name)).count()
+        };
+        assert!(of("knock") > 4 && of("rub") == 1, "{scheme}: {} and {}", of("knock"), of("rub"));
+    }
+}
+
+/// 10 N on a pad that holds 30 N: it sticks for ever, and wears nothing.
+#[test]
+fn what_sticks_wears_nothing() {
+    let text = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 100.0\n\
+        [[slider]]\nname = \"pad\"\nnormal_force = 100.0\nfriction = { static = 0.3, kinetic = 0.2 }\n\
+        [[load]]\nharmonic = { amplitude = 10.0, frequency = 2.0 }\n[time]\nend = 2.0\nstep = 1e-3\n";
+    let case = file(text).case().unwrap();
+    for scheme in [Scheme::Located, MOREAU_JEAN] {
+        let run = run(&case.scene, &scheme, &Options::new(case.time)).unwrap();
+        let wear = &run.statistics.wear[0];
+        assert_eq!((wear.work_rate_w, wear.friction_power_w, wear.sliding_m), (0.0, 0.0, 0.0), "{scheme}");
+    }
+}
