@@ -1,6 +1,7 @@
 //! A finished run.
 
-use super::options::{Judged, Judging, Recorded, Recording};
+use super::judging::{Judged, Judging};
+use super::recording::{Recorded, Recording};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::residual::{Finding, Refuted, Residuals};

@@ -2,19 +2,24 @@
 //!
 //! # Files
 //!
-//! One run: the loop stepper → judge and recorder (`observers.rs`), which `options.rs` can switch
-//! off; `divergence.rs` states when a run has diverged, which ends it; `notes.rs` and `notes/` add
+//! One run: the loop stepper → judge (`judging.rs`) and recorder (`recording.rs`), side by side
+//! (`observers.rs`), each of which `options.rs` can switch off; `finished.rs` is what a run leaves;
+//! `divergence.rs` states when a run has diverged, which ends it; `notes.rs` and `notes/` add
 //! the notes that a reader must know.
 
 mod divergence;
 mod finished;
+mod judging;
 pub(crate) mod notes;
 mod observers;
 mod options;
+mod recording;
 
 pub(crate) use divergence::Divergence;
 pub use finished::Run;
-pub use options::{Judged, Judging, Options, Recorded, Recording, Unjudged, Unrecorded};
+pub use judging::{Judged, Judging, Unjudged};
+pub use options::Options;
+pub use recording::{Recorded, Recording, Unrecorded};
 
 use crate::error::Result;
 use crate::residual::Finding;
@@ -88,7 +93,7 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     // The statistics of a run that diverged refer to the time up to there.
     let until = diverged.as_ref().map_or(scene.duration, |diverged| diverged.time);
     let seen = Scene { duration: until, ..Scene::clone(scene) };
-    let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), (&seen, scene.wall_masses()), from);
+    let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), &seen, scene.wall_masses(), from);
     // The rows of a run that diverged end before it does, and do not hold all of its impulses.
     let recorded = R::trajectory(&trajectory).filter(|_| diverged.is_none());
     let (residuals, mut findings) = J::verdict(judge, recorded);

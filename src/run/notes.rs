@@ -10,7 +10,8 @@ pub(crate) use resting::resting;
 pub(crate) use setup::setup;
 
 use super::finished::Run;
-use super::options::{Judging, Recording};
+use super::judging::Judging;
+use super::recording::Recording;
 use crate::residual::Energy;
 use crate::scene::{Checked, Scene};
 use crate::scheme::{Counters, Realised, Scheme};

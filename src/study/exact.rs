@@ -86,6 +86,6 @@ pub fn replay(scene: &Scene, run: &Run, time: &TimeOptions) -> Result<Replay> {
         Recorded::observe(&mut recorder, &step);
     }
     let (open, masses) = (stepper.open_contacts(), scene.wall_masses());
-    let (trajectory, statistics) = Recorded::finish(recorder, &open, (scene, &masses), time.statistics_from);
+    let (trajectory, statistics) = Recorded::finish(recorder, &open, scene, &masses, time.statistics_from);
     Ok(Replay { trajectory, statistics, findings: judge.findings() })
 }
