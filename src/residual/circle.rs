@@ -17,7 +17,7 @@ const VECTOR_UNITS: f64 = 32.0;
 const SHORTEST: f64 = 1e-3;
 
 impl Judge {
-    /// Follows each hole over the stretch, and adds its impulse to `residual`.
+    /// Follows each hole over the stretch, and adds its impulse to the net force's.
     pub(super) fn follow_holes(&mut self, step: &Step<'_>, series: &Series) {
         let Some(mut supports) = self.supports.take() else { return };
         let scene = std::sync::Arc::clone(&self.scene);
@@ -25,22 +25,22 @@ impl Judge {
             let (place, gap) = (hole.index, hole.gap);
             let mut sum = [0.0; 2];
             for (t, weight) in nodes(Panel::new(step.start, step.end, series.rate())) {
-                let s = &mut self.scratch;
-                series.state(t, &mut s.mean_q, &mut s.mean_v);
-                let [y, z] = hole.offset(&s.mean_q);
+                let s = &mut self.series;
+                series.state(t, &mut s.q, &mut s.v);
+                let [y, z] = hole.offset(&s.q);
                 let [py, pz] = series.hole_force(place, t);
                 let (distance, force) = (y.hypot(z), py.hypot(pz));
                 let pressure = if force > 0.0 { -(y * py + z * pz) / distance } else { 0.0 };
                 let across = if force > 0.0 { ((y * pz - z * py) / distance).abs() } else { 0.0 };
                 for (row, push) in [(&hole.at.y, py), (&hole.at.z, pz)] {
                     for &(i, share) in row.entries() {
-                        s.residual[i] += weight * share * push;
+                        s.net[i] += weight * share * push;
                     }
                 }
                 sum = [sum[0] + weight * py, sum[1] + weight * pz];
                 let centre = hole.centre[0].abs() + hole.centre[1].abs();
-                let speed = terms(hole.at, &s.mean_v);
-                let size = terms(hole.at, &s.mean_q) + centre + gap + speed * t;
+                let speed = terms(hole.at, &s.v);
+                let size = terms(hole.at, &s.q) + centre + gap + speed * t;
                 self.walls.observe_force(&mut self.noise, place, (pressure, force), true);
                 self.walls.observe_depth(place, distance - gap);
                 self.walls.observe_gap(&self.noise, place, (gap - distance, size), pressure);
@@ -61,8 +61,8 @@ impl Judge {
         self.supports = Some(supports);
     }
 
-    /// Checks the impulses of holes at the end of a step, before which the velocity is `spring`
-    /// (m/s), and sums up what each hole gave in the step.
+    /// Checks the impulses of holes at the end of a step, and sums up what each hole gave in
+    /// the step.
     pub(super) fn strike_holes(&mut self, step: &Step<'_>) {
         let Some(mut supports) = self.supports.take() else { return };
         let scene = std::sync::Arc::clone(&self.scene);
@@ -74,10 +74,10 @@ impl Judge {
             self.walls.observe_depth(place, distance - gap);
             let jump = step.jump[place];
             supports.give(place, step.hole_push(place), step.impulse[place]);
-            self.extent.speed = self.extent.speed.max(terms(hole.at, step.v)).max(terms(hole.at, &self.scratch.spring));
+            self.extent.speed = self.extent.speed.max(terms(hole.at, step.v)).max(terms(hole.at, &self.series.mid));
             self.walls.tension = self.walls.tension.max(-jump);
             let (Some(law), true) = (self.contract.promise.circle, jump != 0.0) else { continue };
-            let speeds = terms(hole.at, step.v) + terms(hole.at, &self.scratch.spring);
+            let speeds = terms(hole.at, step.v) + terms(hole.at, &self.series.mid);
             let centre = hole.centre[0].abs() + hole.centre[1].abs();
             let size = terms(hole.at, step.q) + centre + gap + speeds * step.end;
             let noise = self.noise.place(size);
@@ -85,7 +85,7 @@ impl Judge {
             self.walls.gaps.add((gap - distance, noise), (f64::INFINITY, 0.0), self.noise.end, place);
             let [ny, nz] = [y / distance, z / distance];
             let along = |v: [f64; 2]| ny * v[0] + nz * v[1];
-            let (before, after) = (along(hole.seen(&self.scratch.spring)), along(hole.seen(step.v)));
+            let (before, after) = (along(hole.seen(&self.series.mid)), along(hole.seen(step.v)));
             let unit = self.noise.span.max(SHORTEST * self.scene.duration);
             let noise = self.noise.velocity(speeds, unit) + noise / gap * speeds;
             let slow = e * before <= law.tail * self.extent.speed;

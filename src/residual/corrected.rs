@@ -17,12 +17,12 @@ impl Judge {
         let h = self.h;
         self.walls_on_grid(step, false);
         let closed = self.closes(step);
-        let PreviousStep { s, force, s_end, force_end, .. } = &mut *previous;
+        let PreviousStep { s, force, s_end, force_end, beyond, open } = &mut *previous;
         let scratch = &mut self.scratch;
         force_end.copy_from_slice(&self.load_end);
         smooth(&self.scene, step.q, step.v, step.force, force_end);
         // The displacement that the blows cause within the step, times M/h, N s.
-        self.loads.blow_moment(step.start, step.end, step.end, &mut scratch.mean_v);
+        self.loads.blow_moment(step.start, step.end, step.end, open);
         let (before, after) = (step.velocity_before, step.velocity_after);
         for i in 0..s.len() {
             s_end[i] = ((1.0 - alpha_f) * force_end[i] + alpha_f * force[i] - alpha_m * s[i]) / (1.0 - alpha_m);
@@ -31,16 +31,16 @@ impl Judge {
             // What M(v₊ − v₋) and M(q⁺ − q − hv₋)/h should be, N s, with the opposite sign; what
             // they are is added below.
             scratch.residual[i] = -h * ((1.0 - gamma) * s[i] + gamma * s_end[i]) - pushed - self.blows.impulse[i];
-            scratch.inertia[i] = -h * ((0.5 - beta) * s[i] + beta * s_end[i]) - 0.5 * pushed - scratch.mean_v[i] / h;
-            scratch.mean_v[i] = after[i] - before[i];
-            scratch.mean_q[i] = step.q[i] - self.q[i] - h * before[i];
+            open[i] = -h * ((0.5 - beta) * s[i] + beta * s_end[i]) - 0.5 * pushed - open[i] / h;
+            scratch.gained[i] = after[i] - before[i];
+            beyond[i] = step.q[i] - self.q[i] - h * before[i];
             let given = pushed.abs().max(self.blows.impulse[i].abs());
             let terms = s_end[i].abs().max(force_end[i].abs()).max(given / h);
             self.balance.raise_scale(terms / self.weights.root_mass[i]);
         }
         let system = &self.scene.system;
-        system.add_mass(1.0, &scratch.mean_v, &mut scratch.residual);
-        system.add_mass(1.0 / h, &scratch.mean_q, &mut scratch.inertia);
+        system.add_mass(1.0, &scratch.gained, &mut scratch.residual);
+        system.add_mass(1.0 / h, beyond, open);
         for (wall, &p) in self.scene.walls.iter().zip(step.impulse).filter(|(wall, _)| wall.law.is_rigid()) {
             for &(i, weight) in wall.row().entries() {
                 scratch.residual[i] -= weight * p;
@@ -67,10 +67,9 @@ impl Judge {
             // The balance of the displacement is checked as a length: divided by h² it would be
             // dominated by the rounding error of q.
             if !closed {
-                path = path.max(h * self.scratch.inertia[i].abs() / weight);
+                path = path.max(h * open[i].abs() / weight);
             }
             self.noise.load(s_end[i].abs().max(force_end[i].abs()) / weight);
-            self.scratch.spring[i] = force_end[i] + step.extra[i];
         }
         self.noise.state(step.q, step.v, h, &self.weights);
         std::mem::swap(s, s_end);

@@ -79,6 +79,7 @@ use quiet_scratch::QuietScratch;
 use row_walls::RowWalls;
 use scales::Scales;
 use scratch::Scratch;
+use series::SeriesScratch;
 use std::sync::Arc;
 use supports::Supports;
 use walls::WallCheck;
@@ -112,6 +113,7 @@ pub struct Judge {
     load_end: Vec<f64>,
     blows: Blows,
     scratch: Scratch,
+    series: SeriesScratch,
     /// Impulses over a part of a step, one entry a wall, N s.
     over: Vec<f64>,
     /// The vector instructions of the machine.
@@ -196,6 +198,7 @@ impl Judge {
             load_end: zero(),
             blows: Blows::new(n),
             scratch: Scratch::new(n),
+            series: SeriesScratch::new(n),
             over: vec![0.0; scene.walls.len()],
             arch: pulp::Arch::new(),
             quiet_scratch: QuietScratch::new(scene, contract, &weights, blows),

@@ -11,6 +11,10 @@ pub(super) struct PreviousStep {
     /// s⁺ and F⁺ of the current step.
     pub s_end: Vec<f64>,
     pub force_end: Vec<f64>,
+    /// Work space: the displacement of the current step beyond that at its first velocity, m, and
+    /// what is open of the balance of displacements, N s.
+    pub beyond: Vec<f64>,
+    pub open: Vec<f64>,
 }
 
 impl PreviousStep {
@@ -26,7 +30,8 @@ impl PreviousStep {
         let Balance::GeneralizedAlpha { .. } = contract.balance else { return None };
         let mut force = load.to_vec();
         smooth(scene, q, v, walls, &mut force);
-        Some(Box::new(Self { s: force.clone(), s_end: force.clone(), force_end: force.clone(), force }))
+        let [s, s_end, force_end, beyond, open] = std::array::from_fn(|_| force.clone());
+        Some(Box::new(Self { s, force, s_end, force_end, beyond, open }))
     }
 }
 

@@ -73,14 +73,15 @@ impl Judge {
         let (h, first) = (self.h, sums.steps == 1);
         let loads = (&self.load[..], &self.load_end[..]);
         let moves = StepMotion::of(step, (h, per_h), (&self.q, step.q), loads, &self.blows.impulse);
-        if matches!(self.contract.balance, Balance::GeneralizedAlpha { .. }) {
+        if let Some(previous) = &self.previous {
             // For generalized-α, the force at the end of the step, which includes dampers and the
             // walls that are springs.
             for i in 0..n {
                 let load = self.load_end[i];
                 sums.rate[i] += 0.5 * h * (sums.last[i] + step.velocity_after[i]);
                 let mut forces = sums.forces.of(i);
-                forces.add(first, h, [load, self.scratch.spring[i] - load, 0.0]);
+                let force = previous.force[i] + step.extra[i];
+                forces.add(first, h, [load, force - load, 0.0]);
                 sums.forces.set(i, forces);
             }
             sums.add_ends(simd, &moves, n);

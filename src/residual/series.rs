@@ -14,71 +14,103 @@ use crate::step::Step;
 /// largest momentum.
 const MOMENTUM_UNITS: f64 = 4.0;
 
+/// Work space for a stretch of exact motion, one entry per degree of freedom.
+#[derive(Debug)]
+pub(super) struct SeriesScratch {
+    /// State at an instant, m and m/s, and the load there, N.
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    load: Vec<f64>,
+    /// ∫q (m s) and ∫q̇ (m) over the stretch, which are multiplied by K and C once at its end, and ∫
+    /// of the net force, N s.
+    place: Vec<f64>,
+    way: Vec<f64>,
+    pub net: Vec<f64>,
+    /// Mean force of the dashpots, N.
+    rub: Vec<f64>,
+    /// Velocity at the end, before the blows there and after them, m/s.
+    left: Vec<f64>,
+    pub mid: Vec<f64>,
+    /// A change of velocity, m/s, and the momentum that the stretch gained and that its start
+    /// removed, N s.
+    change: Vec<f64>,
+    gained: Vec<f64>,
+    stopped: Vec<f64>,
+}
+
+impl SeriesScratch {
+    /// Zeros, n of each.
+    pub fn new(n: usize) -> Self {
+        let [q, v, load, place, way, net, rub, left, mid, change, gained, stopped] =
+            std::array::from_fn(|_| vec![0.0; n]);
+        Self { q, v, load, place, way, net, rub, left, mid, change, gained, stopped }
+    }
+}
+
 impl Judge {
     pub(super) fn observe_series(&mut self, step: &Step<'_>, series: &Series) {
         for (index, wall) in self.scene.walls.iter().enumerate() {
             self.walls.tension = self.walls.tension.max(-wall.sign() * step.jump[index]);
         }
         let mut moved = Moved::default();
-        self.scratch.damper.copy_from_slice(step.velocity_before);
+        self.series.left.copy_from_slice(step.velocity_before);
         if step.end > step.start {
             self.follow(step, series, &mut moved);
             // The velocity at the end, from the left.
-            let s = &mut self.scratch;
-            series.state(step.end, &mut s.mean_q, &mut s.damper);
+            let s = &mut self.series;
+            series.state(step.end, &mut s.q, &mut s.left);
             self.weigh(step, series);
         }
-        let s = &mut self.scratch;
-        for (i, mid) in s.spring.iter_mut().enumerate() {
-            *mid = s.damper[i] + self.blows.struck[i];
+        let s = &mut self.series;
+        for (i, mid) in s.mid.iter_mut().enumerate() {
+            *mid = s.left[i] + self.blows.struck[i];
             self.normal_speed = self.normal_speed.max(mid.abs() * self.weights.root_mass[i]);
         }
         if self.supports.is_some() {
             self.strike_holes(step);
         }
-        let s = &mut self.scratch;
-        self.energy.observe_series(step, moved, &self.blows.impulse, &s.damper, &s.spring);
+        let s = &self.series;
+        self.energy.observe_series(step, moved, &self.blows.impulse, &s.left, &s.mid);
     }
 
     /// Integrates over the stretch, and checks the walls' laws at the nodes. Leaves ∫ of the net
-    /// force in `residual`, N s.
+    /// force in `net`, N s.
     fn follow(&mut self, step: &Step<'_>, series: &Series, moved: &mut Moved) {
-        let s = &mut self.scratch;
-        s.residual.fill(0.0);
-        s.inertia.fill(0.0);
-        s.spring.fill(0.0);
+        let s = &mut self.series;
+        for sum in [&mut s.net, &mut s.place, &mut s.way] {
+            sum.fill(0.0);
+        }
         let system = &self.scene.system;
         for (t, weight) in nodes(Panel::new(step.start, step.end, series.rate())) {
-            series.state(t, &mut s.mean_q, &mut s.mean_v);
+            series.state(t, &mut s.q, &mut s.v);
             s.load.copy_from_slice(step.extra);
             self.loads.add_force(t, 1.0, &mut s.load);
-            let power: f64 = s.load.iter().zip(&s.mean_v).map(|(f, v)| f * v).sum();
+            let power: f64 = s.load.iter().zip(&s.v).map(|(f, v)| f * v).sum();
             moved.work += weight * power;
             moved.passed += weight * power.abs();
-            moved.damping += weight * system.damping_form(&s.mean_v, &s.mean_v);
-            for i in 0..s.residual.len() {
-                s.residual[i] += weight * s.load[i];
-                // ∫q and ∫q̇, which are multiplied by K and C once at the end.
-                s.inertia[i] += weight * s.mean_q[i];
-                s.spring[i] += weight * s.mean_v[i];
+            moved.damping += weight * system.damping_form(&s.v, &s.v);
+            for i in 0..s.net.len() {
+                s.net[i] += weight * s.load[i];
+                s.place[i] += weight * s.q[i];
+                s.way[i] += weight * s.v[i];
                 let weight = self.weights.root_mass[i];
                 self.balance.raise_scale(s.load[i].abs() / weight);
-                self.normal_speed = self.normal_speed.max(s.mean_v[i].abs() * weight);
+                self.normal_speed = self.normal_speed.max(s.v[i].abs() * weight);
             }
-            self.noise.state(&s.mean_q, &s.mean_v, 0.0, &self.weights);
+            self.noise.state(&s.q, &s.v, 0.0, &self.weights);
             let force = |wall: usize| series.contact_force(wall, t);
-            moved.largest = moved.largest.max(Ledger::energy_at(&self.scene, &s.mean_q, &s.mean_v, force));
+            moved.largest = moved.largest.max(Ledger::energy_at(&self.scene, &s.q, &s.v, force));
             for (index, wall) in self.scene.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round()) {
                 let (sign, r) = (wall.side().sign(), force(index));
-                let (w, rate) = (wall.row().dot(&s.mean_q), wall.row().dot(&s.mean_v));
+                let (w, rate) = (wall.row().dot(&s.q), wall.row().dot(&s.v));
                 let pressure = sign * r;
                 let (gap, rigid) = (wall.gap(w), wall.law.is_rigid());
                 self.walls.observe_force(&mut self.noise, index, (pressure, pressure.abs()), rigid);
                 self.walls.observe_depth(index, -gap);
                 for &(i, g) in wall.row().entries() {
-                    s.residual[i] += weight * g * r;
+                    s.net[i] += weight * g * r;
                 }
-                let size = wall.row().size(&s.mean_q) + wall.position().abs() + rate.abs() * t;
+                let size = wall.row().size(&s.q) + wall.position().abs() + rate.abs() * t;
                 if rigid {
                     self.walls.observe_gap(&self.noise, index, (gap, size), pressure);
                     continue;
@@ -96,18 +128,18 @@ impl Judge {
             self.follow_holes(step, series);
         }
         self.scale_by_dashpots(step.end - step.start);
-        let (s, system) = (&mut self.scratch, &self.scene.system);
-        system.add_damping(-1.0, &s.spring, &mut s.residual);
-        system.add_stiffness(-1.0, &s.inertia, &mut s.residual);
+        let (s, system) = (&mut self.series, &self.scene.system);
+        system.add_damping(-1.0, &s.way, &mut s.net);
+        system.add_stiffness(-1.0, &s.place, &mut s.net);
     }
 
-    /// Notes the mean force of the dashpots over `span` seconds, with ∫q̇ in `spring`: without
-    /// loads and springs it is the only force.
+    /// Notes the mean force of the dashpots over `span` seconds: without loads and springs it is the
+    /// only force.
     fn scale_by_dashpots(&mut self, span: f64) {
-        let s = &mut self.scratch;
-        s.damper.fill(0.0);
-        self.scene.system.add_damping(1.0 / span, &s.spring, &mut s.damper);
-        for (force, weight) in s.damper.iter().zip(&self.weights.root_mass) {
+        let s = &mut self.series;
+        s.rub.fill(0.0);
+        self.scene.system.add_damping(1.0 / span, &s.way, &mut s.rub);
+        for (force, weight) in s.rub.iter().zip(&self.weights.root_mass) {
             self.balance.raise_scale(force.abs() / weight);
         }
     }
@@ -121,25 +153,22 @@ impl Judge {
     /// size. So it is measured as an impulse: by the force that would give it within one radian of
     /// the fastest motion.
     fn weigh(&mut self, step: &Step<'_>, series: &Series) {
-        let s = &mut self.scratch;
+        let s = &mut self.series;
         let span = step.end - step.start;
         let radian = (1.0 / series.rate()).min(self.scene.duration).max(span);
-        series.state(step.start, &mut s.mean_q, &mut s.spring);
-        for (((v, begun), end), start) in
-            s.mean_v.iter_mut().zip(&mut s.spring).zip(&s.damper).zip(step.velocity_before)
+        series.state(step.start, &mut s.q, &mut s.v);
+        for (from, to, momentum) in
+            [(&s.v[..], &s.left[..], &mut s.gained), (step.velocity_before, &s.v, &mut s.stopped)]
         {
-            *v = end - *begun;
-            *begun -= start;
+            s.change.iter_mut().zip(to.iter().zip(from)).for_each(|(change, (to, from))| *change = to - from);
+            momentum.fill(0.0);
+            self.scene.system.add_mass(1.0, &s.change, momentum);
         }
-        s.inertia.fill(0.0);
-        self.scene.system.add_mass(1.0, &s.mean_v, &mut s.inertia);
-        s.mean_q.fill(0.0);
-        self.scene.system.add_mass(1.0, &s.spring, &mut s.mean_q);
         // Over so short a stretch the rounding error of the momentum would count as a force, too.
         let rounding = MOMENTUM_UNITS * f64::EPSILON * self.normal_speed;
         let (mut worst, mut doubtful) = (0.0_f64, 0.0_f64);
         for (i, weight) in self.weights.root_mass.iter().enumerate() {
-            let (open, stopped) = (s.inertia[i] - s.residual[i], s.mean_q[i]);
+            let (open, stopped) = (s.gained[i] - s.net[i], s.stopped[i]);
             let beyond = |open: f64| (open.abs() - rounding * weight).max(0.0);
             let force = (beyond(open) / span).max(beyond(stopped) / radian);
             self.balance.raise_largest(force);

@@ -143,7 +143,7 @@ fn an_impulse_that_the_force_does_not_give_counts_less_its_rounding() {
 /// the velocity `before` to `after`; the judge has seen a speed of 100 m/s before.
 fn strike(scene: &Scene, end: f64, q: [f64; 2], (before, after): ([f64; 2], [f64; 2])) -> Judge {
     let mut judge = start(scene, (&[], &[]));
-    judge.scratch.spring.copy_from_slice(&before);
+    judge.series.mid.copy_from_slice(&before);
     judge.extent.speed = 100.0;
     judge.noise.span = SPAN;
     let made = Made { start: end - SPAN, end, q: q.to_vec(), after: after.to_vec(), ..Made::rest(scene, SPAN) };
@@ -214,7 +214,7 @@ fn an_impact_off_the_circle_or_the_law_counts_less_the_rounding_of_all_terms() {
 fn the_hole_that_is_struck_against_its_law_is_named() {
     let scene = with_hole(scene(5.0, [0.0; 2]), "other", 5.0, RIGID).with_wall(Wall::upper("idle", 9.0));
     let mut judge = start(&scene, (&[], &[]));
-    judge.scratch.spring.copy_from_slice(&[3.0, 0.0]);
+    judge.series.mid.copy_from_slice(&[3.0, 0.0]);
     let made =
         Made { q: vec![5.0, 0.0], after: vec![-1.5, 0.0], jump: vec![0.0, 1.0, 0.0], ..Made::rest(&scene, SPAN) };
     judge.strike_holes(&made.pushing(1, [0.8, 0.6], 1.0).step());

@@ -50,7 +50,8 @@ fn a_force_is_said_to_change_from_the_second_step_on() {
     // generalized-α: the whole force at the end of a step is 7 N, 3 N of it the load's.
     let alpha = Balance::GeneralizedAlpha { alpha_m: 0.0, alpha_f: 0.5, beta: 0.25, gamma: 0.5 };
     let mut alpha = judge(&scene, contract(alpha), 0.0, 2.0);
-    (alpha.load_end, alpha.scratch.spring) = (vec![3.0], vec![7.0]);
+    alpha.load_end = vec![3.0];
+    alpha.previous.as_mut().expect("generalized-α").force = vec![7.0];
     alpha.sum(Scalar, &Claim::of(1.0, 2.0, 4.0, 0).step(), 1.0 / H, 1);
     let Forces { load, own, changes, largest, exchanged } = alpha.sums.forces.of(0);
     assert_eq!([load, own, changes, largest, exchanged], [3.0, 4.0, 0.0, 7.0, 7.0 * H]);
