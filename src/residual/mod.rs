@@ -217,20 +217,7 @@ impl Judge {
     pub fn observe(&mut self, step: &Step<'_>) {
         let (n, walls) = (self.q.len(), self.scene.walls.len());
         let planar = if self.supports.is_some() { walls } else { 0 };
-        let moved = [step.q, step.v, step.velocity_before, step.velocity_after, step.extra];
-        let pushed = [step.impulse, step.jump, step.force];
-        if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != walls) {
-            return;
-        }
-        if [step.friction.len(), step.normal.len(), step.turned.len()] != [planar; 3] {
-            return;
-        }
-        let fits = match step.path {
-            Path::Series(series) => series.degrees_of_freedom() == n,
-            Path::Exact(_) => n == 1,
-            Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => true,
-        };
-        if !fits {
+        if !step.fits(n, walls, planar) {
             return;
         }
         // Without blows these vectors stay zero.

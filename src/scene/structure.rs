@@ -66,10 +66,7 @@ pub(super) fn validate(
             let size = format!("{0} × {0}", matrix.size());
             return Err(Error::invalid(matrix_of(name), size, format!("{n} × {n}, as the mass")));
         }
-        if let Some((i, j, value)) = matrix.not_finite() {
-            let key = matrix_of(name).entry(i, j);
-            return Err(Error::invalid(key, format_args!("{value:?}"), "a finite number"));
-        }
+        finite_matrix(name, matrix)?;
     }
     definite(&structure.mass, mass)?;
     damped(structure)?;
@@ -79,6 +76,12 @@ pub(super) fn validate(
 /// M, C or K by its name.
 pub(in crate::scene) fn matrix_of(name: &str) -> Subject {
     Subject::of("system").part(format!("{name} matrix"))
+}
+
+/// Refuses entries that are not finite; the matrix is named as in [`matrix_of`].
+pub(super) fn finite_matrix(name: &str, matrix: &Symmetric) -> Result<()> {
+    let Some((i, j, value)) = matrix.not_finite() else { return Ok(()) };
+    Err(Error::invalid(matrix_of(name).entry(i, j), format_args!("{value:?}"), "a finite number"))
 }
 
 /// Rounding of an assembled matrix, relative to its diagonal: a semidefinite matrix shifted by this

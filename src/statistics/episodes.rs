@@ -1,8 +1,8 @@
 //! Contact episodes of walls and supports, joined over short rests.
 
-use super::Statistics;
 use super::distribution::Distribution;
 use super::place::{ContactPlace, PlaceKind};
+use super::{Statistics, by_wall};
 use crate::scene::Scene;
 use crate::step::Contact;
 use serde::Serialize;
@@ -49,12 +49,7 @@ impl EpisodeStatistics {
     #[must_use]
     pub fn of(scene: &Scene, statistics: &Statistics, contacts: &[Contact], rest: f64) -> Vec<Self> {
         let window = [statistics.from_s, statistics.to_s];
-        let mut by_wall = vec![Vec::new(); scene.walls.len()];
-        for contact in contacts {
-            if let Some(list) = by_wall.get_mut(contact.wall) {
-                list.push(*contact);
-            }
-        }
+        let by_wall = by_wall(contacts, scene.walls.len());
         let mut all = Vec::with_capacity(scene.walls.len() + scene.supports.len());
         let flats = scene.walls.iter().zip(statistics.walls.iter().zip(&by_wall)).filter(|(wall, _)| !wall.is_round());
         for (_, (wall, own)) in flats {
@@ -70,7 +65,7 @@ impl EpisodeStatistics {
         all
     }
 
-    fn at(place: ContactPlace, contacts: Vec<Contact>, elastic: bool, [from, to]: [f64; 2], rest: f64) -> Self {
+    fn at(place: ContactPlace, contacts: Vec<&Contact>, elastic: bool, [from, to]: [f64; 2], rest: f64) -> Self {
         let joined = join(contacts, to, rest);
         let here: Vec<Episode> = joined.into_iter().filter(|episode| episode.start >= from).collect();
         let of = |what: fn(&Episode) -> f64| Distribution::of(here.iter().map(what).collect());
@@ -88,10 +83,10 @@ impl EpisodeStatistics {
 
 /// Joins contacts that overlap, or between which less than `rest` (s) lies; one that is open lasts
 /// until `to` (s).
-fn join(mut contacts: Vec<Contact>, to: f64, rest: f64) -> Vec<Episode> {
+fn join(mut contacts: Vec<&Contact>, to: f64, rest: f64) -> Vec<Episode> {
     contacts.sort_by(|a, b| a.start.total_cmp(&b.start));
     let mut episodes: Vec<Episode> = Vec::new();
-    for contact in &contacts {
+    for contact in contacts {
         let end = contact.end.unwrap_or(to);
         match episodes.last_mut().filter(|last| contact.start - last.end < rest) {
             Some(last) => {

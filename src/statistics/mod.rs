@@ -142,12 +142,7 @@ impl Statistics {
     pub(crate) fn of(scene: &Scene, masses: &[f64], contacts: &[Contact], from: f64) -> Self {
         let to = scene.duration;
         let from = from.min(to);
-        let mut by_wall = vec![Vec::new(); scene.walls.len()];
-        for contact in contacts {
-            if let Some(list) = by_wall.get_mut(contact.wall) {
-                list.push(contact);
-            }
-        }
+        let by_wall = by_wall(contacts, scene.walls.len());
         let wall = |(index, (wall, all)): (usize, (&Wall, &Vec<&Contact>))| {
             of_wall(wall, all, masses.get(index).copied().unwrap_or(0.0), [from, to])
         };
@@ -184,6 +179,17 @@ impl Statistics {
     pub(crate) fn impulse(&self, wall: usize) -> f64 {
         self.walls.get(wall).and_then(|wall| wall.force).map_or(0.0, |force| force.impulse_n_s)
     }
+}
+
+/// The contacts of each of so many walls.
+fn by_wall(contacts: &[Contact], walls: usize) -> Vec<Vec<&Contact>> {
+    let mut by_wall = vec![Vec::new(); walls];
+    for contact in contacts {
+        if let Some(list) = by_wall.get_mut(contact.wall) {
+            list.push(contact);
+        }
+    }
+    by_wall
 }
 
 fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> WallStatistics {

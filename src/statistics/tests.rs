@@ -4,7 +4,7 @@ use super::batch::Sums;
 use super::*;
 use crate::linear::Symmetric;
 use crate::scene::{Face, PlaneRows, Row, Scene, Side, Structure, Wall};
-use crate::step::{Path, Step};
+use crate::step::Step;
 
 fn contact(wall: usize, start: f64, end: f64, peak_force: Option<f64>) -> Contact {
     let (impulse, speed) = (-1.0, 1.0);
@@ -30,20 +30,11 @@ fn step<'a>(index: u64, [start, end]: [f64; 2], impulse: &'a [f64], jump: &'a [f
         start,
         end,
         q: &[1.0, 0.0],
-        v: none,
         velocity_before: &[2.0, 0.0],
-        velocity_after: none,
         impulse,
         jump,
-        force: none,
         friction: none,
-        normal: &[],
-        turned: &[],
-        wedged: &[],
-        resting: &[],
-        extra: none,
-        closed: &[],
-        path: Path::Grid,
+        ..Step::still(none, none)
     }
 }
 

@@ -72,7 +72,50 @@ pub enum Path<'a> {
     },
 }
 
+impl<'a> Step<'a> {
+    /// A step of no length in which nothing moves, with zeros of all degrees of freedom and of all
+    /// walls.
+    #[inline]
+    pub(crate) fn still(freedoms: &'a [f64], walls: &'a [f64]) -> Self {
+        Self {
+            index: 0,
+            start: 0.0,
+            end: 0.0,
+            q: freedoms,
+            v: freedoms,
+            velocity_before: freedoms,
+            velocity_after: freedoms,
+            impulse: walls,
+            jump: walls,
+            force: walls,
+            friction: &[],
+            normal: &[],
+            turned: &[],
+            wedged: &[],
+            resting: &[],
+            extra: freedoms,
+            closed: &[],
+            path: Path::Grid,
+        }
+    }
+}
+
 impl Step<'_> {
+    /// True if it is of a scene with `n` degrees of freedom and `walls` walls, of which it tells
+    /// friction and normals of `planar`: of all or of none.
+    #[inline]
+    pub(crate) fn fits(&self, n: usize, walls: usize, planar: usize) -> bool {
+        let moved = [self.q, self.v, self.velocity_before, self.velocity_after, self.extra];
+        let pushed = [self.impulse, self.jump, self.force];
+        let along = match self.path {
+            Path::Series(series) => series.degrees_of_freedom() == n,
+            Path::Exact(_) => n == 1,
+            Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => true,
+        };
+        let turned = [self.friction.len(), self.normal.len(), self.turned.len()] == [planar; 3];
+        turned && along && moved.iter().all(|x| x.len() == n) && pushed.iter().all(|x| x.len() == walls)
+    }
+
     /// The length of the step, s: that of the grid, `h`, except in parts of its steps.
     #[cfg(feature = "cli")]
     pub(crate) fn length(&self, h: f64) -> f64 {

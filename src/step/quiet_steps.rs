@@ -141,17 +141,7 @@ impl QuietSteps {
             v: &self.v[one.clone()],
             velocity_before: &self.before[one.clone()],
             velocity_after: &self.after[one],
-            impulse: &self.zeros,
-            jump: &self.zeros,
-            force: &self.zeros,
-            friction: &[],
-            normal: &[],
-            turned: &[],
-            wedged: &[],
-            resting: &[],
-            extra: &[0.0],
-            closed: &[],
-            path: Path::Grid,
+            ..Step::still(&[0.0], &self.zeros)
         }
     }
 }

@@ -71,14 +71,8 @@ impl Recorder {
     /// steps of another scene, with another number of walls or degrees of freedom.
     pub fn observe(&mut self, step: &Step<'_>) {
         self.worn.begin();
-        let (n, m) = (self.state[0].len(), self.pending.len());
-        let moved = [step.q, step.v, step.velocity_before];
-        let pushed = [step.impulse, step.jump, step.force];
-        if moved.iter().any(|x| x.len() != n) || pushed.iter().any(|x| x.len() != m) {
-            return;
-        }
         let planar = self.planar.friction.len();
-        if [step.friction.len(), step.normal.len(), step.turned.len()] != [planar; 3] {
+        if !step.fits(self.state[0].len(), self.pending.len(), planar) {
             return;
         }
         self.output.observe(step, &self.probes);

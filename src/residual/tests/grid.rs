@@ -70,14 +70,8 @@ impl Claim {
             impulse: &self.impulse,
             jump: &self.jump,
             force: &self.force,
-            friction: &[],
-            normal: &[],
-            turned: &[],
-            wedged: &[],
-            resting: &[],
             extra: &self.extra,
-            closed: &[],
-            path: Path::Grid,
+            ..Step::still(&[], &[])
         }
     }
 }

@@ -4,7 +4,7 @@ use super::definite::definite;
 use super::{dense, krylov};
 use crate::error::{Error, Result};
 use crate::linear::{Operator, Symmetric};
-use crate::scene::structure::matrix_of;
+use crate::scene::structure::{finite_matrix, matrix_of};
 use crate::scene::{Row, Structure};
 use std::ops::Range;
 
@@ -63,12 +63,8 @@ impl Modes {
             let expected = format!("at most {MOST_MODES} for more than {MOST_DENSE} degrees of freedom");
             return Err(Error::invalid("modes", count, expected));
         }
-        for (name, matrix) in [("mass", &structure.mass), ("stiffness", &structure.stiffness)] {
-            if let Some((i, j, value)) = matrix.not_finite() {
-                let key = matrix_of(name).entry(i, j);
-                return Err(Error::invalid(key, format_args!("{value:?}"), "a finite number"));
-            }
-        }
+        finite_matrix("mass", &structure.mass)?;
+        finite_matrix("stiffness", &structure.stiffness)?;
         if structure.mass.half_bandwidth() == 0 && structure.stiffness.half_bandwidth() == 0 {
             return uncoupled(structure, count);
         }

@@ -10,24 +10,11 @@ fn impulses_are_averaged_over_the_intervals_of_a_window_that_begins_later() {
     let mut forces = Forces::new(&scene, 2.0, 0.1);
     let mut push = |start: f64, p: f64| {
         forces.observe(&Step {
-            index: 0,
             start,
             end: start + 0.01,
-            q: &[0.0],
-            v: &[0.0],
-            velocity_before: &[0.0],
-            velocity_after: &[0.0],
             impulse: &[p],
-            jump: &[0.0],
             force: &[100.0 * p],
-            friction: &[],
-            normal: &[],
-            turned: &[],
-            wedged: &[],
-            resting: &[],
-            extra: &[0.0],
-            closed: &[],
-            path: Path::Grid,
+            ..Step::still(&[0.0], &[0.0])
         });
     };
     // Before the window; at its beginning; two in one interval; and three close to the end, the

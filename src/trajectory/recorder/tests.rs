@@ -29,16 +29,8 @@ impl Shown {
             velocity_before: &self.before,
             velocity_after: &self.v,
             impulse: &self.impulse,
-            jump: &[0.0],
-            force: &[0.0],
-            friction: &[],
-            normal: &[],
-            turned: &[],
-            wedged: &[],
-            resting: &[],
-            extra: &[0.0],
-            closed: &[],
             path,
+            ..Step::still(&[0.0], &[0.0])
         }
     }
 }
