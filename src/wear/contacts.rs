@@ -8,7 +8,7 @@
 //! is integrated from one sign change to the next.
 
 use super::blows::Blow;
-use super::piece::{ImpulseDuration, Section, SlidingPiece, along, around, degrees, in_part, on_grid};
+use super::piece::{ImpulseDuration, Piece, Section, SlidingPiece, degrees};
 use crate::linear::Segment;
 use crate::scene::{Face, Scene, Support, Wall, heading};
 use crate::step::{Path, Step};
@@ -90,19 +90,14 @@ impl SlidingContacts {
                     sliding: 0.0,
                     time: to - from,
                 };
+                let piece = Piece { step, section, span: [from, to], blank: &blank };
                 match (&step.path, contact) {
-                    (Path::Series(series), Contact::Flat { wall, .. }) => {
-                        along(series, (step, *wall), section, [from, to], &blank, &mut each);
-                    }
-                    (Path::Series(series), Contact::Hole { wall, .. }) => {
-                        around(series, (step, *wall), section, [from, to], &blank, &mut each);
-                    }
-                    (Path::Part { .. }, _) => {
-                        in_part(step, section, (contact.wall(), [from, to]), &blank, &mut each);
-                    }
+                    (Path::Series(series), Contact::Flat { .. }) => piece.along(series, &mut each),
+                    (Path::Series(series), Contact::Hole { .. }) => piece.around(series, &mut each),
+                    (Path::Part { .. }, _) => piece.in_part(&mut each),
                     _ => {
                         let blown = Blow::along(&section.blows, blank.normal, [step.start, step.end]);
-                        each(&on_grid(step, section, [from, to], &blank, blown));
+                        each(&piece.on_grid(blown));
                     }
                 }
             }
@@ -123,11 +118,6 @@ impl Contact {
         match self {
             Self::Flat { rigid, .. } | Self::Hole { rigid, .. } => rigid,
         }
-    }
-
-    fn wall(self) -> usize {
-        let (Self::Flat { wall, .. } | Self::Hole { wall, .. }) = self;
-        wall
     }
 
     /// The index of the contact, with its force and impulse; `None` if there was none.

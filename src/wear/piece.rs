@@ -79,135 +79,140 @@ impl Section {
     }
 }
 
-/// A piece of a step on a grid: its share of the step's impulse, with the sliding velocity `blown`
-/// (m/s) that the blows give at its start.
-pub(super) fn on_grid(
-    step: &Step<'_>,
-    section: &Section,
-    [from, to]: [f64; 2],
-    blank: &SlidingPiece,
-    blown: f64,
-) -> SlidingPiece {
-    let length = step.end - step.start;
-    let share = if length > 0.0 { ((to - from) / length).clamp(0.0, 1.0) } else { 1.0 };
-    let [before, after] = section.both_along(blank.normal, [step.velocity_before, step.velocity_after]);
-    let before = before + blown;
-    let (impulse, friction) = (share * blank.impulse, share * blank.friction);
-    SlidingPiece {
-        impulse,
-        friction,
-        work: work_of_impulse(impulse, before, after),
-        dissipated: -0.5 * friction * (before + after),
-        sliding: sliding_distance(to - from, before, after),
-        ..*blank
-    }
+/// The time from `span[0]` to `span[1]` (s) in a step, at a contact that pushes in the step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece<'a> {
+    pub step: &'a Step<'a>,
+    pub section: &'a Section,
+    pub span: [f64; 2],
+    /// The contact with its impulse in the step, without what slides.
+    pub blank: &'a SlidingPiece,
 }
 
-/// A piece of a part of a step: the force over it, then the impulse at its end. A wall with an
-/// impulse there has its friction there.
-pub(super) fn in_part(
-    step: &Step<'_>,
-    section: &Section,
-    (wall, [from, to]): (usize, [f64; 2]),
-    blank: &SlidingPiece,
-    each: &mut impl FnMut(&SlidingPiece),
-) {
-    let jump = step.jump.get(wall).map_or(0.0, |p| p.abs());
-    let impulse = blank.impulse - jump;
-    // Rounding of the sum is not a contact.
-    if step.end > step.start && impulse > f64::EPSILON * jump {
-        let friction = if jump == 0.0 { blank.friction } else { 0.0 };
-        let over = SlidingPiece { duration: ImpulseDuration::Lasting, impulse, friction, ..*blank };
-        each(&on_grid(step, section, [from, to], &over, 0.0));
+impl Piece<'_> {
+    /// In a step on a grid: its share of the step's impulse, with the sliding velocity `blown`
+    /// (m/s) that the blows give at its start.
+    pub fn on_grid(&self, blown: f64) -> SlidingPiece {
+        let Self { step, section, span: [from, to], blank } = *self;
+        let length = step.end - step.start;
+        let share = if length > 0.0 { ((to - from) / length).clamp(0.0, 1.0) } else { 1.0 };
+        let [before, after] = section.both_along(blank.normal, [step.velocity_before, step.velocity_after]);
+        let before = before + blown;
+        let (impulse, friction) = (share * blank.impulse, share * blank.friction);
+        SlidingPiece {
+            impulse,
+            friction,
+            work: work_of_impulse(impulse, before, after),
+            dissipated: -0.5 * friction * (before + after),
+            sliding: sliding_distance(to - from, before, after),
+            ..*blank
+        }
     }
-    if to >= step.end {
-        let left = section.along(blank.normal, step.velocity_after);
-        knock(step, section, (jump, left), blank, each);
-    }
-}
 
-/// A piece of a stretch of exact motion: the force over it, then the impulse at its end.
-pub(super) fn along(
-    series: &Series,
-    (step, wall): (&Step<'_>, usize),
-    section: &Section,
-    [from, to]: [f64; 2],
-    blank: &SlidingPiece,
-    each: &mut impl FnMut(&SlidingPiece),
-) {
-    let jump = step.jump.get(wall).map_or(0.0, |p| p.abs());
-    // The impulse of the wall apart from the jump; rounding of the sum is not a contact.
-    let pushed = series.acting_walls().any(|(acting, _)| acting == wall);
-    let [y, z] = blank.normal;
-    let moved = series.seen_along([&section.at.y, &section.at.z], [-z, y]);
-    let speed = |t: f64| series.rate_of(&moved, t);
-    if pushed && to > from {
-        let sliding = Sliding {
-            force: &|t| series.contact_force(wall, t).abs(),
-            impulse: &|a, b| series.contact_impulse(wall, a, b).abs(),
-            speed: &speed,
-            way: &|a, b| series.value_of(&moved, b) - series.value_of(&moved, a),
-        };
-        let mut sum = SlidingSums::default();
-        let count = parts_of(series, [from, to]);
-        parts([from, to], count as usize, |a, b| sliding.add(a, b, &mut sum));
-        each(&lasting(blank, &sum));
+    /// In a part of a step: the force over it, then the impulse at its end. A wall with an impulse
+    /// there has its friction there.
+    pub fn in_part(&self, each: &mut impl FnMut(&SlidingPiece)) {
+        let Self { step, blank, .. } = *self;
+        let jump = self.jump();
+        let impulse = blank.impulse - jump;
+        // Rounding of the sum is not a contact.
+        if step.end > step.start && impulse > f64::EPSILON * jump {
+            let friction = if jump == 0.0 { blank.friction } else { 0.0 };
+            let over = SlidingPiece { duration: ImpulseDuration::Lasting, impulse, friction, ..*blank };
+            each(&Piece { blank: &over, ..*self }.on_grid(0.0));
+        }
+        self.strike(|| self.section.along(blank.normal, step.velocity_after), each);
     }
-    if to >= step.end {
-        let left =
-            if step.end > step.start { speed(step.end) } else { section.along(blank.normal, step.velocity_before) };
-        knock(step, section, (jump, left), blank, each);
-    }
-}
 
-/// The same for a round hole, in pieces over which its normal turns little.
-pub(super) fn around(
-    series: &Series,
-    (step, hole): (&Step<'_>, usize),
-    section: &Section,
-    [from, to]: [f64; 2],
-    blank: &SlidingPiece,
-    each: &mut impl FnMut(&SlidingPiece),
-) {
-    let speed = |t: f64| {
-        let ([y, z], [vy, vz]) = series.at_hole(hole, t);
-        (y * vz - z * vy) / y.hypot(z)
-    };
-    let way = |a: f64, b: f64| {
-        let ([y, z], [u, v]) = (series.at_hole(hole, a).0, series.at_hole(hole, b).0);
-        y.hypot(z) * (y * v - z * u).atan2(y * u + z * v)
-    };
-    if let Some(impulse) = series.round_impulse(hole)
-        && to > from
-    {
-        let sliding = Sliding {
-            force: &|t| series.hole_pressure(hole, t),
-            impulse: &|a, b| series.hole_push(hole, a, b),
-            speed: &speed,
-            way: &way,
-        };
-        let (mut turn, count) = (0.0, parts_of(series, [from, to]));
-        parts([from, to], count as usize, |a, b| {
-            let [y, z] = series.at_hole(hole, a).0;
-            turn += way(a, b).abs() / y.hypot(z);
-        });
-        let count = count.max((turn / TURN).ceil()).min(MOST_PARTS);
-        let mut time = to - from;
-        parts([from, to], count as usize, |a, b| {
+    /// In a stretch of exact motion: the force over it, then the impulse at its end.
+    pub fn along(&self, series: &Series, each: &mut impl FnMut(&SlidingPiece)) {
+        let Self { section, span: [from, to], blank, .. } = *self;
+        let wall = blank.contact;
+        // The impulse of the wall apart from the jump; rounding of the sum is not a contact.
+        let pushed = series.acting_walls().any(|(acting, _)| acting == wall);
+        let [y, z] = blank.normal;
+        let moved = series.seen_along([&section.at.y, &section.at.z], [-z, y]);
+        let speed = |t: f64| series.rate_of(&moved, t);
+        if pushed && to > from {
+            let sliding = Sliding {
+                force: &|t| series.contact_force(wall, t).abs(),
+                impulse: &|a, b| series.contact_impulse(wall, a, b).abs(),
+                speed: &speed,
+                way: &|a, b| series.value_of(&moved, b) - series.value_of(&moved, a),
+            };
             let mut sum = SlidingSums::default();
-            sliding.add(a, b, &mut sum);
-            let [began, angle] = [a, 0.5 * (a + b)].map(|t| degrees(series.at_hole(hole, t).0));
-            // Over so short a piece the impulse vector is nearly p n; this is its magnitude p.
-            let push = impulse.between(a, b);
-            let normal = if sum.impulse > 0.0 { push.map(|push| -push / sum.impulse) } else { blank.normal };
-            each(&SlidingPiece { time: std::mem::take(&mut time), angle, began, normal, ..lasting(blank, &sum) });
-        });
+            let count = parts_of(series, [from, to]);
+            parts([from, to], count as usize, |a, b| sliding.add(a, b, &mut sum));
+            each(&lasting(blank, &sum));
+        }
+        self.strike(|| self.speed_left(speed), each);
     }
-    if to >= step.end {
-        let jump = step.jump.get(hole).copied().unwrap_or(0.0);
-        let left =
-            if step.end > step.start { speed(step.end) } else { section.along(blank.normal, step.velocity_before) };
-        knock(step, section, (jump, left), blank, each);
+
+    /// The same for a round hole, in pieces over which its normal turns little.
+    pub fn around(&self, series: &Series, each: &mut impl FnMut(&SlidingPiece)) {
+        let Self { span: [from, to], blank, .. } = *self;
+        let hole = blank.contact;
+        let speed = |t: f64| {
+            let ([y, z], [vy, vz]) = series.at_hole(hole, t);
+            (y * vz - z * vy) / y.hypot(z)
+        };
+        let way = |a: f64, b: f64| {
+            let ([y, z], [u, v]) = (series.at_hole(hole, a).0, series.at_hole(hole, b).0);
+            y.hypot(z) * (y * v - z * u).atan2(y * u + z * v)
+        };
+        if let Some(impulse) = series.round_impulse(hole)
+            && to > from
+        {
+            let sliding = Sliding {
+                force: &|t| series.hole_pressure(hole, t),
+                impulse: &|a, b| series.hole_push(hole, a, b),
+                speed: &speed,
+                way: &way,
+            };
+            let (mut turn, count) = (0.0, parts_of(series, [from, to]));
+            parts([from, to], count as usize, |a, b| {
+                let [y, z] = series.at_hole(hole, a).0;
+                turn += way(a, b).abs() / y.hypot(z);
+            });
+            let count = count.max((turn / TURN).ceil()).min(MOST_PARTS);
+            let mut time = to - from;
+            parts([from, to], count as usize, |a, b| {
+                let mut sum = SlidingSums::default();
+                sliding.add(a, b, &mut sum);
+                let [began, angle] = [a, 0.5 * (a + b)].map(|t| degrees(series.at_hole(hole, t).0));
+                // Over so short a piece the impulse vector is nearly p n; this is its magnitude p.
+                let push = impulse.between(a, b);
+                let normal = if sum.impulse > 0.0 { push.map(|push| -push / sum.impulse) } else { blank.normal };
+                each(&SlidingPiece { time: std::mem::take(&mut time), angle, began, normal, ..lasting(blank, &sum) });
+            });
+        }
+        self.strike(|| self.speed_left(speed), each);
+    }
+
+    /// The magnitude of the impulse at the end of the step, N s.
+    fn jump(&self) -> f64 {
+        self.step.jump.get(self.blank.contact).map_or(0.0, |p| p.abs())
+    }
+
+    /// The sliding velocity at the end of exact motion, from that at a time in it, m/s; at an
+    /// instant that before it.
+    fn speed_left(&self, speed: impl Fn(f64) -> f64) -> f64 {
+        let Self { step, section, blank, .. } = *self;
+        if step.end > step.start { speed(step.end) } else { section.along(blank.normal, step.velocity_before) }
+    }
+
+    /// The impulse at the end of the step, if the piece reaches it, with the sliding velocity
+    /// `left` (m/s) before the loads' impulses there.
+    fn strike(&self, left: impl Fn() -> f64, each: &mut impl FnMut(&SlidingPiece)) {
+        let Self { step, section, span: [_, to], blank } = *self;
+        let jump = self.jump();
+        if to >= step.end && jump > 0.0 {
+            let before = left() + Blow::along(&section.blows, blank.normal, [step.start, step.end]);
+            let after = section.along(blank.normal, step.v);
+            let (work, dissipated) = (work_of_impulse(jump, before, after), -0.5 * blank.friction * (before + after));
+            let duration = ImpulseDuration::Instant;
+            each(&SlidingPiece { duration, impulse: jump, work, dissipated, time: 0.0, ..*blank });
+        }
     }
 }
 
@@ -240,28 +245,4 @@ fn parts([from, to]: [f64; 2], count: usize, mut each: impl FnMut(f64, f64)) {
 fn lasting(blank: &SlidingPiece, slid: &SlidingSums) -> SlidingPiece {
     let SlidingSums { work, impulse, way } = *slid;
     SlidingPiece { duration: ImpulseDuration::Lasting, impulse, friction: 0.0, work, sliding: way, ..*blank }
-}
-
-/// The impulse `jump` (N s) at the end of a step, with the sliding velocity `left` (m/s) before the
-/// loads' impulses there.
-fn knock(
-    step: &Step<'_>,
-    section: &Section,
-    (jump, left): (f64, f64),
-    blank: &SlidingPiece,
-    each: &mut impl FnMut(&SlidingPiece),
-) {
-    if jump > 0.0 {
-        let before = left + Blow::along(&section.blows, blank.normal, [step.start, step.end]);
-        let after = section.along(blank.normal, step.v);
-        let (work, dissipated) = (work_of_impulse(jump, before, after), -0.5 * blank.friction * (before + after));
-        each(&SlidingPiece {
-            duration: ImpulseDuration::Instant,
-            impulse: jump,
-            work,
-            dissipated,
-            time: 0.0,
-            ..*blank
-        });
-    }
 }
