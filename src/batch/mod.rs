@@ -46,9 +46,9 @@
 //! Many oscillators at once, exactly: `lane.rs` (one oscillator), `plan.rs` (durations and
 //! threads), `outcome.rs`; `series.rs` holds the constants of a lane, `state.rs` advances it,
 //! `stretch.rs` finds impacts, `rest.rs` treats contact that lasts, `slots.rs` assigns oscillators
-//! to lanes, `engine.rs` is the loop, `vector.rs` the arithmetic over pulp, `width.rs` the
-//! instruction sets; `fallback.rs` runs by the exact scheme the oscillators that lanes do not
-//! cover.
+//! to lanes, `work.rs` shares a batch between lanes and the exact scheme, `engine.rs` is the loop,
+//! `vector.rs` the arithmetic over pulp, `width.rs` the instruction sets; `fallback.rs` runs by the
+//! exact scheme the oscillators that lanes do not cover.
 
 mod engine;
 mod fallback;

@@ -13,18 +13,24 @@
 //!
 //! # Files
 //!
-//! Case file → scene, with errors that point at line and column: `keys.rs` lists every key
-//! (`key_entry.rs`) with its type, unit, default and accepted values, which `schema.rs` looks up;
-//! `value.rs` reads TOML with the position of each value, `check.rs` checks it against the keys,
-//! `build.rs` builds the case table by table from what `builder.rs` holds, `system.rs`, `beam.rs`,
-//! `bodies.rs`, `model.rs`, `place.rs`, `points.rs`, `planes.rs` and `direction.rs` read the
-//! structure, the locations on it and their directions, `loads.rs`, `random.rs`, `turbulence.rs`
-//! and `base.rs` the loads, `truncated.rs` keeps the full scene of a case reduced to modes,
-//! `realisations.rs` and `wear.rs` give the scenes of realisations and of worn supports,
-//! `wording.rs` finds the key of each value of the scene, `written.rs` keeps what the scene itself
-//! no longer shows; `case_file.rs` is the document that a case keeps, `key.rs` the path of a value,
-//! by which it is changed before it is built (`changes.rs`), `tangent.rs` differentiates the scene
-//! by a key, `summary.rs` reads the case of a finished run (feature `case`).
+//! Case file → scene, with errors that point at line and column (`report.rs`): `read.rs` reads a
+//! file, a text or a case of `embedded.rs`; `keys.rs` lists every key (`key_entry.rs`) with its
+//! type, unit, default and accepted values, which `schema.rs` looks up; `value.rs` reads TOML with
+//! the position of each value, `check.rs` checks it against the keys, `build.rs` builds the case
+//! table by table from what `builder.rs` holds, `system.rs`, `damping.rs`, `modal.rs`, `beam.rs`,
+//! `bodies.rs`, `model.rs`, `place.rs`, `points.rs`, `line.rs`, `planes.rs` and `direction.rs` read
+//! the structure, the locations on it and their directions, `walls.rs`, `supports.rs`, `flats.rs`
+//! and `sliders.rs` what it touches, `initial.rs` and `start.rs` the state at the start,
+//! `penalty.rs`, `statistics.rs`, `flow.rs` and `method.rs` their tables and settings, `loads.rs`,
+//! `random.rs`, `turbulence.rs` and `base.rs` the loads, `table.rs` those of other files
+//! (`columns.rs`, `text.rs`, with their `digest.rs`), `truncated.rs` keeps the full scene of a case
+//! reduced to modes, `realisations.rs` and `wear.rs` give the scenes of realisations and of worn
+//! supports, `wording.rs` finds the key of each value of the scene, `written.rs` keeps what the
+//! scene itself no longer shows, `notes.rs` says what readers of a run must know; `case_file.rs` is
+//! the document that a case keeps, `key.rs` the path of a value, by which it is changed to a
+//! `key_value.rs` before it is built (`changes.rs`, many times by `template.rs`), `tangent.rs`
+//! differentiates the scene by a key, `summary.rs` reads the case of a finished run (feature
+//! `case`).
 #![doc = include_str!("../../cases/README.md")]
 
 mod base;

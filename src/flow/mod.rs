@@ -4,9 +4,9 @@
 //! # Files
 //!
 //! The exact motion between events: `arc.rs`, `touch.rs`, `contact.rs`, `response.rs`, `force.rs`,
-//! `divided.rs` in closed form for one degree of freedom, `series/` by Taylor series for structures
-//! (along a circle in round holes); `propagator.rs` carries a small change of a structure's state
-//! along.
+//! `divided.rs`, `roots.rs` in closed form for one degree of freedom, `series/` by Taylor series
+//! for structures (along a circle in round holes); `propagator.rs` carries a small change of a
+//! structure's state along.
 
 mod arc;
 mod contact;

@@ -4,17 +4,18 @@
 //! | type | what it holds |
 //! |---|---|
 //! | [`Symmetric`] | a symmetric matrix, by the rows of its lower triangle |
-//! | `MatrixPolynomial` | M + sC + s²K for many s |
+//! | `MatrixPolynomial` (`polynomial.rs`) | M + sC + s²K for many s |
 //! | [`Rows`] | a few sparse rows, such as those of walls |
 //! | [`Operator`] | a symmetric matrix made ready for products, by diagonals where it is a band |
 //! | [`Factor`] | L D Lᵀ of a positive definite matrix: a band's own, or a sparse one with a fill-reducing order |
 //!
 //! # Files
 //!
-//! Symmetric matrices, rows, products and factors: `band.rs` and `band_factor.rs` for narrow,
-//! diagonal and full matrices, `sparse.rs` for all others; `fourier.rs` is the fast Fourier
-//! transform; `segment.rs` and `entries.rs` are loops over vectors with vector instructions; uses
-//! nothing else of the crate.
+//! Symmetric matrices, rows, products and factors: `symmetric.rs`, `rows.rs`, `operator.rs` and
+//! `factor.rs` hold the types above (`definite.rs` is the error of a matrix without a factor);
+//! `band.rs` and `band_factor.rs` for narrow, diagonal and full matrices, `sparse.rs` for all
+//! others; `fourier.rs` is the fast Fourier transform; `segment.rs` and `entries.rs` are loops over
+//! vectors with vector instructions; uses nothing else of the crate.
 
 mod band;
 mod band_factor;

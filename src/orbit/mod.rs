@@ -35,9 +35,9 @@
 //! `branch/shots/moved.rs` moves the strobe, `branch/shots/change.rs` and `branch/shots/graze.rs`
 //! find where the walls that are met change, `branch/shots/switch.rs` the branches that begin
 //! there; `shooting.rs` finds orbits of structures, by `strobe.rs` and the runs of `orbit_run.rs`,
-//! and `shot_derivative.rs` differentiates them by keys, as `orbit_derivative.rs` (with
-//! `monodromy_derivative.rs` for the multipliers) those of one degree of freedom; it imports no
-//! case.
+//! `path.rs` is the motion of one at a place, and `shot_derivative.rs` differentiates them by keys,
+//! as `orbit_derivative.rs` (with `monodromy_derivative.rs` for the multipliers) those of one
+//! degree of freedom; it imports no case.
 
 mod admissible;
 mod boundary;

@@ -37,10 +37,12 @@
 //!
 //! # Files
 //!
-//! The convex quadratic programme of a step; knows no scene: `clamp.rs` (one unknown),
-//! `condensed.rs` (several, by the methods that follow), `clarabel.rs` (the only file that names
-//! clarabel), `delassus.rs`, `pivoting.rs` with `block.rs`, `envelope.rs` and `relations.rs`
-//! (several unknowns, by exchanging the active set), `elimination.rs` (many rows in contact on a
+//! The convex quadratic programme of a step; knows no scene: `solver.rs` solves one programme after
+//! another by the choice of `backend.rs`, with `counters.rs` of what it did, or says why not
+//! (`failure.rs`): `clamp.rs` (one unknown), `condensed.rs` (several, by the methods that follow),
+//! `clarabel.rs` (the only file that names clarabel), `delassus.rs`, `pivoting.rs` with `block.rs`,
+//! `envelope.rs` and `relations.rs` (several unknowns, by exchanging the active set, of which
+//! `side.rs` is an entry and `cycle.rs` a repetition), `elimination.rs` (many rows in contact on a
 //! narrow band), `redundant_rows.rs` (many more rows than degrees of freedom), `active_set.rs` (the
 //! dual active-set method that `redundant_rows.rs` uses, and the last resort), `coulomb.rs`
 //! (contacts with friction, which are no programme, by `lemke.rs` and `dependent.rs`), `disks/`

@@ -13,6 +13,7 @@
 //! | `over` | other results in the figures of a page |
 //! | `paths` | absolute paths, which a page does not show |
 //! | `html` | the file itself: escapes, and what it may load (nothing) |
+//! | `verification` | the verification manual as a page |
 //! | `page/` | the page's HTML, CSS and JavaScript |
 //!
 //! A report is made from the files of the folder only, so that `signorini report FOLDER` writes the

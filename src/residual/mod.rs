@@ -1,19 +1,23 @@
 //! The judge: checks every step of a run against the contract of its scheme. It uses the scene and
 //! the steps only, no scheme and no QP.
 //!
-//! # Files
-//!
-//! The judge, which checks every step against the contract: complementarity, momentum balance,
-//! energy ledger; steps on a grid (`grid.rs`, their parts `part.rs`, the passes over what they did,
-//! `step_motion.rs`, in `scratch.rs`, many steps of one degree of freedom in the same passes
-//! `quiet_steps.rs`, each wall `wall_step.rs`, rows prepared for products `view.rs`, blows
-//! `blow_check.rs`, round holes `round.rs`, `disk.rs`, `ring.rs`, `hole_motion.rs` and `place.rs`,
-//! friction `friction.rs`), exact motion (`arc.rs`, of structures `series.rs`, round holes
-//! `circle.rs`), steps that predict and correct (`corrected.rs`), all into `residuals.rs`, and the
-//! momentum of a whole run, of every run (`run_momentum.rs`) and of a recorded one (`recorded.rs`);
-//! what a run shows of its walls (`walls.rs`, `front.rs`) and of its momentum (`balance.rs`) is
-//! kept with its rounding error (`noise.rs`, `largest_residual.rs`), and what exceeds that and its
-//! tolerance becomes a finding (`verdict.rs`, `finding.rs`); imports no scheme and no QP.
+//! | files | what they check or hold |
+//! |---|---|
+//! | `grid.rs`, `part.rs` | steps on a grid, and their parts |
+//! | `corrected.rs`, `previous_step.rs` | steps that predict and correct, and what carries over between them |
+//! | `step_motion.rs`, `scratch.rs`, `matrices.rs` | what a step did, the passes over it, its products with M, C and K |
+//! | `quiet_steps.rs`, `quiet_scratch.rs` | many steps of one degree of freedom in the same passes |
+//! | `wall_step.rs`, `complementarity.rs` | each wall in a step, and what contact laws demand of it |
+//! | `row_walls.rs`, `view.rs` | walls by their rows, and rows prepared for products |
+//! | `blow_check.rs`, `blows.rs` | loads of no duration |
+//! | `round.rs`, `disk.rs`, `ring.rs`, `hole_motion.rs`, `place.rs` | round holes |
+//! | `friction.rs`, `pushes.rs`, `supports.rs` | friction, impulses in two planes, and what a run keeps of both |
+//! | `arc.rs`, `series.rs`, `circle.rs`, `quadrature.rs` | exact motion, of structures, in round holes; its integrals |
+//! | `energy/` | the energy ledger |
+//! | `momentum_sums.rs`, `run_momentum.rs`, `recorded.rs` | the momentum of a whole run, of every one and of a recorded one |
+//! | `walls.rs`, `front.rs`, `balance.rs`, `extent.rs` | what a run shows of its walls and its momentum, and how far it moves |
+//! | `noise.rs`, `largest_residual.rs`, `weights.rs`, `scales.rs` | the rounding errors and the reference sizes of residuals |
+//! | `verdict.rs`, `finding.rs`, `residuals.rs` | what exceeds both becomes a finding; the residuals as they are told |
 
 mod arc;
 mod balance;

@@ -7,16 +7,18 @@
 //! freedom), `shared.rs` (these matrices checked once, with the factor of M, and shared by all
 //! users), `checked.rs` (a validated scene), `wall.rs`, `law.rs` (all that differs between rigid,
 //! elastic and penalised walls), `planes.rs` (a structure doubled into two planes, and directions
-//! there), `support.rs` (walls around a place), `slider.rs` (places that rub under a known force),
-//! `friction.rs` (coefficients of friction), `load.rs`, `table.rs` (a force
-//! sampled over time), `random/` (random forces as tables),
-//! `turbulence/` (random forces along a line, on modes), `fluid_elastic.rs` (the stability of a
-//! tube in that flow), `held.rs` (a structure held at places), `clear.rs` (a start moved out of
-//! walls), `function.rs`, `forcing.rs`, `scene_key.rs` (the path of a number of a scene), `row.rs`
-//! (a location on a structure, as weights of degrees of freedom), `builders/` (chains, bars, tubes,
-//! modal data), `matrices/` (read from text), `condensation/` (degrees of freedom without mass),
-//! `damping.rs`, `modal/` (modes, and scenes reduced to them); `validate.rs` is the only place that
-//! decides which values are valid.
+//! there), `support.rs` (walls around a place), `flats.rs` (flats around one), `slider.rs` (places
+//! that rub under a known force), `friction.rs` (coefficients of friction), `load.rs`, `table.rs`
+//! (a force sampled over time), `loads.rs` (their sum over degrees of freedom), `forcing.rs` and
+//! `grid_forcing.rs` (over one, and at the instants of a grid), `random/` (random forces as
+//! tables), `turbulence/` (random forces along a line, on modes), `fluid_elastic.rs` (the stability
+//! of a tube in that flow), `held.rs` (a structure held at places), `clear.rs` (a start moved out
+//! of walls), `function.rs`, `scales.rs` (frequencies, and the mass that a wall feels),
+//! `scene_key.rs` (the path of a number of a scene), `row.rs` (a location on a structure, as
+//! weights of degrees of freedom), `builders/` (chains, bars, tubes, modal data), `matrices/` (read
+//! from text), `condensation/` (degrees of freedom without mass), `damping.rs`, `modal/` (modes,
+//! and scenes reduced to them); `validate.rs` is the only place that decides which values are
+//! valid.
 
 mod builders;
 mod checked;

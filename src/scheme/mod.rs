@@ -5,6 +5,8 @@
 //! | `moreau_jean.rs`, `located/`, `position.rs`, `paoli_schatzman.rs`, `generalized_alpha.rs`, `penalty.rs`, `central_difference.rs` | the schemes on a grid |
 //! | `event/`, `structure_event/`, `exact/` | the exact scheme, of one degree of freedom and of several, and what both share |
 //! | `entry.rs`, `fits.rs` | what is known of each scheme beside its rule, and which scenes it refuses |
+//! | `name.rs`, `method.rs` | schemes, and schemes with their solver, as words |
+//! | `penalty_law.rs`, `penalise.rs` | the springs of a penalty scheme, and the scene with them |
 //! | `rule.rs`, `grid.rs` | the trait of a scheme on a grid, and the type that drives it |
 //! | `space.rs`, `line.rs`, `matrices.rs` | its arithmetic: numbers, or vectors and matrices |
 //! | `body.rs`, `flat_row.rs`, `blows.rs`, `start.rs` | the structure, its walls and loads, and the forces at the start |
@@ -15,6 +17,8 @@
 //! | `supports/`, `disks/` | scenes with round holes and friction |
 //! | `equilibrium.rs` | the static start |
 //! | `jumps.rs` | jumps of loads within a step |
+//! | `handover.rs` | stretches that the exact scheme leaves to moreau-jean |
+//! | `counters.rs` | the work of a run |
 //! | `frame.rs` | the state, and the results of a step |
 //! | `motion.rs`, `kernel.rs`, `stepper.rs` | the trait of all motions, the choice of one, and the public type |
 //!

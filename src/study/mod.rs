@@ -2,12 +2,12 @@
 //!
 //! # Files
 //!
-//! Studies over several runs: `choice.rs` (scheme and solver), `compare.rs`, `horizon.rs` and
-//! `perturbation.rs` (growth of a small change), `attractor/` (which motion a start leads to),
-//! `difference.rs` and `change.rs` (between two runs), `verdict.rs` (half the step),
-//! `realisations/` (means over random loads with their intervals), `wear_history/` (gaps that
-//! grow by wear), `derivatives.rs` (what a key changes), `truncation/`, `accuracy/`,
-//! `work_precision/`, `stability/` (runs in parallel: feature `cli`).
+//! Studies over several runs: `choice.rs` (scheme and solver), `compare.rs`, `exact.rs` (the exact
+//! motion as a reference), `horizon.rs`, `perturbation.rs` and `growth.rs` (growth of a small
+//! change), `attractor/` (which motion a start leads to), `difference.rs` and `change.rs` (between
+//! two runs), `verdict.rs` (half the step), `realisations/` (means over random loads with their
+//! intervals), `wear_history/` (gaps that grow by wear), `derivatives.rs` (what a key changes),
+//! `truncation/`, `accuracy/`, `work_precision/`, `stability/` (runs in parallel: feature `cli`).
 
 pub mod accuracy;
 pub mod attractor;

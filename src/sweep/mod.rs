@@ -8,7 +8,7 @@
 //! | module | what it holds |
 //! |---|---|
 //! | `request` | [`Sweep`]: the request |
-//! | `file` | the same as a sweep file |
+//! | `file`, `keys`, `part`, `vary` | the same as a sweep file: its keys, its tables, the values in them |
 //! | `axis`, `values`, `target`, `follow`, `random`, `layout` | the values that vary: lists, grids, ranges, tied keys, random designs |
 //! | `measure`, `sample` | the quantities computed for a row, by name |
 //! | `forcing` | the period of the loads |
@@ -31,6 +31,7 @@
 //! | `shares` | the share of each key in the variance of each measure |
 //! | `sensitivity` | effects or shares, as the tables that all rows together give |
 //! | `means` | the means over realisations, for the terminal |
+//! | `notes` | what a reader of the table must know |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
 //!
 //! A chain of rows, each of which starts from the end of the last, runs on one thread; a row that

@@ -42,12 +42,12 @@
 //! The derivative of a motion with respect to its start, from the steps of the exact scheme:
 //! `saltation.rs` states what each event makes of a small change, `oscillator.rs` and
 //! `structure.rs` (with `jump.rs`, `instant.rs`, `bounce.rs` and `blows.rs`) read it from the
-//! steps, `product.rs` multiplies along a run, `exponents.rs` holds Lyapunov exponents. With
-//! respect to keys: `tangent/` is the derivative of the scene, `key_variation.rs` that of a run,
-//! with `keys.rs`, `key_terms.rs` and `contact_changes.rs`, `ends.rs` and `means.rs`;
-//! `arc_changes.rs` (with `touch_change.rs`) is that of closed-form motion, of which `flight.rs`
-//! takes one flight at a time; `stretch.rs` is the motion of a step of either kind. Knows no
-//! scheme.
+//! steps, or say why there is none (`no_derivative.rs`), `product.rs` multiplies along a run,
+//! `exponents.rs` holds Lyapunov exponents. With respect to keys: `tangent/` is the derivative of
+//! the scene, `key_variation.rs` that of a run, with `keys.rs`, `key_terms.rs` and
+//! `contact_changes.rs`, `ends.rs` and `means.rs`; `arc_changes.rs` (with `touch_change.rs`) is
+//! that of closed-form motion, of which `flight.rs` takes one flight at a time; `stretch.rs` is the
+//! motion of a step of either kind. Knows no scheme.
 
 mod arc_changes;
 mod blows;

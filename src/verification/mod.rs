@@ -2,8 +2,8 @@
 //! and what this program finds for them on the machine that it runs on.
 //!
 //! `published.rs` has the values of other programs and benchmarks, `closed_forms.rs` those that
-//! follow from a formula, each as an `entry.rs`; `quantity.rs` reads a value from a run. None of
-//! the values was computed by this program.
+//! follow from a formula, each as an `entry.rs`, of the case files in `scenes/` or of built-in
+//! ones; `quantity.rs` reads a value from a run. None of the values was computed by this program.
 
 mod closed_forms;
 mod entry;

@@ -8,9 +8,11 @@
 //! # Files
 //!
 //! Wear at supports: `contacts.rs` finds the contacts that slide in a step, `piece.rs` what each of
-//! them does over a piece of it, `stretch.rs` integrates over exact motion, `work.rs` is the work
-//! of wear of an impulse, `sectors.rs` the part of the circle in which a contact lies, `depth.rs`
-//! the depth of a scar of given volume, `growth.rs` what that does to the gaps of a support.
+//! them does over a piece of it, `blows.rs` how the impulses of loads change its velocity before,
+//! `stretch.rs` integrates over exact motion, `work.rs` is the work of wear of an impulse,
+//! `sectors.rs` the part of the circle in which a contact lies, `archard.rs` the volume that the
+//! work wears off, `depth.rs` the depth of its scar, `growth.rs` what that does to the gaps of a
+//! support.
 
 mod archard;
 mod blows;

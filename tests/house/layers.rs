@@ -137,13 +137,14 @@ fn every_path_that_the_architecture_names_exists() {
 
 /// The head of each room's `mod.rs` lists its files.
 #[test]
-fn every_file_that_the_head_of_a_room_names_exists() {
+fn the_head_of_a_room_names_its_files_and_no_others() {
     let src = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/src"));
     let mut checked = 0;
     for room in ROOMS.iter().map(|room| src.join(room)).filter(|room| room.join("mod.rs").is_file()) {
         let text = fs::read_to_string(room.join("mod.rs")).unwrap();
         let head: String = text.lines().take_while(|line| line.starts_with("//!")).collect();
-        for name in head.split('`').skip(1).step_by(2) {
+        let names: Vec<&str> = head.split('`').skip(1).step_by(2).collect();
+        for name in &names {
             let is_name = name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || "_/.".contains(c));
             if is_name && (name.ends_with(".rs") || name.ends_with('/')) {
                 let known = [&room, &src.to_owned(), &src.parent().unwrap().to_owned()];
@@ -151,6 +152,17 @@ fn every_file_that_the_head_of_a_room_names_exists() {
                 checked += 1;
             }
         }
+        for path in fs::read_dir(&room).unwrap().map(|entry| entry.unwrap().path()) {
+            let stem = path.file_stem().unwrap().to_str().unwrap();
+            // A folder beside a file of its name is part of that file.
+            let part = path.is_dir() && path.with_extension("rs").is_file();
+            let is = |name: &&str| {
+                let name = name.strip_prefix("mod@").unwrap_or(name);
+                name.strip_suffix(".rs").unwrap_or(name) == stem || name.starts_with(&format!("{stem}/"))
+            };
+            let named = part || ["mod", "tests"].contains(&stem) || names.iter().any(is);
+            assert!(named, "the head of {}/mod.rs does not name {}", room.display(), path.display());
+        }
     }
-    assert!(checked > 150, "only {checked} names found");
+    assert!(checked > 250, "only {checked} names found");
 }
