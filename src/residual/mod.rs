@@ -12,7 +12,7 @@
 //! | `blow_check.rs`, `blows.rs` | loads of no duration |
 //! | `round.rs`, `disk.rs`, `ring.rs`, `hole_motion.rs`, `place.rs` | round holes |
 //! | `friction.rs`, `pushes.rs`, `supports.rs` | friction, impulses in two planes, and what a run keeps of both |
-//! | `arc.rs`, `series.rs`, `circle.rs`, `quadrature.rs` | exact motion, of structures, in round holes; its integrals |
+//! | `arc.rs`, `series.rs`, `series_scratch.rs`, `circle.rs`, `quadrature.rs` | exact motion, of structures, in round holes; its integrals |
 //! | `energy/` | the energy ledger |
 //! | `momentum_sums.rs`, `run_momentum.rs`, `recorded.rs` | the momentum of a whole run, of every one and of a recorded one |
 //! | `walls.rs`, `front.rs`, `balance.rs`, `extent.rs` | what a run shows of its walls and its momentum, and how far it moves |
@@ -54,6 +54,7 @@ mod run_momentum;
 mod scales;
 mod scratch;
 mod series;
+mod series_scratch;
 mod step_motion;
 mod supports;
 mod verdict;
@@ -83,7 +84,7 @@ use quiet_scratch::QuietScratch;
 use row_walls::RowWalls;
 use scales::Scales;
 use scratch::Scratch;
-use series::SeriesScratch;
+use series_scratch::SeriesScratch;
 use std::sync::Arc;
 use supports::Supports;
 use walls::WallCheck;
@@ -163,8 +164,7 @@ impl Judge {
     ) -> Self {
         let n = scene.system.degrees_of_freedom();
         let loads = Loads::new(&scene.loads);
-        let zero = || vec![0.0; n];
-        let mut load = zero();
+        let mut load = vec![0.0; n];
         loads.add_force(0.0, 1.0, &mut load);
         // The factor of M, for the velocities that blows give. A mass matrix without a factor is an
         // error of the scene, reported earlier.
@@ -199,7 +199,7 @@ impl Judge {
             places: Places::new(scene, &weights.root_mass),
             q,
             load,
-            load_end: zero(),
+            load_end: vec![0.0; n],
             blows: Blows::new(n),
             scratch: Scratch::new(n),
             series: SeriesScratch::new(n),

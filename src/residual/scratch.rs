@@ -38,8 +38,8 @@ impl Scratch {
         }
     }
 
-    /// Computes the mean load, displacement and velocity of a step, and starts its balance with what
-    /// is given. Returns the sizes of what it did.
+    /// Computes the mean load, displacement and velocity of a step, and starts its balance with
+    /// what is given. Returns the sizes of what it did.
     #[inline(always)]
     pub fn means<S: Simd>(
         &mut self,

@@ -14,39 +14,6 @@ use crate::step::Step;
 /// largest momentum.
 const MOMENTUM_UNITS: f64 = 4.0;
 
-/// Work space for a stretch of exact motion, one entry per degree of freedom.
-#[derive(Debug)]
-pub(super) struct SeriesScratch {
-    /// State at an instant, m and m/s, and the load there, N.
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
-    load: Vec<f64>,
-    /// ∫q (m s) and ∫q̇ (m) over the stretch, which are multiplied by K and C once at its end, and ∫
-    /// of the net force, N s.
-    place: Vec<f64>,
-    way: Vec<f64>,
-    pub net: Vec<f64>,
-    /// Mean force of the dashpots, N.
-    rub: Vec<f64>,
-    /// Velocity at the end, before the blows there and after them, m/s.
-    left: Vec<f64>,
-    pub mid: Vec<f64>,
-    /// A change of velocity, m/s, and the momentum that the stretch gained and that its start
-    /// removed, N s.
-    change: Vec<f64>,
-    gained: Vec<f64>,
-    stopped: Vec<f64>,
-}
-
-impl SeriesScratch {
-    /// Zeros, n of each.
-    pub fn new(n: usize) -> Self {
-        let [q, v, load, place, way, net, rub, left, mid, change, gained, stopped] =
-            std::array::from_fn(|_| vec![0.0; n]);
-        Self { q, v, load, place, way, net, rub, left, mid, change, gained, stopped }
-    }
-}
-
 impl Judge {
     pub(super) fn observe_series(&mut self, step: &Step<'_>, series: &Series) {
         for (index, wall) in self.scene.walls.iter().enumerate() {
@@ -133,8 +100,8 @@ impl Judge {
         system.add_stiffness(-1.0, &s.place, &mut s.net);
     }
 
-    /// Notes the mean force of the dashpots over `span` seconds: without loads and springs it is the
-    /// only force.
+    /// Notes the mean force of the dashpots over `span` seconds: without loads and springs it is
+    /// the only force.
     fn scale_by_dashpots(&mut self, span: f64) {
         let s = &mut self.series;
         s.rub.fill(0.0);

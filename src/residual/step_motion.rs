@@ -27,8 +27,8 @@ pub(super) struct StepMotion<'a> {
 }
 
 impl<'a> StepMotion<'a> {
-    /// Those of a step of `h` seconds (and 1/h) from the displacement `from` to `to`, with its loads
-    /// at both ends and its blows.
+    /// Those of a step of `h` seconds (and 1/h) from the displacement `from` to `to`, with its
+    /// loads at both ends and its blows.
     #[inline(always)]
     pub fn of(
         step: &Step<'a>,

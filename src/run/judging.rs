@@ -7,9 +7,10 @@ use crate::step::{QuietSteps, Step};
 use crate::trajectory::Trajectory;
 use std::fmt::Debug;
 
-/// Keeps other crates from adding choices of their own.
-pub(super) mod sealed {
+mod sealed {
     pub trait Sealed {}
+    impl Sealed for super::Judged {}
+    impl Sealed for super::Unjudged {}
 }
 
 /// Whether a run is judged: [`Judged`] or [`Unjudged`], no others.
@@ -49,10 +50,6 @@ pub struct Judged;
 /// The run is not judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Unjudged;
-
-impl sealed::Sealed for Judged {}
-
-impl sealed::Sealed for Unjudged {}
 
 impl Judging for Judged {
     type Verdict = Residuals;

@@ -1,6 +1,5 @@
 //! Whether a run is recorded.
 
-use super::judging::sealed;
 use crate::finite::first_not_finite;
 use crate::scene::{Scene, State};
 use crate::scheme::Stepper;
@@ -9,6 +8,12 @@ use crate::step::{Contact, QuietSteps, Step};
 use crate::time::TimeOptions;
 use crate::trajectory::{Recorder, Trajectory};
 use std::fmt::Debug;
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Recorded {}
+    impl Sealed for super::Unrecorded {}
+}
 
 /// Whether a run is recorded: [`Recorded`] or [`Unrecorded`], no others.
 pub trait Recording: sealed::Sealed + Debug + Copy {
@@ -48,10 +53,6 @@ pub struct Recorded;
 /// Only the state at the end is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Unrecorded;
-
-impl sealed::Sealed for Recorded {}
-
-impl sealed::Sealed for Unrecorded {}
 
 /// What records a run.
 #[derive(Debug)]

@@ -92,8 +92,8 @@ pub(super) struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// In a step on a grid: its share of the step's impulse, with the sliding velocity `blown` (m/s)
-    /// that the blows give at its start.
+    /// In a step on a grid: its share of the step's impulse, with the sliding velocity `blown`
+    /// (m/s) that the blows give at its start.
     pub fn on_grid(&self, blown: f64) -> SlidingPiece {
         let Self { step, section, span: [from, to], blank } = *self;
         let length = step.end - step.start;
@@ -201,15 +201,15 @@ impl Piece<'_> {
         self.step.jump.get(self.blank.contact).map_or(0.0, |p| p.abs())
     }
 
-    /// The sliding velocity at the end of exact motion, from that at a time in it, m/s; at an instant
-    /// that before it.
+    /// The sliding velocity at the end of exact motion, from that at a time in it, m/s; at an
+    /// instant that before it.
     fn speed_left(&self, speed: impl Fn(f64) -> f64) -> f64 {
         let Self { step, section, blank, .. } = *self;
         if step.end > step.start { speed(step.end) } else { section.along(blank.normal, step.velocity_before) }
     }
 
-    /// The impulse at the end of the step, if the piece reaches it, with the sliding velocity `left`
-    /// (m/s) before the loads' impulses there.
+    /// The impulse at the end of the step, if the piece reaches it, with the sliding velocity
+    /// `left` (m/s) before the loads' impulses there.
     fn strike(&self, left: impl Fn() -> f64, each: &mut impl FnMut(&SlidingPiece)) {
         let Self { step, section, span: [_, to], blank } = *self;
         let jump = self.jump();

@@ -3,13 +3,14 @@
 mod account;
 mod arc;
 mod series;
+mod wall_energy;
 mod walls;
 mod work;
 
 pub use account::Energy;
 pub(super) use arc::{Along, Instants};
 pub(super) use series::Moved;
-pub(super) use walls::stored;
+pub(super) use wall_energy::stored;
 
 use super::matrices::{Matrices, Part};
 use super::step_motion::StepMotion;
@@ -18,7 +19,7 @@ use crate::scene::{Forcing, Scene, Wall};
 use crate::step::{Balance, Contract, QuietSteps, Step};
 use pulp::Simd;
 use std::sync::Arc;
-use walls::{half, observe_supports};
+use wall_energy::half;
 use work::Work;
 
 #[derive(Debug, Clone)]
@@ -94,8 +95,9 @@ impl Ledger {
         }
     }
 
-    /// Adds one step on a grid under the mean load `load` (N); n degrees of freedom. `rates` are the
-    /// velocities that enter and leave the balance at the places of walls that push or rub, m/s.
+    /// Adds one step on a grid under the mean load `load` (N); n degrees of freedom. `rates` are
+    /// the velocities that enter and leave the balance at the places of walls that push or rub,
+    /// m/s.
     #[inline(always)]
     pub fn observe_grid<S: Simd>(
         &mut self,
@@ -118,7 +120,7 @@ impl Ledger {
             0.0
         };
         if !step.friction.is_empty() {
-            observe_supports(&self.scene, step, rates, &mut flows);
+            self.observe_supports(step, rates, &mut flows);
         }
         let energy = self.after(h, (q0, q1), (moves.after, moves.v), n);
         self.book(energy + walls, flows);

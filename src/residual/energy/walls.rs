@@ -1,8 +1,8 @@
-//! The energy flows at walls and round holes, and what walls store.
+//! The energy flows at walls and round holes.
 
 use super::super::pushes::pushes;
+use super::wall_energy::{half, stored};
 use super::{Flows, Ledger};
-use crate::scene::{Scene, Wall};
 use crate::step::Step;
 
 impl Ledger {
@@ -65,27 +65,16 @@ impl Ledger {
         }
         walls
     }
-}
 
-/// Adds the flows at round holes, and those of friction.
-#[inline(never)]
-pub(super) fn observe_supports(scene: &Scene, step: &Step<'_>, rates: &[[[f64; 2]; 2]], flows: &mut Flows) {
-    for (index, _, [push, rub]) in pushes(scene, step) {
-        let [before, after] = rates.get(index).copied().unwrap_or_default();
-        let work = |force: [f64; 2]| 0.5 * (force[0] * (before[0] + after[0]) + force[1] * (before[1] + after[1]));
-        let rigid = scene.walls[index].law.is_rigid();
-        flows.impact -= if rigid { work(push) } else { 0.0 };
-        flows.friction -= work(rub);
+    /// Adds the flows at round holes, and those of friction.
+    #[inline(never)]
+    pub(super) fn observe_supports(&self, step: &Step<'_>, rates: &[[[f64; 2]; 2]], flows: &mut Flows) {
+        for (index, _, [push, rub]) in pushes(&self.scene, step) {
+            let [before, after] = rates.get(index).copied().unwrap_or_default();
+            let work = |force: [f64; 2]| 0.5 * (force[0] * (before[0] + after[0]) + force[1] * (before[1] + after[1]));
+            let rigid = self.scene.walls[index].law.is_rigid();
+            flows.impact -= if rigid { work(push) } else { 0.0 };
+            flows.friction -= work(rub);
+        }
     }
-}
-
-/// Energy stored in a wall at displacement `w`, J; 0 for a damped wall that does not touch the
-/// body.
-pub(in super::super) fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
-    if wall.law.damping() > 0.0 && !touching { 0.0 } else { wall.law.energy(-wall.gap(w)) }
-}
-
-/// Energy stored half a step on the way from `w` to `w + shift`: the mean of both ends.
-pub(super) fn half(wall: &Wall, w: f64, shift: f64, touching: bool) -> f64 {
-    0.5 * (stored(wall, w, touching) + stored(wall, w + shift, touching))
 }
