@@ -158,8 +158,8 @@ impl Builder<'_> {
     }
 }
 
-/// `x` to 12 digits: the sum of two numbers of few decimals as a person writes it, 1.7 for 0.8 + 0.9
-/// rather than 1.7000000000000002, so that places given by their distance from the start agree.
+/// `x` to 12 digits: the sum of two numbers of few decimals as a person writes it, 1.7 for 0.8 +
+/// 0.9 rather than 1.7000000000000002, so that places given by their distance from the start agree.
 fn decimal(x: f64) -> f64 {
     format!("{x:.11e}").parse().unwrap_or(x)
 }

@@ -1,4 +1,5 @@
-//! The arguments of `run`, `compare` and `wear`: the case, its changes, and the settings of methods.
+//! The arguments of `run`, `compare` and `wear`: the case, its changes, and the settings of
+//! methods.
 
 use super::case_args::{CaseArgs, built, set_restitution};
 use super::pipeline::Destination;

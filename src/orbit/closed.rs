@@ -83,8 +83,8 @@ struct Linear {
 ///
 /// # Errors
 /// [`Error::Invalid`] for a scene that does not validate, round walls, friction, loads other than
-/// constants and sines of one frequency, more than 200 degrees of freedom, or a body that no spring holds (its steady
-/// motion is not determined).
+/// constants and sines of one frequency, more than 200 degrees of freedom, or a body that no spring
+/// holds (its steady motion is not determined).
 pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
     scene.validate()?;
     if let Some(hole) = scene.holes().next() {

@@ -196,8 +196,8 @@ pub(super) fn penetration(case: &Case, run: &Run) -> f64 {
     rigid.fold(0.0, |most, (_, depth)| most.max(*depth))
 }
 
-/// Largest force of all walls and round supports in the window, N: of elastic ones at an instant, of
-/// rigid ones the largest mean over a stretch, as in the tables of a run.
+/// Largest force of all walls and round supports in the window, N: of elastic ones at an instant,
+/// of rigid ones the largest mean over a stretch, as in the tables of a run.
 pub(super) fn largest_force(run: &Run) -> Option<f64> {
     let walls = run.statistics.walls.iter().filter_map(|wall| wall.largest_force);
     let supports = run.statistics.supports.iter().filter_map(|support| support.force.as_ref()?.largest);

@@ -37,8 +37,8 @@ pub struct WearStatistics {
     /// What friction takes out of the motion per unit time, W.
     pub friction_power_w: f64,
     /// Time in contact over the window's length: of all steps in which it pushes, where a wall's is
-    /// that of its contact episodes, up to half a step less at both ends of each. On a rigid support
-    /// it depends on the step and on the number of modes.
+    /// that of its contact episodes, up to half a step less at both ends of each. On a rigid
+    /// support it depends on the step and on the number of modes.
     pub contact_time_ratio: f64,
     /// The sectors, from +y towards +z.
     pub sectors: Vec<SectorStatistics>,

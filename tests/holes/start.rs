@@ -139,8 +139,8 @@ fn a_free_tube_lies_in_two_holes_whatever_the_direction_of_its_weight() {
             let step = stepper.step().unwrap();
             let far = weight * 0.5 / (place - 0.5);
             for (impulse, wanted) in step.impulse.iter().zip([weight - far, far]) {
-                // Rounding of the displacements (1e-16 of 1 mm) times the stiffness of an element (2e7 N/m), and of
-                // its factor.
+                // Rounding of the displacements (1e-16 of 1 mm) times the stiffness of an element
+                // (2e7 N/m), and of its factor.
                 assert!((impulse / 1e-5 - wanted).abs() < 1e-6, "{degrees}°, {place} m: {:?}", step.impulse);
             }
         }

@@ -41,12 +41,12 @@ pub struct Args {
     /// Scheme [default: chosen from the scene; see `signorini explain`]
     #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
     pub(super) scheme: Option<String>,
-    /// Find scheme and step for this error, 1e-3 or 0.1%, as a share of the gap (without one, of the
-    /// largest displacement) and of each wall's impulse and contact statistics; exit code 1 if it
-    /// is not kept to the end; for a case reduced to modes, find the number of modes too. Under random loads it is a share of the mean forces
-    /// and work rates over realisations: find the coarsest step whose part in their errors is
-    /// within it, and as many seeds as its interval and theirs take; exit code 1 where no step or
-    /// no number of seeds keeps it
+    /// Find scheme and step for this error, 1e-3 or 0.1%, as a share of the gap (without one, of
+    /// the largest displacement) and of each wall's impulse and contact statistics; exit code 1 if
+    /// it is not kept to the end; for a case reduced to modes, find the number of modes too. Under
+    /// random loads it is a share of the mean forces and work rates over realisations: find the
+    /// coarsest step whose part in their errors is within it, and as many seeds as its interval and
+    /// theirs take; exit code 1 where no step or no number of seeds keeps it
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     accuracy: Option<String>,
     /// Do not repeat the run with half the step, nor, for a case reduced to modes, with more modes;

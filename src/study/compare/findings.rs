@@ -1,6 +1,6 @@
 //! What explains the differences between the methods of a comparison, in sentences.
 
-use super::{Comparison, is_aperiodic};
+use super::comparison::{Comparison, is_aperiodic};
 use crate::qp::Backend;
 use crate::scene::Scene;
 use crate::scheme::Realised;

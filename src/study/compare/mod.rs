@@ -1,22 +1,22 @@
 //! Several methods on one scene, compared with the exact motion; what explains their differences is
-//! told by `findings.rs`.
+//! told by `findings.rs`; `comparison.rs` has what a comparison holds.
 
+mod comparison;
 mod findings;
+
+pub use comparison::{AGREEMENT, Comparison, Restitution, Row, is_aperiodic};
 
 use super::choice::choose;
 use super::difference;
 use super::exact::affordable;
-use super::horizon::{Growth, LARGEST_GROWTH, Source};
+use super::horizon::{Growth, LARGEST_GROWTH};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::run::{Options, Run, run_with_progress};
-use crate::scene::{LoadKind, Scene, System, WallLaw};
+use crate::scene::{Scene, System, WallLaw};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::time::{TimeGrid, TimeOptions};
 use std::time::Instant;
-
-/// Error over the gap beyond which a run no longer agrees with the reference.
-pub const AGREEMENT: f64 = 0.1;
 
 /// Most steps of the timing runs, and the number of these runs.
 const TIMED_STEPS: u64 = 20_000;
@@ -29,77 +29,6 @@ pub const FINER: f64 = 8.0;
 /// Impacts slower than this share of the fastest are left out of the restitution: rounding and
 /// loads falsify it there.
 const SLOW: f64 = 1e-2;
-
-/// Departure speed over approach speed at the rigid walls and round supports of a scene, as a run
-/// realised it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct Restitution {
-    /// Smallest of all impacts.
-    pub least: f64,
-    /// Median of all impacts.
-    pub median: f64,
-    /// Largest of all impacts.
-    pub largest: f64,
-}
-
-/// One method of the comparison.
-#[derive(Debug, Clone)]
-pub struct Row {
-    /// The method.
-    pub method: Method,
-    /// The run, or why there is none.
-    pub outcome: Result<Run>,
-    /// Restitution at the rigid walls and round supports; `None` without impacts.
-    pub restitution: Option<Restitution>,
-    /// Largest |Δu| of any probe against the reference over the gap scale, up to the horizon;
-    /// `None` without a probe.
-    pub error: Option<f64>,
-    /// Time up to which |Δu| stays below [`AGREEMENT`] of the gap scale, s.
-    pub agrees_until: Option<f64>,
-    /// Nanoseconds per step: stepping only, without recorder or judge, best of three. One step of
-    /// the exact scheme goes from event to event.
-    pub step_ns: Option<f64>,
-}
-
-/// A comparison.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Comparison {
-    /// The methods in the order asked for, the exact scheme last.
-    pub rows: Vec<Row>,
-    /// The exact run, or why there is none; a run that the judge refutes counts as none.
-    pub reference: Result<Run>,
-    /// The reference where there is no exact run: the chosen stepping scheme with steps finer by
-    /// [`FINER`].
-    pub refined: Option<(Method, Run)>,
-    /// Time up to which a pointwise error is meaningful, s.
-    pub horizon: f64,
-    /// Growth of a small perturbation over the whole run; `None` where it is not known.
-    pub growth: Option<f64>,
-    /// How the growth was found.
-    pub growth_by: Option<Source>,
-    /// Explanations of the differences, in sentences.
-    pub findings: Vec<String>,
-}
-
-impl Comparison {
-    /// The run that errors are against: the exact one, or the refined one in its place.
-    #[must_use]
-    pub fn reference_run(&self) -> Option<&Run> {
-        self.reference.as_ref().ok().or(self.refined.as_ref().map(|(_, run)| run))
-    }
-
-    /// What errors are against, in words; `None` where there is no reference.
-    #[must_use]
-    pub fn reference_in_words(&self) -> Option<String> {
-        match (&self.reference, &self.refined) {
-            (Ok(_), _) => Some("the exact motion".to_owned()),
-            (_, Some((method, run))) => Some(format!("{method} with steps of {:.2e} s", run.grid.step)),
-            (Err(_), None) => None,
-        }
-    }
-}
 
 /// The methods of the main comparison: the constrained QP by its own solver and through Clarabel,
 /// and every penalty.
@@ -227,13 +156,6 @@ fn step_ns(scene: &Scene, method: &Method, time: &TimeOptions) -> Result<f64> {
         best = best.min(started.elapsed().as_secs_f64() * 1e9 / steps as f64);
     }
     Ok(best)
-}
-
-/// True under loads that need not repeat themselves, such as random ones: perturbations may then
-/// grow exponentially, but there is no attractor whose chaos that would be.
-#[must_use]
-pub fn is_aperiodic(scene: &Scene) -> bool {
-    scene.loads.iter().any(|load| matches!(load.kind, LoadKind::Table(_)))
 }
 
 /// Checks that at least one method succeeded.
