@@ -250,6 +250,15 @@ impl Error {
         self
     }
 
+    /// The error of a value of a case file without its place there, where it has one.
+    #[cfg(feature = "cli")]
+    pub(crate) fn without_place(self) -> Self {
+        match &self {
+            Self::Case { cause: Some(cause), .. } => cause.error().downcast_ref().cloned().unwrap_or(self),
+            _ => self,
+        }
+    }
+
     /// True where the request was wrong (exit code 2 of the tool), false where the run failed (exit
     /// code 1).
     #[must_use]

@@ -19,6 +19,7 @@ use super::strobe::{is_stable, square};
 use super::symmetry::mirror;
 use crate::error::{Error, Result};
 use crate::scene::{LoadKind, Row, Scene, System, Wall};
+use crate::scheme::check_exact;
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -92,11 +93,7 @@ pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
         let expected = "walls and flats: in a round hole no orbit in closed form is known";
         return Err(Error::invalid("support", found, expected));
     }
-    if let Some((index, wall)) = scene.walls.iter().enumerate().find(|(_, wall)| wall.friction.acts()) {
-        let place = if scene.is_slider(index) { "slider" } else { "wall" };
-        let expected = "no friction: where contacts stick and slip no orbit in closed form is known";
-        return Err(Error::invalid(place, format!("with friction, at {:?}", wall.name), expected));
-    }
+    check_exact(scene, "orbits in closed form")?;
     let period = forcing_period(scene)?;
     let all = frequencies(scene);
     if all.len() > 1 {

@@ -4,6 +4,7 @@ use super::periodic::{Orbit, REPEATED};
 use super::problem::Problem;
 use super::signature::{Kind, Signature};
 use super::watch::{Passage, Watch, gathered, orbit_of};
+use crate::contact::Contact;
 use crate::error::{Error, Result};
 use crate::scheme::{Scheme, Stepper};
 
@@ -28,8 +29,8 @@ impl Problem {
     /// [`SETTLE`] is a usual value of `settle`.
     ///
     /// # Errors
-    /// [`Error::NoOrbit`] where the events do not repeat themselves, or no orbit is found near
-    /// them; those of a run.
+    /// [`Error::NoOrbit`] where the events do not repeat themselves, no orbit is found near them,
+    /// or the motion never leaves a wall; those of a run.
     pub fn settled(&self, settle: u32) -> Result<Orbit> {
         self.settled_with(settle, &|_| {})
     }
@@ -55,7 +56,10 @@ impl Problem {
             let settled = watch.passages.partition_point(|passage| passage.phase < f64::from(settle));
             let passages = watch.passages.get(settled..).unwrap_or_default();
             if passages.is_empty() && look == most {
-                return self.still();
+                return match stepper.open_contacts().first() {
+                    Some(contact) => Err(self.pressed(contact)),
+                    None => self.still(),
+                };
             }
             if let Some(found) = repeated(passages, self) {
                 return self.recovered(found);
@@ -69,6 +73,15 @@ impl Problem {
             "the events do not repeat themselves within {LONGEST} forcing periods after {settle} of them: the motion \
              is chaotic or has not settled yet (settle longer, or start elsewhere)"
         )))
+    }
+
+    /// Why a motion that never leaves a wall is not told.
+    fn pressed(&self, contact: &Contact) -> Error {
+        let wall = self.scene().wall_name(contact.wall).unwrap_or_default();
+        Error::no_orbit(format!(
+            "the motion never leaves the wall {wall:?}: an orbit of one degree of freedom is told by its events, of \
+             which it has none; as a structure, such as a chain of one mass, the same body has it"
+        ))
     }
 
     /// The motion that touches no wall.

@@ -45,7 +45,7 @@ const SHARE: f64 = 0.01;
 const NUMBERS: [(&str, &str); 5] =
     [("start", "s"), ("end", "s"), ("approach_speed", "m_per_s"), ("departure_speed", "m_per_s"), ("impulse", "N_s")];
 
-/// Writes the contacts, one per row, with the derivatives of start, end, approach speed, departure
+/// Writes the contacts, one per row, by their starts, with the derivatives of start, end, approach speed, departure
 /// speed and impulse by each key: `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what
 /// is not known are empty.
 ///
@@ -54,7 +54,10 @@ const NUMBERS: [(&str, &str); 5] =
 pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Result<()> {
     let mut header: Vec<String> = csv::CONTACT.iter().copied().chain(["growth"]).map(str::to_owned).collect();
     header.extend(keys.iter().flat_map(|key| NUMBERS.map(|(what, unit)| key.header(what, unit))));
-    let rows = derivatives.contacts.iter().map(|one| {
+    // In the order of contacts.csv.
+    let mut contacts: Vec<_> = derivatives.contacts.iter().collect();
+    contacts.sort_by(|a, b| a.contact.start.total_cmp(&b.contact.start));
+    let rows = contacts.into_iter().map(|one| {
         let mut row = csv::contact_cells(name(scene, one.contact.wall), one.contact);
         row.push(digits(Some(one.growth)));
         for key in 0..keys.len() {

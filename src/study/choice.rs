@@ -1,6 +1,6 @@
 //! Chooses the simplest model, scheme and solver that a scene allows.
 
-use crate::error::Result;
+use crate::error::{Result, amount};
 use crate::linear::{Factor, Symmetric};
 use crate::qp::Backend;
 use crate::run::Run;
@@ -205,6 +205,7 @@ fn damping(system: &System, structure: &Structure) -> String {
         return "no damping".into();
     }
     if let Some((mass, stiffness)) = structure.rayleigh() {
+        let words = |x: f64| amount(x, 12);
         // The share of one Rayleigh term in a mode's damping may be rounding beside that of the
         // other.
         let [slowest, fastest] = system.frequencies();
@@ -212,9 +213,9 @@ fn damping(system: &System, structure: &Structure) -> String {
             mass.abs() > NOTHING * stiffness * slowest * slowest,
             stiffness * fastest * fastest > NOTHING * mass,
         ) {
-            (true, false) => format!("{mass:e} M"),
-            (false, true) => format!("{stiffness:e} K"),
-            _ => format!("{mass:e} M + {stiffness:e} K"),
+            (true, false) => format!("{} M", words(mass)),
+            (false, true) => format!("{} K", words(stiffness)),
+            _ => format!("{} M + {} K", words(mass), words(stiffness)),
         };
         return format!("classical damping: C = {sum}, the modes are uncoupled");
     }

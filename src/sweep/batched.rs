@@ -11,8 +11,9 @@ use super::strobe::repeats;
 use crate::batch;
 use crate::batch::{AtWall, By, Lane, Outcome};
 use crate::error::{Error, Result};
-use crate::scene::{Scene, Side, State};
+use crate::scene::{Checked, Scene, Side, State};
 use crate::scheme::Scheme;
+use crate::study::attractor;
 
 /// Rows that go through the lanes together.
 pub(super) const TOGETHER: u64 = 256;
@@ -91,7 +92,9 @@ impl Plan {
                         row.samples = strobes.iter().enumerate().skip(from).map(sample).collect();
                     }
                     if outcome.by == By::Event {
-                        row.error = "by the scheme event: the lanes do not support this oscillator".to_owned();
+                        row.error = "by the scheme event: kernel = \"batch\" has no elastic walls, no more than four sines, and \
+                                     cannot decide every graze"
+                            .to_owned();
                     }
                     self.check_finite(&mut row);
                 }
@@ -143,15 +146,26 @@ impl Plan {
                     let impacts = (outcome.lower.impacts + outcome.upper.impacts) as f64;
                     values.push(Some(impacts / strobes.len().max(1) as f64));
                 }
-                Measure::Period => {
-                    let states: Vec<State> = strobes.iter().map(|[q, v]| State { q: vec![*q], v: vec![*v] }).collect();
-                    let repeats = repeats(&states.iter().collect::<Vec<_>>(), lane.period, scene.gap_scale());
-                    values.push(repeats.map(|periods| periods as f64));
+                Measure::Period => values.push(repeating(strobes, lane, scene).map(|(periods, _)| periods as f64)),
+                // Of a periodic motion it is that of the orbit; the mean over the window oscillates
+                // about it.
+                Measure::Lyapunov => {
+                    let orbit = repeating(strobes, lane, scene).and_then(|(periods, last)| {
+                        attractor::exponent(&Checked::new(scene).ok()?, lane.period, periods, &last)
+                    });
+                    values.push(Some(orbit.unwrap_or(outcome.exponent)));
                 }
-                Measure::Lyapunov => values.push(Some(outcome.exponent)),
                 _ => values.push(None),
             }
         }
         values
     }
+}
+
+/// After how many periods the motion of `strobes` repeats itself, with the last of these states;
+/// `None` where it does not.
+fn repeating(strobes: &[[f64; 2]], lane: &Lane, scene: &Scene) -> Option<(usize, State)> {
+    let states: Vec<State> = strobes.iter().map(|[q, v]| State { q: vec![*q], v: vec![*v] }).collect();
+    let periods = repeats(&states.iter().collect::<Vec<_>>(), lane.period, scene.gap_scale())?;
+    Some((periods, states.last()?.clone()))
 }

@@ -189,6 +189,14 @@ fn the_ball_on_the_table() {
         near(floquet.determinant, 0.49, 1e-12);
         assert!(problem.judge(&orbit, 10).unwrap().holds());
     }
+    // Pressed on its stop with 1 N, which 0.5 N cannot lift: no flight, whatever the free motion does.
+    let pressed = Scene::oscillator(1.0, 0.5, 100.0)
+        .with_wall(Wall::upper("stop", 0.0).with_restitution(0.3))
+        .with_load(Load::constant(1.0))
+        .with_load(Load::harmonic(0.5, 2.0, 0.0))
+        .with_duration(5.0);
+    let none = Problem::new(pressed).unwrap().settled(20).unwrap_err();
+    assert!(!none.is_request() && none.to_string().contains("never leaves the wall \"stop\""), "{none}");
     // Its steady motion without the table is not determined.
     assert!(closed_forms(problem.scene(), 1).unwrap_err().to_string().contains("springs hold"));
     let slider = Slider {
@@ -198,7 +206,7 @@ fn the_ball_on_the_table() {
         friction: FrictionCoefficients::from(0.2),
     };
     let refused = closed_forms(&source(5.0, 0.8).with_slider(&slider).unwrap(), 1).unwrap_err();
-    assert!(refused.is_request() && refused.to_string().contains("slider is with friction, at \"pad\""), "{refused}");
+    assert!(refused.is_request() && refused.to_string().contains("friction at the slider \"pad\""), "{refused}");
 }
 
 #[test]

@@ -61,7 +61,7 @@ impl SceneFamily {
         for (varied, value) in values {
             file.set(&varied.key, &KeyValue::from(*value))?;
         }
-        Ok(file.case()?.scene)
+        Ok(file.case().map_err(Error::without_place)?.scene)
     }
 
     /// The title of pictures.

@@ -22,6 +22,9 @@ pub(super) fn list(case: &Case) -> Result<Answer> {
     };
     let found: Vec<_> = forms.into_iter().map(|form| (form.clone(), holds(&form))).collect();
     let mut answer = Answer::new(listed(&found, scene));
+    if scene.walls.iter().any(|wall| !wall.law.is_rigid()) {
+        answer.remarks(["elastic walls are left out: no orbit in closed form is known of them".to_owned()]);
+    }
     if found.is_empty() {
         answer.prose(format!("no orbit of one impact per period of the orbit in up to {LISTED} forcing periods"));
         return Ok(answer);

@@ -80,9 +80,10 @@ impl Comparison {
     }
 }
 
-/// True under loads that need not repeat themselves, such as random ones: perturbations may then
-/// grow exponentially, but there is no attractor whose chaos that would be.
+/// True under loads that need not repeat themselves, such as random ones, and without one that
+/// does: perturbations may then grow, but there is no attractor whose chaos that would be.
 #[must_use]
 pub fn is_aperiodic(scene: &Scene) -> bool {
-    scene.loads.iter().any(|load| matches!(load.kind, LoadKind::Table(_)))
+    let any = |is: fn(&LoadKind) -> bool| scene.loads.iter().any(|load| is(&load.kind));
+    any(|kind| matches!(kind, LoadKind::Table(_))) || !any(|kind| matches!(kind, LoadKind::Harmonic { .. }))
 }
