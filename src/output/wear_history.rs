@@ -183,8 +183,8 @@ fn growths(case: &Case, found: &WearHistories) -> impl Iterator<Item = String> {
         ),
         (
             Growth::Kept,
-            "the gaps stay as they are, told is the least: flats wear, and growth = \"flats\" of the support lets them \
-             recede",
+            "the gaps, of which the least is told, stay as they are: flats wear, and growth = \"flats\" of the \
+             support lets them recede",
         ),
     ];
     ways.into_iter().filter_map(|(way, words)| {

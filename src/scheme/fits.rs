@@ -7,12 +7,16 @@ use crate::qp::Backend;
 use crate::scene::{Scene, Wall};
 use std::fmt::Display;
 
+/// What a scheme may take in place of what it refuses.
+const NO_FRICTION: &str = "no friction";
+const RIGID: &str = "rigid round supports";
+
 /// What of a scene a scheme has no rule for.
 struct Refusal {
     /// In words, with the name of the place.
     found: String,
-    /// True where the scheme would take the scene without friction.
-    without_friction: bool,
+    /// What the scheme would take in its place.
+    instead: &'static [&'static str],
     why: &'static str,
 }
 
@@ -20,25 +24,30 @@ struct Refusal {
 /// be refused without friction as well comes first.
 fn refusal(scene: &Scene, scheme: Scheme) -> Option<Refusal> {
     let entry = scheme.entry();
-    let refused = |coverage: Coverage, what: &str, name: &str, without_friction: bool| match coverage {
-        Coverage::Refused(why) => Some(Refusal { found: format!("{what} {name:?}"), without_friction, why }),
+    let refused = |coverage: Coverage, what: &str, name: &str, instead: &'static [&'static str]| match coverage {
+        Coverage::Refused(why) => Some(Refusal { found: format!("{what} {name:?}"), instead, why }),
         Coverage::Stepped(_) => None,
     };
     let ring = scene.holes().find(|hole| !hole.law.is_rigid());
     let hole = scene.holes().next();
+    let rubs = scene.walls.iter().enumerate().find(|(_, wall)| wall.friction.acts());
+    let takes = |coverage: Coverage| matches!(coverage, Coverage::Stepped(_));
+    let were_it_rigid: &[&str] =
+        if takes(entry.round) && (rubs.is_none() || takes(entry.friction)) { &[RIGID] } else { &[] };
+    let found = ring.as_ref();
     let found =
-        ring.as_ref().and_then(|ring| refused(entry.elastic_round, "the elastic round support", ring.name, false));
-    let found = found.or_else(|| refused(entry.round, "the round support", hole?.name, false));
+        found.and_then(|ring| refused(entry.elastic_round, "the elastic round support", ring.name, were_it_rigid));
+    let found = found.or_else(|| refused(entry.round, "the round support", hole?.name, &[]));
     found.or_else(|| {
-        let (index, wall) = scene.walls.iter().enumerate().find(|(_, wall)| wall.friction.acts())?;
+        let (index, wall) = rubs?;
         let place = match () {
             () if wall.is_round() => "friction at the round support",
             () if scene.is_slider(index) => "friction at the slider",
             () => "friction at the wall",
         };
-        let alone = refused(entry.friction, place, &wall.name, true);
-        alone.or_else(|| {
-            refused(entry.elastic_round_friction, "friction and the elastic round support", ring?.name, true)
+        refused(entry.friction, place, &wall.name, &[NO_FRICTION]).or_else(|| {
+            let both = "friction and the elastic round support";
+            refused(entry.elastic_round_friction, both, ring?.name, &[NO_FRICTION, RIGID])
         })
     })
 }
@@ -50,10 +59,7 @@ fn bent_wall(scene: &Scene, scheme: Scheme) -> Option<&Wall> {
 
 /// What would be accepted in place of what is refused: one of `schemes`, or the scene without it.
 fn expected(schemes: &[&str], refusal: &Refusal) -> String {
-    let mut choices = schemes.to_vec();
-    if refusal.without_friction {
-        choices.push("no friction");
-    }
+    let mut choices = [schemes, refusal.instead].concat();
     let last = choices.pop().unwrap_or("a scene without it");
     let others = choices.join(", ");
     let or = if others.is_empty() { "" } else { " or " };
@@ -74,7 +80,8 @@ pub(crate) fn check_exact(scene: &Scene, asked: impl Display) -> Result<()> {
     }
 }
 
-/// Refuses `scene` where `method` has no rule for its walls or supports.
+/// Refuses `scene`, whose walls are those of the case, where `method` has no rule for its walls or
+/// supports.
 ///
 /// # Errors
 /// [`Error::Invalid`]: what of the scene it is, and what would be accepted.

@@ -4,7 +4,6 @@
 use super::central_difference::CentralDifference;
 use super::disks::Disks;
 use super::event::Event;
-use super::fits;
 use super::generalized_alpha::GeneralizedAlpha;
 use super::grid::Grid;
 use super::line::Line;
@@ -71,9 +70,8 @@ fn grid<S: Space>(scene: &Checked, method: Method, h: f64) -> Result<Grid<S>> {
 
 impl Kernel {
     /// `method` on `scene` with steps of `step` seconds; for the exact motion, the maximum length
-    /// of a step.
+    /// of a step. The scheme takes the scene.
     pub fn new(scene: &Checked, method: Method, step: f64) -> Result<Self> {
-        fits::check(scene, method)?;
         if scene.turns_or_rubs() {
             return Ok(Self::Other(planar(scene, method.scheme, step)?));
         }

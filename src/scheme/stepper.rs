@@ -2,6 +2,7 @@
 
 mod restart;
 
+use super::fits;
 use super::jumps::Jumps;
 use super::kernel::Kernel;
 use super::{Handover, Method, Scheme};
@@ -84,6 +85,7 @@ impl Stepper {
         if !(step.is_finite() && step > 0.0) {
             return Err(Error::invalid("step", step, "a finite number above 0"));
         }
+        fits::check(scene, Method { scheme, backend })?;
         let scene = match scheme {
             Scheme::Penalty { law, .. } => scene.with_laws(|scene| scene.penalised(law))?,
             _ => scene.clone(),

@@ -301,7 +301,7 @@ fn who_cannot_step_a_ring_says_so() {
     let mut rubs = scene.clone();
     rubs.walls[0].friction = 0.2.into();
     let error = Stepper::new(&rubs, &JEAN, 1e-4).unwrap_err();
-    assert!(error.to_string().contains("no friction, or rigid"), "{error}");
+    assert!(error.to_string().contains("expected located, no friction or rigid round supports: the normal"), "{error}");
     // What makes no sense is refused where it stands.
     for (stiffness, damping, words) in [(0.0, 0.0, "stiffness"), (f64::NAN, 0.0, "stiffness"), (1.0, -1.0, "damping")] {
         let mut wrong = scene.clone();

@@ -220,7 +220,7 @@ fn other_schemes_refuse_friction() {
         (alpha, &rigid, "friction at the round support \"hole\"; expected moreau-jean, located or no friction"),
         (Scheme::PaoliSchatzman, &rigid, "the round support \"hole\"; expected moreau-jean or located: this scheme"),
         // What is named is not refused next.
-        (MOREAU_JEAN, &elastic, "expected located or no friction: the normal"),
+        (MOREAU_JEAN, &elastic, "expected located, no friction or rigid round supports: the normal"),
         (Scheme::ImplicitEuler, &elastic, "expected located or no friction: a bound"),
         (Scheme::Event, &elastic, "the elastic round support \"hole\"; expected located: the force"),
         (alpha, &elastic, "the elastic round support \"hole\"; expected located: this scheme"),

@@ -276,6 +276,10 @@ fn a_wrong_request_exits_with_2_and_says_what_would_be_accepted() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("taken"), "a file").unwrap();
     let case = "rigid-walls-sine";
+    // Sliders have no wall that faces them, which is not what is wrong with a penalty.
+    let wall = "[[wall]]\nname = \"stop\"\nside = \"both\"\ngap = 1.0\n";
+    let rubs = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/dry-friction-damper.toml");
+    fs::write(dir.path().join("rubs.toml"), fs::read_to_string(rubs).unwrap() + wall).unwrap();
     let (dry, vary, normal) = ("dry-friction-damper", "--vary", "slider.pad.normal_force=1,2");
     let requests: &[(&[&str], &str)] = &[
         (&["run", "nowhere.toml"], "nowhere.toml"),
@@ -302,7 +306,10 @@ fn a_wrong_request_exits_with_2_and_says_what_would_be_accepted() {
         (&["run", case, "--out", "taken/here"], "taken"),
         (&["compare", case, "--end", "0.1", "--out", "taken"], "taken"),
         (&["compare", "bouncing-ball", "--end", "0.1", "--epsilon", "1e-9"], "stiffness"),
-        (&["run", dry, "--scheme", "penalty", "--epsilon", "1e-9"], "expected moreau-jean, located or no friction"),
+        (
+            &["run", "rubs.toml", "--scheme", "penalty", "--epsilon", "1e-9"],
+            "expected moreau-jean, located or no friction",
+        ),
         (&["sweep", dry, vary, normal, "--measure", "lyapunov"], "the measure lyapunov, with friction at the slider"),
         (&["sweep", dry, vary, normal, "--measure", "attractor"], "\"pad\"; expected no friction"),
         (&["sweep", dry, vary, normal, "--measure", "impacts", "--kernel", "batch"], "\"pad\"; expected no friction"),
