@@ -4,9 +4,9 @@ use super::periodic::{Orbit, REPEATED};
 use super::problem::Problem;
 use super::signature::{Kind, Signature};
 use super::watch::{Passage, Watch, gathered, orbit_of};
-use crate::contact::Contact;
 use crate::error::{Error, Result};
 use crate::scheme::{Scheme, Stepper};
+use crate::step::Contact;
 
 /// Most forcing periods after which the events of a settled run may repeat themselves.
 const LONGEST: u32 = 32;
