@@ -45,9 +45,9 @@ const SHARE: f64 = 0.01;
 const NUMBERS: [(&str, &str); 5] =
     [("start", "s"), ("end", "s"), ("approach_speed", "m_per_s"), ("departure_speed", "m_per_s"), ("impulse", "N_s")];
 
-/// Writes the contacts, one per row, by their starts, with the derivatives of start, end, approach speed, departure
-/// speed and impulse by each key: `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what
-/// is not known are empty.
+/// Writes the contacts, one per row, by their starts, with the derivatives of start, end, approach
+/// speed, departure speed and impulse by each key:
+/// `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what is not known are empty.
 ///
 /// # Errors
 /// As [`csv::table`].

@@ -92,8 +92,8 @@ impl Plan {
                         row.samples = strobes.iter().enumerate().skip(from).map(sample).collect();
                     }
                     if outcome.by == By::Event {
-                        row.error = "by the scheme event: kernel = \"batch\" has no elastic walls, no more than four sines, and \
-                                     cannot decide every graze"
+                        row.error = "by the scheme event: kernel = \"batch\" has no elastic walls, no more than four \
+                                     sines, and cannot decide every graze"
                             .to_owned();
                     }
                     self.check_finite(&mut row);

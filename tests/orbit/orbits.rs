@@ -189,7 +189,8 @@ fn the_ball_on_the_table() {
         near(floquet.determinant, 0.49, 1e-12);
         assert!(problem.judge(&orbit, 10).unwrap().holds());
     }
-    // Pressed on its stop with 1 N, which 0.5 N cannot lift: no flight, whatever the free motion does.
+    // Pressed on its stop with 1 N, which 0.5 N cannot lift: no flight, whatever the free motion
+    // does.
     let pressed = Scene::oscillator(1.0, 0.5, 100.0)
         .with_wall(Wall::upper("stop", 0.0).with_restitution(0.3))
         .with_load(Load::constant(1.0))

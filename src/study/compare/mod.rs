@@ -110,7 +110,8 @@ fn row(
     row
 }
 
-/// Largest error over the gap, or without one over the largest displacement, up to the horizon, and the time up to which run and reference agree.
+/// Largest error over the gap, or without one over the largest displacement, up to the horizon, and
+/// the time up to which run and reference agree.
 fn against(scene: &Scene, run: &Run, reference: &Run, horizon: f64) -> (Option<f64>, Option<f64>) {
     let length = difference::error_length(scene, &reference.trajectory);
     let (mut error, mut until) = (None, None);
