@@ -63,7 +63,7 @@ impl Embedded {
     /// The case of that name.
     ///
     /// # Errors
-    /// [`Error::Unknown`], listing the names that exist.
+    /// [`Error::Unknown`](crate::Error::Unknown), listing the names that exist.
     pub fn named(name: &str) -> Result<&'static Self> {
         named("case", name, ALL.iter().map(|case| (case.name, case)))
     }

@@ -8,6 +8,7 @@
 //! results as they were. One amidst it leaves a manifest that says so, and the same request
 //! replaces everything that it lists.
 
+mod earlier;
 mod stage;
 #[cfg(test)]
 mod tests;
@@ -21,12 +22,13 @@ use super::manifest::{self, UNFINISHED};
 use super::record::{DOCUMENTS, Record, TABLES};
 use super::request::program;
 use crate::error::{Error, Result};
+use earlier::{EarlierResults, take_away};
 use serde_json::{Map, Value, json};
 use stage::Stage;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
 use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 /// A folder of results that is being written.
@@ -35,8 +37,8 @@ pub struct Results {
     folder: PathBuf,
     request: Map<String, Value>,
     formats: Formats,
-    /// When the results already in the folder were made, and their files.
-    before: Option<Before>,
+    /// The results already in the folder.
+    earlier: Option<EarlierResults>,
     files: Vec<String>,
     /// Number of `files`, the first ones, that are in their places.
     placed: usize,
@@ -54,12 +56,6 @@ pub struct Results {
     entered: Vec<PathBuf>,
     stage: Stage,
     _lock: Lock,
-}
-
-#[derive(Debug, Default)]
-struct Before {
-    made: Option<String>,
-    files: Vec<String>,
 }
 
 impl Results {
@@ -96,16 +92,11 @@ impl Results {
         // Another process may have been at work in between.
         check()?;
         remove_abandoned(folder, None);
-        let unknown = || manifest::unknown_results(folder).map(|_| Before::default());
-        let before = manifest::read(folder).as_ref().map_or_else(unknown, |manifest| {
-            let files = manifest::files(manifest).map(str::to_owned).collect();
-            Some(Before { made: manifest::made(manifest).map(str::to_owned), files })
-        });
         Ok(Self {
             folder: folder.to_owned(),
             request,
             formats,
-            before,
+            earlier: EarlierResults::of(folder),
             files: Vec::new(),
             placed: 0,
             finished: false,
@@ -257,7 +248,7 @@ impl Results {
     /// The manifest from the first change in the folder to the last: with the files of the earlier
     /// results, which are still to be removed.
     fn write_unfinished(&self) -> Result<()> {
-        let earlier = self.before.iter().flat_map(|before| &before.files).filter(|name| !self.is_own(name));
+        let earlier = self.earlier.iter().flat_map(|earlier| &earlier.files).filter(|name| !self.is_own(name));
         let files: Vec<&String> = self.files.iter().chain(&self.journal).chain(earlier).collect();
         let mut manifest = self.manifest();
         manifest["files"] = json!(files);
@@ -308,9 +299,9 @@ impl Results {
         folders.iter().filter(|folder| **folder != self.folder).try_for_each(|folder| sync_folder(folder))?;
         self.placed = self.files.len();
         // Results that are taken over are not replaced.
-        let (before, taken_over) = (self.before.take(), self.finished);
-        if let Some(before) = &before {
-            before.files.iter().filter(|name| !self.is_own(name)).for_each(|name| self.take_away(name));
+        let (earlier, taken_over) = (self.earlier.take(), self.finished);
+        if let Some(earlier) = &earlier {
+            earlier.files.iter().filter(|name| !self.is_own(name)).for_each(|name| take_away(&self.folder, name));
         }
         manifest::write(&self.folder, &self.manifest())?;
         if let Some(journal) = self.journal.take_if(|_| !self.journal_stays) {
@@ -318,31 +309,7 @@ impl Results {
             let _ = fs::remove_file(self.folder.join(journal));
         }
         self.finished = true;
-        let replaced = |before: Before| {
-            let made = before.made.map_or_else(String::new, |time| format!(", made {time}"));
-            format!("replaced the results in {}{made}", self.folder.display())
-        };
-        Ok(before.filter(|_| !taken_over).map(replaced))
-    }
-
-    /// Removes a file of the earlier results, and its folder if that is then empty. The manifest
-    /// may name any path, so nothing outside the folder is touched. A file that cannot be removed
-    /// stays.
-    fn take_away(&self, name: &str) {
-        let path = Path::new(name);
-        if name.is_empty() || !path.components().all(|part| matches!(part, Component::Normal(_))) {
-            return;
-        }
-        let linked = |path: &Path| fs::symlink_metadata(self.folder.join(path)).is_ok_and(|meta| meta.is_symlink());
-        if path.ancestors().skip(1).any(|folder| !folder.as_os_str().is_empty() && linked(folder)) {
-            return;
-        }
-        let _ = fs::remove_file(self.folder.join(path));
-        for folder in path.ancestors().skip(1).filter(|folder| !folder.as_os_str().is_empty()) {
-            remove_abandoned(&self.folder.join(folder), None);
-            // This removes empty folders only.
-            let _ = fs::remove_dir(self.folder.join(folder));
-        }
+        Ok(earlier.filter(|_| !taken_over).map(|earlier| earlier.replaced(&self.folder)))
     }
 }
 
