@@ -223,7 +223,9 @@ pub fn _sweep(
     let (done, runs, mut notes) = (AtomicU64::new(0), AtomicU64::new(0), Vec::new());
     let work = || {
         let plan = sweep.plan()?;
-        notes = plan.notes();
+        // What concerns the result; the other notes are those of the case, which has them.
+        let case = plan.case();
+        notes = case.instability().into_iter().chain(case.large_random_forces()).collect();
         let options = SweepOptions { threads, shard: Shard::WHOLE, force: false };
         plan.run_into(&folder, options, &|progress| {
             done.store(progress.done, Ordering::Relaxed);

@@ -37,7 +37,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let sweep = args.sweep(ui)?;
     let title = sweep.title().to_owned();
     let plan = sweep.plan()?;
-    plan.notes().iter().for_each(|note| ui.message(note));
+    plan.notes().iter().for_each(|note| ui.message(&format!("note: {note}")));
     if args.plan {
         return Ok(planned(&plan));
     }
