@@ -17,7 +17,7 @@ fn an_orbit_is_written_and_read_back() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path();
     let (out, _) = said(path, &[&["orbit"], &SOFT[..], &["--out", "a"]].concat(), 0);
-    assert!(out.contains("symmetric") && out.contains("stable") && out.contains("the same events"), "{out}");
+    assert!(out.contains("its mirror image") && out.contains("stable") && out.contains("the same events"), "{out}");
     let first = json(&path.join("a/orbit.json"));
     assert_eq!((&first["periods"], &first["symmetric"]), (&Value::from(1), &Value::from(true)));
     let speed = |orbit: &Value| orbit["events"][0]["speed_m_per_s"].as_f64().unwrap();
