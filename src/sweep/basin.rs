@@ -125,6 +125,7 @@ pub(super) fn described(attractor: &Attractor, scene: &Scene) -> Vec<String> {
     let signature = touches.iter().map(|touch| match touch.lasts {
         Lasts::Rest => format!("{}:rest", wall(touch.wall)),
         Lasts::Chatter => format!("{}:chatter", wall(touch.wall)),
+        Lasts::Always => format!("{}:always", wall(touch.wall)),
         _ => wall(touch.wall).to_owned(),
     });
     let signature: Vec<String> = signature.collect();

@@ -76,6 +76,24 @@ fn an_orbit_that_rests_is_superstable() {
     assert!(multipliers.iter().all(|m| m.norm() == 0.0));
 }
 
+/// Pressed on its wall with more than the load lifts: no flight, though it makes no contact either.
+#[test]
+fn a_motion_that_never_leaves_its_wall_is_not_quiet() {
+    let wall = Wall::upper("stop", 0.0);
+    for (wall, contracting) in [(wall.clone().with_restitution(0.3), 0.0), (wall.with_elasticity(300.0, 0.0), 1.0)] {
+        let scene = Scene::oscillator(1.0, 0.5, 100.0)
+            .with_wall(wall)
+            .with_load(Load::constant(4.0))
+            .with_load(Load::harmonic(0.5, 2.0, 0.0));
+        let (strobes, touches, multipliers) = periodic(Attractor::of(&scene, 0.5, 60, 20).unwrap());
+        let lasts: Vec<Lasts> = touches.iter().map(|touch| touch.lasts).collect();
+        assert_eq!((strobes.len(), lasts), (1, vec![Lasts::Always]));
+        // On the spring both multipliers have the size e^{-cT/2m}; on the rigid wall nothing is left.
+        let size = contracting * (-0.25_f64 * 0.5).exp();
+        assert!(multipliers.iter().all(|m| (m.norm() - size).abs() < 1e-12), "{multipliers:?}");
+    }
+}
+
 #[test]
 fn chaos_is_told_by_its_exponent() {
     assert_eq!(Attractor::of(&source(0.8, 2.75), 1.0 / 2.75, 100, 400).unwrap(), Some(Attractor::Chaotic));

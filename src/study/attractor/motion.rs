@@ -15,6 +15,8 @@ pub enum Lasts {
     Chatter,
     /// Contact with an elastic wall.
     Push,
+    /// Contact with a wall that never ends.
+    Always,
 }
 
 /// A wall touched along a periodic motion.

@@ -150,8 +150,9 @@ impl Orbit {
         // A contact that spans the start is recorded twice: at its beginning, near the end of the
         // run, and at the start of the run.
         let open: Vec<usize> = contacts.iter().filter(|c| c.end.is_none()).map(|c| c.wall).collect();
-        contacts.retain(|c| !(c.start == 0.0 && c.approach_speed == 0.0 && open.contains(&c.wall)));
+        contacts.retain(|c| !(c.start == 0.0 && c.approach_speed == 0.0 && c.end.is_some() && open.contains(&c.wall)));
         let lasts = |c: &Contact| match scene.walls.get(c.wall) {
+            _ if c.start == 0.0 && c.end.is_none() => Lasts::Always,
             Some(wall) if !wall.law.is_rigid() => Lasts::Push,
             Some(_) if c.end == Some(c.start) => Lasts::Instant,
             Some(_) => Lasts::Rest,
