@@ -88,7 +88,8 @@ fn a_motion_that_never_leaves_its_wall_is_not_quiet() {
         let (strobes, touches, multipliers) = periodic(Attractor::of(&scene, 0.5, 60, 20).unwrap());
         let lasts: Vec<Lasts> = touches.iter().map(|touch| touch.lasts).collect();
         assert_eq!((strobes.len(), lasts), (1, vec![Lasts::Always]));
-        // On the spring both multipliers have the size e^{-cT/2m}; on the rigid wall nothing is left.
+        // On the spring both multipliers have the size e^{-cT/2m}; on the rigid wall nothing is
+        // left.
         let size = contracting * (-0.25_f64 * 0.5).exp();
         assert!(multipliers.iter().all(|m| (m.norm() - size).abs() < 1e-12), "{multipliers:?}");
     }
