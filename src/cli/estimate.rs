@@ -68,11 +68,15 @@ pub struct RunTime {
 }
 
 impl DurationEstimate {
+    fn new(cause: String, runs: Vec<CountedRun>) -> Self {
+        Self { cause, runs, following: 0.0, about: "about" }
+    }
+
     /// That of `method` on `scene` with steps of `step` seconds.
     #[must_use]
     pub fn of_run(scene: &Scene, method: &Method, step: f64) -> Self {
         let run = CountedRun { scene: scene.clone(), method: *method, step, count: 1.0, words: ["about", "more"] };
-        Self { cause: steps_in_words(scene, method, step), runs: vec![run], following: 0.0, about: "about" }
+        Self::new(steps_in_words(scene, method, step), vec![run])
     }
 
     /// The same for work that consists of `count` such runs.
@@ -135,7 +139,7 @@ impl DurationEstimate {
         // The exact motion of a structure is given up after about a second if it has too many
         // events.
         runs.retain(|run| run.method.scheme != Scheme::Event || matches!(scene.system, System::Oscillator(_)));
-        Self { cause, runs, following: 0.0, about: "about" }
+        Self::new(cause, runs)
     }
 
     /// That of a chart of `methods`, each at several steps, where no run may take longer than
@@ -158,7 +162,7 @@ impl DurationEstimate {
         let moreau = Method::new(Scheme::MoreauJean { theta: 0.5 });
         let Self { cause, mut runs, .. } = Self::of_comparison(scene, &[moreau], step);
         runs.extend(Self::of_run(scene, &moreau, step).times(count).runs);
-        Self { cause, runs, following: 0.0, about: "about" }
+        Self::new(cause, runs)
     }
 
     /// That of maps with `rows` rows and `work` steps in all.
@@ -166,14 +170,14 @@ impl DurationEstimate {
     pub fn of_maps(scene: &Scene, work: u64, rows: usize) -> Self {
         let (unknowns, rows) = (unknowns_in_words(scene), counted(rows, "row"));
         let cause = format!("{:.1e} steps{unknowns} in {rows}, set by the slowest frequency and time.end", work as f64);
-        Self { cause, runs: Vec::new(), following: 0.0, about: "about" }
+        Self::new(cause, Vec::new())
     }
 
     /// For work with runs of the exact motion whose number is not known, each of which may take
     /// long; without a run where the exact scheme refuses the scene.
     fn of_each_exact_run(scene: &Scene, step: f64) -> Self {
         if check_exact(scene, "an estimate").is_err() {
-            return Self { cause: String::new(), runs: Vec::new(), following: 0.0, about: "about" };
+            return Self::new(String::new(), Vec::new());
         }
         let mut exact = Self::of_run(scene, &Method::new(Scheme::Event), step);
         exact.runs.iter_mut().for_each(|run| run.words = ["about", "for each run of the exact motion"]);

@@ -292,6 +292,10 @@ impl Scene {
         let spans = uppers.flat_map(|(upper, place)| {
             lower[place].iter().map(move |lower| 0.5 * (upper.position() - lower.position()))
         });
+        let least = spans.chain(self.holes().map(|hole| hole.gap)).filter(positive).reduce(f64::min);
+        if least.is_some() {
+            return least;
+        }
         // A start on a wall is off it by rounding.
         let largest = self.initial.q.iter().fold(0.0, |largest: f64, q| largest.max(q.abs()));
         let start = |w: &Wall| {
@@ -299,8 +303,7 @@ impl Scene {
             let weights: f64 = w.row().entries().iter().map(|(_, weight)| weight.abs()).sum();
             if gap > ON_WALL * (w.position().abs() + weights * largest) { gap } else { 0.0 }
         };
-        let least = spans.chain(self.holes().map(|hole| hole.gap)).filter(positive).reduce(f64::min);
-        least.or_else(|| self.walls.iter().map(start).filter(positive).reduce(f64::max))
+        self.walls.iter().map(start).filter(positive).reduce(f64::max)
     }
 
     /// True for one degree of freedom whose walls stand on it directly: schemes on a grid then

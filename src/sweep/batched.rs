@@ -14,6 +14,7 @@ use crate::error::{Error, Result};
 use crate::scene::{Checked, Scene, Side, State};
 use crate::scheme::Scheme;
 use crate::study::attractor;
+use std::cell::LazyCell;
 
 /// Rows that go through the lanes together.
 pub(super) const TOGETHER: u64 = 256;
@@ -129,6 +130,7 @@ impl Plan {
     fn measured_values(&self, outcome: &Outcome, strobes: &[[f64; 2]], lane: &Lane, scene: &Scene) -> Vec<Option<f64>> {
         let mut values = Vec::with_capacity(self.measured());
         let [low, high] = outcome.extent;
+        let repeating = LazyCell::new(|| repeating(strobes, lane, scene));
         for measure in &self.sweep.measures {
             let mut of_walls = |value: &dyn Fn(&AtWall) -> Option<f64>| {
                 let wall = |side| if side == Side::Upper { &outcome.upper } else { &outcome.lower };
@@ -146,12 +148,12 @@ impl Plan {
                     let impacts = (outcome.lower.impacts + outcome.upper.impacts) as f64;
                     values.push(Some(impacts / strobes.len().max(1) as f64));
                 }
-                Measure::Period => values.push(repeating(strobes, lane, scene).map(|(periods, _)| periods as f64)),
+                Measure::Period => values.push(repeating.as_ref().map(|(periods, _)| *periods as f64)),
                 // Of a periodic motion it is that of the orbit; the mean over the window oscillates
                 // about it.
                 Measure::Lyapunov => {
-                    let orbit = repeating(strobes, lane, scene).and_then(|(periods, last)| {
-                        attractor::exponent(&Checked::new(scene).ok()?, lane.period, periods, &last)
+                    let orbit = repeating.as_ref().and_then(|(periods, last)| {
+                        attractor::exponent(&Checked::new(scene).ok()?, lane.period, *periods, last)
                     });
                     values.push(Some(orbit.unwrap_or(outcome.exponent)));
                 }

@@ -17,7 +17,7 @@ fn times_are_told_in_words() {
 
 #[test]
 fn the_rest_is_extrapolated_from_what_is_done() {
-    let estimate = DurationEstimate { cause: "reasons".to_owned(), runs: Vec::new(), following: 0.0, about: "about" };
+    let estimate = DurationEstimate::new("reasons".to_owned(), Vec::new());
     let second = Duration::from_secs(1);
     assert_eq!(estimate.message(second, 0.01).as_deref(), Some("about 99 s more: reasons"));
     assert!(estimate.message(second, 0.9).is_none() && estimate.message(second, 1.0).is_none());
