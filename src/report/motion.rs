@@ -7,6 +7,7 @@ use super::scene::in_keys;
 use crate::error::{Error, Result};
 use crate::output::shape::{self, BodyStations, Stations};
 use serde_json::{Value, json};
+use std::borrow::Cow;
 
 /// Most rows of a run that the page holds; of a longer one the rows with extremes.
 const MOST_ROWS: usize = 1 << 17;
@@ -137,10 +138,10 @@ fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> R
     // `motion` has checked the number of columns.
     let from = table.columns.len().saturating_sub(2 * walls.len() + beside(summary));
     let column = |index: usize| table.columns.get(index).map_or(&[][..], Vec::as_slice);
-    let of_wall = |(index, wall)| (wall, column(from + 2 * index).to_vec());
+    let of_wall = |(index, wall)| (wall, Cow::Borrowed(column(from + 2 * index)));
     let of_hole = |(index, hole)| {
         let [y, z] = [0, 2].map(|part: usize| column(from + 2 * walls.len() + 4 * index + part));
-        (hole, y.iter().zip(z).map(|(y, z)| y.hypot(*z)).collect::<Vec<f64>>())
+        (hole, Cow::Owned(y.iter().zip(z).map(|(y, z)| y.hypot(*z)).collect::<Vec<f64>>()))
     };
     let holes = supports.iter().filter(|support| support["shape"] == "round").enumerate().map(of_hole);
     let mut out = Vec::new();
