@@ -200,11 +200,14 @@ impl Follower<'_, '_> {
         for Crossed { label, event, y, .. } in crossed {
             let problem = self.curve.problem(&y)?;
             let point = point(self.curve, &problem, &y)?;
-            let label = problem.halves(&point.orbit).filter(|_| label == Label::Fold).map_or(label, |half| half.1);
+            // Where orbits over several periods meet that of one, the branch turns back along itself:
+            // beyond are the same orbits, shifted in time.
+            let met = problem.halves(&point.orbit).filter(|_| label == Label::Fold);
+            let (label, ends) = met.map_or((label, label.ends()), |(_, met)| (met, true));
             let (wall, curve) = (label.wall(event, &point), self.curve.clone());
             let line = &mut self.line;
             line.passed.push(Passed { label, event, wall, point: point.clone(), curve, y, after, beyond: None });
-            if label.ends() {
+            if ends {
                 line.points.truncate(after);
                 line.points.push(point);
                 return Ok(Some(label));

@@ -6,7 +6,7 @@ use super::label::Label;
 use super::line::{Begin, End, Followed, Line, Metric, NODE, Passed};
 use super::point::Point;
 use super::request::{Branch, Graph, Request, Special, Switch};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use std::collections::VecDeque;
 
 /// The graph found so far, and the special points whose branches have not been followed yet.
@@ -114,7 +114,13 @@ impl<'r, C: Followed> Net<'r, C> {
         let depth = depth + u32::from(!goes_on);
         let used = if goes_on { self.used.get(own).copied().unwrap_or(0) } else { 0 };
         let begin = match passed.beyond {
-            Some(begin) => Ok(*begin),
+            Some(begin) => begin.curve.orbit_at(&begin.y).and_then(|(orbit, metric)| {
+                // Orbits over several periods may go on as those of one, run over again.
+                match orbit.part(metric.mirror.as_deref()) {
+                    Some((once, _)) => begin.curve.shorter(&once, &begin),
+                    None => Ok(*begin),
+                }
+            }),
             None => passed.curve.switch(&passed),
         };
         let outcome = begin.and_then(|begin| self.begin(number, begin, (depth, used), seen));
@@ -136,6 +142,9 @@ impl<'r, C: Followed> Net<'r, C> {
     ) -> Result<Option<usize>> {
         let Begin { curve, y, along, both } = begin;
         let (orbit, metric) = curve.orbit_at(&y)?;
+        if orbit.part(metric.mirror.as_deref()).is_some() {
+            return Err(Error::no_orbit("beside it only the orbits of this branch were found, run over more than once"));
+        }
         if let Some(known) = self.known(number, &orbit, &metric) {
             return Ok(Some(known));
         }

@@ -60,23 +60,29 @@ pub(super) fn follow<'a>(
     Ok(follower.line)
 }
 
-/// Adds the special points of a step after the last point of `line`.
-fn note<'a>(curve: &Shots<'a>, line: &mut Line<Shots<'a>>, mut crossed: Crossed) -> Result<()> {
+/// Adds the special points of a step after the last point of `line`; the label of the one at which
+/// the branch ends: where orbits over several periods meet that of one, it turns back along itself,
+/// and beyond are the same orbits, shifted in time.
+fn note<'a>(curve: &Shots<'a>, line: &mut Line<Shots<'a>>, mut crossed: Crossed) -> Result<Option<Label>> {
     crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
     let after = line.points.len();
     for (_, label, y) in crossed {
         let linear = curve.linear(&y, &mut None)?;
         let own = super::step_start::multipliers_of(&linear);
         let point = curve.point(&y, linear.posed.period, &linear.motion, own);
-        // A branch of orbits over several periods has met the orbit of one of them.
-        let label = match point.orbit.part(curve.mirror.as_deref()) {
-            Some((_, true)) if matches!(label, Label::Fold | Label::BranchPoint) => Label::SymmetryBreaking,
-            Some((_, false)) if matches!(label, Label::Fold | Label::BranchPoint) => Label::PeriodDoubling,
-            _ => label,
+        let met = match point.orbit.part(curve.mirror.as_deref()) {
+            Some((_, true)) if matches!(label, Label::Fold | Label::BranchPoint) => Some(Label::SymmetryBreaking),
+            Some((_, false)) if matches!(label, Label::Fold | Label::BranchPoint) => Some(Label::PeriodDoubling),
+            _ => None,
         };
+        let (label, last) = (met.unwrap_or(label), point.clone());
         line.passed.push(Passed { label, event: 0, wall: None, point, curve: curve.clone(), y, after, beyond: None });
+        if met.is_some() {
+            line.points.push(last);
+            return Ok(met);
+        }
     }
-    Ok(())
+    Ok(None)
 }
 
 /// A branch as it is followed.
@@ -165,7 +171,9 @@ impl<'a> Follower<'a> {
             && self.keeps(&found)
             && let (crossed, true) = self.curve.crossed(&self.now, &found.0.tests, short)?
         {
-            note(&self.curve, &mut self.line, crossed)?;
+            if let Some(met) = note(&self.curve, &mut self.line, crossed)? {
+                return Ok(Some(End::Special(met)));
+            }
             seen(&found.0.point);
             self.line.points.push(found.0.point);
             return Ok(Some(End::Range));
@@ -203,12 +211,16 @@ impl<'a> Follower<'a> {
                     Ok((here.point.value - bound, here.point))
                 })?;
                 last.value = bound;
-                note(curve, line, crossed.into_iter().filter(|(s, ..)| *s <= limit).collect())?;
+                if let Some(met) = note(curve, line, crossed.into_iter().filter(|(s, ..)| *s <= limit).collect())? {
+                    return Ok(Some(End::Special(met)));
+                }
                 line.points.push(last);
             }
             return Ok(Some(End::Range));
         }
-        note(curve, line, crossed)?;
+        if let Some(met) = note(curve, line, crossed)? {
+            return Ok(Some(End::Special(met)));
+        }
         seen(&next.point);
         let back =
             |(y, tangent): &(Vector, Vector)| (&next.y - y).norm() <= step && turns_little(tangent, &next.tangent);

@@ -8,6 +8,7 @@ use crate::orbit::branch::label::Label;
 use crate::orbit::branch::line::{Begin, Followed, Line, Metric, Passed};
 use crate::orbit::branch::point::Point;
 use crate::orbit::periodic::Orbit;
+use crate::orbit::signature::Signature;
 use nalgebra::{DMatrix, DVector};
 
 /// Orbits that differ by less than this are the same: where a branch of twice the period meets that
@@ -37,9 +38,9 @@ impl Followed for Shots<'_> {
             // of the latter goes on to both sides.
             Label::PeriodDoubling if at.point.orbit.part(None).is_some() => {
                 let part = at.point.orbit.part(None).map_or(self.periods, |(once, _)| once.signature.periods);
-                self.onto(at, Self { periods: part, ..whole })
+                Self { periods: part, ..whole }.through(&at.y, None)
             }
-            Label::SymmetryBreaking if !self.symmetric => self.onto(at, Self { symmetric: true, ..whole }),
+            Label::SymmetryBreaking if !self.symmetric => Self { symmetric: true, ..whole }.through(&at.y, None),
             Label::PeriodDoubling => self.aside(at, Self { periods: 2 * self.periods, ..whole }),
             Label::SymmetryBreaking => self.aside(at, whole),
             Label::BranchPoint => self.across(at),
@@ -47,6 +48,11 @@ impl Followed for Shots<'_> {
             Label::Fold => Err(Error::no_orbit("the branch itself goes on beyond")),
             _ => Err(Error::no_orbit(format!("no orbit was found beyond the {}", at.label))),
         }
+    }
+
+    fn shorter(&self, once: &Orbit, at: &Begin<Self>) -> Result<Begin<Self>> {
+        let Signature { periods, symmetric, .. } = once.signature;
+        Self { periods, symmetric, ..self.clone() }.through(&at.y, Some(&at.along).filter(|_| !at.both))
     }
 
     fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)> {
@@ -57,12 +63,14 @@ impl Followed for Shots<'_> {
 }
 
 impl Shots<'_> {
-    /// The simpler branch `curve` through the same orbit.
-    fn onto(&self, at: &Passed<Self>, curve: Self) -> Result<Begin<Self>> {
-        let n = at.y.len() - 1;
-        let (y, linear, _) = curve.correct(&at.y, &super::unit(n + 1, n), None)?;
-        let along = tangent(&linear.matrix, &super::unit(n + 1, n))?;
-        Ok(Begin { curve, y, along, both: true })
+    /// This branch through the orbit at the point `y` of a longer one, to both sides or in the
+    /// direction of `along`.
+    fn through(self, y: &Vector, along: Option<&Vector>) -> Result<Begin<Self>> {
+        let key = super::unit(y.len(), y.len() - 1);
+        let (y, linear, _) = self.correct(y, &key, None)?;
+        let both = along.is_none();
+        let along = tangent(&linear.matrix, along.unwrap_or(&key))?;
+        Ok(Begin { curve: self, y, along, both })
     }
 
     /// The branch that leaves along the eigenvector of a multiplier −1, at a small amplitude, on
