@@ -73,7 +73,7 @@ pub use scene::{
     MassMatrix, ModalData, ModalPoint, Modes, PlaneRows, Reduction, SectionFault, WallTruncation, heading, matrices,
 };
 pub use scene::{
-    Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scene, SceneKey,
+    Density, Forcing, Harmonic, Load, LoadKind, Loads, Oscillator, Probe, RandomForce, Row, Scatter, Scene, SceneKey,
     SharedStructure, Side, Slider, State, Structure, Support, System, Table, TimeFunction, Turbulence,
     TurbulenceSpectrum, Wall, WallLaw,
 };

@@ -103,6 +103,8 @@ impl Builder<'_> {
             set_start(&mut case);
             case.check().map_err(|error| self.locate(error, &case.scene))?;
         }
+        let mean = case.scene.initial.v.clone();
+        case.scatter_about(&mean);
         Ok(case)
     }
 
@@ -169,6 +171,7 @@ impl Builder<'_> {
             planes: self.planes.modes(),
             turbulence,
             sliders: case.sliders.clone(),
+            scatter: None,
         };
         // Where the file leaves `modes` out all are kept, which condensed degrees of freedom do not
         // have.

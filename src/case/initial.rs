@@ -5,8 +5,9 @@ use super::model::Model;
 use super::planes::Planes;
 use super::points::listed;
 use super::value::{Entry, Name, Section, Value};
+use super::written::ScatteredStart;
 use crate::error::{Result, Subject};
-use crate::scene::State;
+use crate::scene::{Scatter, State};
 use crate::study::truncation::Start;
 use toml::Spanned;
 
@@ -38,6 +39,8 @@ impl Builder<'_> {
     /// The state from which the case starts; that of an equilibrium is found later.
     pub fn initial(&mut self, initial: &Section<'_>) -> Result<State> {
         self.written.start = self.start(initial)?;
+        let scatter = initial.section("scatter").map(|section| self.scatter(&section)).transpose()?;
+        self.written.scattered = scatter.map(|scatter| ScatteredStart { scatter, mean: Vec::new() });
         Ok(State { q: self.field("displacement", initial)?, v: self.field("velocity", initial)? })
     }
 
@@ -53,6 +56,19 @@ impl Builder<'_> {
             }
             None => Ok(Start::Equilibrium),
         }
+    }
+
+    /// The scatter of the velocities.
+    fn scatter(&self, section: &Section<'_>) -> Result<Scatter> {
+        let owner = "initial.scatter";
+        let deviation = section.required("velocity");
+        if !(deviation.get_ref().is_finite() && *deviation.get_ref() > 0.0) {
+            let help = "expected a standard deviation above 0, in m/s";
+            let title = format!("{owner}.velocity is {:?}", deviation.get_ref());
+            return Err(self.source.error(deviation.span(), &title, help));
+        }
+        let seed = section.number("seed").map_or(Ok(0), |seed| self.seed(owner, &seed))?;
+        Ok(Scatter { deviation: deviation.into_inner(), seed })
     }
 
     /// A displacement or velocity of every degree of freedom; 0 where none is given.

@@ -326,6 +326,12 @@ pub(super) const LISTED: &[KeyEntry] = &[
         rigid wall (inside an elastic one is preload); a number above one degree of freedom"]),
     entry("initial.velocity", Any, "m_per_s", ["0", "a number, or a field, see below: before any \
         impulse at t = 0", "a number above one degree of freedom"]),
+    entry("initial.scatter", Inline, "", ["none", "normal deviates added to the velocities, one to \
+        each degree of freedom: starts that nobody can tell apart, as realisations of a chaotic \
+        motion", ""]),
+    entry("initial.scatter.velocity", Number, "m_per_s", [REQUIRED, "a number above 0: their \
+        standard deviation; with `modes` that of each modal velocity, in kg^(1/2) m/s", UNORDINARY]),
+    entry("initial.scatter.seed", Number, "", ["0", "a whole number from 0 to 2^53", ""]),
     entry("probe", Tables, "", ["see below", "up to 4096 probes; the first is the one of figures \
         and errors", ""]),
     entry("probe.name", Word, "", [REQUIRED, NAME, "anything else; two probes of one name"]),

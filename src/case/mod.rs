@@ -100,6 +100,8 @@ pub use model::{Body, Model, Place};
 pub use penalty::PenaltyOptions;
 pub use planes::Planes;
 #[cfg(feature = "cli")]
+pub(crate) use realisations::RANDOM;
+#[cfg(feature = "cli")]
 pub(crate) use report::Source;
 #[cfg(feature = "cli")]
 pub(crate) use schema::{SETTABLE, Schema};
@@ -114,7 +116,7 @@ pub use truncated::Truncated;
 #[cfg(feature = "cli")]
 pub(crate) use value::{Section, Value};
 pub use wear::WearOptions;
-pub use written::{FileRead, Origin, Support, SupportShape, WallsOverBase, WearData, Written};
+pub use written::{FileRead, Origin, ScatteredStart, Support, SupportShape, WallsOverBase, WearData, Written};
 
 use crate::error::{Error, Result};
 use crate::scene::{Condensation, FluidElastic, Scene, Slider};

@@ -3,7 +3,7 @@
 use super::builder::Builder;
 use super::table::{self, TableColumns};
 use super::value::Section;
-use super::written::Origin;
+use super::written::{Origin, ScatteredStart};
 use super::{Case, Truncated};
 use crate::error::{Error, Part, Result};
 use crate::scene::{Density, Load, LoadKind, RandomForce, Table};
@@ -108,10 +108,11 @@ impl Builder<'_> {
 }
 
 impl Case {
-    /// True if the case has a random load or turbulence.
+    /// True if the case has a random load, turbulence, or a start that scatters.
     #[must_use]
     pub fn is_random(&self) -> bool {
         !self.turbulence().is_empty()
+            || self.written.scattered.is_some()
             || self.written.origins.iter().any(|origin| matches!(origin, Origin::Random { .. }))
     }
 
@@ -149,8 +150,8 @@ impl Case {
         single.chain(fields)
     }
 
-    /// Realisation `number` of the case, from 1: the same case, where the seed of every random load
-    /// and turbulence is greater by `number` − 1. So realisation 1 is the case itself, and a run
+    /// Realisation `number` of the case, from 1: the same case, where the seed of every random load,
+    /// of turbulence and of a start that scatters is greater by `number` − 1. So realisation 1 is the case itself, and a run
     /// with `seed` set to that value repeats any of the others.
     ///
     /// # Errors
@@ -183,8 +184,32 @@ impl Case {
             let key = format!("turbulence.{}.seed", field.number()).parse()?;
             case.document.set(&key, &(field.seed as i64).into())?;
         }
+        if let Some(start) = &mut case.written.scattered {
+            raised(&mut start.scatter.seed)?;
+            case.document.set(&"initial.scatter.seed".parse()?, &(start.scatter.seed as i64).into())?;
+        }
+        case.scatter();
         case.make_random(case.scene.duration)?;
         Ok(case)
+    }
+
+    /// Makes the velocities of the start scatter about `mean`, if they scatter.
+    pub(super) fn scatter_about(&mut self, mean: &[f64]) {
+        let Some(start) = &mut self.written.scattered else { return };
+        start.mean = mean.to_vec();
+        self.scatter();
+    }
+
+    /// Draws the velocities of a start that scatters, in all scenes of the case.
+    fn scatter(&mut self) {
+        let Some(ScatteredStart { scatter, mean }) = &self.written.scattered else { return };
+        let mut v = mean.clone();
+        scatter.add_to(&mut v);
+        if let Some(Truncated { whole, reduction }) = &mut self.truncated {
+            whole.scatter = Some(*scatter);
+            reduction.scene.initial.v.clone_from(&v);
+        }
+        self.scene.initial.v = v;
     }
 
     /// Computes the random forces and those of turbulence again, for a run that ends at `end` (s):

@@ -8,6 +8,10 @@ use crate::study::accuracy::{MOST_STEPS, most_steps};
 use crate::study::realisations::{RandomScenes, RealisationCount, StepSearch};
 use crate::study::truncation::more_modes;
 
+/// What several realisations need.
+pub(crate) const RANDOM: &str =
+    "a case with a random load or a start that scatters (initial.scatter): without one all runs are the same";
+
 impl RandomScenes for Case {
     fn realisation(&self, number: u64) -> Result<Scene> {
         Ok(Case::realisation(self, number)?.scene)
@@ -28,7 +32,7 @@ impl RandomScenes for Case {
 }
 
 impl Case {
-    /// True where the error of a result is one of means over realisations: a load is random, and
+    /// True where the error of a result is one of means over realisations: the case is random, and
     /// there is a wall or a support whose forces have means.
     #[must_use]
     pub fn judges_means(&self) -> bool {
@@ -43,7 +47,7 @@ impl Case {
         StepSearch { scenes: self, method, time: self.time, share, most, most_steps }
     }
 
-    /// Refuses several realisations of a case without random loads.
+    /// Refuses several realisations of a case that is not random.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `seeds` or `until_interval`.
@@ -51,10 +55,9 @@ impl Case {
         if self.is_random() {
             return Ok(());
         }
-        let expected = "a case with a random load: without one all runs are the same";
         Err(match count {
-            RealisationCount::Exactly(count) => Error::invalid("seeds", count, expected),
-            RealisationCount::Within { share, .. } => Error::invalid("until_interval", share, expected),
+            RealisationCount::Exactly(count) => Error::invalid("seeds", count, RANDOM),
+            RealisationCount::Within { share, .. } => Error::invalid("until_interval", share, RANDOM),
         })
     }
 }

@@ -2,6 +2,7 @@
 
 use super::builder::Builder;
 use super::model::Model;
+use super::realisations::RANDOM;
 use super::value::Section;
 use super::{Case, SupportShape, TimeOptions};
 use crate::error::{Error, Result};
@@ -175,18 +176,15 @@ impl Case {
         Ok(scene)
     }
 
-    /// How many histories of wear are followed: `asked`, or [`HISTORIES`] under random loads and
-    /// one without them.
+    /// How many histories of wear are followed: `asked`, or [`HISTORIES`] of a random case and
+    /// one otherwise.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `histories` for 0, and for several without random loads.
+    /// [`Error::Invalid`] under `histories` for 0, and for several of a case that is not random.
     pub fn histories(&self, asked: Option<usize>) -> Result<usize> {
         match asked {
             Some(0) => Err(Error::invalid("histories", 0, "1 or more")),
-            Some(count) if count > 1 && !self.is_random() => {
-                let expected = "a case with a random load: without one all histories are the same";
-                Err(Error::invalid("histories", count, expected))
-            }
+            Some(count) if count > 1 && !self.is_random() => Err(Error::invalid("histories", count, RANDOM)),
             Some(count) => Ok(count),
             None => Ok(if self.is_random() { HISTORIES } else { 1 }),
         }

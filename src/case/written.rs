@@ -4,7 +4,7 @@ use super::digest::sha256;
 use super::{Case, Place};
 #[cfg(feature = "cli")]
 use crate::scene::Row;
-use crate::scene::{Flats, Load, RandomForce, Scene};
+use crate::scene::{Flats, Load, RandomForce, Scatter, Scene};
 use crate::study::truncation::Start;
 use crate::wear::Growth;
 use serde::Serialize;
@@ -24,8 +24,20 @@ pub struct Written {
     pub supports: Vec<Support>,
     /// The start: given, or a static equilibrium.
     pub start: Start,
+    /// The scatter of its velocities; `None` for none.
+    pub scattered: Option<ScatteredStart>,
     /// Every file that was read.
     pub files: Vec<FileRead>,
+}
+
+/// A start whose velocities scatter.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ScatteredStart {
+    /// Their deviates, which the start of the scene has.
+    pub scatter: Scatter,
+    /// The velocities about which they scatter, of the degrees of freedom of the scene, m/s.
+    pub mean: Vec<f64>,
 }
 
 /// How the file gave a load.

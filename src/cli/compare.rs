@@ -13,7 +13,7 @@ use super::{values, verdicts};
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::compare as output;
-use crate::output::compare_table::{all_quantities, conclusion, force_remark, overview, remark};
+use crate::output::compare_table::{all_quantities, conclusion, force_remark, length_word, overview, remark};
 use crate::output::document::under_head;
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
@@ -92,6 +92,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let findings = comparison.findings.iter();
     let conclusion = conclusion(&case, &comparison, &verdicts);
     results.add_to_manifest("conclusion", json!(conclusion));
+    results.add_to_manifest("error_length", json!(length_word(&case)));
     results.add_to_manifest("reference", json!(comparison.reference_in_words()));
     results.add_to_manifest("remarks", json!(findings.clone().chain(&notes).collect::<Vec<_>>()));
     let mut document = document(&case, &comparison, rows, &conclusion, &notes);

@@ -26,7 +26,8 @@ const UNSEEN: f64 = 1.0;
 #[must_use]
 pub fn overview(case: &Case, comparison: &Comparison) -> Table {
     let refuted = comparison.rows.iter().any(is_refuted);
-    let mut header = vec!["method", error_heading(case), "contacts", "largest force (N)", "time"];
+    let error_heading = format!("error / {}", length_word(case));
+    let mut header = vec!["method", &error_heading, "contacts", "largest force (N)", "time"];
     if refuted {
         header.push("judge");
     }
@@ -107,9 +108,10 @@ fn short(x: f64) -> String {
     if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") }
 }
 
-/// What stands above errors of the displacement.
-fn error_heading(case: &Case) -> &'static str {
-    if case.scene.gap().is_some() { "error / gap" } else { "error / max |u|" }
+/// The length of which errors of the displacement are shares.
+#[must_use]
+pub fn length_word(case: &Case) -> &'static str {
+    if case.scene.gap().is_some() { "gap" } else { "max |u|" }
 }
 
 /// The error of the displacement over its length.
@@ -144,7 +146,7 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
         quantity("  from", &|row, _| spread(row).map_or_else(dash, |e| format!("{:.2}", e.least)));
         quantity("  to", &|row, _| spread(row).map_or_else(dash, |e| format!("{:.2}", e.largest)));
     }
-    quantity(error_heading(case), &|row, _| error(row));
+    quantity(&format!("error / {}", length_word(case)), &|row, _| error(row));
     quantity("agrees until (s)", &|row, _| {
         row.agrees_until.map_or_else(dash, |t| {
             if t >= comparison.horizon.max(case.scene.duration) { "end".into() } else { format!("{t:.3}") }

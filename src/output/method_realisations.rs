@@ -94,7 +94,7 @@ pub fn table(studies: &[MethodStudy], reference: &str, scene: &Scene) -> Option<
 #[must_use]
 pub fn remark(count: u64) -> String {
     format!(
-        "± is the half width of the 95 % interval of the mean over {count} realisations of the random loads, by \
+        "± is the half width of the 95 % interval of the mean over {count} realisations, by \
          Student's t; differences are between runs with the same seeds, and one within its ± is not distinguished \
          from none"
     )

@@ -152,7 +152,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     if histories > 1 {
         remarks.push(format!(
             "± is the half width of the 95 % interval of the mean over {histories} histories, by Student's t; each \
-             window of a history has random loads of its own"
+             window of a history has draws of its own"
         ));
     }
     remarks.extend(growths(case, found));

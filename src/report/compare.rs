@@ -60,6 +60,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "table": table.for_page(None),
         "conclusion": folder.manifest["conclusion"],
         "agreement": AGREEMENT,
+        "length": folder.manifest.get("error_length").and_then(Value::as_str).unwrap_or("gap"),
         "reference": older::reference(folder.manifest),
         "distance": if folder.has(DISTANCE) { distance(folder)? } else { Value::Null },
     });

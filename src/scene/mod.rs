@@ -70,7 +70,7 @@ pub(crate) use loads::LastPieces;
 pub use loads::Loads;
 pub use modal::{MOST_DENSE, MOST_MODES, Modes, Reduction, WallTruncation};
 pub use planes::{PlaneRows, heading};
-pub use random::{Density, RandomForce};
+pub use random::{Density, RandomForce, Scatter};
 pub(crate) use row::distinct;
 pub use row::{Probe, Row};
 pub use scene_key::SceneKey;

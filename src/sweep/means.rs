@@ -73,7 +73,7 @@ pub(crate) fn means(folder: &Path, request: &Map<String, Value>) -> Result<Optio
     }
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let remark = format!(
-        "± is the half width of the 95 % interval of the mean over {} of the random loads, by Student's t; their seeds \
+        "± is the half width of the 95 % interval of the mean over {}, by Student's t; their seeds \
          are the same in every row",
         in_words(count)
     );

@@ -12,12 +12,10 @@ use super::run_set::RunSet;
 use super::shard::Shard;
 use super::table::cells_of;
 use super::until_interval::UntilInterval;
+use crate::case::RANDOM;
 use crate::error::{Error, Result};
 use crate::study::realisations::{PILOTS, RealisationCount};
 use csv::StringRecord;
-
-/// What realisations need.
-const RANDOM: &str = "a case with a random load: without one all runs are the same";
 
 impl Plan {
     /// How many realisations of the random loads every row has; `None` where a row is one run.

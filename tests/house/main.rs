@@ -1,5 +1,5 @@
 //! The source itself: layers, circles of imports, the public interface, the width of lines and
-//! length of functions, what the packages hold.
+//! length of functions, what the packages hold, what is compiled once.
 
 mod circles;
 mod layers;
@@ -7,4 +7,5 @@ mod length;
 mod package;
 mod public_api;
 mod schemes;
+mod shared_build;
 mod width;

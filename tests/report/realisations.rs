@@ -34,7 +34,7 @@ fn the_page_of_realisations_shows_means_and_intervals() {
         "{command}"
     );
     let text = tab.evaluate("document.querySelector('#sweep').textContent");
-    assert!(text.as_str().unwrap().contains("3 realisations of the random loads: shown are their means"), "{text}");
+    assert!(text.as_str().unwrap().contains("3 realisations: shown are their means"), "{text}");
     tab.close();
 }
 
@@ -131,7 +131,7 @@ fn the_page_of_a_comparison_under_seeds_has_the_means_and_names_its_reference() 
     for words in [
         "cross flow: draw 1 of 2",
         "all drawings and other numbers are of draw 1",
-        "against moreau-jean with steps of 2.50e-5 s: draw 1 of 2 of the random loads.",
+        "against moreau-jean with steps of 2.50e-5 s: draw 1 of 2.",
         "Distance from moreau-jean with steps of 2.50e-5 s",
     ] {
         assert!(text.contains(words), "{words}: {text}");

@@ -21,6 +21,7 @@ mod one_at_a_time;
 mod output_times;
 mod pictures;
 mod rerun;
+mod scattered_start;
 mod seeds;
 mod set_values;
 mod shaken;

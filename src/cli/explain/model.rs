@@ -1,6 +1,6 @@
 //! The model of a case in words: structure, supports, walls and loads.
 
-use crate::case::{Case, Model, Origin, Support, SupportShape, WallsOverBase};
+use crate::case::{Case, Model, Origin, ScatteredStart, Support, SupportShape, WallsOverBase};
 use crate::scene::{self, Density, Flats, LoadKind, Slider, Turbulence, WallSpring};
 use crate::study::choice;
 use crate::study::truncation::Start;
@@ -102,6 +102,11 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
     lines.extend(turbulence(case));
     if case.written.start == Start::Equilibrium {
         lines.push("start: at rest in static equilibrium under the constant loads".to_owned());
+    }
+    if let Some(ScatteredStart { scatter, .. }) = &case.written.scattered {
+        let what = if case.truncated.is_some() { "modal velocities scatter" } else { "velocities scatter" };
+        let unit = if case.truncated.is_some() { "√kg m/s" } else { "m/s" };
+        lines.push(format!("start: its {what} by {:?} {unit}, seed {}", scatter.deviation, scatter.seed));
     }
     lines
 }

@@ -1,8 +1,10 @@
 //! Random forces with a given power spectral density.
 
 mod lines;
+mod scatter;
 
 pub(super) use lines::Lines;
+pub use scatter::Scatter;
 
 use super::system::{finite, positive};
 use super::{Load, Table};

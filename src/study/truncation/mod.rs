@@ -16,7 +16,7 @@ use super::difference::error_length;
 use crate::error::{Error, Result, Subject};
 use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
-use crate::scene::{Damping, Load, Modes, Reduction, Scene, Slider, Turbulence};
+use crate::scene::{Damping, Load, Modes, Reduction, Scatter, Scene, Slider, Turbulence};
 use crate::scheme::{Method, equilibrium};
 use crate::statistics::PlaceKind;
 use crate::time::TimeOptions;
@@ -41,6 +41,8 @@ pub struct Unreduced {
     pub turbulence: Vec<Turbulence>,
     /// Sliders, which join the reduced scene: none of them is part of a mode.
     pub sliders: Vec<Slider>,
+    /// Deviates of the velocities at the start of the reduced scene; `None` for none.
+    pub scatter: Option<Scatter>,
 }
 
 /// Where a scene starts.
@@ -72,6 +74,9 @@ impl Unreduced {
         }
         for slider in &self.sliders {
             reduction.scene = reduction.scene.with_slider(&slider.on(&reduction.modes))?;
+        }
+        if let Some(scatter) = self.scatter {
+            scatter.add_to(&mut reduction.scene.initial.v);
         }
         reduction.scene.loads.extend(self.turbulent_loads(&reduction.modes, self.scene.duration)?);
         Ok(reduction)

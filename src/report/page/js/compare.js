@@ -1,12 +1,12 @@
 // The page of a comparison: the means over realisations, the table of methods, and how far each is
 // from the reference.
 
-/** Names of the columns of compare.csv as people write them. */
-const COMPARED = [
+/** Names of the columns of compare.csv as people write them, with errors as shares of `length`. */
+const compared = (length) => [
   ["method", "method"],
   ["step_s", "step (s)"],
   ["restitution", "restitution"],
-  ["error_over_gap", "error / gap"],
+  ["error_over_gap", `error / ${length}`],
   ["agrees_until_s", "agrees until (s)"],
   ["largest_displacement_m", "max |u| (m)"],
   ["penetration_m", "penetration (m)"],
@@ -26,14 +26,14 @@ function compareSection() {
     Array.isArray(table.columns[name]) && table.columns[name].some((word) => word);
   const columns = columnsOf(
     table,
-    COMPARED.filter(([name]) => !["refuted", "failure"].includes(name) || said(name)),
+    compared(DATA.compare.length).filter(([name]) => !["refuted", "failure"].includes(name) || said(name)),
   );
   section(
     "methods",
     "Methods",
     "Every method on the same scene" +
       (reference ? `, against ${reference}${DATA.horizon ? " up to the horizon of prediction" : ""}` : "") +
-      (draws > 1 ? `: draw 1 of ${draws} of the random loads.` : "."),
+      (draws > 1 ? `: draw 1 of ${draws}.` : "."),
     conclusionOf(DATA.compare.conclusion),
     sortable(columns, table.rows, { height: 60 + ROW * table.count }),
     saveBar("compare.csv", () => linesOf(table)),
@@ -62,7 +62,7 @@ function methodMeansSection() {
   section(
     "means",
     "Means over realisations",
-    `Over ${draws} realisations of the random loads, with 95 % intervals` +
+    `Over ${draws} realisations, with 95 % intervals` +
       (less ? `; differences are between runs with the same seeds.` : "."),
     sortable(
       [
@@ -90,7 +90,7 @@ function conclusionOf(text) {
 
 /** The distance of each method from the reference: the largest of each stretch, since |Δu| itself passes through 0. */
 function distancePlot() {
-  const { distance, agreement, reference } = DATA.compare;
+  const { distance, agreement, reference, length } = DATA.compare;
   if (!distance) return null;
   const time = decode(distance.time);
   const series = distance.names
@@ -107,11 +107,11 @@ function distancePlot() {
       );
     })
     .filter((s) => s);
-  const marks = [{ y: agreement, dash: [2, 3], label: "a tenth of the gap" }];
+  const marks = [{ y: agreement, dash: [2, 3], label: `a tenth of ${length === "gap" ? "the gap" : length}` }];
   if (DATA.horizon) marks.push(horizonMark(true));
   const plot = new Plot({
     x: "Time (s)",
-    y: "|Δu| / gap",
+    y: `|Δu| / ${length}`,
     alt: `Distance from ${reference}`,
     height: 260,
     view,

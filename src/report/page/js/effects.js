@@ -120,7 +120,7 @@ function effectsSection(effects, seeds) {
     "Effects",
     "Each key by itself, from the case: the measure at the upper bound less that at the lower one, the largest first." +
       (seeds
-        ? ` Means over ${seeds} of the random loads, of differences under the same seeds; ± is the half width of the 95 % interval, by Student's t.`
+        ? ` Means over ${seeds}, of differences under the same seeds; ± is the half width of the 95 % interval, by Student's t.`
         : ""),
     ...effectDiagrams(effects),
     sortable(

@@ -52,6 +52,6 @@ function bandOf(curve, half) {
 
 /** What the numbers of rows with realisations are; only curves have bands. */
 const seedsText = (seeds, bands) =>
-  ` Of every row there are ${seeds} of the random loads: shown are their means, and ` +
+  ` Of every row there are ${seeds}: shown are their means, and ` +
   (bands ? "as bands their" : "the half widths of their") +
   " 95 % intervals, by Student's t.";

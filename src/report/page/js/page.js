@@ -125,7 +125,7 @@ if (DATA.kind === "run" && DATA.summary.realisations) {
   meansSection(
     DATA.summary.realisations,
     "Means over realisations",
-    (count) => `${count} realisations of the random loads`,
+    (count) => `${count} realisations`,
   );
   whereSection();
 }

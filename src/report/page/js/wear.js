@@ -35,7 +35,7 @@ function wearSection() {
     "Wear over the years",
     seeds > 1
       ? `Means over ${seeds} histories, and as bands their 95 % intervals, by Student's t.`
-      : "One history: without random loads all are the same.",
+      : "One history: without random loads and a start that scatters all are the same.",
     el("ul", {}, answers.map((answer) => el("li", {}, sentence(answer)))),
     measureCurves(columns, "year", measures, tell, () => {}),
   );
