@@ -405,3 +405,61 @@ fn elastic_walls_are_met_and_left_at_grazes() {
     }
     assert!(checked > 10);
 }
+
+#[test]
+fn a_body_that_no_longer_comes_out_of_its_wall_meets_it_again_behind_the_face() {
+    // A pad with a dashpot that its own spring preloads by 0.075 N.
+    let family = |amplitude: f64| {
+        Ok(Scene::oscillator(1.0, 0.5, 100.0)
+            .with_wall(Wall::upper("pad", -1e-3).with_elasticity(300.0, 1.0))
+            .with_load(Load::harmonic(amplitude, 2.0, 0.0)))
+    };
+    let start = settled(family(0.1).unwrap());
+    let graph = follow(&family, &start, 0.1, [0.05, 0.11], (Switch::All, 1));
+    let graze = only_of(&graph, 0, Label::GrazingOut);
+    let [beyond] = graze.leads_to[..] else { panic!("{:?}", graze.reason) };
+    assert_eq!(graph.branches[beyond].points[0].orbit.signature.events.len(), 2);
+    // Below an amplitude the pad is never left: its force along the linear motion on it stays above
+    // 0. There the flights end.
+    let omega = 2.0 * TAU;
+    let linear = (400.0 - omega * omega).hypot(1.5 * omega) / 300.0_f64.hypot(omega);
+    near(only_of(&graph, beyond, Label::Corner).point.value, 0.075 * linear, 1e-9);
+    assert_eq!(graph.specials.iter().filter(|special| special.branch == beyond).count(), 1, "{:?}", values(&graph));
+    for point in graph.branches[beyond].points.iter().skip(1).step_by(3).filter(|point| point.floquet.is_stable()) {
+        let judged = Problem::new(family(point.value).unwrap()).unwrap().judge(&point.orbit, 1).unwrap();
+        assert!(judged.holds(), "{}: {} {}", point.value, judged.closure, judged.same_events);
+    }
+}
+
+#[test]
+fn a_branch_of_twice_the_period_ends_where_it_meets_that_of_the_single_one_again() {
+    let family = |frequency: f64| {
+        Ok(Scene::oscillator(1.3, 0.4, 90.0)
+            .with_wall(Wall::upper("stop", 2e-3).with_restitution(0.75))
+            .with_load(Load::harmonic(4.0, frequency, 0.4)))
+    };
+    let start = settled(family(3.4).unwrap());
+    let graph = follow(&family, &start, 3.4, [3.39, 3.72], (Switch::All, 3));
+    let returned: Vec<_> = graph
+        .branches
+        .iter()
+        .enumerate()
+        .filter(|(_, branch)| branch.ends[1] == Some(End::Special(Label::PeriodDoubling)))
+        .collect();
+    assert!(!returned.is_empty(), "{:?}", values(&graph));
+    for (number, branch) in returned {
+        // It leads back to the branch where it began: its other end is a doubling of that one.
+        let last = graph.specials.iter().rfind(|special| special.branch == number).unwrap();
+        let parent = graph.specials[branch.from.unwrap()].branch;
+        assert_eq!(last.leads_to, [parent], "{:?}", last.reason);
+        let other = graph.specials.iter().filter(|s| s.branch == parent && s.label == Label::PeriodDoubling);
+        assert!(other.clone().any(|s| (s.point.value - last.point.value).abs() < 1e-8), "{:?}", values(&graph));
+    }
+    // Nothing is passed twice.
+    for (index, one) in graph.specials.iter().enumerate() {
+        for other in &graph.specials[index + 1..] {
+            let same = one.branch == other.branch && one.label == other.label;
+            assert!(!same || (one.point.value - other.point.value).abs() > 1e-9, "{:?}", values(&graph));
+        }
+    }
+}

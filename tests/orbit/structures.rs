@@ -370,3 +370,38 @@ fn impacts_that_accumulate_are_one_event_of_a_branch() {
         assert!(half[2][0].hypot(half[2][1]) < 1e-8, "{half:?}");
     }
 }
+
+#[test]
+fn orbits_that_repeat_after_a_graze_go_on_as_the_shorter_ones() {
+    let family = |frequency: f64| {
+        let chain = signorini::Chain { masses: vec![1.0, 0.5], springs: vec![50.0], grounds: [100.0, 0.0] };
+        let damping = signorini::Damping::Rayleigh { mass: 0.4, stiffness: 0.0 };
+        Ok(Scene::structure(chain.structure().unwrap().with_damping(&damping).unwrap())
+            .with_wall(Wall::upper("stop", 3e-3).with_restitution(0.7).at(Row::new(vec![(1, 1.0)])))
+            .with_load(Load::harmonic(2.0, frequency, 0.0)))
+    };
+    let range = [1.57, 1.85];
+    let request = Request { range, switch: Switch::Stable, depth: 4, points: 300 };
+    let graph = graph(&family, &settled(&family(1.75).unwrap()), 1.75, &request, &mut |_| ()).unwrap();
+    // Over four periods with five impacts, of which one grazes where the orbits over two periods
+    // graze as well.
+    let graze = 1.578_709_816;
+    let meets = |special: &&Special| (special.point.value - graze).abs() < 1e-8;
+    let periods = |special: &Special| graph.branches[special.branch].points[0].orbit.signature.periods;
+    let of = |wanted: u32| -> Vec<&Special> {
+        graph.specials.iter().filter(meets).filter(|special| periods(special) == wanted).collect()
+    };
+    let [long] = of(4)[..] else { panic!("{:?}", values(&graph)) };
+    let short = of(2);
+    assert!(short.iter().any(|special| long.leads_to == [special.branch]), "{:?} {:?}", long.leads_to, long.reason);
+    // No branch is one of half its period, run over twice.
+    for branch in &graph.branches {
+        let orbit = &branch.points[branch.points.len() / 2].orbit;
+        let (half, periods) = (orbit.phases.len() / 2, f64::from(orbit.signature.periods));
+        let repeats = (0..half).all(|i| {
+            (orbit.phases[i + half] - orbit.phases[i] - 0.5 * periods).abs() < 1e-5
+                && (orbit.speeds[i + half] - orbit.speeds[i]).abs() < 1e-5
+        });
+        assert!(orbit.phases.len() % 2 == 1 || orbit.signature.periods % 2 == 1 || !repeats, "{orbit:?}");
+    }
+}

@@ -200,8 +200,8 @@ impl Follower<'_, '_> {
         for Crossed { label, event, y, .. } in crossed {
             let problem = self.curve.problem(&y)?;
             let point = point(self.curve, &problem, &y)?;
-            // Where orbits over several periods meet that of one, the branch turns back along itself:
-            // beyond are the same orbits, shifted in time.
+            // Where orbits over several periods meet that of one, the branch turns back along
+            // itself: beyond are the same orbits, shifted in time.
             let met = problem.halves(&point.orbit).filter(|_| label == Label::Fold);
             let (label, ends) = met.map_or((label, label.ends()), |(_, met)| (met, true));
             let (wall, curve) = (label.wall(event, &point), self.curve.clone());
@@ -223,13 +223,13 @@ const ZERO: f64 = 1e-9;
 /// Special points closer to each other than this share of a step count as one.
 const SAME_PLACE: f64 = 1e-4;
 
-/// Where the duration of a contact with an elastic wall goes to 0, the equations themselves become
-/// singular. The other test functions (determinants, and the key's part of the tangent) vanish
+/// Where the duration of a contact with an elastic wall or of the flight between two goes to 0, the
+/// equations themselves become singular. The other test functions (determinants, and the key's part of the tangent) vanish
 /// there too without meaning anything, and are left out.
 fn forget_echoes(crossed: &mut Vec<Crossed>, point: &Point, near: f64) {
     let kind = |event: usize| point.orbit.signature.events.get(event).map(|event| event.kind);
     let elastic = |crossed: &&Crossed| match crossed.label {
-        Label::GrazingOut | Label::ContactEnds => {
+        Label::GrazingOut | Label::ContactEnds | Label::Corner => {
             matches!(kind(crossed.event), Some(Kind::Enter | Kind::Leave | Kind::Again))
         }
         _ => false,

@@ -143,7 +143,9 @@ impl<'r, C: Followed> Net<'r, C> {
         let Begin { curve, y, along, both } = begin;
         let (orbit, metric) = curve.orbit_at(&y)?;
         if orbit.part(metric.mirror.as_deref()).is_some() {
-            return Err(Error::no_orbit("beside it only the orbits of this branch were found, run over more than once"));
+            return Err(Error::no_orbit(
+                "beside it only the orbits of this branch were found, run over more than once",
+            ));
         }
         if let Some(known) = self.known(number, &orbit, &metric) {
             return Ok(Some(known));

@@ -165,6 +165,19 @@ impl<'a> Curve<'a> {
             orbit.signature = Signature { events: Vec::new(), periods: 1, symmetric: problem.is_symmetric() };
         }
         let orbit = problem.halves(&orbit).map_or(orbit, |(once, _)| once);
+        let lifted = self.begin(problem, &orbit, at.point.value, Some(at), false);
+        if kind == Some(Kind::Enter) && lifted.is_err() {
+            return self.stay_behind(problem, at).or(lifted);
+        }
+        lifted
+    }
+
+    /// Behind the face of an elastic wall with a dashpot, which the body has left there: where it
+    /// no longer comes out to the face, it meets the wall again behind it.
+    fn stay_behind(&self, problem: &Problem, at: &Passed<Self>) -> Result<Begin<Self>> {
+        let mut orbit = at.point.orbit.clone();
+        let event = orbit.signature.events.get_mut(at.event).ok_or_else(|| Error::no_orbit("no such event"))?;
+        event.kind = Kind::Again;
         self.begin(problem, &orbit, at.point.value, Some(at), false)
     }
 
