@@ -2,8 +2,10 @@
 //! start, and the events on the way.
 
 use super::extremes::bisect;
+use super::periodic::Orbit;
+use super::signature::{Event, Kind};
 use super::strobe::{state, vector};
-use super::watch::{Passage, Watch, gathered};
+use super::watch::{Passage, Watch, gathered, orbit_of};
 use crate::error::{Error, Result};
 use crate::flow::Series;
 use crate::scene::{Scene, Wall};
@@ -61,6 +63,21 @@ pub(super) struct OrbitRun {
     /// Contact episodes that end at each wall, and the impulse of each on the structure, N s.
     pub contacts: Vec<u64>,
     pub impulses: Vec<f64>,
+    /// The walls that push without end, where nothing else happens.
+    pub always: Vec<usize>,
+}
+
+impl OrbitRun {
+    /// The orbit over `periods` periods of `period` (s) that was run once around.
+    pub fn orbit(&self, periods: u32, period: f64) -> Orbit {
+        let mut orbit = orbit_of(&self.passages, periods, period);
+        for &wall in &self.always {
+            orbit.signature.events.push(Event { kind: Kind::Always, wall });
+            orbit.phases.push(0.0);
+            orbit.speeds.push(0.0);
+        }
+        orbit
+    }
 }
 
 /// Runs `scene`, whose loads repeat themselves after `period` (s), from the state `start` at the
@@ -119,6 +136,7 @@ pub(super) fn run_by_key(
         impulses.iter_mut().zip(step.impulse).for_each(|(sum, impulse)| *sum += impulse);
     }
     let end = stepper.state();
+    let always = if watch.passages.is_empty() { stepper.open_contacts() } else { Vec::new() };
     Ok(OrbitRun {
         end: vector(&end.q, &end.v),
         by_key: column.and_then(|column| column.end(&end.v)),
@@ -128,6 +146,7 @@ pub(super) fn run_by_key(
         largest: turns.largest,
         contacts,
         impulses,
+        always: always.iter().map(|contact| contact.wall).collect(),
     })
 }
 

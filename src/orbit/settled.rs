@@ -79,8 +79,8 @@ impl Problem {
     fn pressed(&self, contact: &Contact) -> Error {
         let wall = self.scene().wall_name(contact.wall).unwrap_or_default();
         Error::no_orbit(format!(
-            "the motion never leaves the wall {wall:?}: an orbit of one degree of freedom is told by its events, of \
-             which it has none; as a structure, such as a chain of one mass, the same body has it"
+            "the motion never leaves the wall {wall:?}: it has no events to tell the orbit by, and a state, by which \
+             orbits of structures are found (shoot)"
         ))
     }
 

@@ -10,7 +10,6 @@ use super::orbit_run::{OrbitRun, Recorded, run};
 use super::periodic::{Orbit, REPEATED};
 use super::signature::MOST_PERIODS;
 use super::strobe::{Scales, is_stable, multipliers, newton_step, state, vector};
-use super::watch::orbit_of;
 use crate::error::{Error, Result};
 use crate::scene::{Scene, State};
 use crate::scheme::{Scheme, Stepper};
@@ -246,7 +245,7 @@ impl Shooting<'_> {
         Ok(Shot {
             periods,
             forcing_period: self.period,
-            orbit: orbit_of(&motion.passages, periods, self.period),
+            orbit: motion.orbit(periods, self.period),
             time,
             state: state(&x),
             multipliers: multipliers(&motion.derivative).iter().map(|z| [z.re, z.im]).collect(),

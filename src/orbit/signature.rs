@@ -23,11 +23,14 @@ pub enum Kind {
     /// An elastic wall with a dashpot pushes again before the body is out of it; its speed is that
     /// away from the wall.
     Again,
+    /// A wall pushes without end, and nothing else happens; its speed is 0. Of orbits that are told
+    /// by a state alone.
+    Always,
 }
 
 impl Kind {
-    pub(crate) const ALL: [Self; 7] =
-        [Self::Impact, Self::Rest, Self::Chatter, Self::Release, Self::Enter, Self::Leave, Self::Again];
+    pub(crate) const ALL: [Self; 8] =
+        [Self::Impact, Self::Rest, Self::Chatter, Self::Release, Self::Enter, Self::Leave, Self::Again, Self::Always];
 
     /// Its name, as signatures are written.
     #[must_use]
@@ -40,6 +43,7 @@ impl Kind {
             Self::Enter => "enter",
             Self::Leave => "leave",
             Self::Again => "again",
+            Self::Always => "always",
         }
     }
 
@@ -171,6 +175,12 @@ impl Signature {
             let Some(wall) = scene.walls.get(event.wall) else {
                 return wrong(format!("at wall {}", event.wall + 1), format!("one of {} walls", scene.walls.len()));
             };
+            if event.kind == Kind::Always {
+                return wrong(
+                    format!("always at wall {:?}", wall.name),
+                    "events: a motion that never leaves its wall is told by its state".to_owned(),
+                );
+            }
             if event.kind.is_rigid() != wall.law.is_rigid() {
                 let law = if wall.law.is_rigid() { "rigid" } else { "elastic" };
                 let fits = if wall.law.is_rigid() { "impact, rest and release" } else { "enter, leave and again" };

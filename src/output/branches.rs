@@ -61,6 +61,11 @@ impl Drawn<'_> {
         first.map_or(0, |point| point.floquet.multipliers.len()).min(MOST_MULTIPLIERS)
     }
 
+    /// True if the orbits are told by states.
+    pub fn tells_states(&self) -> bool {
+        self.graph.branches.iter().flat_map(|branch| &branch.points).any(|point| point.strobe.is_some())
+    }
+
     fn events(&self) -> usize {
         let points = self.graph.branches.iter().flat_map(|branch| branch.points.first());
         points.map(|point| point.orbit.phases.len()).max().unwrap_or(0)

@@ -201,6 +201,14 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Orbit> {
     Ok(orbit)
 }
 
+/// True if the file `path` tells its orbit by a state, as [`shot`] writes it, and not by events.
+///
+/// # Errors
+/// [`Error::Io`] for a file that cannot be read.
+pub fn tells_state(path: &Path) -> Result<bool> {
+    Ok(document(path)?.get("coordinates").is_some())
+}
+
 /// The orbit of a structure in a file that [`shot`] has made; `modal` is true if the coordinates of
 /// `scene` are modal.
 ///
@@ -220,6 +228,14 @@ pub fn read_shot(path: &Path, scene: &Scene, modal: bool) -> Result<Shot> {
     let Some(periods) = get("periods").as_u64().and_then(|n| u32::try_from(n).ok()) else {
         return wrong("periods", "a whole number of forcing periods");
     };
+    if get("events").is_array() && get("coordinates").is_null() {
+        let expected = "that of a structure, by its state";
+        return Err(Error::invalid(
+            path.display().to_string(),
+            "an orbit of one degree of freedom, by its events",
+            expected,
+        ));
+    }
     if get("coordinates").as_str() != Some(coordinates(modal)) {
         return wrong("coordinates", &format!("those of the case: {}", coordinates(modal)));
     }

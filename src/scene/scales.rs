@@ -34,9 +34,18 @@ pub(super) fn frequencies(structure: &Structure, mass: Option<Factor>) -> [f64; 
     let shift = SHIFT * fastest;
     let shifted = Symmetric::sum(&[(1.0, &structure.stiffness), (shift, &structure.mass)]);
     // The slowest is the reciprocal of the fastest of the inverse pencil.
-    let inverse = power(&shifted, Factor::new(&shifted).ok(), &structure.mass).filter(|x| *x > 0.0);
-    let slowest = inverse.map_or(0.0, |x| (1.0 / x - shift).max(0.0));
-    [if slowest > 1e3 * shift { slowest.sqrt() } else { 0.0 }, fastest.sqrt()]
+    let slowest = |stiffness: &Symmetric, shift: f64| {
+        let inverse = power(stiffness, Factor::new(stiffness).ok(), &structure.mass).filter(|x| *x > 0.0);
+        inverse.map_or(0.0, |x| (1.0 / x - shift).max(0.0))
+    };
+    let mut least = slowest(&shifted, shift);
+    if least <= 1e3 * shift {
+        // A rigid-body motion, or one far slower than the stiffest spring makes the fastest: K
+        // itself tells, down to its rounding.
+        least = slowest(&structure.stiffness, 0.0);
+        least = if least > shift { least } else { 0.0 };
+    }
+    [least.sqrt(), fastest.sqrt()]
 }
 
 impl Structure {
@@ -158,4 +167,25 @@ fn least_mass(hole: &Hole<'_>, n: usize, mass: Option<&mut Factor>) -> f64 {
     };
     let ([yy, yz], [_, zz]) = (response(y), response(z));
     1.0 / (0.5 * (yy + zz) + (0.5 * (yy - zz)).hypot(yz))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Chain;
+
+    #[test]
+    fn a_slow_motion_beside_a_stiff_spring_is_no_rigid_body_motion() {
+        // Two masses of 1 kg with a spring of 1 N/m between them, of which one end is held by 1 N/m
+        // and the other by a spring so stiff that its mass stands still: ω² = 2 of the other.
+        let chain = |ground: f64| Chain { masses: vec![1.0, 1.0], springs: vec![1.0], grounds: [1.0, ground] };
+        for ground in [1e3, 1e8, 1e10, 1e11] {
+            let [slowest, fastest] = chain(ground).structure().unwrap().frequencies();
+            // The stiff mass gives way by 1/ground; K rounds to 1e-16 of ground.
+            let allowed = 1.0 / ground + 1e-14 * ground;
+            assert!((slowest * slowest / 2.0 - 1.0).abs() < allowed, "{ground}: {slowest}");
+            assert!((fastest * fastest / ground - 1.0).abs() < 2.0 / ground, "{ground}: {fastest}");
+        }
+        let free = Chain { grounds: [0.0, 0.0], ..chain(1.0) };
+        assert_eq!(free.structure().unwrap().frequencies()[0], 0.0);
+    }
 }

@@ -299,3 +299,61 @@ fn wrong_requests_say_what_would_be_accepted() {
     let (_, err) = said(path, &["orbit", CASE, "--settle", "20"], 1);
     assert!(err.contains("do not repeat themselves within 32 forcing periods after 20"), "{err}");
 }
+
+/// One degree of freedom that never leaves its pad.
+const PRESSED: &str = r#"
+[system.oscillator]
+mass = 1.0
+damping = 0.5
+stiffness = 100.0
+[[wall]]
+name = "pad"
+side = "upper"
+position = -1e-3
+stiffness = 300.0
+[[load]]
+harmonic = { amplitude = 0.05, frequency = 2.0 }
+[time]
+end = 5.0
+step = 1e-3
+"#;
+
+#[test]
+fn a_motion_that_never_leaves_its_wall_is_found_and_followed_by_its_state() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    fs::write(path.join("pressed.toml"), PRESSED).unwrap();
+    let (out, _) = said(path, &["orbit", "pressed.toml", "--out", "a"], 0);
+    assert!(out.contains("always") && out.contains("stable"), "{out}");
+    let orbit = json(&path.join("a/orbit.json"));
+    // m q̈ + c q̇ + (K + k) q = f − k g: the multipliers are exp(λT) of this linear system, and the
+    // pad's mean force is k K |g|/(K + k) = 0.075 N.
+    let omega = (400.0_f64 - 0.25 * 0.25).sqrt();
+    let (size, angle) = ((-0.25 * 0.5_f64).exp(), 0.5 * omega);
+    let multiplier = |part: usize| orbit["multipliers"][0][part].as_f64().unwrap();
+    assert!((multiplier(0) - size * angle.cos()).abs() < 1e-9, "{orbit}");
+    assert!((multiplier(1).abs() - (size * angle.sin()).abs()).abs() < 1e-9, "{orbit}");
+    let impulse = orbit["walls"][0]["impulse_n_s"].as_f64().unwrap();
+    assert!((impulse + 0.075 * 0.5).abs() < 1e-12, "{orbit}");
+    // From its file it is found again, and followed to where the pad opens: there the amplitude of
+    // the pad's force is its mean.
+    said(path, &["orbit", "pressed.toml", "--from", "a/orbit.json", "--out", "b"], 0);
+    let key = ["--key", "load.1.harmonic.amplitude", "--range", "0.03:0.08"];
+    for (from, out) in [(&[][..], "c"), (&["--from", "a/orbit.json"], "d")] {
+        let (told, _) =
+            said(path, &[&["continue", "pressed.toml", "--switch", "no", "--out", out], &key[..], from].concat(), 0);
+        assert!(told.contains("pad:always") && !told.contains("no contact"), "{told}");
+        let pulsation = 4.0 * std::f64::consts::PI;
+        let opens = 0.075 * (400.0 - pulsation * pulsation).hypot(0.5 * pulsation) / 300.0;
+        let graph = json(&path.join(out).join("branches.json"));
+        let special = graph["specials"][0]["value"].as_f64().unwrap();
+        assert!((special - opens).abs() < 1e-9, "{special} for {opens}");
+    }
+    // Each kind of file is refused by name where it does not fit.
+    let events = ["orbit", "pressed.toml", "--signature", "pad:always", "--start", "0.1,0.0", "--out", "e"];
+    let (_, err) = said(path, &events, 2);
+    assert!(err.contains("always at wall \"pad\"") && err.contains("by its state"), "{err}");
+    said(path, &[&["orbit"], &SOFT[..], &["--out", "f"]].concat(), 0);
+    let (_, err) = said(path, &["orbit", "two-masses", "--from", "f/orbit.json", "--out", "g"], 2);
+    assert!(err.contains("f/orbit.json") && err.contains("by its events"), "{err}");
+}

@@ -2,12 +2,12 @@
 
 mod args;
 mod family;
-mod first_orbit;
 mod loci;
 mod varied;
 
 pub use args::Args;
 
+use super::first_orbit::FirstOrbit;
 use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
@@ -19,19 +19,24 @@ use crate::output::results::Results;
 use crate::output::table::Table;
 use crate::output::{self, json, orbits, overlay};
 use family::SceneFamily;
-use first_orbit::FirstOrbit;
 use serde_json::{Value, json};
 use varied::Varied;
 
 pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let family = SceneFamily::new(args, ui)?;
-    let first = args.from.as_deref().map(|path| FirstOrbit::read(path, &family)).transpose()?;
+    let (read, problem) = (args.from.as_deref(), family.problem.as_ref());
+    let first = read.map(|path| FirstOrbit::read(path, &family.case, problem)).transpose()?;
     let column = family.key.column();
     let beneath = args.over.as_deref().map(|path| overlay::read(path, &family.key.key, &column)).transpose()?;
     let case = &family.case;
     let asked = extended(request("continue", case, &[]), args.settings());
     let mut results = args.place.open(case, "continue", asked)?;
-    let first = first.map_or_else(|| FirstOrbit::settled(&family, args.settle, ui), Ok)?;
+    let settled = || {
+        ui.with_bar("settling", |bar| {
+            FirstOrbit::settled(&case.scene, problem, args.settle, &|share| bar.set_share(share))
+        })
+    };
+    let first = first.map_or_else(settled, Ok)?;
     let found = branches(args, &family, &first, ui)?;
     let drawn = Drawn { graph: &found, column, label: family.key.label(), scene: &case.scene };
     let document = write(&mut results, &drawn, &family, beneath.as_deref(), !args.place.no_report)?;
@@ -84,7 +89,7 @@ fn write(
     let moved = points.find(|point| point.value != family.key.value);
     let other = moved.map(|point| family.scene(point.value)).transpose()?;
     document["walls"] = orbits::walls(scene, other.as_ref().unwrap_or(scene), drawn.place());
-    if family.problem.is_none() {
+    if drawn.tells_states() {
         document["place"] = json!(scene.walls.get(drawn.place()).map(|wall| &wall.name));
     }
     write_whole(&results.place("branches.json")?, json::text(&document).as_bytes())?;

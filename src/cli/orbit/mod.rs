@@ -7,15 +7,16 @@ mod written;
 
 pub use args::Args;
 
+use super::first_orbit::FirstOrbit;
 use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::{Error, Result};
 use crate::orbit::{Floquet, Kind, Orbit, Problem};
-use crate::output::periodic::{self, Known};
+use crate::output::periodic::{self, Known, tells_state};
 use crate::output::table::Table;
 use crate::scene::System;
 use list::list;
-use structure::structure;
+use structure::{structure, told};
 use written::write_document;
 
 /// Instants of the motion over one orbit.
@@ -27,7 +28,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         return list(&case);
     }
     case.check_repeats()?;
-    if let System::Structure(_) = case.scene.system {
+    let is_state = args.from.as_deref().map(tells_state).transpose()?.unwrap_or(false);
+    if is_state || matches!(case.scene.system, System::Structure(_)) {
         return structure(args, &case, ui);
     }
     let problem = Problem::new(case.scene.clone())?;
@@ -36,7 +38,16 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let orbit = match start {
         Some(start) if start.signature.chatters() => start,
         Some(start) => problem.correct(&start)?,
-        None => ui.with_bar("settling", |bar| problem.settled_with(args.settle, &|share| bar.set_share(share)))?,
+        None => {
+            let settled = ui.with_bar("settling", |bar| {
+                let progress = |share| bar.set_share(share);
+                FirstOrbit::settled(&case.scene, Some(&problem), args.settle, &progress)
+            })?;
+            match settled {
+                FirstOrbit::Orbit(orbit) => orbit,
+                FirstOrbit::Shot(shot) => return told(args, &case, &shot, results),
+            }
+        }
     };
     let judged = problem.judge(&orbit, POINTS)?;
     let (floquet, admissible) = (problem.floquet(&orbit)?, problem.admissible(&orbit)?);

@@ -9,6 +9,7 @@ use crate::error::counted;
 use crate::error::{Error, Result};
 use crate::orbit::{Shot, shoot};
 use crate::output::periodic::{read_shot, shot};
+use crate::output::results::Results;
 use crate::output::table::Table;
 use crate::scene::{Scene, Wall};
 
@@ -21,18 +22,24 @@ pub(super) fn structure(args: &Args, case: &Case, ui: &Ui) -> Result<Answer> {
     }
     let (scene, modal) = (&case.scene, case.truncated.is_some());
     let from = args.from.as_deref().map(|path| read_shot(path, scene, modal)).transpose()?;
-    let mut results = args.open(case)?;
+    let results = args.open(case)?;
     let found = ui.with_bar("settling", |bar| match from {
         Some(from) => from.corrected(scene),
         None => shoot(scene, args.settle, &|share| bar.set_share(share)),
     })?;
-    let document = write_document(&mut results, shot(&found, scene, &case.name, modal))?;
+    told(args, case, &found, results)
+}
+
+/// The answer that tells an orbit by its state.
+pub(super) fn told(args: &Args, case: &Case, found: &Shot, mut results: Results) -> Result<Answer> {
+    let (scene, modal) = (&case.scene, case.truncated.is_some());
+    let document = write_document(&mut results, shot(found, scene, &case.name, modal))?;
     let mut answer = Answer::of(results, !args.place.no_report, document);
-    show_structure(&mut answer, &found, scene);
+    show_structure(&mut answer, found, scene);
     Ok(answer)
 }
 
-/// Shows an orbit of a structure.
+/// Shows an orbit by its state.
 fn show_structure(answer: &mut Answer, found: &Shot, scene: &Scene) {
     let period = f64::from(found.periods) * found.forcing_period;
     answer.prose(format!("orbit: {}, period {period:.9} s", counted(found.periods as usize, "forcing period")));
@@ -48,7 +55,8 @@ fn show_structure(answer: &mut Answer, found: &Shot, scene: &Scene) {
     ));
     let rows = scene.walls.iter().zip(&found.contacts).zip(&found.impulses);
     let row = |((wall, contacts), impulse): ((&Wall, &u64), &f64)| {
-        vec![wall.name.clone(), contacts.to_string(), format!("{impulse:.9e}")]
+        let contacts = if *contacts == 0 && *impulse != 0.0 { "always".to_owned() } else { contacts.to_string() };
+        vec![wall.name.clone(), contacts, format!("{impulse:.9e}")]
     };
     answer.table(Table::new(&["wall", "contacts", "impulse (N s)"], rows.map(row).collect()), "orbit.json");
     answer.prose(format!("free run over one period: comes back within {:.1e} of the gap", found.closure));

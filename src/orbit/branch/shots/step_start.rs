@@ -10,7 +10,7 @@ use crate::orbit::orbit_run::{OrbitRun, Touch};
 use crate::orbit::periodic::Orbit;
 use crate::orbit::signature::Event;
 use crate::orbit::strobe::{Strobe, multipliers, state};
-use crate::orbit::watch::{Passage, orbit_of};
+use crate::orbit::watch::Passage;
 use nalgebra::{Complex, DMatrix};
 
 /// The point at which a step begins.
@@ -91,7 +91,7 @@ impl Shots<'_> {
 
     /// The orbit whose run is `motion`, and whose map has the multipliers `own`.
     pub(super) fn point(&self, y: &Vector, period: f64, motion: &OrbitRun, own: Vec<Complex<f64>>) -> Point {
-        let mut orbit = orbit_of(&motion.passages, self.periods, period);
+        let mut orbit = motion.orbit(self.periods, period);
         orbit.signature.symmetric = self.symmetric;
         let approaches = motion.passages.iter().filter(|p| p.event.kind.is_approach());
         let nearest = motion.touches.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
