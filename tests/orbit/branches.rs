@@ -444,7 +444,7 @@ fn a_branch_of_twice_the_period_ends_where_it_meets_that_of_the_single_one_again
         .branches
         .iter()
         .enumerate()
-        .filter(|(_, branch)| branch.ends[1] == Some(End::Special(Label::PeriodDoubling)))
+        .filter(|(_, branch)| branch.ends[1] == Some(End::Special(Label::PeriodDoubling)) && branch.depth < 3)
         .collect();
     assert!(!returned.is_empty(), "{:?}", values(&graph));
     for (number, branch) in returned {
