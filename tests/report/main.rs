@@ -16,6 +16,8 @@ mod drawings;
 #[cfg(feature = "cli")]
 mod older;
 #[cfg(all(feature = "cli", unix))]
+mod flow;
+#[cfg(all(feature = "cli", unix))]
 mod realisations;
 #[cfg(all(feature = "cli", unix))]
 mod tables;
