@@ -288,6 +288,8 @@ mod tests {
         }
         let mass = ["time_s".to_owned(), "displacement_of_mass_7_m".to_owned()];
         assert_eq!(Stations::of(&mass).unwrap().bodies[0].places, [7.0]);
+        let walls = ["time_s", "displacement_of_wall_0_m", "displacement_of_wall_12_m"].map(str::to_owned);
+        assert_eq!(Stations::of(&walls).unwrap().bodies[0].places, [0.0, 12.0]);
     }
 
     #[test]

@@ -13,8 +13,8 @@
 //! `largest_force.rs` finds the stretch in which it is largest, `wear_tally.rs` sums up the work of
 //! wear of every support; `batch.rs` and `student.rs` make intervals; `episodes.rs` joins contacts
 //! into episodes, `distribution.rs` counts them, `summary.rs` has mean and largest, `place.rs`
-//! names where they are, `spectrum.rs` estimates spectra, `recovered.rs` compares those of turbulent
-//! forces with what was asked.
+//! names where they are, `spectrum.rs` estimates spectra, `recovered.rs` compares those of
+//! turbulent forces with what was asked.
 
 mod batch;
 mod distribution;

@@ -40,7 +40,7 @@ pub(crate) struct Pair {
     pub asked: f64,
     /// ⟨QᵢQⱼ⟩/√(⟨Qᵢ²⟩⟨Qⱼ²⟩) over the run.
     pub recovered: f64,
-    /// Standard deviation of it, at most.
+    /// Standard deviation of it, about.
     pub scatter: f64,
 }
 
@@ -177,8 +177,8 @@ mod tests {
 
     #[test]
     fn a_long_run_recovers_the_density_of_the_double_integral() {
-        // S = f^(−2) (N/m)²/Hz; ∬ sin sin e^(−|x−x′|/λ) of the third sine over 3 m for λ = 0.1 m, by
-        // quadrature in 30 digits, and sin has 1 as its largest value already.
+        // S = f^(−2) (N/m)²/Hz; ∬ sin sin e^(−|x−x′|/λ) of the third sine over 3 m for λ = 0.1 m,
+        // by quadrature in 30 digits, and sin has 1 as its largest value already.
         let spectrum = TurbulenceSpectrum::Even(vec![[1.0, 1.0], [100.0, 1e-4]]);
         let known = |f: f64| 0.274_686_165_379_587 / (f * f);
         let found = found(&field(spectrum, 0.1), 3, 400.0);
@@ -190,16 +190,17 @@ mod tests {
             assert!((asked / known(*f) - 1.0).abs() < 1e-3, "{f} Hz: {asked}");
             shares.push(recovered / known(*f));
         }
-        // Four standard deviations of χ²_ν/ν. The spectrum under Hann's window has the second moment
+        // Four standard deviations of χ²_ν/ν. The spectrum of Hann's window has the second moment
         // Δ²/3: its bias is S″Δ²/6 = (Δ/f)² S, and three times that where f is a few Δ.
         let spacing = found.frequencies[1] - found.frequencies[0];
         for (f, share) in found.frequencies.iter().zip(&shares) {
             let bias = 3.0 * (spacing / f).powi(2);
             assert!((share - 1.0).abs() < 4.0 * found.scatter + bias, "{f} Hz: {share}");
         }
-        // The mean over the frequencies from 10 Hz, where the bias is 0.3 %; of them half count, since
-        // neighbours under Hann's window share much.
-        let high: Vec<f64> = found.frequencies.iter().zip(&shares).filter(|(f, _)| **f > 10.0).map(|(_, s)| *s).collect();
+        // The mean over the frequencies from 10 Hz, where the bias is 0.3 %; of them half count,
+        // since neighbours under Hann's window share much.
+        let high: Vec<f64> =
+            found.frequencies.iter().zip(&shares).filter(|(f, _)| **f > 10.0).map(|(_, s)| *s).collect();
         let mean = high.iter().sum::<f64>() / high.len() as f64;
         assert!((mean - 1.0).abs() < 4.0 * found.scatter / (0.5 * high.len() as f64).sqrt() + 0.005, "{mean}");
     }

@@ -13,10 +13,10 @@ mod bodies;
 mod browser;
 #[cfg(all(feature = "cli", unix))]
 mod drawings;
-#[cfg(feature = "cli")]
-mod older;
 #[cfg(all(feature = "cli", unix))]
 mod flow;
+#[cfg(feature = "cli")]
+mod older;
 #[cfg(all(feature = "cli", unix))]
 mod realisations;
 #[cfg(all(feature = "cli", unix))]

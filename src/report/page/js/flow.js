@@ -141,7 +141,7 @@ function correlationOfModes({ columns, rows }, looks) {
     told.textContent =
       "The force is made on the modes and is no field along the tube. Its coherence over a distance Δx, e^(−|Δx|/λ)" +
       `${length ? ` with λ\u00a0=\u00a0${digits(length)}\u00a0m` : ""}, is seen in the correlation of the forces on two modes, over ` +
-      `the whole band: a point for each pair, off the line by up to about ${digits(scatter, 2)} (one standard deviation).`;
+      `the whole band: a point for each pair, about the line with a standard deviation of up to ${digits(scatter, 2)}.`;
   };
   return rows.length
     ? { fill, parts: [el("h3", {}, "Coherence"), told, plot.box] }
