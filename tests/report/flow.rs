@@ -30,7 +30,7 @@ fn a_run_in_turbulence_has_the_section_and_one_without_has_none() {
     let text = fs::read_to_string(folder.join("turbulence.csv")).unwrap();
     let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
     assert_eq!(turbulence["spectra"]["rows"], rows.len());
-    assert!(rows.len() >= 6 * 5 && rows.len() % 6 == 0, "{}", rows.len());
+    assert!(rows.len() >= 6 * 5 && rows.len().is_multiple_of(6), "{}", rows.len());
     let (y, z) = (rows.iter().filter(|row| row[0] == "1 along y"), rows.iter().filter(|row| row[0] == "1 along z"));
     assert_eq!((y.count(), z.count()), (rows.len() / 2, rows.len() / 2));
     for row in &rows {

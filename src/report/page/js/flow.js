@@ -66,7 +66,8 @@ function spectrumOfModes({ columns, rows }, looks) {
       look: looks[name],
       rows: own,
       x: own.map((i) => columns.frequency_Hz[i]),
-      y: own.map((i) => columns[`${name}_N2_per_Hz`][i]),
+      // Beyond the ends of its spectrum there is no force, and 0 has no place on a logarithmic axis.
+      y: own.map((i) => columns[`${name}_N2_per_Hz`][i] || NaN),
     });
     shown.curves = [curve("asked"), curve("recovered")];
     plot.series = [bandOf(shown.curves[0], columns.scatter_N2_per_Hz), ...shown.curves];
@@ -93,7 +94,8 @@ function spectrumOfModes({ columns, rows }, looks) {
     };
     pick.replaceChildren(selection("Mode", choices, String(shown.mode), choose));
     draw();
-    const share = columns.scatter_N2_per_Hz[own[0]] / columns.asked_N2_per_Hz[own[0]];
+    const some = own.find((i) => columns.asked_N2_per_Hz[i] > 0);
+    const share = columns.scatter_N2_per_Hz[some] / columns.asked_N2_per_Hz[some];
     told.textContent =
       "The random force on a mode, scaled to a largest displacement of 1 along the tube: as asked for, and " +
       "recovered by Welch's method from the force that the run applied. The estimate at a frequency scatters " +
