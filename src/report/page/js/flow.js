@@ -58,16 +58,19 @@ function spectrumOfModes({ columns, rows }, looks) {
   const told = el("p", { class: "lead" });
   const pick = el("div", { class: "bar controls" });
   const draw = () => {
+    // Beyond the ends of the spectrum there is no force: what is recovered there is leakage.
     const own = rows.filter(
-      (i) => columns.turbulence[i] === shown.field && columns.mode[i] === shown.mode,
+      (i) =>
+        columns.turbulence[i] === shown.field &&
+        columns.mode[i] === shown.mode &&
+        columns.asked_N2_per_Hz[i] > 0,
     );
     const curve = (name) => ({
       kind: "line",
       look: looks[name],
       rows: own,
       x: own.map((i) => columns.frequency_Hz[i]),
-      // Beyond the ends of its spectrum there is no force, and 0 has no place on a logarithmic axis.
-      y: own.map((i) => columns[`${name}_N2_per_Hz`][i] || NaN),
+      y: own.map((i) => columns[`${name}_N2_per_Hz`][i]),
     });
     shown.curves = [curve("asked"), curve("recovered")];
     plot.series = [bandOf(shown.curves[0], columns.scatter_N2_per_Hz), ...shown.curves];
@@ -96,11 +99,13 @@ function spectrumOfModes({ columns, rows }, looks) {
     draw();
     const some = own.find((i) => columns.asked_N2_per_Hz[i] > 0);
     const share = columns.scatter_N2_per_Hz[some] / columns.asked_N2_per_Hz[some];
+    // Hann's window smears over two frequencies on either side.
+    const smeared = 2 * (columns.frequency_Hz[own[1]] - columns.frequency_Hz[own[0]]);
     told.textContent =
       "The random force on a mode, scaled to a largest displacement of 1 along the tube: as asked for, and " +
       "recovered by Welch's method from the force that the run applied. The estimate at a frequency scatters " +
       `about what was asked by up to ${digits(100 * share, 2)} % (the band: one standard deviation), less where ` +
-      "few random phases make the force.";
+      `few random phases make the force${smeared > 0 ? `, and is smeared over ± ${digits(smeared, 3)} Hz` : ""}.`;
   };
   const short = el("p", { class: "lead" }, "The run is too short for a spectrum within the band of the turbulence.");
   return rows.length
