@@ -12,6 +12,7 @@
 //! | [`csv`] | `trajectory.csv`, `output.csv` and `contacts.csv` |
 //! | [`derivatives`] | `derivatives.csv`, and the table of what 1 % more of a key changes |
 //! | [`supports`] | `supports.csv`, `sectors.csv`, the table of supports and their part of the summary |
+//! | `turbulence` | `turbulence.csv`, `turbulence-pairs.csv`: forces on modes, asked and applied |
 //! | [`summary`] | `summary.json` |
 //! | [`run`] | all files of one run, and its table |
 //! | [`compare`] | all files of a comparison, its table and its JSON |
@@ -52,14 +53,15 @@
 //! other results under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
 //! `derivatives.rs`, `table.rs`, `json.rs`, `compare_table.rs` and `method_realisations.rs`
 //! (comparisons for the terminal), `verification.rs` (the manual), `document.rs`, `detail.rs` (what
-//! `[statistics]` asks for: `episodes.rs`, `spectra.rs`), `realisations.rs`, `error_parts.rs` (the
-//! errors of their means), `cheapest.rs` (the conclusion of a chart), `floors.rs` (why its
-//! penalties have floors), `safe_steps.rs` (the conclusion of a stability study), figures
-//! (`labelled.rs` is a run that is drawn, `motion.rs` its motion, `window.rs` the stretch of it,
-//! `orbit.rs` with `ring.rs` its way between supports, `rubbed.rs` the supports over time;
-//! `site.rs` is a wall or support with its results, `places.rs` says which fit on a page,
-//! `colours.rs` has the colour of each, `part.rs` the walls that are drawn together), `format.rs`
-//! (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook, feature `xlsx`; feature `cli`).
+//! `[statistics]` asks for: `episodes.rs`, `spectra.rs`), `turbulence.rs` (its forces),
+//! `realisations.rs`, `error_parts.rs` (the errors of their means), `cheapest.rs` (the conclusion
+//! of a chart), `floors.rs` (why its penalties have floors), `safe_steps.rs` (the conclusion of a
+//! stability study), figures (`labelled.rs` is a run that is drawn, `motion.rs` its motion,
+//! `window.rs` the stretch of it, `orbit.rs` with `ring.rs` its way between supports, `rubbed.rs`
+//! the supports over time; `site.rs` is a wall or support with its results, `places.rs` says which
+//! fit on a page, `colours.rs` has the colour of each, `part.rs` the walls that are drawn
+//! together), `format.rs` (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook, feature
+//! `xlsx`; feature `cli`).
 
 pub(crate) mod animation;
 pub mod atomic;
@@ -109,6 +111,7 @@ pub mod stability;
 pub mod summary;
 pub mod supports;
 pub mod table;
+pub(crate) mod turbulence;
 mod values;
 pub(crate) mod verification;
 pub mod wear_folder;

@@ -7,7 +7,7 @@ use super::record::TABLES;
 use super::results::Results;
 use super::summary::{self, Checks, Reasons};
 use super::table::Table;
-use super::{Span, csv, json, realisations, supports};
+use super::{Span, csv, json, realisations, supports, turbulence};
 use crate::case::Case;
 use crate::error::Result;
 use crate::qp::Backend;
@@ -33,7 +33,8 @@ pub struct Picture {
 }
 
 /// Writes the files of one run: `trajectory.csv`, `contacts.csv`, for output times `output.csv`, of
-/// supports also `supports.csv` and `sectors.csv`, the figures, what `[statistics]` asks for, and
+/// supports also `supports.csv` and `sectors.csv`, of turbulence `turbulence.csv` and
+/// `turbulence-pairs.csv`, the figures, what `[statistics]` asks for, and
 /// `summary.json`, into the folder of `results` or, where `prefix` is not empty, into a folder of
 /// that name in it. Returns the summary, which records all tables written there so far.
 ///
@@ -55,6 +56,10 @@ pub fn write(
         csv::output(&results.place(&named("output.csv"))?, &run.trajectory)?;
     }
     supports::write(|name| results.place(&named(name)), case, run)?;
+    // All runs of a comparison have the same forces.
+    if prefix.is_empty() {
+        turbulence::write(|name| results.place(name), case)?;
+    }
     let label = method.to_string();
     let runs = [Labelled { label: &label, run, reference: false, look: picture.look }];
     let draws = checks.realisations.map_or(1, |study| study.count as u64);

@@ -28,8 +28,11 @@ const BODY: &str = "of_";
 const AT: &str = "at_";
 const MASS: &str = "of_mass_";
 
+/// What begins the name of a station at a wall of matrices or modes, by the number of the wall.
+const WALL: &str = "of_wall_";
+
 /// Stations at equal distances along a bar or beam, beside those at walls and loads; and most
-/// masses of a chain.
+/// masses of a chain, or walls of matrices and modes.
 const ALONG: usize = 31;
 const MOST_MASSES: usize = 64;
 /// Most numbers that are recorded for a drawing, displacements and velocities; runs of more rows
@@ -46,13 +49,14 @@ pub struct Shape {
 
 impl Shape {
     /// The stations of `case`, in two planes those along y and then those along z; of several
-    /// bodies, in each plane body by body. There are no stations for an oscillator that is the
-    /// system, for matrices and modes, whose places are not in a line, and for a run of very many
-    /// rows.
+    /// bodies, in each plane body by body. Places of matrices and modes are not in a line: in one
+    /// plane their stations are the walls where no probe watches, in two there are none. There are
+    /// none either for an oscillator that is the system, and for a run of very many rows.
     #[must_use]
     pub fn of(case: &Case) -> Self {
         let places: Vec<(String, Place)> = match &case.model {
             Model::Bodies(bodies) => bodies.iter().flat_map(|body| on_body(case, body)).collect(),
+            Model::Matrices(_) | Model::Modal(_) if !case.planes.is_two() => unwatched(case),
             model => along(case, model, None),
         };
         let planes = if case.planes.is_two() { &PLANES[..] } else { &[ONE][..] };
@@ -151,6 +155,19 @@ fn along(case: &Case, model: &Model, body: Option<&str>) -> Vec<(String, Place)>
     at.into_iter().map(|x| (column(x), Place::Position(x))).collect()
 }
 
+/// The walls where no probe watches, of several at one place the first.
+fn unwatched(case: &Case) -> Vec<(String, Place)> {
+    let mut known: Vec<&Place> = case.written.probes.iter().collect();
+    let mut all = Vec::new();
+    for (wall, place) in case.places.iter().enumerate().filter(|(_, place)| case.sees(place).is_some()) {
+        if !known.contains(&place) && all.len() < MOST_MASSES {
+            known.push(place);
+            all.push((format!("{WALL}{wall}_m"), place.clone()));
+        }
+    }
+    all
+}
+
 /// The station of a mass of a chain.
 fn mass(i: usize) -> (String, Place) {
     (format!("{MASS}{i}_m"), Place::Dof(i))
@@ -185,7 +202,7 @@ pub struct Stations {
 pub struct BodyStations {
     /// The body's name; empty where there is one system.
     pub name: String,
-    /// Where they are: in m along the structure, or the numbers of masses.
+    /// Where they are: in m along the structure, or the numbers of masses or walls.
     pub places: Vec<f64>,
     /// The number of its first one among those of a plane.
     pub first: usize,
@@ -238,7 +255,7 @@ impl BodyStations {
 /// The body and the place of a station, of its name without plane and unit.
 fn station(name: &str) -> Option<(&str, f64)> {
     let number = |text: &str| text.replace('p', ".").replace('m', "-").parse::<f64>().ok();
-    let alone = name.strip_prefix(AT).or(name.strip_prefix(MASS)).and_then(number);
+    let alone = [AT, MASS, WALL].into_iter().find_map(|before| name.strip_prefix(before)).and_then(number);
     if let Some(place) = alone {
         return Some(("", place));
     }
@@ -271,6 +288,8 @@ mod tests {
         }
         let mass = ["time_s".to_owned(), "displacement_of_mass_7_m".to_owned()];
         assert_eq!(Stations::of(&mass).unwrap().bodies[0].places, [7.0]);
+        let walls = ["time_s", "displacement_of_wall_0_m", "displacement_of_wall_12_m"].map(str::to_owned);
+        assert_eq!(Stations::of(&walls).unwrap().bodies[0].places, [0.0, 12.0]);
     }
 
     #[test]

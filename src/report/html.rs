@@ -18,7 +18,7 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 44] = [
+const SCRIPT: [&str; 45] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
@@ -55,6 +55,7 @@ const SCRIPT: [&str; 44] = [
     include_str!("page/js/sweep.js"),
     include_str!("page/js/wear.js"),
     include_str!("page/js/margins.js"),
+    include_str!("page/js/flow.js"),
     include_str!("page/js/means.js"),
     include_str!("page/js/orbit.js"),
     include_str!("page/js/periodic.js"),

@@ -7,7 +7,7 @@ use super::older;
 use super::scene::{period, scene};
 use crate::error::Result;
 use crate::output::derivatives::{FILE, STATES_FILE};
-use crate::output::realisations;
+use crate::output::{realisations, turbulence};
 use crate::study::horizon::LARGEST_GROWTH;
 use serde_json::{Value, json};
 
@@ -26,6 +26,10 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     page["notes"] = notes(&summary, lacking);
     add_left_out(&mut page["notes"], &mut run);
     page["margins"] = summary["scene"]["fluid_elastic"].clone();
+    if folder.has(turbulence::FILES[0]) {
+        let [spectra, pairs] = turbulence::FILES.map(|file| folder.cells(file).map(|cells| cells.for_page(None)));
+        page["turbulence"] = json!({ "spectra": spectra?, "pairs": pairs? });
+    }
     tell_draw(&mut page, folder, summary["realisations"]["count"].as_u64().unwrap_or(1));
     if folder.manifest["request"]["derivative"].is_array() {
         page["derivatives"] = derivatives(folder)?;

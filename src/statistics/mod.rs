@@ -13,7 +13,8 @@
 //! `largest_force.rs` finds the stretch in which it is largest, `wear_tally.rs` sums up the work of
 //! wear of every support; `batch.rs` and `student.rs` make intervals; `episodes.rs` joins contacts
 //! into episodes, `distribution.rs` counts them, `summary.rs` has mean and largest, `place.rs`
-//! names where they are, `spectrum.rs` estimates spectra.
+//! names where they are, `spectrum.rs` estimates spectra, `recovered.rs` compares those of
+//! turbulent forces with what was asked.
 
 mod batch;
 mod distribution;
@@ -21,6 +22,8 @@ mod episodes;
 mod force;
 mod largest_force;
 mod place;
+#[cfg(feature = "cli")]
+mod recovered;
 mod spectrum;
 mod step_force;
 mod student;
@@ -33,6 +36,8 @@ pub use episodes::EpisodeStatistics;
 pub use force::{ForceStatistics, Forces};
 pub use largest_force::LargestForce;
 pub use place::{ContactPlace, PlaceKind};
+#[cfg(feature = "cli")]
+pub(crate) use recovered::{Pair, Recovered};
 #[cfg(feature = "case")]
 pub(crate) use spectrum::FEWEST as FEWEST_VALUES;
 pub use spectrum::Spectrum;

@@ -376,3 +376,32 @@ fn a_sweep_opens_where_its_curves_bend_and_shows_another_beneath() {
     assert_eq!(tab.evaluate("document.documentElement.dataset.errors"), "0");
     tab.close();
 }
+
+/// A probe elsewhere than at the stop of a structure given by its modes: the page has the stop, and
+/// the motion there, all the same.
+#[test]
+fn walls_of_modes_are_drawn_where_no_probe_watches() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = "[system.modal]\nfrequencies = [2.239861, 6.275951]\ndamping_ratios = 0.01\n[system.modal.shapes]\n\
+        tip = [0.737, 0.591]\nroot = [0.328, -0.737]\n\
+        [[wall]]\nname = \"stop\"\nat = { point = \"tip\" }\nside = \"both\"\ngap = 2e-3\nrestitution = 0.5\n\
+        [[load]]\nat = { point = \"root\" }\nharmonic = { amplitude = 20.0, frequency = 3.0 }\n\
+        [[probe]]\nname = \"watched\"\nat = { point = \"root\" }\n[time]\nend = 1.0\nstep = 1e-3\n";
+    fs::write(dir.path().join("modes.toml"), case).unwrap();
+    let page = results(dir.path(), &["run", "modes.toml", "--no-verdict"]);
+    let shape = fs::read_to_string(page.with_file_name("shape.csv")).unwrap();
+    let mut lines = shape.lines();
+    assert_eq!(lines.next().unwrap(), "time_s,displacement_of_wall_0_m");
+    let moved: Vec<f64> = lines.map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect();
+    let most = moved.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+    // It meets the stop between two rows, and six digits are written.
+    assert!(most > 1.8e-3 && most < 2e-3 * (1.0 + 1e-4), "{most}");
+    let Some(mut browser) = Browser::start() else { return };
+    let mut tab = opened(&mut browser, &page);
+    let texts = texts(&mut tab);
+    for name in ["watched", "stop"] {
+        assert!(texts.iter().any(|text| text == name), "{name}: {texts:?}");
+    }
+    assert!(!texts.iter().any(|text| text.contains("not drawn")), "{texts:?}");
+    tab.close();
+}

@@ -13,6 +13,8 @@ mod bodies;
 mod browser;
 #[cfg(all(feature = "cli", unix))]
 mod drawings;
+#[cfg(all(feature = "cli", unix))]
+mod flow;
 #[cfg(feature = "cli")]
 mod older;
 #[cfg(all(feature = "cli", unix))]

@@ -21,6 +21,8 @@
 //! forces depend neither on the step nor on the scheme. The mean square of a force over T scatters
 //! from seed to seed by about 1/√(lines), where its lines have contributions of several modes.
 
+#[cfg(feature = "cli")]
+mod asked;
 mod coherence;
 mod spectrum;
 

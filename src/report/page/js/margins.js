@@ -1,6 +1,7 @@
 // The fluid-elastic margins of tubes in a cross flow, by Connors' criterion.
 
-function marginSection() {
+/** The heading, what it means, and the table. */
+function marginParts() {
   const { connors, inactive, active } = DATA.margins;
   const rows = [
     ...active.map((mode, i) => ({ ...mode, supports: "active", number: i + 1 })),
@@ -20,12 +21,13 @@ function marginSection() {
     show: (row) => (row[key] === null ? "no flow" : digits(row[key] * factor, 4)),
   });
   const bodies = wordColumn("bodies", (row) => row.bodies.join(", "));
-  section(
-    "margins",
-    "Stability in the flow",
+  const text =
     `${verdict} Connors' criterion with K = ${digits(connors)}: a mode is unstable where its margin, ` +
-      "the critical velocity over the effective one, is below 1. The force of this instability is not " +
-      "in the motion.",
+    "the critical velocity over the effective one, is below 1. The force of this instability is not " +
+    "in the motion.";
+  return [
+    el("h3", {}, "Stability"),
+    el("p", { class: "lead" }, text),
     sortable(
       [
         wordColumn("supports", (row) => row.supports),
@@ -40,5 +42,5 @@ function marginSection() {
       rows,
       { height: 60 + ROW * Math.min(rows.length, 16) },
     ),
-  );
+  ];
 }

@@ -160,7 +160,7 @@ if (DATA.kind === "run" && (DATA.summary.supports || []).length) {
 }
 if (lead && runs.some((run) => run.contacts.count)) contactSection();
 if (DATA.derivatives) derivativeSection();
-if (DATA.margins) marginSection();
+if (DATA.turbulence || DATA.margins) flowSection();
 if (DATA.kind === "run" && DATA.summary.statistics && DATA.summary.statistics.walls.length)
   statisticsSection();
 textSection();

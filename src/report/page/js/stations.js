@@ -21,16 +21,18 @@ function shapeStations(shape, plane) {
 /** The same of the structure, of one without a shape through its watched places. */
 function stationsOf(plane = 0) {
   const length = DATA.scene.length;
-  if (lead.shape) return shapeStations(lead.shape, plane);
+  // Of matrices and modes a shape has the walls where no probe watches, by their numbers.
+  const atWalls = lead.shape && ["matrices", "modal"].includes(DATA.scene.kind);
+  if (lead.shape && !atWalls) return shapeStations(lead.shape, plane);
   // Without a shape: the watched places, by where they are if they say so.
   const two = DATA.scene.planes === 2;
   // Places on several bodies, and relative to each other, are not on one line.
   const place = ({ at }) =>
     at && !at.body && !at.relative_to ? (at.position ?? at.dof) : undefined;
-  const placed = lead.probes.every((probe) => Number.isFinite(place(probe)) && !two);
+  const placed = lead.probes.every((probe) => Number.isFinite(place(probe)) && !two) && !atWalls;
   const probes = placed ? [...lead.probes].sort((a, b) => place(a) - place(b)) : lead.probes;
   const x = probes.map((probe, i) => (placed ? place(probe) : i));
-  return {
+  const watched = {
     x,
     names: placed ? null : probes.map((probe) => probe.name),
     low: probes.map((probe) => Math.min(0, probe.extents.Q[0])),
@@ -38,6 +40,19 @@ function stationsOf(plane = 0) {
     at: (t) => probes.map((probe) => stateAt(probe, t)[0]),
     ats: probes.map((probe) => probe.at),
     whole: placed && !length,
+  };
+  if (!atWalls) return watched;
+  const more = shapeStations(lead.shape, plane);
+  const walls = lead.shape.stations.map((number) => DATA.scene.walls[number]);
+  const names = walls.map(({ name }) => name.replace(/-(upper|lower)$/, ""));
+  return {
+    x: [...x, ...walls.map((_, k) => x.length + k)],
+    names: [...watched.names, ...names],
+    low: [...watched.low, ...more.low],
+    high: [...watched.high, ...more.high],
+    at: (t) => [...watched.at(t), ...more.at(t)],
+    ats: [...watched.ats, ...walls.map(({ at }) => at)],
+    whole: false,
   };
 }
 

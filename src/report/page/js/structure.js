@@ -195,11 +195,11 @@ function structureStage() {
     ctx.textAlign = "left";
     const magnified = DATA.scene.length
       ? `displacement × ${digits(scale / (Math.abs(X(1) - X(0)) || 1), 3)}`
-      : "displacement upward, masses by number";
+      : `displacement upward, ${kind === "matrices" ? "degrees of freedom" : "masses"} by number`;
     const across = kind === "bar" ? " (along the bar, drawn upward)" : "";
     const gaps = gap > 0 ? `, gaps ${prefixed(gap, "m", 3)}` : `, up to ${prefixed(most, "m", 3)}`;
     ctx.fillText(
-      `${stations.names ? "displacement of the watched places" : magnified}${across}${gaps}; pale: where it has been`,
+      `${stations.names ? `displacement of the watched places${lead.shape ? " and at the walls" : ""}` : magnified}${across}${gaps}; pale: where it has been`,
       6,
       16,
       w - 12,
