@@ -103,8 +103,7 @@ impl Builder<'_> {
             set_start(&mut case);
             case.check().map_err(|error| self.locate(error, &case.scene))?;
         }
-        let mean = case.scene.initial.v.clone();
-        case.scatter_about(&mean);
+        case.scatter_start();
         Ok(case)
     }
 

@@ -150,9 +150,9 @@ impl Case {
         single.chain(fields)
     }
 
-    /// Realisation `number` of the case, from 1: the same case, where the seed of every random load,
-    /// of turbulence and of a start that scatters is greater by `number` − 1. So realisation 1 is the case itself, and a run
-    /// with `seed` set to that value repeats any of the others.
+    /// Realisation `number` of the case, from 1: the same case, where the seed of every random
+    /// load, of turbulence and of a start that scatters is greater by `number` − 1. So realisation
+    /// 1 is the case itself, and a run with `seed` set to that value repeats any of the others.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `realisation` for 0, and where a seed would exceed 2^53.
@@ -193,10 +193,10 @@ impl Case {
         Ok(case)
     }
 
-    /// Makes the velocities of the start scatter about `mean`, if they scatter.
-    pub(super) fn scatter_about(&mut self, mean: &[f64]) {
+    /// Makes the velocities of the start scatter about what they are, if the case asks for it.
+    pub(super) fn scatter_start(&mut self) {
         let Some(start) = &mut self.written.scattered else { return };
-        start.mean = mean.to_vec();
+        start.mean.clone_from(&self.scene.initial.v);
         self.scatter();
     }
 

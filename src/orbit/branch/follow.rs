@@ -224,8 +224,8 @@ const ZERO: f64 = 1e-9;
 const SAME_PLACE: f64 = 1e-4;
 
 /// Where the duration of a contact with an elastic wall or of the flight between two goes to 0, the
-/// equations themselves become singular. The other test functions (determinants, and the key's part of the tangent) vanish
-/// there too without meaning anything, and are left out.
+/// equations themselves become singular. The other test functions (determinants, and the key's part
+/// of the tangent) vanish there too without meaning anything, and are left out.
 fn forget_echoes(crossed: &mut Vec<Crossed>, point: &Point, near: f64) {
     let kind = |event: usize| point.orbit.signature.events.get(event).map(|event| event.kind);
     let elastic = |crossed: &&Crossed| match crossed.label {
