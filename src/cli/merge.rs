@@ -4,7 +4,7 @@ use super::command_line::command_line;
 use super::formats::FileFormats;
 use super::pipeline::Answer;
 use super::sweep::{picture_messages, show_tables, status_document, status_messages, write_sensitivity};
-use crate::error::Result;
+use crate::error::{Result, counted};
 use crate::output::request::program;
 use crate::sweep::{Merged, merge_in, write_summary};
 use serde_json::json;
@@ -61,7 +61,7 @@ pub fn answer(args: &Args) -> Result<Answer> {
                     are sensitive to them may differ from those of one machine";
         answer.messages([text.to_owned()]);
     }
-    answer.messages([format!("{rows} rows of {shards} shards")]);
+    answer.messages([format!("{} of {}", counted(rows as usize, "row"), counted(shards as usize, "shard"))]);
     answer.messages(status_messages(&args.out, &tables, rows)?);
     answer.messages(picture_messages(&pictures));
     Ok(answer)

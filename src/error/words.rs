@@ -124,12 +124,14 @@ fn not_reached(error: &Error, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         Error::Inaccurate { tolerance, reached, steps, .. } if reached.is_infinite() => write!(
             f,
             "an error of {tolerance:e} is out of reach: the coarsest runs that could see the motion take \
-             {steps} steps and more"
+             {} and more",
+            counted(*steps as usize, "step")
         ),
         Error::Inaccurate { tolerance, reached, quantity, until, steps } => write!(
             f,
-            "an error of {tolerance:e} was not reached: {steps} steps leave {reached:.1e} ({quantity}); \
-             the displacement keeps it until t = {until:.6} s"
+            "an error of {tolerance:e} was not reached: in {} it is {reached:.1e} ({quantity}); \
+             the displacement keeps it until t = {until:.6} s",
+            counted(*steps as usize, "step")
         ),
         Error::Scattered { share, reached, quantity, count, needed } => write!(
             f,

@@ -2,7 +2,7 @@
 //! that was emptied, shortened or changed since does not have them.
 
 use crate::case::open_regular;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -107,7 +107,7 @@ impl Record {
 /// The size of the file at `path` in words.
 fn size(path: &Path, rows: u64, bytes: u64) -> String {
     let is_table = path.extension().is_some_and(|extension| extension == "csv");
-    if is_table { format!("{rows} rows in {bytes} bytes") } else { format!("{bytes} bytes") }
+    if is_table { format!("{} in {bytes} bytes", counted(rows as usize, "row")) } else { format!("{bytes} bytes") }
 }
 
 /// A source whose bytes are also passed to `take`.

@@ -1,9 +1,13 @@
-//! Moves a state that lies behind rigid walls and holes to them.
+//! Moves a state that lies behind rigid walls and holes to them, and finds the walls that leave no
+//! room to move.
 
-use super::{Face, Row, Scene, Wall};
+use super::{Face, Row, Scene, Side, Wall};
 
 /// Most passes over the walls and holes behind which the state lies.
 const PASSES: usize = 50;
+
+/// Weights of rows that differ by less are the same: sines and cosines of opposite directions.
+const SAME_WEIGHT: f64 = 1e-12;
 
 impl Scene {
     /// Moves an initial state that lies behind rigid walls and holes to them, by the smallest
@@ -24,6 +28,31 @@ impl Scene {
                 break;
             }
         }
+    }
+
+    /// For each wall, whether a flat one opposite to it stands at the same place, so that a body
+    /// between the two has no room to move there.
+    pub(crate) fn snug(&self) -> Vec<bool> {
+        let mut snug = vec![false; self.walls.len()];
+        // Each bounds its outward coordinate from above.
+        let outward = |wall: &Wall| if wall.side() == Side::Upper { 1.0 } else { -1.0 };
+        let opposite = |one: &Wall, other: &Wall| {
+            let (a, b) = (one.row().entries(), other.row().entries());
+            let sign = -outward(one) * outward(other);
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0 && (a.1 - sign * b.1).abs() <= SAME_WEIGHT)
+        };
+        let flat = |wall: &&(usize, &Wall)| !wall.1.is_round();
+        let walls: Vec<(usize, &Wall)> = self.walls.iter().enumerate().collect();
+        for (index, one) in walls.iter().filter(flat) {
+            for (other, two) in walls.iter().skip(index + 1).filter(flat) {
+                let room = outward(one) * one.position() + outward(two) * two.position();
+                let rounding = 1e-12 * one.position().abs().max(two.position().abs());
+                if room <= rounding && opposite(one, two) {
+                    (snug[*index], snug[*other]) = (true, true);
+                }
+            }
+        }
+        snug
     }
 
     /// Moves an initial state that touches the rigid walls `pressed`, up to rounding, exactly onto

@@ -82,10 +82,12 @@ pub(super) struct MoreauJean<S: Space> {
     b: S::Vector,
     /// q + ½hv, with the velocity after the blows of the step.
     ahead: S::Vector,
-    /// The sign of the force of each row's rigid walls in the last step, 0 if none pushed; and the
-    /// rows where it is not 0.
+    /// The sign of the force of each row's rigid walls in the last step, 0 if none pushed or they
+    /// leave no room to move; and the rows where it is not 0.
     last: Vec<f64>,
     pushed: Vec<usize>,
+    /// The walls that leave no room to move.
+    snug: Vec<bool>,
     frozen: u64,
 }
 
@@ -97,7 +99,7 @@ impl<S: Space> MoreauJean<S> {
         let programme = Programme::new(scene, a, scale, |spring| spring.compliance(ht), backend)?;
         let (b, ahead, last) = (zero::<S>(body.n), zero::<S>(body.n), vec![0.0; programme.count_rows()]);
         let pushed = Vec::with_capacity(scene.walls.len());
-        Ok(Self { body, theta, programme, b, ahead, last, pushed, frozen: 0 })
+        Ok(Self { body, theta, programme, b, ahead, last, pushed, snug: scene.snug(), frozen: 0 })
     }
 
     /// Solves for δ and the walls' impulses, if the walls of row `first` may be met and those of no
@@ -172,7 +174,7 @@ impl<S: Space> MoreauJean<S> {
         for &wall in &frame.pushing {
             let (row, impulse) = (row_of(wall), frame.impulse[wall]);
             frame.force[wall] = impulse / self.body.h;
-            if self.programme.is_rigid(row) {
+            if self.programme.is_rigid(row) && !self.snug[wall] {
                 self.last[row] = impulse.signum();
                 self.pushed.push(row);
             }

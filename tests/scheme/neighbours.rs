@@ -31,6 +31,22 @@ fn bodies_that_rest_on_walls_of_opposite_sides_are_not_frozen_between_them() {
 }
 
 #[test]
+fn a_body_without_room_to_move_is_not_frozen_between_its_walls() {
+    // The load presses the body on either wall in turn, and a smaller step changes nothing.
+    let scene = Scene::oscillator(1.0, 0.2, 100.0)
+        .with_wall(Wall::upper("up", 1e-3))
+        .with_wall(Wall::lower("down", 1e-3))
+        .with_initial(&[1e-3], &[0.0])
+        .with_load(Load::harmonic(3.0, 5.0, 0.0))
+        .with_duration(1.0);
+    let found = run(&scene, &MOREAU_JEAN, &Options::with_step(1e-3)).expect("a run");
+    let impulses = ["up", "down"].map(|wall| found.trajectory.impulse(wall).expect("a wall"));
+    // Each takes its half of the sine, ∫|F sin ωt − K u| dt.
+    assert!(impulses[0] < -0.9 && impulses[1] > 0.9, "{impulses:?}");
+    assert_eq!(found.counters.frozen_steps, 0);
+}
+
+#[test]
 fn walls_share_a_force_if_they_stand_at_one_place_and_only_then() {
     // The body reaches a wall in its first step, of 0.2 s at 1 m/s. Bounds that differ by less than
     // 32 units in the last place, 7e-15 of their size, are one place.

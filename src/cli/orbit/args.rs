@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::cli::case_args::CaseArgs;
 use crate::cli::pipeline::Destination;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::orbit::{Orbit, Problem, SETTLE, Signature};
 use crate::output::periodic::read;
 use crate::output::request::{extended, request};
@@ -88,8 +88,8 @@ impl Args {
         signature.check(problem.scene())?;
         let count = signature.events.len();
         if self.start.len() != 2 * count {
-            let expected = format!("{}: phase and speed of each of {count} events", 2 * count);
-            return Err(Error::invalid("--start", format!("{} numbers", self.start.len()), expected));
+            let expected = format!("{}: phase and speed of {}", 2 * count, counted(count, "event"));
+            return Err(Error::invalid("--start", counted(self.start.len(), "number"), expected));
         }
         let pick = |offset: usize| self.start.iter().skip(offset).step_by(2).copied().collect();
         let forcing_period = problem.forcing_period();

@@ -95,7 +95,8 @@ impl Supports {
         let places = ContactRows::new(body.n, &rows, &mut factor);
         let contacts = points.len();
         let zero = || vec![0.0; body.n];
-        let mut memory = WarmStart::new(scene.walls.iter().map(Wall::is_round).collect(), places.count());
+        let round = scene.walls.iter().map(Wall::is_round).collect();
+        let mut memory = WarmStart::new(round, scene.snug(), places.count());
         memory.begin(scene, &scene.initial.q, &scene.initial.v);
         Ok(Self {
             theta,

@@ -12,6 +12,8 @@ const OPPOSITE: f64 = -1.0 + 1e-9;
 pub(super) struct WarmStart {
     /// True for each wall that is round.
     round: Vec<bool>,
+    /// True for each flat that leaves no room to move.
+    snug: Vec<bool>,
     /// Impulses p and f of each wall and hole, N s, from which the next step starts.
     pub warm: Vec<[f64; 2]>,
     /// What each wall and hole did; one that did not push was open.
@@ -25,9 +27,10 @@ pub(super) struct WarmStart {
 }
 
 impl WarmStart {
-    /// For walls of which some are `round`, on `rows` rows.
-    pub fn new(round: Vec<bool>, rows: usize) -> Self {
+    /// For walls of which some are `round` and some `snug`, on `rows` rows.
+    pub fn new(round: Vec<bool>, snug: Vec<bool>, rows: usize) -> Self {
         Self {
+            snug,
             warm: vec![[0.0; 2]; round.len()],
             did: vec![State::Open; round.len()],
             round,
@@ -69,7 +72,7 @@ impl WarmStart {
         for touch in touches.iter().filter(|touch| touch.impulse[0] > 0.0) {
             self.warm[touch.index] = touch.impulse;
             self.did[touch.index] = touch.state;
-            if touch.compliance == 0.0 {
+            if touch.compliance == 0.0 && !self.snug[touch.index] {
                 self.last[touch.rows[0]] = Some(touch.normal);
             }
         }
@@ -102,7 +105,7 @@ mod tests {
     }
 
     fn memory() -> WarmStart {
-        WarmStart::new(vec![false, false, true, true], 8)
+        WarmStart::new(vec![false, false, true, true], vec![false; 4], 8)
     }
 
     #[test]
