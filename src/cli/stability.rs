@@ -6,7 +6,7 @@ use super::pipeline::{Answer, Destination};
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
-use crate::output::request::request;
+use crate::output::request::{extended, request};
 use crate::output::safe_steps::{SafeStep, conclusion, rows, safe_steps, table};
 use crate::output::table::Table;
 use crate::output::{document, stability as output};
@@ -22,7 +22,7 @@ const EXAMPLES: &str = "\
 Examples:
   signorini stability cases/rigid-walls-sine.toml
   signorini stability rigid-walls-sine --restitution 0.8
-  signorini stability bouncing-ball --out results
+  signorini stability bouncing-ball --most-steps 50000
 
 Writes impact-map.csv and .svg (the restitution of one free impact by its phase within the step),
 stability.csv (every run of every map) and one stability-*.svg a scheme: classes over step and
@@ -55,6 +55,10 @@ pub struct Args {
     /// Restitution of every rigid wall and support, 0 to 1
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     restitution: Option<f64>,
+    /// Most steps of a run of a map: it takes that much longer, and its finest steps are that much
+    /// finer [default: 1e6, for many degrees of freedom fewer]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1000..=1_000_000_000))]
+    most_steps: Option<u64>,
     #[command(flatten)]
     place: Destination,
 }
@@ -66,9 +70,12 @@ pub struct Args {
 /// fails.
 pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let case = args.case.read_with_restitution(args.restitution, ui)?;
-    let mut results = args.place.open(&case, "stability", request("stability", &case, &[]))?;
+    let asked = extended(request("stability", &case, &[]), json!({ "most_steps": args.most_steps }));
+    let mut results = args.place.open(&case, "stability", asked)?;
     let question = MapRequest { scene: &case.scene, laws: &case.penalty.laws };
-    let plan = Plan::new(question, &Grid::of(&case.scene))?;
+    let mut grid = Grid::of(&case.scene);
+    grid.most_steps = args.most_steps.map_or(grid.most_steps, |most| most as f64);
+    let plan = Plan::new(question, &grid)?;
     let e = impact::wall_restitution(&case.scene);
     let impacts = impact::maps(plan.scale.mass, case.time.step, e);
     output::impacts(&results.place("impact-map.csv")?, &impacts)?;

@@ -7,14 +7,13 @@ fn signorini(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_signorini")).arg("-q").args(arguments).output().unwrap()
 }
 
-/// Requests of every command that draws, for results in `out`; only `stability` takes more than
-/// some seconds.
+/// Requests of every command that draws, for results in `out`.
 fn drawing(out: &str) -> Vec<Vec<&str>> {
     vec![
         vec!["run", "rigid-walls-sine", "--end", "0.5", "--no-verdict", "--out", out],
         vec!["compare", "rigid-walls-sine", "--end", "0.5", "--no-verdict", "--out", out],
         vec!["chart", "rigid-walls-sine", "--end", "0.1", "--levels", "2", "--repeats", "1", "--out", out],
-        vec!["stability", "bouncing-ball", "--out", out],
+        vec!["stability", "bouncing-ball", "--most-steps", "20000", "--out", out],
         vec!["figures", "--out", out],
     ]
 }

@@ -11,7 +11,7 @@ fn every_command_with_a_case_takes_it() {
         &["compare", "rigid-walls-sine", "--no-verdict", "--json"],
         &["chart", "rigid-walls-sine", "--schemes", "event", "--levels", "1", "--json"],
         &["explain", "rigid-walls-sine", "--json"],
-        &["stability", "rigid-walls-sine", "--set", "load.1.harmonic.amplitude=1.5", "--json"],
+        &["stability", "rigid-walls-sine", "--set", "load.1.harmonic.amplitude=1.5", "--most-steps", "20000", "--json"],
     ];
     for command in commands {
         let (out, _) = said(dir.path(), &[command, &set].concat(), 0);

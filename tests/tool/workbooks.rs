@@ -20,7 +20,7 @@ fn a_build_without_workbooks_says_how_to_get_them_before_anything_runs() {
         &["run", "rigid-walls-sine"][..],
         &["compare", "rigid-walls-sine"],
         &["chart", "rigid-walls-sine"],
-        &["stability", "bouncing-ball"],
+        &["stability", "bouncing-ball", "--most-steps", "20000"],
         &["sweep", "rigid-walls-sine", "--vary", "time.step=1e-4:1e-3:2", "--measure", "contacts"],
         &["wear", "tube-round-supports"],
         &["orbit", "rigid-walls-sine"],

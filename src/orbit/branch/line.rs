@@ -96,9 +96,6 @@ pub(super) trait Followed: Sized {
     /// [`Error::NoOrbit`](crate::Error::NoOrbit) where none was found, with the reason.
     fn switch(&self, at: &Passed<Self>) -> Result<Begin<Self>>;
 
-    /// The branch of the orbit `once` that those of the branch `at` repeat.
-    fn shorter(&self, once: &Orbit, at: &Begin<Self>) -> Result<Begin<Self>>;
-
     /// The orbit at `y`, and how it is compared with others.
     fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)>;
 }

@@ -114,13 +114,7 @@ impl<'r, C: Followed> Net<'r, C> {
         let depth = depth + u32::from(!goes_on);
         let used = if goes_on { self.used.get(own).copied().unwrap_or(0) } else { 0 };
         let begin = match passed.beyond {
-            Some(begin) => begin.curve.orbit_at(&begin.y).and_then(|(orbit, metric)| {
-                // Orbits over several periods may go on as those of one, run over again.
-                match orbit.part(metric.mirror.as_deref()) {
-                    Some((once, _)) => begin.curve.shorter(&once, &begin),
-                    None => Ok(*begin),
-                }
-            }),
+            Some(begin) => Ok(*begin),
             None => passed.curve.switch(&passed),
         };
         let outcome = begin.and_then(|begin| self.begin(number, begin, (depth, used), seen));

@@ -48,10 +48,6 @@ impl<'a> Followed for Curve<'a> {
         self.leave(at)
     }
 
-    fn shorter(&self, once: &Orbit, at: &Begin<Self>) -> Result<Begin<Self>> {
-        self.begin(&self.problem(&at.y)?, once, self.value(&at.y), None, at.both)
-    }
-
     fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)> {
         let problem = self.problem(y)?;
         let metric = Metric { mirror: problem.mirror().map(<[usize]>::to_vec), speed: problem.scales()[1], near: NODE };

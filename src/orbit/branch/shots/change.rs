@@ -56,7 +56,8 @@ impl<'a> Change<'a> {
     /// The special point after `after` points of the branch.
     pub fn passed(self, curve: &Shots<'a>, after: usize) -> Passed<Shots<'a>> {
         let Self { label, event, wall, point, y, beyond, .. } = self;
-        Passed { label, event, wall, point, curve: curve.clone(), y, after, beyond: beyond.map(Box::new) }
+        let beyond = beyond.and_then(|begin| Shots::shortest(begin).ok()).map(Box::new);
+        Passed { label, event, wall, point, curve: curve.clone(), y, after, beyond }
     }
 }
 

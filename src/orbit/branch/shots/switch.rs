@@ -50,11 +50,6 @@ impl Followed for Shots<'_> {
         }
     }
 
-    fn shorter(&self, once: &Orbit, at: &Begin<Self>) -> Result<Begin<Self>> {
-        let Signature { periods, symmetric, .. } = once.signature;
-        Self { periods, symmetric, ..self.clone() }.through(&at.y, Some(&at.along).filter(|_| !at.both))
-    }
-
     fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)> {
         let linear = self.linear(y, &mut None)?;
         let point = self.point(y, linear.posed.period, &linear.motion, super::step_start::multipliers_of(&linear));
@@ -63,6 +58,16 @@ impl Followed for Shots<'_> {
 }
 
 impl Shots<'_> {
+    /// The branch `begin`, or where its orbits repeat shorter ones, as those over several periods
+    /// may beyond a graze, that of these.
+    pub(super) fn shortest(begin: Begin<Self>) -> Result<Begin<Self>> {
+        let (orbit, metric) = begin.curve.orbit_at(&begin.y)?;
+        let Some((once, _)) = orbit.part(metric.mirror.as_deref()) else { return Ok(begin) };
+        let Signature { periods, symmetric, .. } = once.signature;
+        let Begin { curve, y, along, both } = begin;
+        Self { periods, symmetric, ..curve }.through(&y, Some(&along).filter(|_| !both))
+    }
+
     /// This branch through the orbit at the point `y` of a longer one, to both sides or in the
     /// direction of `along`.
     fn through(self, y: &Vector, along: Option<&Vector>) -> Result<Begin<Self>> {
