@@ -61,7 +61,7 @@ pub fn answer(args: &Args) -> Result<Answer> {
                     are sensitive to them may differ from those of one machine";
         answer.messages([text.to_owned()]);
     }
-    answer.messages([format!("{} of {}", counted(rows as usize, "row"), counted(shards as usize, "shard"))]);
+    answer.messages([format!("{} of {}", counted(rows as usize, "row"), counted(shards, "shard"))]);
     answer.messages(status_messages(&args.out, &tables, rows)?);
     answer.messages(picture_messages(&pictures));
     Ok(answer)

@@ -267,9 +267,15 @@ fn wrong_requests_say_what_would_be_accepted() {
         assert!(err.contains(words), "{more:?} does not say {words}: {err}");
     }
     let frequency = "load.1.harmonic.frequency";
-    let branch: [(&[&str], &str); 14] = [
+    let branch: [(&[&str], &str); 16] = [
         (&["--key", frequency, "--range", "4:6", "--second", "system.oscillator.mass"], "--second-range"),
         (&["--key", frequency, "--range", "4:6", "--second", frequency, "--second-range", "4:6"], "a key other than"),
+        // No orbit changes with these.
+        (&["--key", "time.end", "--range", "1:9"], "--key is time.end; expected a key on which orbits depend"),
+        (
+            &["--key", frequency, "--range", "4:6", "--second", "initial.velocity", "--second-range", "0:1"],
+            "--second is initial.velocity",
+        ),
         (
             &["--key", frequency, "--range", "4:6", "--second", "system.oscillator.mass", "--second-range", "2:3"],
             "the case's value of the key, 1.0, in it",

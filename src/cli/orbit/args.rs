@@ -88,7 +88,7 @@ impl Args {
         signature.check(problem.scene())?;
         let count = signature.events.len();
         if self.start.len() != 2 * count {
-            let expected = format!("{}: phase and speed of {}", 2 * count, counted(count, "event"));
+            let expected = format!("{}: phase and speed of each of {}", 2 * count, counted(count, "event"));
             return Err(Error::invalid("--start", counted(self.start.len(), "number"), expected));
         }
         let pick = |offset: usize| self.start.iter().skip(offset).step_by(2).copied().collect();
