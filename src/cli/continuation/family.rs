@@ -28,7 +28,6 @@ impl SceneFamily {
         let case = file.case()?;
         case.check_repeats()?;
         let key = Varied::new(&file, ["--key", "--range"], &args.key, &args.range)?;
-        changes_orbits("--key", &key)?;
         if case.truncated.is_some() && key.key.to_string().starts_with("system.") {
             let expected = "a key outside of [system], or a case without modes: the modes of one value are not those \
                             of another";
@@ -39,9 +38,7 @@ impl SceneFamily {
             if *name == args.key {
                 return Err(Error::invalid("--second", name, "a key other than --key"));
             }
-            let varied = Varied::new(&file, ["--second", "--second-range"], name, range)?;
-            changes_orbits("--second", &varied)?;
-            second = Some(varied);
+            second = Some(Varied::new(&file, ["--second", "--second-range"], name, range)?);
             if !case.scene.is_line() {
                 let expected = "a case of one degree of freedom: the special points of structures are not followed \
                                 over two keys";
@@ -71,18 +68,4 @@ impl SceneFamily {
     pub(super) fn title(&self) -> &str {
         self.case.heading()
     }
-}
-
-/// Tables of a case on which no periodic orbit depends: how long and from where it is run, and what
-/// is recorded of the run.
-const NO_PART_OF_ORBITS: [&str; 6] = ["initial", "penalty", "probe", "statistics", "time", "wear"];
-
-/// Refuses a key over which nothing changes.
-fn changes_orbits(argument: &'static str, varied: &Varied) -> Result<()> {
-    let key = varied.key.to_string();
-    if NO_PART_OF_ORBITS.contains(&key.split('.').next().unwrap_or_default()) {
-        let expected = format!("a key on which orbits depend: none of {}", NO_PART_OF_ORBITS.join(", "));
-        return Err(Error::invalid(argument, key, expected));
-    }
-    Ok(())
 }

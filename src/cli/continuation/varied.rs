@@ -15,6 +15,7 @@ impl Varied {
     pub(super) fn new(file: &CaseFile, options: [&'static str; 2], key: &str, range: &str) -> Result<Self> {
         let key: Key = key.parse()?;
         let [by, option] = options;
+        changes_orbits(by, &key)?;
         let (value, limits) = (start_value(file, by, &key)?, limits(option, range)?);
         if !(limits[0]..=limits[1]).contains(&value) {
             let expected = format!("a range with the case's value of the key, {value:?}, in it");
@@ -59,4 +60,18 @@ fn limits(option: &'static str, text: &str) -> Result<[f64; 2]> {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(wrong);
     let (low, high) = (number(low)?, number(high)?);
     if low < high { Ok([low, high]) } else { Err(wrong()) }
+}
+
+/// Tables of a case on which no periodic orbit depends: how long and from where it is run, and what
+/// is recorded of the run.
+const NO_PART_OF_ORBITS: [&str; 6] = ["initial", "penalty", "probe", "statistics", "time", "wear"];
+
+/// Refuses a key over which nothing changes.
+fn changes_orbits(argument: &'static str, key: &Key) -> Result<()> {
+    let key = key.to_string();
+    if NO_PART_OF_ORBITS.contains(&key.split('.').next().unwrap_or_default()) {
+        let expected = format!("a key on which orbits depend: none of {}", NO_PART_OF_ORBITS.join(", "));
+        return Err(Error::invalid(argument, key, expected));
+    }
+    Ok(())
 }
