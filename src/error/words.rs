@@ -67,7 +67,8 @@ impl fmt::Display for Words<'_> {
                 if let Some(near) = nearest(name, known.iter().map(String::as_str)) {
                     write!(f, "did you mean {}? ", escaped(near))?;
                 }
-                let known: Vec<_> = known.iter().map(|name| escaped(name)).collect();
+                let shown = known.iter().map(|name| if name.is_empty() { "\"\"".into() } else { escaped(name) });
+                let known: Vec<_> = shown.collect();
                 write!(f, "there is {}", known.join(", "))
             }
             Error::Case { report, .. } => f.write_str(report),
