@@ -52,7 +52,7 @@ impl Problem {
             return Err(Error::invalid(
                 "system",
                 "a structure",
-                "an oscillator in one plane: of a structure, orbits are found by settling and shooting, \
+                "an oscillator, of one degree of freedom: of a structure, orbits are found by settling and shooting, \
                  or in closed form, not by signature, and not followed over a key",
             ));
         };

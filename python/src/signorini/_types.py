@@ -36,7 +36,7 @@ def whole(name: str, value: Any, least: int = 0, most: int = _MOST) -> int:
     if not isinstance(value, (int, np.integer)) or isinstance(value, bool):
         raise TypeError(f"{name} is {value!r}; {expected}")
     if not least <= value:
-        raise ValueError(f"{name} is {value!r}; {expected}")
+        raise ValueError(f"{name} is {value!r}; expected {least} or more")
     if value > most:
         raise ValueError(f"{name} is {value!r}; expected at most {most}")
     return int(value)
