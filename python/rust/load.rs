@@ -407,7 +407,8 @@ impl Load {
     ///
     /// It is for the stepping schemes, which evaluate it at the ends of their steps. The exact
     /// scheme refuses it, and it cannot be pickled. An exception that it raises ends the run and is
-    /// passed on, and so does a force that is no finite number. It may run scenes itself, up to 16 runs within one another.
+    /// passed on, and so does a force that is no finite number. It may run scenes itself, up to 16
+    /// runs within one another.
     ///
     /// Parameters
     /// ----------

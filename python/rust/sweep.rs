@@ -151,7 +151,8 @@ fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Noted> {
     Ok((numbers, cautions.into_iter().next()))
 }
 
-/// Notes that limit the use of the table, the number of rows, how many failed, and the first of these.
+/// Notes that limit the use of the table, the number of rows, how many failed, and the first of
+/// these.
 type Outcome = (Vec<String>, u64, u64, Option<String>);
 
 /// True for the word that stands after the bounds of a value whose logarithm is drawn.
