@@ -66,7 +66,9 @@ pub mod wear;
 pub use error::{Cause, Error, Part, Result, Subject};
 pub use interrupt::Interrupt;
 pub use residual::{Finding, Refuted};
-pub use run::{Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, run, run_with_progress};
+pub use run::{
+    Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, foreseen, run, run_with_progress,
+};
 pub use scene::{
     Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, Condensation, Connors, Damping, Face, Flat, Flats, FlowMargin,
     FlowPiece, FlowTube, FluidElastic, FrictionCoefficients, Hole, MOST_DENSE, MOST_ELEMENTS, MOST_FLATS, MOST_MODES,

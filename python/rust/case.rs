@@ -222,9 +222,10 @@ impl Case {
                                 accuracy=...) finds the step for the error of means";
                 return Err(wrong("accuracy", format!("{tolerance:?}"), expected));
             }
-            return Run::to_accuracy(scene, scheme, step, tolerance, time.sample, time.statistics_from);
+            let rows = (time.sample, time.statistics_from);
+            return Run::to_accuracy(scene, (scheme, step), tolerance, rows, Some(&self.case));
         }
-        let run = Run::make(scene, self.plan(scheme, step)?)?;
+        let run = Run::make(scene, self.plan(scheme, step)?, Some(&self.case))?;
         if let Some(instability) = self.case.instability() {
             // Written here, without NUL.
             let text = std::ffi::CString::new(instability).unwrap_or_default();

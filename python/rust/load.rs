@@ -4,6 +4,7 @@ use crate::error::{raise, wrong, wrong_type};
 use crate::json::loads;
 use crate::pickle::{Reduced, State, pickled, unpickled};
 use crate::place::Place;
+use crate::values::whole;
 use crate::work::{called_in_run, nested};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -51,6 +52,17 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Direction {
     }
 }
 
+/// The number from which a random signal follows.
+struct Seed(u64);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Seed {
+    type Error = PyErr;
+
+    fn extract(seed: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        whole("load: seed", &seed, 0, u64::MAX).map(Self)
+    }
+}
+
 impl Load {
     /// A load of a scene, at its place.
     pub fn of_scene(load: sg::Load, place: Place) -> Self {
@@ -82,6 +94,30 @@ fn load(load: sg::Load, place: Place, direction: Option<Direction>) -> PyResult<
         other => raise(other),
     })?;
     Ok(Load { force: Force::Known(load), place, direction })
+}
+
+/// Refuses a number of a load that is infinite or not a number, which JSON cannot hold.
+fn finite(name: &str, values: impl IntoIterator<Item = f64>) -> PyResult<()> {
+    match values.into_iter().find(|value| !value.is_finite()) {
+        Some(value) => Err(wrong(&format!("load: {name}"), value, "finite numbers")),
+        None => Ok(()),
+    }
+}
+
+/// The force that the `function` of a load returns at `time`, s.
+fn evaluated(function: &Bound<'_, PyAny>, time: f64) -> PyResult<f64> {
+    let force = function.call1((time,))?;
+    let known = || {
+        format!(
+            "load {}: the force at t = {time:?} s",
+            function.repr().map_or_else(|_| "of a function".to_owned(), |name| name.to_string())
+        )
+    };
+    match force.extract::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        Ok(number) => Err(wrong(&known(), number, "a finite number, in N")),
+        Err(_) => Err(PyTypeError::new_err(format!("{} is {}; expected a number, in N", known(), force.repr()?))),
+    }
 }
 
 /// The values that are not null, as JSON.
@@ -217,28 +253,34 @@ impl Load {
     ///
     /// Raises
     /// ------
+    /// ValueError
+    ///     For numbers that are not finite, and a seed below 0; `tube` and `case` check the others.
     /// TypeError
-    ///     For values of other types; `tube` and `case` check the numbers.
+    ///     For values of other types.
     ///
     /// Examples
     /// --------
     /// >>> import signorini as sg
     /// >>> sg.Load.random(rms=3.0, band=(1.0, 100.0), at=0.5, direction="both")
-    /// Load.random({"rms":3.0,"from":1.0,"to":100.0,"seed":0}, at=0.5)
+    /// Load.random({"rms":3.0,"from":1.0,"to":100.0,"seed":0}, at=0.5, direction="both")
     #[staticmethod]
-    #[pyo3(signature = (*, rms=None, band=None, psd=None, seed=0, at=Place::Only, direction=None),
+    #[pyo3(signature = (*, rms=None, band=None, psd=None, seed=Seed(0), at=Place::Only, direction=None),
            text_signature = "(*, rms=None, band=None, psd=None, seed=0, at=None, direction=None)")]
     fn random(
         rms: Option<f64>,
         band: Option<(f64, f64)>,
         psd: Option<Vec<(f64, f64)>>,
-        seed: u64,
+        seed: Seed,
         at: Place,
         direction: Option<Direction>,
-    ) -> Self {
+    ) -> PyResult<Self> {
+        finite("rms", rms)?;
+        finite("band", band.into_iter().flat_map(|(from, to)| [from, to]))?;
+        finite("psd", psd.iter().flatten().flat_map(|(frequency, density)| [*frequency, *density]))?;
+        let Seed(seed) = seed;
         let (from, to) = band.unzip();
         let values = given(json!({ "rms": rms, "from": from, "to": to, "psd": psd, "seed": seed }));
-        Self { force: Force::OfCase { kind: "random".to_owned(), values }, place: at, direction }
+        Ok(Self { force: Force::OfCase { kind: "random".to_owned(), values }, place: at, direction })
     }
 
     /// An acceleration of the base of a case: from a CSV file, or a sine.
@@ -262,8 +304,10 @@ impl Load {
     ///
     /// Raises
     /// ------
+    /// ValueError
+    ///     For numbers that are not finite; `tube` and `case` read the file.
     /// TypeError
-    ///     For values of other types; `tube` and `case` read the file.
+    ///     For values of other types.
     ///
     /// Examples
     /// --------
@@ -283,12 +327,15 @@ impl Load {
         acceleration: Option<&str>,
         scale: Option<f64>,
         direction: Option<Direction>,
-    ) -> Self {
+    ) -> PyResult<Self> {
+        for (name, value) in [("amplitude", amplitude), ("frequency", frequency), ("phase", phase), ("scale", scale)] {
+            finite(name, value)?;
+        }
         let values = given(json!({
             "file": file.map(|file| file.display().to_string()), "amplitude": amplitude, "frequency": frequency,
             "phase": phase, "time": time, "acceleration": acceleration, "scale": scale,
         }));
-        Self { force: Force::OfCase { kind: "base".to_owned(), values }, place: Place::Only, direction }
+        Ok(Self { force: Force::OfCase { kind: "base".to_owned(), values }, place: Place::Only, direction })
     }
 
     /// The weight of all masses of a case.
@@ -306,19 +353,22 @@ impl Load {
     ///
     /// Raises
     /// ------
+    /// ValueError
+    ///     For a number that is not finite.
     /// TypeError
-    ///     For values of other types; `tube` and `case` check the number.
+    ///     For values of other types.
     ///
     /// Examples
     /// --------
     /// >>> import signorini as sg
     /// >>> sg.Load.gravity(9.81, direction=270.0)
-    /// Load.gravity({"acceleration":9.81})
+    /// Load.gravity({"acceleration":9.81}, direction=270.0)
     #[staticmethod]
     #[pyo3(signature = (acceleration, *, direction=None))]
-    fn gravity(acceleration: f64, direction: Option<Direction>) -> Self {
+    fn gravity(acceleration: f64, direction: Option<Direction>) -> PyResult<Self> {
+        finite("acceleration", [acceleration])?;
         let values = given(json!({ "acceleration": acceleration }));
-        Self { force: Force::OfCase { kind: "gravity".to_owned(), values }, place: Place::Only, direction }
+        Ok(Self { force: Force::OfCase { kind: "gravity".to_owned(), values }, place: Place::Only, direction })
     }
 
     /// A force (N) at increasing times (s): linear between them, zero outside.
@@ -357,7 +407,8 @@ impl Load {
     ///
     /// It is for the stepping schemes, which evaluate it at the ends of their steps. The exact
     /// scheme refuses it, and it cannot be pickled. An exception that it raises ends the run and is
-    /// passed on. It may run scenes itself, up to 16 runs within one another.
+    /// passed on, and so does a force that is no finite number. It may run scenes itself, up to 16
+    /// runs within one another.
     ///
     /// Parameters
     /// ----------
@@ -374,6 +425,8 @@ impl Load {
     /// ------
     /// TypeError
     ///     For what cannot be called, or does not return a number.
+    /// ValueError
+    ///     For a force that is not finite.
     /// Exception
     ///     Whatever the function raises at time 0.
     /// RecursionError
@@ -392,16 +445,20 @@ impl Load {
             return Err(PyTypeError::new_err(format!("force is {}; expected a function of the time", force.repr()?)));
         }
         // Evaluated once here, so that an invalid function is refused at once.
-        nested(|| force.call1((0.0,))?.extract::<f64>())?;
+        nested(|| evaluated(&force, 0.0))?;
         let force = force.unbind();
-        let call =
-            move |t: f64| Python::attach(|py| force.bind(py).call1((t,)).and_then(|value| value.extract::<f64>()));
+        let call = move |t: f64| Python::attach(|py| evaluated(force.bind(py), t));
         let at_time = move |t: f64| called_in_run(|| call(t)).unwrap_or(f64::NAN);
         load(sg::Load::function(at_time), at, None)
     }
 
     fn __repr__(&self) -> String {
-        let at = self.place.argument();
+        let direction = match &self.direction {
+            Some(Direction::Degrees(degrees)) => format!(", direction={degrees:?}"),
+            Some(Direction::Word(word)) => format!(", direction={word:?}"),
+            None => String::new(),
+        };
+        let at = self.place.argument() + &direction;
         let load = match &self.force {
             Force::Known(load) => load,
             Force::OfCase { kind, values } => return format!("Load.{kind}({values}{at})"),

@@ -76,6 +76,9 @@ impl Model {
             sg::Error::Invalid { value, expected, .. } => wrong(&format!("{owner}: at"), value, &expected),
             other => crate::error::raise(other),
         };
+        if place.names_twice() {
+            return Err(wrong(&format!("{owner}: at"), place.shown(), "each degree of freedom or point once"));
+        }
         match (self, place) {
             (_, Place::Row(entries)) => Ok(sg::Row::new(entries.clone())),
             (Self::Bar(bar), Place::Number(x)) => bar.at(*x).map_err(named),
@@ -106,6 +109,18 @@ impl Model {
 }
 
 impl Place {
+    /// True if a degree of freedom or a point occurs twice.
+    fn names_twice(&self) -> bool {
+        fn twice<T: PartialEq>(pairs: &[(T, f64)]) -> bool {
+            pairs.iter().enumerate().any(|(i, (one, _))| pairs.iter().take(i).any(|(other, _)| other == one))
+        }
+        match self {
+            Self::Row(entries) => twice(entries),
+            Self::Points(points) => twice(points),
+            _ => false,
+        }
+    }
+
     fn shown(&self) -> String {
         match self {
             Self::Only => "missing".to_owned(),

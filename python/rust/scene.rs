@@ -7,7 +7,7 @@ use crate::pickle::{Reduced, State, pickled, unpickled};
 use crate::place::{Model, Place};
 use crate::plan::Plan;
 use crate::run::Run;
-use crate::values::{Damping, Values};
+use crate::values::{Damping, Values, whole};
 use crate::wall::Wall;
 use crate::work::{LARGE, compute, compute_apart};
 use pyo3::prelude::*;
@@ -51,13 +51,14 @@ impl Scene {
     ///     Places whose displacement and velocity are recorded, by name.
     /// output_times : sequence of float, optional
     ///     s, increasing: times at which `Run.output` has the states of the probes; they need not
-    ///     be rows.
+    ///     be rows. Those after the end are left out, as `Run.notes` then says.
     /// displacement, velocity : float or sequence of float, optional
     ///     The start, m and m/s: one value per degree of freedom.
     /// duration : float, optional
     ///     s.
     /// damping : float, sequence of float or Rayleigh, optional
-    ///     Of a structure: a share of critical damping for all modes, one for each, or Rayleigh's.
+    ///     Of a structure: a share of critical damping for all modes, one for each from the slowest
+    ///     on (the last for all further ones), or Rayleigh's.
     /// modes : int, optional
     ///     Reduce a structure to this many modes, the slowest.
     /// static_correction : bool, optional
@@ -93,9 +94,11 @@ impl Scene {
         velocity: Option<Values>,
         duration: Option<f64>,
         damping: Option<Damping>,
-        modes: Option<usize>,
+        modes: Option<Bound<'_, PyAny>>,
         static_correction: Option<bool>,
     ) -> PyResult<Self> {
+        let modes =
+            modes.map(|modes| whole("modes", &modes, 1, u64::from(u32::MAX))).transpose()?.map(|modes| modes as usize);
         let own = || Origin::of(self.scene.clone());
         let mut origin = self.origin.as_deref().cloned().unwrap_or_else(own);
         let scene = &mut origin.scene;
@@ -147,7 +150,8 @@ impl Scene {
     /// accuracy : float, optional
     ///     The error to keep, as a share of the gap; scheme and step that keep it are found.
     /// sample : float, optional
-    ///     Time between two recorded rows, s; every step, or a thousand rows of ``event``.
+    ///     Time between two recorded rows, s; every step, a thousand rows of ``event``, and with
+    ///     ``accuracy`` the coarsest step tried.
     /// statistics_from : float
     ///     Where the window of the statistics begins, s.
     ///
@@ -187,11 +191,11 @@ impl Scene {
         statistics_from: f64,
     ) -> PyResult<Py<Run>> {
         if let Some(tolerance) = accuracy {
-            return Run::to_accuracy(slf, scheme, step, tolerance, sample, statistics_from);
+            return Run::to_accuracy(slf, (scheme, step), tolerance, (sample, statistics_from), None);
         }
         let plan = Plan::new(&slf.get().scene, scheme, step, sample, statistics_from)?;
         plan.check_step(step)?;
-        Run::make(slf, plan)
+        Run::make(slf, plan, None)
     }
 
     /// The flat walls, in the order of the results.

@@ -7,11 +7,12 @@ use crate::scene::Scene;
 use crate::work::{LARGE, compute, compute_apart, compute_beside};
 use pyo3::prelude::*;
 use signorini as sg;
+use signorini::output::supports;
 use signorini::study::accuracy::{Target, reach};
 
 impl Run {
-    /// Runs `scene`.
-    pub fn make(scene: &Bound<'_, Scene>, plan: Plan) -> PyResult<Py<Self>> {
+    /// Runs `scene`; the run has the notes of its `case` too, where it has one.
+    pub fn make(scene: &Bound<'_, Scene>, plan: Plan, case: Option<&sg::case::Case>) -> PyResult<Py<Self>> {
         let inner = &scene.get().scene;
         let options = sg::Options::new(plan.time);
         let run = if inner.system.degrees_of_freedom() < LARGE {
@@ -20,17 +21,16 @@ impl Run {
             let inner = inner.clone();
             compute_apart(scene.py(), move || sg::run(&inner, &plan.method, &options))?
         };
-        Self::judged(scene, run, plan.time, None)
+        Self::judged(scene, run, plan.time, None, case)
     }
 
     /// Runs it to an accuracy.
     pub fn to_accuracy(
         scene: &Bound<'_, Scene>,
-        scheme: Option<&str>,
-        step: Option<f64>,
+        (scheme, step): (Option<&str>, Option<f64>),
         tolerance: f64,
-        sample: Option<f64>,
-        statistics_from: f64,
+        (sample, statistics_from): (Option<f64>, f64),
+        case: Option<&sg::case::Case>,
     ) -> PyResult<Py<Self>> {
         if let Some(step) = step {
             return Err(wrong("step", format!("{step:?}"), "no step beside accuracy, which finds one"));
@@ -49,16 +49,19 @@ impl Run {
         }
         let time = sg::TimeOptions { step: outcome.run.grid.step, ..time };
         let accuracy = serde_json::to_string(&outcome.accuracy).unwrap_or_default();
-        Self::judged(scene, outcome.run, time, Some(accuracy))
+        Self::judged(scene, outcome.run, time, Some(accuracy), case)
     }
 
     /// The run, unless the judge refutes it.
     fn judged(
         scene: &Bound<'_, Scene>,
-        run: sg::Run,
+        mut run: sg::Run,
         time: sg::TimeOptions,
         accuracy: Option<String>,
+        case: Option<&sg::case::Case>,
     ) -> PyResult<Py<Self>> {
+        let of_case = case.map(|case| [case.notes(), supports::warnings(case, &run)].concat());
+        run.notes.extend(of_case.into_iter().flatten());
         let py = scene.py();
         let refuted = run.refuted();
         let cautions: Vec<String> = if refuted.is_none() { run.cautions.clone() } else { Vec::new() };

@@ -161,7 +161,7 @@ impl Stepper {
     /// Raises
     /// ------
     /// ValueError
-    ///     For an end that is not finite, and forces as in `Stepper.step`.
+    ///     For an end that is below 0 or not finite, and forces as in `Stepper.step`.
     /// RunError
     ///     Where a step fails.
     ///
@@ -174,8 +174,8 @@ impl Stepper {
     #[pyo3(signature = (end, force=None))]
     fn advance(slf: &Bound<'_, Self>, end: f64, force: Option<Bound<'_, PyAny>>) -> PyResult<u64> {
         let py = slf.py();
-        if !end.is_finite() {
-            return Err(wrong("end", format!("{end:?}"), "a finite number"));
+        if !(end.is_finite() && end >= 0.0) {
+            return Err(wrong("end", format!("{end:?}"), "a time, 0 or more"));
         }
         let mut steps = 0;
         let Some(force) = force else {

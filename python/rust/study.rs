@@ -51,6 +51,7 @@ pub fn _compare<'py>(
             d.set_item("restitution", row.restitution.map(|e| e.median))?;
             d.set_item("step_ns", row.step_ns)?;
             d.set_item("failure", row.outcome.as_ref().err().map(ToString::to_string))?;
+            d.set_item("note", row.outcome.as_ref().ok().and_then(|run| run.cautions.first()))?;
             d.set_item("refuted", row.outcome.as_ref().ok().and_then(sg::Run::refuted).map(|e| e.to_string()))?;
             d.set_item("run", row.outcome.ok().map(|run| Run::of(scene, run, time)))
         })
@@ -153,6 +154,7 @@ pub fn _stability<'py>(
     Ok((cells, safe))
 }
 
+/// Rows of samples, and the first note on each run that limits its use.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
 pub fn _bifurcation<'py>(
@@ -165,7 +167,7 @@ pub fn _bifurcation<'py>(
     follow: &str,
     samples: &str,
     threads: usize,
-) -> PyResult<Bound<'py, PyList>> {
+) -> PyResult<(Bound<'py, PyList>, Vec<Option<String>>)> {
     let py = case.py();
     let values = values.iter().map(|x| value(key, x)).collect::<PyResult<Vec<_>>>()?;
     let axis = Axis::list(key, &values).map_err(raise)?.followed(follow.parse().map_err(raise)?);
@@ -177,8 +179,9 @@ pub fn _bifurcation<'py>(
         .measure([Measure::Contacts])
         .sample(samples, usize::MAX);
     let rows = compute_beside(py, || sweep.plan()?.rows(threads), &mut |_| Ok(()))?;
-    let list = PyList::empty(py);
+    let (list, mut notes) = (PyList::empty(py), Vec::new());
     for row in rows {
+        notes.push(row.caution.clone());
         let name = |d: &Bound<'_, PyDict>| {
             let first = row.values.first();
             d.set_item("value", first.and_then(sg::case::KeyValue::number))?;
@@ -211,5 +214,5 @@ pub fn _bifurcation<'py>(
             })?)?;
         }
     }
-    Ok(list)
+    Ok((list, notes))
 }

@@ -62,10 +62,15 @@ fn common_walls(scenes: &[Scene]) -> PyResult<usize> {
         None => Ok(walls.len()),
         Some(other) => Err(PyValueError::new_err(format!(
             "walls are {}; expected {}, as in the first scene: rows of one table have one set of columns",
-            other.join(", "),
-            walls.join(", ")
+            listed(&other),
+            listed(&walls)
         ))),
     }
+}
+
+/// Names beside one another, or that there are none.
+fn listed(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
 /// Runs scenes on threads without the interpreter's lock.
@@ -146,7 +151,8 @@ fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Noted> {
     Ok((numbers, cautions.into_iter().next()))
 }
 
-/// Notes before the rows run, the number of rows, how many failed, and the first of these.
+/// Notes that limit the use of the table, the number of rows, how many failed, and the first of
+/// these.
 type Outcome = (Vec<String>, u64, u64, Option<String>);
 
 /// True for the word that stands after the bounds of a value whose logarithm is drawn.
@@ -235,6 +241,7 @@ pub fn _sweep(
     let mut watch = |py: Python<'_>| {
         progress.bind(py).call1((done.load(Ordering::Relaxed), runs.load(Ordering::Relaxed))).map(drop)
     };
-    let Finished { rows, tables, .. } = compute_beside(py, work, &mut watch)?;
+    let Finished { rows, tables, cautioned, .. } = compute_beside(py, work, &mut watch)?;
+    notes.extend(cautioned.sentence());
     Ok((notes, rows, tables.bad(), tables.first_error))
 }

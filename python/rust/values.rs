@@ -81,6 +81,11 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Values {
     }
 }
 
+/// The whole number `value` of the argument `name`, within bounds, as the Python half checks it.
+pub fn whole(name: &str, value: &Bound<'_, PyAny>, least: u64, most: u64) -> PyResult<u64> {
+    value.py().import("signorini._types")?.call_method1("whole", (name, value, least, most))?.extract()
+}
+
 impl Values {
     pub fn put(self, name: &str, to: &mut Vec<f64>) -> PyResult<()> {
         match self {

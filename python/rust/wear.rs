@@ -68,7 +68,7 @@ pub fn _wear<'py>(
         let written = wear_folder::write(results, case, (&found, histories), study);
         written.and_then(|()| results.finish()).map_err(raise)?;
     }
-    let mut known = wear_told(case, &found, histories);
+    let mut known = wear_told(case, &plan, &found, histories);
     known["first"] = json!(first.as_ref().map(|(study, notes)| told(study, notes, case)));
     loads(py, &known.to_string())
 }
@@ -103,7 +103,10 @@ fn followed(
 }
 
 /// The histories as the Python half reads them.
-fn wear_told(case: &sg::case::Case, found: &WearHistories, histories: usize) -> Value {
+fn wear_told(case: &sg::case::Case, plan: &Plan, found: &WearHistories, histories: usize) -> Value {
+    let notes = sg::foreseen(&case.scene, &plan.method.scheme, plan.time.step);
+    let notes: Vec<String> = notes.into_iter().chain(case.instability()).collect();
+    let remarks = [output::remarks(case, found), case.notes()].concat();
     let refuted = found.refuted.iter();
     let refuted = refuted.filter_map(|(number, findings)| Some(format!("window {number}: {}", findings.first()?)));
     json!({
@@ -115,8 +118,8 @@ fn wear_told(case: &sg::case::Case, found: &WearHistories, histories: usize) -> 
         "history": output::history(found),
         "limits": output::limits(case, found),
         "text": texts([Some(output::table(found))]),
-        "remarks": output::remarks(case, found),
+        "remarks": remarks,
         "refuted": refuted.collect::<Vec<_>>(),
-        "notes": case.instability(),
+        "notes": notes,
     })
 }

@@ -3,7 +3,7 @@
 import doctest
 import inspect
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, is_typeddict
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -20,7 +20,7 @@ def public() -> Iterator[tuple[str, Any, bool]]:
             yield name, thing, False
             for part in vars(thing):
                 member = getattr(thing, part)
-                if not part.startswith("_") and callable(member) and not issubclass(thing, dict):
+                if not part.startswith("_") and callable(member) and not is_typeddict(thing):
                     yield f"{name}.{part}", member, True
         elif inspect.isroutine(thing):
             yield name, thing, True

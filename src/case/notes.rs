@@ -20,7 +20,6 @@ impl Case {
         notes.extend(self.open_supports());
         notes.extend(self.odd_coefficients());
         notes.extend(self.start_note());
-        notes.extend(self.late_output());
         notes.extend(self.fixed_walls().map(str::to_owned));
         notes.extend(self.turbulence_notes());
         notes.extend(self.flow_note());
@@ -44,14 +43,6 @@ impl Case {
             "walls stay fixed in space while the base moves: displacements and velocities, also those of the start, \
              are those in space",
         )
-    }
-
-    /// Output times that the run does not reach.
-    fn late_output(&self) -> Option<String> {
-        let (times, end) = (&self.scene.output_times, self.scene.duration);
-        let late = times.len() - self.scene.reached_output_times().len();
-        (late > 0)
-            .then(|| format!("{late} of {} output times lie after the end, {end:?} s: they are left out", times.len()))
     }
 
     /// Supports that the structure may leave, since their flats stand within a half turn.

@@ -1,6 +1,7 @@
 //! What an error says.
 
 use super::{Error, escaped, escaped_lines};
+use std::borrow::Cow;
 use std::fmt;
 
 /// The entry of `known` that `word` was probably meant to be: one letter in three may be wrong,
@@ -52,6 +53,11 @@ impl fmt::Display for Error {
     }
 }
 
+/// A name in a list; that of the only probe of an oscillator is empty.
+fn shown(name: &str) -> Cow<'_, str> {
+    if name.is_empty() { "\"\"".into() } else { escaped(name) }
+}
+
 /// The words of an error, with names as they are.
 struct Words<'a>(&'a Error);
 
@@ -67,7 +73,7 @@ impl fmt::Display for Words<'_> {
                 if let Some(near) = nearest(name, known.iter().map(String::as_str)) {
                     write!(f, "did you mean {}? ", escaped(near))?;
                 }
-                let known: Vec<_> = known.iter().map(|name| escaped(name)).collect();
+                let known: Vec<_> = known.iter().map(|name| shown(name)).collect();
                 write!(f, "there is {}", known.join(", "))
             }
             Error::Case { report, .. } => f.write_str(report),

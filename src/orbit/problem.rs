@@ -49,11 +49,10 @@ impl Problem {
     pub fn new(scene: Scene) -> Result<Self> {
         scene.validate()?;
         let System::Oscillator(body) = scene.system else {
-            let n = scene.system.degrees_of_freedom();
             return Err(Error::invalid(
                 "system",
-                format!("one of {n} degrees of freedom"),
-                "one degree of freedom: of a structure, orbits are found by settling and shooting, \
+                "a structure",
+                "an oscillator, of one degree of freedom: of a structure, orbits are found by settling and shooting, \
                  or in closed form, not by signature, and not followed over a key",
             ));
         };

@@ -18,6 +18,7 @@ mod recording;
 pub(crate) use divergence::Divergence;
 pub use finished::Run;
 pub use judging::{Judged, Judging, Unjudged};
+pub use notes::foreseen;
 pub use options::Options;
 pub use recording::{Recorded, Recording, Unrecorded};
 

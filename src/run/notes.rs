@@ -54,26 +54,63 @@ pub(crate) fn remarks<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>
         notes.push(format!("the rows are {spacing:e} s apart, closer than asked for, so that the last is at the end"));
     }
     notes.extend(run.recorded().and_then(|trajectory| approach::untouched(scene, trajectory)));
+    notes.extend(run.recorded().and_then(|_| late_output(scene)));
     notes
+}
+
+/// Output times that the run does not reach.
+pub(crate) fn late_output(scene: &Scene) -> Option<String> {
+    let (times, end) = (&scene.output_times, scene.duration);
+    let late = times.len() - scene.reached_output_times().len();
+    (late > 0)
+        .then(|| format!("{late} of {} output times lie after the end, {end:?} s: they are left out", times.len()))
+}
+
+/// What limits the use of a run of `scene` by `scheme` in steps of `step` seconds, as far as it is
+/// known before it runs.
+#[must_use]
+pub fn foreseen(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
+    of_restitution(scene, scheme).into_iter().chain(setup(scene, scheme, step)).collect()
+}
+
+/// What limits the use of a run of which no motion was recorded; `energy` is known where it was
+/// judged.
+#[cfg(feature = "cli")]
+pub(crate) fn unrecorded(
+    scene: &Scene,
+    scheme: &Scheme,
+    step: f64,
+    energy: Option<&Energy>,
+    counters: &Counters,
+) -> Vec<String> {
+    let mut notes: Vec<String> = of_restitution(scene, scheme).into_iter().collect();
+    notes.extend(energy.and_then(|energy| of_energy(energy, None)));
+    notes.extend(of_counters(scheme, counters));
+    notes.extend(setup(scene, scheme, step));
+    notes
+}
+
+/// A note on walls whose restitution `scheme` does not realise.
+fn of_restitution(scene: &Scene, scheme: &Scheme) -> Option<String> {
+    let asked: Vec<f64> = scene.walls.iter().filter_map(|wall| wall.law.restitution()).collect();
+    let name = scheme.entry().name;
+    match scheme.entry().restitution {
+        Realised::ByChance if !asked.is_empty() => Some(format!(
+            "{name} is for demonstration: its restitution is between 1/3 and 3, depending on the phase of each impact"
+        )),
+        Realised::Zero if asked.iter().any(|&e| e > 0.0) => {
+            Some(format!("{name} realises e = 0, not the walls' own restitution"))
+        }
+        Realised::BySprings if scheme.is_lossless() && asked.iter().any(|&e| e < 1.0) => {
+            Some("a penalty spring without damping realises e = 1, not the walls' own restitution".into())
+        }
+        _ => None,
+    }
 }
 
 /// What limits the use of the results.
 pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>) -> Vec<String> {
-    let mut notes = Vec::new();
-    let asked: Vec<f64> = scene.walls.iter().map(|wall| wall.law).filter_map(|law| law.restitution()).collect();
-    let name = run.scheme.entry().name;
-    match run.scheme.entry().restitution {
-        Realised::ByChance if !asked.is_empty() => notes.push(format!(
-            "{name} is for demonstration: its restitution is between 1/3 and 3, depending on the phase of each impact"
-        )),
-        Realised::Zero if asked.iter().any(|&e| e > 0.0) => {
-            notes.push(format!("{name} realises e = 0, not the walls' own restitution"));
-        }
-        Realised::BySprings if run.scheme.is_lossless() && asked.iter().any(|&e| e < 1.0) => {
-            notes.push("a penalty spring without damping realises e = 1, not the walls' own restitution".into());
-        }
-        _ => {}
-    }
+    let mut notes: Vec<String> = of_restitution(scene, &run.scheme).into_iter().collect();
     if let Some(residuals) = run.judged() {
         notes.extend(of_energy(&residuals.energy, run.recorded().map(|t| arrived(scene, t.contacts()))));
     }
@@ -93,28 +130,29 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
             run.counters.handed_steps
         ));
     }
-    if run.counters.steps_given_up > 0 {
-        notes.push(format!(
-            "in {} steps impacts follow one another too fast for {name}: the rest of each was made \
-             without rebound; use a smaller step",
-            run.counters.steps_given_up
-        ));
-    }
-    if run.counters.frozen_steps > 0 {
-        notes.push(format!(
-            "in {} steps opposite walls pushed in turn: the body crosses the gap in less than a step and stands \
-             still in the result; use a smaller step",
-            run.counters.frozen_steps
-        ));
-    }
-    notes.extend(of_supports(&run.counters));
+    notes.extend(of_counters(&run.scheme, &run.counters));
     notes.extend(setup(scene, &run.scheme, run.grid.step));
     notes
 }
 
-/// Notes on the counters of round holes and friction.
-fn of_supports(counters: &Counters) -> Vec<String> {
+/// Notes on the counters of steps, of round holes and of friction.
+fn of_counters(scheme: &Scheme, counters: &Counters) -> Vec<String> {
     let mut notes = Vec::new();
+    if counters.steps_given_up > 0 {
+        notes.push(format!(
+            "in {} steps impacts follow one another too fast for {}: the rest of each was made \
+             without rebound; use a smaller step",
+            counters.steps_given_up,
+            scheme.entry().name
+        ));
+    }
+    if counters.frozen_steps > 0 {
+        notes.push(format!(
+            "in {} steps opposite walls pushed in turn: the body crosses the gap in less than a step and stands \
+             still in the result; use a smaller step",
+            counters.frozen_steps
+        ));
+    }
     let turn = counters.largest_turn_rad;
     if turn > LARGE_TURN {
         notes.push(format!(

@@ -99,7 +99,7 @@ fn described(axis: &Axis, column: &str) -> Value {
         "column": column,
         "keys": keys,
         "count": axis.values.count(),
-        "values": format!("{:?}", axis.values),
+        "values": axis.values.described(),
         "follow": format!("{:?}", axis.follow),
     })
 }

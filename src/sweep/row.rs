@@ -9,7 +9,7 @@ use super::status::Status;
 use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
 use crate::residual::{Finding, Judge};
-use crate::run::Divergence;
+use crate::run::{Divergence, notes};
 use crate::scene::{Checked, State};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::study::attractor::Attractor;
@@ -32,6 +32,9 @@ pub struct Row {
     /// The reason for the status, in a sentence; empty for `ok`. Of an `unjudged` row, what another
     /// status would say if it had been judged: that stretches were handed to moreau-jean.
     pub error: String,
+    /// The first note that limits the use of its run; `None` for a row of the batch kernel, which
+    /// makes no steps.
+    pub caution: Option<String>,
     /// The measures, as in their columns; `None` for a measure without a value, and in a row that
     /// failed.
     pub measures: Vec<Option<f64>>,
@@ -67,6 +70,7 @@ struct Done {
     end: State,
     handed: usize,
     findings: Vec<Finding>,
+    caution: Option<String>,
     /// Why measures have no value.
     notes: Vec<String>,
 }
@@ -93,6 +97,7 @@ impl Plan {
         match self.build(point, start).and_then(|(case, method)| self.perform(case, method, judged)) {
             Ok(done) => {
                 (row.measures, row.samples, row.end) = (done.measures, done.samples, Some(done.end));
+                row.caution = done.caution;
                 let mut notes = done.notes;
                 if done.handed > 0 {
                     row.status = Status::Handed;
@@ -119,6 +124,7 @@ impl Plan {
             values: axes.flat_map(|(axis, value)| axis.cells(value)).collect(),
             status: Status::Ok,
             error: String::new(),
+            caution: None,
             measures: vec![None; self.measured()],
             samples: Vec::new(),
             attractor: None,
@@ -182,6 +188,8 @@ impl Plan {
                 break;
             }
         }
+        let energy = judge.as_ref().map(|judge| judge.residuals().energy);
+        let cautions = notes::unrecorded(scene, &method.scheme, grid.step, energy.as_ref(), &stepper.counters());
         let (open, note) = (stepper.open_contacts(), observer.note());
         let (measures, samples) = observer.finish(&self.sweep, &case, stepper.checked(), &open);
         let lacking = lacking::reasons(&self.sweep.measures, &measures, &case);
@@ -191,6 +199,7 @@ impl Plan {
             end: stepper.state(),
             handed: stepper.handed().len(),
             findings: judge.map_or_else(Vec::new, |judge| judge.findings()),
+            caution: cautions.into_iter().next(),
             notes: note.into_iter().chain(lacking).collect(),
         })
     }

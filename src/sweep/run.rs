@@ -3,7 +3,7 @@
 
 use super::block::{Block, JOURNAL};
 use super::finish::write_tables;
-use super::finished::Finished;
+use super::finished::{Cautioned, Finished};
 use super::folder::{self, State, Study};
 use super::found::RowsFound;
 use super::plan::Plan;
@@ -124,7 +124,9 @@ impl Plan {
                 let runs =
                     records.iter().find(|(name, _)| name == REALISATIONS).map_or(rows, |(_, record)| record.rows);
                 results.keep(records);
-                let finished = Finished { folder, rows, runs, found: runs, tables, damaged, seconds: 0.0, threads };
+                let cautioned = Cautioned::default();
+                let finished =
+                    Finished { folder, rows, runs, found: runs, tables, cautioned, damaged, seconds: 0.0, threads };
                 return Ok((finished, results));
             }
             State::Damaged(what) => {
@@ -137,7 +139,8 @@ impl Plan {
         let journal = Journal::open(&folder, JOURNAL, rows * self.runs_of_row(), anew, place)?;
         results.begin(JOURNAL)?;
         let found = journal.done();
-        let (mut journal, counts) = self.fill(journal, options.shard, threads, &|done, runs| {
+        let mut cautioned = Cautioned::default();
+        let (mut journal, counts) = self.fill(journal, options.shard, (threads, &mut cautioned), &|done, runs| {
             let new = done - found;
             let rate = if new > 0 { new as f64 / started.elapsed().as_secs_f64() } else { 0.0 };
             progress(Progress { done, runs, rate });
@@ -148,7 +151,7 @@ impl Plan {
         let runs = (0..rows).map(count).sum();
         results.finish()?;
         let seconds = started.elapsed().as_secs_f64();
-        Ok((Finished { folder, rows, runs, found, tables, damaged, seconds, threads }, results))
+        Ok((Finished { folder, rows, runs, found, tables, cautioned, damaged, seconds, threads }, results))
     }
 
     /// Computes the rows that are not yet in the journal; with it returns how many runs each of
@@ -158,13 +161,13 @@ impl Plan {
         &self,
         mut journal: Journal,
         shard: Shard,
-        threads: usize,
+        (threads, cautioned): (usize, &mut Cautioned),
         progress: &dyn Fn(u64, u64),
     ) -> Result<(Journal, Option<Vec<u64>>)> {
         let rows = shard.chains(self.chains) * self.chain_rows();
         let first = self.first_runs(shard);
         let runs = first.count() * self.chain_rows();
-        self.add_runs(&mut journal, (shard, &first), threads, &|done| progress(done, runs.max(done)))?;
+        self.add_runs(&mut journal, (shard, &first), (threads, cautioned), &|done| progress(done, runs.max(done)))?;
         let counts = self.counts(rows, |row| {
             let pilots = row * self.runs_of_row()..row * self.runs_of_row() + PILOTS;
             let line = |place: u64| Ok(Block::read(&mut journal, place as usize)?.map(|block| cells_of(&block.line)));
@@ -172,7 +175,8 @@ impl Plan {
         })?;
         if let Some(counts) = &counts {
             let runs = counts.iter().sum();
-            self.add_runs(&mut journal, (shard, &RunSet::further(counts)), threads, &|done| progress(done, runs))?;
+            let further = RunSet::further(counts);
+            self.add_runs(&mut journal, (shard, &further), (threads, cautioned), &|done| progress(done, runs))?;
         }
         Ok((journal, counts))
     }
@@ -182,7 +186,7 @@ impl Plan {
         &self,
         journal: &mut Journal,
         (shard, runs): (Shard, &RunSet),
-        threads: usize,
+        (threads, cautioned): (usize, &mut Cautioned),
         progress: &dyn Fn(u64),
     ) -> Result<()> {
         let found = RowsFound::of(self, journal, shard)?;
@@ -191,9 +195,10 @@ impl Plan {
             (shard, runs),
             threads,
             &found,
-            &|row| (self.run_number(&row), self.block(row)),
+            &|mut row| (self.run_number(&row), row.caution.take(), self.block(row)),
             &mut |finished| {
-                if let Some((run, block)) = finished {
+                if let Some((run, caution, block)) = finished {
+                    cautioned.add(run, caution);
                     journal.add(run, shard.place(self, run).unwrap_or(usize::MAX), &block.bytes())?;
                 }
                 if reported.elapsed() > BETWEEN_REPORTS {
@@ -252,7 +257,8 @@ step = 1e-3
             let place = |run: u64| Shard::WHOLE.place(&plan, run);
             let journal = Journal::open(dir.path(), JOURNAL, places, anew, place).unwrap();
             let found = journal.done();
-            let (mut journal, counts) = plan.fill(journal, Shard::WHOLE, 2, &|_, _| {}).unwrap();
+            let (mut journal, counts) =
+                plan.fill(journal, Shard::WHOLE, (2, &mut Cautioned::default()), &|_, _| {}).unwrap();
             let line = |place: u64| Block::read(&mut journal, place as usize).unwrap().map(|block| block.line);
             (found, counts.unwrap(), (0..places).map(line).collect::<Vec<_>>())
         };

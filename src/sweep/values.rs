@@ -59,6 +59,14 @@ impl Values {
         matches!(self, Self::Range { .. } | Self::Normal(_))
     }
 
+    /// The values in words, by which requests are told apart.
+    pub(super) fn described(&self) -> String {
+        match self {
+            Self::List(list) => format!("[{}]", list.iter().map(KeyValue::to_string).collect::<Vec<_>>().join(", ")),
+            other => format!("{other:?}"),
+        }
+    }
+
     /// Number of its values; 1 if they are drawn.
     pub(super) fn count(&self) -> u64 {
         match self {

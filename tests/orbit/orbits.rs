@@ -452,7 +452,7 @@ fn what_has_no_orbit_is_refused_with_the_reason() {
         (two, "without one all motions settle"),
         (blown, "load 2 does not repeat"),
         (apart, "Hz have none"),
-        (structure, "one of 2 degrees of freedom"),
+        (structure, "system is a structure; expected an oscillator"),
     ] {
         let refused = Problem::new(scene).unwrap_err();
         assert!(refused.is_request() && refused.to_string().contains(words), "{refused}");

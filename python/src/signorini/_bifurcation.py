@@ -14,7 +14,8 @@ import numpy.typing as npt
 from . import _core, _plot
 from ._core import Case
 from ._studies import columns_of
-from ._sweep import Table
+from ._sweep import Table, warn_of_notes
+from ._types import whole
 
 
 @dataclass(frozen=True, repr=False)
@@ -65,7 +66,7 @@ class Bifurcation:
         impacts = "approach_speed_m_per_s" in self.table
         column = column or ("approach_speed_m_per_s" if impacts else "displacement_m")
         if column not in self.table:
-            raise ValueError(f"no column is named {column!r}; there is {', '.join(self.table)}")
+            raise ValueError(f"no column is named {column!r}; there is {', '.join(self.table) or 'none'}")
         return _plot.bifurcation(self, column, ax)
 
 
@@ -113,6 +114,8 @@ def bifurcation(
 
     Warns
     -----
+    ResultWarning
+        Once, with their number, where runs have notes that limit the use of their results.
     RuntimeWarning
         Where some value has no sound motion; its row says why.
 
@@ -124,8 +127,10 @@ def bifurcation(
     >>> sorted(set(made.table["direction"]))
     ['down', 'up']
     """
-    count = threads or os.cpu_count() or 1
-    rows = _core._bifurcation(case, key, list(values), scheme, settle, keep, follow, samples, count)
+    count = (os.cpu_count() or 1) if threads is None else whole("threads", threads, 1)
+    settle, keep = whole("settle", settle), whole("keep", keep, 1)
+    rows, notes = _core._bifurcation(case, key, list(values), scheme, settle, keep, follow, samples, count)
+    warn_of_notes(notes)
     failed = [row for row in rows if row["error"] is not None]
     if failed:
         first = f"{failed[0]['value']!r}: {failed[0]['error']}"

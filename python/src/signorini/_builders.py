@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import Load, Rayleigh, Scene, Wall
 from ._matrix import Entries, lower
-from ._types import End, Place
+from ._types import End, Place, whole
 
 
 class SceneOptions(TypedDict, total=False):
@@ -148,6 +148,7 @@ def bar(
     ...        walls=[sg.Wall.upper("stop", 1e-4, at=1.0)], modes=10)
     <Scene: 10 of 50 modes, 1 wall, 0 loads, 1.0 s>
     """
+    elements = whole("elements", elements, 1)
     made = _core._bar(length, area, youngs_modulus, density, elements, left, right, lumped)
     return made.replace(**scene)
 
@@ -206,7 +207,7 @@ def beam(
     """
     made = _core._beam(
         length, youngs_modulus, density, (outer_diameter, inner_diameter), (width, height), added_mass,
-        elements, left, right,
+        whole("elements", elements, 1), left, right,
     )  # fmt: skip
     return made.replace(**scene)
 

@@ -6,8 +6,8 @@ import csv
 import os
 import tempfile
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
 from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
-from ._columns import Column, columns, frame
+from ._columns import Column, ReadOnly, columns, frame
 from ._core import Case, ResultWarning
 from ._progress import Progress
+from ._types import names, whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,8 +36,8 @@ def _read(path: Path) -> dict[str, Column]:
     return columns(header, rows)
 
 
-@dataclass(frozen=True, eq=False)
-class SweepResult(Mapping[str, Column]):
+@dataclass(frozen=True, eq=False, repr=False)
+class SweepResult(ReadOnly[str, Column]):
     """The rows of a sweep over the keys of a case: a mapping of the columns of ``sweep.csv``.
 
     With several realisations of the random loads a measure is the mean over them, the column with
@@ -56,16 +57,14 @@ class SweepResult(Mapping[str, Column]):
     keys_varied: tuple[str, ...]
     design: Design
 
-    def __getitem__(self, name: str) -> Column:
-        if name not in self.columns:
-            raise KeyError(f"no column {name}; there are {', '.join(self.columns)}")
-        return self.columns[name]
+    def __post_init__(self) -> None:
+        dict.update(self, self.columns)
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.columns)
+    def __missing__(self, name: str) -> Column:
+        raise KeyError(f"no column {name}; there are {', '.join(self.columns)}")
 
-    def __len__(self) -> int:
-        return len(self.columns)
+    def __reduce__(self) -> tuple[Any, ...]:
+        return SweepResult, tuple(getattr(self, field.name) for field in fields(self))
 
     def __repr__(self) -> str:
         return f"<SweepResult: {len(self['row'])} rows over {', '.join(self.keys_varied)}>"
@@ -180,8 +179,13 @@ def sweep_case(
     progress: bool,
 ) -> SweepResult:
     """The tables of a sweep by the engine of the tool."""
-    if threads is not None and threads < 1:
-        raise ValueError(f"threads is {threads}; expected 1 or more")
+    if threads is not None:
+        whole("threads", threads, 1)
+    for argument, value in zip(("rows", "seed"), (drawn or ("", None, None))[1:], strict=True):
+        if value is not None:
+            whole(argument, value)
+    if measures:
+        names("measures", measures, "work_rate")
     axes = [(key, list(values)) for key, values in keys.items()]
     for key, values in axes:
         bounds = values[:2] if values[2:] == ["log"] else values
@@ -201,10 +205,12 @@ def sweep_case(
         warnings.warn(note, ResultWarning, stacklevel=3)
     if bad:
         warnings.warn(f"{bad} of {count} rows failed; the first: {first}", RuntimeWarning, stacklevel=3)
-    names = list(rows)
+    header = list(rows)
     # The number of the row is before the columns of the keys, the realisations or the status after.
-    ends = [names.index(name) for name in ("seeds", "status") if name in names]
-    return SweepResult(rows, realisations, effects, shares, tuple(names[1 : min(ends)]), design)
+    ends = [header.index(name) for name in ("seeds", "status") if name in header]
+    return SweepResult(
+        ReadOnly(rows), ReadOnly(realisations), ReadOnly(effects), ReadOnly(shares), tuple(header[1 : min(ends)]), design
+    )
 
 
 def one_at_a_time(
@@ -256,7 +262,8 @@ def one_at_a_time(
     Warns
     -----
     ResultWarning
-        Where the case has very large random forces.
+        Once, with their number, where runs have notes that limit the use of their results; and where
+        the case has very large random forces.
     RuntimeWarning
         Where rows failed, with their number and the first reason.
 

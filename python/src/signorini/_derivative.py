@@ -12,7 +12,8 @@ import numpy.typing as npt
 
 from . import _core
 from ._core import Case, Scene
-from ._types import Array
+from ._types import Array, names
+from ._types import times as checked_times
 
 Source: TypeAlias = Scene | Case | Callable[..., Scene]
 """A scene, a case, or a function that returns a scene of named numbers."""
@@ -67,7 +68,7 @@ class Derivative:
 
 def resolved(source: Source, keys: Keys) -> tuple[Callable[[Mapping[str, float]], Scene], dict[str, float]]:
     """The function from the values of `keys` to a scene, and their values in `source`."""
-
+    names("keys", keys, "wall.stop.position")
 
     def given(own: dict[str, float]) -> dict[str, float]:
         return {**own, **keys} if isinstance(keys, Mapping) else own
@@ -102,7 +103,7 @@ def found(
 ) -> Derivative:
     """The derivatives at these values of the keys."""
     scene = scene_of(values)
-    rows = np.asarray(times, np.float64)
+    rows = checked_times("times", times, scene.duration)
     made = _core._derivative(scene, builds(scene_of, values), rows.tolist())
     keys = list(values)
     by = np.dtype([(key, np.float64) for key in keys])
@@ -123,7 +124,7 @@ def found(
     for name in derived:
         contacts[name] = named(made[name], count)
     if probe is not None and probe not in scene.probes:
-        raise ValueError(f"probe is {probe!r}; expected one of {', '.join(scene.probes)}")
+        raise ValueError(f"probe is {probe!r}; expected one of {', '.join(map(repr, scene.probes)) or 'none'}")
     number = scene.probes.index(probe) if probe is not None else 0
     shape = (len(rows), max(len(scene.probes), 1))
 
@@ -186,7 +187,7 @@ def derivative(
         ``system.oscillator.mass``, ``.damping``, ``.stiffness``; of a case any key of its file that
         has a number; of a function its arguments with their values.
     times : sequence of float, optional
-        Where displacement and velocity are wanted, s; increasing.
+        Where displacement and velocity are wanted, s; increasing, from 0 to the end of the motion.
     probe : str, optional
         Of which; the first if left out.
 
@@ -197,8 +198,8 @@ def derivative(
     Raises
     ------
     ValueError
-        For a key that the scene does not have, or on which it does not depend smoothly, and for a
-        scene with round supports.
+        For a key that the scene does not have, or on which it does not depend smoothly, for times
+        beyond the motion, and for a scene with round supports.
     RunError
         Where the exact scheme cannot follow the motion.
 

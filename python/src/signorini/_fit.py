@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from ._core import RunError, Scene
 from ._derivative import Derivative, Keys, Source, found, resolved
-from ._types import Array
+from ._types import Array, known
+from ._types import times as checked_times
 
 _OF_CONTACTS = ("start", "approach_speed", "impulse")
 
@@ -70,7 +71,10 @@ def _errors(name: str, values: Array, error: Mapping[str, Any] | None, several: 
         if several:
             raise ValueError(f"error has no {name}; expected a standard error for each kind of data")
         return np.ones_like(values)
-    errors = np.broadcast_to(np.asarray(error[name], np.float64), values.shape)
+    errors = np.asarray(error[name], np.float64)
+    if errors.shape not in ((), values.shape):
+        raise ValueError(f"error of {name} has the shape {errors.shape}; expected a number, or one for each datum")
+    errors = np.broadcast_to(errors, values.shape)
     if not (errors > 0.0).all() or not np.isfinite(errors).all():
         raise ValueError(f"error of {name} is {error[name]!r}; expected finite numbers above 0")
     return np.array(errors)
@@ -86,11 +90,15 @@ def _contact_columns(data: Mapping[str, Any], error: Mapping[str, Any] | None, w
     count = sizes.pop()
     given = data.get("wall", walls[0] if len(walls) == 1 else None)
     if given is None:
-        raise ValueError(f"data has no wall; expected one of {', '.join(walls)}, or one for each contact")
+        raise ValueError(f"data has no wall; expected one of {', '.join(walls) or 'a scene with walls'}, or one for each contact")
     wall = [given] * count if isinstance(given, str) else [str(name) for name in given]
     if len(wall) != count or not set(wall) <= set(walls):
-        raise ValueError(f"data: wall is {given!r}; expected {count} of {', '.join(walls)}")
+        raise ValueError(f"data: wall is {given!r}; expected {count} of {', '.join(walls) or 'a scene with walls'}")
     number = [wall[:i].count(name) for i, name in enumerate(wall)]
+    for name in set(wall) if "start" in columns else ():
+        own = columns["start"][[one == name for one in wall]]
+        if (np.diff(own) <= 0.0).any():
+            raise ValueError(f"data: the starts at wall {name!r} do not increase; expected contacts in their order")
 
     def rows(by: Derivative) -> npt.NDArray[np.int64] | None:
         own = {name: np.flatnonzero(by.contacts["wall"] == name) for name in set(wall)}
@@ -188,8 +196,10 @@ def fit(
     names, x0 = list(values), np.array(list(values.values()), np.float64)
     if not 0.0 < confidence < 1.0:
         raise ValueError(f"confidence is {confidence!r}; expected a number between 0 and 1")
+    bounds = known("bounds", bounds, names)
+    known("error", error, ("displacement", *_OF_CONTACTS))
     for name, value in zip(names, x0, strict=True):
-        lowest, highest = (bounds or {}).get(name, (-np.inf, np.inf))
+        lowest, highest = bounds.get(name, (-np.inf, np.inf))
         if not lowest <= value <= highest:
             raise ValueError(f"{name} starts from {value:g}; expected from {lowest:g} to {highest:g}, its bounds")
     first = scene_of(values)
@@ -200,16 +210,16 @@ def fit(
     elif any(name in data for name in _OF_CONTACTS):
         columns = _contact_columns(data, error, list(first._wall_names))
     else:
-        raise ValueError(f"data has {', '.join(data)}; expected displacement over time, or start, approach_speed, impulse")
+        raise ValueError(f"data has {', '.join(data) or 'nothing'}; expected displacement over time, or start, approach_speed, impulse")
     count = sum(len(column.values) for column in columns)
     if count <= len(names):
         raise ValueError(f"data has {count} usable values; expected more than the {len(names)} keys")
     model = _Model(scene_of, names, columns, times, probe)
     began = model.at(x0)
     if not np.isfinite(began[0]).all():
-        raise ValueError(f"the data do not fit the motion from which the search starts: {model.reason}")
-    low = [(bounds or {}).get(name, (-np.inf, np.inf))[0] for name in names]
-    high = [(bounds or {}).get(name, (-np.inf, np.inf))[1] for name in names]
+        raise ValueError(f"no residuals in the motion from which the search starts: {model.reason}")
+    low = [bounds.get(name, (-np.inf, np.inf))[0] for name in names]
+    high = [bounds.get(name, (-np.inf, np.inf))[1] for name in names]
     scale = np.where(x0 == 0.0, 1.0, np.abs(x0))
 
     def residuals_at(x: Array) -> Array:
@@ -275,6 +285,7 @@ def _record(
     times, measured = _numbers("time", data["time"]), _numbers("displacement", data["displacement"])
     if times.shape != measured.shape:
         raise ValueError(f"data has {len(times)} times and {len(measured)} displacements; expected as many")
+    checked_times("data: time", times, scene_of(values).duration)
     errors = _errors("displacement", measured, error, several=False)
     by = found(scene_of, values, (), None)
     late = by.contacts["start"][by.contacts["growth"] > _MOST_GROWTH]

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core, _plot
 from ._core import RunError, Scene
-from ._types import Array
+from ._types import Array, whole
 
 
 @dataclass(frozen=True, repr=False)
@@ -111,7 +111,7 @@ def orbit(scene: Scene, *, settle: int = _core._SETTLE, rows: int = 400) -> Orbi
     >>> found.period, found.stable, round(float(found.speeds[0]), 9)
     (0.2, True, 0.169410591)
     """
-    made = _core._orbit(scene, settle, rows)
+    made = _core._orbit(scene, whole("settle", settle), whole("rows", rows, 1))
     refused, holds = made.pop("refused"), made.pop("holds")
     if refused is not None or not holds:
         reason = refused or f"a free run misses it by {made['closure']:.1e} after a period"

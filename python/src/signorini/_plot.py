@@ -153,7 +153,7 @@ def stability(made: Stability, ax: Any = None) -> Any:
     ax.set_yticks(range(len(schemes)), schemes)
     ax.invert_yaxis()
     _frame(ax, "step (s)", "")
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.35), ncols=6, fontsize="x-small", frameon=False)
+    _legend(ax)
     return ax
 
 

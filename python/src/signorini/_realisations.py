@@ -5,11 +5,10 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 from . import _core
-from ._columns import Column, columns, frame
+from ._columns import Column, ReadOnly, columns, frame
 from ._core import AccuracyWarning, Case, RefutedError, ResultWarning
 from ._progress import Progress
 from ._supports import ErrorPart, ErrorParts, Estimate
@@ -111,11 +110,11 @@ def made(known: dict[str, Any]) -> Realisations:
         own = places[one["kind"]].setdefault(one["place"], {})
         own[one["measure"]] = _estimate(one, seeds=document["count"] > 1)
     supports, walls = (
-        MappingProxyType({name: MappingProxyType(own) for name, own in of.items()}) for of in places.values()
+        ReadOnly({name: ReadOnly(own) for name, own in of.items()}) for of in places.values()
     )
-    table, rows = MappingProxyType(columns(*known["table"])), tuple(map(_row, document["estimates"]))
+    table, rows = ReadOnly(columns(*known["table"])), tuple(map(_row, document["estimates"]))
     accuracy = known.get("accuracy")
-    accuracy = None if accuracy is None else MappingProxyType(accuracy)
+    accuracy = None if accuracy is None else ReadOnly(accuracy)
     return Realisations(document["count"], supports, walls, table, accuracy, rows, known["text"])
 
 

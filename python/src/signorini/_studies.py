@@ -10,15 +10,15 @@ import numpy as np
 
 from . import _core, _plot
 from ._core import Run, Scene
-from ._sweep import Table
-from ._types import Array
+from ._sweep import Table, warn_of_notes
+from ._types import Array, names, positive, whole
 
 
 def columns_of(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> Table:
     """Columns of the rows; None is nan in a column of numbers, and stays in one of ``words``."""
-    names = list(dict.fromkeys(name for row in rows for name in row))
+    header = list(dict.fromkeys(name for row in rows for name in row))
     strings = set(words)
-    columns: dict[str, list[Any]] = {name: [row.get(name) for row in rows] for name in names}
+    columns: dict[str, list[Any]] = {name: [row.get(name) for row in rows] for name in header}
     return {
         name: np.array(column, object if name in strings else np.float64) for name, column in columns.items()
     }
@@ -74,16 +74,24 @@ def compare(
     ValueError
         For a wrong request.
 
+    Warns
+    -----
+    ResultWarning
+        Once, with their number, where runs have notes that limit the use of their results, such as
+        those of a method that does not realise the walls' restitution.
+
     Examples
     --------
     >>> import signorini as sg
     >>> case = sg.load("rigid-walls-sine")
-    >>> comparison = sg.compare(case.scene, ["moreau-jean", "penalty:epsilon=1e-9"], step=case.step)
+    >>> comparison = sg.compare(case.scene, ["moreau-jean", "located"], step=case.step)
     >>> list(comparison.table["method"])
-    ['moreau-jean', 'penalty:epsilon=1e-9', 'event']
+    ['moreau-jean', 'located', 'event']
     """
-    rows, findings, horizon = _core._compare(scene, list(methods), step, sample, statistics_from)
+    methods = names("methods", methods, "moreau-jean")
+    rows, findings, horizon = _core._compare(scene, methods, step, sample, statistics_from)
     runs = [row.pop("run") for row in rows]
+    warn_of_notes([row.pop("note") for row in rows])
     return Comparison(columns_of(rows, ("method", "failure", "refuted")), runs, findings, horizon)
 
 
@@ -241,8 +249,10 @@ def chart(
     >>> made.cheapest(1e-12)[0]
     'event'
     """
-    names = None if methods is None else list(methods)
-    rows, reference, horizon = _core._chart(scene, names, coarsest, finest, levels, repeats, most_seconds)
+    given = None if methods is None else names("methods", methods, "moreau-jean")
+    levels = None if levels is None else whole("levels", levels, 1)
+    repeats, most_seconds = whole("repeats", repeats, 1), positive("most_seconds", most_seconds)
+    rows, reference, horizon = _core._chart(scene, given, coarsest, finest, levels, repeats, most_seconds)
     return Chart(columns_of(rows, ("method", "kind", "failure")), reference, horizon)
 
 
@@ -325,6 +335,7 @@ def stability(
     >>> bool((made.table["step_s"] > 0.0).all())
     True
     """
+    contacts = None if contacts is None else whole("contacts", contacts, 1)
     cells, safe = _core._stability(scene, finest, coarsest, per_decade, contacts)
     words = ("scheme", "parameter", "class", "reason", "beyond")
     return Stability(columns_of(cells, words), columns_of(safe, words))

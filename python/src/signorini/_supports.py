@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from types import MappingProxyType
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
+
+from ._columns import ReadOnly
 
 if TYPE_CHECKING:
     from ._core import Run
@@ -90,7 +91,7 @@ class SupportStatistics:
     sliding_speed: float | None
     friction_power: float
     contact_time_ratio: float
-    sectors: npt.NDArray[np.void]
+    sectors: npt.NDArray[np.void] = field(repr=False)
 
 
 @dataclass(frozen=True)
@@ -144,13 +145,13 @@ def _statistics(known: dict[str, Any]) -> SupportStatistics:
 def supports(run: Run) -> Mapping[str, SupportStatistics]:
     """The statistics of each support, as `Run.supports` says."""
     known = run._supports()
-    return MappingProxyType({one["wear"]["support"]: _statistics(one) for one in known})
+    return ReadOnly({one["wear"]["support"]: _statistics(one) for one in known})
 
 
 def wear(run: Run) -> Mapping[str, Wear]:
     """The wear in service at each support, as `Run.wear` says."""
     worn = {one["wear"]["support"]: one["worn"] for one in run._supports() if one["worn"] is not None}
-    return MappingProxyType(
+    return ReadOnly(
         {
             name: Wear(
                 name, w["volume_m3"], w["support_volume_m3"], w["depth_one_scar_m"], w["depth_all_round_m"]

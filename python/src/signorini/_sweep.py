@@ -19,6 +19,7 @@ from ._case_sweep import SweepResult, sweep_case
 from ._core import Case, ResultWarning, Scene, _columns, _run_many
 from ._progress import Progress
 from ._store import Store
+from ._types import whole
 
 Table = dict[str, npt.NDArray[Any]]
 """Columns of equal length, by name."""
@@ -54,6 +55,9 @@ def grid(**axes: Iterable[Any]) -> list[dict[str, Any]]:
     >>> sg.grid(gap=[1e-3, 2e-3], restitution=[0.5, 0.8])[1]
     {'gap': 0.001, 'restitution': 0.8}
     """
+    for name, values in axes.items():
+        if not isinstance(values, Iterable):
+            raise TypeError(f"{name} is {values!r}; expected a sequence of values")
     return [dict(zip(axes, point, strict=True)) for point in itertools.product(*axes.values())]
 
 
@@ -108,12 +112,14 @@ def run_many(
     >>> table["contacts_upper"]
     array([3., 5.])
     """
+    if isinstance(scenes, Scene):
+        raise TypeError(f"scenes is {scenes!r}; expected a sequence of scenes")
     scenes = list(scenes)
     options = _options(scheme, step, statistics_from, judge, threads)
     names = scenes[0]._wall_names if scenes else ()
     with Progress(len(scenes), progress) as shown:
         rows = _run_many(scenes, *options, shown.tell)
-    _warn(rows[2])
+    warn_of_notes(rows[2])
     return _table(names, rows, judge)
 
 
@@ -270,6 +276,8 @@ def sweep(
         )  # fmt: skip
     of_case = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "random": random}
     _refuse({"measures": measures, **of_case, "rows": rows, "seed": seed}, "a case in place of a function beside it")
+    if isinstance(points, Mapping):
+        raise ValueError(f"points is {points!r}; expected a mapping for each point beside a function: grid makes them")
     statistics_from, judge = statistics_from or 0.0, judge is not False
     points = [dict(point) for point in points]
     names = list(points[0]) if points else []
@@ -308,11 +316,11 @@ def sweep(
     if failed:
         text = f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}"
         warnings.warn(text, RuntimeWarning, stacklevel=2)
-    _warn(notes)
+    warn_of_notes(notes)
     return table
 
 
-def _warn(notes: Sequence[str | None]) -> None:
+def warn_of_notes(notes: Sequence[str | None]) -> None:
     """One warning of a study for the notes of its runs."""
     found = [note for note in notes if note is not None]
     if found:
@@ -332,8 +340,8 @@ _Options = tuple[str | None, float | None, float, bool, int]
 def _options(
     scheme: str | None, step: float | None, statistics_from: float, judge: bool, threads: int | None
 ) -> _Options:
-    if threads is not None and threads < 1:
-        raise ValueError(f"threads is {threads}; expected 1 or more")
+    if threads is not None:
+        whole("threads", threads, 1)
     return scheme, step, statistics_from, judge, threads or os.cpu_count() or 1
 
 

@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from ._core import Case, Load
 from ._document import case
 from ._types import Place
-from ._turbulence import Turbulence
+from ._turbulence import Turbulence, shown
 from ._types import End
 
 SECONDS_PER_YEAR = 365.25 * 86400.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Support:
     """A loose support in two planes, or a slider in one: see `hole`, `flats` and `slider`."""
 
     name: str
-    values: Mapping[str, Any] = field(repr=False)
+    values: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        return f"Support({shown(self._table())})"
 
     def _table(self) -> dict[str, Any]:
         return {"name": self.name, **self.values}
@@ -46,6 +49,7 @@ def hole(
     damping: float | None = None,
     friction: float | Friction | None = None,
     width: float | None = None,
+    radius: float | None = None,
     coefficient: float | None = None,
     support_coefficient: float | None = None,
     growth: str | None = None,
@@ -73,6 +77,8 @@ def hole(
         sticks, ``{"static": 0.3, "kinetic": 0.2}``.
     width : float, optional
         Along the tube, m, for the depth of wear.
+    radius : float, optional
+        Of what wears, m, for the depth of wear; a tube has its own.
     coefficient, support_coefficient : float, optional
         Wear coefficients of tube and support here, 1/Pa, in place of those of `Archard`.
     growth : str, optional
@@ -92,12 +98,12 @@ def hole(
     Examples
     --------
     >>> import signorini as sg
-    >>> sg.hole("plate-1", 2e-4, at=1.0, restitution=0.5, friction=0.2, width=25e-3)
-    Support(name='plate-1')
+    >>> sg.hole("plate-1", 2e-4, at=1.0, restitution=0.5)
+    Support(name='plate-1', at={'position': 1.0}, shape='round', gap=0.0002, restitution=0.5)
     """
     values = {
         "at": _at(at), "shape": "round", "gap": gap, "centre": centre, "restitution": restitution,
-        "stiffness": stiffness, "damping": damping, "friction": friction, "width": width,
+        "stiffness": stiffness, "damping": damping, "friction": friction, "width": width, "radius": radius,
         "coefficient": coefficient, "support_coefficient": support_coefficient, "growth": growth,
     }  # fmt: skip
     return Support(name, values)
@@ -117,6 +123,7 @@ def flats(
     damping: float | None = None,
     friction: float | Friction | None = None,
     width: float | None = None,
+    radius: float | None = None,
     coefficient: float | None = None,
     support_coefficient: float | None = None,
     growth: str | None = None,
@@ -135,7 +142,7 @@ def flats(
         In place of directions: so many flats, evenly round.
     turn : float, optional
         Beside ``sides``: where the first flat stands, degrees.
-    at, centre, restitution, stiffness, damping, friction, width, coefficient, support_coefficient
+    at, centre, restitution, stiffness, damping, friction, width, radius, coefficient, support_coefficient
         As in `hole`, of each flat.
     growth : str, optional
         ``"flats"`` for flats that recede by their scars over the years; they stay unless given.
@@ -153,13 +160,13 @@ def flats(
     Examples
     --------
     >>> import signorini as sg
-    >>> sg.flats("bars", 2e-4, sides=4, at=1.0, restitution=0.5)
-    Support(name='bars')
+    >>> sg.flats("bars", 2e-4, sides=4, at=1.0)
+    Support(name='bars', at={'position': 1.0}, shape='flats', gap=0.0002, sides=4)
     """
     same = hole(
         name, 0.0, at=at, centre=centre, restitution=restitution, stiffness=stiffness, damping=damping,
-        friction=friction, width=width, coefficient=coefficient, support_coefficient=support_coefficient,
-        growth=growth,
+        friction=friction, width=width, radius=radius, coefficient=coefficient,
+        support_coefficient=support_coefficient, growth=growth,
     )  # fmt: skip
     own = {"shape": "flats", "gap": gap, "directions": directions, "sides": sides, "turn": turn}
     return Support(name, {**same.values, **own})
@@ -201,7 +208,7 @@ def slider(
     --------
     >>> import signorini as sg
     >>> sg.slider("pad", 10.0, 0.1)
-    Support(name='pad')
+    Support(name='pad', normal_force=10.0, friction=0.1)
     """
     values = {"at": _at(at), "normal_force": normal_force, "friction": friction}
     return Support(name, values)

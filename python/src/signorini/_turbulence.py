@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 
-@dataclass(frozen=True)
+def shown(values: Mapping[str, Any]) -> str:
+    """The values that are given, as arguments."""
+    return ", ".join(f"{name}={value!r}" for name, value in values.items() if value is not None)
+
+
+@dataclass(frozen=True, repr=False)
 class Turbulence:
     """A field of random force along a tube: see `turbulence`."""
 
-    values: Mapping[str, Any] = field(repr=False)
+    values: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        return f"Turbulence({shown(self.values)})"
 
     def _table(self) -> dict[str, Any]:
         return dict(self.values)

@@ -1,8 +1,8 @@
-"""Types of arguments."""
+"""Types of arguments, and their checks."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,3 +26,60 @@ loads of `case` also a place of the case format, such as ``{"body": "left", "dof
 
 End = str | float | tuple[float, float]
 """The support of an end of a bar or beam: its name, or its stiffnesses."""
+
+_MOST = 2**32 - 1
+
+
+def whole(name: str, value: Any, least: int = 0, most: int = _MOST) -> int:
+    """``value``, unless it is no whole number from ``least`` to ``most``."""
+    expected = f"expected a whole number, {least} or more"
+    if not isinstance(value, (int, np.integer)) or isinstance(value, bool):
+        raise TypeError(f"{name} is {value!r}; {expected}")
+    if not least <= value:
+        raise ValueError(f"{name} is {value!r}; expected {least} or more")
+    if value > most:
+        raise ValueError(f"{name} is {value!r}; expected at most {most}")
+    return int(value)
+
+
+def positive(name: str, value: Any) -> float:
+    """``value``, unless it is no number above 0."""
+    if not isinstance(value, (int, float, np.integer, np.floating)):
+        raise TypeError(f"{name} is {value!r}; expected a number")
+    if not value > 0.0:
+        raise ValueError(f"{name} is {value!r}; expected a number above 0")
+    return float(value)
+
+
+def names(name: str, values: Any, example: str) -> list[str]:
+    """``values``, unless they are one text or no texts at all."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TypeError(f"{name} is {values!r}; expected a sequence, such as [{example!r}]")
+    listed = list(values)
+    if not listed:
+        raise ValueError(f"{name} is empty; expected one or more, such as [{example!r}]")
+    for one in listed:
+        if not isinstance(one, str):
+            raise TypeError(f"{name} has {one!r}; expected texts, such as {example!r}")
+    return listed
+
+
+def known(name: str, given: Mapping[str, Any] | None, keys: Iterable[str]) -> dict[str, Any]:
+    """The mapping ``given``, unless it has other keys than ``keys``."""
+    for key in given or ():
+        if key not in (accepted := list(keys)):
+            raise ValueError(f"{name} has {key!r}; expected {', '.join(map(repr, accepted)) or 'no key'}")
+    return dict(given or {})
+
+
+def times(name: str, values: Any, end: float) -> Array:
+    """``values`` as times, unless some are before 0 or after ``end``, or one is not after the last."""
+    column = np.atleast_1d(np.asarray(values, np.float64))
+    if column.ndim != 1 or not np.isfinite(column).all():
+        raise ValueError(f"{name}: expected a column of finite times, in s")
+    beyond = column[(column < 0.0) | (column > end * (1.0 + 1e-12))]
+    if beyond.size:
+        raise ValueError(f"{name} has {beyond[0]:g} s; expected times from 0 to the end of the motion, {end:g} s")
+    if (np.diff(column) <= 0.0).any():
+        raise ValueError(f"{name} does not increase: {column[int(np.argmin(np.diff(column))) + 1]:g} s comes too late")
+    return column

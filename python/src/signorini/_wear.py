@@ -6,14 +6,14 @@ import os
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._columns import Column, columns, frame
+from ._columns import Column, ReadOnly, columns, frame
 from ._core import Case, ResultWarning
 from ._progress import Progress
 from ._realisations import Realisations, made, of_case, refuted, warn
+from ._types import whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -192,8 +192,8 @@ def wear(
     AccuracyWarning
         As `realisations`.
     ResultWarning
-        Where the flow of the case makes the tube unstable with all supports active, and, with
-        ``until_interval``, for each note on the first run.
+        For each note that limits the use of the results, such as a step that does not resolve a
+        load; with ``until_interval`` those on the first run.
 
     Examples
     --------
@@ -206,6 +206,8 @@ def wear(
     0.0002
     """
     case, within = of_case(case, "wear"), (until_interval, most_seeds)
+    if histories is not None:
+        whole("histories", histories, 1)
     with Progress(0, progress) as runs, Progress(100, progress, of="per cent of the years") as shown:
         known = _core._wear(case, scheme, step, years, histories, within, verdict, folder, runs.reach, shown.tell)
     first = None if known["first"] is None else made(known["first"])
@@ -213,10 +215,10 @@ def wear(
         tuple(known["supports"]),
         known["histories"],
         known["windows"],
-        MappingProxyType(columns(*known["years"])),
-        MappingProxyType(columns(*known["history"])),
+        ReadOnly(columns(*known["years"])),
+        ReadOnly(columns(*known["history"])),
         known["limit"],
-        MappingProxyType({one["place"]: _limit_years(one) for one in known["limits"]}),
+        ReadOnly({one["place"]: _limit_years(one) for one in known["limits"]}),
         first,
         tuple(known["remarks"]),
         known["text"],
@@ -225,6 +227,7 @@ def wear(
         raise refuted(known["refuted"], study)
     if first is not None:
         warn(known["first"], 2)
-    elif known["notes"]:
-        warnings.warn(known["notes"], ResultWarning, stacklevel=2)
+    else:
+        for note in known["notes"]:
+            warnings.warn(note, ResultWarning, stacklevel=2)
     return study

@@ -155,6 +155,7 @@ fn setup(case: &Case, choice: &Choice) -> Vec<String> {
     let mut said = notes::setup(&case.scene, &choice.method.scheme, case.time.step);
     let walls = case.scene.walls.len() - case.sliders.len();
     said.extend(notes::resting(&case.scene, walls, case.time.step));
+    said.extend(notes::late_output(&case.scene));
     said
 }
 

@@ -74,7 +74,7 @@ pub(super) fn known_loads(scene: &Scene) -> Result<()> {
             Subject::nth("load", index),
             "a function of time",
             "for the exact scheme, which has to know the motion in closed form: a constant, a sine, an impulse \
-             or a table (one of the function, with a stated error, is Table::sampled); or a stepping scheme",
+             or a table, such as one of values of the function; or a stepping scheme",
         )),
         None => Ok(()),
     }

@@ -5,7 +5,7 @@ use super::fine_reference::{FineReference, Range};
 use super::recorded_run::{Record, STARTS, nudged, recorded_run};
 use super::row::{Cell, Safe, Subject};
 use super::scale::Scale;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::interrupt::Carried;
 use crate::scene::{Scene, System};
 use crate::scheme::{Integrator, PenaltyLaw, Scheme};
@@ -54,6 +54,22 @@ const MOST_WORK: f64 = 5e5;
 const FEWEST_STEPS: f64 = 1e4;
 
 impl Grid {
+    fn check(&self) -> Result<()> {
+        for (key, value) in [("finest", self.finest), ("coarsest", self.coarsest), ("per_decade", self.per_decade)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(Error::invalid(key, format_args!("{value:?}"), "a number above 0"));
+            }
+        }
+        if self.coarsest < self.finest {
+            let expected = format!("at least the finest, {:?}", self.finest);
+            return Err(Error::invalid("coarsest", format_args!("{:?}", self.coarsest), expected));
+        }
+        if self.contacts == 0 {
+            return Err(Error::invalid("contacts", 0, "1 or more"));
+        }
+        Ok(())
+    }
+
     /// The grid for `scene`: the default for one degree of freedom; for several, whose steps cost
     /// in proportion, coarser steps and fewer per decade. Steps are measured by the slowest
     /// frequency, and range from where most modes are resolved to where not even the slowest is.
@@ -120,6 +136,7 @@ impl Plan {
     /// [`crate::Error::Invalid`] for a case without walls, and errors of that run.
     pub fn new(case: MapRequest<'_>, grid: &Grid) -> Result<Self> {
         family::check(case)?;
+        grid.check()?;
         let scene = case.scene;
         let first = Scale::of(scene, None);
         let finest = |scale: &Scale, horizon: f64| (grid.finest / scale.omega).max(horizon / grid.most_steps);

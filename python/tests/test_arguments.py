@@ -1,0 +1,138 @@
+"""Arguments that a function would not use as they are given: refused under their names."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import signorini as sg
+
+CASE = sg.load("rigid-walls-sine", set={"time.end": 0.5})
+SCENE = CASE.scene
+AMPLITUDE = ["load.1.harmonic.amplitude"]
+HARMONIC = "load.1.harmonic.frequency"
+
+
+def pair(**scene: Any) -> sg.Scene:
+    return sg.chain([1.0, 1.0], [100.0], **scene)
+
+
+def beam(**scene: Any) -> sg.Scene:
+    sizes = {"outer_diameter": 0.01, "elements": 4, **scene}
+    return sg.beam(length=1.0, youngs_modulus=2e11, density=7850.0, **sizes)
+
+
+def fitted(data: dict[str, Any], **more: Any) -> sg.Fit:
+    return sg.fit(SCENE, AMPLITUDE, data, **more)
+
+
+def starting(t: float) -> float:
+    return 1.0 if t < 0.02 else math.nan
+
+
+VALUES: list[tuple[Callable[[], object], str]] = [
+    (lambda: sg.derivative(SCENE, AMPLITUDE, times=[-1.0]), r"times has -1 s; expected times from 0 to .* 0\.5 s"),
+    (lambda: sg.derivative(SCENE, AMPLITUDE, times=[0.1, 0.6]), r"times has 0\.6 s; expected times from 0"),
+    (lambda: sg.derivative(SCENE, AMPLITUDE, times=[0.2, 0.1]), r"times does not increase: 0\.1 s"),
+    (lambda: sg.derivative(SCENE, []), "keys is empty"),
+    (lambda: SCENE.run("event").derivative([]), "keys is empty"),
+    (lambda: sg.derivative(pair(probes={}), {}), "keys is empty"),
+    (lambda: fitted({"start": [0.1, 0.3]}, bounds={"foo": (0.0, 1.0)}), "bounds has 'foo'; expected 'load.1.harmonic"),
+    (lambda: fitted({"start": [0.1, 0.3], "wall": "upper"}, error={"force": 1.0}), "error has 'force'; expected 'disp"),
+    (lambda: fitted({"start": [0.3, 0.1], "wall": "upper"}), "starts at wall 'upper' do not increase"),
+    (lambda: fitted({"time": [0.1, 0.6], "displacement": [0.0, 0.0]}), r"data: time has 0\.6 s"),
+    (lambda: fitted({"time": [0.2, 0.1], "displacement": [0.0, 0.0]}), "data: time does not increase"),
+    (lambda: fitted({}), "data has nothing; expected"),
+    (lambda: fitted({"start": [0.1, 0.3], "wall": "upper"}, error={"start": [1.0] * 3}), r"error of start has the shape"),
+    (lambda: pair(walls=[sg.Wall.upper("w", 1.0, at=[(0, 1.0), (0, 2.0)])]), 'wall "w": at is .* once'),
+    (lambda: pair(probes={"p": [(1, 1.0), (1, 2.0)]}), 'probe "p": at is .* once'),
+    (lambda: sg.chart(SCENE, ["event"], levels=0), "levels is 0; expected 1 or more"),
+    (lambda: sg.chart(SCENE, ["event"], repeats=0), "repeats is 0; expected 1 or more"),
+    (lambda: sg.chart(SCENE, ["event"], most_seconds=-1.0), r"most_seconds is -1\.0; expected a number above 0"),
+    (lambda: sg.stability(SCENE, finest=0.1, coarsest=0.01), r"coarsest is 0\.01; expected at least the finest, 0\.1"),
+    (lambda: sg.stability(SCENE, per_decade=-1.0), r"per_decade is -1\.0; expected a number above 0"),
+    (lambda: sg.stability(SCENE, contacts=0), "contacts is 0; expected 1 or more"),
+    (lambda: sg.bifurcation(CASE, HARMONIC, [5.0], threads=0), "threads is 0; expected 1 or more"),
+    (lambda: sg.bifurcation(CASE, HARMONIC, [5.0], settle=-1), "settle is -1; expected 0 or more"),
+    (lambda: sg.bifurcation(CASE, HARMONIC, [5.0], keep=2**40), "keep is 1099511627776; expected at most"),
+    (lambda: sg.orbit(SCENE, settle=-1), "settle is -1; expected 0 or more"),
+    (lambda: sg.Stepper(SCENE, "moreau-jean", 1e-3).advance(-1.0), r"end is -1\.0; expected a time, 0 or more"),
+    (lambda: sg.Load.random(rms=1.0, band=(1.0, 2.0), seed=-1), "seed is -1; expected 0 or more"),
+    (lambda: sg.Load.random(psd=[(1.0, math.nan), (2.0, 1.0)]), "load: psd is NaN; expected finite numbers"),
+    (lambda: sg.Load.gravity(math.nan), "load: acceleration is NaN"),
+    (lambda: sg.Load.base(amplitude=math.inf, frequency=1.0), "load: amplitude is inf"),
+    (lambda: beam(elements=-2), "elements is -2; expected 1 or more"),
+    (lambda: beam(modes=-1), "modes is -1; expected 1 or more"),
+    (lambda: sg.sweep(CASE, {HARMONIC: (4.0, 5.0)}, measures=["contacts"], random="lhs", rows=-1), "rows is -1"),
+    (
+        lambda: sg.sweep(lambda gap: SCENE, {"gap": [1.0]}, "event"),  # type: ignore[dict-item]
+        "points is .* expected a mapping for each point",
+    ),
+    (lambda: sg.compare(SCENE, [], step=1e-3), "methods is empty"),
+    (lambda: SCENE.run("event").probe("zz"), 'no probe is named "zz"; there is ""'),
+    (lambda: sg.orbit(sg.chain([1.0], [])), "system is a structure; expected an oscillator"),
+    (lambda: sg.run_many([SCENE, sg.oscillator(1.0, 0.0, 1.0)], "event"), "walls are none; expected upper, lower"),
+    (lambda: sg.oscillator(1.0, 0.0, 1.0, loads=[sg.Load.function(abs)]).run("event"), "a table, such as one of values"),
+]
+
+
+@pytest.mark.parametrize("call, message", VALUES, ids=[message for _, message in VALUES])
+def test_a_wrong_value_is_refused_by_its_name(call: Callable[[], object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+TYPES: list[tuple[Callable[[], object], str]] = [
+    (lambda: sg.compare(SCENE, "moreau-jean", step=1e-3), r"methods is 'moreau-jean'; expected a sequence"),
+    (lambda: sg.chart(SCENE, "event"), "methods is 'event'; expected a sequence"),
+    (lambda: sg.derivative(SCENE, AMPLITUDE[0]), "keys is 'load.1.harmonic.amplitude'; expected a sequence"),
+    (lambda: sg.sweep(CASE, {HARMONIC: [5.0]}, measures="contacts"), "measures is 'contacts'; expected a sequence"),
+    (lambda: beam(elements=2.5), "elements is 2.5; expected a whole number"),
+    (lambda: sg.run_many(SCENE), "scenes is <Scene"),  # type: ignore[arg-type]
+    (lambda: sg.grid(gap=3.0), "gap is 3.0; expected a sequence"),  # type: ignore[arg-type]
+]
+
+
+@pytest.mark.parametrize("call, message", TYPES, ids=[message for _, message in TYPES])
+def test_a_wrong_type_is_refused_by_its_name(call: Callable[[], object], message: str) -> None:
+    with pytest.raises(TypeError, match=message):
+        call()
+
+
+def test_a_force_that_is_no_number_names_its_load_and_the_time() -> None:
+    scene = sg.oscillator(1.0, 0.0, 1.0, loads=[sg.Load.function(starting)], duration=0.1)
+    with pytest.raises(ValueError, match=r"load <function starting .*: the force at t = 0\.0\d* s is NaN; expected a finite"):
+        scene.run("moreau-jean", step=1e-3)
+    words = sg.oscillator(1.0, 0.0, 1.0, loads=[sg.Load.function(lambda t: 0.0 if t < 0.02 else "N")], duration=0.1)  # type: ignore[arg-type,return-value]
+    with pytest.raises(TypeError, match=r"load <function .*: the force at t = 0\.0\d* s is 'N'; expected a number"):
+        words.run("moreau-jean", step=1e-3)
+
+
+def test_the_results_of_another_request_are_told_in_words(tmp_path: Path) -> None:
+    sg.sweep(CASE, {HARMONIC: [4.0, 5.0]}, measures=["contacts"], folder=tmp_path / "rows")
+    with pytest.raises(OSError, match=r"\[4\.0, 5\.0\]") as caught:
+        sg.sweep(CASE, {HARMONIC: [4.0, 6.0]}, measures=["contacts"], folder=tmp_path / "rows")
+    assert "KeyValue" not in str(caught.value)
+
+
+def test_what_is_given_is_shown() -> None:
+    assert repr(sg.Load.harmonic(1.0, 2.0, direction=30.0)) == "Load.harmonic(1.0, 2.0, 0.0, direction=30.0)"
+    assert eval(repr(sg.Load.constant(1.0, direction=30.0)), {"Load": sg.Load}) == sg.Load.constant(1.0, direction=30.0)
+    assert repr(sg.hole("h", 2e-4, radius=0.01)) == "Support(name='h', shape='round', gap=0.0002, radius=0.01)"
+    flow = sg.turbulence(band=(5.0, 150.0), correlation_length=0.06, spectrum=[(1.0, 1.0)])
+    assert repr(flow).startswith("Turbulence(direction='both', spectrum=[(1.0, 1.0)], from=5.0, to=150.0")
+    run = sg.load("whirl-in-a-hole", set={"time.end": 0.02}).run()
+    assert "sectors" not in repr(run.supports["hole"])
+
+
+def test_a_hole_has_the_radius_of_what_wears_in_it() -> None:
+    case = sg.case({
+        "system": {"planes": 2, "oscillator": {"mass": 1.0, "damping": 2.0, "stiffness": 1000.0}},
+        "support": [sg.hole("h", 1e-3, stiffness=1e6, friction=0.2, width=0.02, radius=0.01)],
+        "load": [sg.Load.harmonic(12.0, 5.0, direction=10.0)],
+        "wear": sg.Archard(1e-14, years=1.0),
+        "time": {"end": 0.2, "step": 1e-4},
+    })  # fmt: skip
+    assert case.run().wear["h"].depth_scar is not None
