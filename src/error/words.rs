@@ -35,7 +35,6 @@ pub(crate) fn named<T>(
 }
 
 /// `1 row`, `12 rows`.
-#[cfg(feature = "case")]
 pub(crate) fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
