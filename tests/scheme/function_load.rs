@@ -55,7 +55,10 @@ fn the_exact_scheme_refuses_a_function_and_says_what_would_do() {
     for structure in [false, true] {
         let [_, function] = scenes(structure);
         let refused = Stepper::new(&function, &Scheme::Event, 1.0).expect_err("no closed form");
-        assert!(refused.is_request() && refused.to_string().contains("Table::sampled"), "{refused}");
+        assert!(
+            refused.is_request() && refused.to_string().contains("a table, such as one of values of the function"),
+            "{refused}"
+        );
     }
     // A value that is not finite is reported at the start, or when it occurs.
     let scene = Scene::oscillator(1.0, 0.0, 1.0).with_load(Load::function(|t| 1.0 / t));
