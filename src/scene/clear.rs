@@ -41,14 +41,19 @@ impl Scene {
             let sign = -outward(one) * outward(other);
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0 && (a.1 - sign * b.1).abs() <= SAME_WEIGHT)
         };
-        let flat = |wall: &&(usize, &Wall)| !wall.1.is_round();
-        let walls: Vec<(usize, &Wall)> = self.walls.iter().enumerate().collect();
-        for (index, one) in walls.iter().filter(flat) {
-            for (other, two) in walls.iter().skip(index + 1).filter(flat) {
-                let room = outward(one) * one.position() + outward(two) * two.position();
-                let rounding = 1e-12 * one.position().abs().max(two.position().abs());
-                if room <= rounding && opposite(one, two) {
-                    (snug[*index], snug[*other]) = (true, true);
+        let first_dof = |wall: &Wall| wall.row().entries().first().map(|entry| entry.0);
+        let mut flats: Vec<(usize, &Wall)> =
+            self.walls.iter().enumerate().filter(|(_, wall)| !wall.is_round()).collect();
+        flats.sort_by_key(|(_, wall)| first_dof(wall));
+        // Of many walls only those at one place are compared.
+        for place in flats.chunk_by(|(_, one), (_, other)| first_dof(one) == first_dof(other)) {
+            for (k, (index, one)) in place.iter().enumerate() {
+                for (other, two) in place.iter().skip(k + 1) {
+                    let room = outward(one) * one.position() + outward(two) * two.position();
+                    let rounding = 1e-12 * one.position().abs().max(two.position().abs());
+                    if room <= rounding && opposite(one, two) {
+                        (snug[*index], snug[*other]) = (true, true);
+                    }
                 }
             }
         }

@@ -104,9 +104,9 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
         lines.push("start: at rest in static equilibrium under the constant loads".to_owned());
     }
     if let Some(ScatteredStart { scatter, .. }) = &case.written.scattered {
-        let what = if case.truncated.is_some() { "modal velocities scatter" } else { "velocities scatter" };
-        let unit = if case.truncated.is_some() { "√kg m/s" } else { "m/s" };
-        lines.push(format!("start: its {what} by {:?} {unit}, seed {}", scatter.deviation, scatter.seed));
+        let [what, unit] =
+            if case.truncated.is_some() { ["modal velocities", "√kg m/s"] } else { ["velocities", "m/s"] };
+        lines.push(format!("start: its {what} scatter by {:?} {unit}, seed {}", scatter.deviation, scatter.seed));
     }
     lines
 }
