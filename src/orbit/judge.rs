@@ -14,9 +14,9 @@ use crate::step::{Contact, Path};
 /// Tolerance for the free run to come back to its start, in gaps, and gaps times the forcing's Ω …
 const CLOSES: f64 = 1e-10;
 
-/// … or, for an orbit whose multipliers amplify rounding, within this many units in the last place
-/// times the largest of them.
-const UNITS: f64 = 1e3;
+/// … or, for an orbit whose events amplify rounding, within this many units in the last place of
+/// what is rounded at each event, grown until the end of the run.
+const UNITS: f64 = 1e2;
 
 /// Contacts and forces of one wall over one period of an orbit.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -50,7 +50,7 @@ pub struct Judged {
     /// Distance of its end from its start: the larger of displacement in gaps and velocity in gaps
     /// times the forcing's Ω.
     pub closure: f64,
-    /// The tolerance of the closure: 1e-10, or rounding amplified by the orbit's multipliers.
+    /// The tolerance of the closure: 1e-10, or rounding amplified by the orbit's events.
     pub tolerance: f64,
     /// True if the run went through the events of the orbit, in order, and no other.
     pub same_events: bool,
@@ -126,7 +126,7 @@ impl Problem {
         }
         let whole = orbit.unfolded(self.mirror());
         let [length, speed] = self.scales();
-        let (start, state) = self.midway(&whole)?;
+        let Midway { time: start, state, rounding } = self.midway(&whole)?;
         let end = start + whole.period();
         let mut scene = self.scene().clone();
         scene.duration = end + whole.period();
@@ -150,8 +150,7 @@ impl Problem {
         }
         let end_phase = end / self.forcing_period();
         let seen: Vec<_> = watch.passages.iter().filter(|passage| passage.phase < end_phase).collect();
-        let largest = self.floquet(orbit)?.multipliers.iter().fold(0.0_f64, |top, m| top.max(m[0].hypot(m[1])));
-        judged.tolerance = CLOSES.max(UNITS * f64::EPSILON * largest);
+        judged.tolerance = CLOSES.max(UNITS * f64::EPSILON * rounding);
         judged.same_events = self.same_events(&whole, start, &seen);
         Ok(judged)
     }
@@ -183,30 +182,43 @@ impl Problem {
         index == events.len()
     }
 
-    /// A time (s) and the state in the middle of the longest free flight of `whole`.
-    fn midway(&self, whole: &Orbit) -> Result<(f64, [f64; 2])> {
+    /// The middle of the longest free flight of `whole`.
+    fn midway(&self, whole: &Orbit) -> Result<Midway> {
         let period = self.forcing_period();
+        let mut arc = self.arc();
         if whole.phases.is_empty() {
-            return Ok((0.0, self.quiet()?));
+            let state = self.quiet()?;
+            self.fly(&mut arc, state, [0.0, whole.period()], &[], None);
+            return Ok(Midway { time: 0.0, state, rounding: self.growth_of_rounding(whole, 0, arc.propagator()) });
         }
         let touching = self.touching(&whole.signature);
         let turn = whole.signature.cycles();
-        let mut best: Option<(f64, f64, [f64; 2])> = None;
+        let mut longest: Option<(usize, f64, [f64; 2])> = None;
         for (index, event) in whole.signature.events.iter().enumerate() {
             let (Some(boundary), Some(phase)) = (self.boundary(event.wall), whole.phases.get(index)) else { continue };
             let span = (whole.next_phase(index) - phase) * period;
             let free =
                 touching.get(index).is_none_or(Vec::is_empty) && !matches!(event.kind, Kind::Rest | Kind::Chatter);
-            if free && best.is_none_or(|(_, longest, _)| span > longest) {
-                best = Some((phase * period, span, boundary.after(event.kind, whole.speeds[index]).state));
+            if free && longest.is_none_or(|(_, longest, _)| span > longest) {
+                longest = Some((index, span, boundary.after(event.kind, whole.speeds[index]).state));
             }
         }
-        let (start, span, state) = best.ok_or_else(|| Error::no_orbit("the orbit has no stretch of free flight"))?;
-        let mut arc = self.arc();
+        let (index, span, state) = longest.ok_or_else(|| Error::no_orbit("the orbit has no stretch of free flight"))?;
         // A start before t = 0 is moved by whole periods of the orbit.
+        let start = whole.phases[index] * period;
         let start = start - (start / (turn * period)).floor() * turn * period;
         self.fly(&mut arc, state, [start, 0.5 * span], &[], None);
         let (q, v) = arc.state(arc.end());
-        Ok((arc.end(), [q, v]))
+        Ok(Midway { time: arc.end(), state: [q, v], rounding: self.growth_of_rounding(whole, index, arc.propagator()) })
     }
+}
+
+/// Where the free run over one orbit starts and ends.
+struct Midway {
+    /// s.
+    time: f64,
+    /// m, m/s.
+    state: [f64; 2],
+    /// How far roundings of the size 1 move the end of the run, in the scales of the problem.
+    rounding: f64,
 }
