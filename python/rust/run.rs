@@ -336,7 +336,8 @@ impl Run {
 
     /// The contact episodes as a structured array with the fields ``wall`` (name), ``start`` and
     /// ``end`` (s), ``impulse`` (N s), ``peak_force`` (N), ``approach_speed`` and
-    /// ``departure_speed`` (m/s); nan where there is no value.
+    /// ``departure_speed`` (m/s); with supports also ``angle`` (degrees, where around the support it
+    /// began), ``work`` (of wear, J) and ``sliding`` (m). nan where there is no value.
     #[getter]
     fn contacts<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::by_python(slf, "contacts")
@@ -521,6 +522,15 @@ impl Run {
         dict.set_item("peak_force", column(&|c| or_nan(c.peak_force)))?;
         dict.set_item("approach_speed", column(&|c| c.approach_speed))?;
         dict.set_item("departure_speed", column(&|c| or_nan(c.departure_speed)))?;
+        if !motion.supports().is_empty() {
+            let column = |f: fn(&sg::EpisodeWear) -> f64| {
+                let wear = motion.contact_wear().iter();
+                wear.map(|wear| wear.as_ref().map_or(f64::NAN, f)).collect::<Vec<f64>>().into_pyarray(py)
+            };
+            dict.set_item("angle", column(|wear| wear.angle))?;
+            dict.set_item("work", column(|wear| wear.work))?;
+            dict.set_item("sliding", column(|wear| wear.sliding))?;
+        }
         Ok(dict)
     }
 

@@ -125,6 +125,12 @@ def test_round_supports_have_columns_of_their_own() -> None:
     rate = run.supports["hole"].work_rate.value
     assert abs(rate - 1.109652491907) < 1e-6
     assert abs(run.wear_work("hole")[-1] / run.time[-1] / rate - 1.0) < 1e-9
+    # One contact without end, which does all the work and slides at the speed of the whirl.
+    (only,) = run.contacts
+    assert only["wall"] == "hole" and np.isnan(only["end"])
+    assert abs(only["work"] / run.wear_work("hole")[-1] - 1.0) < 1e-9
+    slid = run.supports["hole"].sliding_rate * run.time[-1]
+    assert abs(only["sliding"] / slid - 1.0) < 1e-6 and 0.0 <= only["angle"] < 360.0
     with pytest.raises(ValueError, match="round support"):
         run.hole_force("elsewhere")
     back = pickle.loads(pickle.dumps(run))

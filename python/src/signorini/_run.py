@@ -20,17 +20,15 @@ if TYPE_CHECKING:
 
 __all__ = ["columns", "contacts", "html", "output", "statistics", "summary", "supports", "to_pandas", "wear"]
 
-_NUMBERS = ("start", "end", "impulse", "peak_force", "approach_speed", "departure_speed")
-
 
 def contacts(run: Run) -> npt.NDArray[np.void]:
     """The contact episodes, as `Run.contacts` says."""
     columns = run._contacts()
-    names = np.array(list(columns["names"]) or [""])
-    table = np.empty(len(columns["wall"]), [("wall", names.dtype), *((name, np.float64) for name in _NUMBERS)])
-    table["wall"] = names[columns["wall"]]
-    for name in _NUMBERS:
-        table[name] = columns[name]
+    names = np.array(list(columns.pop("names")) or [""])
+    columns["wall"] = names[columns["wall"]]
+    table = np.empty(len(columns["wall"]), [(name, column.dtype) for name, column in columns.items()])
+    for name, column in columns.items():
+        table[name] = column
     table.flags.writeable = False
     return table
 
