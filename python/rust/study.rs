@@ -109,7 +109,7 @@ pub fn _chart<'py>(
     Ok((rows, chart.reference.how, chart.horizon.end))
 }
 
-/// Rows of cells, and a row for each scheme with its largest safe step.
+/// Rows of cells, and a row for each scheme with its largest stable step.
 #[pyfunction]
 pub fn _stability<'py>(
     scene: &Bound<'py, Scene>,
@@ -127,7 +127,7 @@ pub fn _stability<'py>(
     grid.contacts = contacts.unwrap_or(grid.contacts);
     let question = MapRequest { scene: inner, laws: &[] };
     let maps = compute_beside(py, || Maps::new(question, &grid)?.run(&|_| {}), &mut |_| Ok(()))?;
-    let (cells, safe) = (PyList::empty(py), PyList::empty(py));
+    let (cells, stable) = (PyList::empty(py), PyList::empty(py));
     for row in &maps.rows {
         let subject = &row.subject;
         let name = |d: &Bound<'_, PyDict>| {
@@ -143,15 +143,15 @@ pub fn _stability<'py>(
                 d.set_item("reason", &cell.reason)
             })?)?;
         }
-        if let Some(found) = &row.safe {
-            safe.append(dict(py, |d| {
+        if let Some(found) = &row.stable {
+            stable.append(dict(py, |d| {
                 name(d)?;
-                d.set_item("safe_step_s", found.step)?;
+                d.set_item("stable_step_s", found.step)?;
                 d.set_item("beyond", found.beyond.as_ref().map(|cell| format!("{}: {}", cell.class, cell.reason)))
             })?)?;
         }
     }
-    Ok((cells, safe))
+    Ok((cells, stable))
 }
 
 /// Rows of samples, and the first note on each run that limits its use.

@@ -51,7 +51,7 @@ def test_stability_tells_newmark_from_moreau_jean(scene: sg.Scene) -> None:
     assert "stable" in classes["moreau-jean"]
     # Newmark realises a restitution by chance, up to 3: it gains energy at some steps.
     assert classes["newmark"] & {"energy-gaining", "diverged"}
-    assert list(made.safe) == ["scheme", "parameter", "value", "safe_step_s", "beyond"]
+    assert list(made.stable) == ["scheme", "parameter", "value", "stable_step_s", "beyond"]
     made.plot().figure.canvas.draw()
     plt.close("all")
 

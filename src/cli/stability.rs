@@ -7,7 +7,7 @@ use super::ui::Ui;
 use crate::case::Case;
 use crate::error::Result;
 use crate::output::request::{extended, request};
-use crate::output::safe_steps::{SafeStep, conclusion, rows, safe_steps, table};
+use crate::output::stable_steps::{StableStep, conclusion, criterion, rows, stable_steps, table};
 use crate::output::table::Table;
 use crate::output::{document, stability as output};
 use crate::parallel::cores;
@@ -92,16 +92,16 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let quality = lasting_contacts(&case, &maps, ui)?;
     output::quality(&results.place("lasting-contact.csv")?, &quality)?;
     results.add_to_manifest("case_file", case.document.json()?);
-    let safe = safe_steps(&maps, &impacts);
+    let steps = stable_steps(&maps, &impacts);
     results.add_to_manifest("remarks", json!(case.notes()));
-    results.add_to_manifest("conclusion", json!(conclusion(&safe)));
-    results.add_to_manifest("safe_steps", rows(&safe));
+    results.add_to_manifest("conclusion", json!(conclusion(&steps)));
+    results.add_to_manifest("stable_steps", rows(&steps));
     results.add_to_manifest("impacts", output::impact_groups(&impacts));
     let mut document = document::stability(&case, &maps, &quality);
-    document["conclusion"] = json!(conclusion(&safe));
-    document["schemes"] = rows(&safe);
+    document["conclusion"] = json!(conclusion(&steps));
+    document["schemes"] = rows(&steps);
     let mut answer = Answer::of(results, !args.place.no_report, document);
-    show_maps(&mut answer, &maps, &safe);
+    show_maps(&mut answer, &maps, &steps);
     show_contacts(&mut answer, &quality);
     Ok(answer)
 }
@@ -187,8 +187,8 @@ fn share(x: f64) -> String {
     if x.abs() < 1e4 { format!("{x:.3}") } else { format!("{x:.2e}") }
 }
 
-/// Shows the largest safe step of each scheme.
-fn show_maps(answer: &mut Answer, maps: &Maps, safe: &[SafeStep]) {
+/// Shows the largest stable step of each scheme.
+fn show_maps(answer: &mut Answer, maps: &Maps, steps: &[StableStep]) {
     let (first, last) = (maps.steps.first().copied().unwrap_or(0.0), maps.steps.last().copied().unwrap_or(0.0));
     answer.remarks([format!(
         "{} steps from {first:.2e} to {last:.2e} s, runs of {:.4} s, {} ({:.4} rad/s)",
@@ -197,6 +197,6 @@ fn show_maps(answer: &mut Answer, maps: &Maps, safe: &[SafeStep]) {
         maps.scale.origin.describe(),
         maps.scale.omega
     )]);
-    answer.table(table(safe), "stability.csv");
-    answer.remarks([conclusion(safe)]);
+    answer.table(table(steps), "stability.csv");
+    answer.remarks([conclusion(steps), criterion()]);
 }

@@ -28,7 +28,7 @@
 //! | [`table`] | tables for people, as wide as the terminal |
 //! | [`pictures`] | the figures of one or several runs |
 //! | [`stability`] | tables and maps of a stability study |
-//! | `safe_steps` | the largest safe step of each scheme, and the conclusion of a stability study |
+//! | `stable_steps` | the largest stable step of each scheme, and the conclusion of a stability study |
 //! | `cheapest` | the cheapest methods of a chart, and its conclusion |
 //! | `floors` | how near penalties come to rigid walls, and why no nearer |
 //! | [`wear_history`] | `history.csv` and `years.csv` of wear over the years, and their picture |
@@ -55,7 +55,7 @@
 //! (comparisons for the terminal), `verification.rs` (the manual), `document.rs`, `detail.rs` (what
 //! `[statistics]` asks for: `episodes.rs`, `spectra.rs`), `turbulence.rs` (its forces),
 //! `realisations.rs`, `error_parts.rs` (the errors of their means), `cheapest.rs` (the conclusion
-//! of a chart), `floors.rs` (why its penalties have floors), `safe_steps.rs` (the conclusion of a
+//! of a chart), `floors.rs` (why its penalties have floors), `stable_steps.rs` (the conclusion of a
 //! stability study), figures (`labelled.rs` is a run that is drawn, `motion.rs` its motion,
 //! `window.rs` the stretch of it, `orbit.rs` with `ring.rs` its way between supports, `rubbed.rs`
 //! the supports over time; `site.rs` is a wall or support with its results, `places.rs` says which
@@ -101,13 +101,13 @@ pub mod results;
 pub(crate) mod ring;
 mod rubbed;
 pub mod run;
-pub(crate) mod safe_steps;
 pub mod shape;
 #[cfg(feature = "xlsx")]
 mod sheets;
 mod site;
 mod spectra;
 pub mod stability;
+pub(crate) mod stable_steps;
 pub mod summary;
 pub mod supports;
 pub mod table;

@@ -2,7 +2,7 @@
 
 use super::csv;
 use super::figure::{Class as Tone, Curve, Figure, HeatMap, Mark, Panel, Scale};
-use super::safe_steps::range_text;
+use super::stable_steps::range_text;
 use crate::error::Result;
 use crate::scheme::Scheme;
 use crate::study::stability::class::{Class, Measurement};

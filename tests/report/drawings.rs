@@ -295,33 +295,33 @@ fn a_chart_has_its_conclusion_above_its_named_curves() {
     tab.close();
 }
 
-/// The page of a stability study begins with the largest safe step of each scheme and the reason,
+/// The page of a stability study begins with the largest stable step of each scheme and the reason,
 /// and schemes that agree in one impact share one curve with all their names.
 #[test]
-fn a_stability_page_begins_with_the_safe_steps() {
+fn a_stability_page_begins_with_the_stable_steps() {
     let Some(mut browser) = Browser::start() else { return };
     let dir = tempfile::tempdir().unwrap();
     let short = ["--set", "time.end=0.2", "--set", "penalty.epsilon=[1e-9]"];
     let page = results(dir.path(), &[&["stability", "rigid-walls-sine"], &short[..]].concat());
     let manifest = fs::read_to_string(page.with_file_name("request.json")).unwrap();
     let manifest: Value = serde_json::from_str(&manifest).unwrap();
-    let safe = manifest["safe_steps"].as_array().unwrap();
+    let stable = manifest["stable_steps"].as_array().unwrap();
     let mut tab = opened(&mut browser, &page);
     let sections = "[...document.querySelectorAll('section')].slice(0, 3).map(({ id }) => id)";
-    assert_eq!(tab.evaluate(sections), json!(["safe", "maps", "impact"]));
-    let said = tab.evaluate("document.querySelector('#safe .conclusion').textContent");
+    assert_eq!(tab.evaluate(sections), json!(["steps", "maps", "impact"]));
+    let said = tab.evaluate("document.querySelector('#steps .conclusion').textContent");
     let conclusion = manifest["conclusion"].as_str().unwrap();
     assert_eq!(said.as_str().unwrap().replace('\u{a0}', " ").to_lowercase(), format!("{conclusion}.").to_lowercase());
     // The largest first, each with what happens beyond it and why; those without any last.
-    let steps: Vec<f64> = safe.iter().map(|row| row["largest_safe_step_s"].as_f64().unwrap_or(0.0)).collect();
+    let steps: Vec<f64> = stable.iter().map(|row| row["largest_stable_step_s"].as_f64().unwrap_or(0.0)).collect();
     assert!(steps.is_sorted_by(|a, b| a >= b) && steps[0] > 0.0 && steps.contains(&0.0), "{steps:?}");
-    let rows = "[...document.querySelectorAll('#safe tbody tr')].map((tr) => [...tr.children].map((td) => \
+    let rows = "[...document.querySelectorAll('#steps tbody tr')].map((tr) => [...tr.children].map((td) => \
         td.textContent))";
     let rows: Vec<Vec<String>> = serde_json::from_value(tab.evaluate(rows)).unwrap();
-    assert_eq!(rows.len(), safe.len());
-    for (cells, row) in rows.iter().zip(safe) {
+    assert_eq!(rows.len(), stable.len());
+    for (cells, row) in rows.iter().zip(stable) {
         assert_eq!(cells[0], row["label"].as_str().unwrap());
-        assert_eq!(cells[1] == "none", row["largest_safe_step_s"].is_null(), "{cells:?}");
+        assert_eq!(cells[1] == "none", row["largest_stable_step_s"].is_null(), "{cells:?}");
         let beyond = &row["beyond"];
         assert_eq!(cells[4], beyond["class"].as_str().unwrap_or("stable on the whole grid"), "{cells:?}");
         assert!(cells[5].starts_with(beyond["reason"].as_str().unwrap_or("–")), "{cells:?}");

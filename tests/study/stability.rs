@@ -200,7 +200,7 @@ fn newmark_gains_energy_on_the_source_scene_at_every_step() {
     let maps = run(&source(), &grid(&[family]));
     let mut cells = maps.map(family).flat_map(|row| &row.cells);
     assert!(cells.all(|c| matches!(c.class, Class::Gaining | Class::Diverged) && c.measured.is_some()));
-    assert!(maps.own().all(|row| row.safe.as_ref().is_some_and(|safe| safe.step.is_none())));
+    assert!(maps.own().all(|row| row.stable.as_ref().is_some_and(|stable| stable.step.is_none())));
 }
 
 #[test]
@@ -216,8 +216,8 @@ fn moreau_jean_is_stable_at_small_steps_and_neither_gains_energy_nor_passes_a_wa
     let own = maps.own().next().unwrap();
     assert_eq!(own.subject.value, 1.0);
     // The body crosses the gap of 10 mm in some 50 ms.
-    let safe = own.safe.clone().unwrap().step.unwrap();
-    assert!(safe > 1e-2 && safe < 1e-1, "{safe}");
+    let step = own.stable.clone().unwrap().step.unwrap();
+    assert!(step > 1e-2 && step < 1e-1, "{step}");
 }
 
 #[test]

@@ -138,9 +138,9 @@ def chart(made: Chart, quantity: str, ax: Any = None) -> Any:
 
 def stability(made: Stability, ax: Any = None) -> Any:
     """The class of every step, one line per scheme: see `Stability.plot`."""
-    schemes = list(dict.fromkeys(made.safe["scheme"]))
+    schemes = list(dict.fromkeys(made.stable["scheme"]))
     ax = _new(1, 1.2 + 0.35 * len(schemes)) if ax is None else ax
-    values = dict(zip(made.safe["scheme"], made.safe["value"], strict=True))
+    values = dict(zip(made.stable["scheme"], made.stable["value"], strict=True))
     table = made.table
     for name, tone in TONES.items():
         own = [

@@ -263,8 +263,8 @@ class Stability:
     table: Table
     """One row per scheme, parameter and step: ``scheme``, ``parameter`` and its ``value``, ``step_s``,
     ``class`` (stable, dissipative, frozen, another-motion, energy-gaining, diverged) and its ``reason``."""
-    safe: Table
-    """One row per scheme at the scene's own parameters: its largest ``safe_step_s`` (nan: there is
+    stable: Table
+    """One row per scheme at the scene's own parameters: its largest ``stable_step_s`` (nan: there is
     none), and the first failure ``beyond`` it, in words."""
 
     def __repr__(self) -> str:
@@ -306,7 +306,7 @@ def stability(
     per_decade: float | None = None,
     contacts: int | None = None,
 ) -> Stability:
-    """Find where each scheme fails, and its largest safe step. It takes seconds to minutes.
+    """Find where each scheme fails, and its largest stable step. It takes seconds to minutes.
 
     Parameters
     ----------
@@ -336,6 +336,6 @@ def stability(
     True
     """
     contacts = None if contacts is None else whole("contacts", contacts, 1)
-    cells, safe = _core._stability(scene, finest, coarsest, per_decade, contacts)
+    cells, stable = _core._stability(scene, finest, coarsest, per_decade, contacts)
     words = ("scheme", "parameter", "class", "reason", "beyond")
-    return Stability(columns_of(cells, words), columns_of(safe, words))
+    return Stability(columns_of(cells, words), columns_of(stable, words))

@@ -3,7 +3,7 @@
 use super::family::{self, MapRequest, Parameter, SchemeFamily};
 use super::fine_reference::{FineReference, Range};
 use super::recorded_run::{Record, STARTS, nudged, recorded_run};
-use super::row::{Cell, Safe, Subject};
+use super::row::{Cell, StableRange, Subject};
 use super::scale::Scale;
 use crate::error::{Error, Result};
 use crate::interrupt::Carried;
@@ -111,8 +111,8 @@ pub struct Row {
     pub cells: Vec<Cell>,
     /// Number of contacts in its reference runs.
     pub contacts: Range,
-    /// The largest safe step, where the parameter value is the case's own.
-    pub safe: Option<Safe>,
+    /// The largest stable step, where the parameter value is the case's own.
+    pub stable: Option<StableRange>,
 }
 
 /// The maps of a case.
@@ -243,9 +243,9 @@ impl Plan {
         let cells: Vec<Cell> = tasks.into_par_iter().with_max_len(1).map(cell).collect();
         let row = |(i, (subject, ruler)): (usize, &(&Subject, &FineReference))| {
             let cells: Vec<Cell> = cells.iter().skip(i).step_by(ruled.len()).cloned().collect();
-            let find = || Safe::find(subject, &cells, ruler, &self.scale, self.horizon);
-            let safe = subject.own.then(|| interrupt.over(find));
-            Row { subject: (*subject).clone(), cells, contacts: ruler.contacts, safe }
+            let find = || StableRange::find(subject, &cells, ruler, &self.scale, self.horizon);
+            let stable = subject.own.then(|| interrupt.over(find));
+            Row { subject: (*subject).clone(), cells, contacts: ruler.contacts, stable }
         };
         let rows = ruled.par_iter().enumerate().map(row).collect();
         Ok(Maps { scale: self.scale, horizon: self.horizon, steps: self.steps.clone(), rows })

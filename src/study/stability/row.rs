@@ -8,7 +8,7 @@ use super::scale::Scale;
 use crate::scene::Scene;
 use crate::scheme::Scheme;
 
-/// Number of bisections, in the logarithm, of the interval between the last safe step and the next
+/// Number of bisections, in the logarithm, of the interval between the last stable step and the next
 /// one of the grid.
 const BISECTIONS: u32 = 2;
 
@@ -86,9 +86,9 @@ impl Subject {
     }
 }
 
-/// The range of safe steps of a scheme on a scene.
+/// The range of stable steps of a scheme on a scene.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Safe {
+pub struct StableRange {
     /// The largest step that is stable together with all smaller ones of the grid, s; `None` where
     /// the smallest is not stable.
     pub step: Option<f64>,
@@ -96,7 +96,7 @@ pub struct Safe {
     pub beyond: Option<Cell>,
 }
 
-impl Safe {
+impl StableRange {
     /// Finds it from the `cells` of a row, in the order of their steps, and then by bisection.
     #[must_use]
     pub fn find(subject: &Subject, cells: &[Cell], ruler: &FineReference, scale: &Scale, horizon: f64) -> Self {

@@ -1,54 +1,39 @@
 // Stability studies: where each scheme fails, one impact, contacts that last.
 
-/** The tones of the classes of stability, from harmless to worst. */
-const CLASS_TONES = {
-  light: [
-    [214, 232, 224],
-    [159, 199, 226],
-    [120, 120, 160],
-    [240, 200, 90],
-    [226, 120, 40],
-    [110, 20, 20],
-  ],
-  dark: [
-    [38, 66, 58],
-    [40, 90, 130],
-    [120, 120, 170],
-    [200, 160, 50],
-    [226, 120, 40],
-    [250, 210, 205],
-  ],
+/** The tone of a class of stability, that of the maps among the pictures. */
+const classTone = (word) => {
+  const { classes, tones } = DATA.stability;
+  const tone = tones[classes.indexOf(word)] || "#808080";
+  return [1, 3, 5].map((at) => parseInt(tone.slice(at, at + 2), 16));
 };
-const classTone = (word) =>
-  CLASS_TONES[isDark() ? "dark" : "light"][DATA.stability.classes.indexOf(word)] || [128, 128, 128];
 
 /** A class of stability in its tone. */
 const classSwatch = (word) => swatch(word, () => `rgb(${classTone(word)})`);
 
-/** The largest safe step of each scheme, and what happens beyond it. */
-function safeSection() {
-  const { safe, conclusion } = DATA.stability;
-  if (!safe) return;
+/** The largest stable step of each scheme, and what happens beyond it. */
+function stableSteps() {
+  const { steps, conclusion, criterion } = DATA.stability;
+  if (!steps) return;
   const range = (e) =>
     !e ? "–" : e.largest - e.least < 1e-9 ? digits(e.least) : `${digits(e.least, 3)} to ${digits(e.largest, 3)}`;
   const line = (row) => {
-    const { beyond, largest_safe_step_s: step } = row;
+    const { beyond, largest_stable_step_s: step } = row;
     const longest = step ? `${beyond ? "" : "at least "}${prefixed(step, "s")}` : "none";
     return el(
       "tr",
       {},
       el("td", { title: row.scheme }, row.label),
       el("td", { class: step ? null : "none" }, el("b", {}, longest)),
-      el("td", {}, digits(row.largest_safe_step_times_omega, 3)),
+      el("td", {}, digits(row.largest_stable_step_times_omega, 3)),
       el("td", {}, range(row.restitution)),
       el("td", {}, beyond ? classSwatch(beyond.class) : "stable on the whole grid"),
       el("td", {}, beyond ? `${beyond.reason}, at ${prefixed(beyond.step_s, "s")}` : "–"),
     );
   };
-  const head = ["scheme", "largest safe step", "hω", "one free impact", "beyond it", "reason"];
+  const head = ["scheme", "largest stable step", "hω", "one free impact", "beyond it", "reason"];
   section(
-    "safe",
-    "The largest safe step",
+    "steps",
+    "The largest stable step",
     null,
     conclusionOf(conclusion),
     el(
@@ -58,19 +43,19 @@ function safeSection() {
         "table",
         { class: "plain told" },
         el("thead", {}, el("tr", {}, head.map((text) => el("th", { scope: "col" }, text)))),
-        el("tbody", {}, safe.map(line)),
+        el("tbody", {}, steps.map(line)),
       ),
     ),
     el(
       "p",
       { class: "lead" },
-      "With the walls and springs of the case; a step is safe if it is stable together with all smaller ones. One free impact: the restitution that the scheme realises, over all phases of a step; of a penalty at h²k/m = 1.",
+      `With the walls and springs of the case; ${criterion}. One free impact: the restitution that the scheme realises, over all phases of a step; of a penalty at h²k/m = 1.`,
     ),
   );
 }
 
 function stabilitySection() {
-  safeSection();
+  stableSteps();
   const maps = tableOf(DATA.stability.maps);
   const { scheme, parameter, value, step_s: step, reason } = maps.columns;
   const groups = new Map();

@@ -1,17 +1,18 @@
-//! The largest safe step of each scheme on a case, with the reason: the table, and the conclusion
+//! The largest stable step of each scheme on a case, with the reason: the table, and the conclusion
 //! in one sentence, for the terminal and the page of the report.
 
 use super::cheapest::time;
 use super::table::Table;
 use super::work_precision::label;
 use crate::scheme::{Method, Scheme};
+use crate::study::stability::class::{FAST, LOSS, MISCOUNTED};
 use crate::study::stability::impact::ImpactMap;
 use crate::study::stability::plan::{Maps, Row};
 use serde_json::{Value, json};
 
-/// One scheme, with its largest safe step.
+/// One scheme, with its largest stable step.
 #[derive(Debug, Clone)]
-pub struct SafeStep {
+pub struct StableStep {
     scheme: Scheme,
     /// Its name without what the tables of a case share.
     label: String,
@@ -28,19 +29,19 @@ pub struct SafeStep {
     beyond: Option<(f64, &'static str, String)>,
 }
 
-/// The largest safe step of each scheme with the case's own parameters, the largest first.
+/// The largest stable step of each scheme with the case's own parameters, the largest first.
 #[must_use]
-pub fn safe_steps(maps: &Maps, impacts: &[ImpactMap]) -> Vec<SafeStep> {
-    let mut all: Vec<SafeStep> = maps.own().map(|row| safe_step(row, maps, impacts)).collect();
+pub fn stable_steps(maps: &Maps, impacts: &[ImpactMap]) -> Vec<StableStep> {
+    let mut all: Vec<StableStep> = maps.own().map(|row| stable_step(row, maps, impacts)).collect();
     all.sort_by(|a, b| b.step.unwrap_or(0.0).total_cmp(&a.step.unwrap_or(0.0)));
     all
 }
 
-fn safe_step(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> SafeStep {
+fn stable_step(row: &Row, maps: &Maps, impacts: &[ImpactMap]) -> StableStep {
     let scheme = row.subject.scheme;
-    let step = row.safe.as_ref().and_then(|safe| safe.step);
-    let beyond = row.safe.as_ref().and_then(|safe| safe.beyond.as_ref());
-    SafeStep {
+    let step = row.stable.as_ref().and_then(|stable| stable.step);
+    let beyond = row.stable.as_ref().and_then(|stable| stable.beyond.as_ref());
+    StableStep {
         scheme,
         label: label(&Method::new(scheme)),
         step,
@@ -68,13 +69,24 @@ pub(crate) fn range_text((low, high): (f64, f64)) -> String {
     if high - low < 1e-9 { shown(low) } else { format!("{} to {}", shown(low), shown(high)) }
 }
 
-/// What is safe, in one sentence: the largest step of each scheme, of the penalties together.
+/// When a run counts as stable, in one sentence.
 #[must_use]
-pub fn conclusion(steps: &[SafeStep]) -> String {
-    let (penalties, others): (Vec<&SafeStep>, Vec<&SafeStep>) = steps.iter().partition(|one| one.is_penalty());
+pub fn criterion() -> String {
+    format!(
+        "a step is stable where it and all smaller ones of the grid leave the motion of the right kind: no energy \
+         gained at the walls, at most {:.0} % lost per impact beyond restitution, contacts within a factor of \
+         {MISCOUNTED} and speeds within {FAST} of a fine run; that is no accuracy, which chart measures",
+        100.0 * LOSS
+    )
+}
+
+/// What is stable, in one sentence: the largest step of each scheme, of the penalties together.
+#[must_use]
+pub fn conclusion(steps: &[StableStep]) -> String {
+    let (penalties, others): (Vec<&StableStep>, Vec<&StableStep>) = steps.iter().partition(|one| one.is_penalty());
     let mut parts: Vec<String> = Vec::new();
-    let safe: Vec<&SafeStep> = others.iter().copied().filter(|one| one.step.is_some()).collect();
-    for group in safe.chunk_by(|a, b| a.step_text() == b.step_text()) {
+    let stable: Vec<&StableStep> = others.iter().copied().filter(|one| one.step.is_some()).collect();
+    for group in stable.chunk_by(|a, b| a.step_text() == b.step_text()) {
         let names: Vec<&str> = group.iter().map(|one| one.label.as_str()).collect();
         parts.push(format!(
             "{} {}",
@@ -99,23 +111,23 @@ pub fn conclusion(steps: &[SafeStep]) -> String {
     if !none.is_empty() {
         parts.push(format!("none for {}", none.join(" and ")));
     }
-    format!("largest safe step: {}", parts.join(", "))
+    format!("largest stable step: {}", parts.join(", "))
 }
 
 /// The table for the terminal.
 #[must_use]
-pub fn table(steps: &[SafeStep]) -> Table {
-    let headers = ["scheme", "largest safe step (s)", "hω", "h²k_w/m", "one free impact", "beyond it"];
-    Table::new(&headers, steps.iter().map(SafeStep::line).collect())
+pub fn table(steps: &[StableStep]) -> Table {
+    let headers = ["scheme", "largest stable step (s)", "hω", "h²k_w/m", "one free impact", "beyond it"];
+    Table::new(&headers, steps.iter().map(StableStep::line).collect())
 }
 
 /// The rows as JSON.
 #[must_use]
-pub fn rows(steps: &[SafeStep]) -> Value {
-    steps.iter().map(SafeStep::document).collect()
+pub fn rows(steps: &[StableStep]) -> Value {
+    steps.iter().map(StableStep::document).collect()
 }
 
-impl SafeStep {
+impl StableStep {
     fn is_penalty(&self) -> bool {
         matches!(self.scheme, Scheme::Penalty { .. })
     }
@@ -146,8 +158,8 @@ impl SafeStep {
         json!({
             "scheme": self.scheme.to_string(),
             "label": self.label,
-            "largest_safe_step_s": self.step,
-            "largest_safe_step_times_omega": self.by_omega,
+            "largest_stable_step_s": self.step,
+            "largest_stable_step_times_omega": self.by_omega,
             "kappa": self.kappa,
             "restitution": self.restitution.map(|(least, largest)| json!({ "least": least, "largest": largest })),
             "beyond": self.beyond.as_ref().map(|(step, class, reason)| json!({
@@ -161,12 +173,12 @@ impl SafeStep {
 
 #[cfg(test)]
 mod tests {
-    use super::{SafeStep, conclusion};
+    use super::{StableStep, conclusion};
     use crate::scheme::{Integrator, PenaltyLaw, Scheme};
 
-    fn one(scheme: Scheme, label: &str, step: Option<f64>, class: Option<&'static str>) -> SafeStep {
+    fn one(scheme: Scheme, label: &str, step: Option<f64>, class: Option<&'static str>) -> StableStep {
         let beyond = class.map(|class| (1.0, class, "a reason".to_owned()));
-        SafeStep { scheme, label: label.to_owned(), step, by_omega: None, kappa: None, restitution: None, beyond }
+        StableStep { scheme, label: label.to_owned(), step, by_omega: None, kappa: None, restitution: None, beyond }
     }
 
     #[test]
@@ -184,7 +196,7 @@ mod tests {
         ];
         assert_eq!(
             conclusion(&steps),
-            "largest safe step: located and generalized-alpha 72 ms, paoli-schatzman at least 10 ms, penalties 20 µs \
+            "largest stable step: located and generalized-alpha 72 ms, paoli-schatzman at least 10 ms, penalties 20 µs \
              to 50 ms, none for newmark (diverged) and 1 of 3 penalties"
         );
     }
