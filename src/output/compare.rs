@@ -75,7 +75,7 @@ fn with_findings(mut document: Value, case: &Case, comparison: &Comparison, row:
         "horizon_s": row.error.map(|_| comparison.horizon),
         "agrees_until_s": row.agrees_until,
         "largest_displacement_m": run.map(|run| largest(run.trajectory.displacements())),
-        "penetration_m": run.map(|run| penetration(case, run)),
+        "penetration_m": run.map(|run| run.residuals.penetration_m),
         "largest_force_n": run.and_then(largest_force),
         "peak_force_n": run.and_then(|run| peak(case, run)),
         "seconds_per_step": row.step_ns.map(|ns| 1e-9 * ns),
@@ -150,7 +150,7 @@ fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Resul
         ("horizon_s", &|row| digits(row.error.map(|_| comparison.horizon))),
         ("agrees_until_s", &|row| digits(row.agrees_until)),
         ("largest_displacement_m", &|row| digits(ran(row).map(|run| largest(run.trajectory.displacements())))),
-        ("penetration_m", &|row| digits(ran(row).map(|run| penetration(case, run)))),
+        ("penetration_m", &|row| digits(ran(row).map(|run| run.residuals.penetration_m))),
         ("largest_force_N", &|row| digits(ran(row).and_then(largest_force))),
         ("peak_force_N", &|row| digits(ran(row).and_then(|run| peak(case, run)))),
         ("energy_residual", &|row| digits(ran(row).map(|run| run.residuals.energy.residual))),
@@ -187,13 +187,6 @@ fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<
 
 pub(super) fn largest(columns: &[Vec<f64>]) -> f64 {
     columns.iter().flatten().fold(0.0, |a, x| a.max(x.abs()))
-}
-
-/// Deepest position behind a wall or a hole that the scene calls rigid, m.
-pub(super) fn penetration(case: &Case, run: &Run) -> f64 {
-    let rigid =
-        case.scene.walls.iter().map(|wall| wall.law).zip(&run.residuals.depth_m).filter(|(law, _)| law.is_rigid());
-    rigid.fold(0.0, |most, (_, depth)| most.max(*depth))
 }
 
 /// Largest force of all walls and round supports in the window, N: of elastic ones at an instant,

@@ -2,7 +2,7 @@
 //! of all quantities.
 
 use super::cheapest::time;
-use super::compare::{largest, largest_force, peak, penetration};
+use super::compare::{largest, largest_force, peak};
 use super::site::Site;
 use super::table::Table;
 use crate::case::Case;
@@ -19,8 +19,11 @@ const MOST_WALLS: usize = 4;
 /// Widest short table, in characters.
 const WIDEST: usize = 60;
 
-/// A method that passes a rigid wall by this share of the gap does not see it.
-const UNSEEN: f64 = 1.0;
+/// A motion whose error is more than this share of the length is another one.
+const ASTRAY: f64 = 0.5;
+
+/// A penalty that passes a rigid wall by this share of the gap is no wall.
+const TOO_SOFT: f64 = 1.0;
 
 /// The short table: one row per method.
 #[must_use]
@@ -49,7 +52,7 @@ pub fn overview(case: &Case, comparison: &Comparison) -> Table {
 }
 
 /// What the comparison shows, in one sentence: how far each method is from the reference, which
-/// methods do not see the walls, and what half the step changes.
+/// penalties are no walls, and what half the step changes.
 #[must_use]
 pub fn conclusion(case: &Case, comparison: &Comparison, verdicts: &[Option<Verdict>]) -> String {
     let reference = match (&comparison.reference, &comparison.refined) {
@@ -77,10 +80,11 @@ pub fn conclusion(case: &Case, comparison: &Comparison, verdicts: &[Option<Verdi
             continue;
         }
         schemes.push(row.method.scheme);
-        let (name, depth) = (row.method.to_string(), penetration(case, run) / length);
-        parts.push(match (is_refuted(row), depth > UNSEEN) {
+        let (name, depth) = (row.method.to_string(), run.residuals.penetration_m / length);
+        parts.push(match (is_refuted(row), depth > TOO_SOFT) {
             (true, _) => format!("{name} is refuted"),
-            (_, true) => format!("{name} passes the walls by {}: it does not see them", distance(depth)),
+            (_, true) => format!("{name} passes the walls by {}: its springs are too soft for walls", distance(depth)),
+            _ if error > ASTRAY => format!("{name} departs from {reference} by {} {until}", distance(error)),
             _ if parts.is_empty() => format!("{name} keeps to {reference} within {} {until}", distance(error)),
             _ => format!("{name} within {}", distance(error)),
         });
@@ -153,7 +157,7 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
         })
     });
     quantity("max |u| (mm)", &|_, run| format!("{:.4}", 1e3 * largest(run.trajectory.displacements())));
-    quantity("penetration (mm)", &|_, run| short(1e3 * penetration(case, run)));
+    quantity("penetration (mm)", &|_, run| short(1e3 * run.residuals.penetration_m));
     quantity("largest force (N)", &|_, run| force(largest_force(run)));
     // Of rigid impacts, which have an impulse and no finite force, there is none.
     quantity("peak force (N)", &|_, run| force(peak(case, run)));

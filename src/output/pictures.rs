@@ -19,6 +19,10 @@ use crate::step::Contact;
 
 /// Millimetres per metre: the CSV is in SI units, the figures are in millimetres.
 const MM: f64 = 1e3;
+/// Of a contact with a spring that ends within this many rows the peak is drawn: the means of the
+/// rows hide it.
+pub(crate) const FEW_ROWS: f64 = 3.0;
+
 /// A probe that moves by less than this share of the largest motion is drawn as a flat line.
 const STILL: f64 = 1e-9;
 
@@ -248,7 +252,7 @@ impl FigureSet<'_> {
                 Some(peak) if rigid(c) => near(&mut points, middle(c.start), reach)
                     .filter(|point| point.1.abs() > peak)
                     .for_each(|point| point.1 = 0.0),
-                Some(peak) if end - c.start < 3.0 * spacing => {
+                Some(peak) if end - c.start < FEW_ROWS * spacing => {
                     peaks.extend([(c.start, 0.0), (0.5 * (c.start + end), sign * peak), (end, 0.0)]);
                 }
                 Some(_) => {}

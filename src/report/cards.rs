@@ -4,6 +4,7 @@
 //! decide where a change by refinement deserves attention.
 
 use crate::residual::Refuted;
+use crate::run::notes::UNRESOLVED_LOAD;
 use crate::study::verdict::largest_change;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -86,12 +87,13 @@ fn refinement(summary: &Value) -> Option<Value> {
     } else {
         "over the whole run".to_owned()
     };
+    let by = |share: f64| match check["is_gap"] == json!(false) {
+        true => format!("{} m", short(share * number(&check["length_m"]))),
+        false => format!("{} of the gap", percent(share)),
+    };
     let moved = match displacement {
         None => format!("was not compared: the horizon of prediction, {} s, is before the first row", short(horizon)),
-        Some(share) if check["is_gap"] == json!(false) => {
-            format!("changes by {} m {until}", short(share * number(&check["length_m"])))
-        }
-        Some(share) => format!("changes by {} of the gap {until}", percent(share)),
+        Some(share) => format!("changes by {} {until}", by(share)),
     };
     let text = match walls {
         [] => format!("The displacement {moved}."),
@@ -102,10 +104,27 @@ fn refinement(summary: &Value) -> Option<Value> {
         return Some(card("Refinement", State::Bad, verdict, text));
     }
     let how = if check["check"]["half_step"].is_object() { "Half the step" } else { "Other rounding" };
-    let verdict = format!("{how} changes {what} by up to {} of the largest", percent(change));
-    let state =
-        if change <= SMALL && displacement.is_some_and(|share| share <= SMALL) { State::Good } else { State::Mind };
+    // The number that decides stands in the headline.
+    let verdict = match displacement {
+        Some(share) if share > SMALL && share > change => format!("{how} changes the displacement by {}", by(share)),
+        _ if change > 1.0 => format!("{how} makes other {what}: {}", both_largest(places, key)),
+        _ => format!("{how} changes {what} by up to {} of the largest", percent(change)),
+    };
+    let settled = change <= SMALL && displacement.is_some_and(|share| share <= SMALL);
+    let unresolved =
+        list(&summary["notes"]).iter().filter_map(Value::as_str).find(|note| note.starts_with(UNRESOLVED_LOAD));
+    let (state, text) = match unresolved {
+        Some(note) => (State::Mind, format!("{text} But {note}.")),
+        None if settled => (State::Good, text),
+        None => (State::Mind, text),
+    };
     Some(card("Refinement", state, verdict, text))
+}
+
+/// The largest value of each of two runs under `key`, in words.
+fn both_largest(places: &[Value], key: &str) -> String {
+    let largest = |i: usize| places.iter().map(|place| number(&place[key][i]).abs()).fold(0.0, f64::max);
+    format!("the largest is {} and was {}", short(largest(1)), short(largest(0)))
 }
 
 /// The largest work rate over realisations, or without one the largest mean force: its error in
@@ -173,7 +192,11 @@ fn modes(summary: &Value) -> Option<Value> {
         [] if impulse.max(peak) <= SMALL => State::Good,
         [] => State::Mind,
     };
-    let verdict = format!("More modes change impulses by up to {}, peaks by up to {}", percent(impulse), percent(peak));
+    let verdict = format!(
+        "More modes change impulses by up to {} of what they are then, peaks by up to {}",
+        percent(impulse),
+        percent(peak)
+    );
     let text = format!(
         "{} of {} modes are kept; checked with {}.",
         check["modes"][0], check["degrees_of_freedom"], check["modes"][1]
@@ -256,6 +279,12 @@ fn contact(summary: &Value) -> Value {
         short(1e6 * number(&residuals["penetration_m"])),
         short(number(&residuals["tension_n"]))
     );
+    let depth = number(&residuals["penetration_m"]);
+    if broken.is_empty() && depth > 0.0 && summary["scheme"].as_str().is_some_and(|name| name.starts_with("penalty")) {
+        let deep = depth > SMALL * number(&summary["refinement"]["length_m"]);
+        let verdict = format!("The springs in place of rigid walls give way by up to {} µm", short(1e6 * depth));
+        return card("Contact conditions", if deep { State::Mind } else { State::Good }, verdict, text);
+    }
     let kept = format!("Kept, complementarity to {}", short(number(&residuals["complementarity"])));
     judged("Contact conditions", &broken, ("Refuted by the judge", kept), text)
 }

@@ -5,6 +5,7 @@ use super::column::{extremes, f32, f64, i16, u32, words};
 use super::folder::{Cells, Folder, Numbers};
 use super::scene::in_keys;
 use crate::error::{Error, Result};
+use crate::output::pictures::FEW_ROWS;
 use crate::output::shape::{self, BodyStations, Stations};
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -128,13 +129,15 @@ fn episodes(cells: &Cells) -> Result<Value> {
 }
 
 /// The force of each wall, and the magnitude of that of each round support, over the rows, within
-/// contacts of finite force, and 0 elsewhere. An impact has no finite force; its impulse is among
-/// the contacts.
+/// contacts of finite force, and 0 elsewhere; of a contact that a spring pushes for less than
+/// [`FEW_ROWS`] rows the peak. An impact has no finite force; its impulse is among the contacts.
 fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> Result<Vec<Value>> {
     let list = |key: &str| summary["scene"][key].as_array().map_or(&[][..], Vec::as_slice);
     let (walls, supports) = (list("walls"), list("supports"));
     let (start, end) = (contacts.column("start_s")?, contacts.column("end_s")?);
-    let peak = contacts.column("peak_force_N")?;
+    let (peak, impulse) = (contacts.column("peak_force_N")?, contacts.column("impulse_N_s")?);
+    let penalty = summary["scheme"].as_str().is_some_and(|scheme| scheme.starts_with("penalty"));
+    let spacing = time.get(1).copied().unwrap_or(0.0);
     // `motion` has checked the number of columns.
     let from = table.columns.len().saturating_sub(2 * walls.len() + beside(summary));
     let column = |index: usize| table.columns.get(index).map_or(&[][..], Vec::as_slice);
@@ -149,11 +152,20 @@ fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> R
         let name = place["name"].as_str().unwrap_or_default();
         let mut shown = vec![0.0; force.len()];
         let here = (0..peak.len()).filter(|&k| peak[k].is_finite() && contacts.text(k, "wall") == name);
+        let spring = penalty || !place["law"]["stiffness_n_per_m"].is_null();
         let mut any = false;
+        let mut peaks = Vec::new();
         for k in here {
             any = true;
+            if spring && end[k] - start[k] < FEW_ROWS * spacing {
+                let top = peak[k].copysign(impulse[k]);
+                peaks.extend([(start[k], 0.0), (0.5 * (start[k] + end[k]), top), (end[k], 0.0)]);
+                continue;
+            }
+            // A row has the mean since the row before: the first after the end has a share.
             let first = time.partition_point(|&t| t < start[k]);
-            let last = if end[k].is_nan() { time.len() } else { time.partition_point(|&t| t <= end[k]) };
+            let last = if end[k].is_nan() { time.len() } else { time.partition_point(|&t| t < end[k]) + 1 };
+            let last = last.min(time.len());
             if let (Some(to), Some(of)) = (shown.get_mut(first..last), force.get(first..last)) {
                 to.copy_from_slice(of);
             }
@@ -168,8 +180,11 @@ fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> R
         if kept.len() > MOST_ROWS {
             kept = extremes(&[&shown], shown.len(), MOST_ROWS).unwrap_or(kept);
         }
-        let at = |column: &[f64]| kept.iter().filter_map(|&i| column.get(i).copied()).collect::<Vec<_>>();
-        out.push(json!({ "place": name, "time": f64(&at(time)), "force": f32(at(&shown).into_iter()) }));
+        let mut points: Vec<(f64, f64)> = kept.iter().filter_map(|&i| Some((*time.get(i)?, shown[i]))).collect();
+        points.extend(peaks);
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (time, force): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+        out.push(json!({ "place": name, "time": f64(&time), "force": f32(force.into_iter()) }));
     }
     Ok(out)
 }

@@ -67,6 +67,7 @@ pub use energy::Energy;
 pub use finding::{Finding, Refuted};
 pub use recorded::{Momentum, momentum};
 pub use residuals::Residuals;
+pub(crate) use residuals::penetration;
 
 use crate::linear::{Factor, running_max};
 use crate::scene::{Forcing, GridForcing, LastPieces, Loads, Scene, System};

@@ -2,6 +2,7 @@
 
 use super::largest_residual::over;
 use super::{Energy, Judge};
+use crate::scene::Scene;
 #[cfg(doc)]
 use crate::step::Promise;
 use serde::{Deserialize, Serialize};
@@ -21,7 +22,8 @@ pub struct Residuals {
     /// Deepest position behind each wall, then behind each round hole, at the end of a step, m, ≥
     /// 0, in the scene's order.
     pub depth_m: Vec<f64>,
-    /// Deepest position behind a rigid wall or hole, m.
+    /// Deepest position behind a rigid wall or hole, m. In a run by `penalty` behind those that the
+    /// scene calls rigid, whose springs give way.
     pub penetration_m: f64,
     /// Largest force with which a wall pulled, N, ≥ 0.
     pub tension_n: f64,
@@ -48,6 +50,12 @@ pub struct Residuals {
     pub force_scale_n: f64,
 }
 
+/// Deepest position behind a wall that `scene` calls rigid, m, by the depths behind all walls.
+pub(crate) fn penetration(scene: &Scene, depths: &[f64]) -> f64 {
+    let rigid = scene.walls.iter().zip(depths).filter(|(wall, _)| wall.law.is_rigid());
+    rigid.fold(0.0, |most, (_, depth)| most.max(*depth))
+}
+
 impl Judge {
     /// The residuals of the steps so far.
     #[must_use]
@@ -64,8 +72,6 @@ impl Judge {
         let rebounds = self.walls.rebounds.worst(speed_scale, force_scale);
         let balance = over(self.balance.force.value, self.balance_scale());
         let path = over(self.balance.path.value, self.path_scale());
-        let rigid = self.scene.walls.iter().map(|wall| wall.law).zip(&self.walls.depth);
-        let rigid = rigid.filter(|(law, _)| law.is_rigid());
         let supports = self.supports.as_ref().map_or(0.0, |supports| {
             let laws = over(supports.askew.value, force_scale).max(over(supports.struck.value, speed_scale));
             supports.rubs.worst(speed_scale, force_scale).max(laws)
@@ -73,7 +79,7 @@ impl Judge {
         Residuals {
             complementarity: gaps.max(rebounds).max(law).max(supports),
             depth_m: self.walls.depth.clone(),
-            penetration_m: rigid.fold(0.0, |most, (_, depth)| most.max(*depth)),
+            penetration_m: penetration(&self.scene, &self.walls.depth),
             tension_n: self.walls.tension,
             force_balance_n: self.balance.largest,
             force_balance: balance.max(path),

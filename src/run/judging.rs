@@ -1,7 +1,7 @@
 //! Whether a run is judged.
 
-use crate::residual::{Finding, Judge, Residuals};
-use crate::scene::State;
+use crate::residual::{Finding, Judge, Residuals, penetration};
+use crate::scene::{Scene, State};
 use crate::scheme::Stepper;
 use crate::step::{QuietSteps, Step};
 use crate::trajectory::Trajectory;
@@ -31,7 +31,7 @@ pub trait Judging: sealed::Sealed + Debug + Copy {
     #[doc(hidden)]
     fn observe_quiet(judge: &mut Self::Judge, quiet: &QuietSteps);
     #[doc(hidden)]
-    fn verdict(judge: Self::Judge, recorded: Option<&Trajectory>) -> (Self::Verdict, Self::Findings);
+    fn verdict(judge: Self::Judge, recorded: Option<&Trajectory>, scene: &Scene) -> (Self::Verdict, Self::Findings);
     #[doc(hidden)]
     fn residuals(verdict: &Self::Verdict) -> Option<&Residuals>;
     #[doc(hidden)]
@@ -73,7 +73,7 @@ impl Judging for Judged {
         judge.observe_quiet(quiet);
     }
 
-    fn verdict(mut judge: Judge, recorded: Option<&Trajectory>) -> (Residuals, Vec<Finding>) {
+    fn verdict(mut judge: Judge, recorded: Option<&Trajectory>, scene: &Scene) -> (Residuals, Vec<Finding>) {
         if let Some(trajectory) = recorded {
             let sums: Vec<f64> = trajectory.contact_impulses().iter().map(|column| column.iter().sum()).collect();
             judge.hear(&sums);
@@ -81,7 +81,9 @@ impl Judging for Judged {
             let holes: Vec<[f64; 2]> = trajectory.hole_impulses().iter().map(|[y, z]| [sum(y), sum(z)]).collect();
             judge.hear_holes(&holes);
         }
-        (judge.residuals(), judge.findings())
+        let mut residuals = judge.residuals();
+        residuals.penetration_m = penetration(scene, &residuals.depth_m);
+        (residuals, judge.findings())
     }
 
     fn residuals(verdict: &Residuals) -> Option<&Residuals> {
@@ -114,7 +116,7 @@ impl Judging for Unjudged {
 
     fn observe_quiet((): &mut (), _: &QuietSteps) {}
 
-    fn verdict((): (), _: Option<&Trajectory>) -> ((), ()) {
+    fn verdict((): (), _: Option<&Trajectory>, _: &Scene) -> ((), ()) {
         ((), ())
     }
 

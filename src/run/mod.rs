@@ -97,7 +97,7 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), &seen, scene.wall_masses(), from);
     // The rows of a run that diverged end before it does, and do not hold all of its impulses.
     let recorded = R::trajectory(&trajectory).filter(|_| diverged.is_none());
-    let (residuals, mut findings) = J::verdict(judge, recorded);
+    let (residuals, mut findings) = J::verdict(judge, recorded, scene);
     if let Some(part) = R::not_finite(&statistics).filter(|_| diverged.is_none()) {
         J::find(&mut findings, Finding::not_finite(&part, scene.duration));
     }

@@ -7,7 +7,7 @@ mod setup;
 
 #[cfg(feature = "cli")]
 pub(crate) use resting::resting;
-pub(crate) use setup::setup;
+pub(crate) use setup::{UNRESOLVED_LOAD, setup};
 
 use super::finished::Run;
 use super::judging::Judging;

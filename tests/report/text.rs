@@ -85,6 +85,27 @@ fn the_page_of_a_run_holds_its_rows_and_contacts() {
     assert!(manifest.contains("\"report.html\""));
 }
 
+/// Of contacts shorter than the rows each has its peak in the drawing, with the sign of its impulse.
+#[test]
+fn no_pulse_of_a_spring_is_lost_between_rows() {
+    let dir = tempfile::tempdir().unwrap();
+    let penalty = ["--scheme", "penalty", "--epsilon", "1e-12", "--end", "0.5", "--no-verdict", "--out", "o"];
+    said(dir.path(), &[&["run", CASE][..], &penalty].concat(), 0);
+    let folder = dir.path().join("o");
+    let page = data(&fs::read_to_string(folder.join("report.html")).unwrap());
+    let drawn: Vec<(f64, f32)> = page["runs"][0]["forces"].as_array().unwrap().iter().fold(Vec::new(), |all, force| {
+        [all, doubles(&force["time"]).into_iter().zip(singles(&force["force"])).collect()].concat()
+    });
+    let of = |index: usize| column(&folder.join("contacts.csv"), index);
+    let (start, end, impulse, peak) = (of(1), of(2), of(3), of(4));
+    assert!(peak.len() >= 6, "{peak:?}");
+    for k in 0..peak.len() {
+        let top = peak[k].copysign(impulse[k]) as f32;
+        let within = |t: f64| t > start[k] && t < end[k];
+        assert!(drawn.iter().any(|(t, f)| within(*t) && *f == top), "{top} N at {} s: {drawn:?}", start[k]);
+    }
+}
+
 /// Contacts in round supports are contacts: a page that counts those of flat walls alone says 0.
 #[test]
 fn contacts_in_round_supports_are_counted() {

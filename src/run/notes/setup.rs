@@ -102,6 +102,9 @@ fn diagonal(structure: &Structure) -> Option<Vec<(f64, f64)>> {
     Some(squares.into_iter().map(f64::sqrt).zip(structure.stiffness.diagonal_entries()).collect())
 }
 
+/// With this begins the note on a harmonic load that the step does not resolve.
+pub(crate) const UNRESOLVED_LOAD: &str = "a period of load ";
+
 /// A note on a load that changes faster than the step resolves.
 fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<String> {
     let number = index + 1;
@@ -110,7 +113,7 @@ fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<
             let steps = 1.0 / (frequency * step);
             (*amplitude != 0.0 && steps < STEPS_A_PERIOD).then(|| {
                 format!(
-                    "a period of load {number} ({frequency} Hz) takes {steps:.1} steps of {step:.2e} s: fewer \
+                    "{UNRESOLVED_LOAD}{number} ({frequency} Hz) takes {steps:.1} steps of {step:.2e} s: fewer \
                      than {STEPS_A_PERIOD} do not resolve it"
                 )
             })

@@ -298,7 +298,7 @@ impl fmt::Display for Truncation {
         {
             write!(
                 f,
-                " the impulse changes by up to {:.2} % ({} {:?}: {:+.4} to {:+.4} N s)",
+                " the impulse changes by up to {:.2} % of what it is then ({} {:?}: {:+.4} to {:+.4} N s)",
                 100.0 * impulse,
                 at.kind.word(),
                 at.wall,

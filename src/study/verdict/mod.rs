@@ -160,8 +160,8 @@ impl Verdict {
         })
     }
 
-    /// Largest change of a wall's impulse, as a share of the largest impulse at any wall in either
-    /// run; 0 where nothing differs.
+    /// Largest change of a wall's impulse, as a share of the largest impulse at any wall of the run;
+    /// 0 where nothing differs, infinite where the run has no impulse.
     #[must_use]
     pub fn impulse_change(&self) -> f64 {
         largest_change(self.walls.iter().map(|wall| wall.impulse_n_s))
@@ -196,13 +196,13 @@ fn wall_verdicts(scene: &Scene, both: [&Statistics; 2]) -> Vec<WallVerdict> {
     flat.chain(round).collect()
 }
 
-/// Largest change of a value of the run to that of its check, as a share of the largest value in
-/// either, so that a wall that is hardly touched, or in one run only, does not dominate. With one
-/// value this is the change over the larger of the two; 0 where nothing differs.
+/// Largest change of a value of the run to that of its check, as a share of the largest value of
+/// the run, so that a wall that is hardly touched, or in the check only, does not dominate; 0 where
+/// nothing differs, infinite where all values of the run are 0.
 #[must_use]
 pub(crate) fn largest_change(values: impl Iterator<Item = [f64; 2]>) -> f64 {
     let (change, largest) = values.fold((0.0, 0.0), |(change, largest): (f64, f64), [before, after]| {
-        (change.max((after - before).abs()), largest.max(before.abs()).max(after.abs()))
+        (change.max((after - before).abs()), largest.max(before.abs()))
     });
     if change == 0.0 { 0.0 } else { change / largest }
 }

@@ -4,6 +4,9 @@ use super::{Check, Verdict, WallVerdict, WorkRateVerdict};
 use crate::study::horizon::LARGEST_GROWTH;
 use std::fmt;
 
+/// Largest change that is told as a share.
+const MOST_SHARE: f64 = 0.5;
+
 /// Most walls that the text of a verdict names one by one.
 const MOST_NAMED: usize = 4;
 
@@ -84,21 +87,25 @@ impl fmt::Display for WorkRateVerdict {
         let [before, after] = self.work_rate_w;
         match self.half_width_95_w {
             Some(half) if before != after && (after - before).abs() <= half => {
-                write!(f, ", within the run's own interval of ± {:.1e}", half / after.abs())
+                write!(f, ", within the run's own interval of ± {:.1e}", half / before.abs())
             }
             _ => Ok(()),
         }
     }
 }
 
-/// The change of a value in `unit`, as a share of the value after it.
+/// The change of a value in `unit`, as a share of the value before it, which is that of the run;
+/// both values where that share says little.
 fn relative([before, after]: [f64; 2], unit: &str) -> String {
+    let change = (after - before).abs();
     if before == after {
         "unchanged".into()
     } else if after == 0.0 {
         format!("{before:.1e} {unit} → none")
+    } else if change > MOST_SHARE * before.abs() {
+        format!("{before:.1e} → {after:.1e} {unit}")
     } else {
-        format!("{:+.1e} of its value", (after - before) / after.abs())
+        format!("{:+.1e} of its value", (after - before) / before.abs())
     }
 }
 
@@ -134,8 +141,13 @@ mod tests {
         let one_run_only = verdict(&[[-2.0, -2.0], [0.5, 0.0], [0.0, -0.25]]);
         assert!((one_run_only.impulse_change() - 0.25).abs() < 1e-15);
         assert!(one_run_only.to_string().contains("5.0e-1 N s → none"), "{one_run_only}");
-        assert!(verdict(&[[1.0, 0.8]]).to_string().contains("impulse -2.5e-1 of its value"));
+        assert!(verdict(&[[1.0, 0.8]]).to_string().contains("impulse -2.0e-1 of its value"));
         assert!(verdict(&[[0.0, 0.0], [0.0, 0.0]]).impulse_change() == 0.0);
+        // What grows eleven times is neither a loss nor a change by 91 %.
+        let grown = verdict(&[[-0.2595, -2.8587]]);
+        assert!(grown.to_string().contains("impulse -2.6e-1 → -2.9e0 N s"), "{grown}");
+        assert!((grown.impulse_change() - 10.016).abs() < 1e-3);
+        assert!(verdict(&[[0.0, 0.1]]).impulse_change().is_infinite());
         assert!((verdict(&[[1.0, 0.8]]).impulse_change() - 0.2).abs() < 1e-15);
     }
 
@@ -145,9 +157,9 @@ mod tests {
             let support = WorkRateVerdict { support: "plate".to_owned(), work_rate_w, half_width_95_w };
             Verdict { work_rates: vec![support], ..verdict(&[]) }.to_string()
         };
-        assert!(said([0.01, 0.02], Some(0.002)).ends_with("; work rate of support \"plate\" +5.0e-1 of its value"));
+        assert!(said([0.01, 0.015], Some(0.002)).ends_with("; work rate of support \"plate\" +5.0e-1 of its value"));
         let within = said([0.01, 0.0104], Some(0.001));
-        assert!(within.ends_with("+3.8e-2 of its value, within the run's own interval of ± 9.6e-2"), "{within}");
+        assert!(within.ends_with("+4.0e-2 of its value, within the run's own interval of ± 1.0e-1"), "{within}");
         assert!(said([0.01, 0.01], Some(0.001)).ends_with("unchanged"));
         assert!(said([0.01, 0.0], Some(0.1)).contains("1.0e-2 W → none"));
     }
