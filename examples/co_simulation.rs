@@ -46,9 +46,11 @@ impl Actuator {
 /// (N), both means over the step.
 fn advance(body: &mut Stepper, force: f64) -> Result<(f64, f64)> {
     let (mut place, mut impulse) = (0.0, 0.0);
-    for _ in 0..STEPS {
+    // To a time and not for a number of steps, of which some schemes divide one at an impact.
+    let end = body.time() + MACRO * (1.0 - 1e-9);
+    while body.time() < end {
         let step = body.step_with(&[force])?;
-        place += step.q[0] / f64::from(STEPS);
+        place += step.q[0] * (step.end - step.start) / MACRO;
         impulse -= step.impulse[0];
     }
     Ok((place, impulse / MACRO))

@@ -218,7 +218,7 @@ impl Stepper {
     /// Parameters
     /// ----------
     /// time : float
-    ///     s; for a scheme with a step a multiple of it.
+    ///     s; for a scheme with a step a multiple of it, for ``located`` and ``event`` any.
     /// q, v : float or array of shape (degrees of freedom,)
     ///     m, m/s.
     ///

@@ -29,6 +29,23 @@ impl BalanceCheck {
         self.largest = self.largest.max(force);
     }
 
+    /// The largest residuals so far: of a degree of freedom, N, and in the metric of the mass,
+    /// N/√kg.
+    pub fn largest_so_far(&self) -> [f64; 2] {
+        [self.largest, self.force.value]
+    }
+
+    /// Counts the residuals of a part that exceed those `before` it as impulses over the whole step,
+    /// of which the part is this `share`: over a part of nearly no length rounding would be a force.
+    pub fn spread_over_step(&mut self, [largest, force]: [f64; 2], share: f64) {
+        if self.largest > largest {
+            self.largest = largest.max(share * self.largest);
+        }
+        if self.force.value > force {
+            self.force.value = force.max(share * self.force.value);
+        }
+    }
+
     /// Notes the size of a force in the balance, N/√kg.
     #[inline(always)]
     pub fn raise_scale(&mut self, force: f64) {

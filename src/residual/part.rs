@@ -40,12 +40,14 @@ impl Judge {
             self.blows.hide();
             self.contract.promise.rigid.velocity = None;
             self.h = length;
+            let before = self.balance.largest_so_far();
             let rubbed = self.supports.as_mut().map(|supports| supports.friction_over(step));
             let friction = rubbed.as_deref().unwrap_or(step.friction);
             self.observe_grid(&Step { v: step.velocity_after, impulse: &over, friction, ..*step });
             if let (Some(supports), Some(rubbed)) = (&mut self.supports, rubbed) {
                 supports.keep_part(rubbed, step, (length, h));
             }
+            self.balance.spread_over_step(before, length / h);
             (self.contract, self.h) = (own, h);
             self.blows.hide();
         } else {

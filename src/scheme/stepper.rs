@@ -104,7 +104,8 @@ impl Stepper {
     }
 
     /// Advances by one step, or by one part of a step that `located` divides
-    /// ([`Path::Part`](crate::Path::Part)).
+    /// ([`Path::Part`](crate::Path::Part)): a program that advances to a time looks at
+    /// [`Stepper::time`], and does not count calls.
     ///
     /// # Errors
     /// [`Error::Qp`], [`Error::Newton`], [`Error::NotFinite`] or [`Error::TooManyEvents`], with the
@@ -115,7 +116,8 @@ impl Stepper {
     }
 
     /// Advances by one step, or by one part as [`Stepper::step`] does, under an extra force (N, one
-    /// value per degree of freedom), constant over it: for co-simulation with another program.
+    /// value per degree of freedom), constant over it: for co-simulation with another program. In
+    /// all parts of a divided step that of the first acts.
     ///
     /// # Errors
     /// As [`Stepper::step`]; [`Error::Invalid`] for a force of the wrong length or not finite.

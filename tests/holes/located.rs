@@ -16,6 +16,8 @@ use std::f64::consts::{PI, TAU};
 fn made(scene: &Scene, step: f64) -> Run {
     let run = run(scene, &Scheme::Located, &Options::with_step(step)).unwrap_or_else(|error| panic!("{error}"));
     assert!(run.findings.is_empty(), "{:#?}", run.findings);
+    // Also where a part has nearly no length, over which rounding would be a large force.
+    assert!(run.residuals.force_balance < 1e-12, "{:?}", run.residuals);
     run
 }
 

@@ -54,6 +54,32 @@ fn one_step_rules_repeat_their_steps_to_the_last_bit() {
     }
 }
 
+/// A scheme that divides steps goes on within one: set to its own state after every part, it makes
+/// the parts that it makes by itself.
+#[test]
+fn a_divided_step_is_gone_on_with_from_any_of_its_parts() {
+    for (what, scene) in [("oscillator", source(0.5, 0.8)), ("chain", walled_chain())] {
+        let mut stepper = Stepper::new(&scene, &Scheme::Located, H).expect("a scene");
+        let by_itself = go(&mut stepper, 600);
+        let within = |time: f64| (time / H - (time / H).round()).abs() > 1e-3;
+        assert!(by_itself.iter().filter(|(time, ..)| within(*time)).count() > 2, "{what}: no step was divided");
+        let mut other = Stepper::new(&scene, &Scheme::Located, H).expect("a scene");
+        for (number, expected) in by_itself.iter().enumerate() {
+            let (time, state) = (other.time(), other.state());
+            other.set_state(time, &state).expect("a state of its own");
+            assert_eq!((other.time(), other.state()), (time, state), "{what}");
+            let found = go(&mut other, 1).remove(0);
+            // A part after an impact is found from the path of the whole step, or from its own.
+            let close = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-11);
+            assert!((found.0 - expected.0).abs() < 1e-11, "{what}, {number}: {} s, not {}", found.0, expected.0);
+            assert!(
+                close(&found.1.q, &expected.1.q) && close(&found.1.v, &expected.1.v) && close(&found.2, &expected.2),
+                "{what}, {number}: {found:?}, not {expected:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn the_exact_scheme_goes_on_from_any_time() {
     for (what, scene) in [("oscillator", source(0.5, 0.5)), ("chain", walled_chain())] {

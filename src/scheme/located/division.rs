@@ -2,7 +2,7 @@
 
 use super::super::Counters;
 use super::super::body::Body;
-use super::super::frame::{Frame, Stretch};
+use super::super::frame::{Frame, Stretch, step_at};
 use super::super::jumps::Jumps;
 use super::super::position;
 use super::super::programme::failure;
@@ -81,18 +81,24 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         })
     }
 
-    /// Forgets the parts of the current step.
-    pub fn restart(&mut self) {
+    /// Restarts `body` at `time` (s). Within a step its rest is to be made, in parts.
+    pub fn restart(&mut self, body: &mut Body<S>, time: f64) {
+        body.restart(time);
         self.progress = None;
+        if let (index, true) = step_at(time, body.h) {
+            let end = (index + 1) as f64 * body.h;
+            body.load_at(end);
+            self.begin(body, [time, end], None);
+        }
     }
 
-    /// Begins the division of the step of `frame`, whose loads `body` has, with the `first` event
-    /// on its path and the instant of that (s) within it, where the step was computed whole.
-    pub fn begin(&mut self, body: &Body<S>, frame: &Frame<S>, first: Option<(f64, Event)>) {
+    /// Begins the division of the step, or of its rest, between these two times (s), whose loads
+    /// `body` has, with the `first` event on its path and the instant of that (s) within it, where
+    /// the step was computed whole.
+    pub fn begin(&mut self, body: &Body<S>, [start, end]: [f64; 2], first: Option<(f64, Event)>) {
         self.part.load_start.clone_from(body.load_before());
         self.load_end.clone_from(&body.load);
-        self.extra.clone_from(&frame.extra);
-        self.progress = Some(Progress { reached: frame.start, end: frame.end, parts: 0, first });
+        self.progress = Some(Progress { reached: start, end, parts: 0, first });
     }
 
     /// True if a divided step has further parts.
@@ -135,6 +141,9 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
     pub fn make_part(&mut self, body: &mut Body<S>, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Some(mut progress) = self.progress else { return Ok(()) };
         let Progress { reached: from, end, .. } = progress;
+        if progress.parts == 0 {
+            self.extra.clone_from(&frame.extra);
+        }
         (self.parts, progress.parts) = (self.parts + 1, progress.parts + 1);
         frame.take_back_impulses();
         (frame.start, frame.blown) = (from, false);

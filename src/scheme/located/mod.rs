@@ -227,15 +227,14 @@ impl<S: Space> Located<S> {
                 return Ok(());
             }
         }
-        self.division.begin(&self.body, frame, first);
+        self.division.begin(&self.body, [frame.start, frame.end], first);
         self.make_part(step, frame)
     }
 }
 
 impl<S: Space> Rule<S> for Located<S> {
     fn restart(&mut self, _: &Scene, time: f64, _: &Frame<S>) -> Result<()> {
-        self.body.restart(time);
-        self.division.restart();
+        self.division.restart(&mut self.body, time);
         self.clear = false;
         Ok(())
     }

@@ -96,7 +96,7 @@ impl Motion for LocatedPlanar {
             body.theta_momentum(THETA, frame, b);
             let breaks = self.division.has_break(self.frame.start, self.frame.end);
             if breaks || !self.make_whole() {
-                self.division.begin(&self.body, &self.frame, None);
+                self.division.begin(&self.body, [self.frame.start, self.frame.end], None);
                 self.division.make_part(&mut self.body, step, &mut self.frame)?;
             }
         }
@@ -119,8 +119,7 @@ impl Motion for LocatedPlanar {
 
     fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
         self.frame.restart(time, q, v);
-        self.body.restart(time);
-        self.division.restart();
+        self.division.restart(&mut self.body, time);
         self.division.contacts.begin(scene, q, v);
         self.episodes.forget();
         Ok(())

@@ -4,6 +4,7 @@ use super::Stepper;
 use crate::error::{Error, Result};
 use crate::scene::State;
 use crate::scheme::Scheme;
+use crate::scheme::frame::step_at;
 use crate::time::MOST_STEPS;
 
 impl Stepper {
@@ -12,14 +13,17 @@ impl Stepper {
     /// after everything that happened at that instant: a load's impulse at `time` is already part
     /// of it.
     ///
-    /// A scheme on a grid continues from a multiple of its step; the exact scheme from any time.
-    /// `moreau-jean`, `located`, `implicit-euler` and the penalty's other one-step rules then make
+    /// A scheme on a grid continues from a multiple of its step; `located`, which divides steps, and
+    /// the exact scheme from any time. `moreau-jean`, `located`, `implicit-euler` and the penalty's other one-step rules then make
     /// the same steps as if they had reached that state by themselves. `paoli-schatzman`,
     /// `generalized-alpha`, `newmark` and the penalty's `central-difference` carry more than the
     /// state from step to step (accelerations, a velocity half a step back) and restart as at the
     /// beginning; so does a lasting contact of the exact scheme. Contact episodes that have not
     /// ended are dropped. A [`Recorder`](crate::Recorder) or [`Judge`](crate::residual::Judge) that
     /// has seen the steps so far cannot be used for those that follow.
+    ///
+    /// The schemes on a grid do not refuse a state behind a rigid wall, where they may leave a body
+    /// for a step themselves; each moves on from a deeper one in a way of its own.
     ///
     /// The work counters continue. An extra force ([`Stepper::step_with`]) is not part of the
     /// state. The exact scheme is set up again, which for a large structure costs more than a step.
@@ -87,6 +91,9 @@ impl Stepper {
             return Ok(self.index);
         }
         let steps = time / self.step;
+        if self.contract.divides && steps <= MOST_STEPS {
+            return Ok(step_at(time, self.step).0);
+        }
         // Times of steps are products k·h, with the rounding error of k up to 1e10.
         if (steps - steps.round()).abs() > 1e-6 || steps > MOST_STEPS {
             let expected = format!("a multiple of the step, {:?} s, at most 1e10 of them", self.step);
