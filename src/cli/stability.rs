@@ -156,14 +156,23 @@ fn show_contacts(answer: &mut Answer, quality: &Quality) {
         "contact (s)",
     ];
     answer.table(Table::new(&headers, quality.lines.iter().map(contact_cells).collect()), "lasting-contact.csv");
+    answer.remarks(failures(quality));
+}
+
+/// Why runs failed.
+fn failures(quality: &Quality) -> impl Iterator<Item = String> {
+    quality.lines.iter().filter_map(|line| {
+        let error = line.outcome.as_ref().err()?;
+        Some(format!("{}, h = {:.2e} s, failed: {error}", line.scheme, line.step))
+    })
 }
 
 fn contact_cells(line: &LastingForce) -> Vec<String> {
     let mut row = vec![line.scheme.to_string(), format!("{:.2e}", line.step)];
     match &line.outcome {
-        Err(error) => {
+        Err(_) => {
             row.resize(8, "-".to_owned());
-            row.push(format!("failed: {error}"));
+            row.push("failed".to_owned());
         }
         Ok(seen) => {
             row.extend([seen.largest, seen.last, seen.lost_at_walls].map(share));

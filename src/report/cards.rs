@@ -4,7 +4,7 @@
 //! decide where a change by refinement deserves attention.
 
 use crate::residual::Refuted;
-use crate::run::notes::UNRESOLVED_LOAD;
+use crate::run::notes::{NO_CONTACT, UNRESOLVED_LOAD};
 use crate::study::verdict::largest_change;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -65,6 +65,11 @@ fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], Vec::as_slice)
 }
 
+/// The note of a run that begins with `words`.
+fn note<'a>(summary: &'a Value, words: &str) -> Option<&'a str> {
+    list(&summary["notes"]).iter().filter_map(Value::as_str).find(|note| note.starts_with(words))
+}
+
 fn refinement(summary: &Value) -> Option<Value> {
     let check = &summary["refinement"];
     if check.is_null() {
@@ -106,13 +111,14 @@ fn refinement(summary: &Value) -> Option<Value> {
     let how = if check["check"]["half_step"].is_object() { "Half the step" } else { "Other rounding" };
     // The number that decides stands in the headline.
     let verdict = match displacement {
-        Some(share) if share > SMALL && share > change => format!("{how} changes the displacement by {}", by(share)),
+        Some(share) if change == 0.0 || (share > SMALL && share > change) => {
+            format!("{how} changes the displacement by {}", by(share))
+        }
         _ if change > 1.0 => format!("{how} makes other {what}: {}", both_largest(places, key)),
         _ => format!("{how} changes {what} by up to {} of the largest", percent(change)),
     };
     let settled = change <= SMALL && displacement.is_some_and(|share| share <= SMALL);
-    let unresolved =
-        list(&summary["notes"]).iter().filter_map(Value::as_str).find(|note| note.starts_with(UNRESOLVED_LOAD));
+    let unresolved = note(summary, UNRESOLVED_LOAD);
     let (state, text) = match unresolved {
         Some(note) => (State::Mind, format!("{text} But {note}.")),
         None if settled => (State::Good, text),
@@ -274,6 +280,15 @@ fn judged(title: &str, broken: &[String], verdict: (&str, String), text: String)
 fn contact(summary: &Value) -> Value {
     let residuals = &summary["residuals"];
     let broken = broken(summary, Promise::Contact);
+    if let (true, Some(note)) = (broken.is_empty(), note(summary, NO_CONTACT)) {
+        let text = note.trim_start_matches(NO_CONTACT).trim_start_matches([':', ',', ' ']);
+        return card(
+            "Contact conditions",
+            State::Mind,
+            "No contact at all".to_owned(),
+            format!("In this run: {text}."),
+        );
+    }
     let text = format!(
         "Deepest {} µm behind a rigid wall; strongest pull {} N.",
         short(1e6 * number(&residuals["penetration_m"])),

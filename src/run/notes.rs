@@ -6,8 +6,12 @@ mod resting;
 mod setup;
 
 #[cfg(feature = "cli")]
+pub(crate) use approach::NO_CONTACT;
+#[cfg(feature = "cli")]
 pub(crate) use resting::resting;
-pub(crate) use setup::{UNRESOLVED_LOAD, setup};
+#[cfg(feature = "cli")]
+pub(crate) use setup::UNRESOLVED_LOAD;
+pub(crate) use setup::setup;
 
 use super::finished::Run;
 use super::judging::Judging;

@@ -31,7 +31,8 @@ pub struct Growth {
     /// Ends of the exact run's steps, or rows of the perturbed runs, s.
     pub time: Vec<f64>,
     /// Largest singular value of the derivative at these times, or the growth seen, in units of the
-    /// gap scale and the largest speed; at least 1. NaN where perturbed runs have separated
+    /// gap scale and the largest speed, for one degree of freedom that of a free vibration as wide
+    /// as the gap if it is larger; at least 1. NaN where perturbed runs have separated
     /// completely.
     pub factor: Vec<f64>,
     /// How the growth was found.

@@ -78,7 +78,10 @@ impl Growth {
             }
         }
         let (length, speed) = (scene.gap_scale(), if speed > 0.0 { speed } else { 1.0 });
-        let rate = speed / length;
+        // Between far walls the free vibration relates speeds to displacements, not the gap: by the
+        // gap a vibration without contact would grow.
+        let [natural, _] = scene.system.frequencies();
+        let rate = (speed / length).max(natural);
         Ok(Self { time, factor: products.iter().map(|m| norm(m, rate)).collect(), source: Source::Saltation })
     }
 

@@ -73,6 +73,19 @@ fn the_source_scene_is_chaotic_at_e_1_and_forgets_its_start_at_e_08() {
     assert_eq!(settled.horizon(1e2), 10.0);
 }
 
+/// Between walls a thousand times as far as it goes, a vibration is linear: no change grows.
+#[test]
+fn a_vibration_far_from_its_walls_is_predictable_to_the_end() {
+    let mut scene = source(1.0).with_duration(10.0);
+    for (wall, far) in scene.walls.iter_mut().zip([5.0, -5.0]) {
+        *wall = if far > 0.0 { Wall::upper("upper", far) } else { Wall::lower("lower", far) };
+    }
+    let growth = Growth::of(&scene).unwrap();
+    // Φ of a vibration with damping, in units of its own: a turn that shrinks.
+    assert!(growth.until(10.0) < 1.1, "{}", growth.until(10.0));
+    assert_eq!(growth.horizon(1e2), 10.0);
+}
+
 #[test]
 fn a_body_that_came_to_rest_has_forgotten_its_start() {
     let scene = Scene::oscillator(1.0, 0.0, 0.0)

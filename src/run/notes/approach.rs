@@ -3,6 +3,9 @@
 use crate::scene::{Row, Scene, Wall};
 use crate::trajectory::Trajectory;
 
+/// With this begins the note on a run without contact.
+pub(crate) const NO_CONTACT: &str = "no contact at all";
+
 /// The note on a run without contact; `None` where there was a contact, or no wall.
 pub(super) fn untouched(scene: &Scene, trajectory: &Trajectory) -> Option<String> {
     if !trajectory.contacts().is_empty() {
@@ -19,11 +22,11 @@ pub(super) fn untouched(scene: &Scene, trajectory: &Trajectory) -> Option<String
         Some((wall, wall.gap(wall.row().dot(&scene.initial.q)), gaps.reduce(f64::min)?))
     });
     let Some((wall, start, nearest)) = seen.min_by(|a, b| (a.2 / a.1).total_cmp(&(b.2 / b.1))) else {
-        return Some("no contact at all, with any wall".into());
+        return Some(format!("{NO_CONTACT}, with any wall"));
     };
     let covered = if start > 0.0 { 100.0 * (1.0 - nearest / start) } else { 0.0 };
     Some(format!(
-        "no contact at all: nearest, the body stays {nearest:.3e} m from the wall {:?}, having covered \
+        "{NO_CONTACT}: nearest, the body stays {nearest:.3e} m from the wall {:?}, having covered \
          {covered:.2} % of the {start:.3e} m at the start; positions and gaps are in m",
         wall.name
     ))
@@ -45,10 +48,10 @@ fn within(scene: &Scene, trajectory: &Trajectory) -> Option<String> {
     let farthest = seen.max_by(|a, b| (a.1 / a.0.gap).total_cmp(&(b.1 / b.0.gap)));
     match farthest {
         Some((hole, far)) => Some(format!(
-            "no contact at all: the body stays within {far:.3e} m of the centre of the round support {:?}, whose gap \
+            "{NO_CONTACT}: the body stays within {far:.3e} m of the centre of the round support {:?}, whose gap \
              is {:.3e} m; positions and gaps are in m",
             hole.name, hole.gap
         )),
-        None => scene.holes().next().map(|_| "no contact at all, with any support".to_owned()),
+        None => scene.holes().next().map(|_| format!("{NO_CONTACT}, with any support")),
     }
 }

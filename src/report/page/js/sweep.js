@@ -148,9 +148,21 @@ function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
     drawOthers(ctx, plot);
     const y = samples.columns[choice.name];
     const size = at.length > 2e4 ? 1 : 1.6;
+    const shown = (i) => at[i] !== undefined && Number.isFinite(y[i]);
+    const pixel = (i) => `${Math.round(plot.sx(axis[at[i]]))} ${Math.round(plot.sy(y[i]))}`;
+    // Where instants of both directions meet, the one drawn last would hide the other.
+    const pixels = { up: new Set(), down: new Set() };
+    if (bothDirections(directions)) {
+      for (let i = 0; i < at.length; i++) if (shown(i)) pixels[directions[at[i]]].add(pixel(i));
+    }
+    const colour = (i) => {
+      const direction = directions && directions[at[i]];
+      const meets = pixels.up.size && pixels[direction === "up" ? "down" : "up"].has(pixel(i));
+      return meets ? ink.ink : directionColour(direction);
+    };
     for (let i = 0; i < at.length; i++) {
-      if (at[i] === undefined || !Number.isFinite(y[i])) continue;
-      ctx.fillStyle = directionColour(directions && directions[at[i]]);
+      if (!shown(i)) continue;
+      ctx.fillStyle = colour(i);
       ctx.fillRect(plot.sx(axis[at[i]]) - size / 2, plot.sy(y[i]) - size / 2, size, size);
     }
   };
@@ -181,6 +193,7 @@ function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
       columnChoice("Quantity", names, choice, fill),
       button("All values", () => view.set(...view.full), "Whole range"),
       bothDirections(directions) ? directionKeys() : null,
+      bothDirections(directions) ? swatch("up and down", () => ink.ink) : null,
       others ? overKey(over) : null,
       el("span", { class: "right help" }, "drag to zoom · double click for all"),
     ),
