@@ -336,8 +336,8 @@ impl Run {
 
     /// The contact episodes as a structured array with the fields ``wall`` (name), ``start`` and
     /// ``end`` (s), ``impulse`` (N s), ``peak_force`` (N), ``approach_speed`` and
-    /// ``departure_speed`` (m/s); with supports also ``angle`` (degrees, where around the support it
-    /// began), ``work`` (of wear, J) and ``sliding`` (m). nan where there is no value.
+    /// ``departure_speed`` (m/s); with supports also ``angle`` (degrees, where around the support
+    /// it began), ``work`` (of wear, J) and ``sliding`` (m). nan where there is no value.
     #[getter]
     fn contacts<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::by_python(slf, "contacts")

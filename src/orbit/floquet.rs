@@ -147,9 +147,10 @@ impl Problem {
         }
     }
 
-    /// How far roundings move the end of a run over one period of `whole`, an orbit that is not told
-    /// by half: the larger of displacement and velocity in the scales of the problem, for roundings
-    /// of the size 1 relative to what is rounded; to be multiplied by the unit in the last place.
+    /// How far roundings move the end of a run over one period of `whole`, an orbit that is not
+    /// told by half: the larger of displacement and velocity in the scales of the problem, for
+    /// roundings of the size 1 relative to what is rounded; to be multiplied by the unit in the
+    /// last place.
     ///
     /// The run begins and ends within the flight after event number `last`, whose derivative until
     /// then is `propagator`. Rounded at each event are the state, relative to the scales, and the

@@ -92,17 +92,23 @@ fn refinement(summary: &Value) -> Option<Value> {
     } else {
         "over the whole run".to_owned()
     };
-    let by = |share: f64| match check["is_gap"] == json!(false) {
-        true => format!("{} m", short(share * number(&check["length_m"]))),
-        false => format!("{} of the gap", percent(share)),
+    let by = |share: f64| {
+        let length = number(&check["length_m"]);
+        if check["is_gap"] == json!(false) {
+            format!("{} m", short(share * length))
+        } else {
+            format!("{} of the gap", percent(share))
+        }
     };
     let moved = match displacement {
         None => format!("was not compared: the horizon of prediction, {} s, is before the first row", short(horizon)),
         Some(share) => format!("changes by {} {until}", by(share)),
     };
+    let changed =
+        if change > 1.0 { both_largest(places, key) } else { format!("by up to {} of the largest", percent(change)) };
     let text = match walls {
-        [] => format!("The displacement {moved}."),
-        [..] => format!("Contacts {} → {}; the displacement {moved}.", contacts[0], contacts[1]),
+        [] => format!("The displacement {moved}; {what}: {changed}."),
+        [..] => format!("Contacts {} → {}; the displacement {moved}; {what}: {changed}.", contacts[0], contacts[1]),
     };
     if !list(&check["findings"]).is_empty() {
         let verdict = "The run it was checked against is refuted".to_owned();
@@ -114,12 +120,10 @@ fn refinement(summary: &Value) -> Option<Value> {
         Some(share) if change == 0.0 || (share > SMALL && share > change) => {
             format!("{how} changes the displacement by {}", by(share))
         }
-        _ if change > 1.0 => format!("{how} makes other {what}: {}", both_largest(places, key)),
-        _ => format!("{how} changes {what} by up to {} of the largest", percent(change)),
+        _ => format!("{how} changes {what}: {changed}"),
     };
     let settled = change <= SMALL && displacement.is_some_and(|share| share <= SMALL);
-    let unresolved = note(summary, UNRESOLVED_LOAD);
-    let (state, text) = match unresolved {
+    let (state, text) = match note(summary, UNRESOLVED_LOAD) {
         Some(note) => (State::Mind, format!("{text} But {note}.")),
         None if settled => (State::Good, text),
         None => (State::Mind, text),

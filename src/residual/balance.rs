@@ -35,8 +35,9 @@ impl BalanceCheck {
         [self.largest, self.force.value]
     }
 
-    /// Counts the residuals of a part that exceed those `before` it as impulses over the whole step,
-    /// of which the part is this `share`: over a part of nearly no length rounding would be a force.
+    /// Counts the residuals of a part that exceed those `before` it as impulses over the whole
+    /// step, of which the part is this `share`: over a part of nearly no length rounding would be a
+    /// force.
     pub fn spread_over_step(&mut self, [largest, force]: [f64; 2], share: f64) {
         if self.largest > largest {
             self.largest = largest.max(share * self.largest);

@@ -393,8 +393,8 @@ fn newton_reaches_orbits_with_large_multipliers_from_three_per_cent_away() {
 }
 
 /// Two frequencies without a common divisor near them: an orbit of 10 s with 70 impacts, whose
-/// multipliers are far below 1 and which lets roundings grow a thousandfold on the way. Its free run
-/// misses its start by 6e-9 of the gap; a change of its start by 1e-5 is more than that.
+/// multipliers are far below 1 and which lets roundings grow a thousandfold on the way. Its free
+/// run misses its start by 6e-9 of the gap; a change of its start by 1e-5 is more than that.
 #[test]
 fn a_long_orbit_closes_to_what_its_impacts_make_of_rounding() {
     let scene = Scene::oscillator(1.0, 0.2, 100.0)

@@ -85,7 +85,8 @@ fn the_page_of_a_run_holds_its_rows_and_contacts() {
     assert!(manifest.contains("\"report.html\""));
 }
 
-/// Of contacts shorter than the rows each has its peak in the drawing, with the sign of its impulse.
+/// Of contacts shorter than the rows each has its peak in the drawing, with the sign of its
+/// impulse.
 #[test]
 fn no_pulse_of_a_spring_is_lost_between_rows() {
     let dir = tempfile::tempdir().unwrap();

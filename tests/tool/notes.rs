@@ -51,6 +51,13 @@ fn a_table_that_ends_or_begins_inside_the_run_is_said() {
 }
 
 #[test]
+fn a_phase_that_looks_like_degrees_is_said() {
+    let turned = |phase: f64| notes(&scene().with_load(Load::harmonic(1.0, 5.0, phase)), &MOREAU, 1e-3);
+    assert!(turned(90.0).contains("the phase of load 2, 90 rad, is more than a turn"), "{}", turned(90.0));
+    assert_eq!(turned(-std::f64::consts::TAU), "");
+}
+
+#[test]
 fn a_step_that_passes_over_the_load_is_said() {
     let buzz = scene().with_load(Load::harmonic(1.0, 400.0, 0.0));
     let said = notes(&buzz, &MOREAU, 1e-3);

@@ -20,6 +20,7 @@ const USUAL: [f64; 2] = [1e-2, 1e5];
 /// Notes on `scene` run by `scheme` in steps of `step` seconds.
 pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
     let mut notes: Vec<String> = scene.loads.iter().enumerate().filter_map(|(i, load)| span(scene, i, load)).collect();
+    notes.extend(scene.loads.iter().enumerate().filter_map(|(i, load)| turned(i, load)));
     notes.extend(unusual(scene));
     notes.extend(unstable(scene));
     if !scheme.is_exact() {
@@ -43,6 +44,15 @@ fn span(scene: &Scene, index: usize, load: &Load) -> Option<String> {
         ));
     }
     (first > 0.0 && starts).then(|| format!("the table of load {number} begins at {first} s: before, its force is 0"))
+}
+
+/// A note on a harmonic load whose phase suggests degrees.
+fn turned(index: usize, load: &Load) -> Option<String> {
+    let LoadKind::Harmonic { phase, .. } = load.kind else { return None };
+    let number = index + 1;
+    (phase.abs() > TAU * (1.0 + 1e-9)).then(|| {
+        format!("the phase of load {number}, {phase} rad, is more than a turn: a phase in degrees is to be times π/180")
+    })
 }
 
 /// A note on natural frequencies that suggest a wrong unit.

@@ -13,14 +13,15 @@ impl Stepper {
     /// after everything that happened at that instant: a load's impulse at `time` is already part
     /// of it.
     ///
-    /// A scheme on a grid continues from a multiple of its step; `located`, which divides steps, and
-    /// the exact scheme from any time. `moreau-jean`, `located`, `implicit-euler` and the penalty's other one-step rules then make
-    /// the same steps as if they had reached that state by themselves. `paoli-schatzman`,
-    /// `generalized-alpha`, `newmark` and the penalty's `central-difference` carry more than the
-    /// state from step to step (accelerations, a velocity half a step back) and restart as at the
-    /// beginning; so does a lasting contact of the exact scheme. Contact episodes that have not
-    /// ended are dropped. A [`Recorder`](crate::Recorder) or [`Judge`](crate::residual::Judge) that
-    /// has seen the steps so far cannot be used for those that follow.
+    /// A scheme on a grid continues from a multiple of its step; `located`, which divides steps,
+    /// and the exact scheme from any time. `moreau-jean`, `located`, `implicit-euler` and the
+    /// penalty's other one-step rules then make the same steps as if they had reached that state by
+    /// themselves. `paoli-schatzman`, `generalized-alpha`, `newmark` and the penalty's
+    /// `central-difference` carry more than the state from step to step (accelerations, a velocity
+    /// half a step back) and restart as at the beginning; so does a lasting contact of the exact
+    /// scheme. Contact episodes that have not ended are dropped. A [`Recorder`](crate::Recorder) or
+    /// [`Judge`](crate::residual::Judge) that has seen the steps so far cannot be used for those
+    /// that follow.
     ///
     /// The schemes on a grid do not refuse a state behind a rigid wall, where they may leave a body
     /// for a step themselves; each moves on from a deeper one in a way of its own.

@@ -8,8 +8,8 @@ use super::scale::Scale;
 use crate::scene::Scene;
 use crate::scheme::Scheme;
 
-/// Number of bisections, in the logarithm, of the interval between the last stable step and the next
-/// one of the grid.
+/// Number of bisections, in the logarithm, of the interval between the last stable step and the
+/// next one of the grid.
 const BISECTIONS: u32 = 2;
 
 /// One run of a map.

@@ -160,8 +160,8 @@ impl Verdict {
         })
     }
 
-    /// Largest change of a wall's impulse, as a share of the largest impulse at any wall of the run;
-    /// 0 where nothing differs, infinite where the run has no impulse.
+    /// Largest change of a wall's impulse, as a share of the largest impulse at any wall of the
+    /// run; 0 where nothing differs, infinite where the run has no impulse.
     #[must_use]
     pub fn impulse_change(&self) -> f64 {
         largest_change(self.walls.iter().map(|wall| wall.impulse_n_s))
