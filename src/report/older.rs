@@ -4,8 +4,8 @@
 use serde_json::{Value, json};
 
 /// What is said of a stability study without the list of largest stable steps.
-pub(super) const WITHOUT_STABLE_STEPS: &str = "the largest stable step of each scheme is missing: an older version wrote this \
-     folder. The same study again has it";
+pub(super) const WITHOUT_STABLE_STEPS: &str = "the largest stable step of each scheme is missing: an \
+     older version wrote this folder. The same study again has it";
 
 /// Gives the walls of a run's `summary` their `largest_force` where an older version left that out:
 /// of an elastic wall the largest force of its contacts, of a rigid one the largest mean over a
