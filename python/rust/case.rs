@@ -3,6 +3,7 @@
 use crate::error::{ResultWarning, raise, wrong};
 use crate::json::loads;
 use crate::origin::Origin;
+use crate::pickle::{Reduced, State, pickled, unpickled};
 use crate::place::Model;
 use crate::plan::Plan;
 use crate::run::Run;
@@ -250,6 +251,15 @@ impl Case {
     /// The same as a mapping.
     fn _fluid_elastic<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         loads(py, &serde_json::json!(self.case.fluid_elastic).to_string())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py, State<'py>>> {
+        Ok((slf.get_type().getattr("_restore")?, pickled(slf.py(), &slf.get().file)?))
+    }
+
+    #[staticmethod]
+    fn _restore(py: Python<'_>, version: &str, bytes: &[u8]) -> PyResult<Self> {
+        built(py, unpickled(version, bytes)?)
     }
 
     fn __repr__(&self) -> String {

@@ -1,5 +1,7 @@
 """Cases made in Python are those of case files, to the last bit."""
 
+import copy
+import pickle
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -26,6 +28,21 @@ TUBE: dict[str, Any] = {
     "statistics_from": 1.0,
 }
 LOADS = [sg.Load.random(rms=3.0, band=(1.0, 100.0), seed=1, at=x, direction="both") for x in (0.5, 2.3)]
+
+
+
+def test_a_case_goes_to_another_process_with_its_files(tmp_path: Path) -> None:
+    (tmp_path / "push.csv").write_text("time_s,force_N\n0.0,0.0\n0.1,5.0\n0.2,0.0\n")
+    (tmp_path / "pushed.toml").write_text(
+        "[system.oscillator]\nmass = 1.0\ndamping = 0.2\nstiffness = 100.0\n[[wall]]\nname = 'stop'\nside = 'upper'\n"
+        "position = 5e-3\nrestitution = 0.5\n[[load]]\ntable = { file = 'push.csv' }\n[time]\nend = 0.2\nstep = 1e-3\n"
+    )
+    case = sg.load(tmp_path / "pushed.toml", set={"wall.stop.position": 4e-3})
+    packed = pickle.dumps(case)
+    (tmp_path / "push.csv").unlink()
+    for again in (pickle.loads(packed), copy.deepcopy(case)):
+        assert (again.name, again.text) == (case.name, case.text) and again.scene == case.scene
+        assert again.run().contacts.tobytes() == case.run().contacts.tobytes()
 
 
 def tube(**other: Any) -> sg.Case:

@@ -6,6 +6,7 @@ use super::report::Source;
 use super::text::{MOST_CASE_BYTES, MOST_TABLE_BYTES, read_text};
 use super::{Embedded, changes, summary};
 use crate::error::{Error, Result, escaped, nearest};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -257,6 +258,33 @@ impl CaseFile {
 impl PartialEq for CaseFile {
     fn eq(&self, other: &Self) -> bool {
         self.table().ok() == other.table().ok()
+    }
+}
+
+/// What goes to another process or machine: the text with its changes, and the files read so far, of
+/// which a built case has read all.
+#[derive(Serialize, Deserialize)]
+struct Packed {
+    shown: String,
+    text: String,
+    changes: Vec<String>,
+    read: BTreeMap<String, (String, String)>,
+}
+
+impl Serialize for CaseFile {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let text = self.text().map_err(serde::ser::Error::custom)?;
+        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        Packed { shown: self.shown.clone(), text, changes: self.changes.clone(), read }.serialize(serializer)
+    }
+}
+
+/// Files that it had not read are looked for in the working folder.
+impl<'de> Deserialize<'de> for CaseFile {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        let Packed { shown, text, changes, read } = Packed::deserialize(deserializer)?;
+        let file = Self::new(&text, &shown, Files::In(PathBuf::new()));
+        Ok(Self { changes, read: Arc::new(Mutex::new(read)), ..file })
     }
 }
 
