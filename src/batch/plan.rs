@@ -39,8 +39,8 @@ impl Plan {
     ///
     /// # Errors
     /// [`Error::Invalid`] for an invalid oscillator, a window without a period, instructions that
-    /// this machine does not have, more states than its memory holds. The error of an oscillator that could not be computed is in its
-    /// place of [`Batch::outcomes`].
+    /// this machine does not have, more states than its memory holds. The error of an oscillator
+    /// that could not be computed is in its place of [`Batch::outcomes`].
     pub fn run(&self, lanes: &[Lane]) -> Result<Batch> {
         self.width.check()?;
         if self.keep == 0 {

@@ -206,8 +206,8 @@ impl Symmetric {
         Self { starts, columns, values }
     }
 
-    /// Adds `scale` · A x to `out`; both of length n. Others are left as they are, and a debug build
-    /// panics.
+    /// Adds `scale` · A x to `out`; both of length n. Others are left as they are, and a debug
+    /// build panics.
     pub fn add_product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         let n = self.size();
         debug_assert_eq!((x.len(), out.len()), (n, n));

@@ -69,8 +69,8 @@ impl<J: Judging, R: Recording> Run<J, R> {
         (!findings.is_empty()).then(|| Error::Refuted { runs: vec![format!("{}: {text}", self.scheme)] })
     }
 
-    /// The run, unless the judge has findings, which every caller should ask for. It says nothing of
-    /// [`Run::cautions`], nor of the error of the step, and nothing at all of a run that was not
+    /// The run, unless the judge has findings, which every caller should ask for. It says nothing
+    /// of [`Run::cautions`], nor of the error of the step, and nothing at all of a run that was not
     /// judged.
     ///
     /// # Errors

@@ -59,7 +59,8 @@ use std::time::Instant;
 ///
 /// # Errors
 /// [`crate::Error::Invalid`] for an invalid request, and what [`Stepper::step`] reports, apart from
-/// a state that is not finite; [`crate::Error::Diverged`] for a run that diverges and is not judged.
+/// a state that is not finite; [`crate::Error::Diverged`] for a run that diverges and is not
+/// judged.
 pub fn run<J: Judging, R: Recording>(
     scene: &Scene,
     method: &(impl Copy + Into<Method>),

@@ -7,8 +7,8 @@ use crate::linear::Symmetric;
 /// √|aᵢᵢ aⱼⱼ|.
 const SYMMETRIC: f64 = 1e-12;
 
-/// True if two entries that mirror each other are the same but for rounding, with the two `diagonal`
-/// entries of their rows.
+/// True if two entries that mirror each other are the same but for rounding, with the two
+/// `diagonal` entries of their rows.
 pub(super) fn agree([a, b]: [f64; 2], diagonal: [f64; 2]) -> bool {
     let scale = (diagonal[0] * diagonal[1]).abs().sqrt();
     (a - b).abs() <= SYMMETRIC * a.abs().max(b.abs()).max(scale)

@@ -73,10 +73,9 @@ impl SceneTangent {
     /// `build` makes of values near this one.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where the scenes do not depend on the value, or not smoothly, or by friction
-    /// alone: another
-    /// number of walls or loads, another instant of a row of a table, a blow at the start
-    /// that moves, another duration; errors of `build`.
+    /// [`Error::Invalid`] where the scenes do not depend on the value, or by friction alone, or
+    /// not smoothly: another number of walls or loads, another instant of a row of a table, a blow
+    /// at the start that moves, another duration; errors of `build`.
     pub fn new(name: &str, value: f64, mut build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
         let (mut best, mut differs): (Option<Self>, _) = (None, false);
         for apart in SPACINGS {
