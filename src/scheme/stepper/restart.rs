@@ -44,9 +44,9 @@ impl Stepper {
     ///
     /// # Errors
     /// [`Error::Invalid`] for a time that is negative, not finite, more than 1e10 steps or no
-    /// multiple of the step of a scheme on a grid, a state of the wrong length or not finite, or for
-    /// the exact scheme one behind a rigid wall or outside of a round hole. The stepper is then as
-    /// it was.
+    /// multiple of the step of a scheme on a grid, a state of the wrong length or not finite, or
+    /// for the exact scheme one behind a rigid wall or outside of a round hole. The stepper is
+    /// then as it was.
     pub fn set_state(&mut self, time: f64, state: &State) -> Result<()> {
         let exact = self.scheme == Scheme::Event;
         let index = self.index_at(time, exact)?;
