@@ -7,7 +7,7 @@
 //! impulse has one, and so has the force averaged over a stated time: here the impulse between two
 //! rows, 1 ms apart, divided by that time.
 
-use signorini::{Beam, BeamEnd, BeamSection, Damping, Load, Options, Probe, Result, Scene, Scheme, Wall, run};
+use signorini::{Beam, BeamEnd, BeamSection, Damping, Load, Options, Result, Scene, Scheme, Wall, run};
 
 /// Spacing of the rows, s, over which the force is averaged.
 const WINDOW: f64 = 1e-3;
@@ -31,15 +31,15 @@ fn main() -> Result<()> {
         let at = tube.at(position)?;
         let upper = Wall::upper(&format!("{name}-upper"), 2e-4).with_restitution(0.5);
         let lower = Wall::lower(&format!("{name}-lower"), -2e-4).with_restitution(0.5);
-        scene = scene.with_wall(upper.at(at.clone())).with_wall(lower.at(at.clone()));
-        scene.probes.push(Probe { name: name.to_owned(), at });
+        scene = scene.with_wall(upper.at(at.clone())).with_wall(lower.at(at.clone())).with_probe(name, at);
     }
     let scene = scene.with_load(Load { at: tube.at(0.5)?, ..Load::harmonic(10.0, 25.0, 0.0) });
 
     // Twenty modes, each with 1 % of critical damping. The share of the mass at each wall that
     // these keep is reported.
     let cut = scene.reduced(20, false)?.with_damping(&Damping::Modal(vec![0.01]))?;
-    let run = run(&cut.scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(5e-5).with_sample(WINDOW))?;
+    let run = run(&cut.scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(5e-5).with_sample(WINDOW))?
+        .unrefuted()?;
 
     let trajectory = &run.trajectory;
     let (displacement, _) = trajectory.probe("first")?;

@@ -48,7 +48,8 @@ impl TimeOptions {
         Self::SECTORS
     }
 
-    /// Steps of `step` seconds, all of them recorded, and statistics from the start.
+    /// Steps of `step` seconds, all of them recorded, and statistics from the start. The exact
+    /// scheme, which has no such step, records 1000 intervals, unless `sample` says otherwise.
     #[must_use]
     pub fn with_step(step: f64) -> Self {
         Self {

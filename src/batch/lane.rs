@@ -1,7 +1,7 @@
 //! One oscillator of a batch.
 
 use crate::error::{Error, Result};
-use crate::scene::{Load, LoadKind, Oscillator, Row, Scene, Side, System, Wall, WallLaw};
+use crate::scene::{Load, LoadKind, Oscillator, Row, Scene, Side, System, Wall, WallLaw, positive};
 use crate::scheme::check_exact;
 use std::f64::consts::TAU;
 
@@ -78,6 +78,7 @@ impl Lane {
     /// that does not have an integer number of periods in `period`.
     pub fn of(scene: &Scene, period: f64) -> Result<Self> {
         scene.validate()?;
+        positive("period", period)?;
         check_exact(scene, "a lane of a batch")?;
         let System::Oscillator(body) = scene.system else {
             let found = format!("{} degrees of freedom", scene.system.degrees_of_freedom());
@@ -138,9 +139,7 @@ impl Lane {
     /// # Errors
     /// [`Error::Invalid`] for the first invalid value.
     pub fn validate(&self) -> Result<()> {
-        if !(self.period.is_finite() && self.period > 0.0) {
-            return Err(Error::invalid("period", format_args!("{:?}", self.period), "a finite number above 0, s"));
-        }
+        positive("period", self.period)?;
         if let Some((index, _)) = self.sines.iter().enumerate().find(|(_, sine)| sine.multiple == 0) {
             return Err(Error::invalid(format!("sine {}: multiple", index + 1), 0, "1 or more"));
         }

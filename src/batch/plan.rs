@@ -39,8 +39,8 @@ impl Plan {
     ///
     /// # Errors
     /// [`Error::Invalid`] for an invalid oscillator, a window without a period, instructions that
-    /// this machine does not have. The error of an oscillator that could not be computed is in its
-    /// place of [`Batch::outcomes`].
+    /// this machine does not have, more states than its memory holds. The error of an oscillator
+    /// that could not be computed is in its place of [`Batch::outcomes`].
     pub fn run(&self, lanes: &[Lane]) -> Result<Batch> {
         self.width.check()?;
         if self.keep == 0 {
@@ -63,7 +63,7 @@ impl Plan {
                 other => other,
             })?;
         }
-        let mut strobes = vec![[f64::NAN; 2]; strobes];
+        let mut strobes = room(strobes)?;
         let mut outcomes: Vec<Option<Result<Outcome>>> = vec![None; lanes.len()];
         let shares = lanes.chunks(SHARE).zip(outcomes.chunks_mut(SHARE)).zip(strobes.chunks_mut(SHARE * keep));
         let queue = Mutex::new(shares);
@@ -86,5 +86,32 @@ impl Plan {
         let missed = || Err(Error::invalid("oscillator", "not followed", "an outcome"));
         let outcomes = outcomes.into_iter().map(|outcome| outcome.unwrap_or_else(missed)).collect();
         Ok(Batch { keep, strobes, outcomes })
+    }
+}
+
+/// As many states, not computed yet, where there is memory for them.
+fn room(count: usize) -> Result<Vec<[f64; 2]>> {
+    let mut states = Vec::new();
+    if states.try_reserve_exact(count).is_err() {
+        let found = format!("{count:e}, of 16 bytes each");
+        return Err(Error::invalid(
+            "strobes",
+            found,
+            "as many as there is memory for: fewer periods kept, or oscillators",
+        ));
+    }
+    states.resize(count, [f64::NAN; 2]);
+    Ok(states)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_beyond_all_memory_are_refused() {
+        let refused = room(1 << 60).unwrap_err();
+        assert!(refused.is_request() && refused.to_string().starts_with("strobes is 1."), "{refused}");
+        assert_eq!(room(3).map(|states| states.len()), Ok(3));
     }
 }

@@ -92,7 +92,8 @@ impl Builder<'_> {
         k: usize,
     ) -> Result<Vec<f64>> {
         let Some(value) = value else { return Ok(vec![plain; k]) };
-        let (key, subject) = (format!("{}.modal.{name}", self.owner), Subject::from(("modal data", name)));
+        let key = format!("{}.modal.{name}", self.owner);
+        let subject = Subject::from(("modal data", name.trim_start_matches("damping_")));
         self.positions.push((subject.clone(), value.span()));
         match value.get_ref() {
             Value::Number(x) => {

@@ -23,6 +23,7 @@ pub(super) fn written(subject: &Subject, owner: &str) -> String {
         ["initial state", part] => format!("initial.{part}"),
         // For an end of a structure the key is that of the end; its parts are inside that value.
         [table @ ("bar" | "beam"), end @ ("left" | "right"), part] => format!("{owner}.{table}.{end}: {part}"),
+        ["modal data", "ratios"] => format!("{owner}.modal.damping_ratios"),
         ["modal data", names @ ..] => format!("{owner}.modal.{}", names.join(".")),
         [table @ ("oscillator" | "chain" | "bar" | "beam" | "damping"), names @ ..] => {
             [&[owner, table], names].concat().join(".")

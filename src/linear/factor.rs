@@ -56,9 +56,11 @@ impl Factor {
         }
     }
 
-    /// Solves A x = b in place; `x` has n entries, others are left as they are.
+    /// Solves A x = b in place; `x` has n entries. Others are left as they are, and a debug build
+    /// panics.
     #[inline(always)]
     pub fn solve(&mut self, x: &mut [f64]) {
+        debug_assert_eq!(x.len(), self.n);
         if x.len() != self.n {
             return;
         }

@@ -49,11 +49,14 @@ impl Default for Symmetric {
 
 impl Symmetric {
     /// The n × n matrix whose entries are sums of `entries` (row, column, value). An off-diagonal
-    /// entry is given once, in either triangle, and stands for both; entries beyond n are ignored.
+    /// entry is given once, in either triangle, and stands for both: for all entries of a matrix,
+    /// of which both triangles would be added up, there is [`Symmetric::from_rows`]. Entries beyond n
+    /// are left out, and a debug build panics.
     #[must_use]
     pub fn from_entries(n: usize, entries: impl IntoIterator<Item = (usize, usize, f64)>) -> Self {
         let mut rows: Vec<Vec<(usize, f64)>> = (0..n).map(|i| vec![(i, 0.0)]).collect();
         for (i, j, value) in entries {
+            debug_assert!(i.max(j) < n, "the entry of row {i}, column {j} of a matrix of {n} × {n}");
             if let Some(row) = rows.get_mut(i.max(j)) {
                 row.push((i.min(j), value));
             }
@@ -203,9 +206,11 @@ impl Symmetric {
         Self { starts, columns, values }
     }
 
-    /// Adds `scale` · A x to `out`; both of length n, others are left as they are.
+    /// Adds `scale` · A x to `out`; both of length n. Others are left as they are, and a debug
+    /// build panics.
     pub fn add_product(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         let n = self.size();
+        debug_assert_eq!((x.len(), out.len()), (n, n));
         if x.len() != n || out.len() != n {
             return;
         }

@@ -76,7 +76,10 @@ impl Shape {
     #[must_use]
     pub fn watched(&self, case: &Case) -> Scene {
         let mut scene = case.scene.clone();
-        scene.probes.extend(self.probes.iter().cloned());
+        // No probe of a case has a name with a space.
+        scene
+            .probes
+            .extend(self.probes.iter().map(|Probe { name, at }| Probe { name: format!("at {name}"), at: at.clone() }));
         scene
     }
 

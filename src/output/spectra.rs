@@ -60,13 +60,16 @@ impl Quantity {
 
 impl SpectrumFile {
     /// The spectra of `signals` (along the ways that they are called by) at a place, sampled at a
-    /// `spacing` (s); `None` without signals.
+    /// `spacing` (s); `None` without signals, and of a run that diverged.
     fn of(
         name: String,
         (place, quantity): (&str, Quantity),
         signals: Vec<(&'static str, Vec<f64>)>,
         spacing: f64,
     ) -> Result<Option<Self>> {
+        if signals.iter().any(|(_, signal)| signal.iter().any(|x| !x.is_finite())) {
+            return Ok(None);
+        }
         let spectra = signals.into_iter().map(|(way, signal)| Ok((way, Spectrum::of(&signal, spacing)?)));
         let spectra = spectra.collect::<Result<Vec<_>>>()?;
         let Some((_, one)) = spectra.first() else { return Ok(None) };

@@ -69,7 +69,9 @@ impl<J: Judging, R: Recording> Run<J, R> {
         (!findings.is_empty()).then(|| Error::Refuted { runs: vec![format!("{}: {text}", self.scheme)] })
     }
 
-    /// The run, unless the judge has findings: for callers that use it as a reference for others.
+    /// The run, unless the judge has findings, which every caller should ask for. It says nothing
+    /// of [`Run::cautions`], nor of the error of the step, and nothing at all of a run that was not
+    /// judged.
     ///
     /// # Errors
     /// [`Error::Refuted`]; [`Error::Diverged`] for a run that diverged, which a study of steps that

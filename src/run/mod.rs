@@ -39,8 +39,8 @@ use std::time::Instant;
 ///     .with_wall(Wall::lower("lower", -5e-3).with_restitution(0.8))
 ///     .with_load(Load::harmonic(3.0, 5.0, 0.0));
 ///
-/// let stepped = run(&scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(1e-5))?;
-/// let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-5))?;
+/// let stepped = run(&scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(1e-5))?.unrefuted()?;
+/// let exact = run(&scene, &Scheme::Event, &Options::with_step(1e-5))?.unrefuted()?;
 /// // What the upper wall gave in a second, N s.
 /// let (a, b) = (stepped.trajectory.impulse("upper")?, exact.trajectory.impulse("upper")?);
 /// assert!((a / b - 1.0).abs() < 1e-3);
@@ -54,11 +54,13 @@ use std::time::Instant;
 ///
 /// A run that diverges ends there: one that is more than 1e6 times faster than the energy of its
 /// start and the work of its loads allow, or whose state is no longer finite. It keeps its rows and
-/// gets the finding [`Refuted::Diverged`](crate::Refuted::Diverged).
+/// gets the finding [`Refuted::Diverged`](crate::Refuted::Diverged): that too is `Ok`, unless
+/// [`Run::unrefuted`] is asked for. [`Run::cautions`] are no findings, and to be looked at as well.
 ///
 /// # Errors
-/// [`crate::Error::Invalid`] for an invalid request, and what [`Stepper::step`] reports;
-/// [`crate::Error::Diverged`] for a run that diverges and is not judged.
+/// [`crate::Error::Invalid`] for an invalid request, and what [`Stepper::step`] reports, apart from
+/// a state that is not finite; [`crate::Error::Diverged`] for a run that diverges and is not
+/// judged.
 pub fn run<J: Judging, R: Recording>(
     scene: &Scene,
     method: &(impl Copy + Into<Method>),
@@ -88,7 +90,7 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let recorder = R::begin(&stepper, grid.rows, &start, &options.time);
     let mut observers = Observers::<J, R>::new(judge, recorder, &stepper);
     let mut divergence = Divergence::new(&stepper, grid.step, &start);
-    let (count, diverged) = observers.follow_to_end(&mut stepper, &grid, &mut divergence, progress)?;
+    let diverged = observers.follow_to_end(&mut stepper, &grid, &mut divergence, progress)?;
     let Observers { judge, recorder, .. } = observers;
     let from = options.time.statistics_from;
     // The statistics of a run that diverged refer to the time up to there.
@@ -103,7 +105,7 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     }
     if let Some(diverged) = diverged {
         if !J::JUDGED {
-            return Err(diverged.error(count));
+            return Err(diverged.error(stepper.counters().steps));
         }
         J::find(&mut findings, diverged.finding());
     }

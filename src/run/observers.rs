@@ -32,15 +32,14 @@ impl<J: Judging, R: Recording> Observers<J, R> {
     }
 
     /// Makes the steps of `grid`, or as many as it takes the exact scheme to reach its end, calling
-    /// `progress` with the time (s) now and then. Returns how many there were, and where the run
-    /// diverged, which ends it.
+    /// `progress` with the time (s) now and then. Returns where the run diverged, which ends it.
     pub fn follow_to_end(
         &mut self,
         stepper: &mut Stepper,
         grid: &TimeGrid,
         divergence: &mut Divergence,
         progress: &mut dyn FnMut(f64),
-    ) -> Result<(u64, Option<Diverged>)> {
+    ) -> Result<Option<Diverged>> {
         let exact = stepper.scheme().is_exact();
         let (mut count, mut report) = (0, 1);
         let diverged = loop {
@@ -62,7 +61,7 @@ impl<J: Judging, R: Recording> Observers<J, R> {
             }
         };
         self.catch_up();
-        Ok((count, diverged))
+        Ok(diverged)
     }
 
     /// Makes the next step, or several between two contacts but at most `most`; returns how many

@@ -49,7 +49,7 @@ pub struct Options<J: Judging = Judged, R: Recording = Recorded> {
 }
 
 impl Options {
-    /// Steps of `step` seconds, all of them recorded, statistics from the start.
+    /// As [`TimeOptions::with_step`]: the exact scheme records 1000 intervals, whatever the step.
     #[must_use]
     pub fn with_step(step: f64) -> Self {
         Self::new(TimeOptions::with_step(step))

@@ -87,8 +87,8 @@ impl From<f64> for FrictionCoefficients {
 impl fmt::Display for FrictionCoefficients {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.sticking == self.sliding {
-            return write!(f, "{}", self.sliding);
+            return write!(f, "{:?}", self.sliding);
         }
-        write!(f, "{} static, {} kinetic", self.sticking, self.sliding)
+        write!(f, "{:?} static, {:?} kinetic", self.sticking, self.sliding)
     }
 }

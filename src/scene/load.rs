@@ -4,7 +4,7 @@ use super::function::TimeFunction;
 use super::row::Row;
 use super::system::{finite, nonnegative};
 use super::table::Table;
-use crate::error::{Result, Subject};
+use crate::error::{Error, Result, Subject};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -118,7 +118,10 @@ impl Load {
             LoadKind::Harmonic { amplitude, frequency, phase } => {
                 finite(key("amplitude"), *amplitude)?;
                 nonnegative(key("frequency"), *frequency)?;
-                finite(key("frequency"), TAU * frequency)?;
+                if !(TAU * frequency).is_finite() {
+                    let expected = "a finite number, also 2π times it";
+                    return Err(Error::invalid(key("frequency"), format_args!("{frequency:?}"), expected));
+                }
                 finite(key("phase"), *phase)
             }
             LoadKind::Impulse { impulse, time } => {

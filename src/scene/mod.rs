@@ -79,6 +79,7 @@ pub use slider::Slider;
 pub use structure::Structure;
 pub use support::{Hole, Support};
 pub use system::{Oscillator, System};
+pub(crate) use system::{finite, positive};
 pub use table::Table;
 pub use turbulence::{Turbulence, TurbulenceSpectrum};
 #[cfg(test)]
@@ -161,7 +162,8 @@ impl Scene {
         }
     }
 
-    /// A structure at rest at 0, without walls, loads or probes, for one second.
+    /// A structure at rest at 0, without walls, loads or probes, for one second. What is to be
+    /// recorded of its motion is said by [`Scene::with_probe`].
     #[must_use]
     pub fn structure(structure: impl Into<SharedStructure>) -> Self {
         let structure = structure.into();
@@ -182,6 +184,14 @@ impl Scene {
     #[must_use]
     pub fn with_wall(mut self, wall: Wall) -> Self {
         self.walls.push(wall);
+        self
+    }
+
+    /// The scene with one more probe: the displacement and velocity of `at` are recorded under
+    /// `name`.
+    #[must_use]
+    pub fn with_probe(mut self, name: &str, at: Row) -> Self {
+        self.probes.push(Probe { name: name.to_owned(), at });
         self
     }
 

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// ```
 /// use signorini::linear::Symmetric;
-/// use signorini::{Damping, Load, Options, Probe, Row, Scene, Scheme, Structure, Wall, run};
+/// use signorini::{Damping, Load, Options, Row, Scene, Scheme, Structure, Wall, run};
 ///
 /// // Two masses of 2 kg, ground – 3e4 N/m – mass – 1e4 N/m – mass; entries of a lower or an upper
 /// // triangle.
@@ -22,10 +22,10 @@ use serde::{Deserialize, Serialize};
 ///     stiffness: Symmetric::from_entries(2, [(0, 0, 4e4), (1, 0, -1e4), (1, 1, 1e4)]),
 /// }
 /// .with_damping(&Damping::Rayleigh { mass: 0.0, stiffness: 1e-4 })?;
-/// let mut scene = Scene::structure(structure)
+/// let scene = Scene::structure(structure)
 ///     .with_wall(Wall::upper("stop", 1e-3).with_restitution(0.5).at(Row::dof(1)))
-///     .with_load(Load { at: Row::dof(0), ..Load::harmonic(50.0, 8.0, 0.0) });
-/// scene.probes.push(Probe { name: "tip".to_owned(), at: Row::dof(1) });
+///     .with_load(Load { at: Row::dof(0), ..Load::harmonic(50.0, 8.0, 0.0) })
+///     .with_probe("tip", Row::dof(1));
 ///
 /// let run = run(&scene, &Scheme::MoreauJean { theta: 0.5 }, &Options::with_step(1e-4))?;
 /// let (displacement, _) = run.trajectory.probe("tip")?;

@@ -190,9 +190,13 @@ impl Scene {
             check_row(&support.name, &support.at.z)?;
             check_planes(&support.name, &support.at)?;
             support.centre.iter().try_for_each(|&x| finite(key("centre"), x))?;
-            if support.walls.end > self.walls.len() {
+            if support.walls.is_empty() || support.walls.end > self.walls.len() {
                 let value = format!("{:?}", support.walls);
-                return Err(Error::invalid(key("walls"), value, format!("some of the {} walls", self.walls.len())));
+                return Err(Error::invalid(
+                    key("walls"),
+                    value,
+                    format!("one or more of the {} walls", self.walls.len()),
+                ));
             }
             support.members(&self.walls).try_for_each(|(_, wall)| support.check_wall(wall))?;
         }

@@ -31,10 +31,14 @@ impl Scene {
             load.validate(index)?;
             self.check_row(|| Subject::nth("load", index), &load.at)?;
         }
+        let mut names = HashSet::new();
         for (index, probe) in self.probes.iter().enumerate() {
             if probe.name.chars().any(char::is_control) {
                 let key = Subject::nth("probe", index).part("name");
                 return Err(Error::invalid(key, format!("{:?}", probe.name), "no control characters"));
+            }
+            if !names.insert(probe.name.as_str()) {
+                return Err(taken("probe", index, &probe.name));
             }
             self.check_row(|| Subject::probe(&probe.name), &probe.at)?;
         }
@@ -43,11 +47,7 @@ impl Scene {
         for (index, wall) in self.walls.iter().enumerate() {
             wall.validate_name(index)?;
             if !names.insert(wall.name.as_str()) {
-                return Err(Error::invalid(
-                    Subject::nth("wall", index).part("name"),
-                    format!("{:?}, which another wall has", wall.name),
-                    "a name of its own for each wall",
-                ));
+                return Err(taken("wall", index, &wall.name));
             }
         }
         for wall in &self.walls {
@@ -115,6 +115,12 @@ impl Scene {
         let touch = self.touching_distance();
         self.walls.iter().find(|wall| wall.is_before(q, touch))
     }
+}
+
+/// The error of one of the walls or probes that has the name of another.
+fn taken(kind: &'static str, index: usize, name: &str) -> Error {
+    let key = Subject::nth(kind, index).part("name");
+    Error::invalid(key, format!("{name:?}, which another {kind} has"), format!("a name of its own for each {kind}"))
 }
 
 /// Refuses a rigid upper wall below a rigid lower one of its row.

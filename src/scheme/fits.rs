@@ -97,6 +97,11 @@ pub(super) fn check(scene: &Scene, Method { scheme, backend }: Method) -> Result
         return Err(Error::invalid("scheme", found, expected(&schemes, &refused)));
     }
     if !scene.turns_or_rubs() {
+        let unknowns = scene.system.degrees_of_freedom();
+        if backend == Backend::Clamp && scheme.has_qp() && unknowns > 1 {
+            let expected = format!("auto, condensed or clarabel: there are {unknowns} unknowns, and the clamp has one");
+            return Err(Error::invalid("QP solver", backend, expected));
+        }
         return Ok(());
     }
     if let Scheme::Penalty { integrator, .. } = scheme

@@ -101,15 +101,21 @@ impl Scheme {
     /// positive, a negative damping.
     pub fn validate(&self) -> Result<()> {
         let positive = |key: &'static str, x: f64| {
-            if x > 0.0 && x.is_finite() { Ok(()) } else { Err(Error::invalid(key, x, "a finite number above 0")) }
+            if x > 0.0 && x.is_finite() {
+                Ok(())
+            } else {
+                Err(Error::invalid(key, format_args!("{x:?}"), "a finite number above 0"))
+            }
         };
         match *self {
-            Self::MoreauJean { theta } if !(0.5..=1.0).contains(&theta) => {
-                Err(Error::invalid("theta", theta, "a number from 0.5 to 1: below 0.5 the rule is unstable"))
-            }
+            Self::MoreauJean { theta } if !(0.5..=1.0).contains(&theta) => Err(Error::invalid(
+                "theta",
+                format_args!("{theta:?}"),
+                "a number from 0.5 to 1: below 0.5 the rule is unstable",
+            )),
             Self::GeneralizedAlpha { rho } if !(0.0..=1.0).contains(&rho) => Err(Error::invalid(
                 "rho",
-                rho,
+                format_args!("{rho:?}"),
                 "a number from 0 to 1: what is left of the fastest vibration after a step",
             )),
             Self::Penalty { law: PenaltyLaw::Quartic { epsilon }, .. } => positive("penalty.epsilon", epsilon),
@@ -118,7 +124,7 @@ impl Scheme {
                 if damping >= 0.0 && damping.is_finite() {
                     return Ok(());
                 }
-                Err(Error::invalid("penalty.damping", damping, "a finite number, 0 or more"))
+                Err(Error::invalid("penalty.damping", format_args!("{damping:?}"), "a finite number, 0 or more"))
             }
             _ => Ok(()),
         }

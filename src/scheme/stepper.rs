@@ -1,5 +1,6 @@
 //! The stepper: one public type over all schemes.
 
+mod failure;
 mod restart;
 
 use super::fits;
@@ -83,7 +84,7 @@ impl Stepper {
     pub(crate) fn by(scene: &Checked, Method { scheme, backend }: Method, step: f64) -> Result<Self> {
         scheme.validate()?;
         if !(step.is_finite() && step > 0.0) {
-            return Err(Error::invalid("step", step, "a finite number above 0"));
+            return Err(Error::invalid("step", format_args!("{step:?}"), "a finite number above 0"));
         }
         fits::check(scene, Method { scheme, backend })?;
         let scene = match scheme {
@@ -109,7 +110,8 @@ impl Stepper {
     ///
     /// # Errors
     /// [`Error::Qp`], [`Error::Newton`], [`Error::NotFinite`] or [`Error::TooManyEvents`], with the
-    /// time and the step; [`Error::Stopped`] under an [`Interrupt`](crate::Interrupt).
+    /// time and the step; [`Error::Stopped`] under an [`Interrupt`](crate::Interrupt);
+    /// [`Error::Invalid`] for a load whose function gives no finite force.
     #[inline(always)]
     pub fn step(&mut self) -> Result<Step<'_>> {
         self.advance(None)
@@ -133,7 +135,7 @@ impl Stepper {
     #[cold]
     fn refusal(&self, extra: &[f64]) -> Error {
         match extra.iter().find(|force| !force.is_finite()) {
-            Some(force) => Error::invalid("extra force", force, "a finite number"),
+            Some(force) => Error::invalid("extra force", format_args!("{force:?}"), "a finite number"),
             None => {
                 let n = self.scene.system.degrees_of_freedom();
                 let found = format!("{} values", extra.len());
@@ -146,7 +148,7 @@ impl Stepper {
     fn advance(&mut self, extra: Option<&[f64]>) -> Result<Step<'_>> {
         let index = self.index;
         self.asking.pass(index)?;
-        self.make(extra)?;
+        self.make(extra).map_err(|error| self.failure(error))?;
         Ok(self.kernel.step(index))
     }
 
@@ -216,7 +218,8 @@ impl Stepper {
             self.asking.pass(self.index)?;
             // The interrupt is asked between two loops.
             let until = end.min(self.due);
-            let reached = self.kernel.advance_quiet(self.index, until, None)?;
+            let glide = self.kernel.advance_quiet(self.index, until, None);
+            let reached = glide.map_err(|error| self.failure(error))?;
             if reached > self.index {
                 (self.index, last) = (reached, reached - 1);
             }
@@ -225,7 +228,7 @@ impl Stepper {
             }
             if self.index < until || self.index == self.due {
                 last = self.index;
-                self.make(None)?;
+                self.make(None).map_err(|error| self.failure(error))?;
                 let step = self.kernel.step(last);
                 let pushed = |p: &f64| *p != 0.0;
                 if step.impulse.iter().any(pushed) || !step.closed.is_empty() || self.index == end {
@@ -247,7 +250,8 @@ impl Stepper {
         self.asking.pass(self.index)?;
         let from = self.index;
         let until = from.saturating_add(most.min(quiet.begin(from, self.kernel.motion().end()))).min(self.due);
-        self.index = self.kernel.advance_quiet(from, until, Some(quiet))?;
+        let glide = self.kernel.advance_quiet(from, until, Some(quiet));
+        self.index = glide.map_err(|error| self.failure(error))?;
         Ok(self.index - from)
     }
 

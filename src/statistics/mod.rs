@@ -137,8 +137,8 @@ pub struct Statistics {
 
 impl Statistics {
     /// Statistics of `contacts` from the time `from` (s) to the scene's end, without the force over
-    /// time. If `from` is at or after the end, or NaN, the window has length 0, and times and
-    /// powers are 0.
+    /// time. A `from` below 0 is 0. If it is at or after the end, or NaN, the window has length 0,
+    /// and times and powers are 0.
     #[must_use]
     pub fn new(scene: &Scene, contacts: &[Contact], from: f64) -> Self {
         Self::of(scene, &scene.wall_masses(), contacts, from)
@@ -147,7 +147,7 @@ impl Statistics {
     /// As [`Statistics::new`], for a scene whose walls feel `masses` (kg).
     pub(crate) fn of(scene: &Scene, masses: &[f64], contacts: &[Contact], from: f64) -> Self {
         let to = scene.duration;
-        let from = from.min(to);
+        let from = from.min(to).max(0.0);
         let by_wall = by_wall(contacts, scene.walls.len());
         let wall = |(index, (wall, all)): (usize, (&Wall, &Vec<&Contact>))| {
             of_wall(wall, all, masses.get(index).copied().unwrap_or(0.0), [from, to])

@@ -57,8 +57,8 @@ impl Spectrum {
     /// That of `values`, `spacing` seconds apart.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `spectrum` for a spacing that is not above 0, and for fewer than 72
-    /// values.
+    /// [`Error::Invalid`] under `spectrum` for a spacing that is not above 0, for fewer than 72
+    /// values, and for values that are not finite.
     pub fn of(values: &[f64], spacing: f64) -> Result<Self> {
         if !(spacing.is_finite() && spacing > 0.0) {
             return Err(Error::invalid("spectrum", format_args!("a spacing of {spacing:?} s"), "a finite one above 0"));
@@ -66,6 +66,9 @@ impl Spectrum {
         if values.len() < FEWEST {
             let expected = format!("{FEWEST} or more: {SEGMENTS} segments of {SHORTEST}, which overlap by half");
             return Err(Error::invalid("spectrum", format_args!("of {} values", values.len()), expected));
+        }
+        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+            return Err(Error::invalid("spectrum", format_args!("of {value:?}"), "finite values"));
         }
         // L/2 (K + 1) values hold K segments.
         let longest = 2 * values.len() / (SEGMENTS + 1);

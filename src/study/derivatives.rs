@@ -1,7 +1,7 @@
 //! The derivatives of an exact run with respect to keys of its scene.
 
 use super::horizon::LARGEST_GROWTH;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::scheme::{Scheme, Stepper, check_exact};
 use crate::variation::{
@@ -78,13 +78,18 @@ impl Derivatives {
     }
 
     /// The derivatives of the exact run of `scene` with respect to the keys of `tangents`, with
-    /// displacements and velocities of the probes at `times` (s, increasing).
+    /// displacements and velocities of the probes at `times` (s, increasing, from 0 to the end).
     ///
     /// # Errors
-    /// As [`KeyVariation::new`], and errors of the exact scheme. A run that has no derivative from
-    /// a time on is none: see [`Derivatives::ended`].
+    /// As [`KeyVariation::new`], [`Error::Invalid`] for a time outside of the run, and
+    /// errors of the exact scheme. A run that has no derivative from a time on is none: see
+    /// [`Derivatives::ended`].
     pub fn new(scene: &Scene, tangents: &[SceneTangent], times: &[f64]) -> Result<Self> {
         let mut variation = KeyVariation::new(scene, tangents, times)?;
+        if let Some(time) = times.iter().find(|time| !(0.0..=scene.duration).contains(*time)) {
+            let expected = format!("from 0 to the end, {:?} s", scene.duration);
+            return Err(Error::invalid("times", format_args!("{time:?}"), expected));
+        }
         let mut stepper = Stepper::new(scene, &Scheme::Event, scene.duration)?;
         let mut ended = None;
         while stepper.time() < scene.duration && ended.is_none() {

@@ -120,7 +120,7 @@ fn watching(scene: &Scene) -> Scene {
     if places.is_empty() {
         places = (0..scene.initial.q.len()).take(FEW).map(Row::dof).collect();
     }
-    watched.probes = places.into_iter().map(|at| Probe { name: String::new(), at }).collect();
+    watched.probes = places.into_iter().enumerate().map(|(i, at)| Probe { name: i.to_string(), at }).collect();
     watched
 }
 

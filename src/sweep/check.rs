@@ -19,12 +19,12 @@ impl Sweep {
     /// Checks what varies, each axis by itself and all together, and that anything is measured.
     pub(super) fn check_axes(&self) -> Result<()> {
         if self.axes.is_empty() {
-            let expected = "one [[vary]] or more (--vary KEY=FROM:TO:POINTS)";
+            let expected = "a key and its values, or more of them (an axis, [[vary]], --vary KEY=FROM:TO:POINTS)";
             return Err(Error::invalid("what is varied", "nothing", expected));
         }
         if self.measures.is_empty() && self.samples.is_none() {
             let known = Measure::all().map(Measure::name).collect::<Vec<_>>().join(", ");
-            return Err(Error::invalid("[measure] columns", "none", format!("one measure or more of {known}")));
+            return Err(Error::invalid("what is measured", "nothing", format!("one measure or more of {known}")));
         }
         for axis in &self.axes {
             axis.validate(self.layout)?;

@@ -24,8 +24,8 @@ use std::time::{Duration, Instant};
 /// Interval between reports of progress.
 const BETWEEN_REPORTS: Duration = Duration::from_millis(100);
 
-/// Options for running a sweep into a folder.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Options for running a sweep into a folder; by default the whole sweep, on all cores.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SweepOptions {
     /// Number of threads; all cores if `None`.
     pub threads: Option<usize>,
@@ -79,6 +79,24 @@ impl Plan {
     /// instant, the same call continues, and ends with the same bytes, whatever the number of
     /// threads. Finished tables are read: where one is no longer as it was written, all rows are
     /// computed again. `progress` is called from time to time.
+    ///
+    /// ```
+    /// use signorini::case::CaseFile;
+    /// use signorini::sweep::{Axis, Measure, Sweep, SweepOptions};
+    ///
+    /// let plan = Sweep::new(CaseFile::embedded("rigid-walls-sine")?)
+    ///     .vary(Axis::linear("load.1.harmonic.frequency", 4.0, 5.0, 3)?)
+    ///     .measure([Measure::Contacts])
+    ///     .plan()?;
+    /// # let scratch = tempfile::tempdir().expect("a folder");
+    /// # let folder = scratch.path().join("frequencies");
+    /// # /*
+    /// let folder = Path::new("frequencies");
+    /// # */
+    /// let finished = plan.run_into(&folder, SweepOptions::default(), &|_| ())?;
+    /// assert!(finished.folder.join("sweep.csv").exists());
+    /// # Ok::<(), signorini::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::OtherResults`](crate::Error::OtherResults); [`Error::Io`](crate::Error::Io) for a

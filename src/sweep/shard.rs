@@ -15,6 +15,13 @@ pub struct Shard {
     of: u64,
 }
 
+impl Default for Shard {
+    /// The whole sweep.
+    fn default() -> Self {
+        Self::WHOLE
+    }
+}
+
 impl Shard {
     /// The whole sweep.
     pub const WHOLE: Self = Self { index: 1, of: 1 };

@@ -55,7 +55,8 @@ pub enum Bearing {
     },
 }
 
-/// Wear of a support and its tube in service; `None` where no coefficient or no scar is given.
+/// Wear of a support and its tube in service; `None` where no coefficient or no scar is given, and
+/// where the volume would be negative or NaN.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Worn {
@@ -74,7 +75,9 @@ impl Archard {
     /// The wear by a work rate (W).
     #[must_use]
     pub fn worn(&self, work_rate: f64) -> Worn {
-        let volume = |coefficient: Option<f64>| coefficient.map(|k| k * work_rate * self.service);
+        let volume = |coefficient: Option<f64>| {
+            coefficient.map(|k| k * work_rate * self.service).filter(|volume| *volume >= 0.0)
+        };
         let volume_m3 = volume(self.coefficient);
         let scarred = volume_m3.zip(self.scar);
         let one = |(volume, Scar { width, radius, bearing })| match bearing {
@@ -107,6 +110,10 @@ mod tests {
         assert!(near(flat.depth_one_scar_m, 0.000_350_324_405_082_514_47));
         assert!(near(flat.depth_all_round_m, 3e-8 / (std::f64::consts::TAU * 0.009_525 * 0.025)));
         assert_eq!(law(None).worn(0.01).depth_all_round_m, None);
+        for bad in [f64::NAN, -1.0] {
+            let none = law(scar(Bearing::Flat)).worn(bad);
+            assert_eq!((none.volume_m3, none.support_volume_m3, none.depth_all_round_m), (None, None, None), "{bad}");
+        }
         let none = Archard { coefficient: None, ..law(scar(Bearing::Flat)) }.worn(0.01);
         assert_eq!((none.volume_m3, none.depth_one_scar_m, none.depth_all_round_m), (None, None, None));
         // A thousand times the service would cut the tube in two.

@@ -48,6 +48,24 @@ fn a_run_beyond_its_stability_limit_ends_where_it_diverged_and_keeps_its_rows() 
 }
 
 #[test]
+fn the_steps_before_an_overflow_are_counted() {
+    // Two loads that are finite by themselves; their sum is not after 1.9 s, in the eighth step.
+    let ramp = Table::new(vec![0.0, 4.0], vec![0.0, 1.7e308]).expect("a table");
+    let scene = Scene::oscillator(1e10, 0.0, 1.0)
+        .with_load(Load::constant(1e308))
+        .with_load(Load::table(ramp))
+        .with_duration(4.0);
+    for options in [Options::with_step(0.25), Options::with_step(0.25).with_sample(1.0)] {
+        let run = run(&scene, &MOREAU_JEAN, &options).expect("a run with its rows");
+        assert_eq!(run.counters.steps, 7);
+        let Err(Error::Diverged { time, step, .. }) = run.unrefuted() else { panic!("it has diverged") };
+        assert_eq!((time, step), (2.0, 7));
+    }
+    let failed = run(&scene, &MOREAU_JEAN, &Options::with_step(0.25).unjudged()).expect_err("diverged");
+    assert!(matches!(failed, Error::Diverged { step: 7, .. }), "{failed}");
+}
+
+#[test]
 fn a_run_without_a_judge_that_diverges_is_an_error() {
     let failed = run(&driven(2.0), &EXPLICIT, &Options::with_step(1e-2).unjudged()).expect_err("diverged");
     assert!(matches!(failed, Error::Diverged { ratio, .. } if ratio > 1e6), "{failed}");

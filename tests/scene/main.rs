@@ -31,3 +31,5 @@ mod support_files;
 #[cfg(feature = "cli")]
 mod turbulence;
 mod turbulence_modal;
+#[cfg(feature = "cli")]
+mod wrong_requests;

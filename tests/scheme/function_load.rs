@@ -1,9 +1,7 @@
 //! A load that is a Rust closure.
 
 use crate::common::{MOREAU_JEAN, source};
-use signorini::{
-    Error, Integrator, Load, LoadKind, Options, PenaltyLaw, Refuted, Row, Scene, Scheme, Stepper, Table, run,
-};
+use signorini::{Error, Integrator, Load, LoadKind, Options, PenaltyLaw, Row, Scene, Scheme, Stepper, Table, run};
 use std::f64::consts::TAU;
 
 /// The source scene with its sine as a function; `structure` makes matrices of the oscillator.
@@ -60,14 +58,32 @@ fn the_exact_scheme_refuses_a_function_and_says_what_would_do() {
             "{refused}"
         );
     }
-    // A value that is not finite is reported at the start, or when it occurs.
+}
+
+#[test]
+fn a_force_that_is_not_finite_is_told_by_its_load_and_time() {
     let scene = Scene::oscillator(1.0, 0.0, 1.0).with_load(Load::function(|t| 1.0 / t));
     assert!(matches!(Stepper::new(&scene, &MOREAU_JEAN, 1e-3), Err(Error::Invalid { .. })));
-    let late = Scene::oscillator(1.0, 0.0, 1.0).with_load(Load::function(|t| (0.5 - t).sqrt()));
-    let late = run(&late, &MOREAU_JEAN, &Options::with_step(1e-3)).expect("the rows up to there");
-    let found = late.findings.first().expect("a finding");
-    assert!(found.refuted == Refuted::Diverged && found.to_string().contains("no longer finite"), "{found}");
-    assert!((late.trajectory.time().last().unwrap_or(&0.0) - 0.5).abs() < 2e-3, "{found}");
+    let law = PenaltyLaw::Linear { stiffness: 1e5, damping: 1.0 };
+    for structure in [false, true] {
+        let [mut late, _] = scenes(structure);
+        late.loads.push(Load::function(|t| if t > 0.3 { f64::NAN } else { 0.0 }));
+        for scheme in [
+            MOREAU_JEAN,
+            Scheme::Located,
+            Scheme::PaoliSchatzman,
+            Scheme::ImplicitEuler,
+            Scheme::Newmark,
+            Scheme::GeneralizedAlpha { rho: 0.8 },
+            Scheme::Penalty { law, integrator: Integrator::DiscreteGradient },
+            Scheme::Penalty { law, integrator: Integrator::CentralDifference },
+        ] {
+            let told = run(&late, &scheme, &Options::with_step(1e-3)).expect_err("no finite force");
+            let shown = told.to_string();
+            assert!(told.is_request() && shown.starts_with("load 2: f(0.3"), "{scheme}, {structure}: {shown}");
+            assert!(shown.ends_with("is NaN; expected a finite number"), "{scheme}, {structure}: {shown}");
+        }
+    }
 }
 
 #[test]

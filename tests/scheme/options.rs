@@ -4,17 +4,29 @@
 use crate::common::source;
 use signorini::qp::Backend;
 use signorini::{
-    Chain, Load, Method, Options, Probe, Recorded, Row, Run, Scene, Scheme, TimeOptions, Trajectory, Unjudged, Wall,
-    run,
+    Chain, Load, Method, Options, Recorded, Row, Run, Scene, Scheme, TimeOptions, Trajectory, Unjudged, Wall, run,
 };
 
 fn structure() -> Scene {
     let chain = Chain { masses: vec![1.0; 3], springs: vec![100.0; 2], grounds: [100.0, 0.0] };
-    let mut scene = Scene::structure(chain.structure().expect("a chain"))
+    let scene = Scene::structure(chain.structure().expect("a chain"))
         .with_wall(Wall::upper("stop", 0.01).with_restitution(0.5).at(Row::dof(2)));
-    scene.loads.push(Load { at: Row::dof(0), ..Load::harmonic(2.0, 1.5, 0.0) });
-    scene.probes.push(Probe { name: "end".into(), at: Row::dof(2) });
-    scene.with_duration(1.0)
+    let load = Load { at: Row::dof(0), ..Load::harmonic(2.0, 1.5, 0.0) };
+    scene.with_load(load).with_probe("end", Row::dof(2)).with_duration(1.0)
+}
+
+#[test]
+fn a_structure_without_a_probe_says_that_nothing_of_its_motion_is_recorded() {
+    let told = |scene: &Scene, options: Options| {
+        let notes = run(scene, &Scheme::MoreauJean { theta: 0.5 }, &options).expect("a run").notes;
+        notes.iter().filter(|note| note.contains("no probe")).count()
+    };
+    let (seen, options) = (structure(), Options::with_step(2e-3));
+    let blind = Scene { probes: Vec::new(), ..seen.clone() };
+    assert_eq!([&blind, &seen, &source(0.8, 0.8).with_duration(1.0)].map(|scene| told(scene, options)), [1, 0, 0]);
+    let refused = seen.with_probe("tip", Row::dof(1)).with_probe("end", Row::dof(0)).validate().unwrap_err();
+    let expected = "probe 3: name is \"end\", which another probe has; expected a name of its own for each probe";
+    assert_eq!(refused.to_string(), expected);
 }
 
 fn same_motion<J: signorini::Judging, R: signorini::Recording>(a: &Run, b: &Run<J, R>) {

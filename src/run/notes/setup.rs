@@ -120,7 +120,7 @@ fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<
     let number = index + 1;
     match &load.kind {
         LoadKind::Harmonic { amplitude, frequency, .. } => {
-            let steps = 1.0 / (frequency * step);
+            let steps = 1.0 / (frequency.abs() * step);
             (*amplitude != 0.0 && steps < STEPS_A_PERIOD).then(|| {
                 format!(
                     "{UNRESOLVED_LOAD}{number} ({frequency} Hz) takes {steps:.1} steps of {step:.2e} s: fewer \
@@ -176,7 +176,7 @@ fn modes_resolved(scene: &Scene, step: f64) -> Option<String> {
             None => (slowest(scene)?, "the slowest mode"),
         },
     };
-    let steps = TAU / (omega * step);
+    let steps = TAU / (omega.abs() * step);
     (steps < STEPS_A_PERIOD).then(|| {
         format!(
             "a period of {what}, {} Hz, takes {steps:.1} steps of {step:.2e} s: fewer than {STEPS_A_PERIOD} \

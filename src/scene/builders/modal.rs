@@ -49,7 +49,7 @@ impl ModalData {
         if k == 0 {
             return Err(Error::invalid(("modal data", "omega"), "an empty list", "one mode or more"));
         }
-        let lists = [("masses", &self.masses), ("damping_ratios", &self.ratios)];
+        let lists = [("masses", &self.masses), ("ratios", &self.ratios)];
         let shapes = self.points.iter().map(|point| (point.name.as_str(), &point.shape));
         for (key, list) in lists.into_iter().chain(shapes) {
             if list.len() != k {
@@ -71,7 +71,7 @@ impl ModalData {
             let key = |what: &'static str| Subject::from(("modal data", what)).value(i);
             nonnegative(key("omega"), omega)?;
             positive(key("masses"), mass)?;
-            above_minus_one(key("damping_ratios"), ratio)?;
+            above_minus_one(key("ratios"), ratio)?;
             let stiffness = mass * omega * omega;
             finite(key("omega"), stiffness)?;
             let entries = [mass, 2.0 * ratio * omega * mass, stiffness];

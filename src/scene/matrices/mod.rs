@@ -1,4 +1,4 @@
-//! Symmetric matrices from text.
+//! Symmetric matrices from text; `rows.rs` has `Symmetric::from_rows`.
 //!
 //! | function | what it reads |
 //! |---|---|
@@ -8,6 +8,7 @@
 mod csv;
 mod market;
 mod pairs;
+mod rows;
 
 pub use csv::read_csv;
 pub use market::read_matrix_market;

@@ -7,6 +7,13 @@ use crate::linear::Symmetric;
 /// √|aᵢᵢ aⱼⱼ|.
 const SYMMETRIC: f64 = 1e-12;
 
+/// True if two entries that mirror each other are the same but for rounding, with the two
+/// `diagonal` entries of their rows.
+pub(super) fn agree([a, b]: [f64; 2], diagonal: [f64; 2]) -> bool {
+    let scale = (diagonal[0] * diagonal[1]).abs().sqrt();
+    (a - b).abs() <= SYMMETRIC * a.abs().max(b.abs()).max(scale)
+}
+
 /// One entry and the line it was read from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry<'a> {
@@ -31,6 +38,7 @@ pub(super) fn symmetric(n: usize, mut entries: Vec<Entry<'_>>, half: bool) -> Re
     while let Some((first, after)) = rest.split_first() {
         let same = after.iter().take_while(|e| place(e) == place(first)).count();
         let named = |e: &Entry<'_>| format!("the entry of row {}, column {}", e.row + 1, e.column + 1);
+        let mirrors = |value: f64| agree([first.value, value], [diagonal[first.row], diagonal[first.column]]);
         let twin = after.first().filter(|_| same > 0);
         if let Some(twin) = twin {
             let repeated = after[..same].iter().find(|e| half || (e.row, e.column) == (first.row, first.column));
@@ -38,8 +46,7 @@ pub(super) fn symmetric(n: usize, mut entries: Vec<Entry<'_>>, half: bool) -> Re
                 let expected = if half { "each entry once, in one triangle" } else { "each entry once" };
                 return Err(again.line.error(format!("{} comes a second time", named(again)), expected));
             }
-            let scale = (diagonal[first.row] * diagonal[first.column]).abs().sqrt();
-            if (twin.value - first.value).abs() > SYMMETRIC * first.value.abs().max(twin.value.abs()).max(scale) {
+            if !mirrors(twin.value) {
                 let message = format!("{} is {:?}", named(twin), twin.value);
                 let expected = format!(
                     "{:?} as across the diagonal, on line {}: a symmetric matrix",
@@ -49,8 +56,7 @@ pub(super) fn symmetric(n: usize, mut entries: Vec<Entry<'_>>, half: bool) -> Re
             }
             merged.push((first.row, first.column, 0.5 * (first.value + twin.value)));
         } else {
-            let scale = (diagonal[first.row] * diagonal[first.column]).abs().sqrt();
-            if !half && first.row != first.column && first.value.abs() > SYMMETRIC * scale {
+            if !half && first.row != first.column && !mirrors(0.0) {
                 let message = format!(
                     "{} is {:?}, and its mirror entry across the diagonal is missing",
                     named(first),

@@ -48,9 +48,10 @@ impl Stepper {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a time that is negative, not finite or no multiple of the step of a
-    /// scheme on a grid, a state of the wrong length or not finite, or for the exact scheme one
-    /// behind a rigid wall or outside of a round hole. The stepper is then as it was.
+    /// [`Error::Invalid`] for a time that is negative, not finite, more than 1e10 steps or no
+    /// multiple of the step of a scheme on a grid, a state of the wrong length or not finite, or
+    /// for the exact scheme one behind a rigid wall or outside of a round hole. The stepper is
+    /// then as it was.
     pub fn set_state(&mut self, time: f64, state: &State) -> Result<()> {
         let exact = self.scheme == Scheme::Event;
         let index = self.index_at(time, exact)?;
@@ -88,12 +89,16 @@ impl Stepper {
         if !(time.is_finite() && time >= 0.0) {
             return Err(Error::invalid("time", format_args!("{time:?}"), "a finite number, 0 or more"));
         }
-        if exact {
+        let steps = time / self.step;
+        if exact && steps <= MOST_STEPS {
             return Ok(self.index);
         }
-        let steps = time / self.step;
         if self.contract.divides && steps <= MOST_STEPS {
             return Ok(step_at(time, self.step).0);
+        }
+        if exact {
+            let expected = format!("at most 1e10 times the longest step, {:?} s", self.step);
+            return Err(Error::invalid("time", format_args!("{time:?}"), expected));
         }
         // Times of steps are products k·h, with the rounding error of k up to 1e10.
         if (steps - steps.round()).abs() > 1e-6 || steps > MOST_STEPS {

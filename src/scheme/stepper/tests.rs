@@ -67,6 +67,22 @@ fn a_state_may_be_set_as_late_as_a_run_may_last() {
 }
 
 #[test]
+fn the_exact_scheme_goes_on_as_late_as_its_time_advances() {
+    let pair = Structure { mass: Symmetric::diagonal(&[1.0; 2]), ..Structure::default() };
+    let zeros = Structure { damping: Symmetric::zeros(2), stiffness: Symmetric::zeros(2), ..pair };
+    for scene in [oscillator(), Scene::structure(zeros)] {
+        let mut stepper = Stepper::new(&scene, &Scheme::Event, 1e-3).unwrap();
+        let state = stepper.state();
+        for late in [1.000_001e7, 1.9e16, 1e17, 1e300] {
+            let told = stepper.set_state(late, &state).unwrap_err().to_string();
+            assert!(told.ends_with("expected at most 1e10 times the longest step, 0.001 s"), "{told}");
+        }
+        assert_eq!(stepper.set_state(1e7, &state), Ok(()));
+        assert!(stepper.step().unwrap().end > 1e7);
+    }
+}
+
+#[test]
 fn the_exact_scheme_goes_on_at_a_wall_and_not_behind_it() {
     let mut stepper = Stepper::new(&oscillator(), &Scheme::Event, 0.1).unwrap();
     let at = |place: f64| State { q: vec![place], v: vec![-1.0] };

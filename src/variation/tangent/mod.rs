@@ -73,17 +73,18 @@ impl SceneTangent {
     /// `build` makes of values near this one.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where the scenes do not depend on the value, or not smoothly: another
-    /// number of walls or loads, another instant of a row of a table, a blow at the start
-    /// that moves, another duration; errors of `build`.
+    /// [`Error::Invalid`] where the scenes do not depend on the value, or by friction alone, or
+    /// not smoothly: another number of walls or loads, another instant of a row of a table, a blow
+    /// at the start that moves, another duration; errors of `build`.
     pub fn new(name: &str, value: f64, mut build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
-        let mut best: Option<Self> = None;
+        let (mut best, mut differs): (Option<Self>, _) = (None, false);
         for apart in SPACINGS {
             let stencil = Stencil::new(value, apart, &mut build)?;
             let alike = |scene: &Scene| scene.duration == stencil.base.duration && is_alike(&stencil.base, scene);
             if !stencil.scenes().all(alike) {
                 return Err(refused(name, value, "a key that keeps walls, loads, their times and the duration"));
             }
+            differs |= stencil.scenes().any(|scene| *scene != stencil.base);
             let found = Self::of(name, value, stencil);
             let error = if found.error.is_nan() { f64::INFINITY } else { found.error };
             if best.as_ref().is_none_or(|best| error < best.error) {
@@ -98,7 +99,12 @@ impl SceneTangent {
             return Err(refused(name, value, "the time of a blow after the start"));
         }
         if tangent.is_zero() {
-            return Err(refused(name, value, "a key on which the scene depends"));
+            let expected = if differs {
+                "a key that changes masses, springs, dampers, walls, loads or the start; friction has no derivative"
+            } else {
+                "a key on which the scene depends"
+            };
+            return Err(refused(name, value, expected));
         }
         if tangent.error > MOST_ERROR {
             return Err(refused(name, value, "a key on which the scene depends smoothly"));
