@@ -119,7 +119,7 @@ impl Load {
                 finite(key("amplitude"), *amplitude)?;
                 nonnegative(key("frequency"), *frequency)?;
                 if !(TAU * frequency).is_finite() {
-                    let expected = "a finite number, also 2π times it";
+                    let expected = "a frequency whose circular one, in rad/s, is a finite number";
                     return Err(Error::invalid(key("frequency"), format_args!("{frequency:?}"), expected));
                 }
                 finite(key("phase"), *phase)
