@@ -23,7 +23,7 @@ use written::write_document;
 const POINTS: u32 = 2000;
 
 pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
-    let case = args.case.read(ui)?;
+    let case = args.case.read_with_restitution(args.restitution, ui)?;
     if args.list {
         return list(&case);
     }
