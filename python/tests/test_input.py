@@ -76,7 +76,10 @@ VALUES: list[tuple[Callable[[], object], str]] = [
     (lambda: sg.matrices(np.zeros((2, 3)), None, EYE), r"shape \(2, 3\)"),
     (lambda: sg.matrices(np.zeros((0, 0)), None, EYE), r"shape \(0, 0\)"),
     (lambda: sg.matrices(scipy.sparse.csr_array((2, 3)), None, EYE), r"shape \(2, 3\)"),
-    (lambda: sg.matrices(EYE, None, [[1.0, 2.0], [0.0, 1.0]]), "row 2, column 1 differs from row 1, column 2"),
+    (
+        lambda: sg.matrices(EYE, None, [[1.0, 2.0], [0.0, 1.0]]),
+        r"row 2, column 1 is 0\.0, and row 1, column 2 is 2\.0; expected a matrix symmetric to 1e-08",
+    ),
     (lambda: sg.matrices(EYE, None, -EYE), "positive semidefinite"),
     (lambda: sg.matrices(EYE * math.nan, None, EYE), "NaN; expected a finite number"),
     (lambda: ball().run("nonsense", step=1.0), "no scheme is named \"nonsense\""),
@@ -322,3 +325,11 @@ def test_a_case_too_large_is_refused_and_a_large_one_says_its_size(tmp_path: Pat
     # 16 rows in each of the 1e5 periods, and so many that their number is a power of 2.
     with pytest.warns(UserWarning, match=r"load 1: random: a table of 20971\d\d rows, 34 MB"):
         sg.load(case(1e5))
+
+
+def test_reduced_matrices_are_symmetric_to_the_rounding_of_their_products() -> None:
+    stiffness = 2 * np.eye(60) - np.eye(60, k=1) - np.eye(60, k=-1)
+    _, shapes = np.linalg.eigh(stiffness)
+    reduced = shapes.T @ stiffness @ shapes
+    assert (reduced != reduced.T).any()
+    sg.matrices(shapes.T @ shapes, None, reduced)

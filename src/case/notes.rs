@@ -45,14 +45,20 @@ impl Case {
         )
     }
 
-    /// Supports that the structure may leave, since their flats stand within a half turn.
+    /// Supports that the structure may leave, since their flats stand within a half turn; opposite
+    /// flats bound it both ways along their line.
     fn open_supports(&self) -> impl Iterator<Item = String> {
-        self.written.supports.iter().filter_map(|support| match &support.shape {
-            SupportShape::Flats(flats) if flats.is_open() => Some(format!(
-                "the flats of support {:?} stand within a half turn: it bounds the motion on their side only",
-                flats.name
-            )),
-            _ => None,
+        self.written.supports.iter().filter_map(|support| {
+            let SupportShape::Flats(flats) = &support.shape else { return None };
+            let ways: Vec<(f64, f64)> = flats.ways_out().collect();
+            let opposite = ways.iter().all(|way| way.1 == 0.0);
+            let towards: Vec<String> = ways.iter().map(|way| format!("{}°", way.0)).collect();
+            let said = match (ways.is_empty(), opposite) {
+                (true, _) => return None,
+                (_, true) => format!("leave the motion towards {} free", towards.join(" and ")),
+                _ => "stand within a half turn: it bounds the motion on their side only".to_owned(),
+            };
+            Some(format!("the flats of support {:?} {said}", flats.name))
         })
     }
 

@@ -58,7 +58,7 @@ const EXAMPLES: &str = "\
 Examples:
   signorini compare cases/rigid-walls-sine.toml      the constrained QP against the penalty, side by side
   signorini run rigid-walls-sine --restitution 0.8   one run of a built-in case
-  signorini run elastic-wall --accuracy 1e-6         an error by name instead of a step
+  signorini run elastic-wall --end 4 --accuracy 1e-6   an error by name instead of a step
   signorini chart rigid-walls-sine --end 1           accuracy against speed
   signorini stability bouncing-ball                  where each scheme fails
   signorini sweep rigid-walls-sine --vary load.1.harmonic.frequency=1:10:91 --measure contacts    curves and maps

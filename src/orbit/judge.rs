@@ -48,7 +48,7 @@ pub struct Instant {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
     /// Distance of its end from its start: the larger of displacement in gaps and velocity in gaps
-    /// times the forcing's Ω.
+    /// times the forcing's Ω; where the scene has no gap, in largest displacements of the orbit.
     pub closure: f64,
     /// The tolerance of the closure: 1e-10, or rounding amplified by the orbit's events.
     pub tolerance: f64,
@@ -121,11 +121,14 @@ impl Problem {
     pub fn judge(&self, orbit: &Orbit, points: u32) -> Result<Judged> {
         self.check(orbit)?;
         let mut judged = Judged::at_rest(self.boundaries().len());
-        if !self.admissible(orbit)?.holds() {
+        let admissible = self.admissible(orbit)?;
+        if !admissible.holds() {
             return Ok(judged);
         }
         let whole = orbit.unfolded(self.mirror());
-        let [length, speed] = self.scales();
+        let [scale, speed] = self.scales();
+        let length = self.scene().gap().or(Some(admissible.largest).filter(|q| *q > 0.0)).unwrap_or(scale);
+        let (speed, rounding_scale) = (speed * (length / scale), scale / length);
         let Midway { time: start, state, rounding } = self.midway(&whole)?;
         let end = start + whole.period();
         let mut scene = self.scene().clone();
@@ -150,7 +153,7 @@ impl Problem {
         }
         let end_phase = end / self.forcing_period();
         let seen: Vec<_> = watch.passages.iter().filter(|passage| passage.phase < end_phase).collect();
-        judged.tolerance = CLOSES.max(UNITS * f64::EPSILON * rounding);
+        judged.tolerance = CLOSES.max(UNITS * f64::EPSILON * rounding * rounding_scale);
         judged.same_events = self.same_events(&whole, start, &seen);
         Ok(judged)
     }

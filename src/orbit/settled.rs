@@ -11,7 +11,8 @@ use crate::step::Contact;
 /// Most forcing periods after which the events of a settled run may repeat themselves.
 const LONGEST: u32 = 32;
 
-/// Tolerance for events to count as repeated: in cycles, and in gaps times the forcing's Ω.
+/// Tolerance for events to count as repeated: in cycles, and in gaps times the forcing's Ω; where
+/// there is no gap, as a share of the fastest event.
 const NEAR: f64 = 1e-3;
 
 /// How often they must have been repeated.
@@ -117,7 +118,8 @@ impl Problem {
 /// The least number of forcing periods after which the last of `passages` repeat themselves, and
 /// those of one such stretch.
 fn repeated(passages: &[Passage], problem: &Problem) -> Option<(u32, Vec<Passage>)> {
-    let [_, speed] = problem.scales();
+    let fastest = || passages.iter().fold(0.0, |most: f64, passage| most.max(passage.speed.abs()));
+    let speed = problem.scene().gap().map_or_else(fastest, |_| problem.scales()[1]);
     // A body released from rest always moves in the same way: only the instant of the release
     // matters.
     let released = |passage: &Passage| passage.event.kind == Kind::Release;

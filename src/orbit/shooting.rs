@@ -194,8 +194,11 @@ impl Shooting<'_> {
 
     fn comes_back(&self, states: &[DVector<f64>]) -> Option<u32> {
         let count = states.len();
-        let back =
-            |n: usize| (count - REPEATS * n..count).all(|j| self.scales.size(&(&states[j] - &states[j - n])) < NEAR);
+        // Without a gap the motion is measured by its own size.
+        let largest = || states.iter().fold(0.0, |most: f64, x| most.max(self.scales.size(x)));
+        let near = NEAR * self.scene.gap().map_or_else(largest, |_| 1.0);
+        let apart = |j: usize, n: usize| self.scales.size(&(&states[j] - &states[j - n]));
+        let back = |n: usize| (count - REPEATS * n..count).all(|j| apart(j, n) <= near);
         (1..=LONGEST).find(|&n| count >= (REPEATS + 1) * n && back(n)).map(|n| n as u32)
     }
 

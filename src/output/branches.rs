@@ -310,6 +310,7 @@ pub fn ended(end: &End) -> String {
         End::Special(label) => label.name().to_owned(),
         End::Closed => "closes".to_owned(),
         End::Points => "as many points as were asked for".to_owned(),
+        End::Refused(reason) => format!("end of what the key accepts: {reason}"),
         End::Stuck(reason) => format!("stuck: {reason}"),
     }
 }

@@ -197,7 +197,7 @@ pub(super) fn largest_force(run: &Run) -> Option<f64> {
     walls.chain(supports).map(|largest| largest.mean_n).reduce(f64::max)
 }
 
-/// Largest force of all contacts in the window whose force is finite, N.
+/// Largest force of the contacts in the window at places without an impact, N.
 pub(super) fn peak(case: &Case, run: &Run) -> Option<f64> {
     Site::all(case).filter_map(|site| site.peak(run)).reduce(f64::max)
 }

@@ -38,6 +38,18 @@ pub(crate) fn headline(signature: &str, symmetric: bool, periods: u64) -> String
     format!("{touches}{mirror}, {}", counted(periods as usize, "forcing period"))
 }
 
+/// What the closure of an orbit of one degree of freedom is a share of.
+#[must_use]
+pub fn closure_of(scene: &Scene) -> &'static str {
+    if scene.gap().is_some() { "the gap" } else { "max |u|" }
+}
+
+/// What the closure of an orbit of a structure is a share of.
+#[must_use]
+pub fn shot_closure_of(scene: &Scene) -> String {
+    scene.gap().map_or_else(|| format!("{:?} m", scene.gap_scale()), |_| "the gap".to_owned())
+}
+
 /// A number, or null if it is not finite.
 fn finite(x: f64) -> Value {
     if x.is_finite() { json!(x) } else { Value::Null }
@@ -96,6 +108,7 @@ impl Known<'_> {
             "displacement_max_m": admissible.largest,
             "judge": {
                 "closure": finite(judged.closure),
+                "closure_of": closure_of(scene),
                 "tolerance": finite(judged.tolerance),
                 "same_events": judged.same_events,
             },
@@ -316,6 +329,7 @@ pub fn shot(found: &Shot, scene: &Scene, case: &str, modal: bool) -> Value {
         "multipliers": pairs(&found.multipliers),
         "stable": found.is_stable(),
         "closure": finite(found.closure),
+        "closure_of": shot_closure_of(scene),
         "walls": walls.collect::<Vec<_>>(),
     })
 }

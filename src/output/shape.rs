@@ -28,7 +28,8 @@ const BODY: &str = "of_";
 const AT: &str = "at_";
 const MASS: &str = "of_mass_";
 
-/// What begins the name of a station at a wall of matrices or modes, by the number of the wall.
+/// What begins the name of a station at a wall of matrices or modes, before the number of the wall,
+/// from 0, and its name.
 const WALL: &str = "of_wall_";
 
 /// Stations at equal distances along a bar or beam, beside those at walls and loads; and most
@@ -165,7 +166,8 @@ fn unwatched(case: &Case) -> Vec<(String, Place)> {
     for (wall, place) in case.places.iter().enumerate().filter(|(_, place)| case.sees(place).is_some()) {
         if !known.contains(&place) && all.len() < MOST_MASSES {
             known.push(place);
-            all.push((format!("{WALL}{wall}_m"), place.clone()));
+            let name = case.scene.walls.get(wall).map_or("", |wall| wall.name.as_str()).replace('-', "_");
+            all.push((format!("{WALL}{wall}_{name}_m"), place.clone()));
         }
     }
     all
@@ -258,8 +260,9 @@ impl BodyStations {
 /// The body and the place of a station, of its name without plane and unit.
 fn station(name: &str) -> Option<(&str, f64)> {
     let number = |text: &str| text.replace('p', ".").replace('m', "-").parse::<f64>().ok();
-    let alone = [AT, MASS, WALL].into_iter().find_map(|before| name.strip_prefix(before)).and_then(number);
-    if let Some(place) = alone {
+    let alone = [AT, MASS].into_iter().find_map(|before| name.strip_prefix(before)).and_then(number);
+    let wall = || name.strip_prefix(WALL)?.split('_').next()?.parse().ok();
+    if let Some(place) = alone.or_else(wall) {
         return Some(("", place));
     }
     let named = name.strip_prefix(BODY)?;
@@ -291,7 +294,7 @@ mod tests {
         }
         let mass = ["time_s".to_owned(), "displacement_of_mass_7_m".to_owned()];
         assert_eq!(Stations::of(&mass).unwrap().bodies[0].places, [7.0]);
-        let walls = ["time_s", "displacement_of_wall_0_m", "displacement_of_wall_12_m"].map(str::to_owned);
+        let walls = ["time_s", "displacement_of_wall_0_m", "displacement_of_wall_12_r_upper_m"].map(str::to_owned);
         assert_eq!(Stations::of(&walls).unwrap().bodies[0].places, [0.0, 12.0]);
     }
 

@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::run::Run;
+use crate::step::Contact;
 
 /// A place of contact of a scene: a wall or a round support.
 #[derive(Clone, Copy)]
@@ -48,10 +49,16 @@ impl<'a> Site<'a> {
         }
     }
 
-    /// Largest force of the contacts in the window whose force is finite, N.
+    /// Largest force of the contacts in the window, N; `None` where an impact is among them, whose
+    /// force is not finite.
     pub fn peak(self, run: &Run) -> Option<f64> {
         match self {
-            Self::Wall(index, _) => run.statistics.walls.get(index)?.episode_peak_force_n.max,
+            Self::Wall(index, _) => {
+                let reaches = |c: &&Contact| c.wall == index && c.end.is_none_or(|end| end >= run.statistics.from_s);
+                let struck = run.trajectory.contacts().iter().filter(reaches).any(|c| c.peak_force.is_none());
+                let peak = run.statistics.walls.get(index)?.episode_peak_force_n.max;
+                peak.filter(|_| !struck)
+            }
             Self::Round(index, _) => run.statistics.supports.get(index)?.episode_peak_force_n.max,
         }
     }

@@ -146,7 +146,8 @@ fn cards(document: &Value) -> Vec<Value> {
     cards.push(match (closure, judge["tolerance"].as_f64()) {
         (None, _) => card("Free run", State::Open, "Not run".to_owned(), String::new()),
         (Some(closure), tolerance) => {
-            let back = format!("It ends within {} of the gap from where it began", short(closure));
+            let of = judge["closure_of"].as_str().or(document["closure_of"].as_str()).unwrap_or("the gap");
+            let back = format!("It ends within {} of {of} from where it began", short(closure));
             let text = tolerance.map_or(format!("{back}."), |most| format!("{back}; rounding allows {}.", short(most)));
             let holds = same && tolerance.is_none_or(|most| closure <= most);
             match (holds, same) {

@@ -112,11 +112,18 @@ impl Flats {
     /// within a half turn.
     #[must_use]
     pub fn is_open(&self) -> bool {
+        self.ways_out().next().is_some()
+    }
+
+    /// The ways out between neighbouring flats a half turn or more apart: the direction in the
+    /// middle, degrees, and by how much more than a half turn.
+    pub(crate) fn ways_out(&self) -> impl Iterator<Item = (f64, f64)> {
         let mut turns: Vec<f64> = self.flats.iter().map(|flat| flat.direction.rem_euclid(360.0)).collect();
         turns.sort_by(f64::total_cmp);
-        let Some((first, last)) = turns.first().zip(turns.last()) else { return true };
-        let widest = turns.windows(2).map(|pair| pair[1] - pair[0]).fold(first + 360.0 - last, f64::max);
-        widest >= 180.0
+        turns.extend(turns.first().map(|first| first + 360.0));
+        let pairs: Vec<(f64, f64)> =
+            turns.windows(2).map(|pair| (0.5 * (pair[0] + pair[1]), pair[1] - pair[0])).collect();
+        pairs.into_iter().filter(|(_, apart)| *apart >= 180.0).map(|(middle, apart)| (middle % 360.0, apart - 180.0))
     }
 }
 

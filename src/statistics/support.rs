@@ -15,8 +15,8 @@ pub struct SupportStatistics {
     pub support: String,
     /// Number of contacts that began in the window, of all its flats.
     pub contacts: usize,
-    /// Largest |normal force| of each contact that overlaps the window and whose force is finite,
-    /// N.
+    /// Largest |normal force| of each contact that overlaps the window, N; nothing where one of
+    /// them was an impact on a rigid support, whose force is not finite.
     #[serde(default)]
     pub episode_peak_force_n: Summary,
     /// The force over time; `None` where only the contacts are known.
@@ -200,7 +200,10 @@ pub(super) fn of_supports(scene: &Scene, by_wall: &[Vec<&Contact>], from: f64) -
         SupportStatistics {
             support: support.name.clone(),
             contacts: all.filter(|c| c.start >= from).count(),
-            episode_peak_force_n: Summary::of(reaching.filter_map(|c| c.peak_force)),
+            episode_peak_force_n: match reaching.map(|c| c.peak_force).collect::<Option<Vec<f64>>>() {
+                Some(peaks) => Summary::of(peaks.into_iter()),
+                None => Summary::default(),
+            },
             force: None,
         }
     };

@@ -77,6 +77,10 @@ fn a_support_has_the_contacts_that_begin_in_the_window_and_the_forces_of_those_t
     let support = &Statistics::new(&between_flats(1.0), &contacts, 0.5).supports[0];
     assert_eq!(support.contacts, 2);
     assert_eq!((support.episode_peak_force_n.mean, support.episode_peak_force_n.max), (Some(3.0), Some(5.0)));
+    // An impact has no largest force, so those of the other contacts are not the largest.
+    let struck = [&contacts[..], &[contact(0, 0.95, 0.95, None)]].concat();
+    let support = &Statistics::new(&between_flats(1.0), &struck, 0.5).supports[0];
+    assert_eq!((support.contacts, support.episode_peak_force_n.max), (3, None));
 }
 
 #[test]

@@ -187,12 +187,21 @@ fn system(system: &System) -> String {
             let degrees = if n == 1 { "degree" } else { "degrees" };
             let about = if s.uncoupled_squares().is_some() { "" } else { "about " };
             format!(
-                "{n} {degrees} of freedom: natural frequencies from {:.6} to {about}{:.6} Hz",
-                slowest / std::f64::consts::TAU,
-                fastest / std::f64::consts::TAU
+                "{n} {degrees} of freedom: natural frequencies from {} to {about}{} Hz",
+                hertz(slowest / std::f64::consts::TAU),
+                hertz(fastest / std::f64::consts::TAU)
             )
         }
         _ => "one degree of freedom without stiffness: a free or falling body".into(),
+    }
+}
+
+/// A natural frequency, Hz, so that a slow one does not look like none.
+pub(crate) fn hertz(frequency: f64) -> String {
+    match frequency {
+        0.0 => "0".to_owned(),
+        f if f < 1e-2 => amount(f, 6),
+        f => format!("{f:.6}"),
     }
 }
 

@@ -6,8 +6,8 @@ use crate::step::{Path, Step};
 /// Maximum number of forcing periods after which a motion may repeat itself.
 const MOST_PERIODS: usize = 32;
 
-/// Tolerance of a repetition: in gaps, and for velocities in gaps times the angular frequency of
-/// the forcing.
+/// Tolerance of a repetition: in gaps, where there is none in sizes of the motion, and for
+/// velocities in these times the angular frequency of the forcing.
 const NEAR: f64 = 1e-3;
 
 /// Number of repetitions required.
@@ -73,19 +73,21 @@ impl Strobe {
     }
 
     /// Number of periods after which the motion repeats itself; see [`repeats`].
-    pub fn repeats(&self, length: f64) -> Option<usize> {
-        repeats(&self.taken.iter().map(|(_, state)| state).collect::<Vec<_>>(), self.period, length)
+    pub fn repeats(&self, gap: Option<f64>) -> Option<usize> {
+        repeats(&self.taken.iter().map(|(_, state)| state).collect::<Vec<_>>(), self.period, gap)
     }
 }
 
 /// The smallest number of periods N up to 32 for which each of the last 3 N of `states`, one per
-/// `period` (s), equals the one N before it, to 1e-3 of `length` (m) and of the speed of that
-/// length times the angular frequency; `None` if there is no such N. An N for which too few states
-/// were kept is not tried.
-pub(super) fn repeats(states: &[&State], period: f64, length: f64) -> Option<usize> {
+/// `period` (s), equals the one N before it, to 1e-3 of the `gap` (m), or else of the largest of
+/// the states, and of that length times the angular frequency; `None` if there is no such N. An N
+/// for which too few states were kept is not tried.
+pub(super) fn repeats(states: &[&State], period: f64, gap: Option<f64>) -> Option<usize> {
     let omega = std::f64::consts::TAU / period;
+    let largest = |of: fn(&State) -> &Vec<f64>| states.iter().flat_map(|s| of(s)).fold(0.0, |x: f64, q| x.max(q.abs()));
+    let length = gap.unwrap_or_else(|| largest(|s| &s.q).max(largest(|s| &s.v) / omega));
     let near = |a: &State, b: &State| {
-        let apart = |x: &[f64], y: &[f64], scale: f64| x.iter().zip(y).all(|(x, y)| (x - y).abs() < NEAR * scale);
+        let apart = |x: &[f64], y: &[f64], scale: f64| x.iter().zip(y).all(|(x, y)| (x - y).abs() <= NEAR * scale);
         apart(&a.q, &b.q, length) && apart(&a.v, &b.v, length * omega)
     };
     let count = states.len();
@@ -113,14 +115,19 @@ mod tests {
 
     #[test]
     fn the_least_period_is_found_and_none_where_there_is_none() {
-        assert_eq!(strobe(&[1.0; 10]).repeats(1.0), Some(1));
+        assert_eq!(strobe(&[1.0; 10]).repeats(Some(1.0)), Some(1));
         let two = [1.0, 2.0].repeat(6);
-        assert_eq!(strobe(&two).repeats(1.0), Some(2));
+        assert_eq!(strobe(&two).repeats(Some(1.0)), Some(2));
         let three: Vec<f64> = [1.0, 2.0, 1.0].repeat(5);
-        assert_eq!(strobe(&three).repeats(1.0), Some(3));
+        assert_eq!(strobe(&three).repeats(Some(1.0)), Some(3));
         let rising: Vec<f64> = (0..40).map(f64::from).collect();
-        assert_eq!(strobe(&rising).repeats(1.0), None);
+        assert_eq!(strobe(&rising).repeats(Some(1.0)), None);
         // Too few instants to decide.
-        assert_eq!(strobe(&[1.0, 1.0]).repeats(1.0), None);
+        assert_eq!(strobe(&[1.0, 1.0]).repeats(Some(1.0)), None);
+        // Without a gap a motion is measured by its own size.
+        let small: Vec<f64> = two.iter().enumerate().map(|(i, x)| 1e-6 * (x + 0.01 * f64::from(i as u32))).collect();
+        assert_eq!(strobe(&small).repeats(None), None);
+        assert_eq!(strobe(&two.iter().map(|x| 1e-6 * x).collect::<Vec<_>>()).repeats(None), Some(2));
+        assert_eq!(strobe(&[0.0; 10]).repeats(None), Some(1));
     }
 }

@@ -311,12 +311,8 @@ fn what_cannot_be_followed_is_refused() {
     let found = graph(&family, &start, 0.8, &request([0.7, 1.5]), &mut |_| ()).unwrap();
     let last = found.branches[0].points.iter().map(|point| point.value).fold(0.0, f64::max);
     assert!(last <= 1.0 && last > 0.99, "{last}");
-    let stuck = found.branches[0]
-        .ends
-        .iter()
-        .flatten()
-        .any(|end| matches!(end, End::Stuck(why) if why.contains("from 0 to 1")));
-    assert!(stuck, "{:?}", found.branches[0].ends);
+    let refused = |end: &End| matches!(end, End::Refused(why) if why.contains("from 0 to 1"));
+    assert!(found.branches[0].ends.iter().flatten().any(refused), "{:?}", found.branches[0].ends);
     // Impacts that accumulate are not solved for.
     let chatter = settled(source(1.0, 0.5));
     let refused = graph(&|f| Ok(source(f, 0.5)), &chatter, 1.0, &request([0.9, 1.1]), &mut |_| ()).unwrap_err();
@@ -386,6 +382,10 @@ fn elastic_walls_are_met_and_left_at_grazes() {
     let start = settled(family(4.0).unwrap());
     let graph = follow(&family, &start, 4.0, [2.0, 14.0], (Switch::All, 2));
     assert!(graph.branches.len() > 5);
+    // A special point other than a fold leads on, or says why not.
+    let silent = |s: &&Special| s.label != Label::Fold && s.leads_to.is_empty() == s.reason.is_none();
+    assert_eq!(graph.specials.iter().find(silent).map(|s| (s.label, s.point.value)), None);
+    assert!(graph.specials.iter().flat_map(|s| &s.reason).any(|reason| reason.contains("more switches")));
     // A contact that vanishes is one special point, not a fold and a doubling besides.
     for (index, special) in graph.specials.iter().enumerate() {
         for other in &graph.specials[index + 1..] {

@@ -306,6 +306,37 @@ fn wrong_requests_say_what_would_be_accepted() {
     assert!(err.contains("do not repeat themselves within 32 forcing periods after 20"), "{err}");
 }
 
+/// One stop at the place of rest: no gap, and a motion of some millimetres.
+const ONE_STOP: &str = r#"
+[system.oscillator]
+mass = 1.0
+damping = 0.2
+stiffness = 100.0
+[[wall]]
+name = "stop"
+side = "upper"
+position = 0.0
+restitution = 0.5
+[[load]]
+harmonic = { amplitude = 3.0, frequency = 5.0 }
+[time]
+end = 5.0
+step = 1e-3
+"#;
+
+#[test]
+fn a_motion_without_a_gap_is_measured_by_its_own_size() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("stop.toml"), ONE_STOP).unwrap();
+    let orbit = ["orbit", "stop.toml", "--restitution", "0.8", "--settle", "200"];
+    let (out, _) = said(dir.path(), &orbit, 0);
+    assert!(out.contains(" of max |u|, the same events") && !out.contains("gap"), "{out}");
+    // Chaos within a millimetre of an unstable orbit is not settled on it.
+    let chaos = ["--set", "load.1.harmonic.frequency=4.8", "--out", "chaos"];
+    let (_, err) = said(dir.path(), &[&orbit[..], &chaos].concat(), 1);
+    assert!(err.contains("do not repeat themselves"), "{err}");
+}
+
 /// One degree of freedom that never leaves its pad.
 const PRESSED: &str = r#"
 [system.oscillator]

@@ -391,7 +391,7 @@ fn walls_of_modes_are_drawn_where_no_probe_watches() {
     let page = results(dir.path(), &["run", "modes.toml", "--no-verdict"]);
     let shape = fs::read_to_string(page.with_file_name("shape.csv")).unwrap();
     let mut lines = shape.lines();
-    assert_eq!(lines.next().unwrap(), "time_s,displacement_of_wall_0_m");
+    assert_eq!(lines.next().unwrap(), "time_s,displacement_of_wall_0_stop_upper_m");
     let moved: Vec<f64> = lines.map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect();
     let most = moved.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
     // It meets the stop between two rows, and six digits are written.

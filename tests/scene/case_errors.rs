@@ -657,12 +657,15 @@ fn a_malformed_matrix_is_refused_at_its_own_line() {
     };
     let right = read(m, &k).unwrap();
     assert_eq!(right.scene.system.degrees_of_freedom(), 2);
+    // Fortran writes D for the exponent of a double; products are symmetric to their rounding.
+    let fortran = read("1.0,1e-9\n-1e-9,1.0\n", &k.replace("-1.0", "-0.1D+01")).unwrap().scene.system.structure();
+    assert_eq!((fortran.stiffness.get(1, 0), fortran.mass.get(1, 0)), (-1.0, 0.0));
     let wrong = [
         (m, k.replace("2 2 3", "2 2 4"), "K.mtx:5", "3 entries of 4"),
         (m, k.replace("-1.0", "one"), "K.mtx:4", "no finite number"),
         (m, k.replace("2 1 -1.0", "3 1 -1.0"), "K.mtx:4", "no row or column"),
         (m, "1.0".to_owned(), "K.mtx:1", "MatrixMarket"),
-        ("1.0,0.5\n0.0,1.0\n", k.clone(), "M.csv:", "symmetric"),
+        ("1.0,0.5\n0.0,1.0\n", k.clone(), "M.csv:", "symmetric to 1e-8 of the entry or of √|a_ii a_jj|"),
         ("1.0,0.0\n", k.clone(), "M.csv:1", "2"),
         ("1.0,nan\n0.0,1.0\n", k.clone(), "M.csv:1", "finite"),
         ("1.0,0.0\n0.0,-1.0\n", k.clone(), "case.toml:2:8", "positive definite"),

@@ -322,6 +322,13 @@ fn flats_on_one_side_are_no_error_but_a_note() {
     let open = RIGHT.replace("[0, 120, 240]", "[0, 10, 20]");
     let case = Case::parse(&open, "open.toml", "").unwrap_or_else(|error| panic!("{error}"));
     assert!(case.notes().iter().any(|note| note.contains("\"bars\" stand within a half turn")), "{:?}", case.notes());
+    // Opposite flats bound the motion both ways along their line.
+    for (directions, free) in [("[0, 180]", "towards 90° and 270° free"), ("[180, 90, 0]", "towards 270° free")] {
+        let opposite = RIGHT.replace("[0, 120, 240]", directions).replace("[1e-3, 2e-3, 1e-3]", "1e-3");
+        let notes = Case::parse(&opposite, "opposite.toml", "").unwrap_or_else(|error| panic!("{error}")).notes();
+        let said = format!("the flats of support \"bars\" leave the motion {free}");
+        assert!(notes.contains(&said) && notes.iter().all(|note| !note.contains("half turn")), "{notes:?}");
+    }
     let closed = Case::parse(RIGHT, "closed.toml", "").unwrap_or_else(|error| panic!("{error}"));
     assert!(closed.notes().iter().all(|note| !note.contains("half turn")));
 }

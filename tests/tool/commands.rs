@@ -389,6 +389,11 @@ fn help_has_examples_everywhere_and_quiet_is_quiet() {
     ] {
         assert!(done(dir.path(), command).contains("Example"), "{command:?}");
     }
+    // The example of an error by name keeps it.
+    let help = done(dir.path(), &["--help"]);
+    let example = help.lines().find(|line| line.contains("--accuracy 1e-6")).unwrap();
+    let words = example.split_whitespace().skip(1).take_while(|word| *word != "an");
+    done(dir.path(), &words.collect::<Vec<_>>());
     assert!(done(dir.path(), &["--version"]).contains(env!("CARGO_PKG_VERSION")));
     assert!(done(dir.path(), &["completions", "bash"]).contains("compare"));
     let output = signorini(dir.path(), &["run", "linear-sine", "--quiet"]);

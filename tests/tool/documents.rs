@@ -100,6 +100,7 @@ fn my_own_matrices_in_ten_minutes() {
     assert_eq!((files, commands), (7, 6));
     // 2 √1000 sin(π/14) / 2π and 2 √1000 sin(5π/14) / 2π.
     assert!(said.contains("natural frequencies from 2.239861 to about 9.069011 Hz"), "{said}");
+    assert!(said.contains("natural frequencies, all: 2.239861, 6.275950, 9.069011 Hz"), "{said}");
     let first = |case: &str| {
         let contacts = fs::read_to_string(dir.path().join("out").join(case).join("run/contacts.csv")).unwrap();
         let mut table = csv::Reader::from_reader(contacts.as_bytes());

@@ -9,12 +9,13 @@ import numpy.typing as npt
 
 Entries = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], npt.NDArray[np.float64]]
 
-# Assembled matrices are symmetric to the rounding of their sums.
-_ASYMMETRY = 1e-9
+# Between an entry and its mirror, relative to the larger or to sqrt(|a_ii a_jj|), as of matrices in
+# files: reduced matrices are symmetric to the rounding of their products.
+_ASYMMETRY = 1e-8
 
 
 def lower(name: str, matrix: Any) -> tuple[int, Entries]:
-    """Size and the entries of the lower triangle of a symmetric matrix."""
+    """Size and the entries of the lower triangle of a symmetric matrix, means of both triangles."""
     if hasattr(matrix, "tocoo"):
         coo = matrix.tocoo()
         shape, rows, columns, values = coo.shape, coo.row, coo.col, coo.data
@@ -33,18 +34,19 @@ def lower(name: str, matrix: Any) -> tuple[int, Entries]:
     values = values.astype(np.float64)
     n = int(shape[0])
     # Duplicates of a sparse matrix are summed, so triangles are compared as sums over one key.
-    key = np.maximum(rows, columns).astype(np.int64) * n + np.minimum(rows, columns)
-    sign = np.sign(np.asarray(rows, np.int64) - np.asarray(columns, np.int64))
-    keys, where = np.unique(key, return_inverse=True)
-    skew = np.bincount(where, weights=sign * values, minlength=len(keys))
-    size = np.bincount(where, weights=np.abs(values), minlength=len(keys))
-    wrong = np.flatnonzero(np.abs(skew) > _ASYMMETRY * size)
+    rows, columns = np.asarray(rows, np.int64), np.asarray(columns, np.int64)
+    keys, where = np.unique(np.maximum(rows, columns) * n + np.minimum(rows, columns), return_inverse=True)
+    low, high = (np.bincount(where, values * half, len(keys)) for half in (rows >= columns, rows <= columns))
+    i, j = np.asarray(keys // n, np.int64), np.asarray(keys % n, np.int64)
+    diagonal = np.zeros(n)
+    diagonal[i[i == j]] = low[i == j]
+    scale = np.maximum(np.maximum(np.abs(low), np.abs(high)), np.sqrt(np.abs(diagonal[i] * diagonal[j])))
+    wrong = np.flatnonzero(np.abs(low - high) > _ASYMMETRY * scale)
     if wrong.size:
-        i, j = divmod(int(keys[wrong[0]]), n)
+        first = wrong[0]
+        row, column = int(i[first]) + 1, int(j[first]) + 1
         raise ValueError(
-            f"{name} matrix, row {i + 1}, column {j + 1} differs from row {j + 1}, column {i + 1}; "
-            "expected a symmetric matrix"
+            f"{name} matrix, row {row}, column {column} is {float(low[first])}, and row {column}, column {row} is "
+            f"{float(high[first])}; expected a matrix symmetric to {_ASYMMETRY} of the entry or of sqrt(|a_ii a_jj|)"
         )
-    keep = rows >= columns
-    index = (np.asarray(rows[keep], np.int64), np.asarray(columns[keep], np.int64))
-    return n, (*index, values[keep])
+    return n, (i, j, np.asarray(0.5 * (low + high), np.float64))

@@ -67,12 +67,14 @@ class SupportStatistics:
     ``work_rate`` is the work of wear ∫ F_n |v_t| dt per time, W, an upper figure where
     ``upper_figure`` is True (without friction); ``impact_share`` the share of it that impacts did.
     ``force_mean`` and ``force_rms`` are of the normal force and of the force vector, N,
-    ``force_largest`` the largest normal force of an elastic support, N, and ``force_largest_mean``
+    ``force_largest`` the largest normal force, N, None where an impact on a rigid support has no
+    finite one, and ``force_largest_mean``
     the largest mean of the normal force over a stretch of `force_averaging`, N, around the time
     ``force_largest_mean_at``, s, of any support. ``sliding_rate`` is the
     distance slid in contact per time, m/s, ``sliding_speed`` the mean speed while in contact, m/s,
     ``friction_power`` what friction takes out of the motion, W, and ``contact_time_ratio`` the share
-    of the time in contact. ``sectors`` is an array with the fields ``from_deg``, ``to_deg``,
+    of the time in all steps in which it pushes (a wall's is that of its contacts, up to half a step
+    less at both ends of each). ``sectors`` is an array with the fields ``from_deg``, ``to_deg``,
     ``work_rate`` (W) and ``impulse_share``. None stands where there is no value.
     """
 

@@ -36,6 +36,9 @@ docs/orbits.md has the method and the labels.";
 pub struct Args {
     #[command(flatten)]
     pub(super) case: CaseArgs,
+    /// Restitution of every rigid wall, 0 to 1
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    pub(super) restitution: Option<f64>,
     /// The key whose value changes along the branches, such as load.1.harmonic.frequency
     #[arg(long, value_name = "KEY")]
     pub(super) key: String,
@@ -79,6 +82,12 @@ pub struct Args {
 }
 
 impl Args {
+    /// The command line of `signorini orbit` for the same case.
+    pub(super) fn orbit_command(&self) -> String {
+        let restitution = self.restitution.map(|e| format!(" --restitution {e:?}")).unwrap_or_default();
+        self.case.command_line("orbit") + &restitution
+    }
+
     /// What decides on the results beside the case.
     pub(super) fn settings(&self) -> Value {
         json!({

@@ -3,6 +3,7 @@
 use super::args::Args;
 use super::varied::Varied;
 use crate::case::{Case, CaseFile, KeyValue};
+use crate::cli::case_args::set_restitution;
 use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
 use crate::orbit::Problem;
@@ -24,7 +25,8 @@ impl SceneFamily {
     /// # Errors
     /// A case or a key that makes no sense; a scene whose orbits cannot be followed.
     pub(super) fn new(args: &Args, ui: &Ui) -> Result<Self> {
-        let file = args.case.file(ui)?;
+        let mut file = args.case.file(ui)?;
+        set_restitution(&mut file, args.restitution)?;
         let case = file.case()?;
         case.check_repeats()?;
         let key = Varied::new(&file, ["--key", "--range"], &args.key, &args.range)?;

@@ -17,7 +17,7 @@ use crate::run::notes;
 use crate::scene::{System, WallSpring};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::study::choice::{self, Choice};
-use model::{MOST_WALLS, excitation_count, excitations, supports, walls, what};
+use model::{MOST_WALLS, excitation_count, excitations, frequencies, frequencies_in_words, supports, walls, what};
 use penalty::Penalty;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -71,6 +71,7 @@ fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
     };
     let (mut model, scene) = (what(case), case.without_sliders());
     model.extend(choice::body(&scene));
+    model.extend(frequencies_in_words(case, &frequencies(case)));
     model.extend(supports(case));
     model.extend(walls(case));
     model.push(excitation_count(case));
@@ -134,6 +135,7 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
         "model": model,
         "slowest_frequency_hz": slowest,
         "fastest_frequency_hz": fastest,
+        "frequencies_hz": frequencies(case),
         "walls": walls,
         "scheme": choice.method.to_string(),
         "scheme_reason": choice.reason,

@@ -1,12 +1,15 @@
 //! The model of a case in words: structure, supports, walls and loads.
 
 use crate::case::{Case, Model, Origin, ScatteredStart, Support, SupportShape, WallsOverBase};
-use crate::scene::{self, Density, Flats, LoadKind, Slider, Turbulence, WallSpring};
+use crate::scene::{self, Density, Flats, LoadKind, Modes, Slider, System, Turbulence, WallSpring};
 use crate::study::choice;
 use crate::study::truncation::Start;
 
 /// Most walls that are listed one by one.
 pub(super) const MOST_WALLS: usize = 12;
+
+/// Most natural frequencies that are listed.
+const MOST_FREQUENCIES: usize = 12;
 
 /// The structure as the file describes it, and its reduction; nothing for an oscillator.
 pub(super) fn what(case: &Case) -> Vec<String> {
@@ -28,6 +31,24 @@ pub(super) fn what(case: &Case) -> Vec<String> {
         lines.push(format!("{what}, in full"));
     }
     lines
+}
+
+/// The natural frequencies of the structure as it is run, Hz: the slowest up to
+/// [`MOST_FREQUENCIES`]; none of an oscillator, and where its modes are not found.
+pub(super) fn frequencies(case: &Case) -> Vec<f64> {
+    let scene = case.without_sliders();
+    let System::Structure(structure) = &scene.system else { return Vec::new() };
+    let modes = Modes::lowest(structure, structure.mass.size().min(MOST_FREQUENCIES));
+    modes.map_or_else(|_| Vec::new(), |modes| modes.omega.iter().map(|omega| omega / std::f64::consts::TAU).collect())
+}
+
+/// These frequencies in a line; nothing where the range above has them all.
+pub(super) fn frequencies_in_words(case: &Case, frequencies: &[f64]) -> Option<String> {
+    let all = case.without_sliders().system.degrees_of_freedom();
+    let which =
+        if all > frequencies.len() { format!("the slowest {} of them", frequencies.len()) } else { "all".into() };
+    let listed: Vec<String> = frequencies.iter().map(|f| choice::hertz(*f)).collect();
+    (listed.len() > 1).then(|| format!("natural frequencies, {which}: {} Hz", listed.join(", ")))
 }
 
 /// A model in words.

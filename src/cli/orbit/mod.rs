@@ -12,7 +12,7 @@ use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::{Error, Result};
 use crate::orbit::{Floquet, Kind, Orbit, Problem};
-use crate::output::periodic::{self, Known, tells_state};
+use crate::output::periodic::{self, Known, closure_of, tells_state};
 use crate::output::table::Table;
 use crate::scene::System;
 use list::list;
@@ -23,7 +23,7 @@ use written::write_document;
 const POINTS: u32 = 2000;
 
 pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
-    let case = args.case.read(ui)?;
+    let case = args.case.read_with_restitution(args.restitution, ui)?;
     if args.list {
         return list(&case);
     }
@@ -72,9 +72,10 @@ fn fault(known: &Known<'_>) -> Option<Error> {
     match known.admissible.reason(known.problem.scene()) {
         Some(reason) => Some(Error::no_orbit(format!("no body can follow what was found: {reason}"))),
         None if !judged.holds() => Some(Error::no_orbit(format!(
-            "the free run from it does not come back: it misses its start by {:.1e} of the gap, and rounding \
+            "the free run from it does not come back: it misses its start by {:.1e} of {}, and rounding \
              explains {:.1e}{}",
             judged.closure,
+            closure_of(known.problem.scene()),
             judged.tolerance,
             if judged.same_events { "" } else { ", and goes through other events" }
         ))),
@@ -124,8 +125,9 @@ fn show(answer: &mut Answer, known: &Known<'_>) {
     let header = ["wall", "contacts", "impulse (N s)", "largest speed (m/s)", "largest lasting force (N)"];
     answer.table(Table::new(&header, rows.collect()), "orbit.json");
     answer.prose(format!(
-        "free run over one period: comes back within {:.1e} of the gap, {} events",
+        "free run over one period: comes back within {:.1e} of {}, {} events",
         judged.closure,
+        closure_of(scene),
         if judged.same_events { "the same" } else { "other" }
     ));
 }

@@ -8,7 +8,7 @@ use crate::cli::ui::Ui;
 use crate::error::counted;
 use crate::error::{Error, Result};
 use crate::orbit::{Shot, shoot};
-use crate::output::periodic::{read_shot, shot};
+use crate::output::periodic::{read_shot, shot, shot_closure_of};
 use crate::output::results::Results;
 use crate::output::table::Table;
 use crate::scene::{Scene, Wall};
@@ -59,5 +59,9 @@ fn show_structure(answer: &mut Answer, found: &Shot, scene: &Scene) {
         vec![wall.name.clone(), contacts, format!("{impulse:.9e}")]
     };
     answer.table(Table::new(&["wall", "contacts", "impulse (N s)"], rows.map(row).collect()), "orbit.json");
-    answer.prose(format!("free run over one period: comes back within {:.1e} of the gap", found.closure));
+    answer.prose(format!(
+        "free run over one period: comes back within {:.1e} of {}",
+        found.closure,
+        shot_closure_of(scene)
+    ));
 }

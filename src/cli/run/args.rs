@@ -20,7 +20,7 @@ Examples:
   signorini run rigid-walls-sine --restitution 0.8 --step 1e-5
   signorini run rigid-walls-sine --scheme penalty --epsilon 1e-9 --integrator trapezoidal
   signorini run elastic-wall --scheme event --out results
-  signorini run elastic-wall --accuracy 1e-6
+  signorini run elastic-wall --end 4 --accuracy 1e-6
   signorini run rigid-walls-sine --restitution 0.8 --scheme moreau-jean --accuracy 1e-3
   signorini run tube-loose-supports --modes 40
   signorini run rigid-walls-sine --from 4 --to 6   pictures of these two seconds

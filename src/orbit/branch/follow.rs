@@ -7,7 +7,7 @@ use super::events::{Test, point, tests};
 use super::label::Label;
 use super::line::{End, LEAST_LOOP, Line, Passed};
 use super::point::Point;
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// The point at which a step begins.
 struct StepStart {
@@ -88,7 +88,7 @@ impl Follower<'_, '_> {
         let next = match self.corrected(reach) {
             Ok(next) => next,
             Err(_) if self.stride.halve() => return Ok(None),
-            Err(why) => return Ok(Some(End::Stuck(why))),
+            Err(error) => return Ok(Some(End::of(&error))),
         };
         let mut crossed = match self.crossed(&next, reach.length) {
             Ok(crossed) => crossed,
@@ -132,7 +132,7 @@ impl Follower<'_, '_> {
     }
 
     /// The point at the end of a step, or why there is none nearby.
-    fn corrected(&self, Reach { length, bound }: Reach) -> std::result::Result<StepStart, String> {
+    fn corrected(&self, Reach { length, bound }: Reach) -> Result<StepStart> {
         let Self { curve, now, .. } = self;
         let last = now.y.len() - 1;
         let (mut guess, mut border) = (&now.y + &now.tangent * length, now.tangent.clone());
@@ -144,11 +144,11 @@ impl Follower<'_, '_> {
             next.point.value = bound.unwrap_or(next.point.value);
             Ok((next, iterations))
         });
-        let (next, iterations) = tried.map_err(|error| error.to_string())?;
+        let (next, iterations) = tried?;
         if Stride::keeps(iterations, &now.tangent, &next.tangent) && next.point.value.is_finite() {
             return Ok(next);
         }
-        Err("the branch turns too sharply".to_owned())
+        Err(Error::no_orbit("the branch turns too sharply"))
     }
 
     /// All special points within a step of `length` to `next`, or why one was not located.

@@ -4,7 +4,7 @@ use super::super::periodic::Orbit;
 use super::arclength::Vector;
 use super::label::Label;
 use super::point::Point;
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Least number of points after which a curve may be found closed.
 pub(super) const LEAST_LOOP: usize = 6;
@@ -21,8 +21,18 @@ pub enum End {
     Closed,
     /// After as many points as were asked for.
     Points,
+    /// At the end of what the key accepts, with what was said about the first value beyond.
+    Refused(String),
     /// Where it could not be continued, with the reason.
     Stuck(String),
+}
+
+impl End {
+    /// The end at which the next orbit has this `error`.
+    pub(super) fn of(error: &Error) -> Self {
+        // Only a value of the key can make an invalid scene of a valid one.
+        if error.is_request() { Self::Refused(error.to_string()) } else { Self::Stuck(error.to_string()) }
+    }
 }
 
 /// A special point that was passed.

@@ -260,8 +260,8 @@ impl Traced<'_> {
                 tried => {
                     step *= 0.5;
                     if step < STEPS[2] {
-                        let sharp = || "the locus turns too sharply".to_owned();
-                        return Ok((points, End::Stuck(tried.err().map_or_else(sharp, |error| error.to_string()))));
+                        let sharp = || End::Stuck("the locus turns too sharply".to_owned());
+                        return Ok((points, tried.err().map_or_else(sharp, |error| End::of(&error))));
                     }
                     continue;
                 }

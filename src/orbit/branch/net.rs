@@ -97,32 +97,41 @@ impl<'r, C: Followed> Net<'r, C> {
     }
 
     /// Follows the branch that begins at a special point, unless it is known.
-    fn leave(&mut self, number: usize, passed: Passed<C>, seen: &mut dyn FnMut(&Point)) {
+    fn leave(&mut self, number: usize, mut passed: Passed<C>, seen: &mut dyn FnMut(&Point)) {
         let own = self.graph.specials.get(number).map_or(0, |special| special.branch);
         let depth = self.graph.branches.get(own).map_or(0, |branch| branch.depth);
         // Beyond a change of its contacts the same curve continues: this does not count as a
         // switch.
         let goes_on = passed.beyond.is_some();
-        let wanted = match self.request.switch {
-            Switch::No => false,
-            Switch::Stable => self.stable_beside(number),
-            Switch::All => true,
-        };
-        if !(goes_on || wanted && depth < self.request.depth) || passed.label == Label::Fold {
+        if passed.label == Label::Fold || !goes_on && self.request.switch == Switch::No {
             return;
         }
+        let against = if goes_on { None } else { self.against(number, depth) };
         let depth = depth + u32::from(!goes_on);
         let used = if goes_on { self.used.get(own).copied().unwrap_or(0) } else { 0 };
-        let begin = match passed.beyond {
-            Some(begin) => Ok(*begin),
-            None => passed.curve.switch(&passed),
+        let begin = match (against, passed.beyond.take()) {
+            (Some(reason), _) => Err(reason),
+            (None, Some(begin)) => Ok(*begin),
+            (None, None) => passed.curve.switch(&passed).map_err(|error| error.to_string()),
         };
-        let outcome = begin.and_then(|begin| self.begin(number, begin, (depth, used), seen));
+        let outcome =
+            begin.and_then(|begin| self.begin(number, begin, (depth, used), seen).map_err(|error| error.to_string()));
         let Some(special) = self.graph.specials.get_mut(number) else { return };
         match outcome {
-            Ok(branch) => special.leads_to.extend(branch),
-            Err(error) => special.reason = Some(error.to_string()),
+            Ok(Some(branch)) => special.leads_to.push(branch),
+            Ok(None) => special.reason = Some("its curve has as many points as were asked for".to_owned()),
+            Err(reason) => special.reason = Some(reason),
         }
+    }
+
+    /// Why the request does not want the branch that begins at a special point of a branch to which
+    /// `depth` switches lead.
+    fn against(&self, special: usize, depth: u32) -> Option<String> {
+        if self.request.switch == Switch::Stable && !self.stable_beside(special) {
+            return Some("no orbit beside it is stable".to_owned());
+        }
+        let most = self.request.depth;
+        (depth >= most).then(|| format!("it is more switches from the first branch than were asked for: {}", depth + 1))
     }
 
     /// Follows the branch that begins at special point `number`; gives its number, or that of the

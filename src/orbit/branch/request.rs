@@ -60,7 +60,8 @@ pub struct Special {
     pub point: Point,
     /// Other branches through it.
     pub leads_to: Vec<usize>,
-    /// Why no other branch was followed from here; `None` if one was, or none was asked for.
+    /// Why no other branch was followed from here; `None` if one was, at a fold, where none begins,
+    /// and where none was asked for at any point.
     pub reason: Option<String>,
 }
 

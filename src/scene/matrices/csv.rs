@@ -7,7 +7,7 @@ use crate::linear::Symmetric;
 const FORMAT: &str = "n rows of n numbers with commas between them, without a header";
 
 /// Reads n lines of n numbers with commas between them; blank lines are ignored. The two triangles
-/// must agree to 1e-12.
+/// must agree to 1e-8 of the entry or of √|aᵢᵢ aⱼⱼ|; their mean is taken.
 ///
 /// # Errors
 /// [`TextError`] with the line that violates this.

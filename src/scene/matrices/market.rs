@@ -7,9 +7,9 @@ use crate::linear::Symmetric;
 const HEADER: &str = "%%MatrixMarket matrix coordinate|array real|integer general|symmetric";
 
 /// Reads a matrix in Matrix Market format, coordinate or array, real or integer, general or
-/// symmetric. A general one must be symmetric to 1e-12. Entries of a symmetric coordinate matrix
-/// may stand in either triangle, each once; those of a symmetric array are the lower triangle,
-/// column by column.
+/// symmetric. The triangles of a general one must agree to 1e-8 of the entry or of √|aᵢᵢ aⱼⱼ|;
+/// their mean is taken. Entries of a symmetric coordinate matrix may stand in either triangle, each
+/// once; those of a symmetric array are the lower triangle, column by column.
 ///
 /// # Errors
 /// [`TextError`] with the line that violates this.

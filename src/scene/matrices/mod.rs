@@ -64,9 +64,10 @@ impl<'a> MatrixLine<'a> {
         TextError { line: self.number, span: start..end, message: message.into(), expected: expected.into() }
     }
 
-    /// A finite number.
+    /// A finite number; Fortran writes the exponent of a double after a D.
     fn number(&self, field: &'a str) -> Result<f64, TextError> {
-        match field.parse::<f64>() {
+        let fortran = |_| field.replace(['D', 'd'], "E").parse::<f64>();
+        match field.parse::<f64>().or_else(fortran) {
             Ok(x) if x.is_finite() => Ok(x),
             _ => Err(self.error_at(field, format!("{field:?} is no finite number"), "a finite number")),
         }

@@ -4,8 +4,9 @@ use super::{MatrixLine, TextError};
 use crate::linear::Symmetric;
 
 /// Tolerance between an entry and its mirror across the diagonal, relative to the larger or to
-/// √|aᵢᵢ aⱼⱼ|.
-const SYMMETRIC: f64 = 1e-12;
+/// √|aᵢᵢ aⱼⱼ|. Products VᵀKV of assembled matrices with shapes have the rounding of the largest
+/// entries of K in all of theirs: 3e-10 of √|aᵢᵢ aⱼⱼ| with 200 beam elements.
+const SYMMETRIC: f64 = 1e-8;
 
 /// True if two entries that mirror each other are the same but for rounding, with the two
 /// `diagonal` entries of their rows.
@@ -49,7 +50,8 @@ pub(super) fn symmetric(n: usize, mut entries: Vec<Entry<'_>>, half: bool) -> Re
             if !mirrors(twin.value) {
                 let message = format!("{} is {:?}", named(twin), twin.value);
                 let expected = format!(
-                    "{:?} as across the diagonal, on line {}: a symmetric matrix",
+                    "{:?} as across the diagonal, on line {}: a matrix symmetric to {SYMMETRIC:?} of the entry or of \
+                     √|a_ii a_jj|",
                     first.value, first.line.number
                 );
                 return Err(twin.line.error(message, expected));

@@ -50,7 +50,7 @@ pub(super) fn follow<'a>(
         let end = match follower.advance(seen) {
             Ok(end) => end,
             Err(stopped @ Error::Stopped) => return Err(stopped),
-            Err(error) => Some(End::Stuck(error.to_string())),
+            Err(error) => Some(End::of(&error)),
         };
         if let Some(end) = end {
             follower.line.end = end;

@@ -140,7 +140,13 @@ function contactTable() {
   const table = tableOf(DATA.orbit.contacts);
   const { columns, rows } = table;
   if (!rows.length) return;
-  const phase = (i) => columns.start_s[i] / DATA.orbit.forcing;
+  // The run goes from an instant in the middle; phases begin at that of the first event.
+  const { forcing, periods, events } = DATA.orbit;
+  const phase = (i) => {
+    const at = columns.start_s[i] / forcing;
+    const first = events && events.length ? events[0].phase_cycles : 0;
+    return at - periods * Math.floor((at - first) / periods + 1e-6);
+  };
   const number = (name, text, n = 6) => ({
     name: text,
     value: (i) => columns[name][i],
@@ -158,7 +164,11 @@ function contactTable() {
         number("approach_speed_m_per_s", "approach (m/s)"),
         number("departure_speed_m_per_s", "departure (m/s)"),
         number("impulse_N_s", "impulse (N s)"),
-        number("peak_force_N", "largest force (N)"),
+        {
+          name: "largest force (N)",
+          value: (i) => columns.peak_force_N[i],
+          show: (i) => (Number.isFinite(columns.peak_force_N[i]) ? digits(columns.peak_force_N[i], 6) : "–"),
+        },
         { name: "lasts (s)", value: lasts, show: (i) => digits(lasts(i)) },
       ],
       rows,
