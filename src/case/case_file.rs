@@ -261,8 +261,8 @@ impl PartialEq for CaseFile {
     }
 }
 
-/// What goes to another process or machine: the text with its changes, and the files read so far, of
-/// which a built case has read all.
+/// What goes to another process or machine: the text with its changes, and the files read so far,
+/// of which a built case has read all.
 #[derive(Serialize, Deserialize)]
 struct Packed {
     shown: String,

@@ -50,8 +50,8 @@ impl Default for Symmetric {
 impl Symmetric {
     /// The n × n matrix whose entries are sums of `entries` (row, column, value). An off-diagonal
     /// entry is given once, in either triangle, and stands for both: for all entries of a matrix,
-    /// of which both triangles would be added up, there is [`Symmetric::from_rows`]. Entries beyond n
-    /// are left out, and a debug build panics.
+    /// of which both triangles would be added up, there is [`Symmetric::from_rows`]. Entries beyond
+    /// n are left out, and a debug build panics.
     #[must_use]
     pub fn from_entries(n: usize, entries: impl IntoIterator<Item = (usize, usize, f64)>) -> Self {
         let mut rows: Vec<Vec<(usize, f64)>> = (0..n).map(|i| vec![(i, 0.0)]).collect();
