@@ -42,9 +42,9 @@ pub(super) fn line(comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Str
         told.push(scheme);
         parts.push(match verdict {
             Some(v) => format!(
-                "{scheme}: the displacement {}, impulses by up to {:.1e} of the largest, contacts {:+}",
+                "{scheme}: the displacement {}, impulses {}, contacts {:+}",
                 v.displacement_words(),
-                v.impulse_change(),
+                v.impulse_words(),
                 v.contacts_gained()
             ),
             None => format!("{scheme} was not checked"),

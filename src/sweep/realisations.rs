@@ -80,7 +80,7 @@ impl Plan {
             self.check_interval(until, share)?;
         }
         let count = wanted.most();
-        let refuse = |expected: &str| Err(Error::invalid("number of realisations (seeds)", count, expected));
+        let refuse = |expected: &str| Err(Error::invalid("number of realisations (--seeds)", count, expected));
         if count < 2 {
             return refuse("2 or more realisations: the interval of a mean follows from their scatter");
         }
@@ -102,7 +102,7 @@ impl Plan {
     /// An error for rows whose intervals cannot decide how many realisations they have.
     fn check_interval(&self, until: &UntilInterval, share: f64) -> Result<()> {
         let refuse = |expected: &str| {
-            Err(Error::invalid("interval of the realisations (until_interval)", format_args!("{share:?}"), expected))
+            Err(Error::invalid("interval of the realisations (--until-interval)", format_args!("{share:?}"), expected))
         };
         if self.sweep.followed().is_some() {
             return refuse("nothing followed beside it: a row would start from realisations that the last one lacks");

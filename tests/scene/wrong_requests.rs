@@ -80,7 +80,7 @@ fn sweeps_name_what_is_missing_wherever_they_were_asked_for() {
     refused(sweep().vary(axis()).plan(), &["what is measured is nothing; expected one measure or more"]);
     refused(sweep().measure([Measure::Contacts]).plan(), &["what is varied is nothing", "an axis"]);
     let seeds = sweep().vary(axis()).measure([Measure::Contacts]).realisations(0);
-    refused(seeds.plan(), &["number of realisations (seeds) is 0"]);
+    refused(seeds.plan(), &["number of realisations (--seeds) is 0"]);
 }
 
 #[test]

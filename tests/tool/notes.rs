@@ -81,8 +81,9 @@ fn a_step_that_passes_over_a_mode_is_said() {
     let said = notes(&scene(), &MOREAU, 0.1);
     assert!(said.contains("the natural frequency, 1.5915 Hz, takes 6.3 steps"), "{said}");
     let chain = Chain { masses: vec![1.0; 8], springs: vec![1e4; 7], grounds: [1e4, 0.0] };
-    let mut scene =
-        Scene::structure(chain.structure().unwrap()).with_load(Load { at: Row::dof(7), ..Load::constant(1.0) });
+    let mut scene = Scene::structure(chain.structure().unwrap())
+        .with_load(Load { at: Row::dof(7), ..Load::constant(1.0) })
+        .with_probe("tip", Row::dof(7));
     assert!(notes(&scene, &MOREAU, 0.1).contains("a period of the slowest mode"), "{}", notes(&scene, &MOREAU, 0.1));
     assert_eq!(notes(&scene, &MOREAU, 0.02), "");
     // Cut to modes, the third carries 2 % of the tip's compliance, the eighth nothing to speak of:

@@ -31,6 +31,14 @@ impl Verdict {
         supports
     }
 
+    /// What the check changes in the impulses, as the rest of a sentence.
+    pub(crate) fn impulse_words(&self) -> String {
+        match self.impulse_change() {
+            change if change.is_finite() => format!("by up to {change:.1e} of the largest"),
+            _ => "where there were none".to_owned(),
+        }
+    }
+
     /// What the check changes in the displacement, as the rest of a sentence.
     pub(crate) fn displacement_words(&self) -> String {
         let horizon = match self.horizon_s {
@@ -71,9 +79,9 @@ impl fmt::Display for Verdict {
         if self.walls.len() > MOST_NAMED {
             write!(
                 f,
-                "; all {} walls: impulse {:.1e} of the largest wall's at most, contacts {:+}",
+                "; all {} walls: impulses {}, contacts {:+}",
                 self.walls.len(),
-                self.impulse_change(),
+                self.impulse_words(),
                 self.contacts_gained()
             )?;
         }
@@ -147,7 +155,7 @@ mod tests {
         let grown = verdict(&[[-0.2595, -2.8587]]);
         assert!(grown.to_string().contains("impulse -2.6e-1 → -2.9e0 N s"), "{grown}");
         assert!((grown.impulse_change() - 10.016).abs() < 1e-3);
-        assert!(verdict(&[[0.0, 0.1]]).impulse_change().is_infinite());
+        assert_eq!(verdict(&[[0.0, 0.1]]).impulse_words(), "where there were none");
         assert!((verdict(&[[1.0, 0.8]]).impulse_change() - 0.2).abs() < 1e-15);
     }
 
