@@ -90,8 +90,8 @@ fn steps_seen_together_are_judged_and_recorded_as_one_by_one() {
         let what = format!("scene {number} by {scheme}, {steps} steps, a row every {every}");
         assert_eq!((made.grid.steps, made.trajectory.time().len() as u64), (steps, made.grid.rows + 1), "{what}");
         assert_eq!(made.trajectory, rows, "{what}");
-        // The run measures the depth behind walls that the scene calls rigid, the judge behind those
-        // that the scheme computes, of which a penalty has none.
+        // The run measures the depth behind walls that the scene calls rigid, the judge behind
+        // those that the scheme computes, of which a penalty has none.
         let rigid = scene.walls.iter().zip(&made.residuals.depth_m).filter(|(wall, _)| wall.law.is_rigid());
         let mut seen = judge.residuals();
         seen.penetration_m = rigid.map(|(_, depth)| *depth).fold(0.0, f64::max);
