@@ -52,17 +52,19 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let choice = choice::choose(&case.scene);
     let times = [choice.method, Method::new(Scheme::Event)]
         .map(|method| run_time(&case.scene, &method, case.time.step, MOMENT));
-    let mut answer = Answer::new(document(&case, &choice, &times)?);
+    let natural = frequencies(&case);
+    let mut answer = Answer::new(document(&case, &choice, &times, &natural)?);
     answer.prose(format!("{}: {}", case.name, case.title.as_deref().unwrap_or("no title")));
-    for Section { heading, lines } in sections(&case, &choice, &times)? {
+    for Section { heading, lines } in sections(&case, &choice, &times, &natural)? {
         answer.prose(heading.to_owned());
         lines.iter().for_each(|line| answer.prose(format!("  {line}")));
     }
     Ok(answer)
 }
 
-/// The explanation; `times` are those of a run by the chosen scheme, and by the exact one.
-fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Result<Vec<Section>> {
+/// The explanation; `times` are those of a run by the chosen scheme, and by the exact one,
+/// `natural` the slowest natural frequencies, Hz.
+fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2], natural: &[f64]) -> Result<Vec<Section>> {
     let mut sections = Vec::new();
     let mut tell = |heading, lines: Vec<String>| {
         if !lines.is_empty() {
@@ -71,7 +73,7 @@ fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
     };
     let (mut model, scene) = (what(case), case.without_sliders());
     model.extend(choice::body(&scene));
-    model.extend(frequencies_in_words(case, &frequencies(case)));
+    model.extend(frequencies_in_words(case, natural));
     model.extend(supports(case));
     model.extend(walls(case));
     model.push(excitation_count(case));
@@ -107,7 +109,7 @@ fn sections(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
 }
 
 /// The explanation as one JSON document.
-fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Result<Value> {
+fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2], natural: &[f64]) -> Result<Value> {
     let h = case.time.step;
     let [slowest, fastest] = case.scene.system.frequencies().map(|omega| omega / TAU);
     let [own, event] =
@@ -135,7 +137,7 @@ fn document(case: &Case, choice: &Choice, times: &[Option<RunTime>; 2]) -> Resul
         "model": model,
         "slowest_frequency_hz": slowest,
         "fastest_frequency_hz": fastest,
-        "frequencies_hz": frequencies(case),
+        "frequencies_hz": natural,
         "walls": walls,
         "scheme": choice.method.to_string(),
         "scheme_reason": choice.reason,
