@@ -22,10 +22,23 @@ struct Law {
     restitution: Option<f64>,
     stiffness: Option<f64>,
     damping: Option<f64>,
+    exponent: Option<f64>,
+    dissipation: Option<f64>,
 }
 
 fn wall(wall: sg::Wall, law: Law, at: Place) -> PyResult<Wall> {
     let wall = match (law.restitution, law.stiffness, law.damping) {
+        (None, Some(k), None) if law.exponent.is_some() || law.dissipation.is_some() => {
+            wall.with_hunt_crossley(k, law.exponent.unwrap_or(1.0), law.dissipation.unwrap_or(0.0))
+        }
+        _ if law.exponent.or(law.dissipation).is_some() => {
+            let what = if law.exponent.is_some() { "exponent" } else { "dissipation" };
+            return Err(wrong(
+                what,
+                "without a stiffness, or beside restitution or damping",
+                "a stiffness alone beside it",
+            ));
+        }
         (Some(e), Some(_), _) => {
             return Err(wrong(
                 "restitution",
@@ -60,6 +73,9 @@ impl Wall {
     ///     Of a rigid wall, 0 to 1; the default is 1.
     /// stiffness, damping : float, optional
     ///     N/m and N s/m of an elastic wall.
+    /// exponent, dissipation : float, optional
+    ///     n from 1 to 10, and α in s/m, of the law of Hunt and Crossley beside a stiffness k in
+    ///     N/mⁿ: k sⁿ (1 + α ṡ) at the depth s. The defaults are 1 and 0. The scheme is a penalty.
     /// at : place, optional
     ///     The place: a degree of freedom (from 0), on a bar or beam a position in m, on modal
     ///     data the name of a point, or pairs (degree of freedom or point, weight) for a relative
@@ -80,24 +96,29 @@ impl Wall {
     /// >>> sg.Wall.upper("stop", 5e-3, restitution=0.8)
     /// Wall.upper("stop", 0.005, restitution=0.8)
     #[staticmethod]
-    #[pyo3(signature = (name, position, *, restitution=None, stiffness=None, damping=None, at=Place::Only),
-           text_signature = "(name, position, *, restitution=None, stiffness=None, damping=None, at=None)")]
+    #[pyo3(signature = (name, position, *, restitution=None, stiffness=None, damping=None, exponent=None,
+                        dissipation=None, at=Place::Only),
+           text_signature = "(name, position, *, restitution=None, stiffness=None, damping=None, exponent=None, \
+                             dissipation=None, at=None)")]
+    #[expect(clippy::too_many_arguments, reason = "the keywords of Python")]
     fn upper(
         name: &str,
         position: f64,
         restitution: Option<f64>,
         stiffness: Option<f64>,
         damping: Option<f64>,
+        exponent: Option<f64>,
+        dissipation: Option<f64>,
         at: Place,
     ) -> PyResult<Self> {
-        wall(sg::Wall::upper(name, position), Law { restitution, stiffness, damping }, at)
+        wall(sg::Wall::upper(name, position), Law { restitution, stiffness, damping, exponent, dissipation }, at)
     }
 
     /// A wall below: the displacement may not fall below ``position``.
     ///
     /// Parameters
     /// ----------
-    /// name, position, restitution, stiffness, damping, at
+    /// name, position, restitution, stiffness, damping, exponent, dissipation, at
     ///     As in `Wall.upper`.
     ///
     /// Returns
@@ -115,17 +136,22 @@ impl Wall {
     /// >>> sg.Wall.lower("pad", -5e-3, stiffness=1e4, damping=20.0)
     /// Wall.lower("pad", -0.005, stiffness=10000.0, damping=20.0)
     #[staticmethod]
-    #[pyo3(signature = (name, position, *, restitution=None, stiffness=None, damping=None, at=Place::Only),
-           text_signature = "(name, position, *, restitution=None, stiffness=None, damping=None, at=None)")]
+    #[pyo3(signature = (name, position, *, restitution=None, stiffness=None, damping=None, exponent=None,
+                        dissipation=None, at=Place::Only),
+           text_signature = "(name, position, *, restitution=None, stiffness=None, damping=None, exponent=None, \
+                             dissipation=None, at=None)")]
+    #[expect(clippy::too_many_arguments, reason = "the keywords of Python")]
     fn lower(
         name: &str,
         position: f64,
         restitution: Option<f64>,
         stiffness: Option<f64>,
         damping: Option<f64>,
+        exponent: Option<f64>,
+        dissipation: Option<f64>,
         at: Place,
     ) -> PyResult<Self> {
-        wall(sg::Wall::lower(name, position), Law { restitution, stiffness, damping }, at)
+        wall(sg::Wall::lower(name, position), Law { restitution, stiffness, damping, exponent, dissipation }, at)
     }
 
     /// Its name.
@@ -152,10 +178,25 @@ impl Wall {
         self.wall.law.restitution()
     }
 
-    /// The stiffness of an elastic wall, N/m; None for a rigid one.
+    /// The stiffness of an elastic wall, N/m, or N/mⁿ with an exponent; None for a rigid one.
     #[getter]
     fn stiffness(&self) -> Option<f64> {
-        if let sg::WallLaw::Elastic { stiffness, .. } = self.wall.law { Some(stiffness) } else { None }
+        match self.wall.law {
+            sg::WallLaw::Elastic { stiffness, .. } | sg::WallLaw::HuntCrossley { stiffness, .. } => Some(stiffness),
+            _ => None,
+        }
+    }
+
+    /// The exponent of the law of Hunt and Crossley; None for other laws.
+    #[getter]
+    fn exponent(&self) -> Option<f64> {
+        if let sg::WallLaw::HuntCrossley { exponent, .. } = self.wall.law { Some(exponent) } else { None }
+    }
+
+    /// The dissipation of the law of Hunt and Crossley, s/m; None for other laws.
+    #[getter]
+    fn dissipation(&self) -> Option<f64> {
+        if let sg::WallLaw::HuntCrossley { dissipation, .. } = self.wall.law { Some(dissipation) } else { None }
     }
 
     /// The damping of an elastic wall, N s/m; None for a rigid one.
@@ -168,6 +209,9 @@ impl Wall {
         let law = match self.wall.law {
             sg::WallLaw::Rigid { restitution } => format!("restitution={restitution:?}"),
             sg::WallLaw::Elastic { stiffness, damping } => format!("stiffness={stiffness:?}, damping={damping:?}"),
+            sg::WallLaw::HuntCrossley { stiffness, exponent, dissipation } => {
+                format!("stiffness={stiffness:?}, exponent={exponent:?}, dissipation={dissipation:?}")
+            }
             other => format!("law={other:?}"),
         };
         let Self { wall, place } = self;

@@ -51,6 +51,9 @@ VALUES: list[tuple[Callable[[], object], str]] = [
     (lambda: sg.Wall.upper("a", 0.0, restitution=1.5), r"restitution is 1\.5; expected a number from 0 to 1"),
     (lambda: sg.Wall.upper("a", 0.0, restitution=1.0, stiffness=1.0), "a wall is rigid or elastic"),
     (lambda: sg.Wall.upper("a", 0.0, damping=1.0), "without a stiffness"),
+    (lambda: sg.Wall.upper("a", 0.0, exponent=1.5), "exponent is without a stiffness"),
+    (lambda: sg.Wall.upper("a", 0.0, stiffness=1e4, damping=1.0, dissipation=0.1), "dissipation is .* a stiffness alone"),
+    (lambda: sg.Wall.upper("a", 0.0, stiffness=1e4, exponent=0.5), r"exponent is 0\.5; expected a number from 1 to 10"),
     (lambda: sg.Wall.upper("a", 0.0, stiffness=-1.0), r"stiffness is -1\.0"),
     (lambda: sg.Wall.upper("a", 0.0, at=object()), "at is <object object"),  # type: ignore[arg-type]
     (lambda: sg.support("s", math.nan), "gap is nan"),

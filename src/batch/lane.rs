@@ -74,8 +74,8 @@ impl Lane {
     ///
     /// # Errors
     /// [`Error::Invalid`] for an invalid scene, or one that a lane cannot represent: a structure, a
-    /// second wall on one side, the φ² penalty, an impulse, a table, a function of time, a sine
-    /// that does not have an integer number of periods in `period`.
+    /// second wall on one side, a law that is not linear, an impulse, a table, a function of time, a
+    /// sine that does not have an integer number of periods in `period`.
     pub fn of(scene: &Scene, period: f64) -> Result<Self> {
         scene.validate()?;
         positive("period", period)?;
@@ -145,7 +145,7 @@ impl Lane {
         }
         for stop in [self.lower, self.upper].into_iter().flatten() {
             if !stop.law.is_linear() {
-                return Err(Error::invalid("wall: law", "the φ² penalty", "a rigid or an elastic wall"));
+                return Err(Error::invalid("wall: law", stop.law.kind(), "a rigid or an elastic wall"));
             }
         }
         self.scene(self.period).validate()

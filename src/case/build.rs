@@ -62,6 +62,7 @@ impl Builder<'_> {
         let time = self.time(&time, sectors);
         let statistics = file.section("statistics").map(|section| self.statistics(&section));
         let penalty = file.section("penalty").map(|penalty| self.penalty(&penalty)).transpose()?.unwrap_or_default();
+        let penalty = penalty.of(&scene);
         let (mut scene, condensation) = self
             .condensed(scene, built.pending.as_ref().filter(|d| modes.is_none() || !matches!(d, Damping::Modal(_))))?;
         let sliders = self.sliders_with_mass(sliders, condensation.as_ref())?;

@@ -151,6 +151,12 @@ pub(super) const LISTED: &[KeyEntry] = &[
         wall", "0, negative"]),
     entry("wall.damping", Number, "N_s_per_m", ["0", "a number, 0 or more: of an elastic wall, \
         which never pulls", "without `stiffness`"]),
+    entry("wall.exponent", Number, "", ["1", "a number n from 1 to 10: the law of Hunt and Crossley, \
+        k s^n (1 + dissipation ds/dt), with stiffness k in N/m^n", "without `stiffness`; beside \
+        `restitution` or `damping`"]),
+    entry("wall.dissipation", Number, "s_per_m", ["0", "a number, 0 or more: an impact at v m/s has \
+        a restitution of about 1 - 2/3 dissipation v", "without `stiffness`; beside `restitution` or \
+        `damping`"]),
     entry("support", Tables, "", ["no supports", "in two planes: flats or a round hole around a \
         place, see below", "in one plane"]),
     entry("support.name", Word, "", [REQUIRED, "letters, digits, - and _, in quotes: its walls are \

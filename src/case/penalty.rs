@@ -15,6 +15,15 @@ pub struct PenaltyOptions {
 }
 
 impl PenaltyOptions {
+    /// The same; where none is given and a wall of `scene` has a law that only penalties step, the
+    /// penalty without a spring.
+    pub(super) fn of(mut self, scene: &Scene) -> Self {
+        if self.laws.is_empty() && !scene.walls.iter().all(|wall| wall.law.is_linear()) {
+            self.laws.push(PenaltyLaw::None);
+        }
+        self
+    }
+
     /// Checks every law against the walls and holes of `scene`.
     ///
     /// # Errors

@@ -49,7 +49,7 @@ impl Builder<'_> {
         let base = self.name_of(&format!("wall {}: name", index + 1), wall)?;
         let owner = format!("wall {base:?}");
         let sides = self.sides(&owner, wall)?;
-        let law = self.law_of(&owner, wall)?;
+        let law = self.wall_law(&owner, wall)?;
         let mut walls = Vec::new();
         let sites = self.sites((&owner, Subject::wall(&base)), wall, false)?;
         let count = first + sites.len() * sides.len();
@@ -79,7 +79,7 @@ impl Builder<'_> {
     pub fn note_wall(&mut self, number: usize, name: &str, table: &Section<'_>) {
         self.note(Subject::nth("wall", number).part("name"), table.span_of("name"));
         self.note(Subject::wall(name).part("position"), table.span_of("position").or(table.span_of("gap")));
-        for key in ["restitution", "stiffness", "damping", "at"] {
+        for key in ["restitution", "stiffness", "damping", "exponent", "dissipation", "at"] {
             self.note(Subject::wall(name).part(key), table.span_of(key));
         }
     }
@@ -117,6 +117,35 @@ impl Builder<'_> {
             Some(position) => Ok(vec![(side, position.into_inner(), "")]),
             None => {
                 Err(self.source.error(span, "`position` is missing in `wall`", "expected position = a number, in m"))
+            }
+        }
+    }
+
+    /// The law of a wall.
+    fn wall_law(&self, owner: &str, wall: &Section<'_>) -> Result<WallLaw> {
+        let [exponent, dissipation] = ["exponent", "dissipation"].map(|key| wall.number(key).map(Spanned::into_inner));
+        let Some(key) = ["exponent", "dissipation"].into_iter().find_map(|key| Some((key, wall.span_of(key)?))) else {
+            return self.law_of(owner, wall);
+        };
+        let (key, span) = key;
+        match (wall.number("stiffness"), wall.span_of("restitution"), wall.span_of("damping")) {
+            (Some(stiffness), None, None) => {
+                let stiffness = stiffness.into_inner();
+                Ok(match (exponent.unwrap_or(1.0), dissipation.unwrap_or(0.0)) {
+                    (1.0, 0.0) => WallLaw::Elastic { stiffness, damping: 0.0 },
+                    (exponent, dissipation) => WallLaw::HuntCrossley { stiffness, exponent, dissipation },
+                })
+            }
+            (stiffness, restitution, damping) => {
+                let beside = match () {
+                    () if restitution.is_some() => "with restitution",
+                    () if damping.is_some() => "with damping",
+                    () if stiffness.is_none() => "without stiffness",
+                    () => "",
+                };
+                let help = "expected stiffness beside it, in N/m^exponent, and neither restitution nor damping: the \
+                            law is k sⁿ (1 + α ṡ), with dissipation α, in s/m";
+                Err(self.source.error(span, &format!("{owner} has {key} {beside}"), help))
             }
         }
     }

@@ -45,7 +45,8 @@ impl Problem {
     ///
     /// # Errors
     /// [`Error::Invalid`] for a scene that does not validate, has several degrees of freedom, no
-    /// wall, a wall of the φ² penalty or behind a lever, or loads without a common period.
+    /// wall, a wall whose law is not linear or that stands behind a lever, or loads without a common
+    /// period.
     pub fn new(scene: Scene) -> Result<Self> {
         scene.validate()?;
         let System::Oscillator(body) = scene.system else {
@@ -68,7 +69,7 @@ impl Problem {
                 (_, Some(WallSpring { stiffness, damping })) => BoundaryLaw::Elastic { stiffness, damping },
                 _ => {
                     let key = Subject::wall(&wall.name).part("law");
-                    return Err(Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall"));
+                    return Err(Error::invalid(key, wall.law.kind(), "a rigid or an elastic wall"));
                 }
             };
             Ok(Boundary { position: wall.position(), toward: -wall.side().sign(), law })

@@ -18,10 +18,11 @@ pub(super) fn mark(floor: &Floor, error: f64) -> String {
 
 /// Why the error of a penalty does not vanish with the step; `None` where its floor is unknown.
 fn reason(floor: &Floor) -> Option<String> {
-    let errors: &Errors = floor.errors.as_ref()?;
+    let errors: &Errors = floor.errors.as_ref().filter(|errors| errors.displacement > 0.0)?;
     Some(format!(
-        "{}: with finer steps the error of the penalty tends to {} of the gap, not to 0: its walls give way, and the \
-         exact motion between its springs is that far from the one between rigid walls",
+        "{}: with finer steps the error of the penalty tends to {} of the gap, not to 0: its walls give way and \
+         have a restitution of their own, 1 without damping, and the exact motion between its springs is that far from \
+         the one between rigid walls",
         law_label(floor.law),
         percent(errors.displacement)
     ))

@@ -152,10 +152,14 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
                 .to_owned(),
         );
     }
-    if scene.supports.iter().any(|support| support.friction(&scene.walls).sliding == 0.0) {
-        remarks.push("work rates without friction are upper figures".to_owned());
-    }
+    remarks.extend(without_friction(scene));
     remarks
+}
+
+/// What a work rate without friction is, where `scene` has such a support.
+pub(super) fn without_friction(scene: &Scene) -> Option<String> {
+    let smooth = scene.supports.iter().any(|support| support.friction(&scene.walls).sliding == 0.0);
+    smooth.then(|| "work rates without friction are upper figures".to_owned())
 }
 
 /// Decimals that show two digits of `x`.

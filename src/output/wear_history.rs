@@ -3,11 +3,11 @@
 use super::colours::Places;
 use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
-use super::realisations::with_interval;
+use super::realisations::{self, with_interval};
 use super::results::Results;
 use super::table::Table;
 use crate::case::Case;
-use crate::error::Result;
+use crate::error::{Result, amount};
 use crate::study::wear_history::{WearHistories, WearState, YEAR, mean};
 use crate::wear::Growth;
 use serde_json::{Value, json};
@@ -130,14 +130,17 @@ pub fn table(found: &WearHistories) -> Table {
 /// When the limit is reached, and what the figures mean, a sentence each.
 #[must_use]
 pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
-    let mut remarks = Vec::new();
+    let mut remarks: Vec<String> = case.instability().into_iter().collect();
     let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
     for (support, name) in found.supports.iter().enumerate() {
         let Some(limit) = case.wear.limit else { break };
         let after = |value: fn(&WearState) -> f64| {
-            found.reaches(support, limit, value).map_or(format!("not within {} years", rounded(end)), |time| {
-                format!("after {} years", rounded(time / YEAR))
-            })
+            let years = found.reaches(support, limit, value).map(|time| amount(time / YEAR, 3));
+            let among = among(&found.reaches_by_history(support, limit, value));
+            match years {
+                Some(years) => format!("after {years} years{among}"),
+                None => format!("not within {} years{among}", rounded(end)),
+            }
         };
         remarks.push(format!(
             "the tube reaches the limit of {:.3} mm at support {name:?} {} where it is deepest, {} if all of its wear \
@@ -148,6 +151,8 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
             after(|state| state.depth_all_round_m)
         ));
     }
+    remarks.extend(worn_through(case, found));
+    remarks.extend(realisations::without_friction(&case.scene).map(|words| format!("{words}, and depths with them")));
     let histories = found.points.first().map_or(0, |point| point.histories.len());
     if histories > 1 {
         remarks.push(format!(
@@ -167,6 +172,35 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
         )
     }));
     remarks
+}
+
+/// When a limit is reached in the single histories, s, in words that follow when their mean does.
+fn among(times: &[Option<f64>]) -> String {
+    let years: Vec<f64> = times.iter().flatten().map(|time| time / YEAR).collect();
+    let ends = years.iter().copied().reduce(f64::min).zip(years.iter().copied().reduce(f64::max));
+    let Some((first, last)) = ends.filter(|_| times.len() > 1) else { return String::new() };
+    let [first, last] = [first, last].map(|years| amount(years, 3));
+    match years.len() == times.len() {
+        true => format!(" (its {} histories after {first} to {last})", times.len()),
+        false => format!(" ({} of its {} histories, the first after {first})", years.len(), times.len()),
+    }
+}
+
+/// Supports at which the tube is worn through, where the case knows its wall, a sentence each.
+fn worn_through(case: &Case, found: &WearHistories) -> Vec<String> {
+    let one = |(support, name): (usize, &String)| {
+        let own = case.scene.supports.iter().position(|other| other.name == *name)?;
+        let section = case.model.beam(&case.written.supports.get(own)?.place)?.section;
+        let wall = section.wall_thickness()?;
+        let time = found.reaches(support, wall, |state| state.depth_deepest_m)?;
+        Some(format!(
+            "at support {name:?} the deepest scar goes through the tube's wall of {} mm after {} years: what follows \
+             means nothing there",
+            amount(1e3 * wall, 3),
+            amount(time / YEAR, 3)
+        ))
+    };
+    found.supports.iter().enumerate().filter_map(one).collect()
 }
 
 /// What wear does to the gaps, a sentence for each way.

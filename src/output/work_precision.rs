@@ -264,6 +264,7 @@ pub fn label(method: &Method) -> String {
 
 pub(super) fn law_label(law: PenaltyLaw) -> String {
     match law {
+        PenaltyLaw::None => "penalty".to_owned(),
         PenaltyLaw::Quartic { epsilon } => format!("ε = {epsilon:e}"),
         PenaltyLaw::Linear { stiffness, damping: 0.0 } => format!("k = {stiffness:e}"),
         PenaltyLaw::Linear { stiffness, damping } => format!("k = {stiffness:e}, c = {damping:e}"),

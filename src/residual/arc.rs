@@ -82,7 +82,7 @@ impl Judge {
                 continue;
             }
             at.add_wall(k, r, stored(wall, w, r != 0.0));
-            if wall.law.damping() > 0.0 {
+            if wall.law.is_damped() {
                 along.add_damped(-at.weight[k] * r * v);
             }
             let pressure = sign * r;

@@ -50,6 +50,9 @@ fn shared_restitution(scene: &Scene, wall: &Wall, back: f64) -> Option<f64> {
     (lo > hi).then_some(least)
 }
 
+/// The relative change of the depth from which on ΔU/Δs is a quotient.
+const MUCH: f64 = 1e-3;
+
 /// |r| of an elastic or penalised wall as the scheme promises it for a step.
 pub(super) fn expected_pressure(
     wall: &Wall,
@@ -60,8 +63,8 @@ pub(super) fn expected_pressure(
 ) -> f64 {
     let (s0, s1) = (-wall.gap(w0), -wall.gap(w1));
     let law = &wall.law;
-    let c = wall.law.damping();
-    let k = law.spring().map_or(0.0, |spring| spring.stiffness);
+    let (k, c) = law.spring().map_or((0.0, 0.0), |spring| (spring.stiffness, spring.damping));
+    let damped = |elastic: f64, rate: f64| elastic + law.dashpot(elastic) * rate;
     let rate = (s1.max(0.0) - s0.max(0.0)) / h;
     let pressure = match at {
         Law::Depth(theta) => {
@@ -72,24 +75,27 @@ pub(super) fn expected_pressure(
             let back = -wall.gap(w0 - h * before);
             k * (b * back + (1.0 - 2.0 * b) * s0 + b * s1) + 0.5 * c * (s1 - back.max(0.0)) / h
         }
-        Law::Ends(theta) => (1.0 - theta) * law.pressure(s0, 0.0) + theta * law.pressure(s1, 0.0) + c * rate,
+        Law::Ends(theta) => damped((1.0 - theta) * law.pressure(s0, 0.0) + theta * law.pressure(s1, 0.0), rate),
         Law::Start if s0 <= 0.0 => 0.0,
-        Law::Start => law.pressure(s0, 0.0) - wall.side().sign() * c * 0.5 * (before + after),
-        Law::Gradient => mean_pressure(law, s0, s1) + c * rate,
+        Law::Start => damped(law.pressure(s0, 0.0), -wall.side().sign() * 0.5 * (before + after)),
+        Law::Gradient => damped(mean_pressure(law, s0, s1), rate),
         Law::Throughout => 0.0,
     };
     pressure.max(0.0)
 }
 
-/// The mean of |r|(s) over depths from `s0` to `s1`, which is ΔU/Δs: by Simpson's rule, which is
-/// exact for these polynomials.
+/// The mean of |r|(s) over depths from `s0` to `s1`, which is ΔU/Δs: where the depth changes much,
+/// by that quotient; else by Simpson's rule, which is exact for cubic polynomials, and off by 1e-12
+/// for other powers.
 pub(super) fn mean_pressure(law: &WallLaw, s0: f64, s1: f64) -> f64 {
     let (a, b) = (s0.max(0.0), s1.max(0.0));
     if a == 0.0 && b == 0.0 {
         return 0.0;
     }
     let p = |s: f64| law.pressure(s, 0.0);
-    let mean = (p(a) + 4.0 * p(0.5 * (a + b)) + p(b)) / 6.0;
+    let quotient = !law.is_cubic() && (b - a).abs() > MUCH * a.max(b);
+    let mean =
+        if quotient { (law.energy(b) - law.energy(a)) / (b - a) } else { (p(a) + 4.0 * p(0.5 * (a + b)) + p(b)) / 6.0 };
     // Both depths are ≥ 0: the whole way is inside the wall.
     if a == s0 && b == s1 { mean } else { mean * (b - a) / (s1 - s0) }
 }

@@ -21,7 +21,7 @@ impl Judge {
     ) {
         let (start, h) = (motion.start, self.h);
         let (place, gap, law) = (hole.index, hole.gap, hole.law);
-        let (r0, r1, c) = (start[0].hypot(start[1]), end[0].hypot(end[1]), law.damping());
+        let (r0, r1, c) = (start[0].hypot(start[1]), end[0].hypot(end[1]), law.dashpot(0.0));
         let noise = self.noise.place(self.way(hole, motion));
         // The vector along which the ring pushes, its pressure, and how that changes with depth.
         // Where rounding decides, the pressure is accepted between two.

@@ -82,7 +82,7 @@ impl Judge {
                     self.walls.observe_gap(&self.noise, index, (gap, size), pressure);
                     continue;
                 }
-                if wall.law.damping() > 0.0 {
+                if wall.law.is_damped() {
                     moved.push -= weight * r * rate;
                 }
                 let rounding = PLACE_UNITS * f64::EPSILON * size;

@@ -117,7 +117,7 @@ impl Judge {
             _ if self.handed => false,
             Conserves::Nothing => false,
             Conserves::RigidWalls => walls.all(|law| law.is_rigid()),
-            Conserves::UndampedWalls => !walls.any(|law| law.damping() > 0.0),
+            Conserves::UndampedWalls => !walls.any(|law| law.is_damped()),
             Conserves::Everything => true,
         }
     }

@@ -141,7 +141,9 @@ impl Judge {
         }
         let size = self.size(step, seen.index);
         let depth = (-wall.gap(seen.w.0)).max(-wall.gap(seen.w.1)).max(f64::MIN_POSITIVE);
-        let slope = wall.law.tangent(depth) + 2.0 * wall.law.damping() / self.h;
+        let dashpot = wall.law.dashpot(wall.law.pressure(depth, 0.0));
+        let rate = (seen.w.1 - seen.w.0).abs() / self.h;
+        let slope = wall.law.tangent(depth) * (1.0 + wall.law.dissipation() * rate) + 2.0 * dashpot / self.h;
         self.walls.observe_law(&self.noise, seen.index, error, slope * self.noise.place(size));
     }
 

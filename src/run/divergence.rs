@@ -110,7 +110,9 @@ impl Divergence {
     /// The likely cause.
     fn cause(&self) -> String {
         match self.scheme {
-            Scheme::Penalty { integrator: Integrator::CentralDifference, .. } => {
+            Scheme::Penalty { integrator: Integrator::CentralDifference, .. }
+                if self.scene.walls.iter().all(|wall| wall.law.is_cubic()) =>
+            {
                 let masses = self.scene.wall_masses();
                 let laws = self.scene.walls.iter().map(|wall| wall.law).map(|law| law.tangent(f64::MIN_POSITIVE));
                 let walls = laws.zip(masses).map(|(k, m)| k / m).fold(0.0, f64::max);

@@ -103,7 +103,8 @@ fn of_restitution(scene: &Scene, scheme: &Scheme) -> Option<String> {
     let name = scheme.entry().name;
     match scheme.entry().restitution {
         Realised::ByChance if !asked.is_empty() => Some(format!(
-            "{name} is for demonstration: its restitution is between 1/3 and 3, depending on the phase of each impact"
+            "{name} is for demonstration: its restitution is between 1/3 and 3, depending on the phase of each impact, \
+             and what the load does in the step of a slow one comes on top"
         )),
         Realised::Zero if asked.iter().any(|&e| e > 0.0) => {
             Some(format!("{name} realises e = 0, not the walls' own restitution"))

@@ -4,6 +4,11 @@ use super::system::{nonnegative, positive};
 use crate::error::{Error, Result, Subject};
 use serde::{Deserialize, Serialize};
 
+/// The exponents n of the law of Hunt and Crossley.
+const EXPONENTS: std::ops::RangeInclusive<f64> = 1.0..=10.0;
+/// The relative change of the depth from which on a derivative is a quotient of differences.
+const HARDLY: f64 = 1e-5;
+
 /// The contact law of a wall. Depth s is the penetration −gap, and |r| the magnitude of the force.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -26,6 +31,20 @@ pub enum WallLaw {
         /// Damping c_a, N s/m.
         damping: f64,
     },
+    /// A spring that may stiffen with depth, and whose loss grows with its force (Hunt & Crossley
+    /// 1975, doi:10.1115/1.3423596): |r| = k sⁿ max(0, 1 + α ṡ) while s > 0, which neither jumps
+    /// where contact begins nor pulls. n = 3/2 is Hertz's contact of spheres.
+    ///
+    /// A body that arrives at the speed v and that nothing else pushes meanwhile leaves with e v,
+    /// where αv − ln(1 + αv) = −αev − ln(1 − αev), whatever k and n: e ≈ 1 − ⅔ αv while αv ≪ 1.
+    HuntCrossley {
+        /// Stiffness k, N/mⁿ.
+        stiffness: f64,
+        /// Exponent n, from 1 to 10.
+        exponent: f64,
+        /// Dissipation α, s/m.
+        dissipation: f64,
+    },
     /// The φ² penalty of a pair of walls a span apart: energy φ²/(2ε) with φ = s (s + span), hence
     /// |r| = s (s + span)(2s + span)/ε, which at the wall is a spring of stiffness span²/ε.
     Quartic {
@@ -44,11 +63,36 @@ impl WallLaw {
         if s <= 0.0 {
             return 0.0;
         }
-        match *self {
+        let elastic = match *self {
             Self::Rigid { .. } => 0.0,
-            Self::Elastic { stiffness, damping } => (stiffness * s + damping * rate).max(0.0),
+            Self::Elastic { stiffness, .. } => stiffness * s,
+            Self::HuntCrossley { stiffness, exponent, .. } => stiffness * s.powf(exponent),
             Self::Quartic { epsilon, span } => s * (s + span) * (2.0 * s + span) / epsilon,
+        };
+        (elastic + self.dashpot(elastic) * rate).max(0.0)
+    }
+
+    /// The dashpot, N s/m, where the spring alone pushes with `elastic` N: c_a of an elastic wall,
+    /// α k sⁿ of Hunt and Crossley's, 0 for the others.
+    #[inline]
+    pub(crate) fn dashpot(&self, elastic: f64) -> f64 {
+        match *self {
+            Self::Elastic { damping, .. } => damping,
+            Self::HuntCrossley { dissipation, .. } => dissipation * elastic,
+            Self::Rigid { .. } | Self::Quartic { .. } => 0.0,
         }
+    }
+
+    /// α of Hunt and Crossley's law, s/m; 0 for the others.
+    #[inline]
+    pub(crate) fn dissipation(&self) -> f64 {
+        if let Self::HuntCrossley { dissipation, .. } = *self { dissipation } else { 0.0 }
+    }
+
+    /// True if the force depends on the rate as well.
+    #[inline]
+    pub(crate) fn is_damped(&self) -> bool {
+        self.dashpot(1.0) > 0.0
     }
 
     /// ∂|r|/∂s at depth `s` (m), N/m, without damping; 0 for s ≤ 0, also at s = 0, where the
@@ -61,6 +105,7 @@ impl WallLaw {
         match *self {
             Self::Rigid { .. } => 0.0,
             Self::Elastic { stiffness, .. } => stiffness,
+            Self::HuntCrossley { stiffness, exponent, .. } => stiffness * exponent * s.powf(exponent - 1.0),
             Self::Quartic { epsilon, span } => (6.0 * s * (s + span) + span * span) / epsilon,
         }
     }
@@ -74,13 +119,17 @@ impl WallLaw {
         match *self {
             Self::Rigid { .. } => 0.0,
             Self::Elastic { stiffness, .. } => 0.5 * stiffness * s * s,
+            Self::HuntCrossley { stiffness, exponent, .. } => stiffness * s.powf(exponent + 1.0) / (exponent + 1.0),
             Self::Quartic { epsilon, span } => 0.5 * (s * (s + span)).powi(2) / epsilon,
         }
     }
 
     /// ΔU/Δs between the depths `s0` and `s1` (m), the mean of |r| on the way, N, and its
-    /// derivative with respect to `s1`, N/m; without division by zero. One of both is above 0.
+    /// derivative with respect to `s1`, N/m; without division by zero.
     pub(crate) fn mean_force(&self, s0: f64, s1: f64) -> (f64, f64) {
+        if s0 <= 0.0 && s1 <= 0.0 {
+            return (0.0, 0.0);
+        }
         if s0 <= 0.0 {
             let slope = self.energy(s1) / (s1 - s0);
             return (slope, (self.pressure(s1, 0.0) - slope) / (s1 - s0));
@@ -92,6 +141,7 @@ impl WallLaw {
         match *self {
             Self::Rigid { .. } => (0.0, 0.0),
             Self::Elastic { stiffness, .. } => (0.5 * stiffness * (s0 + s1), 0.5 * stiffness),
+            Self::HuntCrossley { .. } => self.mean_force_of_power(s0, s1),
             Self::Quartic { epsilon, span } => {
                 let phi = s0 * (s0 + span) + s1 * (s1 + span);
                 let sum = s0 + s1 + span;
@@ -100,14 +150,28 @@ impl WallLaw {
         }
     }
 
+    /// [`mean_force`](Self::mean_force) of k sⁿ between depths above 0: with p = n + 1 and
+    /// x = Δs/s₀ it is k s₀ⁿ ((1 + x)ᵖ − 1)/(p x), without cancellation. Its derivative is the mean
+    /// of t |r|′(s₀ + t Δs) over 0 ≤ t ≤ 1; where the depth hardly changes that is Gauss's formula
+    /// of one point.
+    fn mean_force_of_power(&self, s0: f64, s1: f64) -> (f64, f64) {
+        let Self::HuntCrossley { stiffness, exponent, .. } = *self else { return (0.0, 0.0) };
+        let (p, x) = (exponent + 1.0, (s1 - s0) / s0);
+        let growth = if x == 0.0 { 1.0 } else { (p * x.ln_1p()).exp_m1() / (p * x) };
+        let mean = stiffness * s0.powf(exponent) * growth;
+        // Gauss's error is of order x², that of the quotient ε/x.
+        let slope = if x.abs() < HARDLY {
+            0.5 * self.tangent(s0 + 2.0 / 3.0 * (s1 - s0))
+        } else {
+            (self.pressure(s1, 0.0) - mean) / (s1 - s0)
+        };
+        (mean, slope)
+    }
+
     /// ∂|r|/∂s where contact begins, N/m; `None` for a rigid wall.
     #[must_use]
     pub fn stiffness(&self) -> Option<f64> {
-        match *self {
-            Self::Rigid { .. } => None,
-            Self::Elastic { stiffness, .. } => Some(stiffness),
-            Self::Quartic { epsilon, span } => Some(span * span / epsilon),
-        }
+        (!self.is_rigid()).then(|| self.tangent(f64::MIN_POSITIVE))
     }
 
     /// The restitution e of a rigid wall; `None` for the others, which have a force law instead.
@@ -129,15 +193,25 @@ impl WallLaw {
         self.is_rigid() || self.spring().is_some()
     }
 
-    /// The dashpot c_a of an elastic wall, N s/m; 0 for the others.
-    #[inline]
-    pub(crate) fn damping(&self) -> f64 {
-        self.spring().map_or(0.0, |spring| spring.damping)
+    /// True if the force without its dashpot is a polynomial of third degree in the depth, or of a
+    /// lower one.
+    pub(crate) fn is_cubic(&self) -> bool {
+        !matches!(self, Self::HuntCrossley { .. })
+    }
+
+    /// What kind of law it is, in the words of messages.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Rigid { .. } => "rigid",
+            Self::Elastic { .. } => "elastic",
+            Self::HuntCrossley { .. } => "the law of Hunt and Crossley",
+            Self::Quartic { .. } => "the φ² penalty",
+        }
     }
 
     /// The law with a massless spring of the compliance `s` (m/N) between wall and structure: the
     /// springs add up, and the dashpot feels the share of the motion that the wall's own spring
-    /// takes. `None` for the φ² law, which such a spring makes another law.
+    /// takes. `None` for laws that are not linear, which such a spring makes other laws.
     pub(crate) fn in_series(&self, s: f64) -> Option<Self> {
         match *self {
             Self::Rigid { .. } => Some(Self::Elastic { stiffness: 1.0 / s, damping: 0.0 }),
@@ -145,7 +219,7 @@ impl WallLaw {
                 let series = 1.0 / (1.0 / stiffness + s);
                 Some(Self::Elastic { stiffness: series, damping: damping * (series / stiffness).powi(2) })
             }
-            Self::Quartic { .. } => None,
+            Self::HuntCrossley { .. } | Self::Quartic { .. } => None,
         }
     }
 
@@ -159,6 +233,13 @@ impl WallLaw {
             Self::Elastic { stiffness, damping } => {
                 positive(key("stiffness"), stiffness)?;
                 nonnegative(key("damping"), damping)
+            }
+            Self::HuntCrossley { stiffness, exponent, dissipation } => {
+                positive(key("stiffness"), stiffness)?;
+                if !EXPONENTS.contains(&exponent) {
+                    return Err(Error::invalid(key("exponent"), format_args!("{exponent:?}"), "a number from 1 to 10"));
+                }
+                nonnegative(key("dissipation"), dissipation)
             }
             Self::Quartic { epsilon, span } => {
                 positive(key("epsilon"), epsilon)?;

@@ -92,6 +92,11 @@ fn numbers(scene: &mut Scene) -> Vec<(String, &mut f64)> {
                 all.push((format!("wall.{name}.stiffness"), stiffness));
                 all.push((format!("wall.{name}.damping"), damping));
             }
+            WallLaw::HuntCrossley { stiffness, exponent, dissipation } => {
+                all.push((format!("wall.{name}.stiffness"), stiffness));
+                all.push((format!("wall.{name}.exponent"), exponent));
+                all.push((format!("wall.{name}.dissipation"), dissipation));
+            }
             WallLaw::Quartic { .. } => {}
         }
     }

@@ -181,6 +181,14 @@ impl Wall {
         self
     }
 
+    /// The same wall with the law of Hunt and Crossley: stiffness in N/mⁿ, exponent n and
+    /// dissipation in s/m ([`WallLaw::HuntCrossley`]).
+    #[must_use]
+    pub fn with_hunt_crossley(mut self, stiffness: f64, exponent: f64, dissipation: f64) -> Self {
+        self.law = WallLaw::HuntCrossley { stiffness, exponent, dissipation };
+        self
+    }
+
     /// The same wall with Coulomb friction of these coefficients, or of this one.
     #[must_use]
     pub fn with_friction(mut self, coefficients: impl Into<FrictionCoefficients>) -> Self {

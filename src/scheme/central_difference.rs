@@ -39,7 +39,7 @@ impl<S: Space> CentralDifference<S> {
         let body = Body::<S>::new(scene, h)?;
         let m = &body.matrices;
         let mut factor = S::factor(&Symmetric::sum(&[(1.0 / h, &m.mass), (0.5, &m.damping)]))?;
-        let damped = body.walls.iter().any(|wall| wall.law.damping() > 0.0);
+        let damped = body.walls.iter().any(|wall| wall.law.is_damped());
         let dashpots = damped.then(|| ForceLawSolver::new(&mut factor, &body, 1.0));
         let (staggered, b, change) = (Staggered::new(scene, &body)?, zero::<S>(body.n), zero::<S>(body.n));
         Ok(Self { body, staggered, factor, dashpots, b, change })
@@ -61,10 +61,12 @@ impl<S: Space> CentralDifference<S> {
             let law = |wall: usize, after: f64| {
                 let (face, depth) = (body.walls[wall], depth(wall));
                 let rate = -face.sign * 0.5 * (body.seen(wall, v) + after);
-                let pressure = face.law.pressure(depth, 0.0) + face.law.damping() * rate;
+                let elastic = face.law.pressure(depth, 0.0);
+                let dashpot = face.law.dashpot(elastic);
+                let pressure = elastic + dashpot * rate;
                 // A wall that would pull has no force.
                 let holds = depth > 0.0 && pressure > 0.0;
-                let (force, slope) = if holds { (face.sign * pressure, 0.5 * face.law.damping()) } else { (0.0, 0.0) };
+                let (force, slope) = if holds { (face.sign * pressure, 0.5 * dashpot) } else { (0.0, 0.0) };
                 LawResponse { force, slope, noise: 0.0 }
             };
             let solved = dashpots.solve(law);

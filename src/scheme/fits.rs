@@ -1,6 +1,6 @@
 //! Which scenes a scheme refuses, and why: from its entry.
 
-use super::entry::Coverage;
+use super::entry::{Coverage, SchemeKind};
 use super::{Integrator, Method, Scheme};
 use crate::error::{Error, Result, Subject};
 use crate::qp::Backend;
@@ -52,9 +52,9 @@ fn refusal(scene: &Scene, scheme: Scheme) -> Option<Refusal> {
     })
 }
 
-/// A wall whose law no quadratic programme takes.
+/// A wall whose law neither a quadratic programme nor the exact motion takes.
 fn bent_wall(scene: &Scene, scheme: Scheme) -> Option<&Wall> {
-    scene.walls.iter().find(|wall| scheme.has_qp() && !wall.law.is_linear())
+    scene.walls.iter().find(|wall| scheme.entry().kind != SchemeKind::Penalty && !wall.law.is_linear())
 }
 
 /// What would be accepted in place of what is refused: one of `schemes`, or the scene without it.
@@ -71,6 +71,10 @@ fn expected(schemes: &[&str], refusal: &Refusal) -> String {
 /// # Errors
 /// [`Error::Invalid`]: what of the scene it is, and what would be accepted.
 pub(crate) fn check_exact(scene: &Scene, asked: impl Display) -> Result<()> {
+    if let Some(wall) = bent_wall(scene, Scheme::Event) {
+        let found = format!("asked for {asked}, and the wall {:?} has {}", wall.name, wall.law.kind());
+        return Err(Error::invalid("the exact motion", found, "rigid and elastic walls"));
+    }
     match refusal(scene, Scheme::Event) {
         Some(refusal) => {
             let found = format!("asked for {asked}, with {}", refusal.found);
@@ -88,7 +92,7 @@ pub(crate) fn check_exact(scene: &Scene, asked: impl Display) -> Result<()> {
 pub(super) fn check(scene: &Scene, Method { scheme, backend }: Method) -> Result<()> {
     if let Some(wall) = bent_wall(scene, scheme) {
         let expected = "a rigid or an elastic wall, or the scheme penalty, which steps through that law";
-        return Err(Error::invalid(Subject::wall(&wall.name).part("law"), "the φ² penalty", expected));
+        return Err(Error::invalid(Subject::wall(&wall.name).part("law"), wall.law.kind(), expected));
     }
     if let Some(refused) = refusal(scene, scheme) {
         let takes = |other: &Scheme| refusal(scene, *other).is_none() && bent_wall(scene, *other).is_none();

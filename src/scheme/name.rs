@@ -12,8 +12,12 @@ impl fmt::Display for Scheme {
         match *self {
             Self::MoreauJean { theta } if theta != 0.5 => write!(f, ":theta={theta}"),
             Self::GeneralizedAlpha { rho } if rho != RHO => write!(f, ":rho={rho}"),
-            Self::Penalty { law, integrator } if integrator == Integrator::default() => write!(f, ":{law}"),
-            Self::Penalty { law, integrator } => write!(f, ":{law},integrator={integrator}"),
+            Self::Penalty { law, integrator } => {
+                let integrator = (integrator != Integrator::default()).then(|| format!("integrator={integrator}"));
+                let settings = [law.to_string(), integrator.unwrap_or_default()];
+                let settings: Vec<_> = settings.into_iter().filter(|setting| !setting.is_empty()).collect();
+                if settings.is_empty() { Ok(()) } else { write!(f, ":{}", settings.join(",")) }
+            }
             _ => Ok(()),
         }
     }
@@ -59,8 +63,8 @@ impl FromStr for Scheme {
     type Err = Error;
 
     /// Parses a name as [`fmt::Display`] writes it; settings may be left out where they have a
-    /// default (θ = ½, ρ∞ = 0.8, the discrete-gradient integrator, no damping), but a penalty needs
-    /// its epsilon or its stiffness.
+    /// default (θ = ½, ρ∞ = 0.8, the discrete-gradient integrator, no damping); a penalty without
+    /// epsilon and stiffness takes no rigid wall.
     fn from_str(text: &str) -> Result<Self> {
         let (name, settings) = text.split_once(':').unwrap_or((text, ""));
         let mut scheme = named("scheme", name, Self::ALL.map(|scheme| (scheme.entry().name, scheme)))?;
@@ -85,11 +89,13 @@ impl FromStr for Scheme {
 
 fn penalty_law(settings: &Settings) -> Result<PenaltyLaw> {
     match (settings.epsilon, settings.stiffness) {
-        (Some(epsilon), None) if settings.damping.is_none() => Ok(PenaltyLaw::Quartic { epsilon }),
         (None, Some(stiffness)) => Ok(PenaltyLaw::Linear { stiffness, damping: settings.damping.unwrap_or(0.0) }),
-        (Some(_), None) => Err(Error::invalid("setting of penalty", "damping with epsilon", "damping with stiffness")),
+        (_, None) if settings.damping.is_some() => {
+            Err(Error::invalid("setting of penalty", "damping without stiffness", "damping with stiffness"))
+        }
+        (Some(epsilon), None) => Ok(PenaltyLaw::Quartic { epsilon }),
         (Some(_), Some(_)) => Err(Error::invalid("setting of penalty", "epsilon and stiffness", "one of the two")),
-        (None, None) => Err(Error::invalid("setting of penalty", "neither epsilon nor stiffness", "one of the two")),
+        (None, None) => Ok(PenaltyLaw::None),
     }
 }
 

@@ -235,25 +235,23 @@ impl<S: Space> Rule<S> for Penalty<S> {
 /// with respect to `s1`, which is ≥ 0.
 #[inline]
 pub(super) fn mean_pressure(law: &WallLaw, mean: Mean, theta: f64, h: f64, s0: f64, s1: f64) -> (f64, f64) {
-    if s0 <= 0.0 && s1 <= 0.0 {
-        return (0.0, 0.0);
-    }
-    let (mut pressure, mut tangent) = match mean {
+    let (elastic, tangent) = match mean {
         Mean::Ends => {
             let ends = (1.0 - theta) * law.pressure(s0, 0.0) + theta * law.pressure(s1, 0.0);
             (ends, theta * law.tangent(s1))
         }
         Mean::DiscreteGradient => law.mean_force(s0, s1),
     };
-    let damping = law.damping();
-    if damping > 0.0 {
-        pressure += damping * (s1.max(0.0) - s0.max(0.0)) / h;
-        tangent += if s1 > 0.0 { damping / h } else { 0.0 };
-        if pressure < 0.0 {
-            return (0.0, 0.0);
-        }
+    if !law.is_damped() {
+        return (elastic, tangent);
     }
-    (pressure, tangent)
+    let rate = (s1.max(0.0) - s0.max(0.0)) / h;
+    let pressure = elastic + law.dashpot(elastic) * rate;
+    if pressure < 0.0 {
+        return (0.0, 0.0);
+    }
+    let with_rate = if s1 > 0.0 { law.dashpot(elastic) / h } else { 0.0 };
+    (pressure, tangent * (1.0 + law.dissipation() * rate) + with_rate)
 }
 
 #[cfg(test)]

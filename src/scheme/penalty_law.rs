@@ -14,6 +14,8 @@ use std::str::FromStr;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum PenaltyLaw {
+    /// No spring: every wall keeps its own law, and none may be rigid.
+    None,
     /// The φ² law: energy φ²/(2ε) with φ = (u − g_u)(u − g_l) > 0. Needs an upper and a lower wall.
     Quartic {
         /// ε, m³/N.
@@ -40,6 +42,11 @@ impl PenaltyLaw {
     pub fn at(&self, wall: &Wall, walls: &[Wall]) -> Result<WallLaw> {
         match *self {
             _ if !wall.law.is_rigid() => Ok(wall.law),
+            Self::None => Err(Error::invalid(
+                "setting of penalty",
+                "neither epsilon nor stiffness",
+                format!("one of the two, for the spring in place of the rigid wall {:?}", wall.name),
+            )),
             Self::Linear { stiffness, damping } => Ok(WallLaw::Elastic { stiffness, damping }),
             Self::Quartic { epsilon } if wall.is_round() => {
                 Ok(WallLaw::Quartic { epsilon, span: 2.0 * wall.position() })
@@ -81,6 +88,7 @@ impl PenaltyLaw {
             }
         };
         let (key, value) = match *self {
+            Self::None => return scene.walls.iter().try_for_each(|wall| self.at(wall, &scene.walls).map(|_| ())),
             Self::Quartic { epsilon } => positive("epsilon", epsilon).map(|()| ("epsilon", epsilon))?,
             Self::Linear { stiffness, damping } => {
                 positive("stiffness", stiffness)?;
@@ -112,9 +120,10 @@ fn span(wall: &Wall, walls: &[Wall]) -> Option<f64> {
 }
 
 impl fmt::Display for PenaltyLaw {
-    /// `epsilon=1e-9`, `stiffness=1e8` or `stiffness=1e8,damping=2e1`.
+    /// `epsilon=1e-9`, `stiffness=1e8` or `stiffness=1e8,damping=2e1`; empty without a spring.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
+            Self::None => Ok(()),
             Self::Quartic { epsilon } => write!(f, "epsilon={epsilon:e}"),
             Self::Linear { stiffness, damping: 0.0 } => write!(f, "stiffness={stiffness:e}"),
             Self::Linear { stiffness, damping } => write!(f, "stiffness={stiffness:e},damping={damping:e}"),

@@ -13,7 +13,7 @@ use std::collections::VecDeque;
 pub struct LargestForce {
     /// Σ|p| in that stretch over its length, or |force|, N.
     pub mean_n: f64,
-    /// The middle of the stretch, or the start of the contact with that force, s.
+    /// The middle of the stretch, or of the contact with that force, s.
     pub at_s: f64,
     /// The length, s; 0 for a force at an instant.
     pub averaged_over_s: f64,
@@ -75,6 +75,8 @@ impl LargestStretch {
     pub fn largest(&self) -> Option<LargestForce> {
         let (impulse, at_s) = self.largest;
         let averaged_over_s = self.length;
+        // A stretch may begin before the run does.
+        let at_s = at_s.max(0.0);
         (impulse > 0.0).then(|| LargestForce { mean_n: impulse / averaged_over_s, at_s, averaged_over_s })
     }
 

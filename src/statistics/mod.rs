@@ -164,7 +164,10 @@ impl Statistics {
             wall.force = forces.statistics(index, wall.contacts);
             if let Some(force) = wall.force {
                 let instant = wall.largest_force.filter(|_| force.rms_averaged_over_s.is_none());
-                wall.largest_force = instant.or(force.largest);
+                // Where the largest mean is nearly the largest force, its stretch is where that acts.
+                let near = instant.zip(force.largest).filter(|(peak, mean)| mean.mean_n >= NEARLY * peak.mean_n);
+                let at = near.map(|(peak, mean)| LargestForce { at_s: mean.at_s, ..peak });
+                wall.largest_force = at.or(instant).or(force.largest);
             }
         }
         let contacts = |index: usize| self.supports.get(index).map_or(0, |support| support.contacts);
@@ -198,6 +201,9 @@ fn by_wall(contacts: &[Contact], walls: usize) -> Vec<Vec<&Contact>> {
     by_wall
 }
 
+/// The share of the largest force of an elastic wall from which on the largest mean is near it.
+const NEARLY: f64 = 0.9;
+
 fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> WallStatistics {
     let length = to - from;
     let per_time = |x: f64| if length > 0.0 { x / length } else { 0.0 };
@@ -212,6 +218,7 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> Wa
     let reaching = all.iter().filter(|c| c.end.is_none_or(|end| end >= from));
     let arrived = total(&mut here.clone().map(|c| energy(c.approach_speed)));
     let peaks = reaching.clone().filter_map(|c| Some((c.start, c.peak_force?)));
+    let middles = reaching.clone().filter_map(|c| Some((0.5 * (c.start + end(c)), c.peak_force?)));
     let half_width_95 = (contacts >= BATCHES && length > 0.0).then(|| {
         let [mut counts, mut times, mut powers, mut left, mut impulses] = [[0.0; BATCHES]; 5];
         let batch = length / BATCHES as f64;
@@ -241,7 +248,7 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> Wa
         contact_rate_per_s: per_time(contacts as f64),
         contact_time_ratio: per_time(touching([from, to])),
         force: None,
-        largest_force: largest_of(peaks.clone()),
+        largest_force: largest_of(middles),
         episode_peak_force_n: Summary::of(peaks.map(|(_, force)| force)),
         episode_impulse_n_s: Summary::of(here.clone().map(|c| c.impulse.abs())),
         impact_power_w: per_time(arrived),
@@ -250,7 +257,7 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> Wa
     }
 }
 
-/// The largest of `peaks` (time at which the episode began, s; force, N), the last where several
+/// The largest of `peaks` (middle of the episode, s; force, N), the last where several
 /// are equal.
 fn largest_of(peaks: impl Iterator<Item = (f64, f64)>) -> Option<LargestForce> {
     let largest = peaks.max_by(|a, b| a.1.total_cmp(&b.1));

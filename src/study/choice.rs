@@ -5,7 +5,7 @@ use crate::linear::{Factor, Symmetric};
 use crate::qp::Backend;
 use crate::run::Run;
 use crate::scene::{MOST_DENSE, Scene, Structure, System, Wall, WallLaw};
-use crate::scheme::{Coverage, Method, Scheme, SchemeKind, Stepper};
+use crate::scheme::{Coverage, Integrator, Method, PenaltyLaw, Scheme, SchemeKind, Stepper};
 
 /// A method and the reason for it.
 #[derive(Debug, Clone)]
@@ -43,6 +43,12 @@ pub fn choose(scene: &Scene) -> Choice {
             moreau_jean,
             "it has friction, at the least cost a step, and with θ = ½ keeps the energy of free motion exactly",
         )
+    } else if !scene.walls.iter().all(|wall| wall.law.is_linear()) {
+        let reason = "the force of a wall is no multiple of its depth, so that a step minimises a convex function that \
+                      is no QP: Newton's method finds its minimum, and the discrete gradient keeps the energy of what \
+                      has no dissipation";
+        let integrator = Integrator::DiscreteGradient;
+        (Scheme::Penalty { law: PenaltyLaw::None, integrator }, reason)
     } else if scene.walls.is_empty() {
         (moreau_jean, "no walls: the θ-method with θ = ½ is the trapezoidal rule, and no step needs a QP")
     } else if scene.walls.iter().all(|w| !w.law.is_rigid()) {
@@ -65,6 +71,9 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         Ok(run) => run,
         Err(error) => {
             let restitution_0 = |w: &Wall| w.law.restitution() == Some(0.0);
+            if !scene.walls.iter().all(|wall| wall.law.is_linear()) {
+                return choose(scene);
+            }
             let (scheme, why) = if Stepper::takes(scene, &Scheme::Located, scene.duration) {
                 (Scheme::Located, "located divides its steps at the impacts, and is of order 2 through them")
             } else if scene.walls.iter().all(restitution_0) && !scene.turns_or_rubs() {
@@ -282,6 +291,11 @@ pub fn walls(scene: &Scene) -> Vec<(usize, String)> {
                     std::f64::consts::PI / omega
                 )
             }
+            WallLaw::HuntCrossley { stiffness, exponent, dissipation } => format!(
+                "Hunt and Crossley's law, {stiffness:e} N/m^{exponent} and {dissipation:e} s/m: an impact at v m/s has \
+                 a restitution of about 1 − {:.3e} v",
+                dissipation / 1.5
+            ),
             WallLaw::Quartic { epsilon, .. } => format!("penalty, ε = {epsilon:e} m³/N"),
         };
         let feels = if several { format!("; feels {mass:.4e} kg") } else { String::new() };

@@ -59,7 +59,7 @@ impl OscillatorVariation {
             ));
         };
         let dashpots = scene.walls.iter().enumerate().filter_map(|(wall, w)| {
-            let damping = w.law.damping();
+            let damping = w.law.dashpot(0.0);
             let at_rest = Dashpot { wall, sign: w.side().sign(), position: w.position(), damping, touches: false };
             (damping > 0.0).then_some(at_rest)
         });

@@ -261,7 +261,7 @@ fn a_chart_has_its_conclusion_above_its_named_curves() {
         assert!(texts.iter().any(|text| text.contains(name)), "{name}: {texts:?}");
     }
     let reasons = tab.evaluate("document.querySelector('#work .floors').textContent");
-    assert!(reasons.as_str().unwrap().contains("its walls give way"), "{reasons}");
+    assert!(reasons.as_str().unwrap().contains("its walls give way and"), "{reasons}");
     // The exact scheme's error of some 1e-14 is named at the edge; the axis is that of the others.
     assert!(texts.iter().any(|text| text.starts_with("◂ event (")), "{texts:?}");
     for beyond in ["10⁻¹²", "10⁻¹⁴", "10"] {

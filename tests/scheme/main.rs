@@ -18,6 +18,7 @@ mod extremes;
 mod forces;
 mod function_load;
 mod generalized_alpha;
+mod hunt_crossley;
 mod impact_map;
 mod located;
 mod many;

@@ -84,6 +84,8 @@ class Wall:
         restitution: float | None = None,
         stiffness: float | None = None,
         damping: float | None = None,
+        exponent: float | None = None,
+        dissipation: float | None = None,
         at: Place = None,
     ) -> Wall: ...
     @staticmethod
@@ -94,6 +96,8 @@ class Wall:
         restitution: float | None = None,
         stiffness: float | None = None,
         damping: float | None = None,
+        exponent: float | None = None,
+        dissipation: float | None = None,
         at: Place = None,
     ) -> Wall: ...
     @property
@@ -108,6 +112,10 @@ class Wall:
     def stiffness(self) -> float | None: ...
     @property
     def damping(self) -> float | None: ...
+    @property
+    def exponent(self) -> float | None: ...
+    @property
+    def dissipation(self) -> float | None: ...
     @staticmethod
     def _restore(version: str, bytes: bytes) -> Wall: ...
     def __eq__(self, value: object, /) -> bool: ...

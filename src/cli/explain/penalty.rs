@@ -23,7 +23,7 @@ impl Penalty {
         let one =
             |&law: &PenaltyLaw| stiffest(&case.scene, law).map(|k| Self { law, integrator, kappa: h * h * k / least });
         let taken = |law: &&PenaltyLaw| Stepper::takes(&case.scene, &Scheme::Penalty { law: **law, integrator }, h);
-        case.penalty.laws.iter().filter(taken).map(one).collect()
+        case.penalty.laws.iter().filter(|law| **law != PenaltyLaw::None).filter(taken).map(one).collect()
     }
 
     /// True if the step resolves its wall.

@@ -264,6 +264,11 @@ fn wall(wall: &Wall) -> Value {
         WallLaw::Elastic { stiffness, damping } => {
             json!({ "stiffness_n_per_m": stiffness, "damping_n_s_per_m": damping })
         }
+        WallLaw::HuntCrossley { stiffness, exponent, dissipation } => json!({
+            "stiffness_n_per_m_to_the_exponent": stiffness,
+            "exponent": exponent,
+            "dissipation_s_per_m": dissipation,
+        }),
         WallLaw::Quartic { epsilon, span } => json!({ "epsilon_m3_per_n": epsilon, "span_m": span }),
     };
     json!({ "name": wall.name, "side": side, "position_m": wall.position(), "law": law })

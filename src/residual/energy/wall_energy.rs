@@ -5,7 +5,7 @@ use crate::scene::Wall;
 /// Energy stored in a wall at displacement `w`, J; 0 for a damped wall that does not touch the
 /// body.
 pub(in super::super) fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
-    if wall.law.damping() > 0.0 && !touching { 0.0 } else { wall.law.energy(-wall.gap(w)) }
+    if wall.law.is_damped() && !touching { 0.0 } else { wall.law.energy(-wall.gap(w)) }
 }
 
 /// Energy stored half a step on the way from `w` to `w + shift`: the mean of both ends.

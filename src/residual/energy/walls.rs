@@ -1,5 +1,6 @@
 //! The energy flows at walls and round holes.
 
+use super::super::complementarity::mean_pressure;
 use super::super::pushes::pushes;
 use super::wall_energy::{half, stored};
 use super::{Flows, Ledger};
@@ -32,12 +33,12 @@ impl Ledger {
                 if staggered { half(wall, w0, h * wall.row().dot(after), touches) } else { stored(wall, w1, touches) };
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);
-            let damping = wall.law.damping();
-            if damping > 0.0 {
+            if wall.law.is_damped() {
                 if touches {
                     let plate = |w: f64| (-wall.gap(w)).max(0.0);
                     let rate = if staggered { rate } else { (plate(w1) - plate(w0)) / h };
-                    flows.dashpot += damping * rate * rate * h;
+                    let dashpot = wall.law.dashpot(mean_pressure(&wall.law, -wall.gap(w0), -wall.gap(w1)));
+                    flows.dashpot += dashpot * rate * rate * h;
                     // Where contact begins with the body already behind the face, the energy of the
                     // spring there counts as supplied by the wall.
                     flows.dashpot -= if held == 0.0 { wall.law.energy(-wall.gap(w0)) } else { 0.0 };
@@ -59,7 +60,7 @@ impl Ledger {
             let now = stored(wall, wall.row().dot(step.q), step.force[index] != 0.0);
             walls += now;
             let held = std::mem::replace(&mut self.held[index], now);
-            if wall.law.damping() > 0.0 {
+            if wall.law.is_damped() {
                 flows.dashpot -= now - held;
             }
         }

@@ -1,7 +1,7 @@
 //! What a reader must know about a scene and a step, independent of the run.
 
 use crate::error::amount;
-use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table};
+use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table, Wall};
 use crate::scheme::Scheme;
 use std::f64::consts::{PI, TAU};
 
@@ -27,6 +27,7 @@ pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
         notes.extend(scene.loads.iter().enumerate().filter_map(|(i, load)| load_resolved(scene, i, load, step)));
         notes.extend(modes_resolved(scene, step));
         notes.extend(walls_resolved(scene, step));
+        notes.extend(dashpots_resolved(scene, step));
     }
     notes
 }
@@ -201,6 +202,20 @@ fn fastest_that_matters(scene: &Scene, modes: &[(f64, f64)]) -> Option<f64> {
     };
     let slowest = || modes.iter().map(|mode| mode.0).filter(|omega| *omega > 0.0).reduce(f64::min);
     rows.filter_map(fastest).reduce(f64::max).or_else(slowest)
+}
+
+/// A note on dashpots of elastic walls that stop the body within a step.
+fn dashpots_resolved(scene: &Scene, step: f64) -> Option<String> {
+    let masses = scene.wall_masses();
+    let damping = |wall: &Wall| wall.law.spring().map_or(0.0, |spring| spring.damping);
+    let all = scene.walls.iter().zip(&masses).map(|(wall, mass)| (wall, step * damping(wall) / mass));
+    let (wall, ratio) = all.filter(|(_, ratio)| *ratio >= 1.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(format!(
+        "the step of {step:.2e} s does not resolve the dashpot of the wall {:?}: h c/m = {ratio:.2e}, and it takes a \
+         body's speed within {:.2e} s; the impulses there depend on the step instead of the wall's damping",
+        wall.name,
+        step / ratio
+    ))
 }
 
 /// A note on elastic walls that the step does not resolve. The springs that a penalty scheme puts

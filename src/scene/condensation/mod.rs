@@ -3,6 +3,7 @@
 
 mod statics;
 
+use super::law::WallSpring;
 use super::row::distinct;
 use super::structure::Structure;
 use super::wall::{Side, Wall};
@@ -180,15 +181,17 @@ impl Scene {
 
 /// Puts the compliance `s` (m/N) of the massless part in series between wall and structure.
 fn soften(wall: &mut Wall, s: f64) -> Result<()> {
-    let damping = wall.law.damping();
-    if damping > 0.0 {
+    if let Some(WallSpring { damping, .. }) = wall.law.spring()
+        && damping > 0.0
+    {
         let expected = "0 where the wall pushes degrees of freedom without mass: in series with their \
                         spring a dashpot has a motion of its own";
         return Err(Error::invalid(Subject::wall(&wall.name).part("damping"), format!("{damping:?}"), expected));
     }
+    let kind = wall.law.kind();
     wall.law = wall.law.in_series(s).ok_or_else(|| {
         let expected = "a rigid or elastic wall where degrees of freedom have no mass";
-        Error::invalid(Subject::wall(&wall.name), "a φ² penalty", expected)
+        Error::invalid(Subject::wall(&wall.name).part("law"), kind, expected)
     })?;
     Ok(())
 }

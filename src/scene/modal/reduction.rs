@@ -98,7 +98,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Invalid`] under `modes` for a number of modes that is out of range, fewer than the
     /// rigid-body motions, or so small that the reduced initial state lies behind a wall; under
-    /// `static correction` for a φ² wall; or any error of [`Scene::validate`].
+    /// `static correction` for a wall whose law is not linear; or any error of [`Scene::validate`].
     pub fn reduced(&self, modes: usize, static_correction: bool) -> Result<Reduction> {
         self.validate()?;
         self.cut(modes, static_correction, Start::Kept)
@@ -270,7 +270,7 @@ fn correct(wall: &mut Wall, truncation: &mut WallTruncation) -> Result<()> {
         return Ok(());
     }
     wall.law = wall.law.in_series(s).ok_or_else(|| {
-        let value = format!("true, with the φ² wall {:?}", wall.name);
+        let value = format!("true, and the wall {:?} has {}", wall.name, wall.law.kind());
         Error::invalid("static correction", value, "rigid or elastic walls only")
     })?;
     truncation.corrected = true;

@@ -24,7 +24,7 @@ pub(in crate::scheme) fn barriers(scene: &Scene) -> Result<Vec<ExactWall>> {
     let barrier = |wall: &Wall| {
         ExactWall::new(wall).ok_or_else(|| {
             let key = Subject::wall(&wall.name).part("law");
-            Error::invalid(key, "the φ² penalty", "a rigid or an elastic wall for the exact scheme")
+            Error::invalid(key, wall.law.kind(), "a rigid or an elastic wall for the exact scheme")
         })
     };
     scene.walls.iter().map(barrier).collect()

@@ -10,10 +10,11 @@ use crate::scene::{Load, Row, Side, Structure, Wall};
 
 const MEANS: [(f64, Mean); 3] = [(0.5, Mean::Ends), (1.0, Mean::Ends), (0.5, Mean::DiscreteGradient)];
 
-const LAWS: [WallLaw; 3] = [
+const LAWS: [WallLaw; 4] = [
     WallLaw::Elastic { stiffness: 200.0, damping: 0.0 },
     WallLaw::Elastic { stiffness: 200.0, damping: 0.5 },
     WallLaw::Quartic { epsilon: 0.5, span: 3.0 },
+    WallLaw::HuntCrossley { stiffness: 200.0, exponent: 2.5, dissipation: 0.3 },
 ];
 
 /// From −1 to 1, the same in every run.
@@ -30,6 +31,10 @@ fn spring(law: &WallLaw, s: f64) -> (f64, f64) {
             let phi = s * (s + span);
             (phi * phi / (2.0 * epsilon), phi * (2.0 * s + span) / epsilon)
         }
+        WallLaw::HuntCrossley { stiffness, exponent, .. } => {
+            let force = stiffness * s.powf(exponent);
+            (force * s / (exponent + 1.0), force)
+        }
         WallLaw::Rigid { .. } => panic!("no spring"),
     }
 }
@@ -43,14 +48,14 @@ fn mean_force(law: &WallLaw, (theta, mean): (f64, Mean), h: f64, [s0, s1]: [f64;
         Mean::Ends => (1.0 - theta) * spring(law, s0).1 + theta * spring(law, s1).1,
         Mean::DiscreteGradient => (spring(law, s1).0 - spring(law, s0).0) / (s1 - s0),
     };
-    (elastic + law.damping() * (s1.max(0.0) - s0.max(0.0)) / h).max(0.0)
+    (elastic + law.dashpot(elastic) * (s1.max(0.0) - s0.max(0.0)) / h).max(0.0)
 }
 
 #[test]
 fn the_tangent_is_the_derivative_of_the_mean_pressure() {
     for index in 0..2000 {
-        let law = LAWS[index % 3];
-        let (theta, mean) = MEANS[index / 3 % 3];
+        let law = LAWS[index % LAWS.len()];
+        let (theta, mean) = MEANS[index / LAWS.len() % 3];
         let (h, s0, s1) = ((3.0 * draw(1, index)).exp2(), draw(2, index), draw(3, index));
         let at = |s1: f64| mean_pressure(&law, mean, theta, h, s0, s1);
         let expected = mean_force(&law, (theta, mean), h, [s0, s1]);
@@ -86,7 +91,7 @@ fn a_wall_answers_by_its_depth_at_both_ends_and_tells_how_it_yields() {
     for index in 0..300 {
         let side = if index % 2 == 0 { Side::Upper } else { Side::Lower };
         // A law without a corner near by: both depths are above 0.
-        let (law, (theta, mean)) = (LAWS[index % 3], MEANS[index / 3 % 3]);
+        let (law, (theta, mean)) = (LAWS[index % LAWS.len()], MEANS[index / LAWS.len() % 3]);
         let (h, sign) = ((3.0 * draw(4, index)).exp2(), if side == Side::Upper { -1.0 } else { 1.0 });
         let [s0, s1] = [5, 6].map(|stream| 1.5 + draw(stream, index));
         let mut rule = Penalty::<Line>::new(&behind(side, law), theta, mean, h).unwrap();
@@ -148,7 +153,7 @@ fn violation<S: Space>(scene: &Scene, (theta, mean): (f64, Mean), h: f64) -> f64
 #[test]
 fn every_step_of_one_body_satisfies_its_balance() {
     for index in 0..2000 {
-        let (law, kind) = (LAWS[index % 3], MEANS[index / 3 % 3]);
+        let (law, kind) = (LAWS[index % LAWS.len()], MEANS[index / LAWS.len() % 3]);
         let h = 0.05 * (2.0 * draw(7, index)).exp2();
         let wall = |side: Side, position: f64| Wall { law, ..Wall::flat("wall", side, position) };
         // The walls of some scenes stand behind one another: both push on what is between them.
@@ -156,7 +161,7 @@ fn every_step_of_one_body_satisfies_its_balance() {
         // Through the upper wall, through the lower one, within them, out of them and beside them.
         let mut scene = Scene::oscillator(1.0, 0.3, 2.0)
             .with_wall(wall(Side::Upper, place))
-            .with_wall(Wall { law: LAWS[index / 9 % 3], ..wall(Side::Lower, -place) })
+            .with_wall(Wall { law: LAWS[index / 12 % LAWS.len()], ..wall(Side::Lower, -place) })
             .with_load(Load::constant(1.5))
             .with_initial(&[draw(8, index)], &[10.0 * draw(9, index)]);
         // Terms of some 100 N s; a discrete gradient's are divided by the way of a step.
@@ -184,7 +189,7 @@ fn every_step_of_a_structure_satisfies_its_balance() {
         for wall in 0..4 {
             let side = if wall % 2 == 0 { Side::Upper } else { Side::Lower };
             let row = (0..n).map(|i| (i, draw(20 + wall, index * n + i))).collect();
-            let law = LAWS[(index + wall as usize) % 3];
+            let law = LAWS[(index + wall as usize) % LAWS.len()];
             let position = if side == Side::Upper { 0.2 } else { -0.2 };
             scene = scene.with_wall(Wall { law, ..Wall::flat("wall", side, position).at(Row::new(row)) });
         }

@@ -35,10 +35,10 @@ const SLOW: f64 = 1e-2;
 #[must_use]
 pub fn default_methods(chosen: Method, penalties: impl Iterator<Item = Method>) -> Vec<Method> {
     let mut methods = vec![chosen];
-    if chosen.backend != Backend::Clarabel {
+    if chosen.scheme.has_qp() && chosen.backend != Backend::Clarabel {
         methods.push(Method { backend: Backend::Clarabel, ..chosen });
     }
-    methods.extend(penalties);
+    methods.extend(penalties.filter(|penalty| *penalty != chosen));
     methods
 }
 
@@ -65,7 +65,7 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
     let stand_in = choose(scene).method;
     let finer = TimeOptions { step: grid.step / FINER, ..time };
     let refined = match &reference {
-        Err(_) if structure => timed(0, &stand_in, finer).ok(),
+        Err(_) => timed(0, &stand_in, finer).ok(),
         _ => None,
     };
     let growth = match &refined {

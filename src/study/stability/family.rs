@@ -221,6 +221,10 @@ pub fn check(case: MapRequest<'_>) -> Result<()> {
         };
         return Err(Error::invalid(subject, value, expected));
     }
+    if let Some(wall) = scene.walls.iter().find(|wall| !wall.law.is_linear()) {
+        let expected = "rigid and elastic walls, whose restitution or stiffness the maps vary";
+        return Err(Error::invalid(Subject::wall(&wall.name).part("law"), wall.law.kind(), expected));
+    }
     if scene.walls.is_empty() {
         return Err(Error::invalid("wall", "missing", "a scene with a wall to hit"));
     }

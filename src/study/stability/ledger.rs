@@ -33,7 +33,6 @@ pub(super) struct Ledger {
 struct Spring {
     index: usize,
     wall: Wall,
-    damping: f64,
     /// Energy stored in it at the end of the last step, J.
     stored: f64,
 }
@@ -49,8 +48,7 @@ impl Ledger {
                 rigid.push(index);
                 continue;
             }
-            let (damping, stored) = (wall.law.damping(), wall.law.energy(-wall.gap(q)));
-            springs.push(Spring { index, wall: wall.clone(), damping, stored });
+            springs.push(Spring { index, wall: wall.clone(), stored: wall.law.energy(-wall.gap(q)) });
         }
         Self { springs, rigid, balance: stepper.contract().balance, h, mass, stiffness, q, busy: true, made: 0.0 }
     }
@@ -85,12 +83,13 @@ impl Ledger {
                 let (energy, energy_end) = (wall.law.energy(depth), wall.law.energy(depth_end));
                 let stored = if staggered { 0.5 * (energy + energy_end) } else { energy_end };
                 let p = impulse(spring.index);
-                if p != 0.0 || spring.damping == 0.0 {
+                if p != 0.0 || !wall.law.is_damped() {
                     self.made += p * rate + stored - spring.stored;
                     // Impulse of the dashpot, part of p.
                     let depth_rate = -wall.side().sign() * rate;
                     let plate_rate = if staggered { depth_rate } else { over(depth_end.max(0.0) - depth.max(0.0)) };
-                    self.made += spring.damping * plate_rate * depth_rate * length;
+                    let dashpot = wall.law.dashpot(wall.law.mean_force(depth, depth_end).0);
+                    self.made += dashpot * plate_rate * depth_rate * length;
                 }
                 spring.stored = stored;
             }

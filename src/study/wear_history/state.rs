@@ -63,8 +63,27 @@ impl WearHistories {
     /// grows, reaches `limit`, s: straight between the points; `None` where it does not.
     #[must_use]
     pub fn reaches(&self, support: usize, limit: f64, quantity: impl Fn(&WearState) -> f64 + Copy) -> Option<f64> {
+        self.crossing(limit, |point| Some(mean(point, support, quantity).0))
+    }
+
+    /// The same of each history alone.
+    #[must_use]
+    pub fn reaches_by_history(
+        &self,
+        support: usize,
+        limit: f64,
+        quantity: impl Fn(&WearState) -> f64 + Copy,
+    ) -> Vec<Option<f64>> {
+        let histories = self.points.first().map_or(0, |point| point.histories.len());
+        let own =
+            |history: usize| self.crossing(limit, |point| point.histories.get(history)?.get(support).map(quantity));
+        (0..histories).map(own).collect()
+    }
+
+    /// The time at which a value that grows along the points reaches `limit`, s.
+    fn crossing(&self, limit: f64, value: impl Fn(&WearPoint) -> Option<f64>) -> Option<f64> {
         let along: Vec<(f64, f64)> =
-            self.points.iter().map(|point| (point.time_s, mean(point, support, quantity).0)).collect();
+            self.points.iter().filter_map(|point| Some((point.time_s, value(point)?))).collect();
         along.windows(2).find(|pair| pair[1].1 >= limit).map(|pair| {
             let [(t0, d0), (t1, d1)] = [pair[0], pair[1]];
             t0 + (t1 - t0) * ((limit - d0) / (d1 - d0)).clamp(0.0, 1.0)
