@@ -53,6 +53,7 @@ impl Builder<'_> {
         (self.model, self.planes) = (built.model, built.planes);
         let total = built.system.degrees_of_freedom();
         self.n = if let Planes::Two(n) = self.planes { n } else { total };
+        self.lines(file)?;
         let modes = self.modes_of_planes(modes)?.or(self.modes_of_data(file, total));
         self.is_changed_later = modes.is_some_and(|modes| modes < total) || built.pending.is_some();
         let duration = self.required("duration", &time, "end");

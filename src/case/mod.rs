@@ -96,6 +96,7 @@ pub use key::Key;
 #[cfg(feature = "cli")]
 pub(crate) use key_entry::{KeyEntry, Kind, REQUIRED, entry};
 pub use key_value::KeyValue;
+pub use line::Line;
 pub use model::{Body, Model, Place};
 pub use penalty::PenaltyOptions;
 pub use planes::Planes;

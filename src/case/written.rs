@@ -1,6 +1,7 @@
 //! Contents of a case file that its scene no longer shows: locations, and the files it read.
 
 use super::digest::sha256;
+use super::line::Line;
 use super::{Case, Place};
 #[cfg(feature = "cli")]
 use crate::scene::Row;
@@ -26,6 +27,9 @@ pub struct Written {
     pub start: Start,
     /// The scatter of its velocities; `None` for none.
     pub scattered: Option<ScatteredStart>,
+    /// Where the points of matrices and modes lie, of the system or of bodies; of those whose place
+    /// is not stated there is none.
+    pub lines: Vec<Line>,
     /// Every file that was read.
     pub files: Vec<FileRead>,
 }
