@@ -96,7 +96,6 @@ pub use key::Key;
 #[cfg(feature = "cli")]
 pub(crate) use key_entry::{KeyEntry, Kind, REQUIRED, entry};
 pub use key_value::KeyValue;
-pub use line::Line;
 pub use model::{Body, Model, Place};
 pub use penalty::PenaltyOptions;
 pub use planes::Planes;
@@ -117,7 +116,7 @@ pub use truncated::Truncated;
 #[cfg(feature = "cli")]
 pub(crate) use value::{Section, Value};
 pub use wear::WearOptions;
-pub use written::{FileRead, Origin, ScatteredStart, Support, SupportShape, WallsOverBase, WearData, Written};
+pub use written::{FileRead, Line, Origin, ScatteredStart, Support, SupportShape, WallsOverBase, WearData, Written};
 
 use crate::error::{Error, Result};
 use crate::scene::{Condensation, FluidElastic, Scene, Slider};

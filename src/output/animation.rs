@@ -32,8 +32,8 @@ const CORNERS: usize = 90;
 const HALF_FLAT: f64 = 0.7;
 
 /// The picture of a beam or of a structure on a line, or of those among several bodies, whose
-/// `stations` had the displacements `moved` (m, in the order of the stations, plane by plane) at the
-/// instants `time` (s); `None` for other structures and for a run of one row.
+/// `stations` had the displacements `moved` (m, in the order of the stations, plane by plane) at
+/// the instants `time` (s); `None` for other structures and for a run of one row.
 #[must_use]
 pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &[Vec<f64>]) -> Option<String> {
     let drawn: Vec<&BodyStations> = stations.bodies.iter().filter(|body| has_line(case, &body.name)).collect();
