@@ -280,7 +280,7 @@ pub(super) const LISTED: &[KeyEntry] = &[
         the column is", "0"]),
     entry("load.base.walls", Word, "", ["`\"moving\"`", "\"moving\": walls move with the base, or \
         \"fixed\": they stay in space, and displacements are those in space", "`\"fixed\"` beside \
-        `file`, `modes`, `bar` and `beam`; another word than the other bases"]),
+        `file`, `modes`; another word than the other bases"]),
     entry("load.base.influence", Any, "", ["required of `matrices` and `modal`", "{ row = [[0, \
         1.0], ..] }: how far each degree of freedom moves with the base", "beside other \
         systems"]),
