@@ -127,8 +127,9 @@ impl Builder<'_> {
         Ok(loads)
     }
 
-    /// Adds to the forces at b = 1 m those of the inertia of held ends, which reaches the neighbours
-    /// on a bar or beam: M ι over all nodes, less that over the nodes that move, times −b̈ = ω² b.
+    /// Adds to the forces at b = 1 m those of the inertia of held ends, which reaches the
+    /// neighbours on a bar or beam: M ι over all nodes, less that over the nodes that move, times
+    /// −b̈ = ω² b.
     fn add_held_inertia(&self, system: &System, moved: &[f64], omega: f64, forces: &mut [f64]) -> Result<()> {
         if self.model.systems().all(|model| model.length().is_none()) {
             return Ok(());
