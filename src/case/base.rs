@@ -7,6 +7,8 @@
 //! M ẍ + C ẋ + K x = f + K ι b + C ι ḃ,
 //!
 //! so that the walls bound x, and the base pulls at the springs and dashpots that are tied to it.
+//! Held ends of a bar or beam are no coordinates: rigidly moved, the rest feels K ι b all the same,
+//! and the inertia of these ends besides.
 
 use super::builder::Builder;
 use super::model::{Body, Model, Place};
@@ -16,7 +18,7 @@ use super::table::{self, TableColumns};
 use super::value::{Section, Value};
 use super::written::{NewLoad, Origin, WallsOverBase};
 use crate::error::Result;
-use crate::scene::{Load, LoadKind, PlaneRows, Row, System};
+use crate::scene::{BarEnd, BeamEnd, Load, LoadKind, PlaneRows, Row, System};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::Range;
 use toml::Spanned;
@@ -86,10 +88,6 @@ impl Builder<'_> {
                         over time depends on how it began";
             return refuse("the motion of the base is read from a file", help);
         }
-        if let Some(line) = self.model.systems().find(|model| model.length().is_some()) {
-            let help = "expected walls = \"moving\", or an oscillator, a chain, matrices or modal data";
-            return refuse(&format!("the system is a {}, whose held ends move", line.kind()), help);
-        }
         if self.is_changed_later {
             let help = "expected no modes, and damping other than by ratios where degrees of freedom have no mass: the \
                         forces at the base need the whole stiffness and damping";
@@ -102,8 +100,11 @@ impl Builder<'_> {
         let (n, omega) = (system.degrees_of_freedom(), TAU * frequency);
         let moved = self.rigid_motion(n, influence);
         let (mut springs, mut dashpots) = (vec![0.0; n], vec![0.0; n]);
-        system.add_stiffness(1.0, &moved, &mut springs);
-        system.add_damping(1.0, &moved, &mut dashpots);
+        if !self.model.systems().all(is_free) {
+            system.add_stiffness(1.0, &moved, &mut springs);
+            system.add_damping(1.0, &moved, &mut dashpots);
+            self.add_held_inertia(system, &moved, omega, &mut springs)?;
+        }
         let way = -amplitude / (omega * omega);
         let mut loads = Vec::new();
         for (forces, size, phase) in [(springs, way, phase), (dashpots, omega * way, phase + FRAC_PI_2)] {
@@ -124,6 +125,19 @@ impl Builder<'_> {
             return refuse("nothing ties the structure to the base", "expected springs or dashpots to the ground");
         }
         Ok(loads)
+    }
+
+    /// Adds to the forces at b = 1 m those of the inertia of held ends, which reaches the
+    /// neighbours on a bar or beam: M ι over all nodes, less that over the nodes that move, times
+    /// −b̈ = ω² b.
+    fn add_held_inertia(&self, system: &System, moved: &[f64], omega: f64, forces: &mut [f64]) -> Result<()> {
+        if self.model.systems().all(|model| model.length().is_none()) {
+            return Ok(());
+        }
+        let (row, mass) = self.carried((&self.model, 0), system, None)?;
+        system.add_mass(-omega * omega, moved, forces);
+        row.entries().iter().for_each(|&(i, share)| forces[i] += omega * omega * mass * share);
+        Ok(())
     }
 
     /// Amplitude (m/s²), frequency (Hz) and phase (rad) of a base that moves by a sine.
@@ -247,11 +261,19 @@ impl Builder<'_> {
         })
     }
 
-    /// ι over all `n` degrees of freedom for a motion along the first plane, of a system without
-    /// held ends.
+    /// ι over all `n` degrees of freedom for a motion along the first plane.
     fn rigid_motion(&self, n: usize, influence: Option<&Influence>) -> Vec<f64> {
         match influence {
-            None => (0..n).map(|i| if i < self.n { 1.0 } else { 0.0 }).collect(),
+            None => {
+                let mut moved = vec![0.0; n];
+                match &self.model {
+                    Model::Bodies(bodies) => {
+                        bodies.iter().for_each(|body| translate(&body.model, &mut moved[body.dofs.clone()]));
+                    }
+                    model => translate(model, &mut moved[..self.n]),
+                }
+                moved
+            }
             Some(influence) => {
                 let mut moved = vec![0.0; n];
                 influence.iter().filter(|&&(i, _)| i < n).for_each(|&(i, x)| moved[i] = x);
@@ -312,6 +334,26 @@ impl Builder<'_> {
             },
             _ => Err(self.refuse(value.span(), &key, "{ row = [[0, 1.0], ..] }")),
         }
+    }
+}
+
+/// Moves a system in one plane by 1: its displacements, and none of the rotations of a beam.
+fn translate(model: &Model, moved: &mut [f64]) {
+    if model.length().is_none() {
+        return moved.fill(1.0);
+    }
+    for row in model.each(moved.len()).iter().filter_map(|(_, node)| model.row(node).ok()) {
+        // At a node the row is that of its deflection, but for roundings.
+        row.entries().iter().filter(|entry| entry.1 > 0.5).for_each(|&(i, _)| moved[i] = 1.0);
+    }
+}
+
+/// True of a bar or beam that nothing ties to the ground.
+fn is_free(model: &Model) -> bool {
+    match model {
+        Model::Bar(bar) => [bar.left, bar.right].iter().all(|end| matches!(end, BarEnd::Free)),
+        Model::Beam(beam) => [beam.left, beam.right].iter().all(|end| matches!(end, BeamEnd::Free)),
+        _ => false,
     }
 }
 

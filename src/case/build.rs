@@ -50,9 +50,8 @@ impl Builder<'_> {
         let (system, time) = (file.required_section("system"), file.required_section("time"));
         let modes = self.modes(&system)?;
         let built = self.system(file, modes.is_some())?;
-        (self.model, self.planes) = (built.model, built.planes);
         let total = built.system.degrees_of_freedom();
-        self.n = if let Planes::Two(n) = self.planes { n } else { total };
+        self.describe(file, (built.model, built.planes), total)?;
         let modes = self.modes_of_planes(modes)?.or(self.modes_of_data(file, total));
         self.is_changed_later = modes.is_some_and(|modes| modes < total) || built.pending.is_some();
         let duration = self.required("duration", &time, "end");
@@ -106,6 +105,13 @@ impl Builder<'_> {
         }
         case.scatter_start();
         Ok(case)
+    }
+
+    /// Notes what the system of `total` degrees of freedom is, and where its points lie.
+    fn describe(&mut self, file: &Section<'_>, (model, planes): (Model, Planes), total: usize) -> Result<()> {
+        (self.model, self.planes) = (model, planes);
+        self.n = if let Planes::Two(n) = planes { n } else { total };
+        self.lines(file)
     }
 
     /// The fields of all tables `[[turbulence]]` in a run until `end` (s).

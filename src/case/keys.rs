@@ -101,6 +101,10 @@ pub(super) const LISTED: &[KeyEntry] = &[
     entry("system.matrices.mass", Word, "", [REQUIRED, MATRIX, ""]),
     entry("system.matrices.stiffness", Word, "", [REQUIRED, MATRIX, ""]),
     entry("system.matrices.damping", Word, "", ["none", MATRIX, "beside `[system.damping]`"]),
+    entry("system.matrices.line", Any, "m", ["not drawn", "pairs of a degree of freedom and its \
+        position along the structure, which increases, [[0, 0.0], [2, 0.05]]; in two planes of the \
+        degrees of freedom along y and z and their position, [[0, 1, 0.0], [2, 3, 0.05]]: where \
+        pictures draw them", "fewer than two of them"]),
     entry("system.modal", Table, "", ["", "modes as finite-element programs export them; degree of \
         freedom i is the coordinate of mode i, see below", ""]),
     entry("system.modal.frequencies", Numbers, "Hz", ["`omega`", "a list of numbers, 0 (rigid-body \
@@ -114,6 +118,11 @@ pub(super) const LISTED: &[KeyEntry] = &[
     entry("system.modal.shapes", Any, "", ["none", "{ tip = [a number for each mode], .. } for the \
         points that walls, loads and probes need, in two planes tip-y and tip-z; or the path of a \
         CSV file in quotes, a row for each point", "another length"]),
+    entry("system.modal.line", Any, "m", ["that of a `[[turbulence]]`, else not drawn", "points of \
+        `shapes` along the structure with their positions, which increase, { p0 = 0.0, p1 = 0.05 }, \
+        or a CSV file with the columns point, position_m: where pictures draw them, and where \
+        turbulence acts that has no line of its own", "fewer than two points, points without a \
+        shape"]),
     entry("system.damping", Table, "", ["no damping", "beside `chain`, `bar`, `beam`, `matrices`, \
         `modal`; exactly one of the following", "beside `oscillator`"]),
     entry("system.damping.rayleigh", Inline, "", ["", "C = mass · M + stiffness · K", ""]),
@@ -277,7 +286,7 @@ pub(super) const LISTED: &[KeyEntry] = &[
         the column is", "0"]),
     entry("load.base.walls", Word, "", ["`\"moving\"`", "\"moving\": walls move with the base, or \
         \"fixed\": they stay in space, and displacements are those in space", "`\"fixed\"` beside \
-        `file`, `modes`, `bar` and `beam`; another word than the other bases"]),
+        `file`, `modes`; another word than the other bases"]),
     entry("load.base.influence", Any, "", ["required of `matrices` and `modal`", "{ row = [[0, \
         1.0], ..] }: how far each degree of freedom moves with the base", "beside other \
         systems"]),
@@ -288,10 +297,8 @@ pub(super) const LISTED: &[KeyEntry] = &[
         it acts: a tube, or modal data with a line", "beside one system"]),
     entry("turbulence.direction", Any, "deg", ["required in two planes", "a number, or \"both\": \
         from +y towards +z, or independent fields along y and z", IN_ONE_PLANE]),
-    entry("turbulence.line", Any, "", ["required of `modal`", "points of `shapes` along the tube with \
-        their positions in m, which increase, { p0 = 0.0, p1 = 0.05 }, or a CSV file with the \
-        columns point, position_m; shapes are straight between them", "fewer than two points, points \
-        without a shape; beside a beam"]),
+    entry("turbulence.line", Any, "", ["that of `modal`", "as there; shapes are straight between \
+        the points", "as there; beside a beam"]),
     entry("turbulence.diameter", Number, "m", ["that of the beam", "a number above 0: of the tube, \
         beside `modal` with `density`", "beside a beam; beside `spectrum`"]),
     entry("turbulence.density", Number, "kg_per_m3", ["", "a number above 0: of the fluid", "beside \

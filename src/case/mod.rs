@@ -116,7 +116,7 @@ pub use truncated::Truncated;
 #[cfg(feature = "cli")]
 pub(crate) use value::{Section, Value};
 pub use wear::WearOptions;
-pub use written::{FileRead, Origin, ScatteredStart, Support, SupportShape, WallsOverBase, WearData, Written};
+pub use written::{FileRead, Line, Origin, ScatteredStart, Support, SupportShape, WallsOverBase, WearData, Written};
 
 use crate::error::{Error, Result};
 use crate::scene::{Condensation, FluidElastic, Scene, Slider};

@@ -228,18 +228,6 @@ impl Place {
         Self::Points(vec![(name.to_owned(), 1.0)])
     }
 
-    /// The places that it is made of, two of a relative one: the body of each, where there are
-    /// several, and where along a bar or beam it is, m.
-    #[cfg(feature = "cli")]
-    pub(crate) fn ends(&self) -> Vec<(Option<&str>, Option<f64>)> {
-        match self {
-            Self::On { body, place } => vec![(Some(body), place.position())],
-            Self::Towards { place, .. } => place.ends(),
-            Self::Relative { place, to } => [place.ends(), to.ends()].concat(),
-            place => vec![(None, place.position())],
-        }
-    }
-
     /// Where along a bar or beam the place is, m; `None` of another place.
     #[must_use]
     pub fn position(&self) -> Option<f64> {

@@ -29,7 +29,7 @@ impl Builder<'_> {
             let title = format!("{owner} acts through modes, and the system is not reduced to modes");
             return Err(self.source.error(table.span.clone(), &title, help));
         }
-        let line = self.line(&owner, &model, table)?;
+        let line = self.line(&owner, (&model, body.as_deref()), table)?;
         let (reach, elements) = match (&model, &line) {
             (Model::Beam(beam), _) => ([0.0, beam.length], beam.elements),
             (_, Some(line)) => (line.ends(), line.stretches()),

@@ -26,8 +26,21 @@ pub struct Written {
     pub start: Start,
     /// The scatter of its velocities; `None` for none.
     pub scattered: Option<ScatteredStart>,
+    /// Where the points of matrices and modes lie, of the system or of bodies; of those whose place
+    /// is not stated there is none.
+    pub lines: Vec<Line>,
     /// Every file that was read.
     pub files: Vec<FileRead>,
+}
+
+/// Points along a structure, whose shape is straight between them.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Line {
+    /// The body on which they are, where there are several.
+    pub body: Option<String>,
+    /// The points as places on that body, with their positions, m, which increase.
+    pub points: Vec<(Place, f64)>,
 }
 
 /// A start whose velocities scatter.
@@ -139,6 +152,65 @@ pub struct FileRead {
     pub bytes: usize,
     /// The SHA-256 of its bytes, as `sha256sum` prints it.
     pub sha256: String,
+}
+
+impl Line {
+    /// Where it begins and ends, m.
+    pub(super) fn ends(&self) -> [f64; 2] {
+        [self.points.first(), self.points.last()].map(|point| point.map_or(0.0, |point| point.1))
+    }
+
+    /// The number of stretches between neighbouring points.
+    pub(super) fn stretches(&self) -> usize {
+        self.points.len().saturating_sub(1)
+    }
+
+    /// The mean displacement from one position to another (m) on the line, as a sum of points of
+    /// modes.
+    pub(super) fn mean(&self, from: f64, to: f64) -> Place {
+        let mut weights = vec![0.0; self.points.len()];
+        for (index, pair) in self.points.windows(2).enumerate() {
+            let [start, end] = [pair[0].1, pair[1].1];
+            let (a, b) = (from.max(start), to.min(end));
+            if a < b {
+                // Of a function that is straight between two points the mean is the value in the
+                // middle.
+                let (share, second) = ((b - a) / (to - from), (0.5 * (a + b) - start) / (end - start));
+                weights[index] += share * (1.0 - second);
+                weights[index + 1] += share * second;
+            }
+        }
+        let weighed = self.points.iter().zip(weights).filter(|(_, weight)| *weight != 0.0);
+        let named = weighed.flat_map(|((place, _), weight)| {
+            let Place::Points(points) = place else { return Vec::new() };
+            points.iter().map(|(name, _)| (name.clone(), weight)).collect()
+        });
+        Place::Points(named.collect())
+    }
+}
+
+#[cfg(feature = "cli")]
+impl Case {
+    /// The line along which the matrices or modes of the system lie, or those of the body of that
+    /// name, where the file states it.
+    pub(crate) fn line(&self, body: Option<&str>) -> Option<&Line> {
+        self.written.lines.iter().find(|line| line.body.as_deref() == body)
+    }
+
+    /// The places of which `place` is made, two of a relative one: the body of each, where there
+    /// are several, and where along a bar, a beam or a line it is, m.
+    pub(crate) fn ends<'a>(&'a self, place: &'a Place) -> Vec<(Option<&'a str>, Option<f64>)> {
+        let end = |body: Option<&'a str>, place: &Place| {
+            let on_line = || self.line(body)?.points.iter().find(|point| point.0 == *place).map(|point| point.1);
+            (body, place.position().or_else(on_line))
+        };
+        match place {
+            Place::On { body, place } => vec![end(Some(body), place)],
+            Place::Towards { place, .. } => self.ends(place),
+            Place::Relative { place, to } => [self.ends(place), self.ends(to)].concat(),
+            place => vec![end(None, place)],
+        }
+    }
 }
 
 /// Files are equal if their names and contents are, wherever they were found.

@@ -1,5 +1,6 @@
 //! `animation.svg`: the last stretch of a tube's motion between its walls, as a picture that moves
-//! in a browser, on a page or in a presentation.
+//! in a browser, on a page or in a presentation; likewise of matrices and modes whose points lie
+//! along a line that the case states.
 //!
 //! Above, the tube from the side, with its walls at their places; below, of a tube in two planes,
 //! the path of its axis within each support. Deflections are magnified: a gap is a thousandth of a
@@ -8,7 +9,7 @@
 use super::colours::Places;
 use super::shape::{BodyStations, Stations};
 use crate::case::{Case, Model, Place, SupportShape};
-use crate::scene::{Beam, Face, Scene, Support};
+use crate::scene::{Face, Scene, Support};
 use signorini_figure::{Animation, View};
 use std::f64::consts::TAU;
 
@@ -24,19 +25,19 @@ const MOST_SUPPORTS: usize = 4;
 /// Heights of the views.
 const SIDE: f64 = 150.0;
 const SUPPORT: f64 = 140.0;
-/// Half the width at which a wall is drawn, as a share of the tube's length.
+/// Half the width at which a wall is drawn, as a share of the length drawn.
 const HALF_WALL: f64 = 0.012;
 /// Corners of a circle, and half the length of a flat as a share of its gap.
 const CORNERS: usize = 90;
 const HALF_FLAT: f64 = 0.7;
 
-/// The picture of a beam, or of those among several bodies, whose `stations` had the displacements
-/// `moved` (m, in the order of the stations, plane by plane) at the instants `time` (s); `None` for
-/// other structures and for a run of one row.
+/// The picture of a beam or of a structure on a line, or of those among several bodies, whose
+/// `stations` had the displacements `moved` (m, in the order of the stations, plane by plane) at
+/// the instants `time` (s); `None` for other structures and for a run of one row.
 #[must_use]
 pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &[Vec<f64>]) -> Option<String> {
-    let beams: Vec<(&BodyStations, &Beam)> = stations.bodies.iter().filter_map(|body| beam_of(case, body)).collect();
-    if beams.is_empty() {
+    let drawn: Vec<&BodyStations> = stations.bodies.iter().filter(|body| has_line(case, &body.name)).collect();
+    if drawn.is_empty() {
         return None;
     }
     let [slowest, _] = case.scene.system.frequencies();
@@ -55,22 +56,22 @@ pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &
     if stations.planes == 2 && hidden > 0 {
         caption += &format!("; without views of the last {hidden} supports");
     }
-    let undrawn = undrawn(case, &beams);
+    let undrawn = undrawn(case, &drawn);
     if !undrawn.is_empty() {
         caption += &format!("; without {}", undrawn.join(", "));
     }
-    let motion = Motion { stations, moved };
-    let side = |body: &BodyStations, beam: &Beam, plane: usize| {
+    let motion = Motion { case, stations, moved };
+    let side = |body: &BodyStations, plane: usize| {
         let seen = if stations.planes == 1 { "from the side" } else { ["plane y", "plane z"][plane.min(1)] };
         let name = if body.name.is_empty() { seen.to_owned() } else { format!("{}, {seen}", body.name) };
-        let view = walls(case, plane, beam.length, body).into_iter();
+        let view = walls(case, plane, body).into_iter();
         let view = view.fold(View::new(&name, false), |view, (look, points)| view.line(look, points));
         view.moving(rows.iter().map(|&row| motion.line(body, plane, row)).collect())
     };
     let mut picture = Animation::new(case.heading(), &caption, SECONDS);
-    for (body, beam) in &beams {
+    for body in drawn {
         for plane in 0..stations.planes {
-            picture = picture.row(SIDE / stations.planes as f64, vec![side(body, beam, plane)]);
+            picture = picture.row(SIDE / stations.planes as f64, vec![side(body, plane)]);
         }
     }
     if stations.planes == 2 {
@@ -89,21 +90,48 @@ pub(crate) fn animation(case: &Case, stations: &Stations, time: &[f64], moved: &
     Some(picture.to_svg())
 }
 
-/// The beam that has these stations; `None` where they are on another structure.
-fn beam_of<'a>(case: &'a Case, body: &'a BodyStations) -> Option<(&'a BodyStations, &'a Beam)> {
-    let model = if body.name.is_empty() { &case.model } else { &case.model.body(&body.name)?.model };
-    if let Model::Beam(beam) = model { Some((body, beam)) } else { None }
+/// True of a beam, and of matrices and modes on a line: of the system, or of the body of that name.
+fn has_line(case: &Case, body: &str) -> bool {
+    let (model, name) = match body {
+        "" => (Some(&case.model), None),
+        name => (case.model.body(name).map(|body| &body.model), Some(name)),
+    };
+    matches!(model, Some(Model::Beam(_))) || case.line(name).is_some()
 }
 
-/// The names of the bodies of `case` that are none of `beams`.
-fn undrawn(case: &Case, beams: &[(&BodyStations, &Beam)]) -> Vec<String> {
+/// What is not drawn since the file does not say where its points lie, and what would draw it;
+/// `None` where nothing is.
+pub(crate) fn refused(case: &Case) -> Option<String> {
+    let named = |name: &str, model: &Model| {
+        let (of, line) = match model {
+            Model::Matrices(_) if case.planes.is_two() => ("matrices", "[[0, 1, 0.0], [2, 3, 0.5], ..]"),
+            Model::Matrices(_) => ("matrices", "[[0, 0.0], [1, 0.5], ..]"),
+            Model::Modal(_) => ("modal", "{ POINT = 0.0, POINT = 0.5, .. }"),
+            _ => return None,
+        };
+        let (table, name) = if name.is_empty() { ("system", None) } else { ("body", Some(name)) };
+        let of_body = name.map(|name| format!(" of {name:?}")).unwrap_or_default();
+        let unknown = case.line(name).is_none();
+        unknown.then(|| format!("[{table}.{of}]{of_body}, expected line = {line} there"))
+    };
+    let found: Vec<String> = match &case.model {
+        Model::Bodies(bodies) => bodies.iter().filter_map(|body| named(&body.name, &body.model)).collect(),
+        model => named("", model).into_iter().collect(),
+    };
+    let of = found.join(", and of ");
+    (!found.is_empty()).then(|| format!("{FILE}: nothing says where the points lie of {of}, positions in m"))
+}
+
+/// The names of the bodies of `case` that are none of `drawn`.
+fn undrawn(case: &Case, drawn: &[&BodyStations]) -> Vec<String> {
     let Model::Bodies(bodies) = &case.model else { return Vec::new() };
-    let drawn = |name: &str| beams.iter().any(|(body, _)| body.name == name);
-    bodies.iter().filter(|body| !drawn(&body.name)).map(|body| format!("{:?}", body.name)).collect()
+    let is_drawn = |name: &str| drawn.iter().any(|body| body.name == name);
+    bodies.iter().filter(|body| !is_drawn(&body.name)).map(|body| format!("{:?}", body.name)).collect()
 }
 
 /// The displacements of all stations.
 struct Motion<'a> {
+    case: &'a Case,
     stations: &'a Stations,
     moved: &'a [Vec<f64>],
 }
@@ -129,7 +157,7 @@ impl Motion<'_> {
             let nearest = (0..body.places.len()).min_by(|a, b| off(a).total_cmp(&off(b)));
             (x.is_some() || body.places.len() == 1).then_some(self.value(body, plane, nearest?, row))
         };
-        match place.ends().as_slice() {
+        match self.case.ends(place).as_slice() {
             [one] => station(one),
             [one, other] => Some(station(one)? - station(other)?),
             _ => None,
@@ -139,13 +167,14 @@ impl Motion<'_> {
 
 /// The walls that stand beside a body in a plane (0 of y), each as a short line at its place with
 /// the look of its colour; those that bound a relative motion have no place of their own.
-fn walls(case: &Case, plane: usize, length: f64, body: &BodyStations) -> Vec<(usize, Vec<(f64, f64)>)> {
+fn walls(case: &Case, plane: usize, body: &BodyStations) -> Vec<(usize, Vec<(f64, f64)>)> {
     let (scene, colours) = (&case.scene, Places::of(&case.scene));
+    let [first, last] = [body.places.first(), body.places.last()].map(|end| end.copied().unwrap_or(0.0));
+    let half = HALF_WALL * (last - first);
     let mut lines = Vec::new();
     let mut add = |name: &str, place: &Place, at: f64| {
-        let [(on, Some(x))] = place.ends()[..] else { return };
+        let [(on, Some(x))] = case.ends(place)[..] else { return };
         if on.unwrap_or_default() == body.name {
-            let half = HALF_WALL * length;
             lines.push((colours.colour(name), vec![(x - half, at), (x + half, at)]));
         }
     };

@@ -7,10 +7,10 @@
 
 use super::atomic::WholeFile;
 use super::csv::digits;
-use crate::case::{Body, Case, Model, Place};
+use crate::case::{Body, Case, Line, Model, Place};
 use crate::error::{Error, Result};
 use crate::run::Run;
-use crate::scene::{Probe, Row, Scene};
+use crate::scene::{Bar, Beam, Probe, Row, Scene};
 use std::io::Write;
 use std::path::Path;
 
@@ -50,14 +50,17 @@ pub struct Shape {
 
 impl Shape {
     /// The stations of `case`, in two planes those along y and then those along z; of several
-    /// bodies, in each plane body by body. Places of matrices and modes are not in a line: in one
-    /// plane their stations are the walls where no probe watches, in two there are none. There are
-    /// none either for an oscillator that is the system, and for a run of very many rows.
+    /// bodies, in each plane body by body. Where the file does not say along which line matrices or
+    /// modes lie, their stations are, in one plane, the walls where no probe watches, and in two
+    /// there are none. There are none either for an oscillator that is the system, and for a run of
+    /// very many rows.
     #[must_use]
     pub fn of(case: &Case) -> Self {
         let places: Vec<(String, Place)> = match &case.model {
             Model::Bodies(bodies) => bodies.iter().flat_map(|body| on_body(case, body)).collect(),
-            Model::Matrices(_) | Model::Modal(_) if !case.planes.is_two() => unwatched(case),
+            Model::Matrices(_) | Model::Modal(_) if !case.planes.is_two() && case.line(None).is_none() => {
+                unwatched(case)
+            }
             model => along(case, model, None),
         };
         let planes = if case.planes.is_two() { &PLANES[..] } else { &[ONE][..] };
@@ -136,27 +139,37 @@ fn on_body<'a>(case: &'a Case, body: &'a Body) -> impl Iterator<Item = (String, 
 }
 
 /// The stations along `model`, the system or the body of that name: of a bar or beam at equal
-/// distances, and at the walls and loads, so that what is drawn touches a wall where it does; of a
-/// chain its masses.
+/// distances, of matrices and modes on a line at their points, and at the walls and loads, so that
+/// what is drawn touches a wall where it does; of a chain its masses.
 fn along(case: &Case, model: &Model, body: Option<&str>) -> Vec<(String, Place)> {
-    let length = match model {
-        Model::Beam(beam) => beam.length,
-        Model::Bar(bar) => bar.length,
+    let mut at: Vec<(f64, Place)> = match model {
+        Model::Beam(Beam { length, .. }) | Model::Bar(Bar { length, .. }) => {
+            let share = |i: usize| length * (i as f64 / (ALONG - 1) as f64);
+            (0..ALONG).map(|i| (share(i), Place::Position(share(i)))).collect()
+        }
         Model::Chain(chain) => {
             let every = chain.masses.len().div_ceil(MOST_MASSES).max(1);
             return (0..chain.masses.len()).step_by(every).map(mass).collect();
         }
-        _ => return Vec::new(),
+        _ => case.line(body).map_or_else(Vec::new, on_line),
     };
-    let mut at: Vec<f64> = (0..ALONG).map(|i| length * (i as f64 / (ALONG - 1) as f64)).collect();
+    let (Some(begin), Some(end)) = (at.first().map(|at| at.0), at.last().map(|at| at.0)) else { return Vec::new() };
     let places = case.places.iter().chain(&case.written.loads);
     let supports = case.written.supports.iter().map(|support| &support.place);
-    at.extend(
-        places.chain(supports).flat_map(|place| place.ends()).filter(|one| one.0 == body).filter_map(|one| one.1),
-    );
-    at.sort_by(f64::total_cmp);
-    at.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * length);
-    at.into_iter().map(|x| (column(x), Place::Position(x))).collect()
+    let touched = places.chain(supports).flat_map(|place| case.ends(place)).filter(|one| one.0 == body);
+    let point = |x: f64| case.line(body).and_then(|line| line.points.iter().find(|point| point.1 == x));
+    let station = |x: f64| (x, point(x).map_or(Place::Position(x), |point| point.0.clone()));
+    at.extend(touched.filter_map(|one| one.1).map(station));
+    at.sort_by(|a, b| a.0.total_cmp(&b.0));
+    at.dedup_by(|a, b| (a.0 - b.0).abs() <= 1e-9 * (end - begin));
+    at.into_iter().map(|(x, place)| (column(x), place)).collect()
+}
+
+/// The points of a line, of very many some at equal numbers of points, with the last.
+fn on_line(line: &Line) -> Vec<(f64, Place)> {
+    let every = line.points.len().div_ceil(MOST_MASSES).max(1);
+    let points = line.points.iter().step_by(every).chain(line.points.last());
+    points.map(|(place, x)| (*x, place.clone())).collect()
 }
 
 /// The walls where no probe watches, of several at one place the first.

@@ -3,7 +3,7 @@
 
 use super::column::{extremes, f32, f64, i16, u32, words};
 use super::folder::{Cells, Folder, Numbers};
-use super::scene::in_keys;
+use super::scene::{drawn_at, in_keys};
 use crate::error::{Error, Result};
 use crate::output::pictures::FEW_ROWS;
 use crate::output::shape::{self, BodyStations, Stations};
@@ -107,7 +107,10 @@ fn probe_names(table: &Numbers, summary: &Value, count: usize) -> Vec<(String, V
     };
     (0..count)
         .map(|index| match listed.and_then(|list| list.get(index)) {
-            Some(probe) => (probe["name"].as_str().unwrap_or_default().to_owned(), in_keys(&probe["at"])),
+            Some(probe) => {
+                let name = probe["name"].as_str().unwrap_or_default();
+                (name.to_owned(), drawn_at(in_keys(&probe["at"]), summary))
+            }
             None => (of_header(index), Value::Null),
         })
         .collect()

@@ -14,6 +14,7 @@ mod excitations;
 mod folders;
 mod formats;
 mod hazards;
+mod lines;
 mod margins;
 mod new_tube;
 mod notes;

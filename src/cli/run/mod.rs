@@ -15,6 +15,7 @@ use super::realisations::{self, StudyRequest};
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
+use crate::output::animation;
 use crate::output::episodes::Episodes;
 use crate::output::error_parts;
 use crate::output::run::{self as output, Picture};
@@ -64,8 +65,12 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     if let Some(error) = &shortfall {
         document["error"] = json!(error.to_string());
     }
+    let undrawn = animation::refused(&case).filter(|_| !args.request.place.no_report);
+    if let Some(reason) = &undrawn {
+        document["not_drawn"] = json!(reason);
+    }
     let mut answer = Answer::of(results, !args.request.place.no_report, document);
-    answer.messages([first]);
+    answer.messages([first].into_iter().chain(undrawn));
     show(&mut answer, &case, &run, &method)?;
     if let Some((wanted, found)) = &derivatives {
         wanted.show(&mut answer, &case, found);

@@ -1,6 +1,6 @@
 //! The structure that is run, and its walls with the mass that each feels.
 
-use crate::case::{Body, Case, Model, Place};
+use crate::case::{Body, Case, Line, Model, Place};
 use crate::scene::{
     BarEnd, BeamEnd, BeamSection, Damping, Face, FrictionCoefficients, Scene, Support, System, Wall, WallLaw,
 };
@@ -46,6 +46,9 @@ pub(super) fn scene(case: &Case) -> Value {
         json!({ "name": probe.name, "at": place.map(at) })
     });
     out.insert("probes".to_owned(), probes.collect());
+    if !case.written.lines.is_empty() {
+        out.insert("lines".to_owned(), case.written.lines.iter().map(line).collect());
+    }
     if let Some(margins) = &case.fluid_elastic {
         out.insert("fluid_elastic".to_owned(), json!(margins));
     }
@@ -168,6 +171,12 @@ fn structure(case: &Case) -> Value {
         map.insert("residual_coupling_neglected".to_owned(), json!(reduction.coupling_neglected));
     }
     out
+}
+
+/// Where the points of matrices or modes lie.
+fn line(line: &Line) -> Value {
+    let point = |(place, x): &(Place, f64)| json!({ "at": at(place), "position_m": x });
+    json!({ "body": line.body, "points": line.points.iter().map(point).collect::<Vec<_>>() })
 }
 
 fn at(place: &Place) -> Value {

@@ -15,7 +15,7 @@ function bodiesStage() {
   /** The displacement of a place of a body at t; undefined where it has none in the drawing. */
   const movedAt = (at, plane, t) => {
     const shape = lead.bodies[at.body];
-    const x = at.position ?? at.dof;
+    const x = placeAlong(at);
     if (!shape || !Number.isFinite(x)) return undefined;
     return shapeAt(shape, plane, t, new Float64Array(shape.stations.length))[nearestTo(shape.stations, x)];
   };
@@ -41,14 +41,13 @@ function bodiesStage() {
           }));
     return all.flatMap(({ at, room: [low, high], ...rest }) => {
       const other = at && at.relative_to;
-      const x = (place) => place.position ?? place.dof;
       const found = [];
       if (at && at.body === name)
-        found.push({ ...rest, x: x(at), room: [low, high], base: (t) => (other ? movedAt(other, plane, t) : 0) });
+        found.push({ ...rest, x: placeAlong(at), room: [low, high], base: (t) => (other ? movedAt(other, plane, t) : 0) });
       // The other one is bounded the other way round.
       if (other && other.body === name) {
         const turned = [high, low].map((u) => u && -u);
-        found.push({ ...rest, x: x(other), room: turned, base: (t) => movedAt(at, plane, t) });
+        found.push({ ...rest, x: placeAlong(other), room: turned, base: (t) => movedAt(at, plane, t) });
       }
       return found.filter((bound) => Number.isFinite(bound.x));
     });
@@ -98,7 +97,7 @@ function bodiesStage() {
   };
 
   const drawBody = (ctx, { body, stations }, X, Y, u) => {
-    if (body.length) {
+    if (body.ends) {
       for (const [width, colour] of [
         [7, ink.body],
         [4, ink.mass],
@@ -125,7 +124,7 @@ function bodiesStage() {
   const drawLoads = (ctx, { name, plane, stations }, X, Y, u, t) => {
     for (const load of loads) {
       const at = load.at || {};
-      const x = at.position ?? at.dof;
+      const x = placeAlong(at);
       if (at.body !== name || !Number.isFinite(x)) continue;
       const angle = ((at.direction || 0) * TURN) / 360;
       const part = forceOf(load, t) * (plane ? Math.sin(angle) : Math.cos(angle));
@@ -135,14 +134,14 @@ function bodiesStage() {
 
   const drawRow = (ctx, row, top, w, t, struck) => {
     const { name, plane, body, stations, bounds } = row;
-    const ends = body.length ? [0, body.length] : endsOf(stations.x);
+    const ends = body.ends || endsOf(stations.x);
     const [a, b] = [34, w - 34];
     const X = (x) => a + ((b - a) * (x - ends[0])) / (ends[1] - ends[0]);
     const middle = top + each / 2 + 7;
     const Y = (u) => middle - scale * u;
     drawSwept(ctx, stations, X, Y);
     drawAtRest(ctx, a, b, middle);
-    if (body.length) {
+    if (body.ends) {
       drawEnd(ctx, a, middle, -1, body.left);
       drawEnd(ctx, b, middle, 1, body.right);
     }
@@ -152,7 +151,7 @@ function bodiesStage() {
     bounds.forEach((bound) => drawBound(ctx, bound, X, Y, wide, t, struck));
     drawLoads(ctx, row, X, Y, u, t);
     const along = planes === 2 ? ` along ${plane ? "z" : "y"}` : "";
-    const magnified = body.length ? ` × ${digits(scale / (Math.abs(X(1) - X(0)) || 1), 3)}` : "";
+    const magnified = body.ends ? ` × ${digits(scale / (Math.abs(X(1) - X(0)) || 1), 3)}` : "";
     ctx.fillStyle = ink.soft;
     ctx.textAlign = "left";
     ctx.textBaseline = "alphabetic";

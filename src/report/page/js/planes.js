@@ -30,12 +30,12 @@ function planesStage() {
   const memory = glance() * 0.14;
   const force = largestForce(loads) || 1;
 
-  /** The force of the loads there, N along y and z: [y, z]. */
-  const forceAt = (place, t) => {
+  /** The force of the loads there, of all where x is null, N along y and z: [y, z]. */
+  const forceAt = (x, t) => {
     const out = [0, 0];
     for (const load of loads) {
-      const { direction, ...at } = load.at || {};
-      if (!Number.isFinite(direction) || !(place === null || samePlace(at, place))) continue;
+      const { direction } = load.at || {};
+      if (!Number.isFinite(direction) || !(x === null || placeAlong(load.at) === x)) continue;
       const part = forceOf(load, t);
       out[0] += part * Math.cos((direction * TURN) / 360);
       out[1] += part * Math.sin((direction * TURN) / 360);
@@ -43,10 +43,9 @@ function planesStage() {
     return out;
   };
   const loadPlaces = planes
-    ? [...new Set(loads.map(({ at }) => at && (at.position ?? at.dof)))].filter(Number.isFinite)
+    ? [...new Set(loads.map(({ at }) => placeAlong(at)))].filter(Number.isFinite)
     : [];
   const nearest = (x) => nearestTo(planes[0].x, x);
-  const inKey = (x) => (DATA.scene.length ? { position: x } : { dof: x });
 
   const drawTrail = (ctx, [y, z], X, Y, t, colour) => {
     const span = glance();
@@ -115,7 +114,7 @@ function planesStage() {
       ctx.stroke();
       for (const x of loadPlaces) {
         const k = nearest(x);
-        const [fy, fz] = forceAt(inKey(x), t);
+        const [fy, fz] = forceAt(x, t);
         drawArrow(ctx, X(y[k]), Y(z[k]), (40 * fy) / force, (-40 * fz) / force, ink.accent, 2.2);
       }
     }
@@ -153,7 +152,7 @@ function planesStage() {
     const Y = (u) => middle - scale * u;
     drawSwept(ctx, stations, X, Y);
     drawAtRest(ctx, a, b, middle);
-    if (DATA.scene.length) {
+    if (DATA.scene.ends) {
       drawEnd(ctx, a, middle, -1, DATA.scene.left);
       drawEnd(ctx, b, middle, 1, DATA.scene.right);
     }
@@ -169,7 +168,7 @@ function planesStage() {
     line(4, ink.mass);
     const wide = clamp(0.02 * (b - a), 3, 12);
     for (const { support, colour, of } of watched) {
-      const x = support.at && (support.at.position ?? support.at.dof);
+      const x = placeAlong(support.at);
       if (!Number.isFinite(x)) continue;
       const [fresh, share] = of
         .map(({ index }) => struck[index])
@@ -194,11 +193,11 @@ function planesStage() {
       }
     }
     for (const x of loadPlaces) {
-      const part = forceAt(inKey(x), t)[plane];
+      const part = forceAt(x, t)[plane];
       drawArrow(ctx, X(x), Y(u[nearest(x)]), 0, (-34 * part) / force, ink.accent, 2.2);
     }
     const axis = plane ? "z" : "y";
-    const magnified = DATA.scene.length
+    const magnified = DATA.scene.ends
       ? ` × ${digits(scale / (Math.abs(X(1) - X(0)) || 1), 3)}`
       : "";
     ctx.fillStyle = ink.soft;

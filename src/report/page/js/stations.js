@@ -20,9 +20,10 @@ function shapeStations(shape, plane) {
 
 /** The same of the structure, of one without a shape through its watched places. */
 function stationsOf(plane = 0) {
-  const length = DATA.scene.length;
-  // Of matrices and modes a shape has the walls where no probe watches, by their numbers.
-  const atWalls = lead.shape && ["matrices", "modal"].includes(DATA.scene.kind);
+  const { ends, kind } = DATA.scene;
+  // Of matrices and modes without a line a shape has the walls where no probe watches, by their
+  // numbers.
+  const atWalls = lead.shape && !ends && ["matrices", "modal"].includes(kind);
   if (lead.shape && !atWalls) return shapeStations(lead.shape, plane);
   // Without a shape: the watched places, by where they are if they say so.
   const two = DATA.scene.planes === 2;
@@ -39,7 +40,7 @@ function stationsOf(plane = 0) {
     high: probes.map((probe) => Math.max(0, probe.extents.Q[1])),
     at: (t) => probes.map((probe) => stateAt(probe, t)[0]),
     ats: probes.map((probe) => probe.at),
-    whole: placed && !length,
+    whole: placed && !ends,
   };
   if (!atWalls) return watched;
   const more = shapeStations(lead.shape, plane);
@@ -56,9 +57,14 @@ function stationsOf(plane = 0) {
   };
 }
 
+/** Where a place is along what is drawn: its position in m, or the number of its mass. */
+function placeAlong(at) {
+  const { ends } = (at && DATA.scene.bodies.find(({ name }) => name === at.body)) || DATA.scene;
+  return at ? (at.position ?? (ends ? undefined : at.dof)) : undefined;
+}
+
 /** Where the drawing along a structure begins and ends, of stations at x. */
-const endsOf = (x) =>
-  DATA.scene.length ? [0, DATA.scene.length] : [Math.min(...x) - 0.5, Math.max(...x) + 0.5];
+const endsOf = (x) => DATA.scene.ends || [Math.min(...x) - 0.5, Math.max(...x) + 0.5];
 
 /** Where the stations have been: the band between their least and largest displacements. */
 function drawSwept(ctx, stations, X, Y) {

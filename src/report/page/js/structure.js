@@ -9,7 +9,7 @@ function structureStage() {
   const ends = endsOf(stations.x);
   /** Where along the structure a wall or load is; undefined where the drawing has no place for it. */
   const placeOf = (at) => {
-    const x = at && (at.position ?? (lead.shape ? at.dof : undefined));
+    const x = lead.shape ? placeAlong(at) : at?.position;
     if (Number.isFinite(x) && !stations.names) return x;
     const i = (stations.ats || []).findIndex((other) => samePlace(other, at));
     return i >= 0 ? stations.x[i] : undefined;
@@ -79,7 +79,7 @@ function structureStage() {
       curve(ctx, X, u);
       ctx.stroke();
     };
-    if (kind === "beam" || kind === "bar") {
+    if (DATA.scene.ends) {
       ctx.lineCap = "round";
       line(thick + 2, ink.body);
       line(thick - 2, ink.mass);
@@ -118,7 +118,7 @@ function structureStage() {
   const drawPast = (ctx, X, from, to, t) => {
     const span = glance();
     const rows = 110;
-    const columns = kind === "beam" || kind === "bar" ? 90 : n;
+    const columns = DATA.scene.ends ? 90 : n;
     Object.assign(film, { width: columns, height: rows });
     const pen = film.getContext("2d");
     const image = pen.createImageData(columns, rows);
@@ -178,12 +178,12 @@ function structureStage() {
     ctx.fillStyle = ink.soft;
     ctx.textAlign = "center";
     ctx.textBaseline = "alphabetic";
-    const places = DATA.scene.length ? [...ends, ...drawn.map((wall) => wall.x)] : stations.x;
+    const places = DATA.scene.ends ? [...ends, ...drawn.map((wall) => wall.x)] : stations.x;
     let last = -Infinity;
     for (const x of [...new Set(places)].sort((a, b) => a - b)) {
       const text = stations.names
         ? stations.names[stations.x.indexOf(x)]
-        : DATA.scene.length
+        : DATA.scene.ends
           ? `${digits(x)} m`
           : String(x);
       const at = clamp(X(x), 20, w - 24);
@@ -193,7 +193,7 @@ function structureStage() {
       last = at + width / 2;
     }
     ctx.textAlign = "left";
-    const magnified = DATA.scene.length
+    const magnified = DATA.scene.ends
       ? `displacement × ${digits(scale / (Math.abs(X(1) - X(0)) || 1), 3)}`
       : `displacement upward, ${kind === "matrices" ? "degrees of freedom" : "masses"} by number`;
     const across = kind === "bar" ? " (along the bar, drawn upward)" : "";
@@ -206,7 +206,7 @@ function structureStage() {
     );
     const left = walls.length - drawn.length;
     const remarks = [
-      !lead.shape && DATA.scene.length ? "drawn through the watched places alone" : null,
+      !lead.shape && DATA.scene.ends ? "drawn through the watched places alone" : null,
       left ? `${left} of ${walls.length} walls, on relative motions or elsewhere, not drawn` : null,
     ];
     const remark = remarks.filter((text) => text).join("; ");
@@ -216,7 +216,7 @@ function structureStage() {
   const paint = (ctx, w, h, t) => {
     const [left, right] = [34, w - 34];
     const X = (x) => left + ((right - left) * (x - ends[0])) / (ends[1] - ends[0]);
-    if (kind === "beam" || kind === "bar") {
+    if (DATA.scene.ends) {
       ctx.fillStyle = clear(ink.c3, 0.2);
       ctx.beginPath();
       curve(ctx, X, stations.high);
@@ -237,7 +237,7 @@ function structureStage() {
     walls.forEach((wall, i) => {
       if (wall.x !== undefined) drawWall(ctx, X, wall, struck[i]);
     });
-    if (DATA.scene.length) {
+    if (DATA.scene.ends) {
       drawEnd(ctx, left, middle, -1, DATA.scene.left);
       drawEnd(ctx, right, middle, 1, DATA.scene.right);
     }
