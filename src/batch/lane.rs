@@ -74,8 +74,8 @@ impl Lane {
     ///
     /// # Errors
     /// [`Error::Invalid`] for an invalid scene, or one that a lane cannot represent: a structure, a
-    /// second wall on one side, a law that is not linear, an impulse, a table, a function of time, a
-    /// sine that does not have an integer number of periods in `period`.
+    /// second wall on one side, a law that is not linear, an impulse, a table, a function of time,
+    /// a sine that does not have an integer number of periods in `period`.
     pub fn of(scene: &Scene, period: f64) -> Result<Self> {
         scene.validate()?;
         positive("period", period)?;

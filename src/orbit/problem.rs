@@ -45,8 +45,8 @@ impl Problem {
     ///
     /// # Errors
     /// [`Error::Invalid`] for a scene that does not validate, has several degrees of freedom, no
-    /// wall, a wall whose law is not linear or that stands behind a lever, or loads without a common
-    /// period.
+    /// wall, a wall whose law is not linear or that stands behind a lever, or loads without a
+    /// common period.
     pub fn new(scene: Scene) -> Result<Self> {
         scene.validate()?;
         let System::Oscillator(body) = scene.system else {

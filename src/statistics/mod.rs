@@ -164,7 +164,7 @@ impl Statistics {
             wall.force = forces.statistics(index, wall.contacts);
             if let Some(force) = wall.force {
                 let instant = wall.largest_force.filter(|_| force.rms_averaged_over_s.is_none());
-                // Where the largest mean is nearly the largest force, its stretch is where that acts.
+                // Where the largest mean is nearly the largest force, that acts in its stretch.
                 let near = instant.zip(force.largest).filter(|(peak, mean)| mean.mean_n >= NEARLY * peak.mean_n);
                 let at = near.map(|(peak, mean)| LargestForce { at_s: mean.at_s, ..peak });
                 wall.largest_force = at.or(instant).or(force.largest);

@@ -67,8 +67,8 @@ fn an_impact_gives_back_what_the_closed_form_does_whatever_the_exponent() {
             for &integrator in integrators {
                 let of = |step: f64| errors(&scene, integrator, step, known);
                 let (coarse, fine) = (of(1e-5), of(2.5e-6));
-                // Some 1 000 steps a contact. Order 2: at least eight times less for a fourth of the
-                // step, down to the steps' own share of the greatest depth, which lies between two.
+                // Some 1 000 steps a contact. Order 2: at least eight times less for a fourth of
+                // the step, down to the share of a step in the greatest depth, between two.
                 assert!(fine[0] < 2e-5 && fine[1] < 2e-5, "{law:?}, {integrator}: {coarse:?}, {fine:?}");
                 assert!(fine[0] < coarse[0] / 8.0 || fine[0] < 1e-7, "{law:?}, {integrator}: {coarse:?}, {fine:?}");
             }

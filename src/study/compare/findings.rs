@@ -53,7 +53,8 @@ fn law_findings(scene: &Scene, comparison: &Comparison) -> Vec<String> {
     }
     if let Some(scheme) = realised(Realised::ByChance).filter(|_| !asked.is_empty()) {
         findings.push(format!(
-            "{scheme} shows what goes wrong: by chance it realises an e between 1/3 and 3 (of slow impacts under load also beyond), and it gains energy"
+            "{scheme} shows what goes wrong: by chance it realises an e between 1/3 and 3 (of slow impacts \
+             under load also beyond), and it gains energy"
         ));
     }
     findings
