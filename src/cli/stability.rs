@@ -139,11 +139,11 @@ fn schemes(case: &Case) -> Vec<Scheme> {
 fn show_contacts(answer: &mut Answer, quality: &Quality) {
     let lasts = |line: &LastingForce| line.outcome.as_ref().is_ok_and(|seen| seen.contact.is_some());
     let what = if quality.lines.iter().any(lasts) {
-        "and the force of the largest lasting contact"
+        ", and the force of the largest lasting contact"
     } else {
         "; no contact lasts"
     };
-    answer.remarks([format!("energy, in shares of {:.3e} J, {what}:", quality.energy)]);
+    answer.remarks([format!("energy, in shares of {:.3e} J{what}:", quality.energy)]);
     let headers = [
         "scheme",
         "step (s)",

@@ -23,6 +23,15 @@ use nalgebra::DMatrix;
 /// is inaccurate.
 pub const LARGEST_GROWTH: f64 = 1e2;
 
+/// True where the body at `q` touches a wall with a dashpot. A body that arrives earlier by δt is
+/// slower by c v δt/m there, however large c/m is, until the dashpot has slowed the other as well,
+/// m/c later: what differs for so short a time says nothing of the motion. Until the body has left,
+/// or the run ends, the change before it came counts.
+fn at_dashpot(scene: &Scene, q: &[f64]) -> bool {
+    let near = 1e-9 * scene.gap_scale();
+    scene.walls.iter().any(|wall| wall.law.is_damped() && wall.gap(wall.row().dot(q)) <= near)
+}
+
 impl Growth {
     /// The growth along the exact run of `scene`.
     ///
@@ -71,8 +80,10 @@ impl Growth {
             // Without a derivative the change may be anything from here on.
             let known = product.observe(&step).is_ok();
             speed = speed.max(step.v.first().copied().unwrap_or(0.0).abs());
+            let before = products.last().filter(|_| step.end < scene.duration && at_dashpot(scene, step.q)).cloned();
+            let now = || before.unwrap_or_else(|| product.matrix().clone());
             time.push(step.end);
-            products.push(if known { product.matrix().clone() } else { DMatrix::from_element(2, 2, f64::NAN) });
+            products.push(if known { now() } else { DMatrix::from_element(2, 2, f64::NAN) });
             if !known {
                 break;
             }
