@@ -226,7 +226,17 @@ impl Builder<'_> {
         let missing = |at, what: &str, help: &str| -> Error {
             self.source.error(at, &format!("{} has {what}", owner.name), help)
         };
-        let outer = self.model.beam(place).and_then(|beam| beam.section.outer_diameter());
+        let beam = self.model.beam(place);
+        if let Some((given, span)) = width.zip(support.span_of("width"))
+            && beam.is_some_and(|beam| given > beam.length)
+        {
+            return Err(self.refuse(
+                span,
+                &format!("{}: width", owner.name),
+                "a number above 0, in m, at most the beam's length",
+            ));
+        }
+        let outer = beam.and_then(|beam| beam.section.outer_diameter());
         let tube = outer.map(|outer| 0.5 * outer);
         match (support.span_of("width"), support.span_of("radius")) {
             (None, Some(at)) => {

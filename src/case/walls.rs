@@ -144,7 +144,7 @@ impl Builder<'_> {
                     () => "",
                 };
                 let help = "expected stiffness beside it, in N/m^exponent, and neither restitution nor damping: the \
-                            law is k sⁿ (1 + α ṡ), with dissipation α, in s/m";
+                            law is k s^n (1 + dissipation ds/dt), with dissipation in s/m";
                 Err(self.source.error(span, &format!("{owner} has {key} {beside}"), help))
             }
         }

@@ -64,7 +64,7 @@ impl Request {
     pub fn read(&self, ui: &Ui) -> Result<Case> {
         let mut file = self.case.file(ui)?;
         if let Some(end) = self.end {
-            self.set_end(&mut file, end)?;
+            set_end(&mut file, end, ui)?;
         }
         let integrator = self.integrator.map(|integrator| KeyValue::from(integrator.name()));
         let values = [
@@ -84,17 +84,6 @@ impl Request {
         }
         set_restitution(&mut file, self.restitution)?;
         built(&file, ui)
-    }
-
-    /// Sets the end of the run, and leaves out rows and a window of statistics that lie beyond it.
-    fn set_end(&self, file: &mut CaseFile, end: f64) -> Result<()> {
-        for (key, beyond) in [("time.sample", f64::gt as fn(&f64, &f64) -> bool), ("time.statistics_from", f64::ge)] {
-            let key: Key = key.parse()?;
-            if file.get(&key)?.and_then(|value| value.number()).is_some_and(|x| beyond(&x, &end)) {
-                file.remove(&key)?;
-            }
-        }
-        file.set(&"time.end".parse()?, &end.into())
     }
 
     /// The method named `name`; settings that it leaves open come from the command line and the
@@ -209,6 +198,20 @@ impl Request {
         }
         Ok(())
     }
+}
+
+/// Sets the end of the run, and leaves out rows and a window of statistics that lie beyond it, with
+/// a word about the window.
+fn set_end(file: &mut CaseFile, end: f64, ui: &Ui) -> Result<()> {
+    for (name, beyond) in [("time.sample", f64::gt as fn(&f64, &f64) -> bool), ("time.statistics_from", f64::ge)] {
+        let key: Key = name.parse()?;
+        let Some(x) = file.get(&key)?.and_then(|value| value.number()).filter(|x| beyond(x, &end)) else { continue };
+        file.remove(&key)?;
+        if name == "time.statistics_from" {
+            ui.message(&format!("note: statistics begin at 0 s, not at {x} s, which is not before the end, {end} s"));
+        }
+    }
+    file.set(&"time.end".parse()?, &end.into())
 }
 
 /// An option that sets something of a scheme.

@@ -127,6 +127,7 @@ const WRONG: &[Wrong] = &[
     ("no width", "restitution = 0.5", "restitution = 0.5\nwidth = 0.0", "32:9", &["support \"bars\": width", "above 0, in m"]),
     ("a radius beside that of a beam", "restitution = 0.5", "restitution = 0.5\nwidth = 0.02\nradius = 0.01", "33:10", &["a radius, and the system is a beam", "outer_diameter"]),
     ("a depth without a width", "restitution = 0.5", "restitution = 0.5\nradius = 0.01", "32:10", &["support \"bars\" has a radius and no width", "in m along the tube"]),
+    ("a width in mm", "restitution = 0.5", "restitution = 0.5\nwidth = 25.0", "32:9", &["support \"bars\": width", "at most the beam's length"]),
     ("wear that adds", "restitution = 0.5", "restitution = 0.5\ncoefficient = -1e-14", "32:15", &["support \"bars\": coefficient", "above 0, in 1/Pa"]),
     ("wear of the support that adds", "restitution = 0.5", "restitution = 0.5\nsupport_coefficient = nan", "32:23", &["support \"bars\": support_coefficient", "above 0, in 1/Pa"]),
     ("a coefficient and no service", "restitution = 0.5", "restitution = 0.5\ncoefficient = 1e-14", "32:15", &["support \"bars\" has a wear coefficient, and there is no service", "in s, in [wear]"]),
