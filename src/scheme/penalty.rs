@@ -46,7 +46,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     kind: SchemeKind::Penalty,
     restitution: Realised::BySprings,
     realises: "≈ 1 while h²k_w/m ≪ 1",
-    purpose: "comparison, and stops that are known springs",
+    purpose: "comparison, and stops that are known springs, also Hertz's and Hunt and Crossley's",
     order: Some(1),
     fails: "`trapezoidal` and `central-difference` gain energy beyond that, `implicit-euler` loses it; \
             `discrete-gradient` (the default) conserves it",

@@ -17,8 +17,8 @@ pub struct WearState {
     /// The work rate at this gap, W.
     pub work_rate_w: f64,
     /// The depth worn off the tube where it is deepest, m: in a sector of a round support, or at
-    /// one of the flats, and no deeper than `depth_one_scar_m`; NaN where that would cut the tube in
-    /// two.
+    /// one of the flats, and no deeper than `depth_one_scar_m`; NaN where that would cut the tube
+    /// in two.
     pub depth_deepest_m: f64,
     /// The depth worn off the tube, evenly all round, m.
     pub depth_all_round_m: f64,
