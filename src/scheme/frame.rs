@@ -8,12 +8,13 @@ use crate::step::{Contact, Contract, Path, Step};
 /// Factor by which what a rule carries may exceed the state in [`Frame::flush`].
 const LOOSE: f64 = 1e10;
 
-/// The number of the step of `h` seconds that starts at `time` (s), or in which it lies; true in
-/// the second case.
+/// The number of the step of `h` seconds that starts at `time` (s) but for rounding, or in which it
+/// lies; true in the second case.
 pub(super) fn step_at(time: f64, h: f64) -> (u64, bool) {
     let nearest = (time / h).round();
-    // The starts of steps are products, of which the quotient may miss the number by rounding.
-    if nearest * h == time { (nearest as u64, false) } else { ((time / h).floor() as u64, true) }
+    // The starts of steps are products: 300 · 1e-3 is one unit of rounding more than 0.3.
+    let starts = (nearest * h - time).abs() <= 4.0 * f64::EPSILON * time.abs();
+    if starts { (nearest as u64, false) } else { ((time / h).floor() as u64, true) }
 }
 
 /// What a step covers.

@@ -53,7 +53,13 @@ impl FoundStep {
         let widest = widest_counted(&counted, realisations);
         let scattered = || widest.and_then(|widest| widest.shortfall(self.share, self.wanted));
         let start = || self.certain(&counted, "start", "a later statistics_from would make it smaller");
-        let modes = || self.certain(&counted, "modes", "more modes would make it smaller");
+        let modes = || {
+            self.certain(
+                &counted,
+                "modes",
+                "only the step is searched, and more modes (system.modes) would make it smaller",
+            )
+        };
         let shortfall = biased.or_else(scattered).or_else(start).or_else(modes);
         let kept = if shortfall.is_none() { Some(self.time.step) } else { None };
         let accuracy = Accuracy {
