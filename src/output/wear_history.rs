@@ -143,9 +143,9 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
             }
         };
         remarks.push(format!(
-            "the tube reaches the limit of {:.3} mm at support {name:?} {} where it is deepest, {} if all of its wear \
+            "the tube reaches the limit of {} mm at support {name:?} {} where it is deepest, {} if all of its wear \
              comes off one scar, {} if it comes off evenly all round",
-            1e3 * limit,
+            amount(1e3 * limit, 3),
             after(|state| state.depth_deepest_m),
             after(|state| state.depth_one_scar_m),
             after(|state| state.depth_all_round_m)

@@ -191,7 +191,7 @@ fn pages_open_and_their_controls_work_in_a_browser() {
         document.querySelector('#wear li').textContent].join(' ')";
     let shown = tab.evaluate(shown);
     assert!(
-        shown.as_str().unwrap().starts_with("2 true 14 The tube reaches the limit of 0.660 mm at support"),
+        shown.as_str().unwrap().starts_with("2 true 14 The tube reaches the limit of 0.66 mm at support"),
         "{shown}"
     );
     tab.close();
