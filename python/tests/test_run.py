@@ -1,5 +1,6 @@
 """Runs: their arrays, contacts, statistics and verdicts."""
 
+import math
 import pickle
 import threading
 import time
@@ -221,3 +222,14 @@ def test_the_picture_of_a_run_shows_supports_with_whole_legends() -> None:
         # No panel is empty.
         assert all(ax.lines or ax.collections or ax.texts for ax in axes)
     plt.close("all")
+
+
+def test_an_impact_on_a_wall_of_hunt_and_crossley_has_the_restitution_of_its_closed_form() -> None:
+    stop = sg.Wall.upper("stop", 0.0, stiffness=1e6, exponent=1.5, dissipation=0.4)
+    assert (stop.stiffness, stop.exponent, stop.dissipation, stop.damping) == (1e6, 1.5, 0.4, None)
+    scene = sg.oscillator(1.0, 0.0, 0.0, walls=[stop], displacement=-1e-3, velocity=0.8, duration=0.05)
+    run = scene.run(step=2e-6)
+    assert "penalty" in repr(run)
+    x, y = 0.4 * 0.8, 0.4 * run.contacts["departure_speed"][0]
+    # x - ln(1 + x) = -y - ln(1 - y) for the speeds times the dissipation; the step's order is 2.
+    assert x - math.log1p(x) == pytest.approx(-y - math.log1p(-y), rel=1e-4)
