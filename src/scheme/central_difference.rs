@@ -71,7 +71,11 @@ impl<S: Space> CentralDifference<S> {
             };
             let solved = dashpots.solve(law);
             solved.map_err(|residual| Error::Newton { time: frame.start, step, residual })?;
-            frame.force.copy_from_slice(&dashpots.force);
+            // The forces that make the velocities: a stiff dashpot turns the rounding of those into a
+            // far larger one of its law. Where the law has no force, there is none.
+            for (force, (own, law)) in frame.force.iter_mut().zip(dashpots.guess.iter().zip(&dashpots.force)) {
+                *force = if *law == 0.0 { 0.0 } else { *own };
+            }
         } else {
             for (wall, face) in body.walls.iter().enumerate() {
                 frame.force[wall] = face.sign * face.law.pressure(depth(wall), 0.0);

@@ -1,8 +1,10 @@
 //! Walls with the law of Hunt and Crossley, k sⁿ (1 + α ṡ): a single impact against its closed
 //! form, a structure against an integrator of its own, energy, and what refuses such walls.
 
+use crate::draws::{cases, seed};
 use signorini::{
-    Chain, Integrator, Load, Method, Options, PenaltyLaw, Scene, Scheme, Side, System, TimeOptions, Wall, WallLaw, run,
+    Chain, Integrator, Load, Method, Options, PenaltyLaw, Refuted, Scene, Scheme, Side, System, TimeOptions, Wall,
+    WallLaw, run,
 };
 
 const MASS: f64 = 0.5;
@@ -158,4 +160,44 @@ fn what_takes_no_such_wall_says_so_and_the_choice_does_not_fall_on_it() {
     let error = run(&mixed, &chosen, &options).expect_err("no spring").to_string();
     assert!(error.contains("rigid wall \"rigid\"") && error.contains("stiffness"), "{error}");
     run(&mixed, &"penalty:stiffness=1e8".parse::<Method>().expect("a method"), &options).expect("a spring");
+}
+
+#[test]
+fn the_judge_accuses_no_random_scene_with_such_walls() {
+    for index in 0..cases(150_u64) {
+        let mut seed = seed(0x4c_0000) + index;
+        // Numbers of all sizes between two, by a generator of its own (Steele et al. 2014, splitmix).
+        let mut draw = |from: f64, to: f64| {
+            seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mixed = (seed ^ (seed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            from * (to / from).powf((mixed ^ (mixed >> 31)) as f64 / u64::MAX as f64)
+        };
+        let n = 1 + index as usize % 3;
+        let chain = Chain {
+            masses: (0..n).map(|_| draw(0.1, 10.0)).collect(),
+            springs: (1..n).map(|_| draw(10.0, 1e4)).collect(),
+            grounds: [draw(10.0, 1e3), 0.0],
+        };
+        let gap = draw(1e-4, 1e-2);
+        let mut scene = Scene::structure(chain.structure().expect("a chain")).with_duration(1.0);
+        for (name, side) in [("above", Side::Upper), ("below", Side::Lower)] {
+            let exponent = draw(1.0, 4.0);
+            let stiffness = draw(1e3, 1e6) * gap.powf(1.0 - exponent);
+            let law = WallLaw::HuntCrossley { stiffness, exponent, dissipation: draw(1e-3, 30.0) };
+            let position = if side == Side::Upper { gap } else { -gap };
+            scene = scene.with_wall(Wall { law, ..Wall::flat(name, side, position) }.at(signorini::Row::dof(n - 1)));
+        }
+        let scene = scene.with_load(Load::harmonic(draw(0.1, 100.0), draw(0.5, 20.0), 0.3));
+        let step = draw(1e-5, 1e-2);
+        for integrator in Integrator::ALL {
+            let run = run(&scene, &penalty(integrator), &Options::new(TimeOptions::with_step(step)));
+            let run = run.unwrap_or_else(|error| panic!("{index}, {integrator}, step {step:e}: {error}"));
+            // Steps that do not resolve a wall make these two gain energy: such runs end by name.
+            let grows = matches!(integrator, Integrator::Trapezoidal | Integrator::CentralDifference);
+            let found: Vec<_> =
+                run.findings.iter().filter(|found| !(grows && found.refuted == Refuted::Diverged)).collect();
+            assert!(found.is_empty(), "{index}, {integrator}, step {step:e}: {found:?}");
+        }
+    }
 }
