@@ -71,8 +71,8 @@ impl<S: Space> CentralDifference<S> {
             };
             let solved = dashpots.solve(law);
             solved.map_err(|residual| Error::Newton { time: frame.start, step, residual })?;
-            // The forces that make the velocities: a stiff dashpot turns the rounding of those into a
-            // far larger one of its law. Where the law has no force, there is none.
+            // The forces that make the velocities: a stiff dashpot turns the rounding of those into
+            // a far larger one of its law. Where the law has no force, there is none.
             for (force, (own, law)) in frame.force.iter_mut().zip(dashpots.guess.iter().zip(&dashpots.force)) {
                 *force = if *law == 0.0 { 0.0 } else { *own };
             }
