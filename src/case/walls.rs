@@ -123,30 +123,22 @@ impl Builder<'_> {
 
     /// The law of a wall.
     fn wall_law(&self, owner: &str, wall: &Section<'_>) -> Result<WallLaw> {
-        let [exponent, dissipation] = ["exponent", "dissipation"].map(|key| wall.number(key).map(Spanned::into_inner));
-        let Some(key) = ["exponent", "dissipation"].into_iter().find_map(|key| Some((key, wall.span_of(key)?))) else {
-            return self.law_of(owner, wall);
+        let own = ["exponent", "dissipation"].into_iter().find_map(|key| Some((key, wall.span_of(key)?)));
+        let Some((key, span)) = own else { return self.law_of(owner, wall) };
+        let refuse = |beside: &str| {
+            let help = "expected stiffness beside it, in N/m^exponent, and neither restitution nor damping: the law \
+                        is k s^n (1 + dissipation ds/dt), with dissipation in s/m";
+            Err(self.source.error(span.clone(), &format!("{owner} has {key} {beside}"), help))
         };
-        let (key, span) = key;
-        match (wall.number("stiffness"), wall.span_of("restitution"), wall.span_of("damping")) {
-            (Some(stiffness), None, None) => {
-                let stiffness = stiffness.into_inner();
-                Ok(match (exponent.unwrap_or(1.0), dissipation.unwrap_or(0.0)) {
-                    (1.0, 0.0) => WallLaw::Elastic { stiffness, damping: 0.0 },
-                    (exponent, dissipation) => WallLaw::HuntCrossley { stiffness, exponent, dissipation },
-                })
-            }
-            (stiffness, restitution, damping) => {
-                let beside = match () {
-                    () if restitution.is_some() => "with restitution",
-                    () if damping.is_some() => "with damping",
-                    () if stiffness.is_none() => "without stiffness",
-                    () => "",
-                };
-                let help = "expected stiffness beside it, in N/m^exponent, and neither restitution nor damping: the \
-                            law is k s^n (1 + dissipation ds/dt), with dissipation in s/m";
-                Err(self.source.error(span, &format!("{owner} has {key} {beside}"), help))
-            }
+        let number = |key| wall.number(key).map(Spanned::into_inner);
+        match number("stiffness") {
+            _ if number("restitution").is_some() => refuse("with restitution"),
+            _ if number("damping").is_some() => refuse("with damping"),
+            None => refuse("without stiffness"),
+            Some(stiffness) => Ok(match (number("exponent").unwrap_or(1.0), number("dissipation").unwrap_or(0.0)) {
+                (1.0, 0.0) => WallLaw::Elastic { stiffness, damping: 0.0 },
+                (exponent, dissipation) => WallLaw::HuntCrossley { stiffness, exponent, dissipation },
+            }),
         }
     }
 

@@ -1,7 +1,7 @@
 //! What a reader must know about a scene and a step, independent of the run.
 
 use crate::error::amount;
-use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table, Wall};
+use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table};
 use crate::scheme::Scheme;
 use std::f64::consts::{PI, TAU};
 
@@ -207,8 +207,7 @@ fn fastest_that_matters(scene: &Scene, modes: &[(f64, f64)]) -> Option<f64> {
 /// A note on dashpots of elastic walls that stop the body within a step.
 fn dashpots_resolved(scene: &Scene, step: f64) -> Option<String> {
     let masses = scene.wall_masses();
-    let damping = |wall: &Wall| wall.law.spring().map_or(0.0, |spring| spring.damping);
-    let all = scene.walls.iter().zip(&masses).map(|(wall, mass)| (wall, step * damping(wall) / mass));
+    let all = scene.walls.iter().zip(&masses).map(|(wall, mass)| (wall, step * wall.law.dashpot(0.0) / mass));
     let (wall, ratio) = all.filter(|(_, ratio)| *ratio >= 1.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(format!(
         "the step of {step:.2e} s does not resolve the dashpot of the wall {:?}: h c/m = {ratio:.2e}, and it takes a \
