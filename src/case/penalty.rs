@@ -18,7 +18,7 @@ impl PenaltyOptions {
     /// The same; where none is given and a wall of `scene` has a law that only penalties step, the
     /// penalty without a spring.
     pub(super) fn of(mut self, scene: &Scene) -> Self {
-        if self.laws.is_empty() && !scene.walls.iter().all(|wall| wall.law.is_linear()) {
+        if self.laws.is_empty() && scene.nonlinear_wall().is_some() {
             self.laws.push(PenaltyLaw::None);
         }
         self

@@ -189,6 +189,14 @@ impl Signature {
                     format!("{fits} there"),
                 );
             }
+            let bounces = wall.law.restitution().filter(|e| event.kind == Kind::Rest && *e > 0.0);
+            if let Some(e) = bounces {
+                return wrong(
+                    format!("rest at wall {:?}, whose restitution is {e:?}", wall.name),
+                    "chatter there, or a restitution of 0: only without a rebound does one impact end in rest"
+                        .to_owned(),
+                );
+            }
             let next = self.events.get(index + 1).or_else(|| self.events.first().filter(|_| !self.symmetric));
             let resting = matches!(event.kind, Kind::Rest | Kind::Chatter);
             let release = Event { kind: Kind::Release, wall: event.wall };

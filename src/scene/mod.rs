@@ -278,6 +278,12 @@ impl Scene {
         })
     }
 
+    /// The first wall whose force is not linear in the depth, which neither a quadratic programme nor
+    /// the exact motion takes; `None` if all are rigid or elastic.
+    pub(crate) fn nonlinear_wall(&self) -> Option<&Wall> {
+        self.walls.iter().find(|wall| !wall.law.is_linear())
+    }
+
     /// The reference length γ₀ of the scene, m: the smallest of half the distances between an upper
     /// and a lower wall on one row and of the gaps of round supports; else the largest distance of
     /// a wall from the initial position; else the largest |position| of a wall; else the initial

@@ -53,8 +53,8 @@ fn refusal(scene: &Scene, scheme: Scheme) -> Option<Refusal> {
 }
 
 /// A wall whose law neither a quadratic programme nor the exact motion takes.
-fn bent_wall(scene: &Scene, scheme: Scheme) -> Option<&Wall> {
-    scene.walls.iter().find(|wall| scheme.entry().kind != SchemeKind::Penalty && !wall.law.is_linear())
+fn nonlinear_wall(scene: &Scene, scheme: Scheme) -> Option<&Wall> {
+    scene.nonlinear_wall().filter(|_| scheme.entry().kind != SchemeKind::Penalty)
 }
 
 /// What would be accepted in place of what is refused: one of `schemes`, or the scene without it.
@@ -71,7 +71,7 @@ fn expected(schemes: &[&str], refusal: &Refusal) -> String {
 /// # Errors
 /// [`Error::Invalid`]: what of the scene it is, and what would be accepted.
 pub(crate) fn check_exact(scene: &Scene, asked: impl Display) -> Result<()> {
-    if let Some(wall) = bent_wall(scene, Scheme::Event) {
+    if let Some(wall) = nonlinear_wall(scene, Scheme::Event) {
         let found = format!("asked for {asked}, and the wall {:?} has {}", wall.name, wall.law.kind());
         return Err(Error::invalid("the exact motion", found, "rigid and elastic walls"));
     }
@@ -90,12 +90,12 @@ pub(crate) fn check_exact(scene: &Scene, asked: impl Display) -> Result<()> {
 /// # Errors
 /// [`Error::Invalid`]: what of the scene it is, and what would be accepted.
 pub(super) fn check(scene: &Scene, Method { scheme, backend }: Method) -> Result<()> {
-    if let Some(wall) = bent_wall(scene, scheme) {
+    if let Some(wall) = nonlinear_wall(scene, scheme) {
         let expected = "a rigid or an elastic wall, or the scheme penalty, which steps through that law";
         return Err(Error::invalid(Subject::wall(&wall.name).part("law"), wall.law.kind(), expected));
     }
     if let Some(refused) = refusal(scene, scheme) {
-        let takes = |other: &Scheme| refusal(scene, *other).is_none() && bent_wall(scene, *other).is_none();
+        let takes = |other: &Scheme| refusal(scene, *other).is_none() && nonlinear_wall(scene, *other).is_none();
         let schemes: Vec<_> = Scheme::ALL.iter().filter(|one| takes(one)).map(|one| one.entry().name).collect();
         let found = format!("{scheme}, with {}", refused.found);
         return Err(Error::invalid("scheme", found, expected(&schemes, &refused)));

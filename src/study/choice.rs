@@ -43,7 +43,7 @@ pub fn choose(scene: &Scene) -> Choice {
             moreau_jean,
             "it has friction, at the least cost a step, and with θ = ½ keeps the energy of free motion exactly",
         )
-    } else if !scene.walls.iter().all(|wall| wall.law.is_linear()) {
+    } else if scene.nonlinear_wall().is_some() {
         let reason = "the force of a wall is no multiple of its depth, so that a step minimises a convex function that \
                       is no QP: Newton's method finds its minimum, and the discrete gradient keeps the energy of what \
                       has no dissipation";
@@ -71,7 +71,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
         Ok(run) => run,
         Err(error) => {
             let restitution_0 = |w: &Wall| w.law.restitution() == Some(0.0);
-            if !scene.walls.iter().all(|wall| wall.law.is_linear()) {
+            if scene.nonlinear_wall().is_some() {
                 return choose(scene);
             }
             let (scheme, why) = if Stepper::takes(scene, &Scheme::Located, scene.duration) {

@@ -293,6 +293,21 @@ fn an_orbit_that_rests_is_followed_until_its_rest_ends() {
 }
 
 #[test]
+fn an_orbit_that_rests_after_one_impact_ends_where_its_wall_begins_to_rebound() {
+    let family = |e: f64| Ok(source(1.0, e));
+    let start = settled(source(1.0, 0.0));
+    assert!(start.signature.rests());
+    let graph = follow(&family, &start, 0.0, [0.0, 1.0], (Switch::All, 1));
+    let [branch] = &graph.branches[..] else { panic!("{} branches", graph.branches.len()) };
+    assert_eq!(branch.points.len(), 1);
+    let refused = |end: &End| matches!(end, End::Refused(why) if why.contains("only without a rebound"));
+    assert!(branch.ends.iter().flatten().any(refused), "{:?}", branch.ends);
+    // Nor is it one of a wall that rebounds.
+    let refused = Problem::new(source(1.0, 0.5)).unwrap().judge(&start, 1).unwrap_err();
+    assert!(refused.is_request() && refused.to_string().contains("whose restitution is 0.5"), "{refused}");
+}
+
+#[test]
 fn what_cannot_be_followed_is_refused() {
     let family = |f: f64| Ok(source(f, 0.8));
     let start = settled(source(5.0, 0.8));

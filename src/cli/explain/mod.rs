@@ -173,7 +173,9 @@ fn in_words(time: &RunTime) -> String {
 }
 
 fn solver(case: &Case, method: &Method) -> &'static str {
-    if choice::takes_disks(method, &case.scene) {
+    if !method.scheme.has_qp() {
+        "none"
+    } else if choice::takes_disks(method, &case.scene) {
         "disks"
     } else if case.scene.turns_or_rubs() {
         "sweeps"

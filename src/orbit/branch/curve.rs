@@ -40,6 +40,8 @@ impl Curve<'_> {
     pub fn problem(&self, y: &Vector) -> Result<Problem> {
         let value = self.value(y);
         let problem = Problem::new((self.family)(value)?)?;
+        // A key can make a wall rebound at which the orbit rests after one impact.
+        self.signature.check(problem.scene())?;
         if self.signature.symmetric && !problem.is_symmetric() {
             return Err(Error::no_orbit(format!("the scene at {value} is not its own mirror image, as the orbit is")));
         }

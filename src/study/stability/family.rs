@@ -221,7 +221,7 @@ pub fn check(case: MapRequest<'_>) -> Result<()> {
         };
         return Err(Error::invalid(subject, value, expected));
     }
-    if let Some(wall) = scene.walls.iter().find(|wall| !wall.law.is_linear()) {
+    if let Some(wall) = scene.nonlinear_wall() {
         let expected = "rigid and elastic walls, whose restitution or stiffness the maps vary";
         return Err(Error::invalid(Subject::wall(&wall.name).part("law"), wall.law.kind(), expected));
     }
