@@ -559,7 +559,10 @@ impl Run {
             let law = laws.iter().find(|(name, _)| *name == wear.support);
             let worn = law.map(|(_, law)| law.worn(wear.work_rate_w));
             let window = statistics.to_s - statistics.from_s;
-            serde_json::json!({ "wear": wear, "contact": contact, "worn": worn, "window_s": window })
+            let periodic = statistics.periods_per_batch.is_some();
+            serde_json::json!({
+                "wear": wear, "contact": contact, "worn": worn, "window_s": window, "periodic": periodic,
+            })
         });
         loads(py, &serde_json::Value::from(known.collect::<Vec<_>>()).to_string())
     }

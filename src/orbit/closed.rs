@@ -11,14 +11,13 @@
 //! a quadratic in v, whose discriminant vanishes at a fold. Between mirrored walls a symmetric
 //! orbit has E over half the time and (1 + E)⁻¹ E (0, (1+e)d).
 
-use super::forcing::{forcing_period, frequencies};
 use super::periodic::Orbit;
 use super::problem::Problem;
 use super::signature::Signature;
 use super::strobe::{is_stable, square};
 use super::symmetry::mirror;
 use crate::error::{Error, Result};
-use crate::scene::{LoadKind, Row, Scene, System, Wall};
+use crate::scene::{LoadKind, Row, Scene, System, Wall, forcing_period, frequencies};
 use crate::scheme::check_exact;
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::TAU;

@@ -22,8 +22,8 @@
 //! starts from a run seen by `watch.rs`, `closed.rs` lists orbits of one impact in closed form for
 //! any number of degrees of freedom, `floquet.rs` has the multipliers, `admissible.rs` and
 //! `extremes.rs` check that walls are not passed, `flights.rs` gives the motion from event to
-//! event, `judge.rs` lets the exact scheme run once around, `symmetry.rs` and `forcing.rs` find the
-//! mirror and the period of a scene; `branch/` follows orbits over a key: `branch/arclength.rs` is
+//! event, `judge.rs` lets the exact scheme run once around, `symmetry.rs` finds the
+//! mirror of a scene; `branch/` follows orbits over a key: `branch/arclength.rs` is
 //! what all curves share (steps, corrections, points located between two), `branch/line.rs` what
 //! any curve of orbits can do, `branch/net.rs` joins branches, `branch/graph.rs` begins; of one
 //! degree of freedom `branch/curve.rs` is a branch as a curve over the scenes of
@@ -47,7 +47,6 @@ mod equations;
 mod extremes;
 mod flights;
 mod floquet;
-mod forcing;
 mod judge;
 mod key_column;
 mod monodromy_derivative;
@@ -69,8 +68,6 @@ mod watch;
 pub use admissible::{Admissible, Nearest};
 pub use closed::{ClosedForm, closed_forms};
 pub use floquet::Floquet;
-#[cfg(feature = "cli")]
-pub(crate) use forcing::{forcing_period, frequencies};
 pub use judge::{Instant, Judged, WallShare};
 pub use orbit_derivative::OrbitDerivative;
 #[cfg(feature = "cli")]

@@ -1,9 +1,8 @@
 //! The motion of a structure's orbit at one place.
 
-use super::forcing::forcing_period;
 use super::strobe::Strobe;
 use crate::error::Result;
-use crate::scene::{Row, Scene};
+use crate::scene::{Row, Scene, forcing_period};
 use crate::scheme::{Scheme, Stepper};
 use crate::step::Path;
 

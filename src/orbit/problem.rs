@@ -2,12 +2,11 @@
 //! and loads.
 
 use super::boundary::{Boundary, BoundaryLaw};
-use super::forcing::forcing_period;
 use super::signature::{Kind, Signature};
 use super::symmetry::mirror;
 use crate::error::{Error, Result, Subject};
 use crate::flow::{Arc, Start, Support, Touch};
-use crate::scene::{Forcing, Oscillator, Scene, System, WallSpring};
+use crate::scene::{Forcing, Oscillator, Scene, System, WallSpring, forcing_period};
 
 /// A scene of one degree of freedom whose loads repeat themselves, in which periodic orbits are
 /// looked for.

@@ -5,13 +5,12 @@
 //! matrices ([`Product`]). P is smooth where no impact of the orbit grazes; lasting contacts are
 //! allowed.
 
-use super::forcing::forcing_period;
 use super::orbit_run::{OrbitRun, Recorded, run};
 use super::periodic::{Orbit, REPEATED};
 use super::signature::MOST_PERIODS;
 use super::strobe::{Scales, is_stable, multipliers, newton_step, state, vector};
 use crate::error::{Error, Result};
-use crate::scene::{Scene, State};
+use crate::scene::{Scene, State, forcing_period};
 use crate::scheme::{Scheme, Stepper};
 use crate::variation::Product;
 use nalgebra::DVector;

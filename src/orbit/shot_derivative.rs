@@ -7,11 +7,10 @@
 //! where f = (q̇, q̈) at that instant, and δt₀, δt₁ are 0 unless the key changes the forcing
 //! period. A second run from δx gives the changes of the contacts.
 
-use super::forcing::forcing_period;
 use super::shooting::{Shot, posed};
 use super::strobe::{newton_step, vector};
 use crate::error::{Error, Result};
-use crate::scene::Scene;
+use crate::scene::{Scene, forcing_period};
 use crate::scheme::{Scheme, Stepper};
 use crate::variation::{ContactDerivative, ContactDerivatives, KeyVariation, Product, SceneTangent};
 use nalgebra::DVector;

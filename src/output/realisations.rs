@@ -140,7 +140,7 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
             "± is the 95 % interval of the mean over {count} realisations, by Student's t; the deviation is that of \
              one realisation"
         ),
-        Interval::TenBatchesOfOneRealisation => "± is a 95 % interval from ten batches of one realisation: it does \
+        Interval::BatchesOfOneRealisation => "± is a 95 % interval from the batches of one realisation: it does \
              not know what is slower than a batch; --seeds 5 or more gives that of independent realisations"
             .to_owned(),
     }];

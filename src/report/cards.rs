@@ -170,7 +170,7 @@ fn realisations(summary: &Value) -> Option<Value> {
     let relative = total.unwrap_or_else(|| number(&most["half_width_95"])) / mean;
     let state = if relative <= SCATTER { State::Good } else { State::Mind };
     let count = number(&study["count"]);
-    let of = if count > 1.0 { format!("over {count} realisations") } else { "from ten batches of one".to_owned() };
+    let of = if count > 1.0 { format!("over {count} realisations") } else { "from the batches of one".to_owned() };
     let verdict = match total {
         _ if !relative.is_finite() => format!("The {what} has no interval: too few contacts"),
         Some(_) => format!("The {what} has an error of {}, {of}", percent(relative)),

@@ -10,7 +10,8 @@
 //! there), `support.rs` (walls around a place), `flats.rs` (flats around one), `slider.rs` (places
 //! that rub under a known force), `friction.rs` (coefficients of friction), `load.rs`, `table.rs`
 //! (a force sampled over time), `loads.rs` (their sum over degrees of freedom), `forcing.rs` and
-//! `grid_forcing.rs` (over one, and at the instants of a grid), `random/` (random forces as
+//! `grid_forcing.rs` (over one, and at the instants of a grid), `forcing_period.rs` (the period of
+//! all loads), `random/` (random forces as
 //! tables), `turbulence/` (random forces along a line, on modes), `fluid_elastic.rs` (the stability
 //! of a tube in that flow), `held.rs` (a structure held at places), `clear.rs` (a start moved out
 //! of walls), `function.rs`, `scales.rs` (frequencies, and the mass that a wall feels),
@@ -28,6 +29,7 @@ mod damping;
 mod flats;
 mod fluid_elastic;
 mod forcing;
+mod forcing_period;
 mod friction;
 mod function;
 mod grid_forcing;
@@ -61,6 +63,9 @@ pub use damping::Damping;
 pub use flats::{Flat, Flats, MOST_FLATS};
 pub use fluid_elastic::{Connors, FlowMargin, FlowPiece, FlowTube, FluidElastic};
 pub use forcing::{Forcing, Harmonic};
+pub(crate) use forcing_period::forcing_period;
+#[cfg(feature = "cli")]
+pub(crate) use forcing_period::frequencies;
 pub use friction::FrictionCoefficients;
 pub use function::TimeFunction;
 pub(crate) use grid_forcing::GridForcing;
@@ -278,8 +283,8 @@ impl Scene {
         })
     }
 
-    /// The first wall whose force is not linear in the depth, which neither a quadratic programme nor
-    /// the exact motion takes; `None` if all are rigid or elastic.
+    /// The first wall whose force is not linear in the depth, which neither a quadratic programme
+    /// nor the exact motion takes; `None` if all are rigid or elastic.
     pub(crate) fn nonlinear_wall(&self) -> Option<&Wall> {
         self.walls.iter().find(|wall| !wall.law.is_linear())
     }

@@ -1,6 +1,6 @@
 //! The force of a wall over time: impulse, mean and root mean square, step by step.
 
-use super::batch::{BATCHES, Sums};
+use super::batch::{BATCHES, BatchSums, NO_SUMS, Window};
 use super::largest_force::{LargestForce, LargestStretch};
 use super::step_force::{impulse, piece};
 use super::support::{SupportForce, SupportTally};
@@ -19,7 +19,7 @@ pub struct ForceStatistics {
     /// Impulse of the wall on the body over the window, N s; signed as the force.
     pub impulse_n_s: f64,
     /// Half width of its 95 % interval by batch means, N s. This and the two below are `None`
-    /// unless ten contacts began in the window, or the wall pushed in each of its ten batches.
+    /// unless ten contacts began in the window, or the wall pushed in each of its batches.
     pub impulse_half_width_95_n_s: Option<f64>,
     /// Mean of |force| over time, Σ|p|/T, N.
     pub mean_n: f64,
@@ -49,14 +49,14 @@ pub struct ForceStatistics {
 }
 
 /// The impulses and squared forces of one wall, by batches.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct Tally {
     rigid: bool,
     /// Σ p, N s.
     impulse: f64,
     /// Σ|p|, N s, and ∫ of the square, N² s.
-    pushed: [f64; BATCHES],
-    square: [f64; BATCHES],
+    pushed: BatchSums,
+    square: BatchSums,
     /// The impulse in the current interval, N s.
     stretch: f64,
 }
@@ -64,10 +64,10 @@ struct Tally {
 /// Sums up the forces of the walls over the steps of a run.
 #[derive(Debug, Clone)]
 pub struct Forces {
-    from: f64,
-    /// Length of the window and of an averaging interval, s, and the number of intervals.
-    length: f64,
+    window: Window,
+    /// Length of an averaging interval, s, the number of those before the first batch, and of all.
     bin: f64,
+    before: u64,
     bins: u64,
     /// Index of the current interval.
     at: u64,
@@ -86,20 +86,23 @@ impl Forces {
     /// the forces of rigid walls averaged over intervals of at most `averaging` (s).
     #[must_use]
     pub fn new(scene: &Scene, from: f64, averaging: f64) -> Self {
-        let from = from.min(scene.duration);
-        let length = scene.duration - from;
-        let batches = BATCHES as f64;
-        let stretches = (length / (batches * averaging) * (1.0 - 1e-9)).ceil().clamp(1.0, MOST_STRETCHES / batches);
-        let bins = BATCHES as u64 * stretches as u64;
-        let tally = |rigid| Tally { rigid, ..Tally::default() };
+        let window = Window::new(scene, from);
+        let batches = window.batches as f64;
+        let span = window.from + window.length - window.first;
+        let stretches = (span / (batches * averaging) * (1.0 - 1e-9)).ceil().clamp(1.0, MOST_STRETCHES / batches);
+        let inner = window.batches as u64 * stretches as u64;
+        let bin = span / inner as f64;
+        // The first interval may begin before the window.
+        let before = ((window.first - window.from) / bin).ceil() as u64;
+        let tally = |rigid| Tally { rigid, impulse: 0.0, pushed: NO_SUMS, square: NO_SUMS, stretch: 0.0 };
         let walls = scene.walls.iter().map(|wall| tally(wall.law.is_rigid())).collect();
         Self {
-            from,
-            length,
-            bin: length / bins as f64,
-            bins,
+            window,
+            bin,
+            before,
+            bins: before + inner,
             at: 0,
-            largest: vec![LargestStretch::new(length / bins as f64); scene.walls.len() + scene.supports.len()],
+            largest: vec![LargestStretch::new(bin); scene.walls.len() + scene.supports.len()],
             pushed: vec![0.0; scene.walls.len()],
             walls,
             supports: SupportTally::all(scene),
@@ -110,8 +113,9 @@ impl Forces {
     /// Adds one step; steps must come in order. A step of a scene with another number of walls is
     /// ignored.
     pub fn observe(&mut self, step: &Step<'_>) {
-        let end = step.end.min(self.from + self.length);
-        if step.impulse.len() != self.walls.len() || self.length <= 0.0 || step.end < self.from {
+        let Window { from, length, .. } = self.window;
+        let end = step.end.min(from + length);
+        if step.impulse.len() != self.walls.len() || length <= 0.0 || step.end < from {
             return;
         }
         if step.impulse.iter().all(|&p| p == 0.0) {
@@ -120,7 +124,7 @@ impl Forces {
         // Where all impulses are jumps at the end of the step, there is no force to integrate over
         // it.
         let along = self.round || step.impulse.iter().zip(step.jump).any(|(p, jump)| p != jump);
-        let mut from = if along { step.start.max(self.from) } else { end };
+        let mut from = if along { step.start.max(from) } else { end };
         while from < end {
             let edge = self.move_to(from);
             let to = edge.min(end);
@@ -171,20 +175,29 @@ impl Forces {
 
     /// Moves on to the interval that contains `t` (s); returns its end, s.
     fn move_to(&mut self, t: f64) -> f64 {
-        let at = (((t - self.from) / self.bin) as u64).min(self.bins - 1);
+        let first = self.window.first - self.before as f64 * self.bin;
+        let at = (((t - first) / self.bin) as u64).min(self.bins - 1);
         if at > self.at {
             self.close();
             self.at = at;
         }
-        if self.at + 1 >= self.bins { f64::INFINITY } else { self.from + (self.at + 1) as f64 * self.bin }
+        if self.at + 1 >= self.bins { f64::INFINITY } else { first + (self.at + 1) as f64 * self.bin }
     }
 
-    fn batch(&self) -> usize {
-        (self.at * BATCHES as u64 / self.bins) as usize
+    /// The index among [`BatchSums`] of the current interval, and its length, s.
+    fn interval(&self) -> (usize, f64) {
+        match self.at.checked_sub(self.before) {
+            Some(at) => ((at * self.window.batches as u64 / (self.bins - self.before)) as usize, self.bin),
+            None if self.at > 0 => (BATCHES, self.bin),
+            None => {
+                let first = self.window.first - (self.before - 1) as f64 * self.bin;
+                (BATCHES, first - self.window.from)
+            }
+        }
     }
 
     fn add(&mut self, wall: usize, p: f64, square: f64) {
-        let batch = self.batch();
+        let (batch, _) = self.interval();
         if let Some(tally) = self.walls.get_mut(wall) {
             tally.impulse += p;
             tally.pushed[batch] += p.abs();
@@ -197,48 +210,49 @@ impl Forces {
 
     /// Ends the current interval.
     fn close(&mut self) {
-        let (batch, bin) = (self.batch(), self.bin);
+        let (batch, length) = self.interval();
         self.close_supports();
         for tally in &mut self.walls {
             let p = std::mem::take(&mut tally.stretch);
             if tally.rigid {
-                tally.square[batch] += p * p / bin;
+                tally.square[batch] += p * p / length;
             }
         }
     }
 
     /// Adds the current interval to the supports.
     fn close_supports(&mut self) {
-        let (batch, bin) = (self.batch(), self.bin);
+        let (batch, length) = self.interval();
         let Self { walls, supports, .. } = self;
         let impulse = |wall: usize| walls.get(wall).map_or(0.0, |tally| tally.stretch);
-        supports.iter_mut().for_each(|support| support.close(batch, bin, impulse));
-    }
-
-    fn sums(&self) -> Option<Sums> {
-        (self.length > 0.0).then_some(Sums { length: self.length, bin: self.bin })
+        supports.iter_mut().for_each(|support| support.close(batch, length, impulse));
     }
 
     /// Statistics of wall number `wall`, at which `contacts` began in the window; `None` for a
     /// window of length 0.
     pub(super) fn statistics(&self, wall: usize, contacts: usize) -> Option<ForceStatistics> {
-        let (tally, sums) = (self.walls.get(wall)?, self.sums()?);
+        let (tally, window) = (self.walls.get(wall)?, &self.window);
+        if window.length <= 0.0 {
+            return None;
+        }
         let mut squares = tally.square;
         if tally.rigid {
             // The current interval ends with the window.
-            squares[self.batch()] += tally.stretch * tally.stretch / self.bin;
+            let (batch, length) = self.interval();
+            squares[batch] += tally.stretch * tally.stretch / length;
         }
-        let (mean, mean_half) = sums.mean(&tally.pushed, &tally.pushed, contacts);
-        let (rms, rms_half) = sums.root_mean(&squares, &tally.pushed, contacts);
+        let interval = window.has_interval(&tally.pushed, contacts);
+        let mean_half = window.half_width(&tally.pushed).filter(|_| interval);
+        let (rms, rms_half) = window.root_mean(&squares, interval);
         Some(ForceStatistics {
             impulse_n_s: tally.impulse,
-            impulse_half_width_95_n_s: mean_half.map(|half| half * self.length),
-            mean_n: mean,
+            impulse_half_width_95_n_s: mean_half.map(|half| half * window.length),
+            mean_n: window.mean(&tally.pushed),
             mean_half_width_95_n: mean_half,
-            mean_of_halves_n: sums.mean_of_halves(&tally.pushed),
+            mean_of_halves_n: window.means_of_halves(&tally.pushed),
             rms_n: rms,
             rms_half_width_95_n: rms_half,
-            rms_of_halves_n: sums.mean_of_halves(&squares).map(f64::sqrt),
+            rms_of_halves_n: window.means_of_halves(&squares).map(f64::sqrt),
             rms_averaged_over_s: tally.rigid.then_some(self.bin),
             largest: self.largest.get(wall).and_then(LargestStretch::largest),
         })
@@ -247,14 +261,17 @@ impl Forces {
     /// Statistics of each support, where `contacts(i)` began at support i in the window; empty for
     /// a window of length 0.
     pub(super) fn of_supports(&self, contacts: impl Fn(usize) -> usize) -> Vec<SupportForce> {
-        let Some(sums) = self.sums() else { return Vec::new() };
+        if self.window.length <= 0.0 {
+            return Vec::new();
+        }
         // The current interval ends with the window.
         let mut closed = self.clone();
         closed.close_supports();
-        let pushed = |wall: usize| self.walls.get(wall).map_or([0.0; BATCHES], |tally| tally.pushed);
+        let pushed = |wall: usize| self.walls.get(wall).map_or(NO_SUMS, |tally| tally.pushed);
         let largest = self.largest.iter().skip(self.walls.len()).map(LargestStretch::largest);
         let all = closed.supports.iter().zip(largest).enumerate();
-        all.map(|(i, (support, largest))| support.statistics(sums, contacts(i), pushed, largest)).collect()
+        all.map(|(i, (support, largest))| support.statistics((&self.window, self.bin), contacts(i), pushed, largest))
+            .collect()
     }
 }
 

@@ -1,10 +1,11 @@
 //! Contact statistics: the quantities of a run that wear models need.
 //!
 //! Everything here refers to one window, from `statistics_from` to the end. Batch means measure how
-//! much a number scatters within the window: ten equal batches give the half width of a 95 %
-//! interval. It is the sampling error of a motion that does not repeat itself, not the error of the
-//! time step. Fewer than ten events cannot fill ten batches: then there is no interval. Extremes
-//! have no interval in any case, since the largest of a longer window is larger.
+//! much a number scatters within the window: ten equal batches, of whole periods where the loads
+//! have a common period, give the half width of a 95 % interval. It is the sampling error of a
+//! motion that does not repeat itself, not the error of the time step. Fewer than ten events cannot
+//! fill ten batches: then there is no interval. Extremes have no interval in any case, since the
+//! largest of a longer window is larger.
 //!
 //! # Files
 //!
@@ -48,7 +49,7 @@ pub use wear_tally::{SectorStatistics, WearStatistics, WearTally};
 
 use crate::scene::{Scene, Wall};
 use crate::step::Contact;
-use batch::{BATCHES, batch_of, half_width, ratio_half_width};
+use batch::{BATCHES, NO_SUMS, Window};
 use serde::{Deserialize, Serialize};
 
 /// Half widths of the 95 % intervals, by batch means, of the quantities drawn from a wall's
@@ -124,6 +125,13 @@ pub struct Statistics {
     pub from_s: f64,
     /// End of the window, s.
     pub to_s: f64,
+    /// Number of batches from which half widths are made.
+    #[serde(default)]
+    pub batches: usize,
+    /// Forcing periods in each batch; `None` where the loads have no common period, or the window
+    /// has fewer than three: then its batches are equal parts of the window.
+    #[serde(default)]
+    pub periods_per_batch: Option<u64>,
     /// One entry per wall, in the scene's order.
     pub walls: Vec<WallStatistics>,
     /// One entry per support, in the scene's order; flats are walls too.
@@ -146,15 +154,16 @@ impl Statistics {
 
     /// As [`Statistics::new`], for a scene whose walls feel `masses` (kg).
     pub(crate) fn of(scene: &Scene, masses: &[f64], contacts: &[Contact], from: f64) -> Self {
-        let to = scene.duration;
-        let from = from.min(to).max(0.0);
+        let window = Window::new(scene, from);
+        let (from, to) = (window.from, scene.duration);
         let by_wall = by_wall(contacts, scene.walls.len());
         let wall = |(index, (wall, all)): (usize, (&Wall, &Vec<&Contact>))| {
-            of_wall(wall, all, masses.get(index).copied().unwrap_or(0.0), [from, to])
+            of_wall(wall, all, masses.get(index).copied().unwrap_or(0.0), &window)
         };
         let walls = scene.walls.iter().zip(&by_wall).enumerate().map(wall).collect();
         let supports = support::of_supports(scene, &by_wall, from);
-        Self { from_s: from, to_s: to, walls, supports, wear: Vec::new() }
+        let Window { batches, periods, .. } = window;
+        Self { from_s: from, to_s: to, batches, periods_per_batch: periods, walls, supports, wear: Vec::new() }
     }
 
     /// Adds the force over time, as summed step by step.
@@ -204,8 +213,9 @@ fn by_wall(contacts: &[Contact], walls: usize) -> Vec<Vec<&Contact>> {
 /// The share of the largest force of an elastic wall from which on the largest mean is near it.
 const NEARLY: f64 = 0.9;
 
-fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> WallStatistics {
-    let length = to - from;
+fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, window: &Window) -> WallStatistics {
+    let Window { from, length, .. } = *window;
+    let to = from + length;
     let per_time = |x: f64| if length > 0.0 { x / length } else { 0.0 };
     let here = all.iter().copied().filter(|c| c.start >= from);
     let energy = |speed: f64| 0.5 * mass * speed * speed;
@@ -219,28 +229,29 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, [from, to]: [f64; 2]) -> Wa
     let arrived = total(&mut here.clone().map(|c| energy(c.approach_speed)));
     let peaks = reaching.clone().filter_map(|c| Some((c.start, c.peak_force?)));
     let middles = reaching.clone().filter_map(|c| Some((0.5 * (c.start + end(c)), c.peak_force?)));
-    let half_width_95 = (contacts >= BATCHES && length > 0.0).then(|| {
-        let [mut counts, mut times, mut powers, mut left, mut impulses] = [[0.0; BATCHES]; 5];
-        let batch = length / BATCHES as f64;
-        for c in here.clone() {
-            let k = batch_of(c.start - from, length);
-            counts[k] += 1.0;
-            impulses[k] += c.impulse.abs();
-            powers[k] += energy(c.approach_speed) / batch;
-            left[k] += lost(c) / batch;
-        }
-        for (k, time) in times.iter_mut().enumerate() {
-            *time = touching([0, 1].map(|j| from + batch * (k + j) as f64)) / batch;
-        }
-        HalfWidths {
-            contact_rate_per_s: half_width(&counts) / batch,
-            contact_time_ratio: half_width(&times),
-            episode_impulse_n_s: ratio_half_width(&impulses, &counts).unwrap_or(0.0),
-            episode_peak_force_n: scatter_of_peaks(peaks.clone(), [from, length]),
-            impact_power_w: half_width(&powers),
-            arrived_less_departed_power_w: half_width(&left),
-        }
-    });
+    let [mut counts, mut times, mut powers, mut left, mut impulses] = [NO_SUMS; 5];
+    for c in here.clone() {
+        let k = window.index(c.start);
+        counts[k] += 1.0;
+        impulses[k] += c.impulse.abs();
+        powers[k] += energy(c.approach_speed);
+        left[k] += lost(c);
+    }
+    for (k, time) in times.iter_mut().take(window.batches).enumerate() {
+        *time = touching([window.start_of(k), window.start_of(k + 1)]);
+    }
+    times[BATCHES] = touching([from, window.first]);
+    let half_widths = || {
+        Some(HalfWidths {
+            contact_rate_per_s: window.half_width(&counts)?,
+            contact_time_ratio: window.half_width(&times)?,
+            episode_impulse_n_s: window.ratio_half_width(&impulses, &counts).unwrap_or(0.0),
+            episode_peak_force_n: scatter_of_peaks(peaks.clone(), window),
+            impact_power_w: window.half_width(&powers)?,
+            arrived_less_departed_power_w: window.half_width(&left)?,
+        })
+    };
+    let half_width_95 = (contacts >= BATCHES && length > 0.0).then(half_widths).flatten();
     WallStatistics {
         wall: wall.name.clone(),
         round: wall.is_round(),
@@ -265,17 +276,16 @@ fn largest_of(peaks: impl Iterator<Item = (f64, f64)>) -> Option<LargestForce> {
 }
 
 /// Half width of the 95 % interval of the mean of `peaks` (time at which the episode began, s;
-/// force, N) in the window that starts at `from` (s) and lasts `length` (s); `None` for fewer than
-/// ten.
-fn scatter_of_peaks(peaks: impl Iterator<Item = (f64, f64)>, [from, length]: [f64; 2]) -> Option<f64> {
-    let [mut counts, mut sums] = [[0.0; BATCHES]; 2];
+/// force, N) in the window; `None` for fewer than ten.
+fn scatter_of_peaks(peaks: impl Iterator<Item = (f64, f64)>, window: &Window) -> Option<f64> {
+    let [mut counts, mut sums] = [NO_SUMS; 2];
     for (start, force) in peaks {
-        // An episode that began before the window counts in its first batch.
-        let k = batch_of((start - from).max(0.0), length);
+        // An episode that began before the window counts at its start.
+        let k = window.index(start.max(window.from));
         counts[k] += 1.0;
         sums[k] += force;
     }
-    if counts.iter().sum::<f64>() < BATCHES as f64 { None } else { ratio_half_width(&sums, &counts) }
+    if counts.iter().sum::<f64>() < BATCHES as f64 { None } else { window.ratio_half_width(&sums, &counts) }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The force of a support over time: that of all its flats together, or of a round hole.
 
-use super::batch::{BATCHES, Sums};
+use super::batch::{BatchSums, NO_SUMS, Window};
 use super::largest_force::LargestForce;
 use super::summary::Summary;
 use crate::scene::{Face, Scene, Support, Wall, heading};
@@ -30,7 +30,7 @@ pub struct SupportForce {
     /// Mean over time of the |normal force|, at flats of all of them together, Σ|p|/T, N.
     pub mean_n: f64,
     /// Half width of its 95 % interval by batch means, N. This and those below are `None` unless
-    /// ten contacts began in the window, or the support pushed in each of its ten batches.
+    /// ten contacts began in the window, or the support pushed in each of its batches.
     pub mean_half_width_95_n: Option<f64>,
     /// That mean over the first and over the second half of the window, N.
     #[serde(default)]
@@ -70,8 +70,8 @@ enum Source {
 pub(super) struct SupportTally {
     sources: Vec<Source>,
     /// Σ of the vector impulse, N s, and of its square over an interval's length, N² s.
-    vector: [[f64; BATCHES]; 2],
-    square: [f64; BATCHES],
+    vector: [BatchSums; 2],
+    square: BatchSums,
     /// The vector impulse in the current interval of a round hole, or of the friction at flats, N
     /// s.
     stretch: [f64; 2],
@@ -89,11 +89,10 @@ impl SupportTally {
             }
             Face::Round { .. } => Some(Source::Round(index)),
         };
-        let zero = [0.0; BATCHES];
         let tally = |support: &Support| Self {
             sources: support.members(&scene.walls).filter_map(source).collect(),
-            vector: [zero; 2],
-            square: zero,
+            vector: [NO_SUMS; 2],
+            square: NO_SUMS,
             stretch: [0.0; 2],
         };
         scene.supports.iter().map(tally).collect()
@@ -160,32 +159,32 @@ impl SupportTally {
         self.square[batch] += vector.iter().map(|p| p * p).sum::<f64>() / bin;
     }
 
-    /// Its statistics, where wall w pushed `pushed(w)` (Σ|p| of each batch, N s) and `contacts`
-    /// began in the window.
+    /// Its statistics over `window` with intervals of length `bin` (s), where wall w pushed
+    /// `pushed(w)` (Σ|p| of each batch, N s) and `contacts` began in the window.
     pub fn statistics(
         &self,
-        sums: Sums,
+        (window, bin): (&Window, f64),
         contacts: usize,
-        pushed: impl Fn(usize) -> [f64; BATCHES],
+        pushed: impl Fn(usize) -> BatchSums,
         largest: Option<LargestForce>,
     ) -> SupportForce {
-        let mut all = [0.0; BATCHES];
+        let mut all = NO_SUMS;
         for wall in self.walls() {
             all.iter_mut().zip(pushed(wall)).for_each(|(sum, p)| *sum += p);
         }
-        let (mean, mean_half) = sums.mean(&all, &all, contacts);
-        let [y, z] = [0, 1].map(|axis| sums.mean(&self.vector[axis], &all, contacts));
-        let (rms, rms_half) = sums.root_mean(&self.square, &all, contacts);
+        let interval = window.has_interval(&all, contacts);
+        let half = |sums: &BatchSums| window.half_width(sums).filter(|_| interval);
+        let (rms, rms_half) = window.root_mean(&self.square, interval);
         SupportForce {
-            mean_n: mean,
-            mean_half_width_95_n: mean_half,
-            mean_of_halves_n: sums.mean_of_halves(&all),
-            mean_vector_n: [y.0, z.0],
-            mean_vector_half_width_95_n: y.1.zip(z.1).map(|(y, z)| [y, z]),
+            mean_n: window.mean(&all),
+            mean_half_width_95_n: half(&all),
+            mean_of_halves_n: window.means_of_halves(&all),
+            mean_vector_n: self.vector.map(|sums| window.mean(&sums)),
+            mean_vector_half_width_95_n: half(&self.vector[0]).zip(half(&self.vector[1])).map(|(y, z)| [y, z]),
             rms_n: rms,
             rms_half_width_95_n: rms_half,
-            rms_of_halves_n: sums.mean_of_halves(&self.square).map(f64::sqrt),
-            rms_averaged_over_s: sums.bin,
+            rms_of_halves_n: window.means_of_halves(&self.square).map(f64::sqrt),
+            rms_averaged_over_s: bin,
             largest,
         }
     }

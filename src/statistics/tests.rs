@@ -1,9 +1,8 @@
 //! What begins, ends or happens at the very edge of a window, and what does not happen at all.
 
-use super::batch::Sums;
 use super::*;
 use crate::linear::Symmetric;
-use crate::scene::{Face, PlaneRows, Row, Scene, Side, Structure, Wall};
+use crate::scene::{Face, Load, PlaneRows, Row, Scene, Side, Structure, Wall};
 use crate::step::Step;
 
 fn contact(wall: usize, start: f64, end: f64, peak_force: Option<f64>) -> Contact {
@@ -40,15 +39,55 @@ fn step<'a>(index: u64, [start, end]: [f64; 2], impulse: &'a [f64], jump: &'a [f
 
 #[test]
 fn ten_contacts_make_an_interval_and_nothing_at_all_makes_none_that_is_no_number() {
-    let (none, sums) = ([0.0; BATCHES], Sums { length: 10.0, bin: 0.1 });
-    assert_eq!(ratio_half_width(&none, &none), None);
-    assert_eq!(sums.mean(&none, &none, 9), (0.0, None));
-    assert_eq!(sums.mean(&none, &none, 10), (0.0, Some(0.0)));
-    assert_eq!(sums.root_mean(&none, &none, 10), (0.0, Some(0.0)));
-    let mut one = [1.0; BATCHES];
-    assert!(sums.mean(&one, &one, 0).1.is_some());
+    let (none, window) = (NO_SUMS, Window::new(&between_flats(10.0), 0.0));
+    assert_eq!(window.ratio_half_width(&none, &none), None);
+    assert!(!window.has_interval(&none, 9) && window.has_interval(&none, 10));
+    assert_eq!((window.mean(&none), window.half_width(&none)), (0.0, Some(0.0)));
+    assert_eq!(window.root_mean(&none, true), (0.0, Some(0.0)));
+    let mut one = NO_SUMS;
+    one[..BATCHES].fill(1.0);
+    assert!(window.has_interval(&one, 0));
     one[3] = 0.0;
-    assert_eq!(sums.mean(&one, &one, 0).1, None);
+    assert!(!window.has_interval(&one, 0));
+}
+
+#[test]
+fn batches_are_whole_periods_of_loads_that_have_one_and_end_with_the_window() {
+    // Length of the window in periods of 0.5 s: batches, periods in each, periods before the first.
+    for (all, batches, periods, before) in [
+        (40.0, 10, Some(4), 0.0),
+        (10.5, 10, Some(1), 0.5),
+        (12.0, 6, Some(2), 0.0),
+        (19.25, 9, Some(2), 1.25),
+        (8.0, 8, Some(1), 0.0),
+        (3.75, 3, Some(1), 0.75),
+        (2.5, 2, None, 0.0),
+    ] {
+        let scene = Scene { loads: vec![Load::harmonic(1.0, 2.0, 0.3)], ..between_flats(1.0 + 0.5 * all) };
+        let window = Window::new(&scene, 1.0);
+        assert_eq!((window.batches, window.periods), (batches, periods), "{all}");
+        assert!((window.first - 1.0 - 0.5 * before).abs() < 1e-12, "{all}");
+        // What comes once a period has no scatter, but what is left out beside the batches counts.
+        let (mut counts, step) = (NO_SUMS, 1e-3);
+        let mut at = 1.0 + 0.5 * step;
+        while at < scene.duration {
+            counts[window.index(at)] += if (at / 0.5).fract() < 0.1 { step } else { 0.0 };
+            at += step;
+        }
+        let share = counts.iter().sum::<f64>() / window.length;
+        assert!((window.mean(&counts) - share).abs() < 1e-12, "{all}");
+        match window.half_width(&counts) {
+            None => assert_eq!(batches, 2),
+            // Rounding moves a count or two from one batch to the next.
+            Some(half) => assert!((half - (share - 0.1).abs()).abs() < 3.0 * step / (0.5 * all), "{all}: {half}"),
+        }
+    }
+    // Loads that do not repeat themselves: ten equal parts.
+    let incommensurable = vec![Load::harmonic(1.0, 2.0, 0.0), Load::harmonic(1.0, 2.0_f64.sqrt(), 0.0)];
+    for loads in [Vec::new(), incommensurable] {
+        let window = Window::new(&Scene { loads, ..between_flats(7.3) }, 1.0);
+        assert_eq!((window.batches, window.periods, window.first), (BATCHES, None, 1.0));
+    }
 }
 
 #[test]

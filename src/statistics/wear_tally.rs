@@ -1,6 +1,6 @@
 //! Wear statistics of supports: work of wear, sliding and friction, step by step.
 
-use super::batch::{BATCHES, batch_of, half_width, halves};
+use super::batch::{BatchSums, NO_SUMS, Window};
 use crate::contact::IMPACT_STEPS;
 use crate::scene::Scene;
 use crate::step::{Path, Step};
@@ -21,7 +21,7 @@ pub struct WearStatistics {
     /// Work rate W/T, W: the work of wear ∫ F_n |v_t| dt over the window, per unit time.
     pub work_rate_w: f64,
     /// Half width of its 95 % interval by batch means, W; `None` unless the support pushed in each
-    /// of ten batches.
+    /// batch.
     pub work_rate_half_width_95_w: Option<f64>,
     /// Work rate over the first and over the second half of the window, W.
     #[serde(default)]
@@ -67,8 +67,8 @@ struct Tally {
     name: String,
     friction: f64,
     /// Σ|p|, N s, and the work of wear, J, by batches.
-    pushed: [f64; BATCHES],
-    work: [f64; BATCHES],
+    pushed: BatchSums,
+    work: BatchSums,
     impacts: f64,
     /// True once an impulse came whose force is not known.
     rigid: bool,
@@ -115,8 +115,7 @@ impl Episode {
 /// lasts: contacts of at most two steps are impacts, which slide no distance and take no time.
 #[derive(Debug, Clone)]
 pub struct WearTally {
-    from: f64,
-    length: f64,
+    window: Window,
     sliding: SlidingContacts,
     tallies: Tallies,
 }
@@ -136,12 +135,11 @@ impl WearTally {
     /// with the work divided among `sectors` equal sectors.
     #[must_use]
     pub fn new(scene: &Scene, from: f64, sectors: usize) -> Self {
-        let from = from.min(scene.duration);
         let tally = |support: &crate::scene::Support| Tally {
             name: support.name.clone(),
             friction: support.friction(&scene.walls).sliding,
-            pushed: [0.0; BATCHES],
-            work: [0.0; BATCHES],
+            pushed: NO_SUMS,
+            work: NO_SUMS,
             impacts: 0.0,
             rigid: false,
             sliding: 0.0,
@@ -154,8 +152,7 @@ impl WearTally {
         };
         let sliding = SlidingContacts::new(scene);
         Self {
-            from,
-            length: scene.duration - from,
+            window: Window::new(scene, from),
             tallies: Tallies {
                 supports: scene.supports.iter().map(tally).collect(),
                 episodes: vec![Episode::default(); sliding.contacts()],
@@ -174,28 +171,28 @@ impl WearTally {
     /// The same beside an observer that found what `slid` between two times, s.
     #[inline]
     pub(crate) fn observe_beside(&mut self, step: &Step<'_>, slid: ([f64; 2], &[SlidingPiece])) {
-        if !self.sliding.is_empty() && step.end >= self.from && self.length > 0.0 {
+        if !self.sliding.is_empty() && step.end >= self.window.from && self.window.length > 0.0 {
             self.add(step, slid);
         }
     }
 
     fn add(&mut self, step: &Step<'_>, (within, pieces): ([f64; 2], &[SlidingPiece])) {
-        let end = self.from + self.length;
+        let end = self.window.from + self.window.length;
         // Rounding of the last step's end is no time after the window.
-        let window = [step.start.max(self.from), if step.end > end { end } else { step.end }];
+        let part = [step.start.max(self.window.from), if step.end > end { end } else { step.end }];
         if !matches!(step.path, Path::Series(_)) {
-            if within == window {
-                return pieces.iter().for_each(|piece| self.tallies.add(piece, step, window, [self.from, self.length]));
+            if within == part {
+                return pieces.iter().for_each(|piece| self.tallies.add(piece, step, part, &self.window));
             }
-            return self.add_part(step, window);
+            return self.add_part(step, part);
         }
         // Exact motion may last over many batches.
-        let mut from = window[0];
+        let mut from = part[0];
         loop {
-            let edge = self.from + (batch_of(from - self.from, self.length) + 1) as f64 * self.length / BATCHES as f64;
-            let to = if edge > from && edge < window[1] { edge } else { window[1] };
+            let edge = self.window.end_at(from);
+            let to = if edge > from && edge < part[1] { edge } else { part[1] };
             self.add_part(step, [from, to]);
-            if to >= window[1] {
+            if to >= part[1] {
                 return;
             }
             from = to;
@@ -203,28 +200,27 @@ impl WearTally {
     }
 
     /// Adds the part of a step between two times in it, s, which lies in one batch.
-    fn add_part(&mut self, step: &Step<'_>, window: [f64; 2]) {
-        let Self { sliding, tallies, from, length, .. } = self;
-        sliding.observe(step, window, |piece| tallies.add(piece, step, window, [*from, *length]));
+    fn add_part(&mut self, step: &Step<'_>, part: [f64; 2]) {
+        let Self { sliding, tallies, window } = self;
+        sliding.observe(step, part, |piece| tallies.add(piece, step, part, window));
     }
 
     /// The statistics of each support, in the scene's order; none for a window of length 0.
     #[must_use]
     pub fn statistics(&self) -> Vec<WearStatistics> {
-        if self.length <= 0.0 {
+        if self.window.length <= 0.0 {
             return Vec::new();
         }
-        self.tallies.supports.iter().map(|tally| tally.statistics(self.length)).collect()
+        self.tallies.supports.iter().map(|tally| tally.statistics(&self.window)).collect()
     }
 }
 
 impl Tallies {
-    /// Adds what slid in a step between two times in it, s; the window of the statistics begins at
-    /// `from` and has this `length`, s.
-    fn add(&mut self, piece: &SlidingPiece, step: &Step<'_>, part: [f64; 2], [from, length]: [f64; 2]) {
+    /// Adds what slid in a step between two times in it, s.
+    fn add(&mut self, piece: &SlidingPiece, step: &Step<'_>, part: [f64; 2], window: &Window) {
         let Some(tally) = self.supports.get_mut(piece.support) else { return };
         let middle = if piece.duration == ImpulseDuration::Instant { step.end } else { 0.5 * (part[0] + part[1]) };
-        tally.add(piece, batch_of(middle - from, length));
+        tally.add(piece, window.index(middle));
         let part = Some((step.index, part[0]));
         let first = self.touched.get_mut(piece.support).is_some_and(|last| std::mem::replace(last, part) != part);
         match piece.duration {
@@ -261,11 +257,9 @@ impl Tally {
         wall.into_iter().for_each(|work| *work += piece.work);
     }
 
-    fn statistics(&self, length: f64) -> WearStatistics {
-        let total = |batches: &[f64; BATCHES]| batches.iter().sum::<f64>();
-        let (work, pushed) = (total(&self.work), total(&self.pushed));
-        let batch = length / BATCHES as f64;
-        let enough = self.pushed.iter().all(|&p| p > 0.0);
+    fn statistics(&self, window: &Window) -> WearStatistics {
+        let total = |batches: &BatchSums| batches.iter().sum::<f64>();
+        let (work, pushed, length) = (total(&self.work), total(&self.pushed), window.length);
         let count = self.sectors.len();
         let edge = |k: usize| 360.0 * k as f64 / count as f64;
         let sectors = self.sectors.iter().enumerate().map(|(k, [work, p])| SectorStatistics {
@@ -279,8 +273,8 @@ impl Tally {
             friction: self.friction,
             upper_figure: self.friction == 0.0,
             work_rate_w: work / length,
-            work_rate_half_width_95_w: enough.then(|| half_width(&self.work.map(|x| x / batch))),
-            work_rate_of_halves_w: halves(&self.work).map(|work| 2.0 * work / length),
+            work_rate_half_width_95_w: window.half_width(&self.work).filter(|_| window.has_interval(&self.pushed, 0)),
+            work_rate_of_halves_w: window.means_of_halves(&self.work),
             impact_share: (self.rigid && work > 0.0).then(|| (self.impacts / work).min(1.0)),
             sliding_m: self.sliding,
             sliding_speed_m_per_s: (self.time > 0.0).then(|| self.sliding / self.time),

@@ -1,8 +1,7 @@
 //! The period of the loads, as a sweep asks for it.
 
 use crate::error::{Error, Result};
-use crate::orbit::{forcing_period, frequencies};
-use crate::scene::Scene;
+use crate::scene::{Scene, forcing_period, frequencies};
 
 /// True if there is a harmonic load.
 pub(super) fn has_sine(scene: &Scene) -> bool {

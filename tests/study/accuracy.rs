@@ -452,7 +452,7 @@ fn statistics_that_scatter_more_than_the_error_asked_for_are_named() {
     let of_wall = |wall: &signorini::WallStatistics| wall.force.and_then(|f| Some(f.mean_half_width_95_n? / f.mean_n));
     let widest = outcome.run.statistics.walls.iter().filter_map(of_wall).fold(0.0, f64::max);
     let note = |outcome: &signorini::study::accuracy::Outcome| {
-        outcome.run.notes.iter().find(|note| note.contains("95 % interval by ten batches")).cloned()
+        outcome.run.notes.iter().find(|note| note.contains("95 % interval by batches")).cloned()
     };
     assert!(widest > 1e-3 && widest < 0.9, "{widest}");
     let found = note(&outcome).unwrap_or_else(|| panic!("{:?}", outcome.run.notes));

@@ -2,7 +2,7 @@
 
 use signorini::linear::Symmetric;
 use signorini::study::realisations::{Check, ErrorParts, Measure, Realisation, Realisations, Refined, realisations};
-use signorini::{Flat, Flats, Load, Options, PlaneRows, Result, Row, Scene, Scheme, Structure, WallLaw};
+use signorini::{Flat, Flats, Load, Options, PlaneRows, Result, Row, Scene, Scheme, Structure, WallLaw, run};
 
 /// The benchmark SDND104 of code_aster (V5.01.104): 1 kg pressed on a flat by 10 N with friction
 /// 0.1, on a base shaken by 1 Hz.
@@ -83,4 +83,19 @@ fn a_window_that_begins_with_the_transient_is_seen() {
         assert!(error.start.at_most() > wrong.abs() && error.total > wrong.abs(), "{error:?} {wrong}");
     }
     assert!((error(0.0).1.start.mean / error(4.0).1.start.mean) > 4.0);
+}
+
+#[test]
+fn the_interval_of_a_window_that_begins_with_the_transient_holds_the_steady_rate() {
+    // Ten batches of 0.8 s would cut the periods of 1 s: 1.03 W.
+    let (mean, half) = {
+        let mut options = Options::with_step(2e-3).with_sample(0.1);
+        options.time.statistics_from = 4.0;
+        let scheme = Scheme::MoreauJean { theta: 0.5 };
+        let run = run(&rubbing(15.0, 12.0).unwrap(), &scheme, &options).unwrap();
+        let wear = &run.statistics.wear[0];
+        (wear.work_rate_w, wear.work_rate_half_width_95_w.unwrap())
+    };
+    // The mass settles slowly: the work rate of the last period is 15.126 W.
+    assert!((mean - 15.126).abs() < half && half < 0.2, "{mean} {half}");
 }

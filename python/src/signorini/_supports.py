@@ -45,14 +45,14 @@ class Estimate:
     """A mean with its 95 % interval.
 
     ``half_width`` is None where there is too little to tell; ``kind`` says what the interval is
-    made of: ``"batches"`` are ten equal parts of the window of a run, ``"seeds"`` independent
-    realisations of the random loads. Of the latter ``deviation`` is the standard deviation of one
+    made of: ``"batches"`` are equal parts of the window of a run, ``"periodic"`` such parts of whole periods
+    of the loads, ``"seeds"`` independent realisations of the random loads. Of the latter ``deviation`` is the standard deviation of one
     realisation, and ``error`` the error in parts, where it is known.
     """
 
     value: float
     half_width: float | None
-    kind: Literal["batches", "seeds"] | None
+    kind: Literal["batches", "periodic", "seeds"] | None
     deviation: float | None = None
     error: ErrorParts | None = None
 
@@ -112,11 +112,12 @@ class Wear:
     depth_even: float | None
 
 
-def _estimate(value: float, half_width: float | None) -> Estimate:
-    return Estimate(value, half_width, None if half_width is None else "batches")
-
-
 def _statistics(known: dict[str, Any]) -> SupportStatistics:
+    def estimate(of: dict[str, Any], name: str, unit: str) -> Estimate:
+        half_width = of[f"{name}_half_width_95_{unit}"]
+        kind: Literal["batches", "periodic"] = "periodic" if known["periodic"] else "batches"
+        return Estimate(of[f"{name}_{unit}"], half_width, None if half_width is None else kind)
+
     wear, contact = known["wear"], known["contact"]
     force = contact["force"]
     largest = force and force["largest"]
@@ -129,10 +130,10 @@ def _statistics(known: dict[str, Any]) -> SupportStatistics:
         contacts=contact["contacts"],
         friction=wear["friction"],
         upper_figure=wear["upper_figure"],
-        work_rate=_estimate(wear["work_rate_w"], wear["work_rate_half_width_95_w"]),
+        work_rate=estimate(wear, "work_rate", "w"),
         impact_share=wear["impact_share"],
-        force_mean=force and _estimate(force["mean_n"], force["mean_half_width_95_n"]),
-        force_rms=force and _estimate(force["rms_n"], force["rms_half_width_95_n"]),
+        force_mean=force and estimate(force, "mean", "n"),
+        force_rms=force and estimate(force, "rms", "n"),
         force_largest=contact["episode_peak_force_n"]["max"],
         force_largest_mean=largest and largest["mean_n"],
         force_largest_mean_at=largest and largest["at_s"],

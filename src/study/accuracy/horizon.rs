@@ -113,7 +113,7 @@ fn sampling(statistics: &Statistics, tolerance: f64) -> Option<String> {
     let shares = statistics.walls.iter().filter_map(|wall| Some((share(wall)?, &wall.wall)));
     let (widest, wall) = shares.filter(|(share, _)| *share > tolerance).max_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(format!(
-        "the mean force of wall {wall:?} scatters along the window: its 95 % interval by ten batches is ±{:.1} \
+        "the mean force of wall {wall:?} scatters along the window: its 95 % interval by batches is ±{:.1} \
          % of it, wider than the {tolerance:e} asked for; the error holds for this stretch of motion, and as an \
          average over a longer one the force is known no better than the interval",
         100.0 * widest

@@ -12,9 +12,9 @@ use serde::Serialize;
 pub enum Interval {
     /// 95 % of the mean over independent realisations, by Student's t.
     StudentOfRealisations,
-    /// 95 % of the mean of ten batches of the only realisation: it knows what scatters within the
+    /// 95 % of the mean of the batches of the only realisation: it knows what scatters within the
     /// window, and nothing that is slower than a batch.
-    TenBatchesOfOneRealisation,
+    BatchesOfOneRealisation,
 }
 
 /// The mean of one quantity of one place over the realisations.

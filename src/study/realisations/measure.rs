@@ -48,7 +48,7 @@ pub struct Figure {
     pub measure: Measure,
     /// Its value, in the unit of the measure.
     pub value: f64,
-    /// Half width of its 95 % interval from ten batches of the window; `None` where too few
+    /// Half width of its 95 % interval from the batches of the window; `None` where too few
     /// contacts began, and for extremes.
     pub batch_half_width_95: Option<f64>,
     /// The same over the first and over the second half of the window; `None` unless

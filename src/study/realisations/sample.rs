@@ -26,11 +26,11 @@ pub struct Realisations {
 
 impl Realisations {
     /// The study of `members`, one or more of one scene; a single one has the intervals of its own
-    /// ten batches.
+    /// batches.
     #[must_use]
     pub fn new(members: Vec<Realisation>) -> Self {
         let interval = match members.len() {
-            0 | 1 => Interval::TenBatchesOfOneRealisation,
+            0 | 1 => Interval::BatchesOfOneRealisation,
             _ => Interval::StudentOfRealisations,
         };
         let refuted = members.iter().filter(|member| !member.findings.is_empty()).map(|member| member.number);
@@ -75,7 +75,7 @@ mod tests {
     fn one_realisation_has_the_interval_of_its_batches() {
         let study = Realisations::new(vec![member(1, 2.0, Some(0.25))]);
         let estimate = &study.estimates[0];
-        assert_eq!(study.interval, Interval::TenBatchesOfOneRealisation);
+        assert_eq!(study.interval, Interval::BatchesOfOneRealisation);
         assert_eq!((estimate.standard_deviation, estimate.half_width_95), (None, Some(0.25)));
     }
 }

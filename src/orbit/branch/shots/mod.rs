@@ -19,12 +19,11 @@ mod switch;
 use crate::error::{Error, Result};
 use crate::orbit::branch::arclength::{self, Vector, extended, unit};
 use crate::orbit::branch::family::{self, DIFFERENCE, Family};
-use crate::orbit::forcing::forcing_period;
 use crate::orbit::orbit_run::{self, ByKey, OrbitRun, Recorded};
 use crate::orbit::shooting::{Shot, posed};
 use crate::orbit::strobe::{Scales, vector};
 use crate::orbit::symmetry;
-use crate::scene::Scene;
+use crate::scene::{Scene, forcing_period};
 use crate::variation::SceneTangent;
 use nalgebra::DMatrix;
 

@@ -1,7 +1,7 @@
 //! The period of the loads.
 
+use super::{LoadKind, Scene};
 use crate::error::{Error, Result};
-use crate::scene::{LoadKind, Scene};
 
 /// Largest ratio of frequencies, as a quotient of whole numbers, whose common period is looked for.
 const MOST_CYCLES: u32 = 1000;
