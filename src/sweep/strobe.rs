@@ -1,7 +1,7 @@
 //! The state once per forcing period.
 
 use crate::scene::State;
-use crate::step::{Path, Step};
+use crate::step::Step;
 
 /// Maximum number of forcing periods after which a motion may repeat itself.
 const MOST_PERIODS: usize = 32;
@@ -20,8 +20,8 @@ pub(super) struct Strobe {
     next: u32,
     last: u32,
     period: f64,
-    /// The state at the end of the last step.
-    before: State,
+    /// Time, s, and state at the end of the last step.
+    before: (f64, State),
     /// Time (s) and state of each instant.
     pub taken: Vec<(f64, State)>,
 }
@@ -30,7 +30,7 @@ impl Strobe {
     /// Records the ends of `keep` periods (s) after `settle` of them, of a row that begins at
     /// `start`.
     pub fn new(period: f64, settle: u32, keep: u32, start: &State) -> Self {
-        Self { next: settle + 1, last: settle + keep, period, before: start.clone(), taken: Vec::new() }
+        Self { next: settle + 1, last: settle + keep, period, before: (0.0, start.clone()), taken: Vec::new() }
     }
 
     /// The forcing period, s.
@@ -55,21 +55,21 @@ impl Strobe {
                 self.take(due, State { q: step.q.to_vec(), v: step.v.to_vec() });
                 break;
             }
-            let mut state = State { q: step.q.to_vec(), v: step.v.to_vec() };
-            match step.path {
-                Path::Exact(_) | Path::Series(_) => step.path.state(due, &mut state.q, &mut state.v),
-                Path::Grid | Path::OneRestitution | Path::Part { .. } | Path::Handed { .. } => {
-                    // Linear interpolation between the instants of the grid.
-                    let share = (due - step.start) / (step.end - step.start);
-                    for (q, before) in state.q.iter_mut().zip(&self.before.q) {
-                        *q = before + (*q - before) * share;
+            let mut state = self.before.1.clone();
+            match step.between(self.before.0, due) {
+                Some(between) => {
+                    for (i, (q, v)) in state.q.iter_mut().zip(&mut state.v).enumerate() {
+                        [*q, *v] = between.along([*q, *v], |x| x.get(i).copied().unwrap_or(0.0));
                     }
                 }
+                None => step.path.state(due, &mut state.q, &mut state.v),
             }
             self.take(due, state);
         }
-        self.before.q.copy_from_slice(step.q);
-        self.before.v.copy_from_slice(step.v);
+        let (end, state) = &mut self.before;
+        *end = step.end;
+        state.q.copy_from_slice(step.q);
+        state.v.copy_from_slice(step.v);
     }
 
     /// Number of periods after which the motion repeats itself; see [`repeats`].
@@ -103,6 +103,43 @@ pub(super) fn repeats(states: &[&State], period: f64, gap: Option<f64>) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{Load, Scene, Wall};
+    use crate::scheme::{Scheme, Stepper};
+    use std::f64::consts::TAU;
+
+    /// The strobes of a run in steps of 1 ms, of which no whole number makes a period of 1.75 Hz,
+    /// but of seven.
+    fn taken(scene: &Scene, scheme: Scheme) -> Strobe {
+        let mut strobe = Strobe::new(1.0 / 1.75, 60, 20, &scene.initial);
+        let mut stepper = Stepper::new(scene, &scheme, 1e-3).unwrap();
+        while strobe.taken.len() < 20 {
+            strobe.observe(&stepper.step().unwrap());
+        }
+        strobe
+    }
+
+    #[test]
+    fn steps_that_divide_no_period_see_the_motion_at_its_ends() {
+        let omega = TAU * 1.75;
+        let free = Scene::oscillator(1.0, 2.0, 100.0).with_load(Load::harmonic(3.0, 1.75, 0.0)).with_duration(60.0);
+        let (a, b) = (100.0 - omega * omega, 2.0 * omega);
+        let scale = 3.0 / (a * a + b * b);
+        for scheme in [Scheme::Located, Scheme::MoreauJean { theta: 0.5 }, Scheme::Newmark, Scheme::Event] {
+            for (_, state) in taken(&free, scheme).taken {
+                // Steady motion: q = 3 (a sin ωt − b cos ωt)/(a² + b²); schemes of order 2 err by
+                // (ωh)² of it.
+                let error = [state.q[0] + scale * b, (state.v[0] - scale * a * omega) / omega];
+                let size = scale * a.hypot(b) * (omega * 1e-3).powi(2);
+                assert!(error.iter().all(|error| error.abs() < size), "{scheme}: {error:?} {size:e}");
+            }
+        }
+        // One impact a period: the motion repeats itself after one.
+        let struck = free.with_wall(Wall::upper("stop", 0.02).with_restitution(0.5));
+        let settled = |scheme: Scheme| taken(&struck, scheme).repeats(Some(0.02));
+        for scheme in [Scheme::Located, Scheme::Event] {
+            assert_eq!(settled(scheme), Some(1), "{scheme}");
+        }
+    }
 
     fn strobe(states: &[f64]) -> Strobe {
         let state = |x: f64| State { q: vec![x], v: vec![-x] };

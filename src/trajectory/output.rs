@@ -1,7 +1,7 @@
 //! Displacement and velocity of the probes at the output times of a scene.
 
 use crate::scene::{Row, Scene};
-use crate::step::{Path, QuietSteps, Step};
+use crate::step::{QuietSteps, Step};
 use serde::{Deserialize, Serialize};
 
 /// Rounding error of a time asked for and of the end of a step there, in units in the last place.
@@ -120,25 +120,14 @@ impl OutputRecorder {
         if !is_before(*start, time) {
             return last.clone();
         }
-        let length = step.end - start;
-        let share = ((time - start) / length).clamp(0.0, 1.0);
-        let pushed = match step.path {
-            Path::Exact(_) | Path::Series(_) => {
-                let [mut q, mut v] = std::mem::take(&mut self.state);
-                step.path.state(time, &mut q, &mut v);
-                let states = seen(probes, &q, &v).collect();
-                self.state = [q, v];
-                return states;
-            }
-            Path::Part { .. } => false,
-            Path::Grid | Path::OneRestitution | Path::Handed { .. } => step.impulse.iter().any(|&p| p != 0.0),
-        };
-        // Of a part the velocity before the impact at its end.
-        let leaving = if matches!(step.path, Path::Part { .. }) { step.velocity_after } else { step.v };
-        last.iter()
-            .zip(seen(probes, step.q, leaving))
-            .map(|(&from, to)| if pushed { straight(from, to, share) } else { cubic(from, to, length, share) })
-            .collect()
+        if let Some(between) = step.between(*start, time) {
+            return last.iter().zip(probes).map(|(&from, probe)| between.along(from, |x| probe.dot(x))).collect();
+        }
+        let [mut q, mut v] = std::mem::take(&mut self.state);
+        step.path.state(time, &mut q, &mut v);
+        let states = seen(probes, &q, &v).collect();
+        self.state = [q, v];
+        states
     }
 }
 
@@ -150,20 +139,4 @@ fn seen(probes: &[Row], q: &[f64], v: &[f64]) -> impl Iterator<Item = [f64; 2]> 
 /// True if `time` lies before `end` by more than rounding.
 fn is_before(time: f64, end: f64) -> bool {
     time < end - UNITS * f64::EPSILON * end.abs()
-}
-
-/// Straight from one displacement to the next, with the velocity of the end.
-fn straight(from: [f64; 2], to: [f64; 2], share: f64) -> [f64; 2] {
-    [from[0] + share * (to[0] - from[0]), to[1]]
-}
-
-/// Displacement and velocity of the cubic through displacement and velocity at both ends of a
-/// stretch of `length` seconds, at a share of it (Hermite).
-fn cubic([q0, v0]: [f64; 2], [q1, v1]: [f64; 2], length: f64, share: f64) -> [f64; 2] {
-    let (s, mean) = (share, (q1 - q0) / length);
-    // The deviations of both velocities from the mean one bend the straight line.
-    let (d0, d1) = (v0 - mean, v1 - mean);
-    let w = q0 + s * (q1 - q0) + length * s * (1.0 - s) * ((1.0 - s) * d0 - s * d1);
-    let v = mean + (1.0 - s) * (1.0 - 3.0 * s) * d0 + s * (3.0 * s - 2.0) * d1;
-    [w, v]
 }
