@@ -88,6 +88,9 @@ impl Builder<'_> {
     }
 }
 
+/// With this begins what is said of a case whose flow is beyond the fluid-elastic limit.
+pub(crate) const UNSTABLE: &str = "unstable: work rates mean nothing";
+
 impl Case {
     /// Why work rates of the case mean nothing: the flow is beyond the fluid-elastic limit with all
     /// supports active. `None` where it is not, or the case has no table `flow`.
@@ -96,7 +99,7 @@ impl Case {
         let found = self.fluid_elastic.as_ref()?;
         let one = unstable(&found.active)?;
         Some(format!(
-            "unstable: work rates mean nothing. The flow is beyond the fluid-elastic limit with all supports \
+            "{UNSTABLE}. The flow is beyond the fluid-elastic limit with all supports \
              active{}: {}; the force of this instability is not in the motion",
             if self.sliders.is_empty() { "" } else { " and all sliders sliding" },
             in_words(found.connors, one)

@@ -92,6 +92,8 @@ pub(crate) use check::read as read_values;
 #[cfg(feature = "cli")]
 pub(crate) use digest::sha256;
 pub use embedded::Embedded;
+#[cfg(feature = "cli")]
+pub(crate) use flow::UNSTABLE;
 pub use key::Key;
 #[cfg(feature = "cli")]
 pub(crate) use key_entry::{KeyEntry, Kind, REQUIRED, entry};

@@ -132,6 +132,13 @@ fn not_reached(error: &Error, f: &mut fmt::Formatter<'_>) -> fmt::Result {
              {} and more",
             counted(*steps as usize, "step")
         ),
+        // A change of that size is not yet an error of that size.
+        Error::Inaccurate { tolerance, reached, quantity, steps, .. } if reached <= tolerance => write!(
+            f,
+            "an error of {tolerance:e} is not certain: in {} the last halving of the step still made a change of \
+             {reached:.1e} ({quantity}), of which two in succession are to be below a quarter of the error",
+            counted(*steps as usize, "step")
+        ),
         Error::Inaccurate { tolerance, reached, quantity, until, steps } => write!(
             f,
             "an error of {tolerance:e} was not reached: in {} it is {reached:.1e} ({quantity}); \
@@ -173,6 +180,17 @@ fn not_reached(error: &Error, f: &mut fmt::Formatter<'_>) -> fmt::Result {
 #[cfg(test)]
 mod tests {
     use super::nearest;
+    use crate::error::Error;
+
+    #[test]
+    fn a_change_below_the_tolerance_is_not_told_as_an_error_above_it() {
+        let of = |reached: f64| {
+            let quantity = "displacement".to_owned();
+            Error::Inaccurate { tolerance: 5e-2, reached, quantity, until: 3.0, steps: 1_125_120 }.to_string()
+        };
+        assert!(of(4.3e-2).starts_with("an error of 5e-2 is not certain: "), "{}", of(4.3e-2));
+        assert!(of(6e-2).starts_with("an error of 5e-2 was not reached: "), "{}", of(6e-2));
+    }
 
     #[test]
     fn a_word_is_taken_for_the_one_it_resembles() {

@@ -8,9 +8,9 @@ use super::results::Results;
 use super::table::Table;
 use crate::case::Case;
 use crate::error::{Result, amount};
-use crate::study::wear_history::{WearHistories, WearState, YEAR, mean};
+use crate::study::wear_history::{WearHistories, WearPoint, WearState, YEAR, mean};
 use crate::wear::Growth;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// A quantity of a support that changes over the years: its column, its words with the unit of
 /// tables (none where it is in the files alone), what one of these is in SI units, and its value.
@@ -78,26 +78,50 @@ pub fn history(found: &WearHistories) -> (Vec<String>, Vec<Vec<String>>) {
     (header, rows)
 }
 
+/// The columns of `years.csv` after year and place: means, and the half widths of their intervals.
+fn mean_columns() -> Vec<String> {
+    let both = |quantity: &Quantity| {
+        let (column, unit) = (quantity.column, quantity.unit());
+        [format!("{column}_{unit}"), format!("{column}_half_width_95_{unit}")]
+    };
+    QUANTITIES.iter().flat_map(both).collect()
+}
+
+/// Year, place and [`mean_columns`] of each point and support; `None` for what is not finite.
+fn means(found: &WearHistories) -> impl Iterator<Item = (f64, &String, Vec<Option<f64>>)> {
+    let of = |(point, support): (&WearPoint, usize)| {
+        let both = |quantity: &Quantity| {
+            let (mean, half) = mean(point, support, quantity.value);
+            [Some(mean).filter(finite), half.filter(finite)]
+        };
+        QUANTITIES.iter().flat_map(both).collect()
+    };
+    found.points.iter().flat_map(move |point| {
+        let places = found.supports.iter().enumerate();
+        places.map(move |(support, name)| (point.time_s / YEAR, name, of((point, support))))
+    })
+}
+
 /// The header and the rows of `years.csv`.
 #[must_use]
 pub fn years(found: &WearHistories) -> (Vec<String>, Vec<Vec<String>>) {
-    let mut header: Vec<String> = ["year", "place"].map(str::to_owned).to_vec();
-    for quantity in &QUANTITIES {
-        let (column, unit) = (quantity.column, quantity.unit());
-        header.extend([format!("{column}_{unit}"), format!("{column}_half_width_95_{unit}")]);
-    }
-    let mut rows = Vec::new();
-    for point in &found.points {
-        for (support, name) in found.supports.iter().enumerate() {
-            let mut row = vec![csv::digits(Some(point.time_s / YEAR)), name.clone()];
-            for quantity in &QUANTITIES {
-                let (mean, half) = mean(point, support, quantity.value);
-                row.extend([csv::digits(Some(mean).filter(finite)), csv::digits(half.filter(finite))]);
-            }
-            rows.push(row);
-        }
-    }
-    (header, rows)
+    let header = [vec!["year".to_owned(), "place".to_owned()], mean_columns()].concat();
+    let row = |(year, place, values): (f64, &String, Vec<Option<f64>>)| {
+        let cells = values.into_iter().map(csv::digits);
+        [csv::digits(Some(year)), place.clone()].into_iter().chain(cells).collect()
+    };
+    (header, means(found).map(row).collect())
+}
+
+/// The same as JSON: an object for each row.
+fn years_document(found: &WearHistories) -> Vec<Value> {
+    let columns = mean_columns();
+    let row = |(year, place, values): (f64, &String, Vec<Option<f64>>)| {
+        let mut row = Map::from_iter([("year".to_owned(), json!(year)), ("place".to_owned(), json!(place))]);
+        row.extend(columns.iter().cloned().zip(values.into_iter().map(|value| json!(value))));
+        Value::Object(row)
+    };
+    means(found).map(row).collect()
 }
 
 fn finite(x: &f64) -> bool {
@@ -152,6 +176,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
         ));
     }
     remarks.extend(worn_through(case, found));
+    remarks.extend(unworn(found));
     remarks.extend(realisations::without_friction(&case.scene).map(|words| format!("{words}, and depths with them")));
     let histories = found.points.first().map_or(0, |point| point.histories.len());
     if histories > 1 {
@@ -184,6 +209,24 @@ fn among(times: &[Option<f64>]) -> String {
         true => format!(" (its {} histories after {first} to {last})", times.len()),
         false => format!(" ({} of its {} histories, the first after {first})", years.len(), times.len()),
     }
+}
+
+/// Supports at which nothing slid in any history, a sentence for all of them.
+fn unworn(found: &WearHistories) -> Option<String> {
+    let last = found.points.last()?;
+    let worked =
+        |support: usize| last.histories.iter().any(|states| states.get(support).is_some_and(|s| s.work_j > 0.0));
+    let names: Vec<String> = (0..found.supports.len())
+        .filter(|support| !worked(*support))
+        .filter_map(|support| Some(format!("{:?}", found.supports.get(support)?)))
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "nothing wears at {} {}: in no window did the tube do any work of wear there; `run` says how near it comes",
+            if names.len() == 1 { "support" } else { "supports" },
+            names.join(", ")
+        )
+    })
 }
 
 /// Supports at which the tube is worn through, where the case knows its wall, a sentence each.
@@ -277,26 +320,32 @@ pub fn document(case: &Case, found: &WearHistories) -> Value {
         "command": "wear",
         "case": case.name,
         "histories": found,
+        "years": years_document(found),
         "limits": limits(case, found),
         "fluid_elastic": case.fluid_elastic,
         "remarks": remarks(case, found),
     })
 }
 
-/// When the depth of each support reaches the limit of the case, as JSON; null where it does not.
+/// When the depth of each support reaches the limit of the case, as JSON, by its mean and in each
+/// history; null where it does not.
 #[must_use]
 pub fn limits(case: &Case, found: &WearHistories) -> Vec<Value> {
     let limit = case.wear.limit;
     let limits = found.supports.iter().enumerate().map(|(support, name)| {
-        let years =
-            |value: fn(&WearState) -> f64| limit.and_then(|limit| Some(found.reaches(support, limit, value)? / YEAR));
-        json!({
-            "place": name,
-            "limit_m": limit,
-            "limit_deepest_years": years(|state| state.depth_deepest_m),
-            "limit_all_round_years": years(|state| state.depth_all_round_m),
-            "limit_one_scar_years": years(|state| state.depth_one_scar_m),
-        })
+        let mut own = Map::from_iter([("place".to_owned(), json!(name)), ("limit_m".to_owned(), json!(limit))]);
+        let mut add = |depth: &str, value: fn(&WearState) -> f64| {
+            let in_years = |time: Option<f64>| time.map(|time| time / YEAR);
+            let mean = limit.and_then(|limit| found.reaches(support, limit, value));
+            let each = limit.map_or(Vec::new(), |limit| found.reaches_by_history(support, limit, value));
+            let each: Vec<Option<f64>> = each.into_iter().map(in_years).collect();
+            own.insert(format!("limit_{depth}_years"), json!(in_years(mean)));
+            own.insert(format!("limit_{depth}_years_of_histories"), json!(each));
+        };
+        add("deepest", |state| state.depth_deepest_m);
+        add("all_round", |state| state.depth_all_round_m);
+        add("one_scar", |state| state.depth_one_scar_m);
+        Value::Object(own)
     });
     limits.collect()
 }

@@ -3,6 +3,7 @@
 //! Only the judge decides, in its findings, whether a promise is broken; the limits here only
 //! decide where a change by refinement deserves attention.
 
+use crate::case::UNSTABLE;
 use crate::residual::Refuted;
 use crate::run::notes::{NO_CONTACT, UNRESOLVED_LOAD};
 use crate::study::verdict::largest_change;
@@ -20,7 +21,8 @@ const SCATTER: f64 = 0.1;
 pub(super) fn cards(summary: &Value) -> Vec<Value> {
     let checks = [refinement(summary), realisations(summary), accuracy(summary), modes(summary)];
     let judged = [contact(summary), energy(summary), momentum(summary)];
-    run(summary).into_iter().chain(checks.into_iter().flatten()).chain(judged).collect()
+    let first = [run(summary), flow(summary)];
+    first.into_iter().flatten().chain(checks.into_iter().flatten()).chain(judged).collect()
 }
 
 /// The state of a card: the promise is kept, needs attention, is broken, or was not checked.
@@ -271,6 +273,12 @@ fn run(summary: &Value) -> Option<Value> {
     let sentences: Vec<String> = findings(summary, Promise::Run).map(sentence).collect();
     let verdict = "Refuted by the judge: do not use its numbers".to_owned();
     (!sentences.is_empty()).then(|| card("Run", State::Bad, verdict, sentences.join(" ")))
+}
+
+/// The card of a flow beyond the fluid-elastic limit.
+fn flow(summary: &Value) -> Option<Value> {
+    let why = note(summary, UNSTABLE)?.trim_start_matches(UNSTABLE).trim_start_matches(['.', ' ']);
+    Some(card("Flow", State::Bad, "Unstable: work rates mean nothing".to_owned(), format!("{why}.")))
 }
 
 /// The card of a promise that the judge checks.

@@ -1,7 +1,7 @@
 //! Values of other programs and of benchmarks.
 
 use super::entry::{Entry, Scene, value};
-use super::quantity::{contact, displacement, last_displacement, velocity, work_rate};
+use super::quantity::{contact, displacement, last_displacement, rms_force, velocity, work_rate};
 
 const PRINTED: &str = "the digits that the source prints";
 const SDND104: Scene = Scene::Own("sdnd104", include_str!("scenes/sdnd104.toml"));
@@ -103,6 +103,15 @@ pub(super) const ENTRIES: &[Entry] = &[
     sdnd104!(0.99, 0.0, 1e-12),
     sdnl32!(18000.0, 0.003: -4.92e-3, 0.006: -2.87e-3, 0.009: -3.41e-3, 0.012: -0.742e-3),
     sdnl32!(45000.0, 0.003: -1.96e-3, 0.006: -0.364e-3, 0.009: -1.89e-3, 0.012: 4.99e-3),
+    Entry {
+        scene: Scene::Own("sdnl301", include_str!("scenes/sdnl301.toml")),
+        changes: &[],
+        method: "moreau-jean",
+        source: "code_aster SDNL301 (V5.02.301)",
+        values: &[value("RMS force of the support at the free end", "N", 23.983_313_777_2, 0.555,
+            "by which the source's own two bases differ, 30 modes and 30 with static ones",
+            |run| rms_force(run, "support-4"))],
+    },
     Entry {
         scene: Scene::Own("sdnd125", include_str!("scenes/sdnd125.toml")),
         changes: &[],

@@ -40,3 +40,11 @@ pub(super) fn last_force(run: &Run) -> Option<f64> {
 pub(super) fn work_rate(run: &Run) -> Option<f64> {
     run.statistics.wear.first().map(|wear| wear.work_rate_w)
 }
+
+/// Root mean square of the force of the walls whose names begin with `name`, of which one pushes at
+/// a time, N.
+pub(super) fn rms_force(run: &Run, name: &str) -> Option<f64> {
+    let own = run.statistics.walls.iter().filter(|wall| wall.wall.starts_with(name));
+    let squares: Option<Vec<f64>> = own.map(|wall| wall.force.map(|force| force.rms_n.powi(2))).collect();
+    squares.filter(|squares| !squares.is_empty()).map(|squares| squares.iter().sum::<f64>().sqrt())
+}

@@ -65,3 +65,22 @@ fn a_run_in_turbulence_has_the_section_and_one_without_has_none() {
     assert_eq!(tab.evaluate("document.querySelector('#flow')"), serde_json::Value::Null);
     tab.close();
 }
+
+#[test]
+fn a_flow_beyond_the_fluid_elastic_limit_stands_first_among_the_checks() {
+    let dir = tempfile::tempdir().unwrap();
+    for (velocity, first) in [("3", "Flow"), ("0.5", "Refinement")] {
+        let velocity = format!("turbulence.1.velocity={velocity}");
+        let flow = ["--set", "flow.connors=3", "--set", &velocity, "--force"];
+        said(dir.path(), &[&["run"], &SHORT[..], &flow].concat(), 0);
+        let page = fs::read_to_string(dir.path().join("o/report.html")).unwrap();
+        let card = &data(&page)["cards"][0];
+        assert_eq!(card["title"], first, "{card}");
+        if first == "Flow" {
+            assert!(
+                card["state"] == "bad" && card["text"].as_str().unwrap().starts_with("The flow is beyond"),
+                "{card}"
+            );
+        }
+    }
+}

@@ -115,6 +115,9 @@ fn histories_are_those_of_their_windows_and_years_their_means() {
         let own: Vec<_> =
             history.iter().filter(|row| row["year"] == year["year"] && row["place"] == year["place"]).collect();
         assert_eq!(own.len(), 4);
+        if number(year, "year") == 0.0 {
+            assert_eq!((number(year, "gap_m"), number(year, "gap_half_width_95_m")), (0.2e-3, 0.0));
+        }
         for column in ["gap_m", "depth_deepest_m", "depth_all_round_m", "depth_one_scar_m", "work_rate_W"] {
             let values: Vec<f64> = own.iter().map(|row| number(row, column)).collect();
             let mean = values.iter().sum::<f64>() / 4.0;
@@ -158,6 +161,23 @@ fn a_limit_is_reached_after_years_that_are_told() {
     let after = own.iter().position(|row| number(row, "depth_one_scar_m") >= 0.165e-3).unwrap();
     assert!(number(own[after - 1], "year") <= reached && reached <= number(own[after], "year"));
     assert!(found["limit_all_round_years"].as_f64().is_none_or(|years| years > reached));
+    // The same of each history, of which the mean lies in between; and the means of years.csv.
+    let each: Vec<f64> = found["limit_one_scar_years_of_histories"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|years| years.as_f64().unwrap_or(f64::INFINITY))
+        .collect();
+    let (first, last) = (each.iter().copied().fold(f64::INFINITY, f64::min), each.iter().copied().fold(0.0, f64::max));
+    assert!(each.len() == 2 && first <= reached && reached <= last, "{each:?} {reached}");
+    let told = document["years"].as_array().unwrap();
+    assert_eq!(told.len(), years.len());
+    for (told, row) in told.iter().zip(&years) {
+        assert_eq!(told["place"], row["place"].as_str());
+        for column in ["year", "gap_m", "depth_deepest_m", "depth_deepest_half_width_95_m"] {
+            assert_eq!(told[column].as_f64(), Some(number(row, column)), "{column}");
+        }
+    }
     let remarks = document["remarks"].to_string();
     assert!(remarks.contains("the tube reaches the limit of 0.165 mm at support \\\"plate-1\\\" after"), "{remarks}");
     // A run tells of its scar by itself.
@@ -172,6 +192,14 @@ fn a_limit_is_reached_after_years_that_are_told() {
         0,
     );
     assert!(err.contains("is deeper than the limit of 0.1650 mm"), "{err}");
+}
+
+#[test]
+fn supports_that_the_tube_never_meets_are_said_to_wear_nowhere() {
+    let dir = tempfile::tempdir().unwrap();
+    let slow = ["--set", "turbulence.1.velocity=0.01", "--histories", "2", "--years", "20", "--out", "w"];
+    let (_, err) = said(dir.path(), &[&["wear"], &TUBE[..], &slow].concat(), 0);
+    assert!(err.contains("nothing wears at supports \"plate-1\", \"plate-2\": in no window"), "{err}");
 }
 
 #[test]

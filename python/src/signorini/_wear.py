@@ -25,11 +25,16 @@ class LimitYears:
 
     ``deepest`` where it is deepest, ``scar`` if all of the wear comes off one scar, ``even`` if it
     comes off evenly all round; None where that is not within the years followed, or without limit.
+    The ``histories`` of each are those of the single histories, by which the year scatters; none
+    without limit.
     """
 
     deepest: float | None
     scar: float | None
     even: float | None
+    deepest_histories: tuple[float | None, ...] = ()
+    scar_histories: tuple[float | None, ...] = ()
+    even_histories: tuple[float | None, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +128,9 @@ class WearStudy:
 
 
 def _limit_years(known: dict[str, Any]) -> LimitYears:
-    return LimitYears(*(known[f"limit_{name}_years"] for name in ("deepest", "one_scar", "all_round")))
+    names = [f"limit_{name}_years" for name in ("deepest", "one_scar", "all_round")]
+    histories = (tuple(known[f"{name}_of_histories"]) for name in names)
+    return LimitYears(*(known[name] for name in names), *histories)
 
 
 def wear(

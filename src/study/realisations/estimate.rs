@@ -44,7 +44,12 @@ pub struct Estimate {
 /// Mean, standard deviation and half width of the 95 % interval of the mean: x̄, s and t s/√N.
 pub(crate) fn mean_of(values: &[f64]) -> (f64, Option<f64>, Option<f64>) {
     let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
+    let mean = match values {
+        [] => f64::NAN,
+        // The sum of equal values would round.
+        [first, others @ ..] if others.iter().all(|x| x == first) => *first,
+        _ => values.iter().sum::<f64>() / count,
+    };
     if values.len() < 2 {
         return (mean, None, None);
     }
