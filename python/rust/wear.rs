@@ -12,8 +12,8 @@ use signorini as sg;
 use signorini::output::format::{Format, Formats};
 use signorini::output::results::Results;
 use signorini::output::wear_folder::{self, WearRequest};
-use signorini::output::wear_history as output;
 use signorini::output::wear_journal::WindowJournal;
+use signorini::output::{wear_history as output, wear_remarks};
 use signorini::study::realisations::{KnownRealisations, RealisationCount, RealisationStudy, checked};
 use signorini::study::wear_history::{WearHistories, WearPlan, WearWindow, WearingSupport};
 use signorini::wear::Opening;
@@ -106,7 +106,7 @@ fn followed(
 fn wear_told(case: &sg::case::Case, plan: &Plan, found: &WearHistories, histories: usize) -> Value {
     let notes = sg::foreseen(&case.scene, &plan.method.scheme, plan.time.step);
     let notes: Vec<String> = notes.into_iter().chain(case.instability()).collect();
-    let remarks = [output::remarks(case, found), case.notes()].concat();
+    let remarks = [wear_remarks::remarks(case, found), case.notes()].concat();
     let refuted = found.refuted.iter();
     let refuted = refuted.filter_map(|(number, findings)| Some(format!("window {number}: {}", findings.first()?)));
     json!({

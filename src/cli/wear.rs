@@ -12,8 +12,8 @@ use crate::case::Case;
 use crate::error::Result;
 use crate::output::results::Results;
 use crate::output::wear_folder::{self, WearRequest};
-use crate::output::wear_history as output;
 use crate::output::wear_journal::WindowJournal;
+use crate::output::{wear_history as output, wear_remarks};
 use crate::run::{Options, run_with_progress};
 use crate::scheme::Method;
 use crate::study::choice;
@@ -103,7 +103,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     }
     let mut answer = Answer::of(results, !args.request.place.no_report, document);
     answer.table(output::table(&found), "years.csv");
-    answer.remarks(output::remarks(&case, &found));
+    answer.remarks(wear_remarks::remarks(&case, &found));
     if let Some(study) = &first {
         let count = study.realisations.count;
         answer.messages([format!(

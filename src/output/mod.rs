@@ -32,6 +32,7 @@
 //! | `cheapest` | the cheapest methods of a chart, and its conclusion |
 //! | `floors` | how near penalties come to rigid walls, and why no nearer |
 //! | [`wear_history`] | `history.csv` and `years.csv` of wear over the years, and their picture |
+//! | [`wear_remarks`] | when wear reaches a limit, and what its figures mean, in sentences |
 //! | [`wear_folder`] | the folder of a study of wear, from which it goes on |
 //! | [`wear_journal`] | `windows.journal`: what an interrupted study of wear has run |
 //! | [`work_precision`] | the chart of accuracy against speed, and its table |
@@ -117,6 +118,7 @@ pub(crate) mod verification;
 pub mod wear_folder;
 pub mod wear_history;
 pub mod wear_journal;
+pub mod wear_remarks;
 mod window;
 pub mod work_precision;
 

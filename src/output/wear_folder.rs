@@ -5,7 +5,7 @@ use super::error_parts;
 use super::format::Formats;
 use super::request::{extended, program, request};
 use super::results::Results;
-use super::wear_history;
+use super::{wear_history, wear_remarks};
 use crate::case::Case;
 use crate::error::Result;
 use crate::scheme::Method;
@@ -77,7 +77,7 @@ pub fn write(
     }
     results.draw("wear", &wear_history::figure(case, found))?;
     let errors = first.iter().flat_map(|study| error_parts::remarks(&study.realisations, &case.scene));
-    let answers: Vec<String> = wear_history::remarks(case, found).into_iter().chain(errors).collect();
+    let answers: Vec<String> = wear_remarks::remarks(case, found).into_iter().chain(errors).collect();
     for (key, value) in [
         ("title", json!(case.title)),
         ("case_file", case.document.json()?),

@@ -1,15 +1,15 @@
-//! `history.csv` and `years.csv` of histories of wear, their table, remarks and pictures.
+//! `history.csv` and `years.csv` of histories of wear, their table, document and pictures.
 
 use super::colours::Places;
 use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
-use super::realisations::{self, with_interval};
+use super::realisations::with_interval;
 use super::results::Results;
 use super::table::Table;
+use super::wear_remarks;
 use crate::case::Case;
-use crate::error::{Result, amount};
+use crate::error::Result;
 use crate::study::wear_history::{WearHistories, WearPoint, WearState, YEAR, mean};
-use crate::wear::Growth;
 use serde_json::{Map, Value, json};
 
 /// A quantity of a support that changes over the years: its column, its words with the unit of
@@ -151,137 +151,6 @@ pub fn table(found: &WearHistories) -> Table {
     Table::new(&header, rows)
 }
 
-/// When the limit is reached, and what the figures mean, a sentence each.
-#[must_use]
-pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
-    let mut remarks: Vec<String> = case.instability().into_iter().collect();
-    let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
-    for (support, name) in found.supports.iter().enumerate() {
-        let Some(limit) = case.wear.limit else { break };
-        let after = |value: fn(&WearState) -> f64| {
-            let years = found.reaches(support, limit, value).map(|time| amount(time / YEAR, 3));
-            let among = among(&found.reaches_by_history(support, limit, value));
-            match years {
-                Some(years) => format!("after {years} years{among}"),
-                None => format!("not within {} years{among}", rounded(end)),
-            }
-        };
-        remarks.push(format!(
-            "the tube reaches the limit of {} mm at support {name:?} {} where it is deepest, {} if all of its wear \
-             comes off one scar, {} if it comes off evenly all round",
-            amount(1e3 * limit, 3),
-            after(|state| state.depth_deepest_m),
-            after(|state| state.depth_one_scar_m),
-            after(|state| state.depth_all_round_m)
-        ));
-    }
-    remarks.extend(worn_through(case, found));
-    remarks.extend(unworn(found));
-    remarks.extend(realisations::without_friction(&case.scene).map(|words| format!("{words}, and depths with them")));
-    let histories = found.points.first().map_or(0, |point| point.histories.len());
-    if histories > 1 {
-        remarks.push(format!(
-            "± is the half width of the 95 % interval of the mean over {histories} histories, by Student's t; each \
-             window of a history has draws of its own"
-        ));
-    }
-    remarks.extend(growths(case, found));
-    let widened = found.supports.iter().enumerate().filter(|(support, _)| {
-        let gap = |point| mean(point, *support, |state| state.gap_m).0;
-        let ends = found.points.first().zip(found.points.last()).map(|(first, last)| [gap(first), gap(last)]);
-        ends.is_some_and(|[first, last]| first > 0.0 && last > MUCH * first)
-    });
-    remarks.extend(widened.map(|(_, name)| {
-        format!(
-            "the gap of support {name:?} grows beyond {MUCH} times the first: a tube worn so far is no ring any more"
-        )
-    }));
-    remarks
-}
-
-/// When a limit is reached in the single histories, s, in words that follow when their mean does.
-fn among(times: &[Option<f64>]) -> String {
-    let years: Vec<f64> = times.iter().flatten().map(|time| time / YEAR).collect();
-    let ends = years.iter().copied().reduce(f64::min).zip(years.iter().copied().reduce(f64::max));
-    let Some((first, last)) = ends.filter(|_| times.len() > 1) else { return String::new() };
-    let [first, last] = [first, last].map(|years| amount(years, 3));
-    match years.len() == times.len() {
-        true => format!(" (its {} histories after {first} to {last})", times.len()),
-        false => format!(" ({} of its {} histories, the first after {first})", years.len(), times.len()),
-    }
-}
-
-/// Supports at which nothing slid in any history, a sentence for all of them.
-fn unworn(found: &WearHistories) -> Option<String> {
-    let last = found.points.last()?;
-    let worked =
-        |support: usize| last.histories.iter().any(|states| states.get(support).is_some_and(|s| s.work_j > 0.0));
-    let names: Vec<String> = (0..found.supports.len())
-        .filter(|support| !worked(*support))
-        .filter_map(|support| Some(format!("{:?}", found.supports.get(support)?)))
-        .collect();
-    (!names.is_empty()).then(|| {
-        format!(
-            "nothing wears at {} {}: in no window did the tube do any work of wear there; `run` says how near it comes",
-            if names.len() == 1 { "support" } else { "supports" },
-            names.join(", ")
-        )
-    })
-}
-
-/// Supports at which the tube is worn through, where the case knows its wall, a sentence each.
-fn worn_through(case: &Case, found: &WearHistories) -> Vec<String> {
-    let one = |(support, name): (usize, &String)| {
-        let own = case.scene.supports.iter().position(|other| other.name == *name)?;
-        let section = case.model.beam(&case.written.supports.get(own)?.place)?.section;
-        let wall = section.wall_thickness()?;
-        let time = found.reaches(support, wall, |state| state.depth_deepest_m)?;
-        Some(format!(
-            "at support {name:?} the deepest scar goes through the tube's wall of {} mm after {} years: what follows \
-             means nothing there",
-            amount(1e3 * wall, 3),
-            amount(time / YEAR, 3)
-        ))
-    };
-    found.supports.iter().enumerate().filter_map(one).collect()
-}
-
-/// What wear does to the gaps, a sentence for each way.
-fn growths(case: &Case, found: &WearHistories) -> impl Iterator<Item = String> {
-    let ways = [
-        (Growth::Even, "the gap grows by the wear of tube and support, evenly all round"),
-        (
-            Growth::Shifted,
-            "the gap grows by the mean wear of tube and support, and its centre moves to the deeper side",
-        ),
-        (
-            Growth::Flats,
-            "each flat recedes by its scar, of tube and flat together, and the gap is the least of its flats",
-        ),
-        (
-            Growth::Kept,
-            "the gaps, of which the least is told, stay as they are: flats wear, and growth = \"flats\" of the \
-             support lets them recede",
-        ),
-    ];
-    ways.into_iter().filter_map(|(way, words)| {
-        let own = case.written.supports.iter().filter(|support| support.growth == way);
-        let names: Vec<String> = own
-            .filter(|support| found.supports.contains(&support.name))
-            .map(|support| format!("{:?}", support.name))
-            .collect();
-        (!names.is_empty()).then(|| format!("at {} {words}; the work rate is that of the gap", names.join(", ")))
-    })
-}
-
-/// Years to three decimals, without zeros at the end.
-fn rounded(years: f64) -> f64 {
-    (1e3 * years).round() / 1e3
-}
-
-/// A gap that has grown by this factor gets a remark.
-const MUCH: f64 = 10.0;
-
 /// The pictures: gap and depth over the years, a curve with its interval for each support.
 #[must_use]
 pub fn figure(case: &Case, found: &WearHistories) -> String {
@@ -323,7 +192,7 @@ pub fn document(case: &Case, found: &WearHistories) -> Value {
         "years": years_document(found),
         "limits": limits(case, found),
         "fluid_elastic": case.fluid_elastic,
-        "remarks": remarks(case, found),
+        "remarks": wear_remarks::remarks(case, found),
     })
 }
 

@@ -81,6 +81,26 @@ impl WearHistories {
         (0..histories).map(own).collect()
     }
 
+    /// The time after the end at which each history reaches `limit` if it goes on to grow as between
+    /// the last two points, s; `None` where it has reached it, or does not grow.
+    #[must_use]
+    pub fn reaches_at_last_rate(
+        &self,
+        support: usize,
+        limit: f64,
+        quantity: impl Fn(&WearState) -> f64 + Copy,
+    ) -> Vec<Option<f64>> {
+        let [.., before, last] = &self.points[..] else { return Vec::new() };
+        let of = |point: &WearPoint, history: usize| point.histories.get(history)?.get(support).map(quantity);
+        let own = |history: usize| {
+            let (start, end) = (of(before, history)?, of(last, history)?);
+            let rate = (end - start) / (last.time_s - before.time_s);
+            let time = last.time_s + (limit - end) / rate;
+            (rate > 0.0 && end < limit).then_some(time)
+        };
+        (0..last.histories.len()).map(own).collect()
+    }
+
     /// The time at which a value that grows along the points reaches `limit`, s.
     fn crossing(&self, limit: f64, value: impl Fn(&WearPoint) -> Option<f64>) -> Option<f64> {
         let along: Vec<(f64, f64)> =

@@ -1,0 +1,223 @@
+//! What histories of wear come to, a sentence each: when a limit is reached, and what the figures
+//! mean.
+
+use super::realisations::{self, with_interval};
+use crate::case::Case;
+use crate::error::amount;
+use crate::study::realisations::mean_of;
+use crate::study::wear_history::{WearHistories, WearState, YEAR, mean};
+use crate::wear::Growth;
+
+/// When the limit is reached, and what the figures mean, a sentence each.
+#[must_use]
+pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
+    let mut remarks: Vec<String> = case.instability().into_iter().collect();
+    let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
+    for (support, name) in found.supports.iter().enumerate() {
+        let Some(limit) = case.wear.limit else { break };
+        let after = |value: fn(&WearState) -> f64| {
+            let (mean, each) = (found.reaches(support, limit, value), found.reaches_by_history(support, limit, value));
+            let among = among(&each);
+            let Some(time) = mean else {
+                let later = later(&found.reaches_at_last_rate(support, limit, value));
+                return format!("not within {} years{among}{later}", rounded(end));
+            };
+            format!("after {} years{among}", in_years(time, &each))
+        };
+        remarks.push(format!(
+            "the tube reaches the limit of {} mm at support {name:?} {} where it is deepest, {} if all of its wear \
+             comes off one scar, {} if it comes off evenly all round",
+            amount(1e3 * limit, 3),
+            after(|state| state.depth_deepest_m),
+            after(|state| state.depth_one_scar_m),
+            after(|state| state.depth_all_round_m)
+        ));
+    }
+    remarks.extend(worn_through(case, found));
+    remarks.extend(unworn(found));
+    remarks.extend(realisations::without_friction(&case.scene).map(|words| format!("{words}, and depths with them")));
+    let histories = found.points.first().map_or(0, |point| point.histories.len());
+    if histories > 1 {
+        remarks.push(format!(
+            "± is the half width of the 95 % interval of the mean over {histories} histories, by Student's t; each \
+             window of a history has draws of its own"
+        ));
+    }
+    remarks.extend(growths(case, found));
+    let widened = found.supports.iter().enumerate().filter(|(support, _)| {
+        let gap = |point| mean(point, *support, |state| state.gap_m).0;
+        let ends = found.points.first().zip(found.points.last()).map(|(first, last)| [gap(first), gap(last)]);
+        ends.is_some_and(|[first, last]| first > 0.0 && last > MUCH * first)
+    });
+    remarks.extend(widened.map(|(_, name)| {
+        format!(
+            "the gap of support {name:?} grows beyond {MUCH} times the first: a tube worn so far is no ring any more"
+        )
+    }));
+    remarks.extend(one_sided(case, found));
+    remarks
+}
+
+/// A time, s, in years, with the half width of its 95 % interval where each history has one.
+fn in_years(time: f64, each: &[Option<f64>]) -> String {
+    let known: Option<Vec<f64>> = each.iter().map(|time| time.map(|time| time / YEAR)).collect();
+    let half = known.and_then(|years| mean_of(&years).2);
+    half.map_or_else(|| amount(time / YEAR, 3), |half| with_interval(time / YEAR, Some(half)))
+}
+
+/// When the histories reach a limit after their end, s, in words that follow that they do not.
+fn later(each: &[Option<f64>]) -> String {
+    let known: Option<Vec<f64>> = each.iter().copied().collect();
+    let mean = known.filter(|times| !times.is_empty()).map(|times| mean_of(&times).0);
+    mean.map_or_else(String::new, |time| format!(", after {} at the last rate", in_years(time, each)))
+}
+
+/// When a limit is reached in the single histories, s, in words that follow when their mean does.
+fn among(times: &[Option<f64>]) -> String {
+    let years: Vec<f64> = times.iter().flatten().map(|time| time / YEAR).collect();
+    let ends = years.iter().copied().reduce(f64::min).zip(years.iter().copied().reduce(f64::max));
+    let Some((first, last)) = ends.filter(|_| times.len() > 1) else { return String::new() };
+    let [first, last] = [first, last].map(|years| amount(years, 3));
+    match years.len() == times.len() {
+        true => format!(" (its {} histories after {first} to {last})", times.len()),
+        false => format!(" ({} of its {} histories, the first after {first})", years.len(), times.len()),
+    }
+}
+
+/// Supports at which nothing slid in any history, a sentence for all of them.
+fn unworn(found: &WearHistories) -> Option<String> {
+    let last = found.points.last()?;
+    let worked =
+        |support: usize| last.histories.iter().any(|states| states.get(support).is_some_and(|s| s.work_j > 0.0));
+    let names: Vec<String> = (0..found.supports.len())
+        .filter(|support| !worked(*support))
+        .filter_map(|support| Some(format!("{:?}", found.supports.get(support)?)))
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "nothing wears at {} {}: in no window did the tube do any work of wear there; `run` says how near it comes",
+            if names.len() == 1 { "support" } else { "supports" },
+            names.join(", ")
+        )
+    })
+}
+
+/// Supports at which the tube is worn through, where the case knows its wall, a sentence each.
+fn worn_through(case: &Case, found: &WearHistories) -> Vec<String> {
+    let one = |(support, name): (usize, &String)| {
+        let own = case.scene.supports.iter().position(|other| other.name == *name)?;
+        let section = case.model.beam(&case.written.supports.get(own)?.place)?.section;
+        let wall = section.wall_thickness()?;
+        let time = found.reaches(support, wall, |state| state.depth_deepest_m)?;
+        Some(format!(
+            "at support {name:?} the deepest scar goes through the tube's wall of {} mm after {} years: what follows \
+             means nothing there",
+            amount(1e3 * wall, 3),
+            amount(time / YEAR, 3)
+        ))
+    };
+    found.supports.iter().enumerate().filter_map(one).collect()
+}
+
+/// What wear does to the gaps, a sentence for each way.
+fn growths(case: &Case, found: &WearHistories) -> impl Iterator<Item = String> {
+    let ways = [
+        (Growth::Even, "the gap grows by the wear of tube and support, evenly all round"),
+        (
+            Growth::Shifted,
+            "the gap grows by the mean wear of tube and support, and its centre moves to the deeper side",
+        ),
+        (
+            Growth::Flats,
+            "each flat recedes by its scar, of tube and flat together, and the gap is the least of its flats",
+        ),
+        (
+            Growth::Kept,
+            "the gaps, of which the least is told, stay as they are: flats wear, and growth = \"flats\" of the \
+             support lets them recede",
+        ),
+    ];
+    ways.into_iter().filter_map(|(way, words)| {
+        let own = case.written.supports.iter().filter(|support| support.growth == way);
+        let names: Vec<String> = own
+            .filter(|support| found.supports.contains(&support.name))
+            .map(|support| format!("{:?}", support.name))
+            .collect();
+        (!names.is_empty()).then(|| format!("at {} {words}; the work rate is that of the gap", names.join(", ")))
+    })
+}
+
+/// Supports whose gaps grow evenly though the wear comes off one side, a sentence for each.
+fn one_sided(case: &Case, found: &WearHistories) -> Vec<String> {
+    let one = |(support, name): (usize, &String)| {
+        let own = case.written.supports.iter().find(|own| own.name == *name)?;
+        let last = found.points.last().filter(|_| own.growth == Growth::Even)?;
+        let [deepest, even] = [|state: &WearState| state.depth_deepest_m, |state: &WearState| state.depth_all_round_m]
+            .map(|value| mean(last, support, value).0);
+        (even > 0.0 && deepest > ONE_SIDED * even).then(|| {
+            format!(
+                "at support {name:?} the deepest wear is {} times that all round, by which the gap grows here: \
+                 growth = \"shifted\" moves the hole to the deeper side",
+                amount(deepest / even, 2)
+            )
+        })
+    };
+    found.supports.iter().enumerate().filter_map(one).collect()
+}
+
+/// Years to three decimals, without zeros at the end.
+fn rounded(years: f64) -> f64 {
+    (1e3 * years).round() / 1e3
+}
+
+/// A gap that has grown by this factor gets a remark.
+const MUCH: f64 = 10.0;
+
+/// A deepest wear of this multiple of that all round gets one.
+const ONE_SIDED: f64 = 3.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::wear_history::WearPoint;
+
+    /// Two histories whose depths grow by `rates` (m a year), at 0, 10 and 20 years.
+    fn histories(rates: [f64; 2]) -> WearHistories {
+        let state = |depth: f64| WearState {
+            gap_m: 1e-3,
+            shift_m: [0.0; 2],
+            work_j: 1.0,
+            work_rate_w: 1.0,
+            depth_deepest_m: depth,
+            depth_all_round_m: depth,
+            depth_one_scar_m: depth,
+        };
+        let point = |years: f64| WearPoint {
+            time_s: years * YEAR,
+            histories: rates.iter().map(|rate| vec![state(rate * years)]).collect(),
+        };
+        let points = [0.0, 10.0, 20.0].map(point).to_vec();
+        WearHistories { supports: vec!["plate".to_owned()], points, windows: 6, refuted: Vec::new() }
+    }
+
+    #[test]
+    fn the_year_of_a_limit_has_the_interval_of_its_histories_or_follows_from_the_last_rate() {
+        let found = histories([1e-5, 2e-5]);
+        let depth = |state: &WearState| state.depth_deepest_m;
+        // The mean reaches 0.12 mm after 8 years, the histories after 12 and 6: 9 ± t·s/√2 of one
+        // degree of freedom is 38 years.
+        let each = found.reaches_by_history(0, 1.2e-4, depth);
+        let mean = found.reaches(0, 1.2e-4, depth).unwrap();
+        assert_eq!(
+            (in_years(mean, &each), among(&each)),
+            ("8 ± 38".to_owned(), " (its 2 histories after 6 to 12)".to_owned())
+        );
+        // 0.6 mm: after 60 and 30 years at those rates.
+        let later_on = found.reaches_at_last_rate(0, 6e-4, depth);
+        let years: Vec<f64> = later_on.iter().map(|time| time.unwrap() / YEAR).collect();
+        assert!((years[0] - 60.0).abs() < 1e-9 && (years[1] - 30.0).abs() < 1e-9, "{years:?}");
+        assert!(later(&later_on).starts_with(", after 45 ± ") && later(&later_on).ends_with(" at the last rate"));
+        // One that does not grow never reaches it, and nothing is told of their mean.
+        assert_eq!(later(&histories([0.0, 1e-5]).reaches_at_last_rate(0, 6e-4, depth)), "");
+    }
+}
