@@ -46,6 +46,11 @@ impl Key {
         find(&self.pattern()).map(|entry| entry.unit).filter(|unit| !unit.is_empty())
     }
 
+    /// The number that holds where the file leaves the key out; `None` where there is none.
+    pub(super) fn default_number(&self) -> Option<f64> {
+        find(&self.pattern())?.default.parse().ok()
+    }
+
     /// True for a value of `[system]` or of a body, which changes the structure, its modes or its
     /// coordinates.
     #[must_use]

@@ -5,7 +5,8 @@ use crate::error::{Error, Result};
 use crate::variation::SceneTangent;
 
 impl Case {
-    /// The derivative of the scene with respect to the number at `key` in the case file, through
+    /// The derivative of the scene with respect to the number at `key` in the case file, or that
+    /// which holds where the file leaves it out, through
     /// all that follows from it there: the matrices of a beam from its dimensions, the modes of a
     /// reduced structure, the forces of a random load with the same seed.
     ///
@@ -19,12 +20,16 @@ impl Case {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a key whose value is no number, or that the file leaves out; else as
-    /// [`SceneTangent::new`].
+    /// [`Error::Invalid`] for a key whose value is no number, or that the file leaves out where no
+    /// number holds then; else as [`SceneTangent::new`].
     pub fn tangent(&self, key: &Key) -> Result<SceneTangent> {
         let name = key.to_string();
-        let Some(value) = self.document.get(key)?.and_then(|value| value.number()) else {
-            let expected = "a key at which the case file has a number";
+        let value = match self.document.get(key)? {
+            Some(value) => value.number(),
+            None => key.default_number(),
+        };
+        let Some(value) = value else {
+            let expected = "a key that has a number in the case file or by default";
             return Err(Error::invalid(format!("derivative by {name}"), "left out, or no number", expected));
         };
         SceneTangent::new(&name, value, |x| {

@@ -231,6 +231,11 @@ fn branches_are_written_and_joined() {
     assert!(
         fs::read_to_string(path.join("l/loci.csv")).unwrap().starts_with("locus,label,point,frequency_Hz,restitution")
     );
+    // Where no special point has a locus, that is said.
+    let none = ["--second", "wall.*.restitution", "--second-range", "0.7:0.9", "--out", "n"];
+    let (_, err) =
+        said(path, &[&["continue"], &SOFT[..], &key, &["--range", "4.9:5", "--switch", "no"], &none].concat(), 0);
+    assert!(err.contains("no special point was found whose locus can be followed (fold, "), "{err}");
     let picture = fs::read_to_string(path.join("b/branches.svg")).unwrap();
     assert!(picture.contains("stroke-dasharray") && picture.contains("symmetry-breaking"));
 }

@@ -106,6 +106,21 @@ fn the_file_has_five_derivatives_of_each_contact_by_each_key() {
 }
 
 #[test]
+fn a_key_that_the_file_leaves_out_has_the_derivative_at_its_default() {
+    let dir = tempfile::tempdir().unwrap();
+    let written = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/cases/elastic-wall.toml")).unwrap();
+    let derivatives = |text: &str, out: &str| {
+        fs::write(dir.path().join("case.toml"), text).unwrap();
+        let run = ["run", "case.toml", "--derivative", "load.1.harmonic.phase", "--out", out];
+        said(dir.path(), &run, 0);
+        fs::read_to_string(dir.path().join(out).join("derivatives.csv")).unwrap()
+    };
+    let left_out = written.replacen(", phase = 0.0 }", " }", 1);
+    assert!(written != left_out && !left_out.contains("phase"));
+    assert_eq!(derivatives(&left_out, "left-out"), derivatives(&written, "written"));
+}
+
+#[test]
 fn what_cannot_be_differentiated_is_refused_in_one_message() {
     let dir = folder();
     let refused = |extra: &[&str], words: &[&str]| {

@@ -17,6 +17,11 @@ pub(super) fn follow(family: &SceneFamily, second: &Varied, found: &Graph, args:
     };
     let wanted: Vec<_> = found.specials.iter().filter(|special| has_locus(special.label)).collect();
     let ranges = [key.range, second.range];
+    if wanted.is_empty() {
+        let among = Label::WITH_LOCUS.map(Label::name).join(", ");
+        let asked = if names.is_empty() { among } else { names.join(", ") };
+        ui.message(&format!("no special point was found whose locus can be followed ({asked}): loci.csv is empty"));
+    }
     ui.with_bar("loci", |bar| {
         let mut traced = Vec::new();
         for (index, special) in wanted.iter().enumerate() {
