@@ -180,7 +180,14 @@ function chosenOrbit(points, choice) {
       ),
       events,
     ),
-    el("h3", {}, "The command that finds this orbit again"),
+    // Of a structure a run from the start of the case decides.
+    el(
+      "h3",
+      {},
+      DATA.continue.place
+        ? "The command of the orbit on which a run settles here: where several are stable, maybe another"
+        : "The command that finds this orbit again",
+    ),
     command,
   );
   return { box, update, listeners };

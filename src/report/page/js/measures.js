@@ -24,17 +24,22 @@ function eventful(columns, axis, measures) {
     for (let k = 1; k + 1 < x.length; k++) {
       const share = (x[k] - x[k - 1]) / (x[k + 1] - x[k - 1] || 1);
       const bend = y[k] - (y[k - 1] + share * (y[k + 1] - y[k - 1]));
-      if (Math.abs(bend) > BEND * (most - least)) found.push(x[k - 1], x[k + 1]);
+      // A value of −∞, or one that is missing, does not go on as beside it either.
+      if (!(Math.abs(bend) <= BEND * (most - least))) found.push(x[k - 1], x[k + 1]);
     }
   }
   return found;
 }
 
+/** So few rows are all shown at first. */
+const FEW_ROWS = 20;
+
 /** The stretch of the axis that is shown first: where something happens, if that is a part of it. */
 function firstView(columns, axis, measures, over = null) {
   const ends = extent([...columns[axis], ...(over ? over.columns[axis] : [])]) || [0, 1];
   const view = new View(...padded(ends[1] > ends[0] ? ends : [ends[0] - 1, ends[0] + 1], 0.03));
-  view.part = view.beginAbout(eventful(columns, axis, measures));
+  const few = columns[axis].length <= FEW_ROWS;
+  view.part = !few && view.beginAbout(eventful(columns, axis, measures));
   return view;
 }
 
