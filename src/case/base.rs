@@ -11,8 +11,9 @@
 //! and the inertia of these ends besides.
 
 use super::builder::Builder;
-use super::model::{Body, Model, Place};
+use super::model::{Model, Place};
 use super::planes::Planes;
+use super::rigid_motion::{Influence, carried, rigid_motion};
 use super::schema::accepted;
 use super::table::{self, TableColumns};
 use super::value::{Section, Value};
@@ -22,9 +23,6 @@ use crate::scene::{BarEnd, BeamEnd, Load, LoadKind, PlaneRows, Row, System};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::Range;
 use toml::Spanned;
-
-/// Degrees of freedom, and how far each moves with the base.
-type Influence = [(usize, f64)];
 
 impl Builder<'_> {
     /// The load of `kind`, "base" or "gravity". In coordinates relative to the base it is −M ι
@@ -98,7 +96,7 @@ impl Builder<'_> {
             return refuse("the base leaves without end", "expected a frequency above 0");
         }
         let (n, omega) = (system.degrees_of_freedom(), TAU * frequency);
-        let moved = self.rigid_motion(n, influence);
+        let moved = rigid_motion((&self.model, self.n), n, influence);
         let (mut springs, mut dashpots) = (vec![0.0; n], vec![0.0; n]);
         if !self.model.systems().all(is_free) {
             system.add_stiffness(1.0, &moved, &mut springs);
@@ -134,7 +132,7 @@ impl Builder<'_> {
         if self.model.systems().all(|model| model.length().is_none()) {
             return Ok(());
         }
-        let (row, mass) = self.carried((&self.model, 0), system, None)?;
+        let (row, mass) = carried((&self.model, 0), system, None)?;
         system.add_mass(-omega * omega, moved, forces);
         row.entries().iter().for_each(|&(i, share)| forces[i] += omega * omega * mass * share);
         Ok(())
@@ -227,7 +225,7 @@ impl Builder<'_> {
         (influence, direction): (Option<&Influence>, Option<&Spanned<f64>>),
         system: &System,
     ) -> Result<(Row, f64)> {
-        let (row, mass) = self.carried((&self.model, 0), system, influence)?;
+        let (row, mass) = carried((&self.model, 0), system, influence)?;
         let row = self.heading(owner, base, direction, row)?;
         if mass <= 0.0 {
             let span = base.span_of("influence").unwrap_or(base.span.clone());
@@ -261,69 +259,6 @@ impl Builder<'_> {
         })
     }
 
-    /// ι over all `n` degrees of freedom for a motion along the first plane.
-    fn rigid_motion(&self, n: usize, influence: Option<&Influence>) -> Vec<f64> {
-        match influence {
-            None => {
-                let mut moved = vec![0.0; n];
-                match &self.model {
-                    Model::Bodies(bodies) => {
-                        bodies.iter().for_each(|body| translate(&body.model, &mut moved[body.dofs.clone()]));
-                    }
-                    model => translate(model, &mut moved[..self.n]),
-                }
-                moved
-            }
-            Some(influence) => {
-                let mut moved = vec![0.0; n];
-                influence.iter().filter(|&&(i, _)| i < n).for_each(|&(i, x)| moved[i] = x);
-                moved
-            }
-        }
-    }
-
-    /// M ι/m of a model over one plane, and the mass m = ιᵀM ι that moves along with the base, kg;
-    /// in `system` its degrees of freedom come from the `first` on, in the row from 0. On a bar or
-    /// beam the inertia of held ends reaches their neighbours, so its row is that of an even
-    /// spread.
-    fn carried(
-        &self,
-        (model, first): (&Model, usize),
-        system: &System,
-        influence: Option<&Influence>,
-    ) -> Result<(Row, f64)> {
-        match model {
-            Model::Bar(bar) => Ok((bar.spread(0.0, bar.length)?, bar.density * bar.area * bar.length)),
-            Model::Beam(beam) => Ok((beam.spread(0.0, beam.length)?, beam.mass_per_metre() * beam.length)),
-            Model::Chain(chain) => {
-                let mass: f64 = chain.masses.iter().sum();
-                Ok((Row::new(chain.masses.iter().map(|m| m / mass).enumerate().collect()), mass))
-            }
-            Model::Oscillator => {
-                let moved = self.rigid_motion(system.degrees_of_freedom(), Some(&[(first, 1.0)]));
-                Ok((Row::dof(0), system.mass_form(&moved, &moved)))
-            }
-            Model::Bodies(bodies) => {
-                let of = |body: &Body| {
-                    let (row, mass) = self.carried((&body.model, body.dofs.start), system, influence)?;
-                    Ok((row.shifted(body.dofs.start), mass))
-                };
-                let parts = bodies.iter().map(of).collect::<Result<Vec<_>>>()?;
-                let mass: f64 = parts.iter().map(|part| part.1).sum();
-                Ok((Row::combination(parts.iter().map(|(row, own)| (own / mass, row))), mass))
-            }
-            Model::Matrices(_) | Model::Modal(_) => {
-                let n = system.degrees_of_freedom();
-                let moved = self.rigid_motion(n, Some(influence.unwrap_or_default()));
-                let mut momentum = vec![0.0; n];
-                system.add_mass(1.0, &moved, &mut momentum);
-                let mass = system.mass_form(&moved, &moved);
-                let entries = momentum.into_iter().map(|p| p / mass).enumerate().filter(|entry| entry.1 != 0.0);
-                Ok((Row::new(entries.collect()), mass))
-            }
-        }
-    }
-
     /// `{ row = [[0, 1.0], ..] }`.
     fn influence(&self, owner: &str, value: &Spanned<Value<'_>>) -> Result<Vec<(usize, f64)>> {
         let key = format!("{owner}: base: influence");
@@ -334,17 +269,6 @@ impl Builder<'_> {
             },
             _ => Err(self.refuse(value.span(), &key, "{ row = [[0, 1.0], ..] }")),
         }
-    }
-}
-
-/// Moves a system in one plane by 1: its displacements, and none of the rotations of a beam.
-fn translate(model: &Model, moved: &mut [f64]) {
-    if model.length().is_none() {
-        return moved.fill(1.0);
-    }
-    for row in model.each(moved.len()).iter().filter_map(|(_, node)| model.row(node).ok()) {
-        // At a node the row is that of its deflection, but for roundings.
-        row.entries().iter().filter(|entry| entry.1 > 0.5).for_each(|&(i, _)| moved[i] = 1.0);
     }
 }
 

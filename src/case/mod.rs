@@ -22,8 +22,8 @@
 //! the structure, the locations on it and their directions, `walls.rs`, `supports.rs`, `flats.rs`
 //! and `sliders.rs` what it touches, `initial.rs` and `start.rs` the state at the start,
 //! `penalty.rs`, `statistics.rs`, `flow.rs` and `method.rs` their tables and settings, `loads.rs`,
-//! `random.rs`, `turbulence.rs` and `base.rs` the loads, `table.rs` those of other files
-//! (`columns.rs`, `text.rs`, with their `digest.rs`), `truncated.rs` keeps the full scene of a case
+//! `random.rs`, `turbulence.rs` and `base.rs` (with `rigid_motion.rs`) the loads, `table.rs` those
+//! of other files (`columns.rs`, `text.rs`, with their `digest.rs`), `truncated.rs` keeps the full scene of a case
 //! reduced to modes, `realisations.rs` and `wear.rs` give the scenes of realisations and of worn
 //! supports, `wording.rs` finds the key of each value of the scene, `written.rs` keeps what the
 //! scene itself no longer shows, `notes.rs` says what readers of a run must know; `case_file.rs` is
@@ -67,6 +67,7 @@ mod random;
 mod read;
 mod realisations;
 mod report;
+mod rigid_motion;
 mod schema;
 mod sliders;
 mod start;
