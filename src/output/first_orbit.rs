@@ -36,12 +36,7 @@ impl FirstOrbit {
     ///
     /// # Errors
     /// As [`Problem::settled`] and [`shoot`].
-    pub fn settled(
-        scene: &Scene,
-        problem: Option<&Problem>,
-        settle: u32,
-        progress: &dyn Fn(f64),
-    ) -> Result<Self> {
+    pub fn settled(scene: &Scene, problem: Option<&Problem>, settle: u32, progress: &dyn Fn(f64)) -> Result<Self> {
         match problem.map(|problem| problem.settled_with(settle, progress)) {
             Some(Ok(orbit)) => Ok(Self::Orbit(orbit)),
             // A motion that never leaves a wall has no events, but a state.

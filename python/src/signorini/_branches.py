@@ -31,10 +31,11 @@ class Branches(ReadOnly[str, Column]):
     """Branches of periodic orbits over a key: a mapping of the columns of ``branches.csv``.
 
     A row is an orbit, in order along its ``branch``: the value of the key in the column named
-    ``column``, ``period`` in periods of the load, ``signature`` ("": it meets no wall), ``stable`` and ``admissible``
-    (whether a body can follow it), ``label`` (None, or what happens at a special point),
-    ``period_s``, ``least_speed_m_per_s``, ``least_gap_m``, ``displacement_max_m``, the multipliers
-    by their parts, and ``phase_1_cycles``, ``speed_1_m_per_s`` and so on of its events.
+    ``column``, ``period`` in periods of the load, ``signature`` (empty: it meets no wall),
+    ``stable`` and ``admissible`` (whether a body can follow it), ``label`` (None, or what happens
+    at a special point), ``period_s``, ``least_speed_m_per_s``, ``least_gap_m``,
+    ``displacement_max_m``, the parts of the multipliers, and ``phase_1_cycles``,
+    ``speed_1_m_per_s`` and so on of its events.
 
     ``special`` has the columns of ``special.csv``: the special points, such as folds, with the
     branches that each ``leads_to`` and why one was ``not_followed_because``. ``ends`` has a row for
