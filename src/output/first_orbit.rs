@@ -31,8 +31,8 @@ impl FirstOrbit {
     }
 
     /// The orbit on which `scene` settles over `settle` forcing periods or more; `problem` is the
-    /// scene's, if it has one degree of freedom. `progress` is called with the share of the run that is
-    /// done.
+    /// scene's, if it has one degree of freedom. `progress` is called with the share of the run
+    /// that is done.
     ///
     /// # Errors
     /// As [`Problem::settled`] and [`shoot`].

@@ -55,18 +55,18 @@
 //! write all files and tables of a run and of a comparison, `periodic.rs` and `branches.rs` those
 //! of periodic orbits (`first_orbit.rs` finds or reads the first, `branch_folder.rs` follows the
 //! branches of a case over the scenes of `scene_family.rs` and the key of `varied.rs`), `orbits.rs`
-//! the motion of those along branches and `overlay.rs` points of other results under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
-//! `derivatives.rs`, `table.rs`, `json.rs`, `compare_table.rs` and `method_realisations.rs`
-//! (comparisons for the terminal), `verification.rs` (the manual), `document.rs`, `detail.rs` (what
-//! `[statistics]` asks for: `episodes.rs`, `spectra.rs`), `turbulence.rs` (its forces),
-//! `realisations.rs`, `error_parts.rs` (the errors of their means), `cheapest.rs` (the conclusion
-//! of a chart), `floors.rs` (why its penalties have floors), `stable_steps.rs` (the conclusion of a
-//! stability study), figures (`labelled.rs` is a run that is drawn, `motion.rs` its motion,
-//! `window.rs` the stretch of it, `orbit.rs` with `ring.rs` its way between supports, `rubbed.rs`
-//! the supports over time; `site.rs` is a wall or support with its results, `places.rs` says which
-//! fit on a page, `colours.rs` has the colour of each, `part.rs` the walls that are drawn
-//! together), `format.rs` (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook, feature
-//! `xlsx`; feature `cli`).
+//! the motion of those along branches and `overlay.rs` points of other results under them,
+//! `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`, `derivatives.rs`,
+//! `table.rs`, `json.rs`, `compare_table.rs` and `method_realisations.rs` (comparisons for the
+//! terminal), `verification.rs` (the manual), `document.rs`, `detail.rs` (what `[statistics]` asks
+//! for: `episodes.rs`, `spectra.rs`), `turbulence.rs` (its forces), `realisations.rs`,
+//! `error_parts.rs` (the errors of their means), `cheapest.rs` (the conclusion of a chart),
+//! `floors.rs` (why its penalties have floors), `stable_steps.rs` (the conclusion of a stability
+//! study), figures (`labelled.rs` is a run that is drawn, `motion.rs` its motion, `window.rs` the
+//! stretch of it, `orbit.rs` with `ring.rs` its way between supports, `rubbed.rs` the supports over
+//! time; `site.rs` is a wall or support with its results, `places.rs` says which fit on a page,
+//! `colours.rs` has the colour of each, `part.rs` the walls that are drawn together), `format.rs`
+//! (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook, feature `xlsx`; feature `cli`).
 
 pub(crate) mod animation;
 pub mod atomic;

@@ -31,8 +31,8 @@ impl Varied {
     /// The key that is asked for, of the case in `file`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a key on which no orbit depends or that has no one number in the case, and
-    /// for a range without that number in it.
+    /// [`Error::Invalid`] for a key on which no orbit depends, or that has no one number in the
+    /// case, and for a range without that number in it.
     pub fn new(file: &CaseFile, asked: &KeyRange<'_>) -> Result<Self> {
         let KeyRange { names: [called, of_range], range, .. } = *asked;
         let key: Key = asked.key.parse()?;

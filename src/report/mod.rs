@@ -78,8 +78,8 @@ pub struct Written {
     pub verified: bool,
 }
 
-/// Writes the report on the results in `folder`, with those in `over` in its figures: as `out`, or as
-/// [`FILE`] in that folder.
+/// Writes the report on the results in `folder`, with those in `over` in its figures: as `out`, or
+/// as [`FILE`] in that folder.
 ///
 /// # Errors
 /// As [`page`] and [`page_over`]; [`Error::Io`] for a folder without results, and where the page
