@@ -7,6 +7,7 @@ use super::results::Results;
 use super::scene_family::SceneFamily;
 use super::{json, orbits, overlay};
 use crate::error::{Result, named};
+use crate::interrupt::Carried;
 use crate::orbit::branch::{Graph, Point, Request, Switch, graph};
 use serde_json::{Value, json};
 
@@ -34,13 +35,16 @@ impl BranchRequest {
     /// `seen` is called with the place of each point in the range, from 0 to 1.
     ///
     /// # Errors
-    /// As [`graph`].
+    /// As [`graph`]; [`crate::Error::Stopped`].
     pub fn follow(&self, family: &SceneFamily, first: &FirstOrbit, seen: &mut dyn FnMut(f64)) -> Result<Graph> {
         let (value, range) = (family.key.value, family.key.range);
         let request = Request { range, switch: self.switch, depth: self.depth, points: self.points as usize };
         let [low, high] = range;
         let mut seen = |point: &Point| seen((point.value - low) / (high - low));
-        graph(&|value| family.scene(value), first.start(), value, &request, &mut seen)
+        let found = graph(&|value| family.scene(value), first.start(), value, &request, &mut seen)?;
+        // What was stopped looks like a branch that ends.
+        Carried::here().check()?;
+        Ok(found)
     }
 }
 
