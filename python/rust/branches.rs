@@ -6,6 +6,7 @@ use crate::work::compute_beside;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use signorini::orbit::{Kind, branch};
+use signorini::output::atomic::write_whole;
 use signorini::output::branch_folder::{self, BranchRequest};
 use signorini::output::first_orbit::FirstOrbit;
 use signorini::output::format::{Format, Formats};
@@ -19,6 +20,9 @@ use std::path::PathBuf;
 /// Where branches begin and how far they are followed: the file of an orbit, or the forcing periods
 /// that are run first; switch, depth and points.
 type Asked = (Option<PathBuf>, u32, String, u32, u32);
+
+/// The case beside its branches, for the command on their page that finds an orbit again.
+const CASE: &str = "case.toml";
 
 /// Follows the branches of `case` over `key` within `range`, and writes their files into `folder`,
 /// for a `page` with the motion of the orbits. Returns the kinds of events at which a body arrives.
@@ -36,6 +40,7 @@ pub fn _branches(
     let follow = BranchRequest { switch: branch_folder::switch(&switch).map_err(raise)?, depth, points };
     let settings = settings(key, range, (start.as_ref(), settle), &follow, &switch);
     let asked = KeyRange { names: ["key", "range"], key, range };
+    let text = case.file.text().map_err(raise)?;
     let work = || {
         let family = SceneFamily::new(case.file.clone(), &asked, None)?;
         let (case, problem) = (&family.case, family.problem.as_ref());
@@ -46,6 +51,10 @@ pub fn _branches(
         results.add_to_manifest("title", json!(case.title));
         let settled = || FirstOrbit::settled(&case.scene, problem, settle, &|_| {});
         let found: branch::Graph = follow.follow(&family, &read.map_or_else(settled, Ok)?, &mut |_| {})?;
+        if page {
+            write_whole(&results.place(CASE)?, text.as_bytes())?;
+            results.add_to_manifest("orbit_command", json!(format!("signorini orbit {CASE}")));
+        }
         branch_folder::write(&mut results, &branch_folder::drawn(&found, &family), &family, None, page)?;
         results.finish()
     };

@@ -187,7 +187,8 @@ def branches(
     points : int
         Most orbits of a branch in each direction, 2 or more.
     folder : path, optional
-        Where the files of ``signorini continue`` are kept; `report` writes their page.
+        Where the files of ``signorini continue`` are kept, with the case as ``case.toml``; `report`
+        writes their page.
 
     Returns
     -------
