@@ -45,8 +45,10 @@ pub mod output;
 #[doc(hidden)]
 pub mod parallel;
 pub mod qp;
+// The pages of the tool; public for the Python package.
 #[cfg(feature = "cli")]
-mod report;
+#[doc(hidden)]
+pub mod report;
 pub mod residual;
 mod run;
 mod scene;

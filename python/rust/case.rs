@@ -22,7 +22,7 @@ use std::path::PathBuf;
 pub struct Case {
     pub file: CaseFile,
     pub case: sg::case::Case,
-    scene: Py<Scene>,
+    pub scene: Py<Scene>,
 }
 
 /// A value of a case file.

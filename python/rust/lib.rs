@@ -4,6 +4,7 @@
 #![deny(unsafe_code)]
 
 mod array;
+mod branches;
 mod builders;
 mod case;
 mod derivative;
@@ -21,6 +22,7 @@ mod scene;
 mod start;
 mod stepper;
 mod study;
+mod subject;
 mod sweep;
 mod values;
 mod wall;
@@ -32,6 +34,8 @@ use pyo3::prelude::*;
 /// The compiled half of the package signorini.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::branches::{_branches, _report};
     #[pymodule_export]
     use super::builders::{_bar, _beam, _chain, _matrices, _modal, _oscillator};
     #[pymodule_export]

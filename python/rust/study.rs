@@ -4,9 +4,8 @@
 use crate::case::{Case, value};
 use crate::error::raise;
 use crate::json::list;
-use crate::plan::Plan;
 use crate::run::Run;
-use crate::scene::Scene;
+use crate::subject::Subject;
 use crate::work::compute_beside;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -16,10 +15,6 @@ use signorini::study::stability::family::MapRequest;
 use signorini::study::stability::plan::{Grid, Plan as Maps};
 use signorini::study::work_precision::{self, Effort, Outcome, Quantity, Steps};
 use signorini::sweep::{Axis, Measure, Sample, Samples, Sweep, Window};
-
-fn parse(methods: &[String]) -> PyResult<Vec<sg::Method>> {
-    methods.iter().map(|name| name.parse().map_err(raise)).collect()
-}
 
 fn dict<'py>(py: Python<'py>, items: impl FnOnce(&Bound<'py, PyDict>) -> PyResult<()>) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
@@ -32,16 +27,16 @@ type Compared<'py> = (Bound<'py, PyList>, Vec<String>, f64);
 
 #[pyfunction]
 pub fn _compare<'py>(
-    scene: &Bound<'py, Scene>,
+    py: Python<'py>,
+    scene: Subject<'py>,
     methods: Vec<String>,
-    step: f64,
+    step: Option<f64>,
     sample: Option<f64>,
-    statistics_from: f64,
+    statistics_from: Option<f64>,
 ) -> PyResult<Compared<'py>> {
-    let py = scene.py();
-    let methods = parse(&methods)?;
-    let inner = &scene.get().scene;
-    let Plan { time, .. } = Plan::new(inner, None, Some(step), sample, statistics_from)?;
+    let methods = scene.methods(&methods)?;
+    let inner = scene.inner();
+    let time = scene.time(step, sample, statistics_from)?;
     let comparison = compute_beside(py, || compare(inner, &methods, &time, &|_| {}), &mut |_| Ok(()))?;
     let rows = comparison.rows.into_iter().map(|row| {
         dict(py, |d| {
@@ -53,7 +48,7 @@ pub fn _compare<'py>(
             d.set_item("failure", row.outcome.as_ref().err().map(ToString::to_string))?;
             d.set_item("note", row.outcome.as_ref().ok().and_then(|run| run.cautions.first()))?;
             d.set_item("refuted", row.outcome.as_ref().ok().and_then(sg::Run::refuted).map(|e| e.to_string()))?;
-            d.set_item("run", row.outcome.ok().map(|run| Run::of(scene, run, time)))
+            d.set_item("run", row.outcome.ok().map(|run| Run::of(&scene.scene, run, time)))
         })
     });
     let rows = list(py, rows.collect::<PyResult<Vec<_>>>()?)?;
@@ -61,8 +56,10 @@ pub fn _compare<'py>(
 }
 
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
 pub fn _chart<'py>(
-    scene: &Bound<'py, Scene>,
+    py: Python<'py>,
+    scene: Subject<'py>,
     methods: Option<Vec<String>>,
     coarsest: Option<f64>,
     finest: Option<f64>,
@@ -70,13 +67,12 @@ pub fn _chart<'py>(
     repeats: u32,
     most_seconds: f64,
 ) -> PyResult<(Bound<'py, PyList>, String, f64)> {
-    let py = scene.py();
     let methods = match methods {
-        Some(methods) => parse(&methods)?,
-        None => work_precision::every_method(&[]),
+        Some(methods) => scene.methods(&methods)?,
+        None => work_precision::every_method(scene.laws()),
     };
     let effort = Effort { steps: Steps { coarsest, finest, levels }, repeats, most_seconds };
-    let inner = &scene.get().scene;
+    let inner = scene.inner();
     let chart = compute_beside(py, || work_precision::study(inner, &methods, &effort, &|_| {}), &mut |_| Ok(()))?;
     let rows = list(py, Vec::<i32>::new())?;
     for series in &chart.series {
@@ -112,20 +108,20 @@ pub fn _chart<'py>(
 /// Rows of cells, and a row for each scheme with its largest stable step.
 #[pyfunction]
 pub fn _stability<'py>(
-    scene: &Bound<'py, Scene>,
+    py: Python<'py>,
+    scene: Subject<'py>,
     finest: Option<f64>,
     coarsest: Option<f64>,
     per_decade: Option<f64>,
     contacts: Option<usize>,
 ) -> PyResult<(Bound<'py, PyList>, Bound<'py, PyList>)> {
-    let py = scene.py();
-    let inner = &scene.get().scene;
+    let inner = scene.inner();
     let mut grid = Grid::of(inner);
     grid.finest = finest.unwrap_or(grid.finest);
     grid.coarsest = coarsest.unwrap_or(grid.coarsest);
     grid.per_decade = per_decade.unwrap_or(grid.per_decade);
     grid.contacts = contacts.unwrap_or(grid.contacts);
-    let question = MapRequest { scene: inner, laws: &[] };
+    let question = MapRequest { scene: inner, laws: scene.laws() };
     let maps = compute_beside(py, || Maps::new(question, &grid)?.run(&|_| {}), &mut |_| Ok(()))?;
     let (cells, stable) = (PyList::empty(py), PyList::empty(py));
     for row in &maps.rows {

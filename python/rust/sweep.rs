@@ -14,7 +14,7 @@ use signorini::WallStatistics;
 use signorini::case::KeyValue;
 use signorini::parallel::{Take, on_threads};
 use signorini::study::realisations::RealisationCount;
-use signorini::sweep::{Axis, Finished, Random, Shard, Sweep, SweepOptions, Values};
+use signorini::sweep::{Axis, Finished, Random, Shard, Sweep, SweepOptions, Values, Window};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
@@ -195,6 +195,16 @@ fn repeated(sweep: Sweep, given: Asked) -> PyResult<Sweep> {
     })
 }
 
+/// `sweep` with the window of its measures in forcing periods, where they are given: so many before
+/// it, and in it.
+fn timed(sweep: Sweep, (settle, keep): (Option<u32>, Option<u32>)) -> PyResult<Sweep> {
+    match (settle, keep) {
+        (_, Some(keep)) => Ok(sweep.over(Window::Periods { settle: settle.unwrap_or(0), keep })),
+        (Some(settle), None) => Err(wrong("settle", settle, "keep beside it: the forcing periods in the window")),
+        (None, None) => Ok(sweep),
+    }
+}
+
 /// Varies the keys of a case over a grid, one at a time between two bounds, or at random between
 /// them, and writes the tables into `folder`. Calls `progress` with the runs that are done and
 /// those that are known to be needed.
@@ -208,6 +218,7 @@ pub fn _sweep(
     random: Option<Drawn>,
     scheme: Option<&str>,
     measures: Vec<String>,
+    periods: (Option<u32>, Option<u32>),
     asked: Asked,
     threads: Option<usize>,
     folder: PathBuf,
@@ -224,7 +235,7 @@ pub fn _sweep(
     if let Some(scheme) = scheme {
         sweep = sweep.by(scheme);
     }
-    sweep = repeated(drawn(sweep, random)?, asked)?;
+    sweep = timed(repeated(drawn(sweep, random)?, asked)?, periods)?;
     sweep = sweep.measure(measures.iter().map(|name| name.parse().map_err(raise)).collect::<PyResult<Vec<_>>>()?);
     let (done, runs, mut notes) = (AtomicU64::new(0), AtomicU64::new(0), Vec::new());
     let work = || {

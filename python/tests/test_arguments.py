@@ -72,7 +72,7 @@ VALUES: list[tuple[Callable[[], object], str]] = [
     ),
     (lambda: sg.compare(SCENE, [], step=1e-3), "methods is empty"),
     (lambda: SCENE.run("event").probe("zz"), 'no probe is named "zz"; there is ""'),
-    (lambda: sg.orbit(sg.chain([1.0], [])), "system is a structure; expected an oscillator"),
+    (lambda: sg.orbit(sg.chain([1.0], [])), "no load is a sine; expected a harmonic load"),
     (lambda: sg.run_many([SCENE, sg.oscillator(1.0, 0.0, 1.0)], "event"), "walls are none; expected upper, lower"),
     (lambda: sg.oscillator(1.0, 0.0, 1.0, loads=[sg.Load.function(abs)]).run("event"), "a table, such as one of values"),
 ]

@@ -3,6 +3,7 @@
 import csv
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -164,6 +165,47 @@ def test_keys_drawn_at_random_have_their_shares() -> None:
         table.to_pandas("effects")
 
 
+PLANE = {"initial.displacement": [-4e-3, 0.0, 4e-3], "initial.velocity": [-0.3, 0.0, 0.3]}
+
+
+def broken() -> sg.Case:
+    """Where two orbits, mirror images of each other, have taken the place of the symmetric one."""
+    return sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8, "load.1.harmonic.frequency": 4.4})
+
+
+def test_basins_are_those_of_the_tool(tool: Callable[..., Path], tmp_path: Path) -> None:
+    measures, folder = ["attractor", "period"], tmp_path / "own"
+    table = sg.sweep(broken(), PLANE, "event", measures=measures, settle=200, keep=30, folder=folder)
+    # Two orbits of one period; of each the other is the mirror image.
+    assert list(table.attractors["attractor"]) == [1, 2] and list(table.attractors["period"]) == [1, 1]
+    counts = [int((table["attractor"] == number).sum()) for number in (1, 2)]
+    assert counts == list(table.attractors["rows"]) and sum(counts) == 9
+    np.testing.assert_allclose(table.attractors["share"], np.array(counts) / 9, rtol=1e-15)
+    # They are the orbits of the branch that begins where the symmetry breaks.
+    case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
+    branches = sg.branches(case, "load.1.harmonic.frequency", (4.4, 5.0))
+    last = int(np.flatnonzero(branches["branch"] == 2)[-1])
+    speeds = sorted(branches[f"speed_{i}_m_per_s"][last] for i in (1, 2))
+    for cell in table.attractors["approach_speeds_m_per_s"]:
+        np.testing.assert_allclose(sorted(float(word) for word in cell.split()), speeds, rtol=1e-8)
+    pd.testing.assert_frame_equal(table.to_pandas("attractors"), pd.DataFrame(dict(table.attractors)))
+    assert table.to_xarray()["attractor"].shape == (3, 3)
+    assert sg.report(folder) == folder / "report.html"
+    vary = [f"--vary={key}={','.join(map(repr, values))}" for key, values in PLANE.items()]
+    sets = ["--set=wall.*.restitution=0.8", "--set=load.1.harmonic.frequency=4.4"]
+    rest = ["--measure=attractor,period", "--scheme=event", "--settle=200", "--keep=30"]
+    written = tool("sweep", "rigid-walls-sine", *sets, *vary, *rest)
+    for name in ("sweep.csv", "attractors.csv"):
+        assert (folder / name).read_bytes() == (written / name).read_bytes(), name
+
+
+def test_starts_whose_attractor_is_not_found_are_undecided() -> None:
+    with pytest.warns(sg.ResultWarning, match="undecided: 1 of 1 starts, whose attractor was not found"):
+        start = {"initial.displacement": [4e-3]}
+        table = sg.sweep(broken(), start, "event", measures=["attractor"], keep=1)
+    assert np.isnan(table["attractor"]).all() and table["status"][0] == "ok"
+
+
 def test_wrong_requests_are_refused() -> None:
     case, keys = tube(), {"support.*.gap": [1e-4]}
     wrong: list[tuple[dict[str, Any], str]] = [
@@ -175,6 +217,9 @@ def test_wrong_requests_are_refused() -> None:
         ({"step": 1e-4}, "no such argument beside a case"),
         ({"points": sg.grid(gap=[1e-4])}, "a mapping of keys to values"),
         ({"threads": 0}, "expected 1 or more"),
+        ({"keep": 0}, "keep is 0; expected 1 or more"),
+        ({"settle": 9}, "settle is 9; expected keep beside it"),
+        ({"measures": ["period"]}, "keep=N in Python) beside it"),
         ({"until_interval": 5}, "until_interval is 5; expected a share above 0 and below 1"),
         ({"until_interval": 0.05, "seeds": 3}, "expected no interval beside a number"),
         ({"most_seeds": 9}, "expected until_interval beside it"),
@@ -191,6 +236,8 @@ def test_wrong_requests_are_refused() -> None:
             sg.sweep(case, **{"points": keys, "measures": MEASURES, **arguments})
     with pytest.raises(ValueError, match="expected a case in place of a function"):
         sg.sweep(lambda: case.scene, [{}], seeds=2)  # type: ignore[call-overload]
+    with pytest.raises(ValueError, match="keep is 3; expected a case in place of a function beside it"):
+        sg.sweep(lambda: case.scene, [{}], keep=3)  # type: ignore[call-overload]
     with pytest.raises(ValueError, match="random is 'lhs'; expected a case in place of a function"):
         sg.sweep(lambda: case.scene, [{}], random="lhs", rows=3)  # type: ignore[call-overload]
 

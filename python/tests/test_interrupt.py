@@ -46,6 +46,7 @@ CALLS = [
     "sg.stability(scene, contacts=1_000_000)",
     "sg.run_many([scene] * 4, 'moreau-jean', step=1e-4)",
     "sg.bifurcation(case, 'load.1.harmonic.frequency', [4.9, 5.0], settle=4_000_000)",
+    "sg.branches(case, 'load.1.harmonic.frequency', (0.5, 16.0), settle=100, switch='all', depth=50)",
     "sg.Stepper(scene, 'moreau-jean', 1e-4).advance(1e6)",
     "sg.Stepper(scene, 'moreau-jean', 1e-4).advance(1e6, lambda t, q, v: 0.0)",
     "sg.realisations(sg.load('tube-round-supports', set={'time.end': 100.0}), seeds=4)",

@@ -1,5 +1,8 @@
 """Studies of several runs."""
 
+from collections.abc import Callable
+from typing import Any
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -103,8 +106,35 @@ def test_an_orbit_is_the_settled_motion() -> None:
     with pytest.raises(sg.RunError, match="no periodic orbit"):
         # Without losses nothing settles.
         sg.orbit(sg.load("rigid-walls-sine").scene, settle=20)
-    with pytest.raises(ValueError, match="degree"):
+    with pytest.raises(ValueError, match="no load is a sine; expected a harmonic load"):
         sg.orbit(sg.chain([1.0, 1.0], [1.0], walls=[sg.Wall.upper("a", 1.0, at=0)]))
+
+
+def test_studies_take_a_case_with_its_own_times_and_penalties() -> None:
+    case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8, "time.end": 0.5, "time.step": 1e-3})
+    made = sg.compare(case, ["moreau-jean"])
+    times: dict[str, Any] = {"sample": case.sample, "statistics_from": case.statistics_from}
+    of_scene = sg.compare(case.scene, ["moreau-jean"], step=1e-3, **times)
+    np.testing.assert_array_equal(made.table["error"], of_scene.table["error"])
+    run, other = made.runs[0], of_scene.runs[0]
+    assert run is not None and other is not None and run.step == 1e-3
+    np.testing.assert_array_equal(run.displacement, other.displacement)
+    finer = sg.compare(case, ["moreau-jean"], step=5e-4).runs[0]
+    assert finer is not None and finer.step == 5e-4
+    # The penalty that its name leaves open is that of the case.
+    soft = sg.load("penalty-epsilon", set={"time.end": 0.1})
+    assert sg.compare(soft, ["penalty"]).table["method"][0].startswith("penalty:epsilon=")
+    chart = sg.chart(case, ["event", "moreau-jean"], levels=2, repeats=1)
+    assert set(chart.table["method"]) == {"event", "moreau-jean"}
+    maps = sg.stability(sg.load("bouncing-ball"), finest=0.03, per_decade=2, contacts=4)
+    assert len(maps.stable["scheme"]) > 0
+    assert sg.orbit(case).speeds[0] == sg.orbit(case.scene).speeds[0]
+    with pytest.raises(ValueError, match="step is missing; expected the step of the methods in s, or a case"):
+        sg.compare(case.scene, ["moreau-jean"])
+    studies: tuple[Callable[[Any], object], ...] = (sg.orbit, sg.chart, sg.stability)
+    for study in studies:
+        with pytest.raises(TypeError, match="3; expected a Scene or a Case"):
+            study(3)
 
 
 def test_studies_have_short_representations() -> None:

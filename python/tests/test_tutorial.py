@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGES = {
-    "docs/python.md": 14,
+    "docs/python.md": 16,
     "docs/fit.md": 4,
     "docs/own-tube.md": 1,
     "docs/own-paper-figure.md": 1,
@@ -33,4 +33,4 @@ def test_blocks_run_from_top_to_bottom(
     plt.close("all")
     shown = re.findall(r"savefig\(\"(.*?)\"\)", "".join(blocks))
     assert all((tmp_path / name).stat().st_size > 10_000 for name in shown)
-    assert len(shown) == {"docs/python.md": 6, "docs/own-paper-figure.md": 1, "README.md": 1}.get(page, 0)
+    assert len(shown) == {"docs/python.md": 7, "docs/own-paper-figure.md": 1, "README.md": 1}.get(page, 0)

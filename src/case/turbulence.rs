@@ -254,9 +254,11 @@ impl Case {
         self.truncated.as_ref().map_or(&[], |truncated| &truncated.whole.turbulence)
     }
 
-    /// An error for turbulence, where a motion that repeats itself is asked for.
-    #[cfg(feature = "cli")]
-    pub(crate) fn check_repeats(&self) -> Result<()> {
+    /// Refuses turbulence, where a motion that repeats itself is asked for.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a case with turbulence.
+    pub fn check_repeats(&self) -> Result<()> {
         match self.turbulence().first() {
             None => Ok(()),
             Some(field) => {

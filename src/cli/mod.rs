@@ -10,9 +10,8 @@
 //! `command_line.rs` for lines as a shell takes them, `pipeline.rs` for what all commands share
 //! (the folder of results, the report, what is printed), `ui.rs` for stdout and stderr (`bar.rs`
 //! shows progress, `terminal.rs` breaks lines, `run_notes.rs` lists notes once), `estimate.rs` says
-//! how long work will take, `first_orbit.rs` finds or reads the orbit of `orbit` and `continue`,
-//! `realisations.rs` makes the study of realisations of `run` and `wear`, `values.rs` lists the
-//! values that shells complete (feature `cli`).
+//! how long work will take, `realisations.rs` makes the study of realisations of `run` and `wear`,
+//! `values.rs` lists the values that shells complete (feature `cli`).
 
 mod bar;
 mod case_args;
@@ -26,7 +25,6 @@ mod drawing;
 mod estimate;
 mod explain;
 mod figures;
-mod first_orbit;
 mod formats;
 mod merge;
 mod new;

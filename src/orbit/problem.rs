@@ -52,8 +52,8 @@ impl Problem {
             return Err(Error::invalid(
                 "system",
                 "a structure",
-                "an oscillator, of one degree of freedom: of a structure, orbits are found by settling and shooting, \
-                 or in closed form, not by signature, and not followed over a key",
+                "an oscillator, of one degree of freedom: the orbits of a structure are found by settling and \
+                 shooting, or in closed form, and followed by their states, not by signature",
             ));
         };
         if !scene.is_line() {

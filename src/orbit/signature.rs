@@ -29,7 +29,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    pub(crate) const ALL: [Self; 8] =
+    /// All of them.
+    pub const ALL: [Self; 8] =
         [Self::Impact, Self::Rest, Self::Chatter, Self::Release, Self::Enter, Self::Leave, Self::Again, Self::Always];
 
     /// Its name, as signatures are written.

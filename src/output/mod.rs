@@ -22,6 +22,10 @@
 //! | [`error_parts`] | `errors.csv`, and its table |
 //! | [`periodic`] | a periodic orbit: its document, motion and pictures |
 //! | [`branches`] | branches of orbits: tables, document and picture |
+//! | [`varied`] | a key whose value changes along branches, and its range |
+//! | [`scene_family`] | the scenes of a case over one key or two |
+//! | [`first_orbit`] | the orbit on which a case settles, or that of a file |
+//! | [`branch_folder`] | the branches of a case, and the folder of their files |
 //! | [`overlay`] | `beneath.csv`: points of other results beneath the branches |
 //! | [`orbits`] | `orbits.csv`: the motion of the orbits along branches, for a drawing |
 //! | [`loci`] | curves of special points over two keys |
@@ -50,22 +54,24 @@
 //! interrupted request has done, `atomic.rs` writes a file onto the disk before it gets its name,
 //! `request.rs` records the request and `values.rs` the case by its keys, `run.rs` and `compare.rs`
 //! write all files and tables of a run and of a comparison, `periodic.rs` and `branches.rs` those
-//! of periodic orbits, `orbits.rs` the motion of those along branches and `overlay.rs` points of
-//! other results under them, `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`,
-//! `derivatives.rs`, `table.rs`, `json.rs`, `compare_table.rs` and `method_realisations.rs`
-//! (comparisons for the terminal), `verification.rs` (the manual), `document.rs`, `detail.rs` (what
-//! `[statistics]` asks for: `episodes.rs`, `spectra.rs`), `turbulence.rs` (its forces),
-//! `realisations.rs`, `error_parts.rs` (the errors of their means), `cheapest.rs` (the conclusion
-//! of a chart), `floors.rs` (why its penalties have floors), `stable_steps.rs` (the conclusion of a
-//! stability study), figures (`labelled.rs` is a run that is drawn, `motion.rs` its motion,
-//! `window.rs` the stretch of it, `orbit.rs` with `ring.rs` its way between supports, `rubbed.rs`
-//! the supports over time; `site.rs` is a wall or support with its results, `places.rs` says which
-//! fit on a page, `colours.rs` has the colour of each, `part.rs` the walls that are drawn
-//! together), `format.rs` (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook, feature
-//! `xlsx`; feature `cli`).
+//! of periodic orbits (`first_orbit.rs` finds or reads the first, `branch_folder.rs` follows the
+//! branches of a case over the scenes of `scene_family.rs` and the key of `varied.rs`), `orbits.rs`
+//! the motion of those along branches and `overlay.rs` points of other results under them,
+//! `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`, `derivatives.rs`,
+//! `table.rs`, `json.rs`, `compare_table.rs` and `method_realisations.rs` (comparisons for the
+//! terminal), `verification.rs` (the manual), `document.rs`, `detail.rs` (what `[statistics]` asks
+//! for: `episodes.rs`, `spectra.rs`), `turbulence.rs` (its forces), `realisations.rs`,
+//! `error_parts.rs` (the errors of their means), `cheapest.rs` (the conclusion of a chart),
+//! `floors.rs` (why its penalties have floors), `stable_steps.rs` (the conclusion of a stability
+//! study), figures (`labelled.rs` is a run that is drawn, `motion.rs` its motion, `window.rs` the
+//! stretch of it, `orbit.rs` with `ring.rs` its way between supports, `rubbed.rs` the supports over
+//! time; `site.rs` is a wall or support with its results, `places.rs` says which fit on a page,
+//! `colours.rs` has the colour of each, `part.rs` the walls that are drawn together), `format.rs`
+//! (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook, feature `xlsx`; feature `cli`).
 
 pub(crate) mod animation;
 pub mod atomic;
+pub mod branch_folder;
 pub mod branches;
 pub(crate) mod cheapest;
 pub(crate) mod colours;
@@ -78,6 +84,7 @@ pub mod document;
 pub mod episodes;
 pub mod error_parts;
 pub use signorini_figure as figure;
+pub mod first_orbit;
 pub(crate) mod floors;
 pub mod format;
 pub(crate) mod journal;
@@ -102,6 +109,7 @@ pub mod results;
 pub(crate) mod ring;
 mod rubbed;
 pub mod run;
+pub mod scene_family;
 pub mod shape;
 #[cfg(feature = "xlsx")]
 mod sheets;
@@ -114,6 +122,7 @@ pub mod supports;
 pub mod table;
 pub(crate) mod turbulence;
 mod values;
+pub mod varied;
 pub(crate) mod verification;
 pub mod wear_folder;
 pub mod wear_history;

@@ -59,10 +59,55 @@ mod wear;
 pub use html::FILE;
 
 use crate::error::{Error, Result};
-use crate::output::manifest;
+use crate::output::atomic::write_whole;
+use crate::output::manifest::{self, MANIFEST};
+use crate::output::record::TABLES;
 use folder::Folder;
 use serde_json::{Map, Value, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// What is said of results whose tables cannot be verified.
+pub const UNVERIFIED: &str = "the version that made these results recorded no digests: their tables are not verified";
+
+/// A report that was written.
+#[derive(Debug)]
+pub struct Written {
+    /// The page.
+    pub path: PathBuf,
+    /// False where the version that made the results recorded no digests to verify their tables by.
+    pub verified: bool,
+}
+
+/// Writes the report on the results in `folder`, with those in `over` in its figures: as `out`, or
+/// as [`FILE`] in that folder.
+///
+/// # Errors
+/// As [`page`] and [`page_over`]; [`Error::Io`] for a folder without results, and where the page
+/// cannot be written.
+pub fn write(folder: &Path, over: Option<&Path>, out: Option<&Path>) -> Result<Written> {
+    let manifest = manifest_of(folder)?;
+    let page = match over {
+        Some(over) => page_over(folder, &manifest, (over, &manifest_of(over)?))?,
+        None => page(folder, &manifest)?,
+    };
+    let verified = manifest.get(TABLES).is_some();
+    let path = out.map_or_else(|| folder.join(FILE), Path::to_owned);
+    match out {
+        Some(path) => write_whole(path, page.as_bytes())?,
+        // Listed, so that a later run without a report takes this one away.
+        None => manifest::add(folder, manifest, FILE, page.as_bytes())?,
+    }
+    Ok(Written { path, verified })
+}
+
+/// What was asked for the results in `folder`.
+fn manifest_of(folder: &Path) -> Result<Value> {
+    manifest::read(folder).ok_or_else(|| {
+        let reason =
+            format!("holds no {MANIFEST} that can be read; expected a folder of results, such as out/CASE/run");
+        Error::io(folder.display(), reason, true)
+    })
+}
 
 /// Why the results in `path` get no report beside them, although their command writes one, and what
 /// to do: their tables are too large for a page. `None` where they are not.

@@ -143,7 +143,7 @@ impl Step<'_> {
 impl Path<'_> {
     /// Displacement (m) and velocity (m/s) at `t` within the step, into slices over degrees of
     /// freedom. Nothing is written for a step on a grid.
-    pub(crate) fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
+    pub fn state(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
         match self {
             Self::Grid | Self::OneRestitution | Self::Part { .. } | Self::Handed { .. } => {}
             Self::Exact(arc) => {

@@ -15,6 +15,10 @@ use crate::scene::Scene;
 use crate::scheme::{Scheme, check_exact};
 use crate::wear::{Archard, SCAR};
 
+/// What measures over forcing periods need.
+const PERIODS: &str =
+    "settle and keep in forcing periods ([run] keep = { periods = N }, --keep N, keep=N in Python) beside it";
+
 impl Sweep {
     /// Checks what varies, each axis by itself and all together, and that anything is measured.
     pub(super) fn check_axes(&self) -> Result<()> {
@@ -117,12 +121,10 @@ impl Sweep {
         }
         let periods = matches!(self.window, Window::Periods { .. });
         if let Some(measure) = self.measures.iter().find(|measure| measure.needs_period()).filter(|_| !periods) {
-            let expected = "settle and keep in forcing periods ([run] keep = { periods = N }, --keep N) beside it";
-            return Err(Error::invalid("[measure] columns", measure, expected));
+            return Err(Error::invalid("[measure] columns", measure, PERIODS));
         }
         if self.samples == Some(Samples::Periods) && !periods {
-            let expected = "settle and keep in forcing periods ([run] keep = { periods = N }, --keep N) beside it";
-            return Err(Error::invalid("[measure] samples", "\"periods\"", expected));
+            return Err(Error::invalid("[measure] samples", "\"periods\"", PERIODS));
         }
         let Some(followed) = self.followed().and_then(|index| self.axes.get(index)) else { return Ok(()) };
         if !periods && forcing::has_sine(&base.scene) {

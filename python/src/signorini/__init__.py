@@ -17,6 +17,7 @@ All values are in SI units. Forces of walls are signed: a lower wall pushes up, 
 """
 
 from ._bifurcation import Bifurcation, bifurcation
+from ._branches import Branches, branches
 from ._builders import SceneOptions, bar, beam, chain, matrices, modal, oscillator, support
 from ._case_sweep import SweepResult, one_at_a_time
 from ._core import (
@@ -43,6 +44,7 @@ from ._fit import Fit, fit
 from ._flow import FlowMargin, FluidElastic
 from ._orbit import Orbit, orbit
 from ._realisations import Realisations, realisations
+from ._report import report
 from ._studies import Chart, Comparison, Stability, chart, compare, stability
 from ._supports import ErrorPart, ErrorParts, Estimate, SupportStatistics, Wear
 from ._sweep import Table, grid, run_many, sweep
@@ -54,6 +56,7 @@ __all__ = [
     "AccuracyWarning",
     "Archard",
     "Bifurcation",
+    "Branches",
     "Case",
     "Chart",
     "Comparison",
@@ -92,6 +95,7 @@ __all__ = [
     "bar",
     "beam",
     "bifurcation",
+    "branches",
     "case",
     "chain",
     "chart",
@@ -108,6 +112,7 @@ __all__ = [
     "orbit",
     "oscillator",
     "realisations",
+    "report",
     "run_many",
     "slider",
     "stability",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import tempfile
 import warnings
@@ -15,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
-from ._columns import Column, ReadOnly, columns, frame
+from ._columns import Column, ReadOnly, frame, read
 from ._core import Case, ResultWarning
 from ._progress import Progress
 from ._types import names, whole
@@ -26,14 +25,7 @@ if TYPE_CHECKING:
 
 
 Design = Literal["grid", "one-at-a-time", "random"]
-TableName = Literal["rows", "realisations", "effects", "shares"]
-
-
-def _read(path: Path) -> dict[str, Column]:
-    """A table of the engine, by columns."""
-    with path.open(encoding="utf-8", newline="") as file:
-        header, *rows = csv.reader(file)
-    return columns(header, rows)
+TableName = Literal["rows", "realisations", "effects", "shares", "attractors"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -45,8 +37,10 @@ class SweepResult(ReadOnly[str, Column]):
     ``realisations`` has the columns of ``realisations.csv``: a line for each row and
     ``realisation`` k, which has the seeds of the case plus k - 1. ``effects`` has those of
     ``effects.csv`` where keys were varied one at a time, ``shares`` those of ``shares.csv`` where
-    they were drawn at random. Tables that a sweep does not have are empty. ``keys_varied`` names
-    the columns of the keys, and ``design`` says how their values lie: ``"grid"``,
+    they were drawn at random. ``attractors`` has those of ``attractors.csv`` where the measure
+    ``attractor`` was asked for: a line for each, with its number, its ``rows`` and their ``share``
+    (the size of its basin), ``signature``, ``period`` in periods of the load and multipliers.
+    Tables that a sweep does not have are empty. ``keys_varied`` names the columns of the keys, and ``design`` says how their values lie: ``"grid"``,
     ``"one-at-a-time"`` or ``"random"``.
     """
 
@@ -54,6 +48,7 @@ class SweepResult(ReadOnly[str, Column]):
     realisations: Mapping[str, Column]
     effects: Mapping[str, Column]
     shares: Mapping[str, Column]
+    attractors: Mapping[str, Column]
     keys_varied: tuple[str, ...]
     design: Design
 
@@ -75,7 +70,7 @@ class SweepResult(ReadOnly[str, Column]):
         Parameters
         ----------
         table : str
-            ``"rows"``, ``"realisations"``, ``"effects"`` or ``"shares"``.
+            ``"rows"``, ``"realisations"``, ``"effects"``, ``"shares"`` or ``"attractors"``.
 
         Returns
         -------
@@ -99,6 +94,7 @@ class SweepResult(ReadOnly[str, Column]):
         """
         own = {
             "rows": self.columns, "realisations": self.realisations, "effects": self.effects, "shares": self.shares,
+            "attractors": self.attractors,
         }  # fmt: skip
         known = [name for name, columns in own.items() if columns]
         if table not in known:
@@ -171,6 +167,7 @@ def sweep_case(
     scheme: str | None,
     *,
     measures: Sequence[str],
+    periods: tuple[int | None, int | None],
     asked: tuple[int | None, float | None, int | None],
     design: Design,
     drawn: Drawn | None,
@@ -184,6 +181,9 @@ def sweep_case(
     for argument, value in zip(("rows", "seed"), (drawn or ("", None, None))[1:], strict=True):
         if value is not None:
             whole(argument, value)
+    for argument, value, least in zip(("settle", "keep"), periods, (0, 1), strict=True):
+        if value is not None:
+            whole(argument, value, least)
     if measures:
         names("measures", measures, "work_rate")
     axes = [(key, list(values)) for key, values in keys.items()]
@@ -195,22 +195,27 @@ def sweep_case(
     with tempfile.TemporaryDirectory() as own, Progress(0, progress) as shown:
         place = Path(own) / "sweep" if folder is None else Path(folder)
         notes, count, bad, first = _core._sweep(
-            case, axes, design == "one-at-a-time", drawn, scheme, list(measures), asked, threads, place, shown.reach
-        )
-        rows, realisations, effects, shares = (
-            _read(path) if (path := place / name).exists() else {}
-            for name in ("sweep.csv", "realisations.csv", "effects.csv", "shares.csv")
+            case, axes, design == "one-at-a-time", drawn, scheme, list(measures), periods, asked, threads, place,
+            shown.reach,
+        )  # fmt: skip
+        rows, realisations, effects, shares, attractors = (
+            read(path) if (path := place / name).exists() else {}
+            for name in ("sweep.csv", "realisations.csv", "effects.csv", "shares.csv", "attractors.csv")
         )
     for note in notes:
         warnings.warn(note, ResultWarning, stacklevel=3)
     if bad:
         warnings.warn(f"{bad} of {count} rows failed; the first: {first}", RuntimeWarning, stacklevel=3)
+    if attractors and (undecided := count - bad - int(attractors["rows"].sum())):
+        text = f"undecided: {undecided} of {count} starts, whose attractor was not found (nan): try a longer settle"
+        warnings.warn(text, ResultWarning, stacklevel=3)
     header = list(rows)
     # The number of the row is before the columns of the keys, the realisations or the status after.
     ends = [header.index(name) for name in ("seeds", "status") if name in header]
     return SweepResult(
-        ReadOnly(rows), ReadOnly(realisations), ReadOnly(effects), ReadOnly(shares), tuple(header[1 : min(ends)]), design
-    )
+        ReadOnly(rows), ReadOnly(realisations), ReadOnly(effects), ReadOnly(shares), ReadOnly(attractors),
+        tuple(header[1 : min(ends)]), design,
+    )  # fmt: skip
 
 
 def one_at_a_time(
@@ -277,6 +282,6 @@ def one_at_a_time(
     ('load.1.harmonic.amplitude', 3)
     """
     return sweep_case(
-        case, keys, scheme, measures=measures, asked=(seeds, until_interval, most_seeds), design="one-at-a-time",
+        case, keys, scheme, measures=measures, periods=(None, None), asked=(seeds, until_interval, most_seeds), design="one-at-a-time",
         drawn=None, threads=threads, folder=folder, progress=progress,
     )  # fmt: skip

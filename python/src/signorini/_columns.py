@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import numpy as np
@@ -30,6 +32,12 @@ class ReadOnly(dict[K, V]):
         return type(self), (dict(self),)
 
 
+_OF_WORDS = {
+    *("error", "place", "kind", "wall", "signature", "label", "leads_to", "not_followed_because"),
+    *("phases_cycles", "approach_speeds_m_per_s", "multipliers", "displacements_m", "velocities_m_per_s"),
+}
+
+
 def words(cells: Sequence[str]) -> Column:
     """The cells of a column of words; None where there is none."""
     return np.array([cell or None for cell in cells], object)
@@ -47,10 +55,16 @@ def column(cells: Sequence[str]) -> Column:
 
 
 def columns(header: Sequence[str], rows: Sequence[Sequence[str]]) -> dict[str, Column]:
-    """A table by columns; those of names and of reasons are words, also where no row has one."""
-    of_words = {"error", "place", "kind"}
+    """A table by columns; those of names, reasons and lists are words, also where no row has one."""
     cells = {name: [row[i] for row in rows] for i, name in enumerate(header)}
-    return {name: words(own) if name in of_words else column(own) for name, own in cells.items()}
+    return {name: words(own) if name in _OF_WORDS else column(own) for name, own in cells.items()}
+
+
+def read(path: Path) -> dict[str, Column]:
+    """A table of the engine, by columns."""
+    with path.open(encoding="utf-8", newline="") as file:
+        header, *rows = csv.reader(file)
+    return columns(header, rows)
 
 
 def frame(table: Mapping[str, Column] | Sequence[Mapping[str, Any]]) -> pd.DataFrame:

@@ -1,5 +1,6 @@
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any, Final, final
 
 import numpy as np
@@ -31,6 +32,7 @@ __all__ = [
     "_bar",
     "_beam",
     "_bifurcation",
+    "_branches",
     "_case",
     "_case_scene_at",
     "_case_value_at",
@@ -44,6 +46,7 @@ __all__ = [
     "_orbit",
     "_oscillator",
     "_realisations",
+    "_report",
     "_run_many",
     "_scene_at",
     "_stability",
@@ -377,10 +380,14 @@ def _modal(
     points: Sequence[tuple[str, Sequence[float]]],
 ) -> Scene: ...
 def _compare(
-    scene: Scene, methods: Sequence[str], step: float, sample: float | None, statistics_from: float
+    scene: Scene | Case,
+    methods: Sequence[str],
+    step: float | None,
+    sample: float | None,
+    statistics_from: float | None,
 ) -> tuple[list[dict[str, Any]], list[str], float]: ...
 def _chart(
-    scene: Scene,
+    scene: Scene | Case,
     methods: Sequence[str] | None,
     coarsest: float | None,
     finest: float | None,
@@ -389,7 +396,11 @@ def _chart(
     most_seconds: float,
 ) -> tuple[list[dict[str, Any]], str, float]: ...
 def _stability(
-    scene: Scene, finest: float | None, coarsest: float | None, per_decade: float | None, contacts: int | None
+    scene: Scene | Case,
+    finest: float | None,
+    coarsest: float | None,
+    per_decade: float | None,
+    contacts: int | None,
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]: ...
 def _bifurcation(
     case: Case,
@@ -402,7 +413,18 @@ def _bifurcation(
     samples: str,
     threads: int,
 ) -> tuple[list[dict[str, Any]], list[str | None]]: ...
-def _orbit(scene: Scene, settle: int, points: int) -> dict[str, Any]: ...
+def _orbit(scene: Scene | Case, settle: int, rows: int) -> dict[str, Any]: ...
+def _branches(
+    case: Case,
+    key: str,
+    range: tuple[float, float],
+    asked: tuple[str | PathLike[str] | None, int, str, int, int],
+    folder: str | PathLike[str],
+    page: bool,
+) -> list[str]: ...
+def _report(
+    folder: str | PathLike[str], over: str | PathLike[str] | None, out: str | PathLike[str] | None
+) -> tuple[Path, str | None]: ...
 def _realisations(
     case: Case,
     scheme: str | None,
@@ -442,6 +464,7 @@ def _sweep(
     random: tuple[str, int | None, int | None] | None,
     scheme: str | None,
     measures: Sequence[str],
+    periods: tuple[int | None, int | None],
     asked: tuple[int | None, float | None, int | None],
     threads: int | None,
     folder: str | PathLike[str],

@@ -1,4 +1,4 @@
-"""Periodic orbits of one degree of freedom."""
+"""Periodic orbits."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _plot
-from ._core import RunError, Scene
+from ._core import Case, RunError, Scene
 from ._types import Array, whole
 
 
@@ -32,16 +32,19 @@ class Orbit:
     forcing_period: float
     """Period of the load, s."""
     multipliers: npt.NDArray[np.complex128]
-    """The two Floquet multipliers; the orbit is stable if both are within the unit circle."""
+    """The Floquet multipliers, the largest first, two for each degree of freedom; the orbit is stable
+    if all are within the unit circle."""
     stable: bool
     closure: float
     """Distance between start and end of a free run over one period, as a share of the scales."""
+    state: tuple[Array, Array]
+    """Displacement (m) and velocity (m/s) of every degree of freedom at the first instant of that run."""
     time: Array
     """Instants of that run, s; shape (rows,)."""
     displacement: Array
-    """m; shape (rows,)."""
+    """Of a structure that of its first probe, m; shape (rows,), or (0,) without a probe."""
     velocity: Array
-    """m/s; shape (rows,)."""
+    """The same, m/s."""
 
     def __repr__(self) -> str:
         count = len(self.kinds) * (2 if self.symmetric else 1)
@@ -78,18 +81,19 @@ class Orbit:
         return _plot.orbit(self, ax)
 
 
-def orbit(scene: Scene, *, settle: int = _core._SETTLE, rows: int = 400) -> Orbit:
+def orbit(scene: Scene | Case, *, settle: int = _core._SETTLE, rows: int = 400) -> Orbit:
     """The periodic orbit on which a motion settles, to rounding, with its Floquet multipliers.
 
     Parameters
     ----------
-    scene : Scene
-        One degree of freedom between walls, under loads with a common period.
+    scene : Scene or Case
+        Under loads with a common period: one degree of freedom between walls, or a structure of up
+        to 200 degrees of freedom or modes, whose orbit is found by shooting.
     settle : int
         Periods of the load that are run, exactly, before the motion is checked for repetition; 400
         by default, as in ``signorini orbit``.
     rows : int
-        Instants of its motion that are kept.
+        Instants of its motion that are kept beside the events.
 
     Returns
     -------
@@ -99,7 +103,9 @@ def orbit(scene: Scene, *, settle: int = _core._SETTLE, rows: int = 400) -> Orbi
     Raises
     ------
     ValueError
-        For a scene that cannot have one.
+        For a scene that cannot have one, such as one without a load that repeats itself.
+    TypeError
+        For something else than a scene or a case.
     RunError
         Where the motion does not repeat itself, or no orbit is found near it.
 
@@ -107,9 +113,11 @@ def orbit(scene: Scene, *, settle: int = _core._SETTLE, rows: int = 400) -> Orbi
     --------
     >>> import signorini as sg
     >>> case = sg.load("rigid-walls-sine", set={"wall.*.restitution": 0.8})
-    >>> found = sg.orbit(case.scene)
+    >>> found = sg.orbit(case)
     >>> found.period, found.stable, round(float(found.speeds[0]), 9)
     (0.2, True, 0.169410591)
+    >>> sg.orbit(sg.load("two-masses")).multipliers.shape
+    (4,)
     """
     made = _core._orbit(scene, whole("settle", settle), whole("rows", rows, 1))
     refused, holds = made.pop("refused"), made.pop("holds")
@@ -118,5 +126,6 @@ def orbit(scene: Scene, *, settle: int = _core._SETTLE, rows: int = 400) -> Orbi
         raise RunError(f"no body can follow the orbit that was found: {reason}")
     for name in ("phases", "speeds", "time", "displacement", "velocity"):
         made[name] = np.array(made[name], np.float64)
+    made["state"] = tuple(np.array(part, np.float64) for part in made["state"])
     made["multipliers"] = np.array([complex(*pair) for pair in made["multipliers"]])
     return Orbit(**made)

@@ -10,6 +10,7 @@ from ._core import _unit
 
 if TYPE_CHECKING:
     from ._bifurcation import Bifurcation
+    from ._branches import Branches
     from ._core import Run
     from ._orbit import Orbit
     from ._studies import Chart, Stability
@@ -165,6 +166,48 @@ def orbit(made: Orbit, ax: Any = None) -> Any:
     ax.plot(np.append(q, q[0]), np.append(v, v[0]), color=COLOURS[1], linewidth=1.2)
     _frame(ax, "displacement (mm)", "velocity (m/s)")
     return ax
+
+
+#: Signs of special points, as the tool draws them.
+_SIGNS = {
+    "fold": "^", "period-doubling": "D", "symmetry-breaking": "o", "grazing-in": "x", "grazing-out": "+",
+    "neimark-sacker": "h",
+}  # fmt: skip
+
+
+def branches(made: Branches, ax: Any = None) -> Any:
+    """Approach speeds over the key: see `Branches.plot`."""
+    ax = _new(1, 4.4) if ax is None else ax
+    key = made[made.column]
+    for number, events in enumerate(made.events, 1):
+        own = np.flatnonzero(made["branch"] == number)
+        met = [i for i, (kind, _) in enumerate(events, 1) if kind in made._arrivals]
+        speeds = [made[f"speed_{i}_m_per_s"][own] for i in met] if events else [np.zeros(len(own))]
+        # Stretches of one kind, each up to the first point of the next one.
+        kinds = np.where(made["admissible"][own], np.where(made["stable"][own], 0, 1), 2)
+        for stretch in np.split(np.arange(len(own)), np.flatnonzero(np.diff(kinds)) + 1):
+            drawn = np.append(stretch, stretch[-1] + 1) if stretch[-1] + 1 < len(own) else stretch
+            line = ("-", "--", ":")[kinds[stretch[0]]]
+            for speed in speeds:
+                ax.plot(key[own][drawn], speed[drawn], color=COLOURS[1], linewidth=1.2, linestyle=line)
+    for label in dict.fromkeys(made.special["label"]):
+        own = np.flatnonzero(made.special["label"] == label)
+        grazes = label in ("grazing-in", "grazing-out")
+        # A graze is on the axis; of other points the fastest arrival is marked.
+        top = [0.0 if grazes else _fastest(made, int(row)) for row in own]
+        ax.plot(made.special[made.column][own], top, _SIGNS.get(label, "s"), color=COLOURS[2], markersize=5, label=label)
+    found = _unit(made.key)
+    _frame(ax, made.key if found is None else f"{made.key} ({unit(found)})", "approach speed (m/s)")
+    if len(made.special["label"]):
+        _legend(ax)
+    return ax
+
+
+def _fastest(made: Branches, row: int) -> float:
+    """The fastest arrival of the orbit at a special point."""
+    events = made.events[int(made.special["branch"][row]) - 1]
+    met = [i for i, (kind, _) in enumerate(events, 1) if kind in made._arrivals]
+    return max((float(made.special[f"speed_{i}_m_per_s"][row]) for i in met), default=0.0)
 
 
 def bifurcation(made: Bifurcation, column: str, ax: Any = None) -> Any:

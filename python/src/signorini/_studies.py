@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _core, _plot
-from ._core import Run, Scene
+from ._core import Case, Run, Scene
 from ._sweep import Table, warn_of_notes
 from ._types import Array, names, positive, whole
 
@@ -47,23 +47,23 @@ class Comparison:
 
 
 def compare(
-    scene: Scene,
+    scene: Scene | Case,
     methods: Sequence[str],
     *,
-    step: float,
+    step: float | None = None,
     sample: float | None = None,
-    statistics_from: float = 0.0,
+    statistics_from: float | None = None,
 ) -> Comparison:
     """Run a scene by several methods, and compare them with its exact motion.
 
     Parameters
     ----------
-    scene : Scene
-        What is run.
+    scene : Scene or Case
+        What is run; the settings that the names of methods leave open are those of a case.
     methods : sequence of str
         Schemes, as in `Scene.run`.
-    step, sample, statistics_from : float
-        s, as in `Scene.run`.
+    step, sample, statistics_from : float, optional
+        s, as in `Scene.run`; those of a case unless given. Of a scene the step is required.
 
     Returns
     -------
@@ -73,6 +73,8 @@ def compare(
     ------
     ValueError
         For a wrong request.
+    TypeError
+        For something else than a scene or a case.
 
     Warns
     -----
@@ -84,7 +86,7 @@ def compare(
     --------
     >>> import signorini as sg
     >>> case = sg.load("rigid-walls-sine")
-    >>> comparison = sg.compare(case.scene, ["moreau-jean", "located"], step=case.step)
+    >>> comparison = sg.compare(case, ["moreau-jean", "located"])
     >>> list(comparison.table["method"])
     ['moreau-jean', 'located', 'event']
     """
@@ -206,7 +208,7 @@ class Chart:
 
 
 def chart(
-    scene: Scene,
+    scene: Scene | Case,
     methods: Sequence[str] | None = None,
     *,
     coarsest: float | None = None,
@@ -219,10 +221,10 @@ def chart(
 
     Parameters
     ----------
-    scene : Scene
+    scene : Scene or Case
         What is run.
     methods : sequence of str, optional
-        Schemes, as in `Scene.run`; all without a penalty if left out.
+        Schemes, as in `Scene.run`; all if left out, and of penalties those of a case.
     coarsest, finest : float, optional
         The range of steps, s.
     levels : int, optional
@@ -240,6 +242,8 @@ def chart(
     ------
     ValueError
         For a wrong request.
+    TypeError
+        For something else than a scene or a case.
 
     Examples
     --------
@@ -299,7 +303,7 @@ class Stability:
 
 
 def stability(
-    scene: Scene,
+    scene: Scene | Case,
     *,
     finest: float | None = None,
     coarsest: float | None = None,
@@ -310,8 +314,8 @@ def stability(
 
     Parameters
     ----------
-    scene : Scene
-        What is run.
+    scene : Scene or Case
+        What is run, with the penalties of a case among the schemes.
     finest, coarsest : float, optional
         The range of steps, times the angular frequency of the scene: 1e-4 to 3.2.
     per_decade : float, optional
@@ -327,11 +331,13 @@ def stability(
     ------
     ValueError
         For a scene without walls, or a wrong number.
+    TypeError
+        For something else than a scene or a case.
 
     Examples
     --------
     >>> import signorini as sg
-    >>> made = sg.stability(sg.load("bouncing-ball").scene, finest=0.03, per_decade=2, contacts=4)
+    >>> made = sg.stability(sg.load("bouncing-ball"), finest=0.03, per_decade=2, contacts=4)
     >>> bool((made.table["step_s"] > 0.0).all())
     True
     """

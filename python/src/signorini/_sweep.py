@@ -130,6 +130,8 @@ def sweep(
     scheme: str | None = None,
     *,
     measures: Sequence[str],
+    settle: int | None = None,
+    keep: int | None = None,
     seeds: int | None = None,
     until_interval: float | None = None,
     most_seeds: int | None = None,
@@ -165,6 +167,8 @@ def sweep(
     scheme: str | None = None,
     *,
     measures: Sequence[str] | None = None,
+    settle: int | None = None,
+    keep: int | None = None,
     seeds: int | None = None,
     until_interval: float | None = None,
     most_seeds: int | None = None,
@@ -198,7 +202,12 @@ def sweep(
     scheme
         As in `run_many`.
     measures : sequence of str
-        Of a case: names of measures, as ``signorini sweep --measure``.
+        Of a case: names of measures, as ``signorini sweep --measure``. ``"attractor"`` over
+        ``initial.displacement`` and ``initial.velocity`` gives basins of attraction:
+        `SweepResult.attractors` describes the attractors by the numbers of that column.
+    settle, keep : int, optional
+        Of a case: periods of the load before the window of the measures and in it, in place of its
+        ``time.statistics_from`` and ``time.end``. ``"attractor"`` and ``"period"`` need ``keep``.
     seeds : int, optional
         Of a case: realisations of its random loads under which each row is run, 2 or more.
     until_interval : float, optional
@@ -248,7 +257,8 @@ def sweep(
     Warns
     -----
     ResultWarning
-        Once, with their number, where runs have notes that limit the use of their results.
+        Once, with their number, where runs have notes that limit the use of their results; of
+        basins, where starts are undecided.
     RuntimeWarning
         Where rows failed, with their number and the first reason.
 
@@ -270,12 +280,13 @@ def sweep(
         if random is None:
             _refuse({"rows": rows, "seed": seed}, "random beside it, which draws the values of the keys")
         return sweep_case(
-            make, points, scheme, measures=measures or (), asked=(seeds, until_interval, most_seeds),
-            design="grid" if random is None else "random", drawn=None if random is None else (random, rows, seed),
-            threads=threads, folder=folder, progress=progress,
+            make, points, scheme, measures=measures or (), periods=(settle, keep),
+            asked=(seeds, until_interval, most_seeds), design="grid" if random is None else "random",
+            drawn=None if random is None else (random, rows, seed), threads=threads, folder=folder, progress=progress,
         )  # fmt: skip
-    of_case = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "random": random}
-    _refuse({"measures": measures, **of_case, "rows": rows, "seed": seed}, "a case in place of a function beside it")
+    of_case: dict[str, Any] = {"seeds": seeds, "until_interval": until_interval, "most_seeds": most_seeds, "random": random}
+    of_case |= {"measures": measures, "settle": settle, "keep": keep, "rows": rows, "seed": seed}
+    _refuse(of_case, "a case in place of a function beside it")
     if isinstance(points, Mapping):
         raise ValueError(f"points is {points!r}; expected a mapping for each point beside a function: grid makes them")
     statistics_from, judge = statistics_from or 0.0, judge is not False

@@ -1,9 +1,13 @@
 //! The arguments of `signorini continue`.
 
-use crate::cli::case_args::CaseArgs;
+use crate::cli::case_args::{CaseArgs, set_restitution};
 use crate::cli::pipeline::Destination;
+use crate::cli::ui::Ui;
+use crate::error::{Error, Result};
 use crate::orbit::SETTLE;
 use crate::orbit::branch::Label;
+use crate::output::scene_family::SceneFamily;
+use crate::output::varied::KeyRange;
 use clap::builder::PossibleValuesParser;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -82,6 +86,19 @@ pub struct Args {
 }
 
 impl Args {
+    /// The scenes over which the branches are followed.
+    pub(super) fn family(&self, ui: &Ui) -> Result<SceneFamily> {
+        let mut file = self.case.file(ui)?;
+        set_restitution(&mut file, self.restitution)?;
+        let key = KeyRange { names: ["--key", "--range"], key: &self.key, range: limits("--range", &self.range)? };
+        let names = ["--second", "--second-range"];
+        let second = match (&self.second, &self.second_range) {
+            (Some(key), Some(range)) => Some(KeyRange { names, key, range: limits(names[1], range)? }),
+            _ => None,
+        };
+        SceneFamily::new(file, &key, second.as_ref())
+    }
+
     /// The command line of `signorini orbit` for the same case.
     pub(super) fn orbit_command(&self) -> String {
         let restitution = self.restitution.map(|e| format!(" --restitution {e:?}")).unwrap_or_default();
@@ -104,4 +121,13 @@ impl Args {
             "locus": self.locus,
         })
     }
+}
+
+/// The two ends of the range that an option gives.
+fn limits(option: &'static str, text: &str) -> Result<[f64; 2]> {
+    let wrong = || Error::invalid(option, format_args!("{text:?}"), "A:B, two numbers, the first below the second");
+    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(wrong);
+    let (low, high) = (number(low)?, number(high)?);
+    if low < high { Ok([low, high]) } else { Err(wrong()) }
 }

@@ -1,11 +1,11 @@
 //! The loci of special points in the plane of two keys.
 
 use super::args::Args;
-use super::family::SceneFamily;
-use super::varied::Varied;
 use crate::cli::ui::Ui;
 use crate::error::Result;
 use crate::orbit::branch::{Graph, Label, Locus, locus};
+use crate::output::scene_family::SceneFamily;
+use crate::output::varied::Varied;
 
 /// The loci of the special points that `args` names, of all special points if it names none. For
 /// those that cannot be followed the reason is printed.

@@ -1,33 +1,31 @@
 //! `signorini continue`: branches of periodic orbits over a key.
 
 mod args;
-mod family;
 mod loci;
-mod varied;
 
 pub use args::Args;
 
-use super::first_orbit::FirstOrbit;
 use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
-use crate::orbit::branch::{Graph, Locus, OnLocus, Point, Request, Switch, graph};
-use crate::output::atomic::write_whole;
+use crate::orbit::branch::{Graph, Locus, OnLocus};
+use crate::output::branch_folder::{self, BranchRequest, switch};
 use crate::output::branches::{Drawn, ended};
+use crate::output::first_orbit::FirstOrbit;
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
+use crate::output::scene_family::SceneFamily;
 use crate::output::table::Table;
-use crate::output::{self, json, orbits, overlay};
-use family::SceneFamily;
-use serde_json::{Value, json};
-use varied::Varied;
+use crate::output::varied::Varied;
+use crate::output::{self, overlay};
+use serde_json::json;
 
 pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
-    let family = SceneFamily::new(args, ui)?;
+    let family = args.family(ui)?;
     let (read, problem) = (args.from.as_deref(), family.problem.as_ref());
     let first = read.map(|path| FirstOrbit::read(path, &family.case, problem)).transpose()?;
-    let column = family.key.column();
-    let beneath = args.over.as_deref().map(|path| overlay::read(path, &family.key.key, &column)).transpose()?;
+    let key = &family.key;
+    let beneath = args.over.as_deref().map(|path| overlay::read(path, &key.key, &key.column())).transpose()?;
     let case = &family.case;
     let asked = extended(request("continue", case, &[]), args.settings());
     let mut results = args.place.open(case, "continue", asked)?;
@@ -38,15 +36,14 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     };
     let first = first.map_or_else(settled, Ok)?;
     let found = branches(args, &family, &first, ui)?;
-    let drawn = Drawn { graph: &found, column, label: family.key.label(), scene: &case.scene };
-    let document = write(&mut results, &drawn, &family, beneath.as_deref(), !args.place.no_report)?;
+    let drawn = branch_folder::drawn(&found, &family);
+    let document = branch_folder::write(&mut results, &drawn, &family, beneath.as_deref(), !args.place.no_report)?;
     let mut traced = Vec::new();
     if let Some(second) = &family.second {
         traced = loci::follow(&family, second, &found, args, ui)?;
         write_loci(&mut results, &traced, &family, second)?;
     }
     results.add_to_manifest("orbit_command", json!(args.orbit_command()));
-    results.add_to_manifest("case_file", case.document.json()?);
     let mut answer = Answer::of(results, !args.place.no_report, document);
     show_branches(&mut answer, &drawn);
     show_specials(&mut answer, &drawn);
@@ -58,50 +55,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
 
 /// Follows the branches with a progress bar, which shows the value of the key on the current one.
 fn branches(args: &Args, family: &SceneFamily, first: &FirstOrbit, ui: &Ui) -> Result<Graph> {
-    let Varied { value, range, .. } = family.key;
-    let switch = match args.switch.as_str() {
-        "no" => Switch::No,
-        "all" => Switch::All,
-        _ => Switch::Stable,
-    };
-    let request = Request { range, switch, depth: args.depth, points: args.points as usize };
-    let [low, high] = range;
-    ui.with_bar("branches", |bar| {
-        let mut progress = |point: &Point| bar.set_share((point.value - low) / (high - low));
-        graph(&|value| family.scene(value), first.start(), value, &request, &mut progress)
-    })
-}
-
-/// Writes the files of the branches, and returns their document.
-fn write(
-    results: &mut Results,
-    drawn: &Drawn<'_>,
-    family: &SceneFamily,
-    beneath: Option<&[(f64, f64)]>,
-    report: bool,
-) -> Result<Value> {
-    drawn.branches(&results.place("branches.csv")?)?;
-    drawn.specials(&results.place("special.csv")?)?;
-    let scene = &family.case.scene;
-    let mut document = drawn.document();
-    // Another value of the key shows which walls it moves.
-    let mut points = drawn.graph.branches.iter().flat_map(|branch| &branch.points);
-    let moved = points.find(|point| point.value != family.key.value);
-    let other = moved.map(|point| family.scene(point.value)).transpose()?;
-    document["walls"] = orbits::walls(scene, other.as_ref().unwrap_or(scene), drawn.place());
-    if drawn.tells_states() {
-        document["place"] = json!(scene.walls.get(drawn.place()).map(|wall| &wall.name));
-    }
-    write_whole(&results.place("branches.json")?, json::text(&document).as_bytes())?;
-    let title = format!("{}: branches of periodic orbits", family.title());
-    results.draw("branches", &drawn.picture(&title, beneath.unwrap_or_default()))?;
-    if let Some(points) = beneath {
-        overlay::write(&results.place(overlay::FILE)?, &drawn.column, points)?;
-    }
-    if report {
-        orbits::write(&results.place(orbits::FILE)?, drawn, &|value| family.scene(value))?;
-    }
-    Ok(document)
+    let request = BranchRequest { switch: switch(&args.switch)?, depth: args.depth, points: args.points };
+    ui.with_bar("branches", |bar| request.follow(family, first, &mut |share| bar.set_share(share)))
 }
 
 /// Writes the files of the loci over both keys.

@@ -7,11 +7,11 @@ mod written;
 
 pub use args::Args;
 
-use super::first_orbit::FirstOrbit;
 use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::{Error, Result};
 use crate::orbit::{Floquet, Kind, Orbit, Problem};
+use crate::output::first_orbit::FirstOrbit;
 use crate::output::periodic::{self, Known, closure_of, tells_state};
 use crate::output::table::Table;
 use crate::scene::System;

@@ -8,6 +8,7 @@ use super::label::Label;
 use super::line::{End, LEAST_LOOP, Line, Passed};
 use super::point::Point;
 use crate::error::{Error, Result};
+use crate::interrupt::Asking;
 
 /// The point at which a step begins.
 struct StepStart {
@@ -68,7 +69,11 @@ pub(super) fn follow<'a>(
     let start = (now.y.clone(), now.tangent.clone());
     let line = Line { points: vec![now.point.clone()], passed: Vec::new(), end: End::Points };
     let mut follower = Follower { curve, range, linear, start, now, stride: Stride::new(), line };
+    // No run does it where all flights are known in closed form.
+    let (mut asking, mut steps) = (Asking::here(), 0);
     while follower.line.points.len() < most {
+        asking.pass(steps)?;
+        steps += 1;
         if let Some(end) = follower.advance(seen)? {
             follower.line.end = end;
             break;

@@ -3,42 +3,69 @@
 use crate::case::{CaseFile, Key};
 use crate::error::{Error, Result};
 
+/// A key and the range of its values, as they are asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct KeyRange<'a> {
+    /// What errors call the key and the range.
+    pub names: [&'static str; 2],
+    /// The key.
+    pub key: &'a str,
+    /// The range.
+    pub range: [f64; 2],
+}
+
 /// The key, its value in the case and its range.
-pub(super) struct Varied {
+#[derive(Debug)]
+pub struct Varied {
+    /// The key.
     pub key: Key,
+    /// What errors call it.
+    pub called: &'static str,
+    /// The case's value.
     pub value: f64,
+    /// The range of its values.
     pub range: [f64; 2],
 }
 
 impl Varied {
-    /// The key `key` and its range, which the two `options` give.
-    pub(super) fn new(file: &CaseFile, options: [&'static str; 2], key: &str, range: &str) -> Result<Self> {
-        let key: Key = key.parse()?;
-        let [by, option] = options;
-        changes_orbits(by, &key)?;
-        let (value, limits) = (start_value(file, by, &key)?, limits(option, range)?);
-        if !(limits[0]..=limits[1]).contains(&value) {
-            let expected = format!("a range with the case's value of the key, {value:?}, in it");
-            return Err(Error::invalid(option, range, expected));
+    /// The key that is asked for, of the case in `file`.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for a key on which no orbit depends, or that has no one number in the
+    /// case, and for a range without that number in it.
+    pub fn new(file: &CaseFile, asked: &KeyRange<'_>) -> Result<Self> {
+        let KeyRange { names: [called, of_range], range, .. } = *asked;
+        let key: Key = asked.key.parse()?;
+        changes_orbits(called, &key)?;
+        let value = start_value(file, called, &key)?;
+        let [low, high] = range;
+        let wrong = |expected: String| Error::invalid(of_range, format_args!("{low}:{high}"), expected);
+        if !(low.is_finite() && high.is_finite() && low < high) {
+            return Err(wrong("two finite numbers, the first below the second".to_owned()));
         }
-        Ok(Self { key, value, range: limits })
+        if !(low..=high).contains(&value) {
+            return Err(wrong(format!("a range with the case's value of the key, {value:?}, in it")));
+        }
+        Ok(Self { key, called, value, range })
     }
 
     /// Its column: its last word and its unit, as in a sweep.
-    pub(super) fn column(&self) -> String {
+    #[must_use]
+    pub fn column(&self) -> String {
         let text = self.key.to_string();
         let word = text.rsplit('.').next().unwrap_or_default();
         self.key.unit().map_or_else(|| word.to_owned(), |unit| format!("{word}_{unit}"))
     }
 
     /// The key as the label of an axis.
-    pub(super) fn label(&self) -> String {
+    #[must_use]
+    pub fn label(&self) -> String {
         let unit = self.key.unit().map_or("–".to_owned(), |unit| unit.replace("_per_", "/").replace('_', " "));
         format!("{} ({unit})", self.key)
     }
 }
 
-/// The case's value of the key that the option `by` gives.
+/// The case's value of the key, which errors call `by`.
 fn start_value(file: &CaseFile, by: &'static str, key: &Key) -> Result<f64> {
     let found = file.get(key)?;
     let text = found.as_ref().map(ToString::to_string);
@@ -48,18 +75,9 @@ fn start_value(file: &CaseFile, by: &'static str, key: &Key) -> Result<f64> {
         None => Err(Error::invalid(
             by,
             format!("{key}, which the case leaves out or has several values of"),
-            format!("a key with one value in the case; --set '{key}=…' gives it one"),
+            format!("a key with one value in the case: set {key} to a number"),
         )),
     }
-}
-
-/// The two ends of a range.
-fn limits(option: &'static str, text: &str) -> Result<[f64; 2]> {
-    let wrong = || Error::invalid(option, format_args!("{text:?}"), "A:B, two numbers, the first below the second");
-    let (low, high) = text.split_once(':').ok_or_else(wrong)?;
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(wrong);
-    let (low, high) = (number(low)?, number(high)?);
-    if low < high { Ok([low, high]) } else { Err(wrong()) }
 }
 
 /// Tables of a case on which no periodic orbit depends: how long and from where it is run, and what
