@@ -92,8 +92,9 @@ pub(crate) use check::read as read_values;
 #[cfg(feature = "cli")]
 pub(crate) use digest::sha256;
 pub use embedded::Embedded;
-pub use key::Key;
 #[cfg(feature = "cli")]
+pub(crate) use flow::BEYOND_LIMIT;
+pub use key::Key;
 pub(crate) use key_entry::{KeyEntry, Kind, REQUIRED, entry};
 pub use key_value::KeyValue;
 pub use model::{Body, Model, Place};
