@@ -18,7 +18,7 @@
 //! their number) is the share of the realisations; what is left is that of interactions of keys and
 //! of terms beyond the third degree.
 
-use super::columns::{Source, SweepAxis, place_of};
+use super::columns::{Source, SweepAxis};
 use super::measure::Measure;
 use super::picture::Picture;
 use super::runs::Runs;
@@ -106,7 +106,7 @@ pub(super) fn shares(source: &Source<'_>) -> Result<Vec<Shares>> {
         let keys = source.axes.iter().map(|axis| axis.key.clone());
         let parts = if points.len() > coefficients { parts(&points, keys, variance) } else { None };
         Shares {
-            place: place_of(&column, &measure),
+            place: source.place(&column, &measure),
             parts: parts.unwrap_or_default(),
             rows: points.len(),
             measure,
