@@ -3,6 +3,7 @@
 use super::measure::{Measure, Scope};
 use super::seeds::asked;
 use super::table::{HALF_WIDTH, ONE_AT_A_TIME, TABLE, Table};
+use crate::error::amount;
 use crate::output::csv::words;
 use crate::output::figure::Scale;
 use crate::study::realisations::RealisationCount;
@@ -133,5 +134,16 @@ pub(super) fn is_half_width(column: &str, measure: &str) -> bool {
 
 /// A cell, rounded to the digits of a label.
 pub(super) fn short(cell: &str) -> String {
-    cell.parse::<f64>().map_or_else(|_| cell.to_owned(), |x| format!("{x:.4e}").parse::<f64>().unwrap_or(x).to_string())
+    cell.parse().map_or_else(|_| cell.to_owned(), |x| amount(x, 5))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn a_cell_is_written_as_a_person_writes_it() {
+        let cells = ["0.000000000000001", "2.0", "0.02", "1.23456789e-4", "0.30000000000000004", "event", ""];
+        assert_eq!(cells.map(short), ["1e-15", "2", "0.02", "1.2346e-4", "0.3", "event", ""]);
+    }
 }

@@ -93,7 +93,8 @@ fn without_realisations_an_effect_has_no_interval() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path();
     let args = ["sweep", "linear-sine", "--vary", "load.1.harmonic.amplitude=1:3", "--one-at-a-time"];
-    let (_, err) = said(path, &[&args[..], &["--measure", "displacement_rms", "--out", "out"]].concat(), 0);
+    let (out, err) = said(path, &[&args[..], &["--measure", "displacement_rms", "--out", "out"]].concat(), 0);
+    assert!(!out.contains("e0"), "numbers are written as a person writes them: {out}");
     assert!(err.contains("the measure at the upper bound less that at the lower one"), "{err}");
     let effects = rows(&path.join("out/effects.csv"));
     let [one] = effects.as_slice() else { panic!("{effects:?}") };
