@@ -116,7 +116,8 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         page["sweep"][name] = found.for_page(None);
         // Of shares: the rows that they are fitted to.
         let rows = found.column("rows").unwrap_or_default().into_iter().reduce(f64::min);
-        page["sweep"]["caution"] = json!(rows.and_then(|rows| caution(rows as usize, coefficients(keys))));
+        let least = found.column("share").unwrap_or_default().into_iter().reduce(f64::min);
+        page["sweep"]["caution"] = json!(rows.and_then(|rows| caution(rows as usize, coefficients(keys), least)));
     }
     Ok(page)
 }
