@@ -29,8 +29,8 @@ pub struct Fitted {
 }
 
 impl Table {
-    /// A table under `header`. Where it is too wide, columns that do not fit stand in a second block
-    /// below the first, again after the column of names.
+    /// A table under `header`. Where it is too wide, columns that do not fit stand in a second
+    /// block below the first, again after the column of names.
     #[must_use]
     pub fn new(header: &[&str], rows: Vec<Vec<String>>) -> Self {
         Self { header: header.iter().map(|&text| text.to_owned()).collect(), rows, widest: None, together: None }

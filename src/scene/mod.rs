@@ -278,8 +278,8 @@ impl Scene {
         })
     }
 
-    /// The first wall whose force is not linear in the depth, which neither a quadratic programme nor
-    /// the exact motion takes; `None` if all are rigid or elastic.
+    /// The first wall whose force is not linear in the depth, which neither a quadratic programme
+    /// nor the exact motion takes; `None` if all are rigid or elastic.
     pub(crate) fn nonlinear_wall(&self) -> Option<&Wall> {
         self.walls.iter().find(|wall| !wall.law.is_linear())
     }

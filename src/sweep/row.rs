@@ -31,8 +31,8 @@ pub struct Row {
     /// Its status.
     pub status: Status,
     /// The reason for the status, in a sentence; of a row with results also that its motion is
-    /// unstable, and why measures have no value; else empty for `ok`. Of an `unjudged` row, what another
-    /// status would say if it had been judged: that stretches were handed to moreau-jean.
+    /// unstable, and why measures have no value; else empty for `ok`. Of an `unjudged` row, what
+    /// another status would say if it had been judged: that stretches were handed to moreau-jean.
     pub error: String,
     /// The first note that limits the use of its run; `None` for a row of the batch kernel, which
     /// makes no steps.
