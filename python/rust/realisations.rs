@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 use signorini as sg;
 use signorini::output::table::Table;
-use signorini::output::{error_parts, realisations as output};
+use signorini::output::{error_parts, realisations as output, worn_means};
 use signorini::study::accuracy::Accuracy;
 use signorini::study::realisations::{
     Batch, KnownRealisations, MOST_REALISATIONS, Realisation, RealisationCount, RealisationPlan, RealisationStudy,
@@ -111,7 +111,8 @@ fn accurate(
 /// for people, `refuted` what makes its means wrong, `unknown` which parts of errors are not known.
 pub fn told(study: &RealisationStudy, notes: &[String], case: &sg::case::Case) -> Value {
     let found = &study.realisations;
-    let tables = [output::table(found, &case.scene), error_parts::table(found, &case.scene)];
+    let worn = worn_means::table(case, found);
+    let tables = [output::table(found, &case.scene), worn, error_parts::table(found, &case.scene)];
     // One finding of a run is enough, and one run of a check.
     let finding = |member: &Realisation| member.findings.first().map(ToString::to_string).unwrap_or_default();
     let members = study.refuted().filter(|(refined, _)| refined.is_none()).map(|(_, member)| member);
@@ -123,6 +124,7 @@ pub fn told(study: &RealisationStudy, notes: &[String], case: &sg::case::Case) -
     let unknown = failed.chain(refuted).map(|(refined, why)| format!("the check with {refined} failed: {why}"));
     json!({
         "document": found,
+        "worn": worn_means::document(case, found),
         "table": output::cells(found),
         "text": texts(tables),
         "refuted": members.map(|one| format!("realisation {}: {}", one.number, finding(one))).collect::<Vec<_>>(),

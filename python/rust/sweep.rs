@@ -241,8 +241,7 @@ pub fn _sweep(
     let work = || {
         let plan = sweep.plan()?;
         // What concerns the result; the other notes are those of the case, which has them.
-        let case = plan.case();
-        notes = case.instability().into_iter().chain(case.large_random_forces()).collect();
+        notes.extend(plan.case().large_random_forces());
         let options = SweepOptions { threads, shard: Shard::WHOLE, force: false };
         plan.run_into(&folder, options, &|progress| {
             done.store(progress.done, Ordering::Relaxed);
@@ -253,6 +252,6 @@ pub fn _sweep(
         progress.bind(py).call1((done.load(Ordering::Relaxed), runs.load(Ordering::Relaxed))).map(drop)
     };
     let Finished { rows, tables, cautioned, .. } = compute_beside(py, work, &mut watch)?;
-    notes.extend(cautioned.sentence());
+    notes.extend(tables.instabilities().into_iter().chain(cautioned.sentence()));
     Ok((notes, rows, tables.bad(), tables.first_error))
 }

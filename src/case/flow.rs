@@ -88,7 +88,10 @@ impl Builder<'_> {
     }
 }
 
-/// With this begins what is said of a case whose flow is beyond the fluid-elastic limit.
+/// With these words a case beyond the fluid-elastic limit says so.
+pub(crate) const BEYOND_LIMIT: &str = "beyond the fluid-elastic limit";
+
+/// With these it begins to say so where it is with all supports active.
 pub(crate) const UNSTABLE: &str = "unstable: work rates mean nothing";
 
 impl Case {
@@ -99,8 +102,8 @@ impl Case {
         let found = self.fluid_elastic.as_ref()?;
         let one = unstable(&found.active)?;
         Some(format!(
-            "{UNSTABLE}. The flow is beyond the fluid-elastic limit with all supports \
-             active{}: {}; the force of this instability is not in the motion",
+            "{UNSTABLE}. The flow is {BEYOND_LIMIT} with all supports active{}: {}; the force of this instability is \
+             not in the motion",
             if self.sliders.is_empty() { "" } else { " and all sliders sliding" },
             in_words(found.connors, one)
         ))
@@ -119,6 +122,13 @@ impl Case {
         })
     }
 
+    /// That nothing keeps the flow within the fluid-elastic limit: its supports do not, or there
+    /// are none.
+    pub(crate) fn unstable_in_flow(&self) -> Option<String> {
+        let bare = self.fluid_elastic.as_ref().is_some_and(|found| found.active.is_empty());
+        if bare { self.flow_note() } else { self.instability() }
+    }
+
     /// What the margins in the flow mean, where one is below 1.
     pub(super) fn flow_note(&self) -> Option<String> {
         let found = self.fluid_elastic.as_ref()?;
@@ -127,7 +137,7 @@ impl Case {
             let held = if found.active.is_empty() { "" } else { "; with all of them active it is stable" };
             let words = in_words(found.connors, one);
             let tube = if one.bodies.is_empty() { "the tube" } else { "a tube" };
-            Some(format!("with no support active {tube} is fluid-elastically unstable: {words}{held}"))
+            Some(format!("with no support active the flow is {BEYOND_LIMIT} of {tube}: {words}{held}"))
         })
     }
 }

@@ -94,7 +94,7 @@ pub(crate) use check::read as read_values;
 pub(crate) use digest::sha256;
 pub use embedded::Embedded;
 #[cfg(feature = "cli")]
-pub(crate) use flow::UNSTABLE;
+pub(crate) use flow::{BEYOND_LIMIT, UNSTABLE};
 pub use key::Key;
 #[cfg(feature = "cli")]
 pub(crate) use key_entry::{KeyEntry, Kind, REQUIRED, entry};

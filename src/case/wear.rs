@@ -7,8 +7,9 @@ use super::value::Section;
 use super::{Case, SupportShape, TimeOptions};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
+use crate::statistics::WearStatistics;
 use crate::study::wear_history::{HISTORIES, WearingSupport, YEAR};
-use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar};
+use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar, WearWork};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -126,6 +127,19 @@ impl Case {
         let bearing = hole.map_or(Bearing::Flat, |hole| Bearing::Hole { gap: hole.gap });
         let scar = wear.scar.map(|(width, radius)| Scar { width, radius, bearing });
         Some(Archard { coefficient, support_coefficient, service: self.wear.service?, scar })
+    }
+
+    /// The depth worn off the tube within the service at support number `index` where it is
+    /// deepest, m, at the work rates of `wear`; `None` without a law of its wear, and where it
+    /// would cut the tube in two.
+    #[must_use]
+    pub fn depth_deepest(&self, index: usize, wear: &WearStatistics) -> Option<f64> {
+        let law = self.archard(index)?;
+        law.coefficient.and(law.scar)?;
+        let (growth, rates) = (self.written.supports.get(index)?.growth, wear.rates());
+        let none = WearWork::none(rates.sectors.len(), rates.walls.len());
+        let work = none.advanced(&rates, &rates, law.service);
+        Some(law.deepest(growth, &work)).filter(|depth| !depth.is_nan())
     }
 }
 

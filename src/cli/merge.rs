@@ -43,6 +43,7 @@ pub fn answer(args: &Args) -> Result<Answer> {
         "command_line": command_line(),
         "status": status_document(&tables),
         "first_error": tables.first_error,
+        "notes": tables.instabilities(),
         "differing_arithmetic": differing_arithmetic,
         "request": request,
         "pictures": pictures.drawn,

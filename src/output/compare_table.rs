@@ -185,7 +185,7 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
     quantity("energy residual", &|_, run| short(run.residuals.energy.residual));
     quantity("compl. residual", &|_, run| short(run.residuals.complementarity));
     quantity("ns / step", &|row, _| row.step_ns.map_or_else(dash, |ns| format!("{ns:.0}")));
-    Table::new(&header, rows).in_blocks()
+    Table::new(&header, rows)
 }
 
 /// What the largest force is, where walls of one kind stand beside springs in their place.

@@ -128,7 +128,7 @@ pub fn table(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Optio
         })
         .collect();
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    (!rows.is_empty()).then(|| Table::new(&header, rows).in_blocks())
+    (!rows.is_empty()).then(|| Table::new(&header, rows))
 }
 
 /// What a reader of the derivatives must know, a sentence each.

@@ -137,7 +137,7 @@ fn table_of(studies: &[(Option<&str>, &Realisations)], scene: &Scene) -> Option<
     };
     let rows: Vec<Vec<String>> = judged.iter().map(row).collect();
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH).in_blocks())
+    (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH))
 }
 
 /// The remarks below the table, a sentence each.

@@ -19,6 +19,7 @@
 //! | [`document`] | a chart and a stability study as JSON |
 //! | [`episodes`] | `episodes.csv` and `exceedances.csv`, and their table |
 //! | [`realisations`] | `realisations.csv`, and its table |
+//! | [`worn_means`] | worn volume and depths over realisations: a table, and a part of the summary |
 //! | [`error_parts`] | `errors.csv`, and its table |
 //! | [`periodic`] | a periodic orbit: its document, motion and pictures |
 //! | [`branches`] | branches of orbits: tables, document and picture |
@@ -130,5 +131,6 @@ pub mod wear_journal;
 pub mod wear_remarks;
 mod window;
 pub mod work_precision;
+pub mod worn_means;
 
 pub use window::Span;

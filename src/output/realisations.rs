@@ -128,7 +128,7 @@ pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
     };
     let rows: Vec<Vec<String>> = shown(study, scene, MOST_ROWS).into_iter().map(row).collect();
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH).in_blocks())
+    (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH))
 }
 
 /// The remarks below the table, a sentence each.

@@ -115,6 +115,7 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
         "y (N)",
         "z (N)",
     ];
+    let of_contact = header.len();
     if wears {
         header.extend(["worn (mm³)", "one scar (mm)", "all round (mm)", "support worn (mm³)"]);
     }
@@ -145,7 +146,8 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
         }
         row
     };
-    Some(Table::new(&header, supports.into_iter().map(|(_, support)| row(support)).collect()))
+    let rows = supports.into_iter().map(|(_, support)| row(support)).collect();
+    Some(Table::new(&header, rows).together_from(of_contact))
 }
 
 /// Four significant figures.

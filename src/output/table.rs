@@ -14,8 +14,9 @@ const TEXT: usize = 16;
 pub struct Table {
     header: Vec<String>,
     rows: Vec<Vec<String>>,
-    whole: bool,
     widest: Option<usize>,
+    /// The first of the columns that stand together.
+    together: Option<usize>,
 }
 
 /// A table laid out for a width.
@@ -23,29 +24,30 @@ pub struct Table {
 pub struct Fitted {
     /// Its lines.
     pub text: String,
-    /// Headings of the columns that did not fit.
+    /// Headings of the columns that are too wide even by themselves.
     pub left_out: Vec<String>,
 }
 
 impl Table {
-    /// A table under `header`. Where it is too wide, its last columns are left out.
+    /// A table under `header`. Where it is too wide, columns that do not fit stand in a second
+    /// block below the first, again after the column of names.
     #[must_use]
     pub fn new(header: &[&str], rows: Vec<Vec<String>>) -> Self {
-        Self { header: header.iter().map(|&text| text.to_owned()).collect(), rows, whole: false, widest: None }
-    }
-
-    /// The same table with nothing left out: columns that do not fit stand in a second block below
-    /// the first, again after the column of names.
-    #[must_use]
-    pub fn in_blocks(mut self) -> Self {
-        self.whole = true;
-        self
+        Self { header: header.iter().map(|&text| text.to_owned()).collect(), rows, widest: None, together: None }
     }
 
     /// The same table, never wider than `width` characters where its text can be broken.
     #[must_use]
     pub fn within(mut self, width: usize) -> Self {
         self.widest = Some(width);
+        self
+    }
+
+    /// The same table; where its columns from number `first` on do not fit with those before them,
+    /// they begin a block.
+    #[must_use]
+    pub fn together_from(mut self, first: usize) -> Self {
+        self.together = Some(first);
         self
     }
 
@@ -56,8 +58,8 @@ impl Table {
     }
 
     /// The table in at most `width` characters (as wide as needed where `width` is `None`). Where
-    /// that is too narrow, text is broken between words; numbers never are. Two columns are always
-    /// shown, even where they are wider.
+    /// that is too narrow, text is broken between words; numbers never are. A column that does not
+    /// fit beside the names is left out; the first is always shown, even where it is wider.
     #[must_use]
     pub fn fit(&self, width: Option<usize>) -> Fitted {
         let room = [width, self.widest].into_iter().flatten().min().unwrap_or(usize::MAX);
@@ -65,24 +67,24 @@ impl Table {
         let fits = whole.iter().map(|w| w + BETWEEN).sum::<usize>() <= room.saturating_add(BETWEEN);
         let narrow = |(column, &whole): (usize, &usize)| self.widest(column, true).max(whole.min(TEXT));
         let widths = if fits { whole } else { whole.iter().enumerate().map(narrow).collect() };
+        let first = widths.first().copied().unwrap_or(0);
+        let beside = |column: usize| widths.get(column).map_or(0, |wide| wide + BETWEEN);
+        let (left_out, mut rest): (Vec<usize>, Vec<usize>) =
+            (1..self.header.len()).partition(|&column| column > 1 && first + beside(column) > room);
         let mut text = Vec::new();
-        let mut next = 1;
-        loop {
-            let start = next;
-            let mut used = widths.first().copied().unwrap_or(0);
-            while let Some(wide) = widths.get(next)
-                && (next == start || used + BETWEEN + wide <= room)
-            {
-                used += BETWEEN + wide;
-                next += 1;
-            }
-            let shown: Vec<usize> = std::iter::once(0).chain(start..next).collect();
+        while text.is_empty() || !rest.is_empty() {
+            let mut used = first;
+            let fits = |&&column: &&usize| {
+                used += beside(column);
+                used <= room
+            };
+            let count = rest.iter().take_while(fits).count().max(1).min(rest.len());
+            let begins = rest.iter().position(|column| Some(*column) == self.together).filter(|at| *at > 0);
+            let count = begins.filter(|at| *at < count && count < rest.len()).unwrap_or(count);
+            let shown: Vec<usize> = std::iter::once(0).chain(rest.drain(..count)).collect();
             text.push(self.block(&shown, &widths));
-            if !self.whole || next >= self.header.len() {
-                break;
-            }
         }
-        let left_out = self.header.get(next.min(self.header.len())..).unwrap_or_default().to_vec();
+        let left_out = left_out.into_iter().filter_map(|column| self.header.get(column).cloned()).collect();
         Fitted { text: text.join("\n\n"), left_out }
     }
 
@@ -180,26 +182,29 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_room_is_left_out_whole_and_named() {
+    fn what_does_not_fit_stands_in_a_second_block() {
         let wide_enough = table().fit(None);
-        assert_eq!(wide_enough.left_out, Vec::<String>::new());
+        assert_eq!((wide_enough.text.matches("upper").count(), wide_enough.left_out), (1, Vec::<String>::new()));
         let narrow = table().fit(Some(30));
-        assert_eq!(narrow.left_out, ["complementarity residual"]);
-        for line in narrow.text.lines() {
-            assert!(line.chars().count() <= 30, "{line:?}");
-        }
-        for line in narrow.text.lines().filter(|line| line.contains("er ")) {
-            assert!(line.ends_with("+0.123456"), "{line:?}");
-        }
+        assert!(narrow.left_out.is_empty());
+        assert_eq!((narrow.text.matches("upper").count(), narrow.text.matches("1.5e-12").count()), (2, 2));
+        assert_eq!(narrow.text.lines().filter(|line| line.ends_with("+0.123456")).count(), 2);
+        assert!(narrow.text.lines().all(|line| line.chars().count() <= 30));
+        // What belongs together begins a block, unless all fits in one.
+        let first = |width: usize| table().together_from(2).fit(Some(width)).text.lines().next().unwrap().to_owned();
+        assert!(first(30).ends_with("contacts") && first(80).contains("impulse"), "{} {}", first(30), first(80));
     }
 
     #[test]
-    fn blocks_leave_nothing_out() {
-        let narrow = table().in_blocks().fit(Some(30));
-        assert!(narrow.left_out.is_empty());
-        assert_eq!(narrow.text.matches("upper").count(), 2);
-        assert_eq!(narrow.text.matches("1.5e-12").count(), 2);
-        assert!(narrow.text.lines().all(|line| line.chars().count() <= 30));
+    fn a_column_that_is_too_wide_by_itself_is_left_out_and_named() {
+        let narrow = table().fit(Some(17));
+        assert_eq!(narrow.left_out, ["complementarity residual"]);
+        assert!(narrow.text.lines().all(|line| line.chars().count() <= 17), "{}", narrow.text);
+        assert_eq!(narrow.text.matches("+0.123456").count(), 2);
+        // The first is shown in any case.
+        let none = table().fit(Some(5));
+        assert_eq!(none.left_out, ["impulse (N s)", "complementarity residual"]);
+        assert!(none.text.contains("12"), "{}", none.text);
     }
 
     #[test]

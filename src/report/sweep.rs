@@ -5,7 +5,7 @@ use super::html::FILE;
 use crate::error::{Error, Result};
 use crate::output::manifest::MANIFEST;
 use crate::study::realisations::RealisationCount;
-use crate::sweep::{NO_KEY, SENSITIVITY_TABLES, asked, caution, coefficients, in_words};
+use crate::sweep::{NO_KEY, SENSITIVITY_TABLES, Tables, asked, caution, coefficients, in_words};
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::Path;
@@ -104,6 +104,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "seeds": seeds.map(in_words),
             "seeds_asked": seeds.map(seeds_asked),
             "no_key": NO_KEY,
+            "unstable": Tables::read(&folder.path.join(TABLE))?.instabilities(),
             "unjudged": summary["status"]["unjudged"].as_u64().unwrap_or(0),
         },
         "notes": folder.manifest["remarks"],
@@ -115,7 +116,8 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         page["sweep"][name] = found.for_page(None);
         // Of shares: the rows that they are fitted to.
         let rows = found.column("rows").unwrap_or_default().into_iter().reduce(f64::min);
-        page["sweep"]["caution"] = json!(rows.and_then(|rows| caution(rows as usize, coefficients(keys))));
+        let least = found.column("share").unwrap_or_default().into_iter().reduce(f64::min);
+        page["sweep"]["caution"] = json!(rows.and_then(|rows| caution(rows as usize, coefficients(keys), least)));
     }
     Ok(page)
 }

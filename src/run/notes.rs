@@ -9,9 +9,9 @@ mod setup;
 pub(crate) use approach::NO_CONTACT;
 #[cfg(feature = "cli")]
 pub(crate) use resting::resting;
-#[cfg(feature = "cli")]
-pub(crate) use setup::UNRESOLVED_LOAD;
 pub(crate) use setup::setup;
+#[cfg(feature = "cli")]
+pub(crate) use setup::{NEGATIVE_DAMPING, UNRESOLVED_LOAD, unstable};
 
 use super::finished::Run;
 use super::judging::Judging;

@@ -4,7 +4,7 @@ use super::batch::{BatchSums, NO_SUMS, Window};
 use crate::contact::IMPACT_STEPS;
 use crate::scene::Scene;
 use crate::step::{Path, Step};
-use crate::wear::{ImpulseDuration, SlidingContacts, SlidingPiece, sector_of};
+use crate::wear::{ImpulseDuration, SlidingContacts, SlidingPiece, WearWork, sector_of};
 use serde::{Deserialize, Serialize};
 
 /// A support over the window of the statistics.
@@ -45,6 +45,14 @@ pub struct WearStatistics {
     /// Work rate of each of its walls, W, in their order.
     #[serde(default)]
     pub wall_work_rates_w: Vec<f64>,
+}
+
+impl WearStatistics {
+    /// Its work rates, W: all, by sector and by wall.
+    pub(crate) fn rates(&self) -> WearWork {
+        let sectors = self.sectors.iter().map(|sector| sector.work_rate_w).collect();
+        WearWork { total: self.work_rate_w, sectors, walls: self.wall_work_rates_w.clone() }
+    }
 }
 
 /// A sector of a support.

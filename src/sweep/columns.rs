@@ -1,8 +1,10 @@
 //! The data of pictures: the axes of a sweep, and the columns of its tables by name.
 
-use super::measure::Measure;
+use super::measure::{Measure, Scope};
 use super::seeds::asked;
 use super::table::{HALF_WIDTH, ONE_AT_A_TIME, TABLE, Table};
+use crate::error::amount;
+use crate::output::csv::words;
 use crate::output::figure::Scale;
 use crate::study::realisations::RealisationCount;
 use serde_json::{Map, Value};
@@ -29,8 +31,10 @@ pub(super) struct Source<'a> {
     pub seeds: Option<RealisationCount>,
     pub columns: Vec<String>,
     pub sample_columns: Vec<String>,
-    /// The names of the walls.
+    /// The names of the walls, of the supports and of the probes.
     pub walls: Vec<String>,
+    supports: Vec<String>,
+    probes: Vec<String>,
 }
 
 impl<'a> Source<'a> {
@@ -64,6 +68,8 @@ impl<'a> Source<'a> {
             columns: list("columns"),
             sample_columns: list("sample_columns"),
             walls: list("wall_names"),
+            supports: list("support_names"),
+            probes: list("probe_names"),
         }
     }
 }
@@ -72,6 +78,20 @@ impl Source<'_> {
     /// True if rows have attractors.
     pub fn tells_attractors(&self) -> bool {
         self.columns.iter().any(|column| column == Measure::Attractor.name())
+    }
+
+    /// The wall, support or probe of a column of `measure`, by its own name; by the word in the
+    /// column's name where an older version has recorded no names.
+    pub fn place(&self, column: &str, measure: &str) -> String {
+        let word = place_of(column, measure);
+        let names = match measure.parse::<Measure>().map(Measure::scope) {
+            Ok(Scope::Wall) => &self.walls,
+            Ok(Scope::Support) => &self.supports,
+            Ok(Scope::Probe) => &self.probes,
+            Ok(Scope::Row) | Err(_) => return word,
+        };
+        let own = words(names).iter().position(|one| *one == word).and_then(|at| names.get(at));
+        own.cloned().unwrap_or(word)
     }
 }
 
@@ -89,7 +109,7 @@ pub(super) fn of(column: &str, name: &str) -> bool {
     column == name || column.strip_prefix(name).is_some_and(|rest| rest.starts_with('_'))
 }
 
-/// The wall or probe in the name of a column of `measure`.
+/// The wall, support or probe in the name of a column of `measure`.
 pub(super) fn place_of(column: &str, measure: &str) -> String {
     place_suffix(column, measure).trim_start_matches('_').to_owned()
 }
@@ -114,5 +134,16 @@ pub(super) fn is_half_width(column: &str, measure: &str) -> bool {
 
 /// A cell, rounded to the digits of a label.
 pub(super) fn short(cell: &str) -> String {
-    cell.parse::<f64>().map_or_else(|_| cell.to_owned(), |x| format!("{x:.4e}").parse::<f64>().unwrap_or(x).to_string())
+    cell.parse().map_or_else(|_| cell.to_owned(), |x| amount(x, 5))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn a_cell_is_written_as_a_person_writes_it() {
+        let cells = ["0.000000000000001", "2.0", "0.02", "1.23456789e-4", "0.30000000000000004", "event", ""];
+        assert_eq!(cells.map(short), ["1e-15", "2", "0.02", "1.2346e-4", "0.3", "event", ""]);
+    }
 }

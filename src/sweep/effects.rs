@@ -6,7 +6,7 @@
 //! its 95 % interval follows from their scatter, by Student's t. An effect within its half width is
 //! not distinguished from none.
 
-use super::columns::{Source, place_of};
+use super::columns::Source;
 use super::layout::Layout;
 use super::measure::Measure;
 use super::picture::Picture;
@@ -77,7 +77,7 @@ pub(super) fn effects(source: &Source<'_>) -> Result<Vec<Effect>> {
                 key: source.axes.get(axis).map_or_else(String::new, |axis| axis.key.clone()),
                 bounds: *bounds,
                 column: column.clone(),
-                place: place_of(column, measure),
+                place: source.place(column, measure),
                 measure: measure.clone(),
                 base: runs.mean(0, index),
                 at: [low, high].map(|row| runs.mean(row, index)),

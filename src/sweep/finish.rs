@@ -3,6 +3,7 @@
 use super::attractors::{self, ATTRACTORS, Attractors};
 use super::block::Block;
 use super::fold::Fold;
+use super::instability::Unstable;
 use super::plan::Plan;
 use super::status::Status;
 use super::table::{REALISATIONS, SAMPLES, TABLE, cells_of, line_of, with_number};
@@ -22,6 +23,8 @@ pub struct Tables {
     pub counts: Vec<(String, u64)>,
     /// The first row that failed, with its number.
     pub first_error: Option<String>,
+    /// The rows whose motion is unstable.
+    unstable: Unstable,
 }
 
 impl Tables {
@@ -31,6 +34,7 @@ impl Tables {
             Some((_, count)) => *count += 1,
             None => self.counts.push((status.to_owned(), 1)),
         }
+        self.unstable.count(number, error);
         if !Status::is_good_word(status) && self.first_error.is_none() {
             self.first_error = Some(format!("row {number}: {error}"));
         }
@@ -51,6 +55,12 @@ impl Tables {
     pub(crate) fn undecided(&self, folder: &Path) -> Result<Option<u64>> {
         let Some(found) = attractors::rows_found(folder)? else { return Ok(None) };
         Ok(Some((self.rows() - self.bad()).saturating_sub(found)))
+    }
+
+    /// What a reader must know of rows whose motion is unstable, in sentences.
+    #[must_use]
+    pub fn instabilities(&self) -> Vec<String> {
+        self.unstable.sentences(self.rows()).collect()
     }
 
     /// Number of all rows.

@@ -71,6 +71,8 @@ impl Plan {
                 "most_samples": sweep.samples.map(|_| sweep.most_samples),
                 "judged": sweep.rows_judged().min(self.count()),
                 "wall_names": self.base.scene.walls.iter().map(|wall| wall.name.as_str()).collect::<Vec<_>>(),
+                "support_names": self.base.scene.supports.iter().map(|one| one.name.as_str()).collect::<Vec<_>>(),
+                "probe_names": self.base.scene.probes.iter().map(|probe| probe.name.as_str()).collect::<Vec<_>>(),
                 "rows": self.count(),
                 "rows_of_a_chain": self.chain_rows(),
             }),

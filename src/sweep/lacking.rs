@@ -30,7 +30,7 @@ fn reason(measure: Measure, index: usize, case: &Case) -> &'static str {
     match measure {
         Measure::ImpactShare if rigid() => "nothing slid there",
         Measure::ImpactShare => "an elastic support has no impacts, only forces",
-        Measure::WornVolume | Measure::DepthOneScar | Measure::DepthAllRound => match law {
+        _ if measure.needs_law() => match law {
             None => "the support has no wear coefficient",
             Some(law) if law.coefficient.is_none() => "the tube has no wear coefficient there",
             Some(law) if law.scar.is_none() => "a depth takes width and radius of the support",

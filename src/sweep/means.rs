@@ -77,5 +77,5 @@ pub(crate) fn means(folder: &Path, request: &Map<String, Value>) -> Result<Optio
          are the same in every row",
         in_words(count)
     );
-    Ok(Some((table::Table::new(&header, rows).in_blocks(), remark)))
+    Ok(Some((table::Table::new(&header, rows), remark)))
 }

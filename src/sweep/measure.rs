@@ -80,6 +80,8 @@ pub enum Measure {
     SupportForceLargest,
     /// Volume worn off the tube within the service of the case, m³, by Archard's law.
     WornVolume,
+    /// Depth on the tube where it is deepest, in a sector or at a flat, m.
+    DepthDeepest,
     /// Depth on the tube if all of it comes off one scar, m.
     DepthOneScar,
     /// Depth on the tube if it comes off evenly all round, m.
@@ -110,7 +112,7 @@ pub enum Measure {
 }
 
 /// Name, scope, and unit as column names write it.
-const MEASURES: [(Measure, &str, Scope, Option<&str>); 38] = [
+const MEASURES: [(Measure, &str, Scope, Option<&str>); 39] = [
     (Measure::Contacts, "contacts", Scope::Wall, None),
     (Measure::Impacts, "impacts", Scope::Wall, None),
     (Measure::ContactRate, "contact_rate", Scope::Wall, Some("per_s")),
@@ -137,6 +139,7 @@ const MEASURES: [(Measure, &str, Scope, Option<&str>); 38] = [
     (Measure::SupportForceRms, "support_force_rms", Scope::Support, Some("N")),
     (Measure::SupportForceLargest, "support_force_largest", Scope::Support, Some("N")),
     (Measure::WornVolume, "worn_volume", Scope::Support, Some("m3")),
+    (Measure::DepthDeepest, "depth_deepest", Scope::Support, Some("m")),
     (Measure::DepthOneScar, "depth_one_scar", Scope::Support, Some("m")),
     (Measure::DepthAllRound, "depth_all_round", Scope::Support, Some("m")),
     (Measure::DisplacementMax, "displacement_max", Scope::Probe, Some("m")),
@@ -252,7 +255,7 @@ impl Measure {
 
     /// True for the depth of a scar, which a slider does not have.
     pub(super) fn needs_scar(self) -> bool {
-        matches!(self, Self::DepthOneScar | Self::DepthAllRound)
+        matches!(self, Self::DepthDeepest | Self::DepthOneScar | Self::DepthAllRound)
     }
 
     /// True for a measure that takes the law of wear of the case.

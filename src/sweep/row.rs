@@ -1,5 +1,6 @@
 //! One row: builds its case, runs it and computes the measures.
 
+use super::instability;
 use super::lacking;
 use super::measure::Measure;
 use super::plan::{Plan, Point};
@@ -29,8 +30,9 @@ pub struct Row {
     pub values: Vec<KeyValue>,
     /// Its status.
     pub status: Status,
-    /// The reason for the status, in a sentence; empty for `ok`. Of an `unjudged` row, what another
-    /// status would say if it had been judged: that stretches were handed to moreau-jean.
+    /// The reason for the status, in a sentence; of a row with results also that its motion is
+    /// unstable, and why measures have no value; else empty for `ok`. Of an `unjudged` row, what
+    /// another status would say if it had been judged: that stretches were handed to moreau-jean.
     pub error: String,
     /// The first note that limits the use of its run; `None` for a row of the batch kernel, which
     /// makes no steps.
@@ -71,7 +73,7 @@ struct Done {
     handed: usize,
     findings: Vec<Finding>,
     caution: Option<String>,
-    /// Why measures have no value.
+    /// That its motion is unstable, and why measures have no value.
     notes: Vec<String>,
 }
 
@@ -190,6 +192,7 @@ impl Plan {
         }
         let energy = judge.as_ref().map(|judge| judge.residuals().energy);
         let cautions = notes::unrecorded(scene, &method.scheme, grid.step, energy.as_ref(), &stepper.counters());
+        let unstable = instability::of_row(&case, scene);
         let (open, note) = (stepper.open_contacts(), observer.note());
         let (measures, samples) = observer.finish(&self.sweep, &case, stepper.checked(), &open);
         let lacking = lacking::reasons(&self.sweep.measures, &measures, &case);
@@ -199,8 +202,8 @@ impl Plan {
             end: stepper.state(),
             handed: stepper.handed().len(),
             findings: judge.map_or_else(Vec::new, |judge| judge.findings()),
-            caution: cautions.into_iter().next(),
-            notes: note.into_iter().chain(lacking).collect(),
+            caution: cautions.into_iter().find(|caution| !unstable.contains(caution)),
+            notes: unstable.into_iter().chain(note).chain(lacking).collect(),
         })
     }
 }

@@ -18,7 +18,7 @@
 //! their number) is the share of the realisations; what is left is that of interactions of keys and
 //! of terms beyond the third degree.
 
-use super::columns::{Source, SweepAxis, place_of};
+use super::columns::{Source, SweepAxis};
 use super::measure::Measure;
 use super::picture::Picture;
 use super::runs::Runs;
@@ -34,6 +34,9 @@ const DEGREE: usize = 3;
 
 /// Rows for each coefficient below which shares are told with a caution.
 const FEW: usize = 3;
+
+/// A share further below 0 than this is more than the scatter of enough rows and realisations.
+const BELOW_0: f64 = -0.05;
 
 /// The columns of `shares.csv`.
 pub(super) const HEADER: [&str; 6] = ["key", "place", "measure", "unit", "share", "rows"];
@@ -75,16 +78,23 @@ pub(crate) const fn coefficients(keys: usize) -> usize {
     1 + DEGREE * keys
 }
 
-/// What to know of the shares that so many rows give with so many coefficients; `None` where the
-/// rows are many.
-pub(crate) fn caution(rows: usize, coefficients: usize) -> Option<String> {
+/// What to know of the shares that so many rows give with so many coefficients, and of which the
+/// `least` is this; `None` where the rows are many and no share is far below 0, by which the others
+/// together exceed 1.
+pub(crate) fn caution(rows: usize, coefficients: usize, least: Option<f64>) -> Option<String> {
     if rows <= coefficients {
         Some(format!("note: no shares of the keys from {rows} rows with a value: they take more than {coefficients}"))
     } else if rows < FEW * coefficients {
         let text = "the shares scatter; more --points tell more";
         Some(format!("note: {rows} rows for {coefficients} coefficients: {text}"))
     } else {
-        None
+        least.filter(|least| *least < BELOW_0).map(|least| {
+            format!(
+                "note: a share of {:.1} % is below 0, and the others exceed 100 %: the rows, or their realisations, \
+                 are too few to tell shares apart; more --points or --seeds tell more",
+                100.0 * least
+            )
+        })
     }
 }
 
@@ -106,7 +116,7 @@ pub(super) fn shares(source: &Source<'_>) -> Result<Vec<Shares>> {
         let keys = source.axes.iter().map(|axis| axis.key.clone());
         let parts = if points.len() > coefficients { parts(&points, keys, variance) } else { None };
         Shares {
-            place: place_of(&column, &measure),
+            place: source.place(&column, &measure),
             parts: parts.unwrap_or_default(),
             rows: points.len(),
             measure,
@@ -234,6 +244,14 @@ mod tests {
         // the polynomials are large, so that more is fitted by chance, by up to p/N = 0.05.
         let mean = (0..50).map(|seed| found(&drawn(200, seed, |a, b| a * b, 0.0), None)[3]).sum::<f64>() / 50.0;
         assert!((mean - 1.0).abs() < 0.05, "{mean}");
+    }
+
+    #[test]
+    fn a_share_far_below_0_is_said_where_the_rows_are_not_few() {
+        let said = caution(32, 10, Some(-0.58)).expect("a note");
+        assert!(said.contains("-58.0 %") && said.contains("--seeds"), "{said}");
+        assert_eq!(caution(32, 10, Some(-0.04)), None);
+        assert!(caution(29, 10, Some(-0.58)).expect("a note").contains("29 rows for 10 coefficients"));
     }
 
     #[test]

@@ -175,18 +175,21 @@ impl Archard {
     }
 
     /// Depth worn off the tube where it is deepest, m: of a round support in the sector with the
-    /// most `work` (J), of flats at the flat with the most; 0 without a coefficient of the tube or
-    /// a scar, NaN where a flat would cut the tube in two.
+    /// most `work` (J), of flats at the flat with the most, and no deeper than one scar of all of
+    /// it; 0 without a coefficient of the tube or a scar, NaN where that would cut the tube in two.
     #[must_use]
     pub fn deepest(&self, growth: Growth, work: &WearWork) -> f64 {
         let most = |works: &[f64]| works.iter().copied().fold(0.0, f64::max);
         let Some((coefficient, Scar { width, radius, bearing })) = self.coefficient.zip(self.scar) else { return 0.0 };
-        match (growth, bearing) {
+        let own = match (growth, bearing) {
             (Growth::Flats | Growth::Kept, Bearing::Flat) => {
                 flat_depth(coefficient * most(&work.walls), width, radius).unwrap_or(f64::NAN)
             }
             _ => all_round(coefficient * most(&work.sectors) * work.sectors.len() as f64, width, radius),
-        }
+        };
+        // A sector narrower than the scar that all of the wear makes is no deeper than that.
+        let one_scar = Self { service: 1.0, ..*self }.worn(work.total).depth_one_scar_m;
+        own.min(one_scar.unwrap_or(f64::NAN))
     }
 }
 

@@ -198,12 +198,15 @@ fn tables_fit_the_terminal_and_no_number_is_broken() {
     let numbers = |table: &str| table.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).count();
     // Times per step differ in their digits only.
     assert_eq!(numbers(&compare("80")), numbers(&compare("200")));
-    let narrow = command(dir.path(), &["run", "tube-loose-supports", "--end", "0.05", "--no-verdict"])
-        .env("COLUMNS", "60")
-        .output()
-        .unwrap();
-    let said = text(&narrow.stderr);
-    assert!(said.contains("no room for ") && said.contains("arrived - left (W): summary.json has"), "{said}");
+    // So do worn volume and depths of a tube in the width of a page.
+    let wears = ["run", "tube-round-supports", "--end", "0.1", "--no-verdict", "--set", "wear.coefficient=1e-14"];
+    let output = command(dir.path(), &wears).env("COLUMNS", "78").output().unwrap();
+    let (shown, said) = (text(&output.stdout), text(&output.stderr));
+    for heading in ["worn (mm³)", "one scar", "all round"] {
+        let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(heading.split(' ').all(|word| words.contains(word)), "{heading}: {shown}");
+    }
+    assert!(shown.lines().all(|line| line.chars().count() <= 78) && !said.contains("no room for"), "{shown}{said}");
 }
 
 fn document(folder: &Path, args: &[&str], code: i32) -> Value {

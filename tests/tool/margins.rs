@@ -66,3 +66,44 @@ fn margins_of_several_bodies_name_them_in_all_that_shows_margins() {
     let page = fs::read_to_string(path.join("r/report.html")).unwrap();
     assert!(page.contains("\"bodies\":[\"left\",\"right\"]"));
 }
+
+/// Rows beyond the limit say so whatever the case itself is, alone, with realisations, and merged.
+#[test]
+fn rows_of_a_sweep_beyond_the_limit_are_told_and_say_so_themselves() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let sweep = |base: &str, more: &[&str]| {
+        let base = format!("turbulence.1.velocity={base}");
+        let own = ["sweep", "tube-in-cross-flow", "--set", "flow.connors=3", "--set", &base, "--set", "system.modes=4"];
+        let vary = ["--vary", "turbulence.1.velocity=0.5,1.2,3", "--measure", "work_rate"];
+        said(path, &[&own[..], &SHORT, &vary, more].concat(), 0)
+    };
+    let told = "2 of 3 rows are beyond the fluid-elastic limit: work rates there mean nothing";
+    let parts = ["--no-report", "--out", "parts", "--shard"];
+    for (base, more, out) in [
+        ("0.5", &["--out", "stable"][..], "stable"),
+        ("3", &["--out", "unstable", "--json"], "unstable"),
+        ("0.5", &["--out", "seeds", "--seeds", "2"], "seeds"),
+        ("0.5", &[&parts[..], &["1/2"]].concat(), ""),
+        ("0.5", &[&parts[..], &["2/2"]].concat(), ""),
+    ] {
+        let (_, err) = sweep(base, more);
+        let Some(folder) = Some(path.join(out)).filter(|_| !out.is_empty()) else { continue };
+        assert!(err.contains(&format!("note: {told}")) && err.contains("(among rows 1 to 2"), "{err}");
+        assert!(!err.contains("unstable: work rates"), "{err}");
+        let mut table = csv::Reader::from_path(folder.join("sweep.csv")).unwrap();
+        let rows: Vec<std::collections::HashMap<String, String>> = table.deserialize().map(Result::unwrap).collect();
+        assert!(rows.iter().all(|row| row["status"] == "ok") && rows[0]["error"].is_empty(), "{rows:?}");
+        for (row, margin) in rows.iter().zip(["", "margin 0.950", "margin 0.380"]).skip(1) {
+            assert!(row["error"].contains("unstable: work rates mean nothing") && row["error"].contains(margin));
+        }
+        let summary: Value = serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap();
+        let notes: Vec<&str> = summary["notes"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+        assert_eq!(notes.iter().filter(|note| note.contains("fluid-elastic limit: ")).count(), 1, "{notes:?}");
+        assert!(fs::read_to_string(folder.join("report.html")).unwrap().contains(told));
+    }
+    let (_, err) = said(path, &["merge", "parts", "--out", "merged"], 0);
+    assert!(err.contains(told), "{err}");
+    // A finished sweep that is read again says the same.
+    assert!(sweep("0.5", &["--out", "stable"]).1.contains(told));
+}

@@ -204,3 +204,21 @@ fn explain_says_where_moreau_jean_rests_too_deep_and_what_does_not() {
         assert_eq!(told, rests, "{force} N, {side}: {said}");
     }
 }
+
+#[test]
+fn rows_of_a_sweep_with_negative_damping_are_told_once_and_say_so_themselves() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = "[system.modal]\nfrequencies = [10.0]\nmasses = [2.0]\ndamping_ratios = 0.05\nshapes = { p = [1.0] }\n\
+                [[wall]]\nname = \"w\"\nat = { point = \"p\" }\nside = \"upper\"\nposition = 2e-3\nrestitution = 0.5\n\
+                [[load]]\nat = { point = \"p\" }\nharmonic = { amplitude = 10.0, frequency = 8.0 }\n\
+                [time]\nend = 0.2\nstep = 1e-3\n";
+    fs::write(dir.path().join("grows.toml"), case).unwrap();
+    let vary = ["--vary", "system.modal.damping_ratios=-0.02,0.02,0.05", "--measure", "force_rms", "--out", "out"];
+    let (_, err) = crate::command::said(dir.path(), &[&["sweep", "grows.toml"], &vary[..]].concat(), 0);
+    let told = "note: 1 of 3 rows is unstable by negative damping: without contact their motion grows";
+    assert!(err.contains(told) && err.contains("(row 0; the column error says more)"), "{err}");
+    assert!(!err.contains("runs have notes"), "{err}");
+    let table = fs::read_to_string(dir.path().join("out/sweep.csv")).unwrap();
+    let said = "0,-0.02,ok,\"the mode of 10.0000 Hz (-2.000e-2) has a negative damping ratio and is unstable";
+    assert!(table.contains(said) && table.contains("2,0.05,ok,,"), "{table}");
+}

@@ -41,7 +41,7 @@ fn the_measures_of_supports_are_those_of_the_runs() {
         let asked: Vec<Measure> = of_supports
             .filter(|measure| has_law || !measure.name().starts_with("worn") && !measure.name().starts_with("depth"))
             .collect();
-        assert_eq!(asked.len(), if has_law { 10 } else { 7 }, "{name}");
+        assert_eq!(asked.len(), if has_law { 11 } else { 7 }, "{name}");
         let gaps = [1.5e-4, 3e-4];
         let mut sweep = Sweep::new(file.clone());
         for (key, value) in ends {
@@ -78,6 +78,13 @@ fn the_measures_of_supports_are_those_of_the_runs() {
                     let worn = law.worn(wear.work_rate_w);
                     assert!(worn.volume_m3.unwrap() > 0.0);
                     expected.push((format!("worn_volume_{word}_m3"), worn.volume_m3));
+                    let deepest = case.depth_deepest(index, wear);
+                    // The work of the most loaded sector, on its part of the circle.
+                    let sectors = wear.sectors.iter().map(|sector| sector.work_rate_w).fold(0.0, f64::max);
+                    let most = worn.depth_all_round_m.unwrap() * sectors / wear.work_rate_w * wear.sectors.len() as f64;
+                    let wanted = most.min(worn.depth_one_scar_m.unwrap());
+                    assert!((deepest.unwrap() / wanted - 1.0).abs() < 1e-12 && deepest > worn.depth_all_round_m);
+                    expected.push((format!("depth_deepest_{word}_m"), deepest));
                     expected.push((format!("depth_one_scar_{word}_m"), worn.depth_one_scar_m));
                     expected.push((format!("depth_all_round_{word}_m"), worn.depth_all_round_m));
                 }
@@ -107,7 +114,7 @@ fn measures_of_supports_are_refused_by_name_where_they_have_no_value() {
         Sweep::new(damper.clone()).vary(axis).by("moreau-jean").measure([measure]).plan()
     };
     assert!(of_damper(Measure::WornVolume).is_ok());
-    for measure in [Measure::DepthOneScar, Measure::DepthAllRound] {
+    for measure in [Measure::DepthDeepest, Measure::DepthOneScar, Measure::DepthAllRound] {
         let said = of_damper(measure).unwrap_err().to_string();
         assert!(said.contains(measure.name()) && said.contains("worn_volume, or a support with width"), "{said}");
     }

@@ -57,6 +57,32 @@ fn bytes(folder: &Path) -> Vec<Vec<u8>> {
         .to_vec()
 }
 
+/// Worn volume and depths of `run --seeds` and of `sweep --seeds` are the same means, with the same
+/// intervals.
+#[test]
+fn worn_volume_and_depths_have_their_means_and_intervals() {
+    let dir = tempfile::tempdir().unwrap();
+    let names = ["worn_volume", "depth_deepest", "depth_one_scar", "depth_all_round"];
+    let case = ["tube-round-supports", "--set", "time.end=0.2", "--set", "time.statistics_from=0.1", "--seeds", "3"];
+    let own = ["--no-verdict", "--no-report", "--out", "run"];
+    let (shown, _) = said(dir.path(), &[&["run"], &case[..], &own].concat(), 0);
+    assert!(shown.contains("deepest") && shown.contains("all round"), "{shown}");
+    let summary: Value = serde_json::from_slice(&fs::read(dir.path().join("run/summary.json")).unwrap()).unwrap();
+    let worn = summary["realisations"]["worn"].as_array().unwrap();
+    let vary = ["--vary", "support.*.gap=2e-4,3e-4", "--no-report", "--out", "sweep", "--measure"];
+    said(dir.path(), &[&["sweep"], &case[..], &vary, &[names.join(",").as_str()]].concat(), 0);
+    let row = &rows(&dir.path().join("sweep/sweep.csv"))[0];
+    assert_eq!((row["gap_m"].parse(), worn.len()), (Ok(2e-4), 8), "two supports");
+    for one in worn {
+        let (name, unit) = (one["measure"].as_str().unwrap(), if one["unit"] == "m" { "m" } else { "m3" });
+        let place = one["place"].as_str().unwrap().replace('-', "_");
+        let (mean, half) = (one["mean"].as_f64().unwrap(), one["half_width_95"].as_f64().unwrap());
+        assert_eq!(number(row, &format!("{name}_{place}_{unit}")), mean);
+        assert_eq!(number(row, &format!("{name}_half_width_95_{place}_{unit}")), half);
+        assert!(mean > 0.0 && half > 0.0, "{one}");
+    }
+}
+
 /// Each row has the numbers of `run --seeds` of the case with its gap, to the last bit: those of
 /// the realisations, their means, and the half widths of the intervals.
 #[test]

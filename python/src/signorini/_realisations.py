@@ -27,7 +27,9 @@ class Realisations:
     ``supports`` and ``walls`` map a name to the `Estimate` of each measure there:
     ``study.supports["plate-1"]["work_rate"]`` is a mean work rate, W. The measures are
     ``mean_force``, ``mean_force_y``, ``mean_force_z``, ``rms_force`` and ``largest_force`` (N),
-    ``work_rate`` and ``friction_power`` (W), as far as a place has them. ``table`` has the columns
+    ``work_rate`` and ``friction_power`` (W), and by the law of wear of the case, within its service,
+    ``worn_volume`` (m³), ``depth_deepest``, ``depth_one_scar`` and ``depth_all_round`` (m), as far
+    as a place has them. ``table`` has the columns
     of ``realisations.csv``: a row for each realisation and place. ``accuracy`` is what was reached
     where an accuracy was asked for, as in the summary of the tool: ``step_s``, ``reached``,
     ``quantity``, ``levels``. ``print`` shows the tables of the tool.
@@ -106,13 +108,14 @@ def made(known: dict[str, Any]) -> Realisations:
     """The study that the compiled half told."""
     document = known["document"]
     places: dict[str, dict[str, dict[str, Estimate]]] = {"support": {}, "wall": {}}
-    for one in document["estimates"]:
+    estimates = [*document["estimates"], *known["worn"]]
+    for one in estimates:
         own = places[one["kind"]].setdefault(one["place"], {})
         own[one["measure"]] = _estimate(one, seeds=document["count"] > 1)
     supports, walls = (
         ReadOnly({name: ReadOnly(own) for name, own in of.items()}) for of in places.values()
     )
-    table, rows = ReadOnly(columns(*known["table"])), tuple(map(_row, document["estimates"]))
+    table, rows = ReadOnly(columns(*known["table"])), tuple(map(_row, estimates))
     accuracy = known.get("accuracy")
     accuracy = None if accuracy is None else ReadOnly(accuracy)
     return Realisations(document["count"], supports, walls, table, accuracy, rows, known["text"])

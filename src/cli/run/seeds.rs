@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::cli::pipeline::Answer;
 use crate::cli::realisations::{of_argument, share, show_errors};
 use crate::error::{Error, Result};
-use crate::output::realisations as output;
+use crate::output::{realisations as output, worn_means};
 use crate::study::realisations::{MOST_REALISATIONS, RealisationCount, RealisationStudy};
 
 /// How often the run is repeated.
@@ -81,5 +81,9 @@ pub fn show(study: &RealisationStudy, answer: &mut Answer, case: &Case) {
         answer.table(table, "summary.json");
     }
     answer.messages(output::remarks(&study.realisations, &case.scene));
+    if let Some(table) = worn_means::table(case, &study.realisations) {
+        answer.table(table, "summary.json");
+        answer.messages(["worn volume and depths: within the service of the case, by Archard's law".to_owned()]);
+    }
     show_errors(study, answer, case);
 }

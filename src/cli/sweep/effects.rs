@@ -1,6 +1,7 @@
 //! The table of the effects of keys that are varied one at a time.
 
 use crate::cli::pipeline::Answer;
+use crate::error::amount;
 use crate::output::realisations::with_interval;
 use crate::output::table::Table;
 use crate::study::realisations::RealisationCount;
@@ -11,9 +12,9 @@ const MOST_LINES: usize = 40;
 
 /// Shows the effects, by measure and place, the largest first.
 pub(super) fn show_effects(answer: &mut Answer, effects: &[Effect], seeds: Option<RealisationCount>) {
-    let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.4e}"));
+    let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| amount(x, 5));
     let row = |one: &Effect| {
-        let [low, high] = one.bounds.map(|bound| format!("{bound}"));
+        let [low, high] = one.bounds.map(|bound| amount(bound, 6));
         let effect = one.effect.map_or_else(|| "-".to_owned(), |x| with_interval(x, one.half_width_95));
         let seen = if one.is_seen() { "" } else { "not distinguished from none" };
         let [at_low, at_high] = one.at.map(number);
@@ -27,7 +28,7 @@ pub(super) fn show_effects(answer: &mut Answer, effects: &[Effect], seeds: Optio
     };
     let rows = effects.iter().take(MOST_LINES).map(|one| cut(row(one))).collect();
     let header = if every { &header[..header.len() - 1] } else { &header[..] };
-    answer.table(Table::new(header, rows).in_blocks(), "effects.csv");
+    answer.table(Table::new(header, rows), "effects.csv");
     answer.messages([match seeds {
         Some(count) => format!(
             "effect: the mean over {} of the measure at the upper bound less that at the lower one, under the same \

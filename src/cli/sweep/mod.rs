@@ -162,7 +162,7 @@ fn document(plan: &Plan, finished: &Finished, drawn: &[PathBuf]) -> Value {
         "command_line": command_line(),
         "status": status_document(&finished.tables),
         "first_error": finished.tables.first_error,
-        "notes": plan.notes(),
+        "notes": ([plan.notes(), finished.tables.instabilities()].concat()),
         "threads": finished.threads,
         "wall_clock_s": finished.seconds,
         "request": plan.request(),
@@ -205,6 +205,7 @@ pub(super) fn status_messages(folder: &Path, tables: &Tables, rows: u64) -> Resu
         let hint = if status == Status::Unjudged.name() { ": nothing checked their steps; see --judged" } else { "" };
         messages.push(format!("{status}: {count} of {rows} rows{hint}"));
     }
+    messages.extend(tables.instabilities().iter().map(|text| format!("note: {text}")));
     if let Some(error) = &tables.first_error {
         messages.push(format!("the first that failed: {error}"));
     }

@@ -25,8 +25,10 @@ pub(super) fn show_shares(answer: &mut Answer, shares: &[Shares]) {
     answer.messages(fewest(shares.iter().filter(|one| one.rows <= one.coefficients)));
 }
 
-/// The caution about those with the fewest rows.
+/// The caution about those with the fewest rows, or with the least share.
 fn fewest<'a>(shares: impl Iterator<Item = &'a Shares>) -> Option<String> {
-    let (rows, coefficients) = shares.map(|one| (one.rows, one.coefficients)).min()?;
-    caution(rows, coefficients)
+    let shares: Vec<&Shares> = shares.collect();
+    let (rows, coefficients) = shares.iter().map(|one| (one.rows, one.coefficients)).min()?;
+    let least = shares.iter().flat_map(|one| &one.parts).map(|(_, share)| *share).reduce(f64::min);
+    caution(rows, coefficients, least)
 }

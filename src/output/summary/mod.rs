@@ -5,6 +5,7 @@ mod scene;
 use super::detail::Detail;
 use super::request::program;
 use super::supports;
+use super::worn_means;
 use crate::case::{Case, FileRead};
 use crate::error::{Error, Result};
 use crate::qp::Backend;
@@ -96,6 +97,7 @@ pub fn scene(case: &Case) -> Value {
 /// its document.
 pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -> Result<Value> {
     let exact = run.scheme.is_exact();
+    let study = checks.realisations;
     let mut impulse_whole_run_n_s = BTreeMap::new();
     for wall in run.trajectory.walls().iter().filter(|wall| !run.trajectory.holes().contains(wall)) {
         impulse_whole_run_n_s.insert(wall.as_str(), run.trajectory.impulse(wall)?);
@@ -140,6 +142,9 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
     };
     let mut document = serde_json::to_value(&summary)
         .map_err(|error| Error::io("the summary", error.to_string(), false).caused_by(error))?;
+    if let Some(study) = study {
+        document["realisations"]["worn"] = worn_means::document(case, study);
+    }
     // The wear of supports stands under a key of its own, which a scene without supports does not
     // have.
     if let Some(statistics) = document.get_mut("statistics").and_then(Value::as_object_mut) {

@@ -71,8 +71,11 @@ fn unusual(scene: &Scene) -> Option<String> {
 /// Most unstable modes that are named.
 const MOST_UNSTABLE: usize = 5;
 
+/// With these words modes that grow say so.
+pub(crate) const NEGATIVE_DAMPING: &str = "a negative damping ratio";
+
 /// A note on modes with negative damping, as a flow gives them.
-fn unstable(scene: &Scene) -> Option<String> {
+pub(crate) fn unstable(scene: &Scene) -> Option<String> {
     let System::Structure(structure) = &scene.system else { return None };
     let modes = diagonal(structure)?;
     let (m, c) = (structure.mass.diagonal_entries(), structure.damping.diagonal_entries());
@@ -84,10 +87,11 @@ fn unstable(scene: &Scene) -> Option<String> {
     let named: Vec<String> =
         negative.iter().take(MOST_UNSTABLE).map(|(omega, z)| format!("{:.4} Hz ({z:.3e})", omega / TAU)).collect();
     let more = if negative.len() > MOST_UNSTABLE { ", .." } else { "" };
-    let modes = if negative.len() == 1 { "the mode of" } else { "the modes of" };
+    let (modes, have) = if negative.len() == 1 { ("the mode of", "has") } else { ("the modes of", "have") };
+    let are = if negative.len() == 1 { "is" } else { "are" };
     (!negative.is_empty()).then(|| {
         format!(
-            "{modes} {}{more} have a negative damping ratio and are unstable: without contact their motion grows, \
+            "{modes} {}{more} {have} {NEGATIVE_DAMPING} and {are} unstable: without contact their motion grows, \
              and walls alone limit it",
             named.join(", ")
         )

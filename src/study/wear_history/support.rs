@@ -60,8 +60,7 @@ impl WearingSupport {
             shift_m: self.opening(work).shift,
             work_j: work.total,
             work_rate_w: rate,
-            // A sector narrower than the scar that all of the wear makes is no deeper than that.
-            depth_deepest_m: self.law.deepest(self.growth, work).min(one_scar),
+            depth_deepest_m: self.law.deepest(self.growth, work),
             depth_all_round_m: worn.depth_all_round_m.unwrap_or(0.0),
             depth_one_scar_m: if work.total > 0.0 && worn.volume_m3.is_some() { one_scar } else { 0.0 },
         }

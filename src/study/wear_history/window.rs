@@ -2,6 +2,7 @@
 
 use super::support::WearingSupport;
 use crate::residual::Finding;
+use crate::statistics::WearStatistics;
 use crate::study::realisations::Realisation;
 use crate::wear::{Opening, WearWork};
 use serde::{Deserialize, Serialize};
@@ -32,11 +33,7 @@ impl WearWindow {
     pub(super) fn after(member: &Realisation, supports: &[WearingSupport], openings: Vec<Opening>) -> Self {
         let rate = |support: &WearingSupport| {
             let found = member.wear.iter().find(|wear| wear.support == support.name);
-            found.map_or_else(WearWork::default, |wear| WearWork {
-                total: wear.work_rate_w,
-                sectors: wear.sectors.iter().map(|sector| sector.work_rate_w).collect(),
-                walls: wear.wall_work_rates_w.clone(),
-            })
+            found.map_or_else(WearWork::default, WearStatistics::rates)
         };
         let rates = supports.iter().map(rate).collect();
         Self { number: member.number, openings, rates, findings: member.findings.clone() }

@@ -1,7 +1,8 @@
 // The means over realisations of random loads, with their errors in parts.
 
 /** Under `title`, those of `realisations`, of which `runs` says which they are. */
-function meansSection({ count, estimates, checks }, title, runs) {
+function meansSection({ count, estimates: judgeable, worn, checks }, title, runs) {
+  const estimates = [...judgeable, ...(worn || [])];
   const judged = estimates.some(({ error }) => error);
   const words = (measure) => measure.replace(/_/g, " ");
   /** A share of the mean, in per cent. */

@@ -1,7 +1,8 @@
 // Sweeps: curves over one axis, maps over two, bifurcation diagrams.
 
 function sweepSection() {
-  const { axes, effects, shares, samples, scheme, seeds, seeds_asked: asked, unjudged } = DATA.sweep;
+  const { axes, effects, shares, samples, scheme, seeds, seeds_asked: asked } = DATA.sweep;
+  const { unjudged, unstable } = DATA.sweep;
   const table = tableOf(DATA.sweep.table);
   const { columns } = table;
   const numeric = (name) => columns[name] && !Array.isArray(columns[name]);
@@ -21,7 +22,7 @@ function sweepSection() {
       ),
       attractors && columns.attractor ? attractorText(attractors, columns.attractor[i]) : null,
       ...measures.slice(0, 14).map((name) => `${columnLabel(name)}: ${withInterval(columns, name, i)}`),
-      columns.status && columns.status[i] !== "ok"
+      columns.status && (columns.status[i] !== "ok" || columns.error[i])
         ? [columns.status[i], columns.error[i]].filter((word) => word).join(": ")
         : null,
     ]
@@ -70,6 +71,7 @@ function sweepSection() {
   section(
     "sweep",
     "Sweep",
+    unstable.map((text) => `${text}. `).join("") +
     (effects
       ? "Click a row for the command that runs it alone"
       : "Point at a row for its numbers; click it for the command that runs it alone") +
