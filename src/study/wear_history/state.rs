@@ -81,8 +81,8 @@ impl WearHistories {
         (0..histories).map(own).collect()
     }
 
-    /// The time after the end at which each history reaches `limit` if it goes on to grow as between
-    /// the last two points, s; `None` where it has reached it, or does not grow.
+    /// The time after the end at which each history reaches `limit` if it goes on to grow as
+    /// between the last two points, s; `None` where it has reached it, or does not grow.
     #[must_use]
     pub fn reaches_at_last_rate(
         &self,
