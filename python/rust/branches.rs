@@ -4,10 +4,10 @@ use crate::case::Case;
 use crate::error::raise;
 use crate::work::compute_beside;
 use pyo3::prelude::*;
-use serde_json::{Value, json};
+use serde_json::json;
 use signorini::orbit::{Kind, branch};
 use signorini::output::atomic::write_whole;
-use signorini::output::branch_folder::{self, BranchRequest};
+use signorini::output::branch_folder::{self, BranchRequest, BranchSettings};
 use signorini::output::first_orbit::FirstOrbit;
 use signorini::output::format::{Format, Formats};
 use signorini::output::request::{extended, request};
@@ -38,7 +38,19 @@ pub fn _branches(
 ) -> PyResult<Vec<&'static str>> {
     let (start, settle, switch, depth, points) = asked;
     let follow = BranchRequest { switch: branch_folder::switch(&switch).map_err(raise)?, depth, points };
-    let settings = settings(key, range, (start.as_ref(), settle), &follow, &switch);
+    let settings = json!(BranchSettings {
+        key,
+        range: &format!("{}:{}", range[0], range[1]),
+        from: start.as_deref(),
+        settle,
+        switch: &switch,
+        depth,
+        points,
+        over: None,
+        second: None,
+        second_range: None,
+        locus: &[],
+    });
     let asked = KeyRange { names: ["key", "range"], key, range };
     let text = case.file.text().map_err(raise)?;
     let work = || {
@@ -60,29 +72,6 @@ pub fn _branches(
     };
     compute_beside(py, work, &mut |_| Ok(()))?;
     Ok(Kind::ALL.into_iter().filter(|kind| kind.is_approach()).map(Kind::name).collect())
-}
-
-/// What decides on the results beside the case, as the tool records it.
-fn settings(
-    key: &str,
-    [low, high]: [f64; 2],
-    (start, settle): (Option<&PathBuf>, u32),
-    follow: &BranchRequest,
-    switch: &str,
-) -> Value {
-    json!({
-        "key": key,
-        "range": format!("{low}:{high}"),
-        "from": start,
-        "settle": settle,
-        "switch": switch,
-        "depth": follow.depth,
-        "points": follow.points,
-        "over": null,
-        "second": null,
-        "second_range": null,
-        "locus": [],
-    })
 }
 
 /// Writes the page of the results in `folder`. Returns its path, and what is to be said of it.

@@ -9,7 +9,9 @@ use super::{json, orbits, overlay};
 use crate::error::{Result, named};
 use crate::interrupt::Carried;
 use crate::orbit::branch::{Graph, Point, Request, Switch, graph};
+use serde::Serialize;
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// How far branches are followed from the first orbit.
 #[derive(Debug, Clone, Copy)]
@@ -46,6 +48,35 @@ impl BranchRequest {
         Carried::here().check()?;
         Ok(found)
     }
+}
+
+/// What decides on the results beside the case, as the folder records it: the key and its range,
+/// the file of the first orbit or the forcing periods that are run first, and how far branches are
+/// followed.
+#[derive(Debug, Serialize)]
+pub struct BranchSettings<'a> {
+    /// The key, and its range `A:B`.
+    pub key: &'a str,
+    /// See `key`.
+    pub range: &'a str,
+    /// The file of the first orbit.
+    pub from: Option<&'a Path>,
+    /// Forcing periods that are run before the motion is checked for repetition.
+    pub settle: u32,
+    /// As [`switch`] reads it.
+    pub switch: &'a str,
+    /// As in [`BranchRequest`].
+    pub depth: u32,
+    /// As in [`BranchRequest`].
+    pub points: u32,
+    /// Results that are drawn beneath.
+    pub over: Option<&'a Path>,
+    /// A second key, over which special points are followed.
+    pub second: Option<&'a str>,
+    /// Its range.
+    pub second_range: Option<&'a str>,
+    /// Which special points; all if empty.
+    pub locus: &'a [String],
 }
 
 /// The branches `found`, as they are written and drawn.

@@ -6,6 +6,7 @@ use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
 use crate::orbit::SETTLE;
 use crate::orbit::branch::Label;
+use crate::output::branch_folder::BranchSettings;
 use crate::output::scene_family::SceneFamily;
 use crate::output::varied::KeyRange;
 use clap::builder::PossibleValuesParser;
@@ -107,18 +108,18 @@ impl Args {
 
     /// What decides on the results beside the case.
     pub(super) fn settings(&self) -> Value {
-        json!({
-            "key": self.key,
-            "range": self.range,
-            "from": self.from,
-            "settle": self.settle,
-            "switch": self.switch,
-            "depth": self.depth,
-            "points": self.points,
-            "over": self.over,
-            "second": self.second,
-            "second_range": self.second_range,
-            "locus": self.locus,
+        json!(BranchSettings {
+            key: &self.key,
+            range: &self.range,
+            from: self.from.as_deref(),
+            settle: self.settle,
+            switch: &self.switch,
+            depth: self.depth,
+            points: self.points,
+            over: self.over.as_deref(),
+            second: self.second.as_deref(),
+            second_range: self.second_range.as_deref(),
+            locus: &self.locus,
         })
     }
 }
