@@ -3,6 +3,8 @@
 const ROW = 28;
 /** Rows of a table on paper. */
 const PRINTED = 40;
+/** A text of more characters than this may be cut in a cell. */
+const LONG = 40;
 /** Tables that are filled anew for paper. */
 const tables = [];
 
@@ -35,7 +37,9 @@ function sortable(columns, rows, options = {}) {
   const line = (i) => {
     const cells = columns.map((column) => {
       const text = column.show(rows[i]);
-      return el("td", { class: text === "–" ? "none" : null }, text);
+      // Rows have one height: of a long text the rest is told where the pointer rests.
+      const title = String(text).length > LONG ? text : null;
+      return el("td", { class: text === "–" ? "none" : null, title }, text);
     });
     const tr = el("tr", {}, cells);
     tr.style.height = `${ROW}px`;
