@@ -95,6 +95,7 @@ pub use embedded::Embedded;
 #[cfg(feature = "cli")]
 pub(crate) use flow::BEYOND_LIMIT;
 pub use key::Key;
+#[cfg(feature = "cli")]
 pub(crate) use key_entry::{KeyEntry, Kind, REQUIRED, entry};
 pub use key_value::KeyValue;
 pub use model::{Body, Model, Place};
