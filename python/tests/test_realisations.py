@@ -98,6 +98,11 @@ def test_realisations_are_runs_with_raised_seeds_and_means_have_the_intervals_of
         assert rate.value == pytest.approx(values.mean(), rel=1e-14)
         assert rate.half_width == pytest.approx(half, rel=1e-6)
         assert rate.error.sampling == rate.half_width
+        # Archard's volume is proportional to the work rate.
+        worn = own["worn_volume"]
+        for found, of_rate in [(worn.value, rate.value), (worn.half_width, rate.half_width)]:
+            assert found == pytest.approx(1e-14 * 3.156e8 * of_rate, rel=1e-12)
+        assert own["depth_deepest"].value > own["depth_all_round"].value
         parts = [part for part in (rate.error.start, rate.error.step, rate.error.modes) if part is not None]
         halves = sum(part.half_width**2 for part in parts) + rate.half_width**2
         total = sum(abs(part.mean) for part in parts) + np.sqrt(halves)

@@ -124,6 +124,7 @@ impl Case {
 
     /// That nothing keeps the flow within the fluid-elastic limit: its supports do not, or there
     /// are none.
+    #[cfg(feature = "cli")]
     pub(crate) fn unstable_in_flow(&self) -> Option<String> {
         let bare = self.fluid_elastic.as_ref().is_some_and(|found| found.active.is_empty());
         if bare { self.flow_note() } else { self.instability() }
