@@ -40,6 +40,56 @@ fn nineteen_of_twenty_intervals_hold_the_expectation() {
     assert!((178..200).contains(&holding), "{holding} of {studies} intervals hold the expectation");
 }
 
+/// A body pressed on a flat by 10 N, which a random force shakes along it, without friction.
+fn slid(seed: u64) -> Result<Scene> {
+    let [mass, damping, stiffness] = [1.0, 20.0, 100.0].map(|x| Symmetric::diagonal(&[x, x]));
+    let at = PlaneRows::doubled(&Row::dof(0), 1);
+    let flats = Flats {
+        name: "flat".to_owned(),
+        at: at.clone(),
+        flats: vec![Flat { direction: 90.0, gap: 0.0 }],
+        centre: [0.0, 0.0],
+        law: WallLaw::Rigid { restitution: 0.0 },
+        friction: 0.0.into(),
+    };
+    let mut scene = Scene::structure(Structure { mass, damping, stiffness }).with_duration(2.0);
+    for wall in flats.walls()? {
+        scene = scene.with_wall(wall);
+    }
+    scene.supports.push(flats.support(0));
+    let density = Density::Flat { rms: 0.3, from: 0.5, to: 20.0 };
+    let random = Load { at: at.along(0.0), ..RandomForce { density, seed, stream: 0 }.load(2.0)? };
+    Ok(scene.with_load(Load { at: at.along(90.0), ..Load::constant(10.0) }).with_load(random))
+}
+
+#[test]
+fn nineteen_of_twenty_intervals_hold_the_expected_work_rate_and_with_it_volume_and_even_depth() {
+    // The velocity along the flat is normal, with the variance ∫ S ω²/((k − mω²)² + (cω)²) df of
+    // linear vibration: its mean magnitude is σ √(2/π), and the work rate 10 N times that. The
+    // volume worn and the depth evenly all round are multiples of it. The lines of 0.5 Hz take the
+    // integral to a per cent, a fiftieth of an interval.
+    let (count, [from, to]) = (4000, [0.5, 20.0]);
+    let width = (to - from) / f64::from(count);
+    let share = |k: i32| {
+        let omega = std::f64::consts::TAU * (from + (f64::from(k) + 0.5) * width);
+        omega.powi(2) / ((100.0 - omega.powi(2)).powi(2) + (20.0 * omega).powi(2)) * width
+    };
+    let variance = 0.3_f64.powi(2) / (to - from) * (0..count).map(share).sum::<f64>();
+    let expected = 10.0 * (2.0 * variance / std::f64::consts::PI).sqrt();
+    let mut options = Options::with_step(4e-3);
+    options.time.statistics_from = 1.3;
+    let (studies, size) = (200, 5);
+    let holds = |study: u64| {
+        let numbers = study * size + 1..=(study + 1) * size;
+        let study = Realisations::new(realisations(numbers, &slid, &MOREAU.into(), &options, &mut |_| {}).unwrap());
+        let rate = study.estimates.iter().find(|one| one.measure == Measure::WorkRate).unwrap();
+        (rate.mean - expected).abs() <= rate.half_width_95.unwrap()
+    };
+    let holding = (0..studies).filter(|study| holds(*study)).count();
+    // 190 of 200, with a standard deviation of √(200·0.95·0.05) = 3.1; four of them either way.
+    assert!((178..200).contains(&holding), "{holding} of {studies} intervals hold {expected} W");
+}
+
 #[test]
 fn realisations_are_runs_of_their_own_in_the_order_of_their_numbers() {
     let mut options = Options::with_step(4e-3);
