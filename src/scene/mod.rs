@@ -63,9 +63,7 @@ pub use damping::Damping;
 pub use flats::{Flat, Flats, MOST_FLATS};
 pub use fluid_elastic::{Connors, FlowMargin, FlowPiece, FlowTube, FluidElastic};
 pub use forcing::{Forcing, Harmonic};
-pub(crate) use forcing_period::forcing_period;
-#[cfg(feature = "cli")]
-pub(crate) use forcing_period::frequencies;
+pub(crate) use forcing_period::{forcing_period, frequencies};
 pub use friction::FrictionCoefficients;
 pub use function::TimeFunction;
 pub(crate) use grid_forcing::GridForcing;
