@@ -51,6 +51,45 @@ fn ten_contacts_make_an_interval_and_nothing_at_all_makes_none_that_is_no_number
     assert!(!window.has_interval(&one, 0));
 }
 
+/// Draws that are nearly normal: sums of twelve even ones.
+struct Normal(u64);
+
+impl Normal {
+    fn next(&mut self) -> f64 {
+        let even = |state: &mut u64| {
+            // xorshift64* (Vigna 2016, doi:10.1145/2845077).
+            *state ^= *state >> 12;
+            *state ^= *state << 25;
+            *state ^= *state >> 27;
+            (state.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..12).map(|_| even(&mut self.0)).sum::<f64>() - 6.0
+    }
+}
+
+#[test]
+fn nineteen_of_twenty_intervals_hold_the_mean_also_of_draws_that_depend_on_each_other() {
+    // xₖ = φ xₖ₋₁ + normal draws, of mean 0: with φ = 0.9 a draw is forgotten after 19 others, and
+    // a batch has 200.
+    let (trials, count) = (1000, 10 * 200_u32);
+    for (phi, periodic) in [(0.0, false), (0.9, false), (0.9, true)] {
+        let loads = if periodic { vec![Load::harmonic(1.0, 1.0, 0.0)] } else { Vec::new() };
+        let window = Window::new(&Scene { loads, ..between_flats(12.0) }, 0.0);
+        let mut normal = Normal(0x9e37_79b9_7f4a_7c15);
+        let held = (0..trials).filter(|_| {
+            let (mut sums, mut x) = (NO_SUMS, 0.0);
+            for k in 0..count {
+                x = phi * x + normal.next();
+                sums[window.index(window.length * (f64::from(k) + 0.5) / f64::from(count))] += x;
+            }
+            window.mean(&sums).abs() <= window.half_width(&sums).unwrap()
+        });
+        // 950 of 1000, with a standard deviation of 7; three of them either way.
+        let held = held.count();
+        assert!((929..=971).contains(&held), "{phi} {periodic}: {held}");
+    }
+}
+
 #[test]
 fn batches_are_whole_periods_of_loads_that_have_one_and_end_with_the_window() {
     // Length of the window in periods of 0.5 s: batches, periods in each, periods before the first.
