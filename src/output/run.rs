@@ -9,11 +9,11 @@ use super::summary::{self, Checks, Reasons};
 use super::table::Table;
 use super::{Span, csv, json, realisations, supports, turbulence};
 use crate::case::Case;
-use crate::error::Result;
+use crate::error::{Result, counted};
 use crate::qp::Backend;
 use crate::run::Run;
 use crate::scheme::{Method, Scheme};
-use crate::statistics::{ForceStatistics, LargestForce, WallStatistics};
+use crate::statistics::{ForceStatistics, LargestForce, Statistics, WallStatistics};
 use serde_json::Value;
 
 /// Most rows of the table in the terminal.
@@ -141,8 +141,8 @@ pub fn remarks(run: &Run) -> Vec<String> {
     if let Some(stretch) = flats(run).find_map(|wall| wall.force?.rms_averaged_over_s) {
         remarks.push(format!(
             "mean of |force| over time; RMS and largest force at rigid walls of the mean over stretches of \
-             {stretch:.3e} s, since those of impulse/h have no limit as h → 0 (--force-averaging); 95 % intervals of \
-             mean and RMS are in the summary"
+             {stretch:.3e} s, since those of impulse/h have no limit as h → 0 (--force-averaging); {}",
+            intervals(&run.statistics)
         ));
     }
     let window = run.statistics.to_s - run.statistics.from_s;
@@ -161,6 +161,18 @@ pub fn remarks(run: &Run) -> Vec<String> {
     };
     remarks.push(format!("impact power is normal impact only: {sliding}"));
     remarks
+}
+
+/// Where the intervals of means are, and from what.
+fn intervals(statistics: &Statistics) -> String {
+    match (statistics.batches, statistics.periods_per_batch) {
+        (2, None) => "the window has fewer than three periods of the loads, so that no mean has an interval".to_owned(),
+        (batches, Some(periods)) => format!(
+            "95 % intervals of mean and RMS, from {batches} stretches of {}, are in the summary",
+            counted(periods as usize, "period")
+        ),
+        _ => "95 % intervals of mean and RMS are in the summary".to_owned(),
+    }
 }
 
 /// One line: what a run cost and how well it kept its scheme's contract.

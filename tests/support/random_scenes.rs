@@ -48,6 +48,10 @@ pub fn random_scene(seed: u64, units: Units) -> Drawn {
             scene
         }
     };
+    // Draws of their own, of seeds that never were refuted, leave the rest of the scene as it is.
+    if seed % 16 == 5 && scene.supports.is_empty() {
+        bend(&mut Draws::new(!seed.rotate_left(16)), &mut scene);
+    }
     let fastest = fastest(&scene.system);
     // 3 to 300 steps in a period of the fastest vibration; a free body takes that of 10 Hz.
     let step = if fastest > 0.0 { TAU / fastest } else { 0.1 } / 10_f64.powf(draws.between(0.5, 2.5));
@@ -100,6 +104,22 @@ fn oscillator(draws: &mut Draws) -> Scene {
         });
     }
     scene
+}
+
+/// Gives some of the walls the law of Hunt and Crossley, as stiff at the depth of the gap as an
+/// elastic wall may be.
+fn bend(draws: &mut Draws, scene: &mut Scene) {
+    let (gap, omega) = (scene.gap_scale(), fastest(&scene.system).max(TAU));
+    let masses = scene.wall_masses();
+    for (wall, mass) in scene.walls.iter_mut().zip(masses).filter(|(_, mass)| *mass > 0.0 && mass.is_finite()) {
+        if draws.chance(0.6) {
+            let contact = omega * 10_f64.powf(draws.between(-0.5, 2.5));
+            let exponent = [1.0, 1.5, draws.between(1.0, 3.0)][draws.below(3)];
+            let stiffness = mass * contact * contact * gap.powf(1.0 - exponent);
+            let dissipation = [0.0, draws.between(0.0, 2.0) / (gap * omega)][draws.below(2)];
+            *wall = wall.clone().with_hunt_crossley(stiffness, exponent, dissipation);
+        }
+    }
 }
 
 /// Makes some of the holes elastic; where there is friction, some of the flats too.
@@ -235,6 +255,9 @@ fn schemes(draws: &mut Draws, scene: &Scene) -> Vec<Scheme> {
     let gap = scene.gap_scale();
     let law = PenaltyLaw::Quartic { epsilon: gap * gap / stiffness };
     all.push(Scheme::Penalty { law, integrator: Integrator::ALL[draws.below(Integrator::ALL.len())] });
+    if scene.walls.iter().all(|wall| matches!(wall.law, WallLaw::HuntCrossley { .. })) && !scene.walls.is_empty() {
+        all.extend(Integrator::ALL.map(|integrator| Scheme::Penalty { law: PenaltyLaw::None, integrator }));
+    }
     all
 }
 
@@ -272,6 +295,10 @@ fn in_wild_units(draws: &mut Draws, drawn: &mut Drawn) {
         WallLaw::Quartic { epsilon, span } => {
             *epsilon *= length * length / spring * own(draws);
             *span *= length;
+        }
+        WallLaw::HuntCrossley { stiffness, exponent, dissipation } => {
+            *stiffness *= force / length.powf(*exponent) * own(draws);
+            *dissipation *= time / length;
         }
         _ => {}
     };

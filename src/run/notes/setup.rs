@@ -1,7 +1,7 @@
 //! What a reader must know about a scene and a step, independent of the run.
 
 use crate::error::amount;
-use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table};
+use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table, WallLaw};
 use crate::scheme::Scheme;
 use std::f64::consts::{PI, TAU};
 
@@ -208,15 +208,29 @@ fn fastest_that_matters(scene: &Scene, modes: &[(f64, f64)]) -> Option<f64> {
     rows.filter_map(fastest).reduce(f64::max).or_else(slowest)
 }
 
+/// The wall whose `ratio`, of its law and the mass (kg) that it feels, is the largest of those from
+/// `limit` on: its name, with how many more there are, and its ratio.
+fn unresolved(scene: &Scene, limit: f64, ratio: impl Fn(&WallLaw, f64) -> f64) -> Option<(String, f64)> {
+    if scene.walls.iter().all(|wall| wall.law.is_rigid()) {
+        return None;
+    }
+    let masses = scene.wall_masses();
+    let all = scene.walls.iter().zip(&masses).map(|(wall, mass)| (wall, ratio(&wall.law, *mass)));
+    let coarse: Vec<_> = all.filter(|(_, ratio)| *ratio >= limit).collect();
+    let (wall, ratio) = coarse.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let others = match coarse.len() {
+        1 => String::new(),
+        n => format!(", and {} more", n - 1),
+    };
+    Some((format!("the wall {:?}{others}", wall.name), *ratio))
+}
+
 /// A note on dashpots of elastic walls that stop the body within a step.
 fn dashpots_resolved(scene: &Scene, step: f64) -> Option<String> {
-    let masses = scene.wall_masses();
-    let all = scene.walls.iter().zip(&masses).map(|(wall, mass)| (wall, step * wall.law.dashpot(0.0) / mass));
-    let (wall, ratio) = all.filter(|(_, ratio)| *ratio >= 1.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (wall, ratio) = unresolved(scene, 1.0, |law, mass| step * law.dashpot(0.0) / mass)?;
     Some(format!(
-        "the step of {step:.2e} s does not resolve the dashpot of the wall {:?}: h c/m = {ratio:.2e}, and it takes a \
+        "the step of {step:.2e} s does not resolve the dashpot of {wall}: h c/m = {ratio:.2e}, and it takes a \
          body's speed within {:.2e} s; the impulses there depend on the step instead of the wall's damping",
-        wall.name,
         step / ratio
     ))
 }
@@ -224,23 +238,12 @@ fn dashpots_resolved(scene: &Scene, step: f64) -> Option<String> {
 /// A note on elastic walls that the step does not resolve. The springs that a penalty scheme puts
 /// in place of rigid walls are left to the judge: some integrators need not resolve them.
 fn walls_resolved(scene: &Scene, step: f64) -> Option<String> {
-    if scene.walls.iter().all(|wall| wall.law.is_rigid()) {
-        return None;
-    }
-    let masses = scene.wall_masses();
-    let all = scene.walls.iter().zip(&masses).map(|(wall, mass)| (wall, wall.law.stiffness().unwrap_or(0.0) / mass));
-    let coarse: Vec<_> = all.filter(|(_, ratio)| step * step * ratio >= RESOLVED).collect();
-    let (wall, ratio) = coarse.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let others = match coarse.len() {
-        1 => String::new(),
-        n => format!(", and {} more", n - 1),
-    };
+    let squared = |law: &WallLaw, mass: f64| step * step * law.stiffness().unwrap_or(0.0) / mass;
+    let (wall, ratio) = unresolved(scene, RESOLVED, squared)?;
+    let steps = PI / ratio.sqrt();
     Some(format!(
-        "the step of {step:.2e} s does not resolve the wall {:?}{others}: h² k/m = {:.2e}, and a contact of \
-         {:.2e} s takes {:.1} steps; the contact forces there depend on the step instead of the wall's stiffness",
-        wall.name,
-        step * step * ratio,
-        PI / ratio.sqrt(),
-        PI / (ratio.sqrt() * step)
+        "the step of {step:.2e} s does not resolve {wall}: h² k/m = {ratio:.2e}, and a contact of {:.2e} s takes \
+         {steps:.1} steps; the contact forces there depend on the step instead of the wall's stiffness",
+        steps * step
     ))
 }
