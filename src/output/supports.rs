@@ -21,8 +21,9 @@ const UPPER: &str = "upper figure";
 struct Known<'a> {
     wear: &'a WearStatistics,
     contact: &'a SupportStatistics,
-    /// The wear by its work rate.
+    /// The wear by its work rate, and the depth on the tube where it is deepest, m.
     worn: Option<Worn>,
+    deepest: Option<f64>,
 }
 
 /// The supports of a run; empty where only the contacts are known.
@@ -32,6 +33,7 @@ fn all<'a>(case: &'a Case, run: &'a Run) -> impl Iterator<Item = Known<'a>> {
         wear,
         contact: support,
         worn: case.archard(index).map(|law| law.worn(wear.work_rate_w)),
+        deepest: case.depth_deepest(index, wear),
     })
 }
 
@@ -43,7 +45,7 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
     if run.statistics.wear.is_empty() {
         return Ok(());
     }
-    let columns: [csv::Column<'_, Known<'_>>; 23] = [
+    let columns: [csv::Column<'_, Known<'_>>; 24] = [
         ("support", &|one| one.wear.support.clone()),
         ("friction", &|one| digits(Some(one.wear.friction))),
         ("work_rate_is", &|one| kind(one.wear).to_owned()),
@@ -66,6 +68,7 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
         ("largest_mean_force_at_s", &|one| digits(largest(one).map(|largest| largest.at_s))),
         ("largest_mean_force_over_s", &|one| digits(largest(one).map(|largest| largest.averaged_over_s))),
         ("wear_volume_m3", &|one| digits(one.worn.and_then(|worn| worn.volume_m3))),
+        ("depth_deepest_m", &|one| digits(one.deepest)),
         ("depth_one_scar_m", &|one| digits(one.worn.and_then(|worn| worn.depth_one_scar_m))),
         ("depth_all_round_m", &|one| digits(one.worn.and_then(|worn| worn.depth_all_round_m))),
         ("support_wear_volume_m3", &|one| digits(one.worn.and_then(|worn| worn.support_volume_m3))),
@@ -117,9 +120,9 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
     ];
     let of_contact = header.len();
     if wears {
-        header.extend(["worn (mm³)", "one scar (mm)", "all round (mm)", "support worn (mm³)"]);
+        header.extend(["worn (mm³)", "deepest (mm)", "one scar (mm)", "all round (mm)", "support worn (mm³)"]);
     }
-    let row = |Known { wear: support, contact, worn }: Known<'_>| {
+    let row = |Known { wear: support, contact, worn, deepest }: Known<'_>| {
         let mean =
             |of: fn(&SupportForce) -> f64| contact.force.as_ref().map_or_else(|| "-".to_owned(), |f| figures(of(f)));
         let upper = if support.upper_figure { format!(" {UPPER}") } else { String::new() };
@@ -134,11 +137,11 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
             mean(|force| force.mean_vector_n[1]),
         ];
         if wears {
-            let part = |of: fn(&Worn) -> Option<f64>, unit: f64| {
-                worn.as_ref().and_then(of).map_or_else(|| "-".to_owned(), |x| figures(x * unit))
-            };
+            let cell = |x: Option<f64>, unit: f64| x.map_or_else(|| "-".to_owned(), |x| figures(x * unit));
+            let part = |of: fn(&Worn) -> Option<f64>, unit: f64| cell(worn.as_ref().and_then(of), unit);
             row.extend([
                 part(|worn| worn.volume_m3, 1e9),
+                cell(deepest, 1e3),
                 part(|worn| worn.depth_one_scar_m, 1e3),
                 part(|worn| worn.depth_all_round_m, 1e3),
                 part(|worn| worn.support_volume_m3, 1e9),
@@ -191,8 +194,8 @@ pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
     }
     if let Some(service) = case.wear.service {
         remarks.push(format!(
-            "worn in {service:.3e} s of service, by Archard's law; the depth on the tube if all of it comes off one \
-             scar, and if it comes off evenly all round"
+            "worn in {service:.3e} s of service, by Archard's law; the depth on the tube where it is deepest, in a \
+             sector or at a flat, if all of it comes off one scar, and if it comes off evenly all round"
         ));
     }
     remarks
@@ -237,11 +240,13 @@ pub fn warnings(case: &Case, run: &Run) -> Vec<String> {
 /// The wear of the supports in the summary; their forces are in its statistics.
 #[must_use]
 pub fn document(case: &Case, run: &Run) -> Value {
-    let support = |Known { wear, worn, .. }: Known<'_>| {
+    let support = |Known { wear, worn, deepest, .. }: Known<'_>| {
         // A struct of numbers and texts: this cannot fail.
         let mut value = serde_json::to_value(wear).unwrap_or_default();
         if let (Some(map), Some(worn)) = (value.as_object_mut(), worn) {
-            map.insert("worn".to_owned(), json!(worn));
+            let mut worn = json!(worn);
+            worn["depth_deepest_m"] = json!(deepest);
+            map.insert("worn".to_owned(), worn);
         }
         value
     };

@@ -125,6 +125,7 @@ function supportTable(rows) {
     number("largest mean force (N)", (row) => row.force?.largest?.mean_n),
     number("at (s)", (row) => row.force?.largest?.at_s),
     rows.some((row) => row.worn) ? number("worn (mm³)", worn("volume_m3", 1e9)) : null,
+    rows.some((row) => row.worn) ? number("deepest (mm)", worn("depth_deepest_m", 1e3)) : null,
     rows.some((row) => row.worn) ? number("one scar (mm)", worn("depth_one_scar_m", 1e3)) : null,
     rows.some((row) => row.worn) ? number("all round (mm)", worn("depth_all_round_m", 1e3)) : null,
   ].filter(Boolean);
