@@ -25,7 +25,7 @@ pub struct ForceStatistics {
     pub mean_n: f64,
     /// Half width of its 95 % interval by batch means, N.
     pub mean_half_width_95_n: Option<f64>,
-    /// That mean over the first and over the second half of the window, N.
+    /// That mean over the first and over the last half of the batches, N.
     #[serde(default)]
     pub mean_of_halves_n: [f64; 2],
     /// Root mean square of the force over time, N: for an elastic wall of the force itself, for a
@@ -35,7 +35,7 @@ pub struct ForceStatistics {
     /// Half width of its 95 % interval, N: that of the mean square by batch means, divided by twice
     /// the RMS.
     pub rms_half_width_95_n: Option<f64>,
-    /// That root over the first and over the second half of the window, N.
+    /// That root over the first and over the last half of the batches, N.
     #[serde(default)]
     pub rms_of_halves_n: [f64; 2],
     /// Length of those intervals, s:

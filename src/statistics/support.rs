@@ -32,7 +32,7 @@ pub struct SupportForce {
     /// Half width of its 95 % interval by batch means, N. This and those below are `None` unless
     /// ten contacts began in the window, or the support pushed in each of its batches.
     pub mean_half_width_95_n: Option<f64>,
-    /// That mean over the first and over the second half of the window, N.
+    /// That mean over the first and over the last half of the batches, N.
     #[serde(default)]
     pub mean_of_halves_n: [f64; 2],
     /// Mean of the force vector on the structure, along y and z, with friction, N: what the support
@@ -44,7 +44,7 @@ pub struct SupportForce {
     pub rms_n: f64,
     /// Half width of its 95 % interval, N.
     pub rms_half_width_95_n: Option<f64>,
-    /// That root over the first and over the second half of the window, N.
+    /// That root over the first and over the last half of the batches, N.
     #[serde(default)]
     pub rms_of_halves_n: [f64; 2],
     /// Length of those intervals, s.

@@ -23,7 +23,7 @@ pub struct WearStatistics {
     /// Half width of its 95 % interval by batch means, W; `None` unless the support pushed in each
     /// batch.
     pub work_rate_half_width_95_w: Option<f64>,
-    /// Work rate over the first and over the second half of the window, W.
+    /// Work rate over the first and over the last half of the batches, W.
     #[serde(default)]
     pub work_rate_of_halves_w: [f64; 2],
     /// The share of the work that impacts did: of a scheme on a grid, the first two steps of each
