@@ -441,19 +441,24 @@ fn force_and_gap_scale_alike_and_mirrors_have_mirrored_orbits() {
 
 #[test]
 fn signatures_are_written_and_read() {
-    let scene = source(5.0, 0.8);
-    for (text, written) in
-        [("UL", "UL"), ("upper,lower", "UL"), ("ulu", "ULU"), ("upper:rest upper:release", "upper:rest upper:release")]
-    {
-        let signature = Signature::parse(text, 1, &scene).unwrap();
-        assert_eq!(signature.written(&scene), written);
-        assert_eq!(Signature::parse(&signature.written(&scene), 1, &scene).unwrap(), signature);
+    let (scene, plastic) = (source(5.0, 0.8), source(5.0, 0.0));
+    for (scene, text, written) in [
+        (&scene, "UL", "UL"),
+        (&scene, "upper,lower", "UL"),
+        (&scene, "ulu", "ULU"),
+        (&scene, "upper:chatter upper:release", "upper:chatter upper:release"),
+        (&plastic, "upper:rest upper:release", "upper:rest upper:release"),
+    ] {
+        let signature = Signature::parse(text, 1, scene).unwrap();
+        assert_eq!(signature.written(scene), written);
+        assert_eq!(Signature::parse(&signature.written(scene), 1, scene).unwrap(), signature);
     }
     for (text, periods, words) in [
         ("UX", 1, "no wall is named \"UX\""),
         ("upper:stop", 1, "no kind of event is named \"stop\""),
         ("upper:enter", 1, "is enter at wall \"upper\", which is rigid"),
-        ("upper:rest", 1, "without its release"),
+        ("upper:chatter", 1, "without its release"),
+        ("upper:rest upper:release", 1, "rest at wall \"upper\", whose restitution is 0.8"),
         ("UL", 0, "1 to 64"),
         ("UL", 65, "1 to 64"),
     ] {
