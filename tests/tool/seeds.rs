@@ -119,7 +119,7 @@ fn one_realisation_says_that_its_interval_is_of_batches() {
     assert!(err.contains("batches of one realisation") && err.contains("--seeds 5 or more"), "{err}");
     assert!(!err.contains("half the step"), "{err}");
     let summary = summary(&dir.path().join("one"));
-    assert_eq!(summary["realisations"]["interval"], "ten_batches_of_one_realisation");
+    assert_eq!(summary["realisations"]["interval"], "batches_of_one_realisation");
     let estimates = summary["realisations"]["estimates"].as_array().unwrap();
     let one = estimates.iter().find(|one| one["place"] == "bars" && one["measure"] == "mean_force").unwrap();
     let own = &summary["statistics"]["supports"][0]["force"];
