@@ -92,7 +92,7 @@ def test_effects_are_differences_of_pairs() -> None:
     values = table.realisations["work_rate_plate_1_W"].reshape(5, SEEDS)
     for number, key in enumerate(keys):
         pairs = values[2 + 2 * number] - values[1 + 2 * number]
-        where = (table.effects["key"] == key) & (table.effects["place"] == "plate_1")
+        where = (table.effects["key"] == key) & (table.effects["place"] == "plate-1")
         assert where.sum() == 1
         # The rounding of a mean of three numbers.
         np.testing.assert_allclose(table.effects["effect"][where], pairs.mean(), rtol=1e-12)
