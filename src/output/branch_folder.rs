@@ -55,9 +55,9 @@ impl BranchRequest {
 /// followed.
 #[derive(Debug, Serialize)]
 pub struct BranchSettings<'a> {
-    /// The key, and its range `A:B`.
+    /// The key.
     pub key: &'a str,
-    /// See `key`.
+    /// Its range, `A:B`.
     pub range: &'a str,
     /// The file of the first orbit.
     pub from: Option<&'a Path>,

@@ -6,7 +6,7 @@ import json
 import os
 import tempfile
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _plot
-from ._columns import Column, ReadOnly, columns, frame, read
+from ._columns import Column, ReadOnly, TableResult, columns, frame, read
 from ._core import Case
 from ._types import whole
 
@@ -27,7 +27,7 @@ TableName = Literal["points", "special", "ends"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Branches(ReadOnly[str, Column]):
+class Branches(TableResult):
     """Branches of periodic orbits over a key: a mapping of the columns of ``branches.csv``.
 
     A row is an orbit, in order along its ``branch``: the value of the key in the column named
@@ -44,22 +44,12 @@ class Branches(ReadOnly[str, Column]):
     ``events`` has for each branch the kind and the wall of its events.
     """
 
-    columns: Mapping[str, Column]
     special: Mapping[str, Column]
     ends: Mapping[str, Column]
     events: tuple[tuple[tuple[str, str | None], ...], ...]
     column: str
     key: str
     _arrivals: tuple[str, ...]
-
-    def __post_init__(self) -> None:
-        dict.update(self, self.columns)
-
-    def __missing__(self, name: str) -> Column:
-        raise KeyError(f"no column {name}; there are {', '.join(self.columns)}")
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Branches, tuple(getattr(self, field.name) for field in fields(self))
 
     def __repr__(self) -> str:
         count, points, special = (len(table["branch"]) for table in (self.ends, self.columns, self.special))

@@ -6,7 +6,7 @@ import os
 import tempfile
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
-from ._columns import Column, ReadOnly, frame, read
+from ._columns import Column, ReadOnly, TableResult, frame, read
 from ._core import Case, ResultWarning
 from ._progress import Progress
 from ._types import names, whole
@@ -29,7 +29,7 @@ TableName = Literal["rows", "realisations", "effects", "shares", "attractors"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SweepResult(ReadOnly[str, Column]):
+class SweepResult(TableResult):
     """The rows of a sweep over the keys of a case: a mapping of the columns of ``sweep.csv``.
 
     With several realisations of the random loads a measure is the mean over them, the column with
@@ -40,26 +40,16 @@ class SweepResult(ReadOnly[str, Column]):
     they were drawn at random. ``attractors`` has those of ``attractors.csv`` where the measure
     ``attractor`` was asked for: a line for each, with its number, its ``rows`` and their ``share``
     (the size of its basin), ``signature``, ``period`` in periods of the load and multipliers.
-    Tables that a sweep does not have are empty. ``keys_varied`` names the columns of the keys, and ``design`` says how their values lie: ``"grid"``,
-    ``"one-at-a-time"`` or ``"random"``.
+    Tables that a sweep does not have are empty. ``keys_varied`` names the columns of the keys, and
+    ``design`` says how their values lie: ``"grid"``, ``"one-at-a-time"`` or ``"random"``.
     """
 
-    columns: Mapping[str, Column]
     realisations: Mapping[str, Column]
     effects: Mapping[str, Column]
     shares: Mapping[str, Column]
     attractors: Mapping[str, Column]
     keys_varied: tuple[str, ...]
     design: Design
-
-    def __post_init__(self) -> None:
-        dict.update(self, self.columns)
-
-    def __missing__(self, name: str) -> Column:
-        raise KeyError(f"no column {name}; there are {', '.join(self.columns)}")
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return SweepResult, tuple(getattr(self, field.name) for field in fields(self))
 
     def __repr__(self) -> str:
         return f"<SweepResult: {len(self['row'])} rows over {', '.join(self.keys_varied)}>"

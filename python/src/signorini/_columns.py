@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
@@ -30,6 +31,22 @@ class ReadOnly(dict[K, V]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (dict(self),)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TableResult(ReadOnly[str, Column]):
+    """A result that is a mapping of the columns of its main table; a subclass has what stands beside."""
+
+    columns: Mapping[str, Column]
+
+    def __post_init__(self) -> None:
+        dict.update(self, self.columns)
+
+    def __missing__(self, name: str) -> Column:
+        raise KeyError(f"no column {name}; there are {', '.join(self.columns)}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), tuple(getattr(self, field.name) for field in fields(self))
 
 
 _OF_WORDS = {

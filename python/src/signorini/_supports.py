@@ -45,9 +45,10 @@ class Estimate:
     """A mean with its 95 % interval.
 
     ``half_width`` is None where there is too little to tell; ``kind`` says what the interval is
-    made of: ``"batches"`` are equal parts of the window of a run, ``"periodic"`` such parts of whole periods
-    of the loads, ``"seeds"`` independent realisations of the random loads. Of the latter ``deviation`` is the standard deviation of one
-    realisation, and ``error`` the error in parts, where it is known.
+    made of: ``"batches"`` are equal parts of the window of a run, ``"periodic"`` such parts of
+    whole periods of the loads, ``"seeds"`` independent realisations of the random loads. Of the
+    latter ``deviation`` is the standard deviation of one realisation, and ``error`` the error in
+    parts, where it is known.
     """
 
     value: float

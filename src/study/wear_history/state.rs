@@ -37,6 +37,13 @@ pub struct WearPoint {
     pub histories: Vec<Vec<WearState>>,
 }
 
+impl WearPoint {
+    /// The state of a history at a support, both by number.
+    fn state(&self, history: usize, support: usize) -> Option<&WearState> {
+        self.histories.get(history)?.get(support)
+    }
+}
+
 /// Histories of wear.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -76,8 +83,7 @@ impl WearHistories {
         quantity: impl Fn(&WearState) -> f64 + Copy,
     ) -> Vec<Option<f64>> {
         let histories = self.points.first().map_or(0, |point| point.histories.len());
-        let own =
-            |history: usize| self.crossing(limit, |point| point.histories.get(history)?.get(support).map(quantity));
+        let own = |history: usize| self.crossing(limit, |point| point.state(history, support).map(quantity));
         (0..histories).map(own).collect()
     }
 
@@ -91,9 +97,9 @@ impl WearHistories {
         quantity: impl Fn(&WearState) -> f64 + Copy,
     ) -> Vec<Option<f64>> {
         let [.., before, last] = &self.points[..] else { return Vec::new() };
-        let of = |point: &WearPoint, history: usize| point.histories.get(history)?.get(support).map(quantity);
         let own = |history: usize| {
-            let (start, end) = (of(before, history)?, of(last, history)?);
+            let [start, end] = [before, last].map(|point| point.state(history, support).map(quantity));
+            let (start, end) = start.zip(end)?;
             let rate = (end - start) / (last.time_s - before.time_s);
             let time = last.time_s + (limit - end) / rate;
             (rate > 0.0 && end < limit).then_some(time)
