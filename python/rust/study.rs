@@ -69,7 +69,7 @@ pub fn _chart<'py>(
 ) -> PyResult<(Bound<'py, PyList>, String, f64)> {
     let methods = match methods {
         Some(methods) => scene.methods(&methods)?,
-        None => work_precision::every_method(scene.laws()),
+        None => work_precision::default_methods(scene.inner(), scene.laws()).0,
     };
     let effort = Effort { steps: Steps { coarsest, finest, levels }, repeats, most_seconds };
     let inner = scene.inner();

@@ -13,8 +13,9 @@ use crate::output::floors;
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
 use crate::output::{document, work_precision as output};
+use crate::study::choice::refused_in_words;
 use crate::study::work_precision::{
-    Effort, MethodPoints, Outcome, Peer, Steps, WorkPrecision, every_method, read, study,
+    Effort, MethodPoints, Outcome, Peer, Steps, WorkPrecision, default_methods, read, study,
 };
 use serde_json::json;
 use std::path::PathBuf;
@@ -53,7 +54,8 @@ pub struct Args {
     /// Most steps tried in that range; each is finer than the last by a power of two
     #[arg(long, value_name = "N", default_value_t = 8)]
     levels: u32,
-    /// Methods to chart [default: all of them, every penalty of the case with every integrator]
+    /// Methods to chart [default: all that have a rule for the walls, every penalty of the
+    /// case with every integrator]
     #[arg(long, value_name = "A,B,…", alias = "scheme", value_parser = values::schemes(), hide_possible_values = true)]
     schemes: Option<String>,
     /// Timed runs of each point; the fastest counts
@@ -73,9 +75,9 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let Args { end, restitution, .. } = *args;
     let settings = Request { case: args.case.clone(), end, restitution, ..Request::default() };
     let case = settings.read(ui)?;
-    let methods = match &args.schemes {
-        Some(list) => settings.methods(list, &case)?,
-        None => every_method(&case.penalty.laws),
+    let (methods, refused) = match &args.schemes {
+        Some(list) => (settings.methods(list, &case)?, Vec::new()),
+        None => default_methods(&case.scene, &case.penalty.laws),
     };
     let effort = args.effort()?;
     let peers = args.with.as_deref().map(read).transpose()?.unwrap_or_default();
@@ -103,7 +105,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     write(&mut results, &case, &chart, &peers, &conclusion)?;
     let mut document = document::chart(&case, &chart);
     results.add_to_manifest("case_file", case.document.json()?);
-    results.add_to_manifest("remarks", json!(case.notes()));
+    let remarks: Vec<String> = case.notes().into_iter().chain(refused_in_words(&refused)).collect();
+    results.add_to_manifest("remarks", json!(remarks));
     results.add_to_manifest("conclusion", json!(conclusion));
     results.add_to_manifest("cheapest", rows(&best));
     results.add_to_manifest("floors", floors::rows(&chart));
@@ -117,7 +120,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         answer.table(table, "work-precision.csv");
     }
     answer.remarks([conclusion]);
-    answer.messages(messages(&case, &chart));
+    answer.messages(messages(&case, &chart).into_iter().chain(refused_in_words(&refused)));
     Ok(answer)
 }
 

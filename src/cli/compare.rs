@@ -43,8 +43,9 @@ commas, by semicolons.";
 pub struct Args {
     #[command(flatten)]
     request: Request,
-    /// Methods to compare [default: the constrained QP, the same through Clarabel, every penalty of
-    /// the case]; the exact one is always included
+    /// Methods to compare [default: the constrained QP, the same through Clarabel (with friction or
+    /// round supports a second scheme), every penalty of the case]; the exact one is included
+    /// wherever it has a law for the walls
     #[arg(long, value_name = "A,B,…", alias = "scheme", value_parser = values::schemes(), hide_possible_values = true)]
     schemes: Option<String>,
     /// Run every method with N realisations of the case's random loads, the same for all: means
@@ -161,14 +162,7 @@ impl Args {
         let chosen = self.request.method(&choice::choose(&case.scene).method.to_string(), case)?;
         let integrator = case.penalty.integrator.unwrap_or_default();
         let penalties = case.penalty.laws.iter().map(|&law| Method::new(Scheme::Penalty { law, integrator }));
-        Ok(if case.scene.turns_or_rubs() {
-            // No quadratic programme, which Clarabel could solve too.
-            std::iter::once(chosen).chain(penalties).collect()
-        } else if case.scene.walls.is_empty() {
-            vec![chosen]
-        } else {
-            default_methods(chosen, penalties)
-        })
+        Ok(default_methods(&case.scene, chosen, penalties))
     }
 }
 

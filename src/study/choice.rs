@@ -70,21 +70,8 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     let run = match exact {
         Ok(run) => run,
         Err(error) => {
-            let restitution_0 = |w: &Wall| w.law.restitution() == Some(0.0);
-            if scene.nonlinear_wall().is_some() {
-                return choose(scene);
-            }
-            let (scheme, why) = if Stepper::takes(scene, &Scheme::Located, scene.duration) {
-                (Scheme::Located, "located divides its steps at the impacts, and is of order 2 through them")
-            } else if scene.walls.iter().all(restitution_0) && !scene.turns_or_rubs() {
-                (Scheme::PaoliSchatzman, "with e = 0 at every wall paoli-schatzman is of order 2")
-            } else {
-                (Scheme::MoreauJean { theta: 0.5 }, "the constrained QP honours every wall's restitution")
-            };
-            return Choice {
-                method: Method::new(scheme),
-                reason: format!("{why}; the exact scheme cannot follow the scene: {error}"),
-            };
+            let Choice { method, reason } = stepping_for_error(scene);
+            return Choice { method, reason: format!("{reason}; the exact scheme cannot follow the scene: {error}") };
         }
     };
     let contacts = run.trajectory.contacts();
@@ -109,6 +96,17 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     Choice { method: Method::new(Scheme::Event), reason }
 }
 
+/// The stepping scheme that converges fastest for the walls of `scene`: for an error named
+/// beforehand, and for runs with finer steps that others are compared with.
+#[must_use]
+pub fn stepping_for_error(scene: &Scene) -> Choice {
+    if scene.nonlinear_wall().is_some() {
+        return choose(scene);
+    }
+    let reason = "located divides its steps at the impacts, and is of order 2 through them".into();
+    Choice { method: Method::new(Scheme::Located), reason }
+}
+
 /// The laws of the schemes at round supports; and which schemes refuse them or their
 /// friction; empty for a scene without round supports and friction. A scheme refuses a scene where
 /// its stepper does.
@@ -129,10 +127,15 @@ pub fn at_supports(scene: &Scene, step: f64) -> Vec<String> {
     } else {
         lines.push(format!("schemes for these supports: {}", names(&taken)));
     }
-    if !refused.is_empty() {
-        lines.push(format!("refused here: {}; `run --scheme NAME` says why", names(&refused)));
-    }
+    lines.extend(refused_in_words(&refused.into_iter().map(Method::new).collect::<Vec<_>>()));
     lines
+}
+
+/// Names the `methods` that refuse a scene, if there are any.
+#[must_use]
+pub fn refused_in_words(methods: &[Method]) -> Option<String> {
+    let names = methods.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    (!methods.is_empty()).then(|| format!("refused here: {names}; `run --scheme NAME` says why"))
 }
 
 /// True if a step of `method` on a scene with round walls is a programme with disks, not one of

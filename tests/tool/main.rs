@@ -7,6 +7,7 @@ mod command;
 mod accuracy_of_means;
 mod commands;
 mod compare_seeds;
+mod default_methods;
 mod derivatives;
 mod documents;
 mod error_parts;

@@ -6,7 +6,7 @@ mod findings;
 
 pub use comparison::{AGREEMENT, Comparison, Restitution, Row, is_aperiodic};
 
-use super::choice::choose;
+use super::choice::stepping_for_error;
 use super::difference;
 use super::exact::affordable;
 use super::horizon::{Growth, LARGEST_GROWTH};
@@ -30,19 +30,32 @@ pub const FINER: f64 = 8.0;
 /// loads falsify it there.
 const SLOW: f64 = 1e-2;
 
-/// The methods of the main comparison: the constrained QP by its own solver and through Clarabel,
-/// and every penalty.
+/// The methods that are compared on `scene` by default: the `chosen` one, a second way to solve it,
+/// and those of `penalties` that have a rule for its walls. The second way is Clarabel; with round
+/// supports or friction, where a step is no quadratic programme, it is the scheme that converges
+/// fastest.
 #[must_use]
-pub fn default_methods(chosen: Method, penalties: impl Iterator<Item = Method>) -> Vec<Method> {
+pub fn default_methods(scene: &Scene, chosen: Method, penalties: impl Iterator<Item = Method>) -> Vec<Method> {
     let mut methods = vec![chosen];
-    if chosen.scheme.has_qp() && chosen.backend != Backend::Clarabel {
-        methods.push(Method { backend: Backend::Clarabel, ..chosen });
+    if scene.walls.is_empty() {
+        return methods;
     }
-    methods.extend(penalties.filter(|penalty| *penalty != chosen));
+    let second = if scene.turns_or_rubs() {
+        Some(stepping_for_error(scene).method)
+    } else {
+        chosen.scheme.has_qp().then_some(Method { backend: Backend::Clarabel, ..chosen })
+    };
+    let penalties = penalties.filter(|penalty| Stepper::takes(scene, &penalty.scheme, scene.duration));
+    for method in second.into_iter().chain(penalties) {
+        if !methods.contains(&method) {
+            methods.push(method);
+        }
+    }
     methods
 }
 
-/// Runs every method on `scene`, the reference first. `progress` is called with the runs done, as a
+/// Runs every method on `scene`, and the exact scheme where it has a law for the walls of the scene,
+/// the reference first. `progress` is called with the runs done, as a
 /// fraction. A method that fails is a row that gives the reason.
 ///
 /// # Errors
@@ -62,7 +75,7 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
     let reference = possible.and_then(|()| timed(0, &exact, time));
     // With several degrees of freedom, where the exact scheme cannot follow the scene, a refined
     // stepping scheme is the reference and also shows how perturbations grow.
-    let stand_in = choose(scene).method;
+    let stand_in = stepping_for_error(scene).method;
     let finer = TimeOptions { step: grid.step / FINER, ..time };
     let refined = match &reference {
         Err(_) => timed(0, &stand_in, finer).ok(),
@@ -76,7 +89,9 @@ pub fn compare(scene: &Scene, methods: &[Method], time: &TimeOptions, progress: 
     let mut rows = Vec::new();
     progress(1.0);
     let others = methods.iter().filter(|m| !m.scheme.is_exact());
-    for (index, method) in others.chain(std::iter::once(&exact)).enumerate() {
+    // A scene that the exact scheme has no law for gets no row of it unless that was asked for.
+    let asked = methods.iter().any(|m| m.scheme.is_exact()) || Stepper::takes(scene, &exact.scheme, scene.duration);
+    for (index, method) in others.chain(asked.then_some(&exact)).enumerate() {
         let outcome = match method.scheme {
             Scheme::Event => reference.clone(),
             _ => timed(index + 1, method, time),

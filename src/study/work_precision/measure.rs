@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::run::{Options, Run, run};
 use crate::scene::Scene;
 use crate::scheme::{Counters, Integrator, Method, Scheme};
-use crate::study::choice::choose;
+use crate::study::choice::stepping_for_error;
 
 /// Measures `methods` on `scene`; `progress` is called with the share done, from 0 to 1.
 ///
@@ -21,7 +21,7 @@ pub fn study(scene: &Scene, methods: &[Method], effort: &Effort, progress: &dyn 
     if scene.probes.is_empty() {
         return Err(Error::invalid("probe", "missing", "a scene with a probe to compare"));
     }
-    let stand_in = choose(scene).method;
+    let stand_in = stepping_for_error(scene).method;
     let horizon = Horizon::of(scene, stand_in, PERTURBED_STEPS)?;
     let scene = &scene.clone().with_duration(horizon.end);
     let ladder = Ladder::new(scene, &effort.steps)?;

@@ -32,7 +32,8 @@ pub use overlay::{Peer, read};
 pub use reference::{Horizon, Reference};
 
 use crate::error::{Error, Result};
-use crate::scheme::{Counters, Integrator, Method, PenaltyLaw, Scheme, SchemeKind};
+use crate::scene::Scene;
+use crate::scheme::{Counters, Integrator, Method, PenaltyLaw, Scheme, SchemeKind, Stepper};
 
 /// The steps to try, and the limits on cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -202,4 +203,11 @@ pub fn every_method(laws: &[PenaltyLaw]) -> Vec<Method> {
     let penalty = |&law| Integrator::ALL.into_iter().rev().map(move |integrator| Scheme::Penalty { law, integrator });
     let all = exact.into_iter().chain(stepped).chain(laws.iter().flat_map(penalty));
     all.map(Method::new).collect()
+}
+
+/// Every method that has a rule for the walls of `scene`, with every penalty of `laws`, and the
+/// methods that refuse them.
+#[must_use]
+pub fn default_methods(scene: &Scene, laws: &[PenaltyLaw]) -> (Vec<Method>, Vec<Method>) {
+    every_method(laws).into_iter().partition(|method| Stepper::takes(scene, &method.scheme, scene.duration))
 }
