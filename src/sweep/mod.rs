@@ -133,7 +133,7 @@ pub use sample::{Sample, Samples};
 pub(crate) use seeds::{asked, in_words};
 pub(crate) use sensitivity::{SENSITIVITY_TABLES, Sensitivity};
 pub use shard::Shard;
-pub(crate) use shares::{NO_KEY, Shares, caution, coefficients};
+pub(crate) use shares::{NO_KEY, Share, Shares, caution, coefficients};
 pub use status::Status;
 pub use target::Target;
 pub use values::Values;

@@ -17,6 +17,14 @@
 //! over realisations of random loads, the variance that it has from them ([`Runs::scatter`] over
 //! their number) is the share of the realisations; what is left is that of interactions of keys and
 //! of terms beyond the third degree.
+//!
+//! The interval of a share is that of the jackknife by groups (Quenouille 1956,
+//! doi:10.1093/biomet/43.3-4.353; Tukey): row i belongs to group i mod G, the share is computed
+//! anew without each group, and the G values θ_g about their mean give the half width
+//! t √((G − 1)/G Σ(θ_g − θ̄)²) with Student's t of G − 1 degrees of freedom. G is a prime, so that
+//! no group has a pattern of Sobol's points. Rows of a Latin hypercube or of Sobol's points fill
+//! their range more evenly than independent ones: there the intervals are wider than need be. The
+//! scatter of realisations counts as known.
 
 use super::columns::{Source, SweepAxis};
 use super::measure::Measure;
@@ -27,10 +35,18 @@ use super::table::{SEEDS, TABLE, Table};
 use crate::error::Result;
 use crate::output::csv::digits;
 use crate::output::figure::Scale;
+use crate::statistics::student_95;
 use nalgebra::{DMatrix, DVector};
 
 /// The highest degree of the polynomials of a key.
 const DEGREE: usize = 3;
+
+/// Values of a measure that differ by less than this share of the largest are the same: some
+/// hundred roundings of a run.
+const ROUNDING: f64 = 1e-13;
+
+/// Number of groups of the jackknife.
+const GROUPS: usize = 13;
 
 /// Rows for each coefficient below which shares are told with a caution.
 const FEW: usize = 3;
@@ -39,10 +55,20 @@ const FEW: usize = 3;
 const BELOW_0: f64 = -0.05;
 
 /// The columns of `shares.csv`.
-pub(super) const HEADER: [&str; 6] = ["key", "place", "measure", "unit", "share", "rows"];
+pub(super) const HEADER: [&str; 7] = ["key", "place", "measure", "unit", "share", "half_width_95", "rows"];
 
 /// What is no key in the column `key`: what interactions have, and what the means scatter.
 pub(crate) const NO_KEY: [&str; 2] = ["interactions", "realisations"];
+
+/// A share in the variance of a measure.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Share {
+    /// The key, or what is no key.
+    pub key: String,
+    pub share: f64,
+    /// Half the width of its 95 % interval; `None` where the rows without one group are too few.
+    pub half_width_95: Option<f64>,
+}
 
 /// The shares in the variance of one measure at one place.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,9 +77,9 @@ pub(crate) struct Shares {
     pub column: String,
     pub place: String,
     pub measure: String,
-    /// Each key, then what is no key, with its share; empty where there are too few rows, or the
-    /// measure is the same in all of them.
-    pub parts: Vec<(String, f64)>,
+    /// Of each key, then of what is no key; empty where there are too few rows, or the measure is
+    /// the same in all of them.
+    pub parts: Vec<Share>,
     /// Rows that have a value, and the coefficients that are fitted to them.
     pub rows: usize,
     pub coefficients: usize,
@@ -66,9 +92,10 @@ impl Shares {
     /// Its lines of `shares.csv`.
     pub(super) fn lines(&self) -> impl Iterator<Item = Vec<String>> {
         let unit = self.measure.parse::<Measure>().ok().and_then(Measure::unit).unwrap_or_default();
-        self.parts.iter().map(move |(key, share)| {
+        self.parts.iter().map(move |Share { key, share, half_width_95 }| {
             let words = [key, &self.place, &self.measure, unit].map(str::to_owned);
-            words.into_iter().chain([digits(Some(*share)), self.rows.to_string()]).collect()
+            let numbers = [digits(Some(*share)), digits(*half_width_95), self.rows.to_string()];
+            words.into_iter().chain(numbers).collect()
         })
     }
 }
@@ -165,10 +192,20 @@ fn legendre(x: f64) -> [f64; DEGREE] {
     [x, 0.5 * (3.0 * x * x - 1.0), 0.5 * x * (5.0 * x * x - 3.0)]
 }
 
-/// Each of the `keys`, and what is no key, with its share; of the measure realisations have this
-/// `variance`. `None` where the measure is the same in all rows, or a key is. There are more
-/// `points` than coefficients.
-fn parts(points: &[Point], keys: impl Iterator<Item = String>, variance: Option<f64>) -> Option<Vec<(String, f64)>> {
+/// The share of each of the `keys`, and of what is no key, with its interval; of the measure
+/// realisations have this `variance`. `None` where the measure is the same in all rows, or a key
+/// is. There are more `points` than coefficients.
+fn parts(points: &[Point], keys: impl Iterator<Item = String>, variance: Option<f64>) -> Option<Vec<Share>> {
+    let whole = shares_of(points, variance)?;
+    let half_widths = half_widths(points, variance);
+    let half_width = |index: usize| half_widths.as_ref().and_then(|all| all.get(index).copied());
+    let names = keys.chain(NO_KEY.map(str::to_owned));
+    let shares = names.zip(whole).enumerate();
+    Some(shares.map(|(index, (key, share))| Share { key, share, half_width_95: half_width(index) }).collect())
+}
+
+/// The shares of the keys, of interactions, and with a `variance` of realisations.
+fn shares_of(points: &[Point], variance: Option<f64>) -> Option<Vec<f64>> {
     let (n, axes) = (points.len(), points.first()?.0.len());
     let p = coefficients(axes);
     let terms = |point: &Point| std::iter::once(1.0).chain(point.0.iter().flat_map(|&x| legendre(x))).collect();
@@ -178,7 +215,8 @@ fn parts(points: &[Point], keys: impl Iterator<Item = String>, variance: Option<
     let beta = matrix.tr_mul(&matrix).cholesky()?.solve(&matrix.tr_mul(&y));
     let about_mean = y.add_scalar(-y.mean());
     let (total, left) = (about_mean.norm_squared(), (&y - &matrix * &beta).norm_squared());
-    if total <= 0.0 {
+    // Values that differ by their rounding only are the same: a largest displacement at a rigid wall.
+    if total <= n as f64 * (ROUNDING * y.amax()).powi(2) {
         return None;
     }
     let noise = left / (n - p) as f64;
@@ -187,13 +225,34 @@ fn parts(points: &[Point], keys: impl Iterator<Item = String>, variance: Option<
         let own = matrix.columns(first, DEGREE) * beta.rows(first, DEGREE);
         (own.dot(&about_mean) - DEGREE as f64 * noise) / total
     };
-    let mut parts: Vec<(String, f64)> = keys.enumerate().map(|(axis, key)| (key, of_key(axis))).collect();
+    let mut shares: Vec<f64> = (0..axes).map(of_key).collect();
     let rest = (n - 1) as f64 * noise / total;
     let of_realisations = variance.map(|variance| variance * (n - 1) as f64 / total);
-    let [interactions, scatter] = NO_KEY.map(str::to_owned);
-    parts.push((interactions, rest - of_realisations.unwrap_or(0.0)));
-    parts.extend(of_realisations.map(|share| (scatter, share)));
-    Some(parts)
+    shares.push(rest - of_realisations.unwrap_or(0.0));
+    shares.extend(of_realisations);
+    Some(shares)
+}
+
+/// Half the widths of the 95 % intervals of these shares; `None` where the points without one group
+/// are no more than the coefficients.
+fn half_widths(points: &[Point], variance: Option<f64>) -> Option<Vec<f64>> {
+    let most = points.len().div_ceil(GROUPS);
+    if points.len() - most <= coefficients(points.first()?.0.len()) {
+        return None;
+    }
+    let without = |group: usize| {
+        let others = points.iter().enumerate().filter(|(row, _)| row % GROUPS != group);
+        shares_of(&others.map(|(_, point)| point.clone()).collect::<Vec<_>>(), variance)
+    };
+    let values: Vec<Vec<f64>> = (0..GROUPS).map(without).collect::<Option<_>>()?;
+    let groups = GROUPS as f64;
+    let half_width = |index: usize| {
+        let of = || values.iter().filter_map(|shares| shares.get(index));
+        let mean = of().sum::<f64>() / groups;
+        let squares: f64 = of().map(|share| (share - mean).powi(2)).sum();
+        student_95(GROUPS as u64 - 1) * ((groups - 1.0) / groups * squares).sqrt()
+    };
+    Some((0..values.first()?.len()).map(half_width).collect())
 }
 
 #[cfg(test)]
@@ -216,7 +275,7 @@ mod tests {
 
     fn found(points: &[Point], variance: Option<f64>) -> Vec<f64> {
         let keys = ["a", "b", "c"].map(str::to_owned);
-        parts(points, keys.into_iter(), variance).unwrap().into_iter().map(|(_, share)| share).collect()
+        parts(points, keys.into_iter(), variance).unwrap().into_iter().map(|one| one.share).collect()
     }
 
     #[test]
@@ -234,6 +293,30 @@ mod tests {
             // The share of one design scatters by some 0.04, the mean of fifty by 0.006.
             assert!((mean - variance / total).abs() < 0.02, "{mean} {}", variance / total);
         }
+    }
+
+    #[test]
+    fn intervals_hold_the_shares_of_the_law() {
+        let variances = [1.0 / 3.0, 16.0 / 45.0, 0.0, 0.0, 0.04];
+        let total: f64 = variances.iter().sum();
+        let keys = || ["a", "b", "c"].map(str::to_owned).into_iter();
+        for n in [32, 100] {
+            let mut held = [0; 5];
+            for seed in 0..200 {
+                let points = drawn(n, 1000 + seed, |a, b| a + 2.0 * b * b, 0.2);
+                let shares = parts(&points, keys(), Some(0.04)).unwrap();
+                for ((held, one), variance) in held.iter_mut().zip(&shares).zip(variances) {
+                    *held += usize::from((one.share - variance / total).abs() <= one.half_width_95.unwrap());
+                }
+            }
+            // Of 200 intervals of 95 % between 182 and 197 hold, but for 1 in 1000; that of a key
+            // without effect, whose share is small and never normal, is wider.
+            assert!(held.iter().all(|held| *held >= 182), "{n} rows: {held:?}");
+            assert!(held[3] <= 198 && held[4] <= 198, "{n} rows: {held:?}");
+        }
+        // Without a group there are fewer rows than the eleven that ten coefficients take.
+        let few = parts(&drawn(11, 1, |a, _| a, 0.1), keys(), None).unwrap();
+        assert!(few.iter().all(|one| one.half_width_95.is_none()), "{few:?}");
     }
 
     #[test]
@@ -257,5 +340,8 @@ mod tests {
     #[test]
     fn a_measure_that_never_changes_has_no_shares() {
         assert_eq!(parts(&drawn(40, 1, |_, _| 3.0, 0.0), std::iter::empty(), None), None);
+        // The gap of a wall, reached to rounding.
+        assert_eq!(parts(&drawn(40, 1, |a, _| 5e-3 * (1.0 + 1e-15 * a), 0.0), std::iter::empty(), None), None);
+        assert!(parts(&drawn(40, 1, |a, _| 5e-3 * (1.0 + 1e-9 * a), 0.0), std::iter::empty(), None).is_some());
     }
 }

@@ -34,7 +34,7 @@ fn sweep(folder: &Path, points: &str, more: &[&str]) -> (String, String) {
 /// The lines of `shares.csv`: key, measure and share.
 fn shares(folder: &Path) -> Vec<(String, String, f64)> {
     let mut table = csv::Reader::from_path(folder.join("out/linear/sweep/shares.csv")).unwrap();
-    assert_eq!(table.headers().unwrap(), vec!["key", "place", "measure", "unit", "share", "rows"]);
+    assert_eq!(table.headers().unwrap(), vec!["key", "place", "measure", "unit", "share", "half_width_95", "rows"]);
     let line = |row: csv::StringRecord| (row[0].to_owned(), row[2].to_owned(), row[4].parse().unwrap());
     table.records().map(|row| line(row.unwrap())).collect()
 }
@@ -52,7 +52,7 @@ fn the_shares_of_a_random_design_are_those_of_the_law() {
         // The motion is computed to rounding, and the fit holds a straight line exactly.
         assert!((share - value).abs() < 1e-9, "{key}: {share}");
     }
-    assert!(out.contains("displacement_max") && out.contains("100.0"), "{out}");
+    assert!(out.contains("displacement_max") && out.contains("100.0 ± 0.0"), "{out}");
     assert!(err.contains("the share of each key in the variance"), "{err}");
     // Of shards the same.
     let whole = fs::read(dir.path().join("out/linear/sweep/shares.csv")).unwrap();
