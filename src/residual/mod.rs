@@ -15,6 +15,7 @@
 //! | `arc.rs`, `series.rs`, `series_scratch.rs`, `circle.rs`, `quadrature.rs` | exact motion, of structures, in round holes; its integrals |
 //! | `energy/` | the energy ledger |
 //! | `momentum_sums.rs`, `run_momentum.rs`, `recorded.rs` | the momentum of a whole run, of every one and of a recorded one |
+//! | `own_loads.rs` | the extra force of steps in which no caller adds one |
 //! | `walls.rs`, `front.rs`, `balance.rs`, `extent.rs` | what a run shows of its walls and its momentum, and how far it moves |
 //! | `noise.rs`, `largest_residual.rs`, `weights.rs`, `scales.rs` | the rounding errors and the reference sizes of residuals |
 //! | `verdict.rs`, `finding.rs`, `residuals.rs` | what exceeds both becomes a finding; the residuals as they are told |
@@ -38,6 +39,7 @@ mod largest_residual;
 mod matrices;
 mod momentum_sums;
 mod noise;
+mod own_loads;
 mod part;
 mod place;
 mod previous_step;
@@ -78,6 +80,7 @@ use extent::Extent;
 use matrices::Matrices;
 use momentum_sums::MomentumSums;
 use noise::NoiseModel;
+use own_loads::OwnLoads;
 use place::Places;
 use previous_step::PreviousStep;
 use pulp::{Scalar, Simd};
@@ -118,6 +121,8 @@ pub struct Judge {
     load: Vec<f64>,
     load_end: Vec<f64>,
     blows: Blows,
+    /// Where no caller adds a force to the loads: what the extra force of a step may be.
+    own_loads: Option<Box<OwnLoads>>,
     scratch: Scratch,
     series: SeriesScratch,
     /// Impulses over a part of a step, one entry a wall, N s.
@@ -152,10 +157,12 @@ impl Judge {
     /// freedom. Missing values count as 0, surplus ones are ignored.
     #[must_use]
     pub fn new(scene: &Scene, contract: Contract, h: f64, q: &[f64], v: &[f64]) -> Self {
-        Self::over(&Arc::new(scene.clone()), &scene.wall_masses(), contract, h, (q, v))
+        let judge = Self::over(&Arc::new(scene.clone()), &scene.wall_masses(), contract, h, (q, v));
+        Self { own_loads: None, ..judge }
     }
 
-    /// As [`Judge::new`], for a shared scene whose walls feel `masses` (kg).
+    /// As [`Judge::new`], for a shared scene whose walls feel `masses` (kg), and a run in which no
+    /// caller adds a force to the loads: one that no load explains breaks the momentum balance.
     pub(crate) fn over(
         scene: &Arc<Scene>,
         masses: &[f64],
@@ -202,6 +209,7 @@ impl Judge {
             load,
             load_end: vec![0.0; n],
             blows: Blows::new(n),
+            own_loads: OwnLoads::new(scene, &contract, h),
             scratch: Scratch::new(n),
             series: SeriesScratch::new(n),
             over: vec![0.0; scene.walls.len()],
@@ -225,6 +233,13 @@ impl Judge {
         if !step.fits(n, walls, planar) {
             return;
         }
+        let Some(mut own_loads) = self.own_loads.take() else { return self.observe_forced(step) };
+        self.observe_forced(&Step { extra: own_loads.force(step, self.h), ..*step });
+        self.own_loads = Some(own_loads);
+    }
+
+    /// Checks one step under the extra force that it tells.
+    fn observe_forced(&mut self, step: &Step<'_>) {
         // Without blows these vectors stay zero.
         if self.loads.has_blows() {
             self.take_blows(step);

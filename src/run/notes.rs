@@ -196,7 +196,7 @@ fn standing(scene: &Scene, contact: &Contact, q: &[f64]) -> Option<String> {
         format!(
             "at the end the body rests {depth:.2e} m behind wall {:?}, where its last impact left it: \
              moreau-jean does not push it back to the face, and the force has an error of the stiffness times \
-             that depth; use a smaller step, or generalized-alpha, which rests on the face",
+             that depth; use a smaller step, or located, which rests on the face",
             wall.name
         )
     })

@@ -16,7 +16,6 @@
 //! | `staggered.rs` | shared by schemes whose velocity is half a step behind |
 //! | `supports/`, `disks/` | scenes with round holes and friction |
 //! | `equilibrium.rs` | the static start |
-//! | `jumps.rs` | jumps of loads within a step |
 //! | `handover.rs` | stretches that the exact scheme leaves to moreau-jean |
 //! | `counters.rs` | the work of a run |
 //! | `frame.rs` | the state, and the results of a step |
@@ -49,7 +48,6 @@ mod frame;
 mod generalized_alpha;
 mod grid;
 mod handover;
-mod jumps;
 mod kernel;
 mod line;
 mod located;

@@ -4,7 +4,6 @@ mod failure;
 mod restart;
 
 use super::fits;
-use super::jumps::Jumps;
 use super::kernel::Kernel;
 use super::{Handover, Method, Scheme};
 use crate::error::{Error, Result};
@@ -12,7 +11,7 @@ use crate::interrupt::Asking;
 use crate::qp::Backend;
 use crate::scene::{Checked, Scene, State};
 use crate::scheme::Counters;
-use crate::step::{Contact, Contract, QuietSteps, Step};
+use crate::step::{Contact, Contract, LoadJumps, QuietSteps, Step};
 
 /// Number of steps in a block, a power of 2: the longest loop without contact.
 const BLOCK: u64 = 1 << 12;
@@ -57,7 +56,7 @@ pub struct Stepper {
     before: (u64, u64),
     asking: Asking,
     kernel: Kernel,
-    jumps: Option<Box<Jumps>>,
+    jumps: Option<Box<LoadJumps>>,
     /// The number of the next step in which a load jumps or with which a block ends.
     due: u64,
     /// What becomes 0 at the end of a block, m.
@@ -95,7 +94,7 @@ impl Stepper {
         let backend = kernel.motion().backend().unwrap_or(backend);
         let contract = scheme.contract();
         // A scheme that divides its steps does so at the jumps.
-        let jumps = if contract.divides { None } else { Jumps::new(&scene, contract.balance, step).map(Box::new) };
+        let jumps = if contract.divides { None } else { LoadJumps::new(&scene, contract.balance, step).map(Box::new) };
         let (before, asking) = ((0, 0), Asking::here());
         let tiny = TINY * scene.gap_scale();
         let mut stepper =

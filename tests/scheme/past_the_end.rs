@@ -35,6 +35,7 @@ fn schemes() -> Vec<Scheme> {
     vec![
         Scheme::Event,
         MOREAU_JEAN,
+        Scheme::Located,
         Scheme::PaoliSchatzman,
         Scheme::GeneralizedAlpha { rho: 0.8 },
         Scheme::ImplicitEuler,

@@ -3,7 +3,6 @@
 use super::super::Counters;
 use super::super::body::Body;
 use super::super::frame::{Frame, Stretch, step_at};
-use super::super::jumps::Jumps;
 use super::super::position;
 use super::super::programme::failure;
 use super::super::space::{Space, zero};
@@ -12,7 +11,7 @@ use super::part::{Part, THETA};
 use crate::error::{Error, Result};
 use crate::qp::{Backend, Failure};
 use crate::scene::Scene;
-use crate::step::{Balance, Contract, Friction};
+use crate::step::{Balance, Contract, Friction, LoadJumps};
 
 /// Maximum number of parts of a step.
 const MOST_PARTS: u32 = 64;
@@ -40,7 +39,7 @@ pub(super) struct Division<S: Space, C> {
     pub contacts: C,
     /// The instants of blows and of jumps of loads, s, in order, and the jumps.
     breaks: Vec<f64>,
-    jumps: Option<Jumps>,
+    jumps: Option<LoadJumps>,
     /// The caller's extra force in this step, N.
     extra: S::Vector,
     /// The loads at the end of this step, N.
@@ -64,8 +63,8 @@ struct Progress {
 
 impl<S: Space, C: Contacts<S>> Division<S, C> {
     pub fn new(scene: &Scene, body: &Body<S>, contacts: C, backend: Backend) -> Result<Self> {
-        let jumps = Jumps::new(scene, Balance::Theta(THETA), body.h);
-        let mut breaks: Vec<f64> = jumps.iter().flat_map(Jumps::instants).chain(body.blow_instants()).collect();
+        let jumps = LoadJumps::new(scene, Balance::Theta(THETA), body.h);
+        let mut breaks: Vec<f64> = jumps.iter().flat_map(LoadJumps::instants).chain(body.blow_instants()).collect();
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
         Ok(Self {
@@ -254,7 +253,9 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         let end = if length == limit - from { limit } else { from + length };
         if let Some(jumps) = &mut self.jumps {
             let extra = jumps.force_within((from, end), length, Some(self.extra.as_ref()));
-            frame.extra.as_mut().copy_from_slice(extra);
+            // Set through the frame, which takes it back in the next step: set beside it, a jump at the
+            // end of a step would act for ever.
+            frame.force(Some(extra));
         }
         let Self { part, contacts, progress, load_end, .. } = self;
         if progress.is_some_and(|progress| end == progress.end) {

@@ -114,3 +114,34 @@ fn a_hole_exchanges_its_impulse_through_its_levers() {
     (supports.impulse[0], supports.size[0]) = ([3.0, 4.0], 20.0);
     assert_eq!(judge.open_momentum().value, 2.0 * 3.0 / (2.0 * 20.0));
 }
+
+#[test]
+fn a_force_that_no_load_explains_breaks_the_balance_of_a_run_without_a_caller() {
+    // A free body of 1 kg takes 4 N from ⅛ s on, where its table begins: none of it in the first
+    // step, at whose end the jump makes up −2 N for the 2 N of the rule, and 0.5 N s in each later.
+    let table = Table::new(vec![H, 1.0], vec![4.0, 4.0]).unwrap();
+    let scene = Scene::oscillator(1.0, 0.0, 0.0)
+        .with_wall(Wall::upper("far", 50.0))
+        .with_load(Load::table(table))
+        .with_duration(1.0);
+    let step = |index: u64, [v0, v1]: [f64; 2], extra: f64, q: f64| {
+        let mut claim = Claim::of(q, v0, v1, 1).at(index);
+        claim.extra = vec![extra];
+        claim
+    };
+    let right = [step(0, [0.0, 0.0], -2.0, 0.0), step(1, [0.0, 0.5], 0.0, 0.03125)];
+    // What is left of the jump goes on to act in the second step.
+    let wrong = [right[0].clone(), step(1, [0.0, 0.25], -2.0, 0.015_625)];
+    let contract = contract(Balance::Theta(0.5));
+    let (shared, masses) = (Arc::new(scene.clone()), scene.wall_masses());
+    let refuted = |claims: &[Claim], caller: bool| {
+        let alone = Judge::over(&shared, &masses, contract, H, (&[0.0], &[0.0]));
+        let mut judge = if caller { Judge::new(&scene, contract, H, &[0.0], &[0.0]) } else { alone };
+        claims.iter().for_each(|claim| judge.observe(&claim.step()));
+        judge.findings().iter().any(|finding| finding.refuted == Refuted::MomentumBalance)
+    };
+    assert!(!refuted(&right, false) && !refuted(&right, true));
+    assert!(refuted(&wrong, false));
+    // A caller may add −2 N.
+    assert!(!refuted(&wrong, true));
+}

@@ -11,12 +11,12 @@
 //! not act yet. w is θ in a balance of weights θ, and ½ in all others, whose sums over a run are
 //! those of the trapezoid rule.
 
+use super::Balance;
 use crate::scene::{LoadKind, Row, Scene};
-use crate::step::Balance;
 
 /// The jumps of the loads of a scene.
-#[derive(Debug)]
-pub(super) struct Jumps {
+#[derive(Debug, Clone)]
+pub(crate) struct LoadJumps {
     /// τ (s), the place, and J (N), in order of time.
     all: Vec<(f64, Row, f64)>,
     weight: f64,
@@ -25,7 +25,7 @@ pub(super) struct Jumps {
     force: Vec<f64>,
 }
 
-impl Jumps {
+impl LoadJumps {
     /// The jumps after t = 0, for steps of `step` seconds that keep this balance; `None` where
     /// there are none, and for exact motion, which ends its stretches at them.
     pub fn new(scene: &Scene, balance: Balance, step: f64) -> Option<Self> {
