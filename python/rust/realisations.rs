@@ -61,7 +61,7 @@ impl RunsDone {
 pub fn count(given: Asked, case: &sg::case::Case) -> PyResult<Option<RealisationCount>> {
     let count = asked(given)?;
     if let Some(count) = count {
-        case.check_random(count).and_then(|()| case.realisation(count.most())).map_err(raise)?;
+        case.check_realisations(count).and_then(|()| case.realisation(count.most())).map_err(raise)?;
     }
     Ok(count)
 }

@@ -157,9 +157,16 @@ def test_what_makes_no_sense_is_refused(asked: dict[str, Any], words: str) -> No
         sg.realisations(tube(), **asked)
 
 
-def test_what_has_no_seeds_is_refused(scene: sg.Scene) -> None:
+def test_what_has_no_seeds_is_refused(scene: sg.Scene, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="seeds is 3; expected a case with a random load"):
         sg.realisations(sg.load("rigid-walls-sine"), seeds=3)
+    free = tmp_path / "free.toml"
+    free.write_text(
+        "[system.oscillator]\nmass = 1.0\ndamping = 1.0\nstiffness = 1e3\n[time]\nend = 1.0\nstep = 1e-3\n"
+        "[[load]]\nrandom = { rms = 1.0, from = 1.0, to = 10.0 }\n"
+    )
+    with pytest.raises(ValueError, match="with a wall or a support"):
+        sg.realisations(sg.load(free), seeds=3)
     with pytest.raises(TypeError, match="expected a Case"):
         sg.realisations(scene, seeds=3)  # type: ignore[arg-type]
 

@@ -12,6 +12,10 @@ use crate::study::truncation::more_modes;
 pub(crate) const RANDOM: &str =
     "a case with a random load or a start that scatters (initial.scatter): without one all runs are the same";
 
+/// What their means are of.
+const NO_WALL: &str = "a case with a wall or a support, whose forces have means over realisations; `sweep --seeds` has \
+                       those of displacements (--measure displacement_rms)";
+
 impl RandomScenes for Case {
     fn realisation(&self, number: u64) -> Result<Scene> {
         Ok(Case::realisation(self, number)?.scene)
@@ -47,17 +51,20 @@ impl Case {
         StepSearch { scenes: self, method, time: self.time, share, most, most_steps }
     }
 
-    /// Refuses several realisations of a case that is not random.
+    /// Refuses means over realisations of a case that is not random, or that has no wall and no
+    /// support.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `seeds` or `until_interval`.
-    pub fn check_random(&self, count: RealisationCount) -> Result<()> {
-        if self.is_random() {
-            return Ok(());
-        }
+    pub fn check_realisations(&self, count: RealisationCount) -> Result<()> {
+        let expected = match () {
+            () if !self.is_random() => RANDOM,
+            () if self.scene.walls.is_empty() => NO_WALL,
+            () => return Ok(()),
+        };
         Err(match count {
-            RealisationCount::Exactly(count) => Error::invalid("seeds", count, RANDOM),
-            RealisationCount::Within { share, .. } => Error::invalid("until_interval", share, RANDOM),
+            RealisationCount::Exactly(count) => Error::invalid("seeds", count, expected),
+            RealisationCount::Within { share, .. } => Error::invalid("until_interval", share, expected),
         })
     }
 }

@@ -11,8 +11,9 @@ use crate::study::work_precision::{
 };
 use std::path::Path;
 
-/// Errors below this are negligible and are not shown on the chart.
-const NEGLIGIBLE: f64 = 1e-8;
+/// Errors below this are negligible and are not shown on the chart: a decade less than the least
+/// error of the table of cheapest methods, whose points lie below that.
+const NEGLIGIBLE: f64 = 1e-9;
 /// An error beyond the gap makes a result useless, however cheap: it is not on the front.
 const NO_ANSWER: f64 = 1.0;
 

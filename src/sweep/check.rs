@@ -164,9 +164,17 @@ fn no_centre(axis: &Axis) -> Error {
 }
 
 impl Plan {
-    /// An error for a measure that takes the derivative with respect to the start if the scheme has
-    /// none.
+    /// An error for steps that the exact scheme does not take, and for a measure that takes the
+    /// derivative with respect to the start if the scheme has none.
     pub(super) fn check_event(&self) -> Result<()> {
+        let mut targets = self.sweep.axes.iter().flat_map(|axis| &axis.targets).map(|(target, _)| target);
+        if self.method.scheme == Scheme::Event
+            && !self.sweep.varies_scheme()
+            && let Some(key) = targets.find(|target| target.is_step())
+        {
+            let expected = "a scheme that has a step, of which event has none: all rows would be the same";
+            return Err(Error::invalid("[[vary]] key", key, expected));
+        }
         let asked = self.sweep.measures.iter().find(|measure| measure.needs_event());
         match asked.filter(|_| self.method.scheme != Scheme::Event || self.sweep.varies_scheme()) {
             Some(measure) => Err(Error::invalid(

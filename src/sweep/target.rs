@@ -46,6 +46,11 @@ impl Target {
         matches!(self, Self::Case(key) if key.word() == "seed")
     }
 
+    /// True for the time step.
+    pub(super) fn is_step(&self) -> bool {
+        matches!(self, Self::Case(key) if key.to_string() == "time.step")
+    }
+
     /// Name of the column of its values: the last word of the key, or the whole key.
     pub(super) fn column(&self, whole: bool) -> String {
         let name = match self {

@@ -145,6 +145,16 @@ fn seeds_that_make_no_sense_are_refused() {
         let (_, err) = said(path, &[&["run"], args].concat(), 2);
         assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
     }
+    // Without walls there is nothing whose mean the realisations would give.
+    let free = "[system.oscillator]\nmass = 1.0\ndamping = 1.0\nstiffness = 1e3\n[time]\nend = 1.0\nstep = 1e-3\n\
+                [[load]]\nrandom = { rms = 1.0, from = 1.0, to = 10.0 }\n";
+    fs::write(path.join("free.toml"), free).unwrap();
+    for (command, option) in
+        [("run", ["--seeds", "3"]), ("run", ["--until-interval", "5%"]), ("compare", ["--seeds", "3"])]
+    {
+        let (_, err) = said(path, &[&[command, "free.toml"], &option[..]].concat(), 2);
+        assert!(err.contains(option[0]) && err.contains("with a wall or a support"), "{command}: {err}");
+    }
     assert!(!path.join("out").exists(), "a refused request leaves nothing");
 }
 

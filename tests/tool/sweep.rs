@@ -475,6 +475,18 @@ fn a_measure_without_a_place_is_refused_by_name() {
     assert!(bare.contains("columns is contacts") && bare.contains("the case has no wall"), "{bare}");
 }
 
+#[test]
+fn steps_are_varied_only_of_schemes_that_have_one() {
+    let dir = tempfile::tempdir().unwrap();
+    let own = ["sweep", "rigid-walls-sine", "--set", "time.end=0.3", "--vary", "time.step=1e-3,2e-3"];
+    let own = [&own[..], &["--measure", "contacts"]].concat();
+    let (_, err) = said(dir.path(), &[&own[..], &["--scheme", "event"]].concat(), 2);
+    assert!(err.contains("time.step") && err.contains("of which event has none"), "{err}");
+    // Beside event another scheme may have one.
+    let both = ["--vary", "run.scheme=event,moreau-jean"];
+    said(dir.path(), &[&own[..], &both].concat(), 0);
+}
+
 const FILE: &str = r#"
 case = "rigid-walls-sine"
 [set]

@@ -40,7 +40,7 @@ impl Seeds {
         let share = self.until_interval.as_ref().map(|text| share("--until-interval", text)).transpose()?;
         let count = RealisationCount::new(self.count, share, self.most_seeds).map_err(of_argument)?;
         if let Some(count) = count {
-            case.check_random(count).map_err(of_argument)?;
+            case.check_realisations(count).map_err(of_argument)?;
             case.realisation(count.most())?;
         }
         Ok(count)

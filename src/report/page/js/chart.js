@@ -14,7 +14,7 @@ const CHARTED = [
 ];
 
 /** Errors below this are negligible; from this on a result is useless, however cheap. */
-const [NEGLIGIBLE, NO_ANSWER] = [1e-8, 1];
+const [NEGLIGIBLE, NO_ANSWER] = [1e-9, 1];
 
 /** The curves of one kind of error, and what is told of their points. */
 class ChartData {
