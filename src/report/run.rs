@@ -115,7 +115,12 @@ fn facts(summary: &Value) -> Value {
     let mut facts = Vec::new();
     if !walls.is_empty() {
         let contacts: u64 = walls.iter().filter_map(|wall| wall["contacts"].as_u64()).sum();
-        facts.push(fact("contacts", contacts.to_string(), ""));
+        let from = number(&summary["statistics"]["from_s"]).filter(|from| *from > 0.0);
+        facts.push(fact(
+            "contacts",
+            contacts.to_string(),
+            &from.map_or_else(String::new, |s| format!("from {s} s on")),
+        ));
         let impulse = walls.iter().filter_map(|wall| number(&wall["force"]["impulse_n_s"])).map(f64::abs);
         facts.push(fact("Σ|impulse|", short(impulse.sum()), "N s"));
         let largest = walls.iter().filter_map(largest_force).reduce(|a, b| if b.0 > a.0 { b } else { a });

@@ -90,7 +90,7 @@ function contactSection() {
   section(
     "contacts",
     "Contacts",
-    `${counted(rows.length)} ${rows.length === 1 ? "contact" : "contacts"}. Sort by a column to see how it is distributed; click a row to go there.`,
+    `${counted(rows.length)} ${rows.length === 1 ? "contact" : "contacts"} over the whole run. Sort by a column to see how it is distributed; click a row to go there.`,
     el("div", { class: "two long" }, table, histogram.box),
     saveBar("contacts.csv", lines, "All digits"),
   );

@@ -17,7 +17,8 @@ function structureStage() {
   const walls = DATA.scene.walls.filter(stands).map((wall) => ({ ...wall, x: placeOf(wall.at) }));
   const drawn = walls.filter((wall) => wall.x !== undefined);
   const most = Math.max(1e-300, ...stations.high, ...Array.from(stations.low, (u) => -u));
-  const gap = Math.max(0, ...drawn.map((wall) => Math.abs(wall.position)));
+  const distances = drawn.map((wall) => Math.abs(wall.position));
+  const [narrowest, gap] = [Math.min(...distances), Math.max(0, ...distances)];
   const memory = glance() * 0.14;
   const force = largestForce(loads) || 1;
   const thick = kind === "beam" ? 9 : 5;
@@ -197,7 +198,8 @@ function structureStage() {
       ? `displacement × ${digits(scale / (Math.abs(X(1) - X(0)) || 1), 3)}`
       : `displacement upward, ${kind === "matrices" ? "degrees of freedom" : "masses"} by number`;
     const across = kind === "bar" ? " (along the bar, drawn upward)" : "";
-    const gaps = gap > 0 ? `, gaps ${prefixed(gap, "m", 3)}` : `, up to ${prefixed(most, "m", 3)}`;
+    const least = narrowest < gap ? `${prefixed(narrowest, "m", 3)} to ` : "";
+    const gaps = gap > 0 ? `, gaps ${least}${prefixed(gap, "m", 3)}` : `, up to ${prefixed(most, "m", 3)}`;
     ctx.fillText(
       `${stations.names ? `displacement of the watched places${lead.shape ? " and at the walls" : ""}` : magnified}${across}${gaps}; pale: where it has been`,
       6,

@@ -53,7 +53,12 @@ function sortable(columns, rows, options = {}) {
       ? Math.min(rows.length, PRINTED)
       : Math.min(rows.length, from + Math.ceil(height / ROW) + 18);
     const after = printing ? 0 : rows.length - to;
-    body.replaceChildren(space(from), ...order.slice(from, to).map(line), space(after));
+    const rest = printing && to < rows.length ? `and ${counted(rows.length - to)} rows more` : null;
+    body.replaceChildren(
+      space(from),
+      ...order.slice(from, to).map(line),
+      rest ? el("tr", {}, el("td", { colspan: columns.length }, rest)) : space(after),
+    );
   };
   const choose = (i) => {
     up = by === i ? !up : columns[i].text === true || columns[i].up === true;
