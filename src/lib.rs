@@ -37,6 +37,7 @@ mod hash;
 mod interrupt;
 pub mod linear;
 pub mod orbit;
+mod order;
 // The files that the tool writes; public for its benchmarks and tests.
 #[cfg(feature = "cli")]
 #[doc(hidden)]

@@ -8,6 +8,7 @@ use super::planes::Planes;
 use super::value::{Section, Value};
 use super::written::Line;
 use crate::error::{Result, counted};
+use crate::order::sort_by_number;
 use crate::scene::ModalData;
 use std::ops::Range;
 use toml::Spanned;
@@ -109,7 +110,7 @@ impl Builder<'_> {
         };
         // A table in a file has its keys in the order of their names; they count as they are
         // written.
-        given.sort_by_key(|(_, _, _, span)| span.start);
+        sort_by_number(&mut given, |(_, _, _, span)| span.start as f64);
         let names = self.points_of(modal);
         let known = |place: &Place| names.iter().any(|name| *place == Place::point(name));
         match given.iter().find(|(_, place, _, _)| !known(place)) {

@@ -1,5 +1,6 @@
 //! A symmetric matrix by the rows of its lower triangle.
 
+use crate::order::sort_by_number;
 use serde::{Deserialize, Serialize};
 
 /// A symmetric n × n matrix; entries below the diagonal stand for both triangles. The diagonal is
@@ -63,7 +64,7 @@ impl Symmetric {
         }
         let mut matrix = Self { starts: vec![0], columns: Vec::new(), values: Vec::new() };
         for mut row in rows {
-            row.sort_by_key(|entry| entry.0);
+            sort_by_number(&mut row, |entry| entry.0 as f64);
             let start = matrix.columns.len();
             for (column, value) in row {
                 match matrix.columns.last() {

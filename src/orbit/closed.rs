@@ -17,6 +17,7 @@ use super::signature::Signature;
 use super::strobe::{is_stable, square};
 use super::symmetry::mirror;
 use crate::error::{Error, Result};
+use crate::order::sort_by_number;
 use crate::scene::{LoadKind, Row, Scene, System, Wall, forcing_period, frequencies};
 use crate::scheme::check_exact;
 use nalgebra::{Complex, DMatrix, DVector};
@@ -259,7 +260,7 @@ impl Linear {
         saltation.view_mut((n, n), (n, n)).copy_from(&reset);
         let values = (e * saltation * sign).complex_eigenvalues();
         let mut values: Vec<[f64; 2]> = values.iter().map(|z| [z.re, z.im]).collect();
-        values.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])));
+        sort_by_number(&mut values, |a| -a[0].hypot(a[1]));
         values
     }
 }

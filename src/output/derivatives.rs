@@ -4,6 +4,7 @@
 use super::csv::{self, digits};
 use super::table::Table;
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::scene::Scene;
 use crate::study::derivatives::Derivatives;
 use crate::study::horizon::LARGEST_GROWTH;
@@ -56,7 +57,7 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivati
     header.extend(keys.iter().flat_map(|key| NUMBERS.map(|(what, unit)| key.header(what, unit))));
     // In the order of contacts.csv.
     let mut contacts: Vec<_> = derivatives.contacts.iter().collect();
-    contacts.sort_by(|a, b| a.contact.start.total_cmp(&b.contact.start));
+    sort_by_number(&mut contacts, |a| a.contact.start);
     let rows = contacts.into_iter().map(|one| {
         let mut row = csv::contact_cells(name(scene, one.contact.wall), one.contact);
         row.push(digits(Some(one.growth)));

@@ -6,6 +6,7 @@ use super::results::Results;
 use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::statistics::{Distribution, EpisodeStatistics, PlaceKind};
@@ -95,9 +96,9 @@ impl Episodes {
         };
         let mut shown: Vec<(usize, &EpisodeStatistics)> = self.places.iter().filter(own).enumerate().collect();
         let impulse = |one: &EpisodeStatistics| one.impulse_n_s.as_ref().map_or(0.0, |d| d.mean * one.episodes as f64);
-        shown.sort_by(|a, b| impulse(b.1).total_cmp(&impulse(a.1)));
+        sort_by_number(&mut shown, |a| -impulse(a.1));
         shown.truncate(MOST_ROWS);
-        shown.sort_by_key(|one| one.0);
+        sort_by_number(&mut shown, |one| one.0 as f64);
         let header = [
             "place",
             "episodes",

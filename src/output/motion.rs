@@ -7,6 +7,7 @@
 //! (Hermite) through both displacements with both velocities.
 
 use super::window::Span;
+use crate::order::sort_by_number;
 use crate::run::Run;
 use crate::scene::Scene;
 use crate::scheme::Scheme;
@@ -66,7 +67,7 @@ fn knots(scene: &Scene, run: &Run, probe: usize, span: Span, corners: bool) -> V
     let short = |c: &Contact| c.end.is_some_and(|end| end - c.start < 3.0 * spacing);
     let wanted = |c: &Contact| run.scheme.is_exact() || (corners && c.peak_force.is_none()) || (sparse && short(c));
     let mut instants = contact_instants(scene, run, probe, wanted);
-    instants.sort_by(|a, b| a.t.total_cmp(&b.t));
+    sort_by_number(&mut instants, |a| a.t);
     let mut instants = instants.into_iter().peekable();
     let mut out = Vec::new();
     // The row at the time of an impact holds the state after it, so the corners of the impact are

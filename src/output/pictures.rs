@@ -13,6 +13,7 @@ use super::places::{Chosen, WallPlace};
 use super::rubbed::Rubbed;
 use super::window::{Span, Window};
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::run::Run;
 use crate::scene::{Row, Scene, Side};
 use crate::step::Contact;
@@ -259,7 +260,7 @@ impl FigureSet<'_> {
             }
         }
         points.extend(peaks);
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut points, |a| a.0);
         points
     }
 }

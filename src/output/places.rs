@@ -1,6 +1,7 @@
 //! The places where walls stand and probes look, and which of them fit on a page.
 
 use super::window::Span;
+use crate::order::sort_by_number;
 use crate::scene::Scene;
 use crate::trajectory::Trajectory;
 
@@ -78,10 +79,10 @@ impl<T> Chosen<T> {
     /// The items of the largest weight, in their order; of equal weights, the first ones.
     fn heaviest(weighted: Vec<(f64, T)>) -> Self {
         let mut numbered: Vec<(usize, (f64, T))> = weighted.into_iter().enumerate().collect();
-        numbered.sort_by(|a, b| b.1.0.total_cmp(&a.1.0));
+        sort_by_number(&mut numbered, |a| -a.1.0);
         let others = numbered.split_off(MOST.min(numbered.len()));
         let [shown, left] = [numbered, others].map(|mut some| {
-            some.sort_by_key(|entry| entry.0);
+            sort_by_number(&mut some, |entry| entry.0 as f64);
             some.into_iter().map(|(_, (_, item))| item).collect()
         });
         Self { shown, left }

@@ -3,6 +3,7 @@
 use super::csv;
 use super::table::Table;
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::scene::Scene;
 use crate::statistics::{ContactPlace, PlaceKind};
 use crate::study::realisations::{Estimate, Interval, Measure, Realisations};
@@ -93,9 +94,9 @@ pub(super) fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> 
     };
     let mut places: Vec<(usize, &ContactPlace)> = places(study).into_iter().filter(own).enumerate().collect();
     let force = |place: &ContactPlace| find(study, place, Measure::MeanForce).map_or(0.0, |one| one.mean);
-    places.sort_by(|a, b| force(b.1).total_cmp(&force(a.1)));
+    sort_by_number(&mut places, |a| -force(a.1));
     places.truncate(most);
-    places.sort_by_key(|place| place.0);
+    sort_by_number(&mut places, |place| place.0 as f64);
     places.into_iter().map(|(_, place)| place).collect()
 }
 

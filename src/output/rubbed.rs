@@ -4,6 +4,7 @@ use super::colours::Places;
 use super::figure::{Curve, Figure, Panel};
 use super::labelled::Labelled;
 use super::window::Window;
+use crate::order::sort_by_number;
 use crate::scene::Scene;
 use crate::trajectory::Trajectory;
 
@@ -62,9 +63,9 @@ impl Rubbed<'_> {
         let mut supports: Vec<(usize, f64)> = (0..self.scene.supports.len()).filter_map(weighed).collect();
         supports.retain(|(_, weight)| *weight > 0.0);
         let count = supports.len();
-        supports.sort_by(|a, b| b.1.total_cmp(&a.1));
+        sort_by_number(&mut supports, |a| -a.1);
         supports.truncate(MOST);
-        supports.sort_by_key(|entry| entry.0);
+        sort_by_number(&mut supports, |entry| entry.0 as f64);
         supports.first()?;
         let left_out = (supports.len() < count).then(|| format!("{} of {count} supports", supports.len()));
         let title = (self.title)(left_out.into_iter().collect());

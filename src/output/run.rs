@@ -10,6 +10,7 @@ use super::table::Table;
 use super::{Span, csv, json, realisations, supports, turbulence};
 use crate::case::Case;
 use crate::error::{Result, counted};
+use crate::order::sort_by_number;
 use crate::qp::Backend;
 use crate::run::Run;
 use crate::scheme::{Method, Scheme};
@@ -207,9 +208,9 @@ fn busiest(run: &Run) -> Vec<&WallStatistics> {
     let walls: Vec<&WallStatistics> = flats(run).collect();
     let impulse = |wall: &WallStatistics| wall.force.map_or(0.0, |force| force.impulse_n_s.abs());
     let mut order: Vec<(usize, f64)> = walls.iter().map(|wall| impulse(wall)).enumerate().collect();
-    order.sort_by(|a, b| b.1.total_cmp(&a.1));
+    sort_by_number(&mut order, |a| -a.1);
     order.truncate(MOST_ROWS);
-    order.sort_by_key(|entry| entry.0);
+    sort_by_number(&mut order, |entry| entry.0 as f64);
     order.into_iter().filter_map(|(i, _)| walls.get(i).copied()).collect()
 }
 

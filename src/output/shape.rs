@@ -9,6 +9,7 @@ use super::atomic::WholeFile;
 use super::csv::digits;
 use crate::case::{Body, Case, Line, Model, Place};
 use crate::error::{Error, Result};
+use crate::order::sort_by_number;
 use crate::run::Run;
 use crate::scene::{Bar, Beam, Probe, Row, Scene};
 use std::io::Write;
@@ -160,7 +161,7 @@ fn along(case: &Case, model: &Model, body: Option<&str>) -> Vec<(String, Place)>
     let point = |x: f64| case.line(body).and_then(|line| line.points.iter().find(|point| point.1 == x));
     let station = |x: f64| (x, point(x).map_or(Place::Position(x), |point| point.0.clone()));
     at.extend(touched.filter_map(|one| one.1).map(station));
-    at.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut at, |a| a.0);
     at.dedup_by(|a, b| (a.0 - b.0).abs() <= 1e-9 * (end - begin));
     at.into_iter().map(|(x, place)| (column(x), place)).collect()
 }

@@ -4,6 +4,7 @@
 use super::cheapest::time;
 use super::table::Table;
 use super::work_precision::label;
+use crate::order::sort_by_number;
 use crate::scheme::{Method, Scheme};
 use crate::study::stability::class::{FAST, LOSS, MISCOUNTED};
 use crate::study::stability::impact::ImpactMap;
@@ -33,7 +34,7 @@ pub struct StableStep {
 #[must_use]
 pub fn stable_steps(maps: &Maps, impacts: &[ImpactMap]) -> Vec<StableStep> {
     let mut all: Vec<StableStep> = maps.own().map(|row| stable_step(row, maps, impacts)).collect();
-    all.sort_by(|a, b| b.step.unwrap_or(0.0).total_cmp(&a.step.unwrap_or(0.0)));
+    sort_by_number(&mut all, |a| -a.step.unwrap_or(0.0));
     all
 }
 

@@ -5,6 +5,7 @@ use super::csv::{self, digits};
 use super::table::Table;
 use crate::case::{Case, Support};
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::run::Run;
 use crate::statistics::{LargestForce, SectorStatistics, SupportForce, SupportStatistics, WearStatistics};
 use crate::wear::Worn;
@@ -104,9 +105,9 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
     if supports.is_empty() {
         return None;
     }
-    supports.sort_by(|a, b| b.1.wear.work_rate_w.total_cmp(&a.1.wear.work_rate_w));
+    sort_by_number(&mut supports, |a| -a.1.wear.work_rate_w);
     supports.truncate(MOST_ROWS);
-    supports.sort_by_key(|entry| entry.0);
+    sort_by_number(&mut supports, |entry| entry.0 as f64);
     let wears = supports.iter().any(|(_, support)| support.worn.is_some());
     let mut header = vec![
         "support",

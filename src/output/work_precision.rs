@@ -4,6 +4,7 @@ use super::csv;
 use super::figure::{Curve, Figure, Mark, Panel};
 use super::floors;
 use crate::error::{Result, amount};
+use crate::order::sort_by_number;
 use crate::scene::Scene;
 use crate::scheme::{Method, PenaltyLaw, Scheme};
 use crate::study::work_precision::{
@@ -225,7 +226,7 @@ pub(crate) fn programs(peers: &[Peer]) -> Vec<(String, Vec<(f64, f64)>)> {
             None => programs.push((peer.label(), vec![point])),
         }
     }
-    programs.iter_mut().for_each(|p| p.1.sort_by(|a, b| a.1.total_cmp(&b.1)));
+    programs.iter_mut().for_each(|p| sort_by_number(&mut p.1, |point| point.1));
     programs
 }
 

@@ -16,6 +16,7 @@ use super::delassus::Delassus;
 use super::pivoting::Pivoting;
 use super::side::Side;
 use super::{Failure, NOISE, Problem, Rhs};
+use crate::order::sort_by_number;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SecondOrderConeT, SolverStatus};
 
@@ -261,7 +262,7 @@ fn by_columns(height: usize, columns: &[Vec<(usize, f64)>]) -> CscMatrix<f64> {
     for column in columns {
         let start = rows.len();
         let mut sorted = column.clone();
-        sorted.sort_by_key(|entry| entry.0);
+        sort_by_number(&mut sorted, |entry| entry.0 as f64);
         for (i, value) in sorted.into_iter().filter(|entry| entry.1 != 0.0) {
             match values.last_mut() {
                 Some(sum) if rows.len() > start && rows.last() == Some(&i) => *sum += value,

@@ -5,6 +5,7 @@ use super::column::{extremes, f32, f64, i16, u32, words};
 use super::folder::{Cells, Folder, Numbers};
 use super::scene::{drawn_at, in_keys};
 use crate::error::{Error, Result};
+use crate::order::sort_by_number;
 use crate::output::pictures::FEW_ROWS;
 use crate::output::shape::{self, BodyStations, Stations};
 use serde_json::{Value, json};
@@ -185,7 +186,7 @@ fn forces(table: &Numbers, time: &[f64], summary: &Value, contacts: &Cells) -> R
         }
         let mut points: Vec<(f64, f64)> = kept.iter().filter_map(|&i| Some((*time.get(i)?, shown[i]))).collect();
         points.extend(peaks);
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut points, |a| a.0);
         let (time, force): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
         out.push(json!({ "place": name, "time": f64(&time), "force": f32(force.into_iter()) }));
     }

@@ -170,8 +170,7 @@ impl Judge {
         h: f64,
         (q, v): (&[f64], &[f64]),
     ) -> Self {
-        let n = scene.system.degrees_of_freedom();
-        let loads = Loads::new(&scene.loads);
+        let (n, loads) = (scene.system.degrees_of_freedom(), Loads::new(&scene.loads));
         let mut load = vec![0.0; n];
         loads.add_force(0.0, 1.0, &mut load);
         // The factor of M, for the velocities that blows give. A mass matrix without a factor is an

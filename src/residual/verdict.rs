@@ -3,6 +3,7 @@
 use super::largest_residual::LargestResidual;
 use super::{Finding, Judge, Refuted};
 use crate::finite::first_not_finite;
+use crate::order::sort_by_number;
 use crate::step::{Bound, Conserves, Path, Step, Tolerance};
 
 /// Contact forces below this share of the largest force in the balance are measured by that share
@@ -91,7 +92,7 @@ impl Judge {
         .filter(|(_, worst, allowed)| worst.value > allowed.limit || worst.value.is_nan())
         .map(|(refuted, worst, allowed)| self.finding(refuted, worst, allowed))
         .collect();
-        findings.sort_by(|a, b| (b.residual / b.tolerance).total_cmp(&(a.residual / a.tolerance)));
+        sort_by_number(&mut findings, |a| -(a.residual / a.tolerance));
         // A residual whose rounding error overflows has none of the above.
         if let Some(part) = first_not_finite(&self.residuals()).filter(|_| findings.is_empty()) {
             findings.push(Finding::not_finite(&format!("residuals.{part}"), self.noise.end));

@@ -5,6 +5,7 @@ use super::modal::{MOST_DENSE, Modes};
 use super::system::{above_minus_one, nonnegative};
 use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
+use crate::order::sort_by_number;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
@@ -90,7 +91,7 @@ fn modal(ratios: &[f64], structure: &Structure) -> Result<Symmetric> {
     if uncoupled {
         let (m, k) = (structure.mass.diagonal_entries(), structure.stiffness.diagonal_entries());
         let mut order: Vec<usize> = (0..n).collect();
-        order.sort_by(|&a, &b| (k[a] / m[a]).total_cmp(&(k[b] / m[b])));
+        sort_by_number(&mut order, |&a| k[a] / m[a]);
         let mut c = vec![0.0; n];
         order.into_iter().enumerate().for_each(|(rank, i)| c[i] = 2.0 * ratio(rank) * (k[i] * m[i]).sqrt());
         return Ok(Symmetric::diagonal(&c));

@@ -4,6 +4,7 @@ use super::function::TimeFunction;
 use super::load::{Load, LoadKind};
 use super::table::Table;
 use crate::elementary::{TOGETHER, sines};
+use crate::order::sort_by_number;
 use std::f64::consts::TAU;
 
 /// One sine of a [`Forcing`]: amplitude · sin(ω t + phase).
@@ -57,7 +58,7 @@ impl Forcing {
                 LoadKind::Function(function) => forcing.functions.push((weight, function.clone())),
             }
         }
-        forcing.impulses.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut forcing.impulses, |a| a.0);
         forcing
     }
 

@@ -3,6 +3,7 @@
 use super::distribution::Distribution;
 use super::place::{ContactPlace, PlaceKind};
 use super::{Statistics, by_wall};
+use crate::order::sort_by_number;
 use crate::scene::Scene;
 use crate::step::Contact;
 use serde::Serialize;
@@ -84,7 +85,7 @@ impl EpisodeStatistics {
 /// Joins contacts that overlap, or between which less than `rest` (s) lies; one that is open lasts
 /// until `to` (s).
 fn join(mut contacts: Vec<&Contact>, to: f64, rest: f64) -> Vec<Episode> {
-    contacts.sort_by(|a, b| a.start.total_cmp(&b.start));
+    sort_by_number(&mut contacts, |a| a.start);
     let mut episodes: Vec<Episode> = Vec::new();
     for contact in contacts {
         let end = contact.end.unwrap_or(to);

@@ -12,6 +12,7 @@
 //! those of the trapezoid rule.
 
 use super::Balance;
+use crate::order::sort_by_number;
 use crate::scene::{LoadKind, Row, Scene};
 
 /// The jumps of the loads of a scene.
@@ -45,7 +46,7 @@ impl LoadJumps {
                 }
             }
         }
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut all, |a| a.0);
         let force = vec![0.0; scene.initial.q.len()];
         (!all.is_empty()).then_some(Self { all, weight, step, force })
     }

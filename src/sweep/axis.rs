@@ -7,6 +7,7 @@ use super::target::{Target, with_unit};
 use super::values::{Values, finite};
 use crate::case::KeyValue;
 use crate::error::{Error, Result};
+use crate::order::sort_by_number;
 
 /// One dimension of a sweep.
 ///
@@ -101,7 +102,7 @@ impl Axis {
             return up.into_iter().map(|index| (index, None)).collect();
         }
         let number = |index: u64| self.values.at(index, 0.0).number().unwrap_or(0.0);
-        up.sort_by(|a, b| number(*a).total_cmp(&number(*b)));
+        sort_by_number(&mut up, |a| number(*a));
         let rising = up.iter().map(|&index| (index, Some("up")));
         let falling = up.iter().rev().map(|&index| (index, Some("down")));
         match self.follow {

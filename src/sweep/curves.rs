@@ -5,6 +5,7 @@ use super::picture::{Drawn, MOST_PANELS, Picture};
 use super::seeds::in_words;
 use super::table::{TABLE, Table, label, quantity};
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::output::colours::{DOWN, Places, UP};
 use crate::output::figure::{Curve, Figure, Panel, Scale, Scatter};
 
@@ -111,7 +112,7 @@ fn figure(
         let column = columns.first().map(|column| label(&column.replace(&place_suffix(column, measure), "")));
         let mut panel = Panel::new(column.unwrap_or_else(|| measure.clone()));
         for (MeasureCurve { label, mut points, .. }, colour) in coloured(curves, source) {
-            points.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
+            sort_by_number(&mut points, |a| a.0.0);
             let few = points.len() <= 60;
             let (points, half_widths): (Vec<_>, Vec<f64>) = points.into_iter().unzip();
             let curve = Curve::new(label, points).banded(half_widths);

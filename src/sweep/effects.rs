@@ -13,6 +13,7 @@ use super::picture::Picture;
 use super::runs::Runs;
 use super::table::{SEEDS, TABLE, Table};
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::output::csv::digits;
 use crate::study::realisations::mean_of;
 
@@ -88,7 +89,7 @@ pub(super) fn effects(source: &Source<'_>) -> Result<Vec<Effect>> {
         };
         let mut effects: Vec<Effect> = bounds.iter().enumerate().map(of_axis).collect();
         let size = |effect: &Effect| effect.effect.map_or(-1.0, f64::abs);
-        effects.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        sort_by_number(&mut effects, |a| -size(a));
         all.extend(effects);
     }
     Ok(all)

@@ -10,6 +10,7 @@ use super::shard::Shard;
 use super::table::{REALISATIONS, SAMPLES, TABLE, cells_of};
 use crate::case::open_regular;
 use crate::error::{Error, Result};
+use crate::order::sort_by_number;
 use crate::output::atomic::WholeFile;
 use crate::output::format::Formats;
 use crate::output::manifest;
@@ -116,7 +117,7 @@ pub fn merge(folders: &[PathBuf], out: &Path, force: bool) -> Result<Merged> {
 /// As [`merge`]; also returns the folder, where files can be added in `formats`.
 pub(crate) fn merge_in(folders: &[PathBuf], out: &Path, force: bool, formats: Formats) -> Result<(Merged, Results)> {
     let mut parts = expanded(folders)?.iter().map(|folder| Part::read(folder)).collect::<Result<Vec<_>>>()?;
-    parts.sort_by_key(|part| part.shard.index());
+    sort_by_number(&mut parts, |part| part.shard.index() as f64);
     let first = parts.first().ok_or_else(|| Error::invalid("merge", "nothing", "the folders of shards"))?;
     check_parts(&parts, first, folders)?;
     let request = first.request.clone();

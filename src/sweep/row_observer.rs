@@ -9,6 +9,7 @@ use super::sample::Samples;
 use super::strobe::Strobe;
 use crate::case::Case;
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::scene::{Checked, Scene, State};
 use crate::statistics::{Forces, Statistics, WallStatistics, WearTally};
 use crate::step::{Contact, Step};
@@ -99,7 +100,8 @@ impl RowObserver {
         open: &[Contact],
     ) -> (Vec<Option<f64>>, Vec<Sample>) {
         self.contacts.extend_from_slice(open);
-        self.contacts.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.wall.cmp(&b.wall)));
+        sort_by_number(&mut self.contacts, |contact| contact.wall as f64);
+        sort_by_number(&mut self.contacts, |contact| contact.start);
         let statistics = Statistics::of(scene, scene.wall_masses(), &self.contacts, self.from);
         let statistics = match &self.forces {
             Some(forces) => statistics.with_forces(forces),

@@ -13,6 +13,7 @@ use super::sensitivity::{SENSITIVITY_TABLES, Sensitivity};
 use super::shard::Shard;
 use super::table::{REALISATIONS, cells_of};
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::output::format::Formats;
 use crate::output::journal::Journal;
 use crate::output::results::Results;
@@ -61,7 +62,7 @@ impl Plan {
                 rows.extend(row);
                 Ok(())
             })?;
-            rows.sort_by_key(|row: &Row| self.run_number(row));
+            sort_by_number(rows, |row: &Row| self.run_number(row) as f64);
             Ok(())
         };
         add(&self.first_runs(Shard::WHOLE), &mut rows)?;

@@ -215,7 +215,8 @@ fn shares_of(points: &[Point], variance: Option<f64>) -> Option<Vec<f64>> {
     let beta = matrix.tr_mul(&matrix).cholesky()?.solve(&matrix.tr_mul(&y));
     let about_mean = y.add_scalar(-y.mean());
     let (total, left) = (about_mean.norm_squared(), (&y - &matrix * &beta).norm_squared());
-    // Values that differ by their rounding only are the same: a largest displacement at a rigid wall.
+    // Values that differ by their rounding only are the same, as a largest displacement at a rigid
+    // wall.
     if total <= n as f64 * (ROUNDING * y.amax()).powi(2) {
         return None;
     }

@@ -7,6 +7,7 @@ use super::columns::Columns;
 use super::output::OutputRecorder;
 use super::plane_impulses::PlaneImpulses;
 use super::worn::Worn;
+use crate::order::sort_by_number;
 use crate::scene::{Row, Scene};
 use crate::step::{Contact, Path, QuietSteps, Step};
 use crate::wear::SlidingPiece;
@@ -236,13 +237,13 @@ impl Recorder {
         columns.fill(rate);
         columns.contacts.extend_from_slice(open);
         if worn.is_empty() {
-            columns.contacts.sort_by(|a, b| a.start.total_cmp(&b.start));
+            sort_by_number(&mut columns.contacts, |a| a.start);
             return Trajectory(columns);
         }
         worn.close(open, |wear| columns.contact_wear.push(wear));
         let contacts = std::mem::take(&mut columns.contacts);
         let mut both: Vec<_> = contacts.into_iter().zip(std::mem::take(&mut columns.contact_wear)).collect();
-        both.sort_by(|a, b| a.0.start.total_cmp(&b.0.start));
+        sort_by_number(&mut both, |a| a.0.start);
         (columns.contacts, columns.contact_wear) = both.into_iter().unzip();
         Trajectory(columns)
     }

@@ -10,6 +10,7 @@ const ROOMS: &[&str] = &[
     "finite",
     "hash",
     "interrupt",
+    "order",
     "parallel",
     "linear",
     "scene",

@@ -9,6 +9,7 @@ use super::line::{End, LEAST_LOOP, Line, Passed};
 use super::point::Point;
 use crate::error::{Error, Result};
 use crate::interrupt::Asking;
+use crate::order::sort_by_number;
 
 /// The point at which a step begins.
 struct StepStart {
@@ -104,7 +105,7 @@ impl Follower<'_, '_> {
         if let Some(limit) = limit {
             crossed.retain(|crossed| crossed.at <= limit);
         }
-        crossed.sort_by(|a, b| a.at.total_cmp(&b.at));
+        sort_by_number(&mut crossed, |a| a.at);
         forget_echoes(&mut crossed, &next.point, SAME_PLACE * reach.length);
         if let Some(label) = self.pass(crossed, before_end)? {
             return Ok(Some(End::Special(label)));

@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result, Subject};
 use crate::linear::{Factor, NotDefinite, Symmetric};
+use crate::order::sort_by_number;
 use crate::scene::matrices::MOST_ENTRIES;
 use crate::scene::structure::matrix_of;
 use crate::scene::{Row, SharedStructure, Structure};
@@ -139,7 +140,7 @@ impl<'a> Statics<'a> {
         k.iter().filter(|entry| entry.0 == entry.1).for_each(|&(i, _, x)| diagonal[i] = x);
         let touching = self.damping_of_massless();
         let mut column: Vec<Range<usize>> = Vec::with_capacity(n);
-        self.coupling.sort_by_key(|entry| entry.0);
+        sort_by_number(&mut self.coupling, |entry| entry.0 as f64);
         let mut start = 0;
         for a in 0..n {
             let end = start + self.coupling[start..].iter().take_while(|entry| entry.0 == a).count();

@@ -3,6 +3,7 @@
 use super::definite::definite;
 use crate::error::{Error, Result};
 use crate::linear::Symmetric;
+use crate::order::sort_by_number;
 use crate::scene::Structure;
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -25,7 +26,7 @@ pub(super) fn eigen(matrix: DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
     }
     let solved = SymmetricEigen::try_new(matrix, f64::EPSILON, 100 * (n + 10))?;
     let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| solved.eigenvalues[a].total_cmp(&solved.eigenvalues[b]));
+    sort_by_number(&mut order, |&a| solved.eigenvalues[a]);
     let values = order.iter().map(|&i| solved.eigenvalues[i]).collect();
     Some((values, solved.eigenvectors.select_columns(&order)))
 }

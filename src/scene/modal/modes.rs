@@ -4,6 +4,7 @@ use super::definite::definite;
 use super::{dense, krylov};
 use crate::error::{Error, Result};
 use crate::linear::{Operator, Symmetric};
+use crate::order::sort_by_number;
 use crate::scene::structure::{finite_matrix, matrix_of};
 use crate::scene::{Row, Structure};
 use std::ops::Range;
@@ -96,7 +97,7 @@ impl Modes {
                 merged.extend(equal.iter().map(|&first| (omega, first, shape.clone())));
             }
         }
-        merged.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut merged, |a| a.0);
         merged.truncate(count);
         let whole = |(omega, first, shape): (f64, usize, Vec<f64>)| {
             let mut all = vec![0.0; n];
@@ -146,7 +147,7 @@ impl Modes {
             }
             modes.push((omega, shape));
         }
-        modes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut modes, |a| a.0);
         let (omega, shapes) = modes.into_iter().unzip();
         Ok(Self { omega, shapes })
     }
@@ -262,7 +263,7 @@ fn uncoupled(structure: &Structure, count: usize) -> Result<Modes> {
         return Err(Error::invalid(key, format_args!("{:?}", k[row]), "0 or more"));
     }
     let mut order: Vec<usize> = (0..m.len()).collect();
-    order.sort_by(|&a, &b| (k[a] / m[a]).total_cmp(&(k[b] / m[b])));
+    sort_by_number(&mut order, |&a| k[a] / m[a]);
     order.truncate(count);
     let omega = order.iter().map(|&i| (k[i] / m[i]).sqrt()).collect();
     let shape = |&i: &usize| {

@@ -253,8 +253,8 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
         let end = if length == limit - from { limit } else { from + length };
         if let Some(jumps) = &mut self.jumps {
             let extra = jumps.force_within((from, end), length, Some(self.extra.as_ref()));
-            // Set through the frame, which takes it back in the next step: set beside it, a jump at the
-            // end of a step would act for ever.
+            // Set through the frame, which takes it back in the next step: set beside it, a jump at
+            // the end of a step would act for ever.
             frame.force(Some(extra));
         }
         let Self { part, contacts, progress, load_end, .. } = self;

@@ -2,6 +2,7 @@
 
 use super::motion::{Attractor, Lasts, Touch};
 use crate::orbit::strobe::{Scales, multipliers, newton_step, state, vector};
+use crate::order::sort_by_number;
 use crate::scene::Checked;
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::step::Contact;
@@ -146,7 +147,8 @@ impl Orbit {
     /// The motion as an attractor of `scene`.
     pub fn attractor(&self, scene: &Checked) -> Attractor {
         let mut contacts: Vec<Contact> = self.contacts.clone();
-        contacts.sort_by(|a, b| a.start.total_cmp(&b.start).then(a.wall.cmp(&b.wall)));
+        sort_by_number(&mut contacts, |contact| contact.wall as f64);
+        sort_by_number(&mut contacts, |contact| contact.start);
         // A contact that spans the start is recorded twice: at its beginning, near the end of the
         // run, and at the start of the run.
         let open: Vec<usize> = contacts.iter().filter(|c| c.end.is_none()).map(|c| c.wall).collect();
@@ -180,7 +182,7 @@ impl Orbit {
                 _ => shown.push(touch),
             }
         }
-        shown.sort_by(|a, b| a.phase.total_cmp(&b.phase));
+        sort_by_number(&mut shown, |a| a.phase);
         let (strobes, multipliers) = (self.strobes.iter().map(state).collect(), self.multipliers());
         Attractor::Periodic { strobes, touches: shown, multipliers }
     }

@@ -2,6 +2,7 @@
 
 use super::realisation::Realisation;
 use crate::error::Result;
+use crate::order::sort_by_number;
 use crate::parallel::{Take, cores, on_threads};
 use crate::run::{Options, run_with_progress};
 use crate::scene::Scene;
@@ -46,7 +47,7 @@ pub fn realisations(
         progress(done / count as f64);
         Ok(())
     })?;
-    outcomes.sort_by_key(|(index, _)| *index);
+    sort_by_number(&mut outcomes, |(index, _)| *index as f64);
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
 }
 

@@ -1,6 +1,7 @@
 //! A refinement verdict in words.
 
 use super::{Check, Verdict, WallVerdict, WorkRateVerdict};
+use crate::order::sort_by_number;
 use crate::study::horizon::LARGEST_GROWTH;
 use std::fmt;
 
@@ -15,7 +16,7 @@ impl Verdict {
     fn foremost(&self) -> Vec<&WallVerdict> {
         let mut walls: Vec<&WallVerdict> = self.walls.iter().collect();
         if walls.len() > MOST_NAMED {
-            walls.sort_by(|a, b| b.impulse_n_s[0].abs().total_cmp(&a.impulse_n_s[0].abs()));
+            sort_by_number(&mut walls, |a| -a.impulse_n_s[0].abs());
             walls.truncate(MOST_NAMED);
         }
         walls
@@ -25,7 +26,7 @@ impl Verdict {
     fn hardest(&self) -> Vec<&WorkRateVerdict> {
         let mut supports: Vec<&WorkRateVerdict> = self.work_rates.iter().collect();
         if supports.len() > MOST_NAMED {
-            supports.sort_by(|a, b| b.work_rate_w[0].total_cmp(&a.work_rate_w[0]));
+            sort_by_number(&mut supports, |a| -a.work_rate_w[0]);
             supports.truncate(MOST_NAMED);
         }
         supports

@@ -1,6 +1,7 @@
 //! The difference between two runs: four errors, each dimensionless.
 
 use super::graph::{Graph, Scales};
+use crate::order::sort_by_number;
 use crate::scene::Scene;
 use crate::step::Contact;
 use crate::study::difference::{error_length, largest};
@@ -150,7 +151,7 @@ impl Errors {
 fn fastest(velocities: &[Vec<f64>]) -> Vec<usize> {
     let speed = |column: &Vec<f64>| column.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     let mut numbered: Vec<(usize, f64)> = velocities.iter().map(speed).enumerate().collect();
-    numbered.sort_by(|a, b| b.1.total_cmp(&a.1));
+    sort_by_number(&mut numbered, |a| -a.1);
     numbered.truncate(MOST_GRAPHS);
     let mut numbers: Vec<usize> = numbered.into_iter().map(|n| n.0).collect();
     numbers.sort_unstable();

@@ -1,13 +1,16 @@
 //! Results read from a set of points: the order of a scheme, the Pareto front, the cheapest point
 //! at a tolerance.
 
+use crate::order::sort_by_number;
+
 /// The points that no other point beats in both error and time, sorted by decreasing error and
 /// increasing time.
 #[must_use]
 pub fn pareto(points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let drawn = |p: &(f64, f64)| p.0 > 0.0 && p.1 > 0.0 && p.0.is_finite() && p.1.is_finite();
     let mut points: Vec<_> = points.into_iter().filter(drawn).collect();
-    points.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.total_cmp(&b.0)));
+    sort_by_number(&mut points, |point| point.0);
+    sort_by_number(&mut points, |point| point.1);
     let mut least = f64::INFINITY;
     points.retain(|p| {
         let better = p.0 < least;

@@ -8,6 +8,7 @@
 //! the reference's largest speed, it is the Hausdorff distance: the largest distance of a point of
 //! either curve from the other curve.
 
+use crate::order::sort_by_number;
 use crate::scene::{Row, Scene, Wall};
 use crate::trajectory::Trajectory;
 use std::collections::BTreeSet;
@@ -86,7 +87,7 @@ impl Graph {
         vertices.extend(clear.map(|(_, (t, u, v))| point(t, u, v)));
         // A stable sort: a row holds the state after a jump at its time, so the corners of the jump
         // come before it.
-        vertices.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        sort_by_number(&mut vertices, |a| a[0]);
         Self { vertices }
     }
 

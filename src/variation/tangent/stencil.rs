@@ -11,6 +11,7 @@
 //! closer to each other.
 
 use crate::error::{Error, Result};
+use crate::order::sort_by_number;
 use crate::scene::{Row, Scene};
 
 /// Distances of two neighbouring values as shares of the value: the first as large as keeps the
@@ -72,7 +73,7 @@ impl Stencil {
             let step = spacing * size;
             // The farthest first: it is the one most likely to be invalid.
             let mut numbers: Vec<i32> = side.clone().filter(|&k| k != 0).collect();
-            numbers.sort_by_key(|k| -k.abs());
+            sort_by_number(&mut numbers, |k| -f64::from(k.abs()));
             let scenes: Result<Vec<Scene>> = numbers.iter().map(|&k| valid(value + f64::from(k) * step)).collect();
             match scenes {
                 Ok(scenes) => {

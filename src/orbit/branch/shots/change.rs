@@ -9,6 +9,7 @@ use crate::orbit::branch::line::{Begin, Passed};
 use crate::orbit::branch::point::Point;
 use crate::orbit::signature::{Event, Kind};
 use crate::orbit::watch::Passage;
+use crate::order::sort_by_number;
 
 /// A graze is looked for where its test function, extrapolated linearly, vanishes within this
 /// arclength (for points of size 1). Steps are shorter there, but impact speeds and gaps go to 0
@@ -73,7 +74,7 @@ impl<'a> Shots<'a> {
         other: Option<&StepStart>,
     ) -> Option<Change<'a>> {
         let mut candidates = self.candidates(now, before, step, other);
-        candidates.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+        sort_by_number(&mut candidates, |a| a.distance);
         let found = candidates.into_iter().take(MOST_TRIED).find_map(|candidate| self.grazes(now, step, &candidate));
         found.or_else(|| self.kink(now, step, other?))
     }

@@ -8,6 +8,7 @@ use crate::orbit::branch::arclength::{Stride, Vector, beyond, locate, turns_litt
 use crate::orbit::branch::label::Label;
 use crate::orbit::branch::line::{End, LEAST_LOOP, Line, Passed};
 use crate::orbit::branch::point::Point;
+use crate::order::sort_by_number;
 
 /// Multipliers closer than this to the unit circle lie on it to rounding.
 const ON_CIRCLE: f64 = 1e-9;
@@ -64,7 +65,7 @@ pub(super) fn follow<'a>(
 /// the branch ends: where orbits over several periods meet that of one, it turns back along itself,
 /// and beyond are the same orbits, shifted in time.
 fn note<'a>(curve: &Shots<'a>, line: &mut Line<Shots<'a>>, mut crossed: Crossed) -> Result<Option<Label>> {
-    crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut crossed, |a| a.0);
     let after = line.points.len();
     for (_, label, y) in crossed {
         let linear = curve.linear(&y, &mut None)?;

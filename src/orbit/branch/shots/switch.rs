@@ -9,6 +9,7 @@ use crate::orbit::branch::line::{Begin, Followed, Line, Metric, Passed};
 use crate::orbit::branch::point::Point;
 use crate::orbit::periodic::Orbit;
 use crate::orbit::signature::Signature;
+use crate::order::sort_by_number;
 use nalgebra::{DMatrix, DVector};
 
 /// Orbits that differ by less than this are the same: where a branch of twice the period meets that
@@ -104,7 +105,7 @@ impl Shots<'_> {
         let svd = square.svd(false, true);
         let v = svd.v_t.ok_or_else(no_eigenvector)?;
         let mut order: Vec<usize> = (0..=n).collect();
-        order.sort_by(|&a, &b| svd.singular_values[a].total_cmp(&svd.singular_values[b]));
+        sort_by_number(&mut order, |&a| svd.singular_values[a]);
         let [first, second] = [order.first(), order.get(1)].map(|k| k.map(|&k| v.row(k).transpose()));
         let (first, second) = first.zip(second).ok_or_else(no_eigenvector)?;
         let own = &first * first[n] + &second * second[n];
