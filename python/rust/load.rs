@@ -283,7 +283,7 @@ impl Load {
         Ok(Self { force: Force::OfCase { kind: "random".to_owned(), values }, place: at, direction })
     }
 
-    /// An acceleration of the base of a case: from a CSV file, or a sine.
+    /// An acceleration of the base of a case: from a CSV file, a sine, or random.
     ///
     /// Parameters
     /// ----------
@@ -295,6 +295,14 @@ impl Load {
     ///     The headers of these columns, ``time_s`` and ``acceleration_m_per_s2``.
     /// scale : float, optional
     ///     How many m/s² one unit of the column is.
+    /// rms : float, optional
+    ///     m/s², in place of the file: of a random acceleration, its density even over the band.
+    /// band : pair of float, optional
+    ///     Hz: from and to, beside ``rms``.
+    /// psd : sequence of pairs of float, optional
+    ///     The one-sided density in place of ``rms`` and ``band``: Hz and (m/s²)²/Hz.
+    /// seed : int, optional
+    ///     0 or more, of a random acceleration.
     /// direction : float, optional
     ///     Degrees from +y towards +z, in two planes.
     ///
@@ -314,9 +322,11 @@ impl Load {
     /// >>> import signorini as sg
     /// >>> sg.Load.base("quake.csv", scale=9.80665)
     /// Load.base({"file":"quake.csv","scale":9.80665})
+    /// >>> sg.Load.base(rms=2.0, band=(5.0, 100.0), seed=1)
+    /// Load.base({"rms":2.0,"from":5.0,"to":100.0,"seed":1})
     #[staticmethod]
     #[pyo3(signature = (file=None, *, amplitude=None, frequency=None, phase=None, time=None, acceleration=None,
-                        scale=None, direction=None))]
+                        scale=None, rms=None, band=None, psd=None, seed=None, direction=None))]
     #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
     fn base(
         file: Option<PathBuf>,
@@ -326,14 +336,24 @@ impl Load {
         time: Option<&str>,
         acceleration: Option<&str>,
         scale: Option<f64>,
+        rms: Option<f64>,
+        band: Option<(f64, f64)>,
+        psd: Option<Vec<(f64, f64)>>,
+        seed: Option<Seed>,
         direction: Option<Direction>,
     ) -> PyResult<Self> {
-        for (name, value) in [("amplitude", amplitude), ("frequency", frequency), ("phase", phase), ("scale", scale)] {
+        let numbers =
+            [("amplitude", amplitude), ("frequency", frequency), ("phase", phase), ("scale", scale), ("rms", rms)];
+        for (name, value) in numbers {
             finite(name, value)?;
         }
+        finite("band", band.into_iter().flat_map(|(from, to)| [from, to]))?;
+        finite("psd", psd.iter().flatten().flat_map(|(frequency, density)| [*frequency, *density]))?;
+        let (from, to) = band.unzip();
         let values = given(json!({
             "file": file.map(|file| file.display().to_string()), "amplitude": amplitude, "frequency": frequency,
-            "phase": phase, "time": time, "acceleration": acceleration, "scale": scale,
+            "phase": phase, "time": time, "acceleration": acceleration, "scale": scale, "rms": rms, "from": from,
+            "to": to, "psd": psd, "seed": seed.map(|Seed(seed)| seed),
         }));
         Ok(Self { force: Force::OfCase { kind: "base".to_owned(), values }, place: Place::Only, direction })
     }

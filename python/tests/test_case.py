@@ -298,6 +298,19 @@ def test_a_shaken_tube_under_its_weight_is_the_case_of_these_keys() -> None:
         tube(loads=[sg.Load.base(direction=0.0)])
 
 
+def test_a_random_motion_of_the_base_has_realisations() -> None:
+    def shaken(seed: int) -> sg.Case:
+        plate = sg.hole("plate-1", 0.2e-3, at=1.0, restitution=0.5)
+        motion = sg.Load.base(rms=20.0, band=(5.0, 60.0), seed=seed, direction=90.0)
+        return tube(supports=[plate], loads=[motion], duration=0.5, statistics_from=0.1)
+
+    means = sg.realisations(shaken(3), seeds=2)
+    forces = [shaken(seed).run().supports["plate-1"].force_mean for seed in (3, 4)]
+    found = means.supports["plate-1"]["mean_force"].value
+    # A mean of two numbers.
+    assert found > 0 and found == pytest.approx(sum(force.value for force in forces if force) / 2, rel=1e-14)
+
+
 def test_a_slider_stops_a_released_mass_where_the_spring_pulls_less_than_it_holds() -> None:
     system = {"oscillator": {"mass": 1.0, "damping": 0.0, "stiffness": 1e4}}
     tables = {

@@ -13,6 +13,7 @@
 use super::builder::Builder;
 use super::model::{Model, Place};
 use super::planes::Planes;
+use super::random::{ACCELERATION, NewRandom};
 use super::rigid_motion::{Influence, carried, rigid_motion};
 use super::schema::accepted;
 use super::table::{self, TableColumns};
@@ -31,10 +32,10 @@ impl Builder<'_> {
     /// −g. The keys `at` and `direction` stand beside it.
     pub fn massive(
         &mut self,
-        (owner, kind): (&str, &str),
+        (index, owner, kind): (usize, &str, &str),
         section: &Section<'_>,
         beside: (Option<Range<usize>>, Option<&Spanned<f64>>),
-        system: &System,
+        (system, end): (&System, f64),
     ) -> Result<Vec<NewLoad>> {
         let (place, direction) = beside;
         if let Some(at) = place {
@@ -53,7 +54,7 @@ impl Builder<'_> {
                 let acceleration = self.measured(owner, section, "acceleration")?;
                 (LoadKind::Constant { force: mass * acceleration }, Origin::Gravity(acceleration))
             }
-            _ => self.base(owner, section, mass)?,
+            _ => self.base((index, owner), section, mass, end)?,
         };
         Ok(vec![NewLoad { load: Load { kind, at }, place: Place::Row(Vec::new()), origin }])
     }
@@ -81,10 +82,10 @@ impl Builder<'_> {
             let at = base.span_of("walls").unwrap_or(base.span.clone());
             Err(self.source.error(at, &format!("{owner}: walls are fixed, and {title}"), help))
         };
-        if base.span_of("file").is_some() {
+        if base.span_of("file").is_some() || random_key(base).is_some() {
             let help = "expected amplitude, frequency and phase: where a base is whose acceleration alone is known \
                         over time depends on how it began";
-            return refuse("the motion of the base is read from a file", help);
+            return refuse("the motion of the base is random or read from a file", help);
         }
         if self.is_changed_later {
             let help = "expected no modes, and damping other than by ratios where degrees of freedom have no mass: the \
@@ -150,19 +151,39 @@ impl Builder<'_> {
         Ok([amplitude, frequency, phase])
     }
 
-    /// The motion of a base that moves the mass `mass` (kg): from a file, or a sine.
-    fn base(&mut self, owner: &str, base: &Section<'_>, mass: f64) -> Result<(LoadKind, Origin)> {
+    /// The motion of a base that moves the mass `mass` (kg) until `end` (s): from a file, a sine,
+    /// or random.
+    fn base(
+        &mut self,
+        (index, owner): (usize, &str),
+        base: &Section<'_>,
+        mass: f64,
+        end: f64,
+    ) -> Result<(LoadKind, Origin)> {
         let sine = ["amplitude", "frequency", "phase"].into_iter().find_map(|key| base.span_of(key));
-        let one = "expected file = \"motion.csv\", or amplitude (m/s^2) and frequency (Hz)";
-        match (sine, base.word("file")) {
-            (Some(at), Some(_)) => Err(self.source.error(at, &format!("{owner}: base has two motions"), one)),
-            (None, None) => Err(self.source.error(base.span.clone(), &format!("{owner}: base has no motion"), one)),
-            (Some(_), None) => {
+        let one = "expected file = \"motion.csv\", or amplitude (m/s^2) and frequency (Hz), or rms (m/s^2), from and \
+                   to (Hz), or psd = [[Hz, (m/s^2)^2/Hz], ..]";
+        let of_file = ["time", "acceleration", "delimiter", "decimal", "scale"].into_iter();
+        if let (None, Some(at)) = (base.word("file"), of_file.filter_map(|key| base.span_of(key)).next()) {
+            return Err(self.source.error(at, &format!("{owner}: base has no file that this key reads"), one));
+        }
+        match (sine, base.word("file"), random_key(base)) {
+            (Some(at), Some(_), _) | (Some(_), _, Some(at)) | (_, Some(_), Some(at)) => {
+                Err(self.source.error(at, &format!("{owner}: base has two motions"), one))
+            }
+            (None, None, None) => {
+                Err(self.source.error(base.span.clone(), &format!("{owner}: base has no motion"), one))
+            }
+            (None, None, Some(_)) => {
+                let NewRandom { force, table, .. } = self.random((index, ACCELERATION), base, mass, end)?;
+                Ok((LoadKind::Table(table), Origin::RandomBase { force, mass }))
+            }
+            (Some(_), None, None) => {
                 let [amplitude, frequency, phase] = self.sine(owner, base)?;
                 let origin = Origin::Base { motion: sine_in_words(amplitude, frequency), walls: WallsOverBase::Moving };
                 Ok((LoadKind::Harmonic { amplitude: -mass * amplitude, frequency, phase }, origin))
             }
-            (None, Some(file)) => {
+            (None, Some(file), None) => {
                 let plain = TableColumns { force: "acceleration_m_per_s2".to_owned(), ..TableColumns::default() };
                 let owner = format!("{owner}: base");
                 let columns = self.columns(&owner, ("acceleration", "m/s^2"), plain, base)?;
@@ -270,6 +291,11 @@ impl Builder<'_> {
             _ => Err(self.refuse(value.span(), &key, "{ row = [[0, 1.0], ..] }")),
         }
     }
+}
+
+/// Where the first key of a random motion of `base` stands.
+fn random_key(base: &Section<'_>) -> Option<Range<usize>> {
+    ["rms", "from", "to", "psd", "seed"].into_iter().find_map(|key| base.span_of(key))
 }
 
 /// True of a bar or beam that nothing ties to the ground.

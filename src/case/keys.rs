@@ -275,6 +275,13 @@ pub(super) const LISTED: &[KeyEntry] = &[
         sine, in place of a file", "beside `file`"]),
     entry("load.base.frequency", Number, "Hz", ["", NOT_NEGATIVE, "beside `file`"]),
     entry("load.base.phase", Number, "rad", ["0", "a number", "beside `file`"]),
+    entry("load.base.rms", Number, "m_per_s2", ["", "a number above 0: of a random acceleration, \
+        with `from` and `to`, in place of a file", UNORDINARY]),
+    entry("load.base.from", Number, "Hz", ["", "as of `random`", UNORDINARY]),
+    entry("load.base.to", Number, "Hz", ["", "as of `random`", "not above `from`"]),
+    entry("load.base.psd", Any, "", ["", "pairs of Hz and (m/s^2)^2/Hz, one-sided, in place of \
+        `rms`", ""]),
+    entry("load.base.seed", Number, "", ["0", "a whole number from 0 to 2^53", ""]),
     entry("load.base.file", Word, "", ["", FILE, "beside `amplitude`"]),
     entry("load.base.time", Word, "", ["`\"time_s\"`", "the header of the column of times, s, in \
         quotes", ""]),

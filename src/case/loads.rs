@@ -2,7 +2,7 @@
 
 use super::builder::Builder;
 use super::place::Site;
-use super::random::NewRandom;
+use super::random::{FORCE, NewRandom};
 use super::table::{self, TableColumns};
 use super::value::{Section, Value};
 use super::written::{NewLoad, Origin, WallsOverBase};
@@ -47,7 +47,8 @@ impl Builder<'_> {
         let Some((kind, section)) = first else {
             let help = "expected one of constant = { force }, harmonic = { amplitude, frequency, phase }, \
                         impulse = { impulse, time }, table = { file }, random = { rms, from, to, seed }, \
-                        base = { file } or { amplitude, frequency, phase }, gravity = { acceleration }";
+                        base = { file }, { amplitude, frequency, phase } or { rms, from, to, seed }, \
+                        gravity = { acceleration }";
             return Err(self.source.error(load.span.clone(), &format!("{owner} has no kind"), help));
         };
         let direction = load.get("direction");
@@ -65,7 +66,7 @@ impl Builder<'_> {
         }
         if let "base" | "gravity" = kind {
             let beside = (load.span_of("at"), angle.as_ref());
-            return self.massive((&owner, kind), &section, beside, system);
+            return self.massive((index, &owner, kind), &section, beside, (system, end));
         }
         let mut sites = self.sites((&owner, Subject::nth("load", index)), load, true)?;
         let site = sites.pop().ok_or_else(|| self.refuse(load.span.clone(), &owner, "a place"))?;
@@ -84,7 +85,7 @@ impl Builder<'_> {
     /// An error at the last of `loads`, that of `table`, where it is a base with other walls than
     /// an earlier one: displacements cannot be both relative to the base and in space.
     fn check_walls_over_base(&self, loads: &[NewLoad], table: &Section<'_>) -> Result<()> {
-        let walls = |new: &NewLoad| if let Origin::Base { walls, .. } = &new.origin { Some(*walls) } else { None };
+        let walls = |new: &NewLoad| new.origin.walls();
         let (Some(base), Some((last, earlier))) = (table.section("base"), loads.split_last()) else { return Ok(()) };
         let other = |new: &NewLoad| walls(new).is_some_and(|walls_there| Some(walls_there) != walls(last));
         let Some(first) = earlier.iter().position(other) else { return Ok(()) };
@@ -133,7 +134,7 @@ impl Builder<'_> {
         end: f64,
         sites: Vec<Site>,
     ) -> Result<Vec<NewLoad>> {
-        let NewRandom { force, table, file } = self.random(index, section, end)?;
+        let NewRandom { force, table, file } = self.random((index, FORCE), section, 1.0, end)?;
         let both = sites.len() > 1;
         let mut loads = Vec::with_capacity(sites.len());
         for (number, site) in sites.into_iter().enumerate() {

@@ -3,7 +3,7 @@
 use super::builder::Builder;
 use super::table::{self, TableColumns};
 use super::value::Section;
-use super::written::{Origin, ScatteredStart};
+use super::written::ScatteredStart;
 use super::{Case, Truncated};
 use crate::error::{Error, Part, Result};
 use crate::scene::{Density, Load, LoadKind, RandomForce, Table};
@@ -16,6 +16,20 @@ const MOST_SEED: f64 = 9_007_199_254_740_992.0;
 /// A random force of more rows than this is worth a word: 17 MB, and a second of computing.
 const MANY_ROWS: usize = 1 << 20;
 
+/// What of a load is random: the key of its table, and the units of its values and densities.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RandomKind {
+    key: &'static str,
+    unit: &'static str,
+    density_unit: &'static str,
+}
+
+/// The force of a load.
+pub(super) const FORCE: RandomKind = RandomKind { key: "random", unit: "N", density_unit: "N^2/Hz" };
+
+/// The acceleration of the base.
+pub(super) const ACCELERATION: RandomKind = RandomKind { key: "base", unit: "m/s^2", density_unit: "(m/s^2)^2/Hz" };
+
 /// A random force of the file, its table, and the file of its density.
 pub(super) struct NewRandom {
     pub force: RandomForce,
@@ -24,21 +38,32 @@ pub(super) struct NewRandom {
 }
 
 impl Builder<'_> {
-    /// The random force of load `index`, over a run until `end`.
-    pub fn random(&mut self, index: usize, section: &Section<'_>, end: f64) -> Result<NewRandom> {
-        let owner = format!("load {}: random", index + 1);
+    /// The random force of load `index`, over a run until `end`: `factor` (kg) times an
+    /// acceleration of the base, or 1 times a force.
+    pub fn random(
+        &mut self,
+        (index, kind): (usize, RandomKind),
+        section: &Section<'_>,
+        factor: f64,
+        end: f64,
+    ) -> Result<NewRandom> {
+        let RandomKind { key, unit, density_unit } = kind;
+        let owner = format!("load {}: {key}", index + 1);
         let [rms, from, to] = ["rms", "from", "to"].map(|key| section.number(key).map(Spanned::into_inner));
-        let one = "expected rms (N), from and to (Hz), or psd = [[Hz, N^2/Hz], ..], or file = \"psd.csv\"";
+        let or_file = if key == FORCE.key { ", or file = \"psd.csv\"" } else { "" };
+        let one = &format!("expected rms ({unit}), from and to (Hz), or psd = [[Hz, {density_unit}], ..]{or_file}");
+        // The file of a base is its motion.
+        let file = section.word("file").filter(|_| key == FORCE.key);
         let given: Vec<Range<usize>> = [
             ["rms", "from", "to"].iter().find_map(|key| section.span_of(key)),
             section.span_of("psd"),
-            section.span_of("file"),
+            file.as_ref().map(Spanned::span),
         ]
         .into_iter()
         .flatten()
         .collect();
         let last = given.iter().max_by_key(|span| span.start).cloned().unwrap_or(section.span.clone());
-        let (psd, file) = (section.get("psd"), section.word("file"));
+        let psd = section.get("psd");
         let density = match (rms, from, to, psd, &file) {
             _ if given.len() != 1 => {
                 let has = if given.is_empty() { "no density" } else { "two densities" };
@@ -46,8 +71,8 @@ impl Builder<'_> {
             }
             (Some(rms), Some(from), Some(to), ..) => Density::Flat { rms, from, to },
             (_, _, _, Some(psd), _) => {
-                let (key, wanted) = (format!("{owner}: psd"), "pairs of a frequency, in Hz, and a density, in N^2/Hz");
-                Density::Points(self.number_pairs(&key, psd, wanted)?)
+                let wanted = format!("pairs of a frequency, in Hz, and a density, in {density_unit}");
+                Density::Points(self.number_pairs(&format!("{owner}: psd"), psd, &wanted)?)
             }
             (_, _, _, _, Some(file)) => Density::Points(self.density(&owner, file)?),
             _ => {
@@ -57,7 +82,8 @@ impl Builder<'_> {
             }
         };
         let seed = section.number("seed").map_or(Ok(0), |seed| self.seed(&owner, &seed))?;
-        let force = RandomForce { density, seed, stream: 2 * index as u64 };
+        density.validate().map_err(|error| self.at_random(&owner, section, error))?;
+        let force = RandomForce { density: density.scaled(factor), seed, stream: 2 * index as u64 };
         let table = force.table(end).map_err(|error| self.at_random(&owner, section, error))?;
         Ok(NewRandom { force, table, file: file.map(|file| (*file.get_ref()).to_owned()) })
     }
@@ -113,22 +139,23 @@ impl Case {
     pub fn is_random(&self) -> bool {
         !self.turbulence().is_empty()
             || self.written.scattered.is_some()
-            || self.written.origins.iter().any(|origin| matches!(origin, Origin::Random { .. }))
+            || self.written.origins.iter().any(|origin| origin.random().is_some())
     }
 
     /// The size of each random force that has more than 2^20 rows, in words: a user who waits for
     /// the case should know what takes the time and the memory.
     pub fn large_random_forces(&self) -> impl Iterator<Item = String> {
         let made = self.written.origins.iter().zip(&self.unreduced().loads).enumerate();
-        let single = made.filter_map(|(index, (origin, load))| match (origin, &load.kind) {
-            (Origin::Random { force, .. } | Origin::Second(force), LoadKind::Table(table)) => {
+        let single = made.filter_map(|(index, (origin, load))| match (origin.random(), &load.kind) {
+            (Some(force), LoadKind::Table(table)) => {
                 let rows = table.time().len();
                 let [_, to] = force.density.band();
                 (rows > MANY_ROWS).then(|| {
                     format!(
-                        "load {}: random: a table of {rows} rows, {:.0} MB: 16 rows and more in a period of {to:e} Hz, \
+                        "load {}: {}: a table of {rows} rows, {:.0} MB: 16 rows and more in a period of {to:e} Hz, \
                          up to {} s",
                         index + 1,
+                        origin.seed_key().unwrap_or("random"),
                         16e-6 * rows as f64,
                         self.scene.duration
                     )
@@ -171,12 +198,13 @@ impl Case {
             Ok(())
         };
         for (index, origin) in case.written.origins.iter_mut().enumerate() {
-            let (Origin::Random { force, .. } | Origin::Second(force)) = &mut *origin else { continue };
+            let key = origin.seed_key();
+            let Some(force) = origin.random_mut() else { continue };
             raised(&mut force.seed)?;
-            let seed = force.seed;
-            if let Origin::Random { .. } = origin {
+            if let Some(key) = key {
                 // A load of the file has its number in the scene.
-                case.document.set(&format!("load.{}.random.seed", index + 1).parse()?, &(seed as i64).into())?;
+                let key = format!("load.{}.{key}.seed", index + 1).parse()?;
+                case.document.set(&key, &(force.seed as i64).into())?;
             }
         }
         for field in case.truncated.iter_mut().flat_map(|truncated| &mut truncated.whole.turbulence) {
@@ -220,7 +248,7 @@ impl Case {
     pub(crate) fn make_random(&mut self, end: f64) -> Result<()> {
         let mut tables = Vec::new();
         for (index, origin) in self.written.origins.iter().enumerate() {
-            if let Origin::Random { force, .. } | Origin::Second(force) = origin {
+            if let Some(force) = origin.random() {
                 tables.push((index, force.table(end)?));
             }
         }

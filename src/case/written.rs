@@ -80,8 +80,52 @@ pub enum Origin {
         /// What the walls do meanwhile.
         walls: WallsOverBase,
     },
+    /// As a random acceleration of the base, with which walls move.
+    RandomBase {
+        /// The force on the mass that moves along, of which the scene has a table.
+        force: RandomForce,
+        /// That mass, kg.
+        mass: f64,
+    },
     /// As gravity of this acceleration, m/s².
     Gravity(f64),
+}
+
+impl Origin {
+    /// The force of a random load.
+    pub(super) fn random(&self) -> Option<&RandomForce> {
+        match self {
+            Self::Random { force, .. } | Self::Second(force) | Self::RandomBase { force, .. } => Some(force),
+            Self::Stated | Self::Dashpots | Self::Base { .. } | Self::Gravity(_) => None,
+        }
+    }
+
+    /// The same, to be changed.
+    pub(super) fn random_mut(&mut self) -> Option<&mut RandomForce> {
+        match self {
+            Self::Random { force, .. } | Self::Second(force) | Self::RandomBase { force, .. } => Some(force),
+            Self::Stated | Self::Dashpots | Self::Base { .. } | Self::Gravity(_) => None,
+        }
+    }
+
+    /// The key of the load under which its seed stands; `None` for loads without a seed of their
+    /// own.
+    pub(super) fn seed_key(&self) -> Option<&'static str> {
+        match self {
+            Self::Random { .. } => Some("random"),
+            Self::RandomBase { .. } => Some("base"),
+            Self::Stated | Self::Second(_) | Self::Dashpots | Self::Base { .. } | Self::Gravity(_) => None,
+        }
+    }
+
+    /// What the walls do over a base that moves; `None` for other loads.
+    pub(super) fn walls(&self) -> Option<WallsOverBase> {
+        match self {
+            Self::Base { walls, .. } => Some(*walls),
+            Self::RandomBase { .. } => Some(WallsOverBase::Moving),
+            _ => None,
+        }
+    }
 }
 
 /// What walls do while the base moves.

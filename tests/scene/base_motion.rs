@@ -340,6 +340,44 @@ fn gravity_bends_a_tube_as_its_weight_does_and_presses_it_into_a_support() {
 }
 
 #[test]
+fn a_random_motion_of_the_base_gives_the_mean_square_of_random_vibration() {
+    // White acceleration of the one-sided density S on an oscillator: the displacement relative to
+    // the base has the mean square m² S/(4ck). The lines have fixed amplitudes, so that the scatter
+    // is that of the start at rest: with 2ζω = 8/s over 400 s some per cent.
+    let text = "[system.oscillator]\nmass = 2.0\ndamping = 16.0\nstiffness = 2e4\n[time]\nend = 400.0\n\
+        step = 1e-3\n[[load]]\nbase = { psd = [[0.05, 0.3], [150.0, 0.3]], seed = 4 }\n";
+    let run = made(&case(text).scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3);
+    let q = run.trajectory.displacement();
+    let found = (q.iter().map(|q| q * q).sum::<f64>() / q.len() as f64).sqrt();
+    let expected = (4.0 * 0.3 / (4.0 * 16.0 * 2e4_f64)).sqrt();
+    assert!((found / expected - 1.0).abs() < 0.03, "{found} m, not {expected} m");
+}
+
+#[test]
+fn a_random_motion_of_the_base_is_a_random_force_on_every_mass() {
+    // Masses of 1, 2 and 4 kg: the same acceleration on each, as one force of 7 kg times it through
+    // the row M/7 kg. Realisations raise its seed.
+    let rest = "[system.chain]\nmasses = [1.0, 2.0, 4.0]\nsprings = 1e4\nleft = { stiffness = 1e4 }\n\
+        [[wall]]\nname = \"stop\"\nat = { dof = 2 }\nside = \"upper\"\nposition = 2e-3\nrestitution = 0.5\n\
+        [[probe]]\nname = \"tip\"\nat = { dof = 2 }\n[time]\nend = 2.0\nstep = 1e-3\n[[load]]\n";
+    let base = case(&format!("{rest}base = {{ rms = 3.0, from = 2.0, to = 40.0, seed = 7 }}\n"));
+    let force = |seed: u64| {
+        let row = "at = { row = [[0, 0.14285714285714285], [1, 0.2857142857142857], [2, 0.5714285714285714]] }";
+        case(&format!("{rest}{row}\nrandom = {{ rms = 21.0, from = 2.0, to = 40.0, seed = {seed} }}\n"))
+    };
+    for number in [1, 2] {
+        let realisation = base.realisation(number).unwrap();
+        let [a, b] = [&realisation.scene, &force(6 + number).scene].map(|scene| made(scene, &Scheme::Event, 1e-3));
+        assert!(a.trajectory.contacts().len() > 5, "a test of nothing");
+        // The products of mass and acceleration round otherwise, and impacts magnify that.
+        let largest = |run: &Run| last(run, "tip");
+        assert!((largest(&a) - largest(&b)).abs() < 1e-9, "{} {}", largest(&a), largest(&b));
+        let seed = &realisation.document.get(&"load.1.base.seed".parse().unwrap()).unwrap().unwrap();
+        assert_eq!(seed.number(), Some((6 + number) as f64));
+    }
+}
+
+#[test]
 fn motions_of_the_base_and_weights_that_make_no_sense_are_refused() {
     let said = |load: &str| {
         let system = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 1.0\n";
@@ -349,6 +387,17 @@ fn motions_of_the_base_and_weights_that_make_no_sense_are_refused() {
     for (load, words) in [
         ("base = { }", ["base has no motion", "amplitude (m/s^2)"]),
         ("base = { file = \"no.csv\", amplitude = 1.0 }", ["base has two motions", "file"]),
+        ("base = { rms = 1.0, from = 1.0, to = 9.0, amplitude = 1.0 }", ["base has two motions", "psd"]),
+        ("base = { psd = [[1.0, 1.0], [9.0, 1.0]], file = \"no.csv\" }", ["base has two motions", "psd"]),
+        ("base = { seed = 1 }", ["base has no density", "rms (m/s^2)"]),
+        ("base = { rms = 1.0, from = 1.0 }", ["`to` is missing in load 1: base", "rms (m/s^2)"]),
+        ("base = { rms = -2.0, from = 1.0, to = 9.0 }", ["rms is -2.0", "above 0"]),
+        ("base = { psd = [[1.0, 1.0]] }", ["1 pairs", "two pairs"]),
+        ("base = { amplitude = 1.0, frequency = 1.0, scale = 9.81 }", ["no file that this key reads", "file"]),
+        (
+            "base = { rms = 1.0, from = 1.0, to = 9.0, walls = \"fixed\" }",
+            ["random or read from a file", "amplitude, frequency"],
+        ),
         ("base = { amplitude = 1.0 }", ["frequency is missing", "expected frequency"]),
         ("base = { frequency = 1.0 }", ["amplitude is missing", "expected amplitude"]),
         ("base = { amplitude = nan, frequency = 1.0 }", ["amplitude is not finite", "expected amplitude"]),

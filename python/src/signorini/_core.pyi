@@ -162,6 +162,10 @@ class Load:
         time: str | None = None,
         acceleration: str | None = None,
         scale: float | None = None,
+        rms: float | None = None,
+        band: tuple[float, float] | None = None,
+        psd: Sequence[tuple[float, float]] | None = None,
+        seed: int | None = None,
         direction: float | str | None = None,
     ) -> Load: ...
     @staticmethod

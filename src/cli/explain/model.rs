@@ -109,6 +109,18 @@ pub(super) fn excitations(case: &Case) -> Vec<String> {
                 force.seed
             ))
         }
+        Origin::RandomBase { force, mass } => {
+            let density = match &force.density {
+                Density::Flat { rms, from, to } => format!("{} m/s² RMS from {from} to {to} Hz", rms / mass),
+                Density::Points(points) => format!("of a density of {} points", points.len()),
+            };
+            Some(format!(
+                "load {}: the base moves at random, {density}, seed {}; displacements are relative to it, and walls \
+                 move with it",
+                index + 1,
+                force.seed
+            ))
+        }
         Origin::Gravity(acceleration) => Some(format!("load {}: gravity of {acceleration} m/s²", index + 1)),
         Origin::Base { motion, walls } => {
             let walls = match walls {
