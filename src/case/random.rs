@@ -150,6 +150,23 @@ impl Case {
         single.chain(fields)
     }
 
+    /// The keys of the seeds of the case, each with its seed: of its random loads, its turbulence
+    /// and a start that scatters. Realisation k has each of them greater by k − 1.
+    #[must_use]
+    pub fn seeds(&self) -> Vec<(String, u64)> {
+        let loads = self.written.origins.iter().enumerate().filter_map(|(index, origin)| match origin {
+            // A load of the file has its number in the scene.
+            Origin::Random { force, .. } => Some((format!("load.{}.random.seed", index + 1), force.seed)),
+            _ => None,
+        });
+        let fields = self.truncated.iter().flat_map(|truncated| &truncated.whole.turbulence);
+        let fields = fields.map(|field| (format!("turbulence.{}.seed", field.number()), field.seed));
+        let start = self.written.scattered.iter().map(|start| ("initial.scatter.seed".to_owned(), start.scatter.seed));
+        let mut seeds: Vec<(String, u64)> = loads.chain(fields).chain(start).collect();
+        seeds.dedup();
+        seeds
+    }
+
     /// Realisation `number` of the case, from 1: the same case, where the seed of every random
     /// load, of turbulence and of a start that scatters is greater by `number` − 1. So realisation
     /// 1 is the case itself, and a run with `seed` set to that value repeats any of the others.

@@ -4,7 +4,7 @@
 use super::realisations::{self, with_interval};
 use crate::case::Case;
 use crate::error::amount;
-use crate::study::realisations::mean_of;
+use crate::study::realisations::{Groups, mean_of};
 use crate::study::wear_history::{WearHistories, WearState, YEAR, mean};
 use crate::wear::Growth;
 
@@ -43,6 +43,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
              window of a history has draws of its own"
         ));
     }
+    remarks.extend(groups(found));
     remarks.extend(growths(case, found));
     let widened = found.supports.iter().enumerate().filter(|(support, _)| {
         let gap = |point| mean(point, *support, |state| state.gap_m).0;
@@ -82,6 +83,18 @@ fn among(times: &[Option<f64>]) -> String {
         true => format!(" (its {} histories after {first} to {last})", times.len()),
         false => format!(" ({} of its {} histories, the first after {first})", years.len(), times.len()),
     }
+}
+
+/// Supports at which the histories fall into two groups by their deepest wear at the end, a
+/// sentence each.
+fn groups(found: &WearHistories) -> Vec<String> {
+    let one = |(support, name): (usize, &String)| {
+        let states = found.points.last()?.histories.iter().filter_map(|states| states.get(support));
+        let depths: Vec<f64> = states.map(|state| state.depth_deepest_m).collect();
+        let words = Groups::of(&depths)?.words("deepest wear", "mm", 1e3);
+        Some(format!("the histories fall into two groups at support {name:?}: {words}"))
+    };
+    found.supports.iter().enumerate().filter_map(one).collect()
 }
 
 /// Supports at which nothing slid in any history, a sentence for all of them.
@@ -197,7 +210,13 @@ mod tests {
             histories: rates.iter().map(|rate| vec![state(rate * years)]).collect(),
         };
         let points = [0.0, 10.0, 20.0].map(point).to_vec();
-        WearHistories { supports: vec!["plate".to_owned()], points, windows: 6, refuted: Vec::new() }
+        WearHistories {
+            supports: vec!["plate".to_owned()],
+            points,
+            depths_at_end_m: Vec::new(),
+            windows: 6,
+            refuted: Vec::new(),
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::older;
 use super::scene::{period, scene};
 use crate::error::Result;
 use crate::output::derivatives::{FILE, STATES_FILE};
-use crate::output::{realisations, turbulence};
+use crate::output::{realisations, sector_means, turbulence};
 use crate::study::horizon::LARGEST_GROWTH;
 use serde_json::{Value, json};
 
@@ -30,12 +30,31 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         let [spectra, pairs] = turbulence::FILES.map(|file| folder.cells(file).map(|cells| cells.for_page(None)));
         page["turbulence"] = json!({ "spectra": spectra?, "pairs": pairs? });
     }
+    if summary["realisations"].is_object() {
+        page["draws"] = draws(folder, realisations::FILE, &summary["realisations"])?;
+    }
     tell_draw(&mut page, folder, summary["realisations"]["count"].as_u64().unwrap_or(1));
     if folder.manifest["request"]["derivative"].is_array() {
         page["derivatives"] = derivatives(folder)?;
     }
     page["runs"] = json!([run]);
     Ok(page)
+}
+
+/// Every realisation or history, with its seeds, from the table in `file`; and where around each
+/// support the tube wears in the mean over them, with the limit of the depth. `told` has seeds,
+/// limit and what is to be said of them.
+pub(super) fn draws(folder: &Folder<'_>, file: &str, told: &Value) -> Result<Value> {
+    let sectors =
+        if folder.has(sector_means::FILE) { Some(folder.cells(sector_means::FILE)?.for_page(None)) } else { None };
+    Ok(json!({
+        "table": if folder.has(file) { folder.cells(file)?.for_page(None) } else { Value::Null },
+        "sectors": sectors,
+        "limit": told["limit_m"],
+        "seeds": told["seeds"],
+        "notes": told["notes"],
+        "scheme": folder.manifest["request"]["methods"][0],
+    }))
 }
 
 /// Says in title and subtitle of the page which of `count` realisations it shows, where there are

@@ -2,7 +2,8 @@
 
 use super::folder::Folder;
 use super::older;
-use super::run::case_text;
+use super::run::{case_text, draws};
+use super::scene::scene;
 use super::sweep::names;
 use crate::error::Result;
 use crate::output::wear_history;
@@ -15,7 +16,10 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let mut notes = folder.manifest["remarks"].as_array().cloned().unwrap_or_default();
     let lacking = older::without_columns("years.csv", &years.header, &wear_history::columns());
     notes.extend(lacking.map(Value::String));
+    let written = json!({ "case_file": folder.manifest["case_file"], "scene": folder.manifest["scene"] });
     Ok(json!({
+        "scene": if written["scene"].is_object() { scene(&written) } else { Value::Null },
+        "draws": draws(folder, "history.csv", folder.manifest)?,
         "subtitle": "wear over the years",
         "wear": {
             "years": years.for_page(None),

@@ -138,9 +138,21 @@ fn histories_are_those_of_their_windows_and_years_their_means() {
         assert!(depth == 0.0 || (scar > depth && deepest > depth));
         assert!((depth - 1e-13 * number(row, "work_J") / (TAU * 9.525e-3 * 25e-3)).abs() < 1e-15);
     }
+    // The sectors at the end: of even wear they are the depth all round in the mean, unless one
+    // scar of all of it is less deep than a sector.
+    let sectors = rows(&path.join("w/sector-means.csv"));
+    assert_eq!(sectors.len(), 24);
+    for row in &years[years.len() - 2..] {
+        let own: Vec<f64> =
+            sectors.iter().filter(|one| one["place"] == row["place"]).map(|one| number(one, "depth_m")).collect();
+        let mean = own.iter().sum::<f64>() / own.len() as f64;
+        assert!(mean <= number(row, "depth_all_round_m") * (1.0 + 1e-9), "{mean}");
+        assert!(mean > 0.5 * number(row, "depth_all_round_m"));
+        assert!(own.iter().all(|depth| *depth <= number(row, "depth_deepest_m")));
+    }
     // The same request gives the same bytes.
     said(path, &[&["wear"], &TUBE[..], &["--histories", "4", "--years", "20", "--out", "again"]].concat(), 0);
-    for file in ["history.csv", "years.csv", "wear.svg"] {
+    for file in ["history.csv", "years.csv", "sector-means.csv", "wear.svg"] {
         assert!(fs::read(path.join("w").join(file)).unwrap() == fs::read(path.join("again").join(file)).unwrap());
     }
 }

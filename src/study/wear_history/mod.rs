@@ -89,6 +89,7 @@ impl WearPlan<'_> {
         let mut found = WearHistories {
             supports: self.supports.iter().map(|support| support.name.clone()).collect(),
             points: Vec::new(),
+            depths_at_end_m: Vec::new(),
             windows: 0,
             refuted: Vec::new(),
         };
@@ -99,6 +100,7 @@ impl WearPlan<'_> {
             let rates = self.rates(&work, &mut found, kept, keep)?;
             found.points.push(self.point(time, &work, &rates));
             if time >= self.service {
+                found.depths_at_end_m = work.iter().map(|history| self.depths(history)).collect();
                 return Ok(found);
             }
             step = self.longest_step(&work, &rates).min(step).min(self.service - time);
@@ -168,6 +170,11 @@ impl WearPlan<'_> {
     /// What the work (J) of a history has made of each support.
     fn openings(&self, history: &[WearWork]) -> Vec<Opening> {
         self.supports.iter().zip(history).map(|(support, work)| support.opening(work)).collect()
+    }
+
+    /// The depths that the work (J) of a history has worn off the tube at each support, m.
+    fn depths(&self, history: &[WearWork]) -> Vec<Vec<f64>> {
+        self.supports.iter().zip(history).map(|(support, work)| support.depths(work)).collect()
     }
 
     fn point(&self, time: f64, work: &Works, rates: &Works) -> WearPoint {

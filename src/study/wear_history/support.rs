@@ -51,6 +51,11 @@ impl WearingSupport {
         self.gaps.iter().zip(self.opening(work).recession).map(|(gap, receded)| gap + receded).collect()
     }
 
+    /// The depth worn off the tube by the work `work` (J) in each sector, or at each flat, m.
+    pub(super) fn depths(&self, work: &WearWork) -> Vec<f64> {
+        self.law.depths(self.growth, work)
+    }
+
     /// The state after the work `work` (J) at the work rate `rate` (W).
     pub(super) fn state(&self, work: &WearWork, rate: f64) -> WearState {
         let worn = Archard { service: 1.0, ..self.law }.worn(work.total);

@@ -128,6 +128,7 @@ if (DATA.kind === "run" && DATA.summary.realisations) {
     (count) => `${count} realisations`,
   );
   whereSection();
+  realisationsSection();
 }
 if (DATA.compare && DATA.compare.means) methodMeansSection();
 if (lead && lead.probes.length && duration > 0) {
@@ -144,6 +145,8 @@ if (DATA.stability) stabilitySection();
 if (DATA.sweep) sweepSection();
 if (DATA.wear) {
   wearSection();
+  if (DATA.scene) wornWhereSection();
+  realisationsSection();
   if (DATA.wear.first)
     meansSection(
       DATA.wear.first,
