@@ -183,7 +183,7 @@ impl Case {
             }
             let growth = written.map_or_else(Growth::default, |written| written.growth);
             let (name, gaps) = (support.name.clone(), support.gaps(&self.scene.walls));
-            wearing.push(WearingSupport { name, gaps, growth, law });
+            wearing.push(WearingSupport { name, gaps, growth, law, wall: self.wall_at(index) });
         }
         if wearing.is_empty() {
             let case = format!("the case {:?}", self.name);
@@ -194,6 +194,12 @@ impl Case {
             return Err(Error::invalid(case, "one in which nothing wears", expected));
         }
         Ok(wearing)
+    }
+
+    /// Thickness of the wall of the tube at support number `index`, m; `None` where the case does
+    /// not know it.
+    pub(crate) fn wall_at(&self, index: usize) -> Option<f64> {
+        self.model.beam(&self.written.supports.get(index)?.place)?.section.wall_thickness()
     }
 
     /// The scene of realisation `number`, in which wear has opened each of `supports`.

@@ -18,7 +18,7 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 47] = [
+const SCRIPT: [&str; 48] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
@@ -65,6 +65,7 @@ const SCRIPT: [&str; 47] = [
     include_str!("page/js/branches.js"),
     include_str!("page/js/diagram.js"),
     include_str!("page/js/continuation.js"),
+    include_str!("page/js/definitions.js"),
     include_str!("page/js/page.js"),
 ];
 

@@ -26,10 +26,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     page["notes"] = notes(&summary, lacking);
     add_left_out(&mut page["notes"], &mut run);
     page["margins"] = summary["scene"]["fluid_elastic"].clone();
-    if folder.has(turbulence::FILES[0]) {
-        let [spectra, pairs] = turbulence::FILES.map(|file| folder.cells(file).map(|cells| cells.for_page(None)));
-        page["turbulence"] = json!({ "spectra": spectra?, "pairs": pairs? });
-    }
+    page["turbulence"] = turbulence_tables(folder)?;
     if summary["realisations"].is_object() {
         page["draws"] = draws(folder, realisations::FILE, &summary["realisations"])?;
     }
@@ -39,6 +36,15 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     }
     page["runs"] = json!([run]);
     Ok(page)
+}
+
+/// The forces of turbulence, asked and recovered; null where there is none.
+pub(super) fn turbulence_tables(folder: &Folder<'_>) -> Result<Value> {
+    if !folder.has(turbulence::FILES[0]) {
+        return Ok(Value::Null);
+    }
+    let [spectra, pairs] = turbulence::FILES.map(|file| folder.cells(file).map(|cells| cells.for_page(None)));
+    Ok(json!({ "spectra": spectra?, "pairs": pairs? }))
 }
 
 /// Every realisation or history, with its seeds, from the table in `file`; and where around each

@@ -139,5 +139,26 @@ fn the_page_of_wear_has_the_sectors_and_the_histories() {
         let cell = &cells[if row["place"] == "plate-1" { 2 } else { 3 }];
         assert!(same(cell, 1e3 * number(row, "depth_deepest_m")), "{cells:?} {row:?}");
     }
+    // Then the flow, one motion as the page of a run has it, and what the words mean.
+    let menu = tab.evaluate("[...document.querySelectorAll('nav a')].map((a) => a.textContent).join(' ')");
+    assert_eq!(
+        menu,
+        "Wear over the years Years Where Histories Flow One motion Motion Phase Supports Contacts Definitions"
+    );
+    let text = tab.evaluate("document.querySelector('#one-motion').textContent").to_string();
+    assert!(text.contains("History 1 of 3, its first window"), "{text}");
+    let supports = rows(&folder.join("first-window/supports.csv"));
+    let shown = cells(&mut tab, "document.querySelector('#supports')");
+    assert_eq!((shown.len(), supports.len()), (2, 2));
+    for (cells, row) in shown.iter().zip(&supports) {
+        assert!(cells[0] == row["support"] && same(&cells[2], number(row, "work_rate_W")), "{cells:?}");
+        let own = |first: &&HashMap<String, String>| first["history"] == "1" && first["place"] == row["support"];
+        assert_eq!(history.iter().find(own).unwrap()["work_rate_W"], row["work_rate_W"], "the window of year 0");
+    }
+    let asked = rows(&folder.join("turbulence.csv"));
+    let plots = tab.evaluate("document.querySelectorAll('#flow .plot').length");
+    assert!(!asked.is_empty() && plots == 2, "{plots}");
+    let words = tab.evaluate("document.querySelectorAll('#definitions dt').length");
+    assert_eq!(words, 14);
     tab.close();
 }

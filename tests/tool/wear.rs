@@ -207,6 +207,43 @@ fn a_limit_is_reached_after_years_that_are_told() {
 }
 
 #[test]
+fn a_study_ends_where_the_first_history_is_worn_through() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let quick = ["--set", "wear.coefficient=1e-12", "--set", "time.step=2e-4", "--set", "system.modes=4"];
+    let asked = [&["wear"], &TUBE[..5], &quick, &["--histories", "2"]].concat();
+    let (out, err) = said(path, &[&asked[..], &["--years", "80", "--json", "--out", "w"]].concat(), 0);
+    let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let found = &document["histories"]["worn_through"];
+    let (number_of, place) = (found["history"].as_u64().unwrap(), found["support"].as_str().unwrap());
+    assert!((found["wall_m"].as_f64().unwrap() / 1.65e-3 - 1.0).abs() < 1e-14);
+    let history = rows(&path.join("w/history.csv"));
+    let end = number(history.last().unwrap(), "year");
+    assert!(end < 80.0 && (found["time_s"].as_f64().unwrap() / 31_557_600.0 - end).abs() < 1e-12 * end);
+    // In the last row its depth is the wall, and no other is deeper; in no row before is any.
+    for row in &history {
+        let first = row["history"] == number_of.to_string() && row["place"] == place && number(row, "year") == end;
+        let depth = number(row, "depth_deepest_m");
+        assert!(if first { (depth / 1.65e-3 - 1.0).abs() < 1e-12 } else { depth < 1.65e-3 }, "{row:?}");
+    }
+    // The deepest of the history's sectors at the end is that depth.
+    let sectors = &document["histories"]["depths_at_end_m"][number_of as usize - 1];
+    let own = document["histories"]["supports"].as_array().unwrap().iter().position(|name| name == place).unwrap();
+    let deepest = sectors[own].as_array().unwrap().iter().filter_map(serde_json::Value::as_f64).fold(0.0, f64::max);
+    assert!((deepest / 1.65e-3 - 1.0).abs() < 1e-12);
+    let told = document["remarks"].to_string();
+    let words = format!("{place} is worn through after ");
+    assert!(told.contains(&words) && told.contains(&format!(" in history {number_of}, the first of 2, by 1.65 mm")));
+    assert!(told.contains("There the study ends") && !told.contains("means nothing"), "{told} {err}");
+    assert!(told.contains("the coefficients of wear are those of the case in every year"), "{told}");
+    // More years change nothing, and no window is run for them.
+    let (_, err) = said(path, &[&asked[..], &["--years", "90", "--out", "w"]].concat(), 0);
+    assert!(err.contains("all of them there already"), "{err}");
+    let again = rows(&path.join("w/history.csv"));
+    assert_eq!(number(again.last().unwrap(), "year"), end);
+}
+
+#[test]
 fn supports_that_the_tube_never_meets_are_said_to_wear_nowhere() {
     let dir = tempfile::tempdir().unwrap();
     let slow = ["--set", "turbulence.1.velocity=0.01", "--histories", "2", "--years", "20", "--out", "w"];

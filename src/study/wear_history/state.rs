@@ -44,6 +44,20 @@ impl WearPoint {
     }
 }
 
+/// The first history in which the tube is worn through.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct WornThrough {
+    /// Its number, from 1.
+    pub history: usize,
+    /// The name of the support.
+    pub support: String,
+    /// Thickness of the wall, m.
+    pub wall_m: f64,
+    /// Time in service, s.
+    pub time_s: f64,
+}
+
 /// Histories of wear.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -52,6 +66,8 @@ pub struct WearHistories {
     pub supports: Vec<String>,
     /// From the start to the end.
     pub points: Vec<WearPoint>,
+    /// Where the histories end before the time in service: the first that is worn through.
+    pub worn_through: Option<WornThrough>,
     /// At the end of each history, of each support: the depth worn off the tube in each sector of a
     /// round support, or at each flat, m; none of a tube that does not wear.
     pub depths_at_end_m: Vec<Vec<Vec<f64>>>,

@@ -94,7 +94,7 @@ function wedgePlot(name, parts, [label, , , unit], most, limit) {
   const highest = parts.reduce((best, part) => (part.value > best.value ? part : best), parts[0]);
   const told =
     highest.value > 0
-      ? `largest: ${plusMinus(highest.value, highest.half)} ${unit}, ${highest.text}`
+      ? `largest mean: ${plusMinus(highest.value, highest.half)} ${unit}, ${highest.text}`
       : "none";
   const far = limit && !shown && highest.value > 0 ? `; the limit of ${digits(limit)} ${unit} lies outside` : "";
   return el("div", {}, el("p", { class: "lead" }, told + far), plot.box);
