@@ -67,9 +67,10 @@
 //! (the conclusion of a chart), `floors.rs` (why its penalties have floors), `stable_steps.rs` (the
 //! conclusion of a stability study), figures (`labelled.rs` is a run that is drawn, `motion.rs` its
 //! motion, `window.rs` the stretch of it, `orbit.rs` with `ring.rs` its way between supports,
-//! `rubbed.rs` the supports over time; `site.rs` is a wall or support with its results, `places.rs` says which fit on a page,
-//! `colours.rs` has the colour of each, `part.rs` the walls that are drawn together), `format.rs`
-//! (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook, feature `xlsx`; feature `cli`).
+//! `rubbed.rs` the supports over time; `site.rs` is a wall or support with its results, `places.rs`
+//! says which fit on a page, `colours.rs` has the colour of each, `part.rs` the walls that are
+//! drawn together), `format.rs` (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook,
+//! feature `xlsx`; feature `cli`).
 
 pub(crate) mod animation;
 pub mod atomic;
