@@ -3,7 +3,7 @@
 use super::builder::Builder;
 use super::table::{self, TableColumns};
 use super::value::Section;
-use super::written::ScatteredStart;
+use super::written::{Origin, ScatteredStart};
 use super::{Case, Truncated};
 use crate::error::{Error, Part, Result};
 use crate::scene::{Density, Load, LoadKind, RandomForce, Table};
@@ -175,6 +175,23 @@ impl Case {
             )
         });
         single.chain(fields)
+    }
+
+    /// The keys of the seeds of the case, each with its seed: of its random loads, its turbulence
+    /// and a start that scatters. Realisation k has each of them greater by k − 1.
+    #[must_use]
+    pub fn seeds(&self) -> Vec<(String, u64)> {
+        // A load of the file has its number in the scene.
+        let of = |(index, origin): (usize, &Origin)| {
+            Some((format!("load.{}.{}.seed", index + 1, origin.seed_key()?), origin.random()?.seed))
+        };
+        let loads = self.written.origins.iter().enumerate().filter_map(of);
+        let fields = self.truncated.iter().flat_map(|truncated| &truncated.whole.turbulence);
+        let fields = fields.map(|field| (format!("turbulence.{}.seed", field.number()), field.seed));
+        let start = self.written.scattered.iter().map(|start| ("initial.scatter.seed".to_owned(), start.scatter.seed));
+        let mut seeds: Vec<(String, u64)> = loads.chain(fields).chain(start).collect();
+        seeds.dedup();
+        seeds
     }
 
     /// Realisation `number` of the case, from 1: the same case, where the seed of every random

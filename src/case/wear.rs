@@ -129,17 +129,33 @@ impl Case {
         Some(Archard { coefficient, support_coefficient, service: self.wear.service?, scar })
     }
 
+    /// The depths worn off the tube within the service at support number `index`, m, at the work
+    /// rates of `wear`, as [`Archard::depths`]; none without a law of its wear.
+    #[must_use]
+    pub fn depths(&self, index: usize, wear: &WearStatistics) -> Vec<f64> {
+        self.by_service(index, wear, |law, growth, work| law.depths(growth, work)).unwrap_or_default()
+    }
+
     /// The depth worn off the tube within the service at support number `index` where it is
     /// deepest, m, at the work rates of `wear`; `None` without a law of its wear, and where it
     /// would cut the tube in two.
     #[must_use]
     pub fn depth_deepest(&self, index: usize, wear: &WearStatistics) -> Option<f64> {
+        self.by_service(index, wear, |law, growth, work| law.deepest(growth, work)).filter(|depth| !depth.is_nan())
+    }
+
+    /// What the law of wear of support number `index` makes of the work within the service.
+    fn by_service<T>(
+        &self,
+        index: usize,
+        wear: &WearStatistics,
+        of: impl Fn(&Archard, Growth, &WearWork) -> T,
+    ) -> Option<T> {
         let law = self.archard(index)?;
         law.coefficient.and(law.scar)?;
         let (growth, rates) = (self.written.supports.get(index)?.growth, wear.rates());
         let none = WearWork::none(rates.sectors.len(), rates.walls.len());
-        let work = none.advanced(&rates, &rates, law.service);
-        Some(law.deepest(growth, &work)).filter(|depth| !depth.is_nan())
+        Some(of(&law, growth, &none.advanced(&rates, &rates, law.service)))
     }
 }
 
@@ -167,7 +183,7 @@ impl Case {
             }
             let growth = written.map_or_else(Growth::default, |written| written.growth);
             let (name, gaps) = (support.name.clone(), support.gaps(&self.scene.walls));
-            wearing.push(WearingSupport { name, gaps, growth, law });
+            wearing.push(WearingSupport { name, gaps, growth, law, wall: self.wall_at(index) });
         }
         if wearing.is_empty() {
             let case = format!("the case {:?}", self.name);
@@ -178,6 +194,12 @@ impl Case {
             return Err(Error::invalid(case, "one in which nothing wears", expected));
         }
         Ok(wearing)
+    }
+
+    /// Thickness of the wall of the tube at support number `index`, m; `None` where the case does
+    /// not know it.
+    pub(crate) fn wall_at(&self, index: usize) -> Option<f64> {
+        self.model.beam(&self.written.supports.get(index)?.place)?.section.wall_thickness()
     }
 
     /// The scene of realisation `number`, in which wear has opened each of `supports`.

@@ -4,14 +4,15 @@
 //! # Files
 //!
 //! Parses, calls, prints: one file per command (`run/`, `compare.rs` with `compare_seeds.rs` and
-//! `verdicts.rs`, `chart.rs`, `stability.rs`, `wear.rs`, `sweep/`, `merge.rs`, `orbit/`,
-//! `continuation/`, `report.rs`, `explain/`, `new/`, `figures.rs`, `verify.rs`, `completions.rs`),
-//! `case_args.rs`, `request.rs`, `formats.rs` and `drawing.rs` for arguments that several have,
-//! `command_line.rs` for lines as a shell takes them, `pipeline.rs` for what all commands share
-//! (the folder of results, the report, what is printed), `ui.rs` for stdout and stderr (`bar.rs`
-//! shows progress, `terminal.rs` breaks lines, `run_notes.rs` lists notes once), `estimate.rs` says
-//! how long work will take, `realisations.rs` makes the study of realisations of `run` and `wear`,
-//! `values.rs` lists the values that shells complete (feature `cli`).
+//! `verdicts.rs`, `chart.rs`, `stability.rs`, `wear.rs` with `first_window.rs`, `sweep/`,
+//! `merge.rs`, `orbit/`, `continuation/`, `report.rs`, `explain/`, `new/`, `figures.rs`,
+//! `verify.rs`, `completions.rs`), `case_args.rs`, `request.rs`, `formats.rs` and `drawing.rs` for
+//! arguments that several have, `command_line.rs` for lines as a shell takes them, `pipeline.rs`
+//! for what all commands share (the folder of results, the report, what is printed), `ui.rs` for
+//! stdout and stderr (`bar.rs` shows progress, `terminal.rs` breaks lines, `run_notes.rs` lists
+//! notes once), `estimate.rs` says how long work will take, `realisations.rs` makes the study of
+//! realisations of `run` and `wear`, `values.rs` lists the values that shells complete (feature
+//! `cli`).
 
 mod bar;
 mod case_args;
@@ -25,6 +26,7 @@ mod drawing;
 mod estimate;
 mod explain;
 mod figures;
+mod first_window;
 mod formats;
 mod merge;
 mod new;

@@ -2,6 +2,7 @@
 
 use super::command_line::command_line;
 use super::estimate::DurationEstimate;
+use super::first_window::first_window;
 use super::pipeline::Answer;
 use super::realisations::{self, StudyRequest, failed_checks, not_checked, of_argument};
 use super::request::Request;
@@ -14,10 +15,10 @@ use crate::output::results::Results;
 use crate::output::wear_folder::{self, WearRequest};
 use crate::output::wear_journal::WindowJournal;
 use crate::output::{wear_history as output, wear_remarks};
-use crate::run::{Options, run_with_progress};
+use crate::run::Options;
 use crate::scheme::Method;
 use crate::study::choice;
-use crate::study::realisations::{RealisationCount, RealisationStudy};
+use crate::study::realisations::{Realisation, RealisationCount};
 use crate::study::wear_history::{WearHistories, WearPlan, WearingSupport};
 use crate::wear::Opening;
 use serde_json::json;
@@ -36,8 +37,10 @@ that of a run with the gap of that time; its statistics begin at statistics_from
 several histories are followed, each run with seeds of its own.
 With --until-interval the first runs of the histories are a study of realisations, as that of `run
 --until-interval`, with the errors of the first work rates.
-Writes history.csv (every history), years.csv (means with their 95 % intervals) and wear.svg, for
---until-interval also realisations.csv and errors.csv (the first runs); report.html shows the years.
+Writes history.csv (every history), years.csv (means with their 95 % intervals), sector-means.csv
+(where around each support it wears), wear.svg and, in first-window/, the files of the first run;
+for --until-interval also realisations.csv and errors.csv (the first runs). A study ends before its
+last year where the first history is worn through the tube's wall. report.html shows all.
 After an interruption the same command goes on, after the study of the first runs. With more --years
 it goes on from finished results as well: the same results as those of so many years at once.";
 
@@ -82,20 +85,21 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let within = args.within(&case)?;
     let histories = case.histories(args.histories).map_err(of_argument)?;
     let service = case.service(args.years).map_err(of_argument)?;
-    let method = match &args.scheme {
-        Some(name) => args.request.method(name, &case)?,
-        None => args.request.method(&choice::choose(&case.scene).method.to_string(), &case)?,
-    };
+    let (method, reason) = args.chosen(&case)?;
     args.request.check_use(&[method])?;
     let (place, count) = (&args.request.place, within.unwrap_or(RealisationCount::Exactly(histories as u64)));
     let verdict = !args.no_verdict;
     let asked = WearRequest { case: &case, method: &method, years: args.years, count, verdict };
     let mut results = asked.open(&place.folder(&case.name, "wear"), place.force, place.formats.usable()?)?;
     results.add_to_manifest("command_line", json!(command_line()));
-    let first = within.map(|count| first_windows(&case, &method, count, verdict, ui)).transpose()?;
+    let run = first_window(&case, (&method, reason), &mut results, !place.no_report, ui)?;
+    let study = |count| realisations::study(&case, (&run, &method), StudyRequest::new(count, verdict), "", ui);
+    let first = within.map(study).transpose()?;
     let histories = first.as_ref().map_or(histories, |study| study.realisations.count);
     let plan = Followed { case: &case, supports: &supports, method: &method, histories, service };
-    let (found, there) = plan.follow(first.as_ref(), &mut results, args.request.place.force, ui)?;
+    let alone = [Realisation::of(1, &run)];
+    let known = first.as_ref().map_or(&alone[..], |study| &study.realisations.members);
+    let (found, there) = plan.follow(known, &mut results, args.request.place.force, ui)?;
     wear_folder::write(&mut results, &case, (&found, histories), first.as_ref())?;
     let mut document = output::document(&case, &found);
     if let Some(study) = &first {
@@ -123,27 +127,19 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
 }
 
 impl Args {
+    /// The scheme, and why this one.
+    fn chosen(&self, case: &Case) -> Result<(Method, String)> {
+        let choice = choice::choose(&case.scene);
+        Ok(match &self.scheme {
+            Some(name) => (self.request.method(name, case)?, "asked for".to_owned()),
+            None => (self.request.method(&choice.method.to_string(), case)?, choice.reason),
+        })
+    }
+
     /// The number of histories that an interval takes, where one is asked for.
     fn within(&self, case: &Case) -> Result<Option<RealisationCount>> {
         Seeds { count: None, until_interval: self.until_interval.clone(), most_seeds: self.most_seeds }.check(case)
     }
-}
-
-/// The study of the first windows of the histories, as many as `count` says: realisations of the
-/// case, in its own gaps.
-fn first_windows(
-    case: &Case,
-    method: &Method,
-    count: RealisationCount,
-    verdict: bool,
-    ui: &Ui,
-) -> Result<RealisationStudy> {
-    let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step);
-    let end = case.scene.duration;
-    let run = ui.with_estimate("first run", estimate, |bar| {
-        run_with_progress(&case.scene, method, &Options::new(case.time), &mut |time| bar.set_share(time / end))
-    })?;
-    realisations::study(case, (&run, method), StudyRequest::new(count, verdict), "", ui)
 }
 
 /// What histories are followed.
@@ -156,29 +152,28 @@ struct Followed<'a> {
 }
 
 impl Followed<'_> {
-    /// Follows the histories, whose first windows are those of the study `first`, beside the
-    /// journal of their windows in `results`, which begins `anew` where it may not go on. With them
-    /// how many windows were there already, in words.
+    /// Follows the histories, of which the first windows are `known`, beside the journal of their
+    /// windows in `results`, which begins `anew` where it may not go on. With them how many windows
+    /// were there already, in words.
     fn follow(
         &self,
-        first: Option<&RealisationStudy>,
+        known: &[Realisation],
         results: &mut Results,
         anew: bool,
         ui: &Ui,
     ) -> Result<(WearHistories, String)> {
         let Self { case, supports, method, histories, service } = *self;
         let mut journal = WindowJournal::open(results, histories, anew)?;
-        let members = first.map_or(&[][..], |study| &study.realisations.members);
         let scene = |number: u64, openings: &[Opening]| case.worn(number, supports, openings);
         let options = Options::new(case.time);
         let plan = WearPlan { supports, scene: &scene, method, options: &options, histories, service };
         let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step).times(WINDOWS);
         let estimate = estimate.on_all_cores(histories as f64).at_most();
         // Windows lengthen as gaps grow.
-        let (found, there) = ui
-            .with_estimate("wear", estimate, |bar| journal.follow(&plan, members, &mut |share| bar.set_share(share)))?;
+        let (found, there) =
+            ui.with_estimate("wear", estimate, |bar| journal.follow(&plan, known, &mut |share| bar.set_share(share)))?;
         // The study has told of its own, but of the first.
-        let told = 2..=members.len() as u64;
+        let told = 2..=known.len() as u64;
         for (number, findings) in found.refuted.iter().filter(|(number, _)| !told.contains(number)) {
             ui.refute(&format!("window {number}"), findings);
         }

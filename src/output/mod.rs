@@ -20,6 +20,7 @@
 //! | [`episodes`] | `episodes.csv` and `exceedances.csv`, and their table |
 //! | [`realisations`] | `realisations.csv`, and its table |
 //! | [`worn_means`] | worn volume and depths over realisations: a table, and a part of the summary |
+//! | [`sector_means`] | `sector-means.csv`: where around each support a tube wears |
 //! | [`error_parts`] | `errors.csv`, and its table |
 //! | [`periodic`] | a periodic orbit: its document, motion and pictures |
 //! | [`branches`] | branches of orbits: tables, document and picture |
@@ -62,13 +63,14 @@
 //! `table.rs`, `json.rs`, `compare_table.rs` and `method_realisations.rs` (comparisons for the
 //! terminal), `verification.rs` (the manual), `document.rs`, `detail.rs` (what `[statistics]` asks
 //! for: `episodes.rs`, `spectra.rs`), `turbulence.rs` (its forces), `realisations.rs`,
-//! `error_parts.rs` (the errors of their means), `cheapest.rs` (the conclusion of a chart),
-//! `floors.rs` (why its penalties have floors), `stable_steps.rs` (the conclusion of a stability
-//! study), figures (`labelled.rs` is a run that is drawn, `motion.rs` its motion, `window.rs` the
-//! stretch of it, `orbit.rs` with `ring.rs` its way between supports, `rubbed.rs` the supports over
-//! time; `site.rs` is a wall or support with its results, `places.rs` says which fit on a page,
-//! `colours.rs` has the colour of each, `part.rs` the walls that are drawn together), `format.rs`
-//! (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook, feature `xlsx`; feature `cli`).
+//! `sector_means.rs` (their sectors), `error_parts.rs` (the errors of their means), `cheapest.rs`
+//! (the conclusion of a chart), `floors.rs` (why its penalties have floors), `stable_steps.rs` (the
+//! conclusion of a stability study), figures (`labelled.rs` is a run that is drawn, `motion.rs` its
+//! motion, `window.rs` the stretch of it, `orbit.rs` with `ring.rs` its way between supports,
+//! `rubbed.rs` the supports over time; `site.rs` is a wall or support with its results, `places.rs`
+//! says which fit on a page, `colours.rs` has the colour of each, `part.rs` the walls that are
+//! drawn together), `format.rs` (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook,
+//! feature `xlsx`; feature `cli`).
 
 pub(crate) mod animation;
 pub mod atomic;
@@ -111,6 +113,7 @@ pub(crate) mod ring;
 mod rubbed;
 pub mod run;
 pub mod scene_family;
+pub mod sector_means;
 pub mod shape;
 #[cfg(feature = "xlsx")]
 mod sheets;

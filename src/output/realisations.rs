@@ -2,11 +2,13 @@
 
 use super::csv;
 use super::table::Table;
+use crate::case::Case;
 use crate::error::Result;
 use crate::order::sort_by_number;
 use crate::scene::Scene;
 use crate::statistics::{ContactPlace, PlaceKind};
 use crate::study::realisations::{Estimate, Interval, Measure, Realisations};
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// Name of the file.
@@ -154,7 +156,13 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
         );
     }
     remarks.extend(without_friction(scene));
+    remarks.extend(study.groups_in_words());
     remarks
+}
+
+/// The seeds of the case as JSON, from which those of each realisation follow.
+pub(crate) fn seeds(case: &Case) -> Value {
+    case.seeds().into_iter().map(|(key, seed)| json!({ "key": key, "seed": seed })).collect()
 }
 
 /// What a work rate without friction is, where `scene` has such a support.

@@ -1,11 +1,10 @@
 //! The folder of a study of wear over the years: what was asked, and the files of what was found.
 //! An interrupted study goes on from its journal, and so does one of more years.
 
-use super::error_parts;
 use super::format::Formats;
 use super::request::{extended, program, request};
 use super::results::Results;
-use super::{wear_history, wear_remarks};
+use super::{error_parts, realisations, sector_means, summary, turbulence, wear_history, wear_remarks};
 use crate::case::Case;
 use crate::error::Result;
 use crate::scheme::Method;
@@ -13,6 +12,9 @@ use crate::study::realisations::{RealisationCount, RealisationStudy};
 use crate::study::wear_history::{WearHistories, YEAR};
 use serde_json::{Map, Value, json};
 use std::path::Path;
+
+/// The folder of the first window of the first history, with the files of a run.
+pub const FIRST_WINDOW: &str = "first-window";
 
 /// The key of the request that may grow: a study goes on to further years.
 const YEARS: &str = "years";
@@ -60,7 +62,8 @@ impl WearRequest<'_> {
 }
 
 /// Writes the files of `histories` histories of wear at the supports of `case`: `history.csv`,
-/// `years.csv`, the picture `wear`, and those of the study `first` of their first windows.
+/// `years.csv`, `sector-means.csv`, of turbulence those of its forces, the picture `wear`, and
+/// those of the study `first` of their first windows.
 ///
 /// # Errors
 /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
@@ -71,6 +74,8 @@ pub fn write(
     first: Option<&RealisationStudy>,
 ) -> Result<()> {
     wear_history::write(results, found)?;
+    turbulence::write(|name| results.place(name), case)?;
+    sector_means::write_histories(&results.place(sector_means::FILE)?, case, found)?;
     if let Some(study) = first {
         error_parts::write_study(results, study)?;
         results.add_to_manifest("realisations", json!(study.realisations));
@@ -83,6 +88,9 @@ pub fn write(
         ("case_file", case.document.json()?),
         ("remarks", json!(case.notes())),
         ("answers", json!(answers)),
+        ("scene", summary::scene(case)),
+        ("limit_m", json!(case.wear.limit)),
+        ("seeds", realisations::seeds(case)),
         ("supports", json!(found.supports)),
         ("histories", json!(histories)),
         ("fluid_elastic", json!(case.fluid_elastic)),

@@ -4,8 +4,8 @@
 use super::realisations::{self, with_interval};
 use crate::case::Case;
 use crate::error::amount;
-use crate::study::realisations::mean_of;
-use crate::study::wear_history::{WearHistories, WearState, YEAR, mean};
+use crate::study::realisations::{Groups, mean_of};
+use crate::study::wear_history::{WearHistories, WearState, WornThrough, YEAR, mean};
 use crate::wear::Growth;
 
 /// When the limit is reached, and what the figures mean, a sentence each.
@@ -33,7 +33,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
             after(|state| state.depth_all_round_m)
         ));
     }
-    remarks.extend(worn_through(case, found));
+    remarks.extend(worn_through(found));
     remarks.extend(unworn(found));
     remarks.extend(realisations::without_friction(&case.scene).map(|words| format!("{words}, and depths with them")));
     let histories = found.points.first().map_or(0, |point| point.histories.len());
@@ -43,6 +43,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
              window of a history has draws of its own"
         ));
     }
+    remarks.extend(groups(found));
     remarks.extend(growths(case, found));
     let widened = found.supports.iter().enumerate().filter(|(support, _)| {
         let gap = |point| mean(point, *support, |state| state.gap_m).0;
@@ -55,6 +56,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
         )
     }));
     remarks.extend(one_sided(case, found));
+    remarks.push("the coefficients of wear are those of the case in every year, whatever has worn before".to_owned());
     remarks
 }
 
@@ -84,6 +86,18 @@ fn among(times: &[Option<f64>]) -> String {
     }
 }
 
+/// Supports at which the histories fall into two groups by their deepest wear at the end, a
+/// sentence each.
+fn groups(found: &WearHistories) -> Vec<String> {
+    let one = |(support, name): (usize, &String)| {
+        let states = found.points.last()?.histories.iter().filter_map(|states| states.get(support));
+        let depths: Vec<f64> = states.map(|state| state.depth_deepest_m).collect();
+        let words = Groups::of(&depths)?.words("deepest wear", "mm", 1e3);
+        Some(format!("the histories fall into two groups at support {name:?}: {words}"))
+    };
+    found.supports.iter().enumerate().filter_map(one).collect()
+}
+
 /// Supports at which nothing slid in any history, a sentence for all of them.
 fn unworn(found: &WearHistories) -> Option<String> {
     let last = found.points.last()?;
@@ -102,21 +116,30 @@ fn unworn(found: &WearHistories) -> Option<String> {
     })
 }
 
-/// Supports at which the tube is worn through, where the case knows its wall, a sentence each.
-fn worn_through(case: &Case, found: &WearHistories) -> Vec<String> {
-    let one = |(support, name): (usize, &String)| {
-        let own = case.scene.supports.iter().position(|other| other.name == *name)?;
-        let section = case.model.beam(&case.written.supports.get(own)?.place)?.section;
-        let wall = section.wall_thickness()?;
-        let time = found.reaches(support, wall, |state| state.depth_deepest_m)?;
-        Some(format!(
-            "at support {name:?} the deepest scar goes through the tube's wall of {} mm after {} years: what follows \
-             means nothing there",
-            amount(1e3 * wall, 3),
-            amount(time / YEAR, 3)
-        ))
-    };
-    found.supports.iter().enumerate().filter_map(one).collect()
+/// That the histories end where the first is worn through, and when all of them are.
+fn worn_through(found: &WearHistories) -> Option<String> {
+    let WornThrough { history, support, wall_m, time_s } = found.worn_through.as_ref()?;
+    let (wall, years) = (amount(1e3 * wall_m, 3), amount(time_s / YEAR, 3));
+    let count = found.points.first().map_or(0, |point| point.histories.len());
+    if count == 1 {
+        return Some(format!(
+            "{support} is worn through after {years} years, by {wall} mm where it is deepest: there the study ends"
+        ));
+    }
+    let own = found.supports.iter().position(|name| name == support)?;
+    let mut each = found.reaches_at_last_rate(own, *wall_m, |state| state.depth_deepest_m);
+    if let Some(first) = each.get_mut(history - 1) {
+        *first = Some(*time_s);
+    }
+    let known: Option<Vec<f64>> = each.iter().copied().collect();
+    let all = known.map_or_else(String::new, |times| {
+        format!("; at the last rates all {count} are after {} years", in_years(mean_of(&times).0, &each))
+    });
+    Some(format!(
+        "{support} is worn through after {years} years in history {history}, the first of {count}, by {wall} mm where \
+         it is deepest{all}. There the study ends: a mean over the histories that are left would be one of the slower \
+         ones"
+    ))
 }
 
 /// What wear does to the gaps, a sentence for each way.
@@ -147,20 +170,21 @@ fn growths(case: &Case, found: &WearHistories) -> impl Iterator<Item = String> {
     })
 }
 
-/// Supports whose gaps grow evenly though the wear comes off one side, a sentence for each.
+/// Supports of which the deepest wear is far from that all round, a sentence for each.
 fn one_sided(case: &Case, found: &WearHistories) -> Vec<String> {
     let one = |(support, name): (usize, &String)| {
         let own = case.written.supports.iter().find(|own| own.name == *name)?;
-        let last = found.points.last().filter(|_| own.growth == Growth::Even)?;
+        let last = found.points.last()?;
+        let what = match own.growth {
+            Growth::Even => "by which the gap grows here: growth = \"shifted\" moves the hole to the deeper side",
+            Growth::Shifted => "and the hole stays a circle, wider and moved: what is sharper than that is lost",
+            _ => return None,
+        };
         let [deepest, even] = [|state: &WearState| state.depth_deepest_m, |state: &WearState| state.depth_all_round_m]
             .map(|value| mean(last, support, value).0);
-        (even > 0.0 && deepest > ONE_SIDED * even).then(|| {
-            format!(
-                "at support {name:?} the deepest wear is {} times that all round, by which the gap grows here: \
-                 growth = \"shifted\" moves the hole to the deeper side",
-                amount(deepest / even, 2)
-            )
-        })
+        let ratio = amount(deepest / even, 2);
+        (even > 0.0 && deepest > ONE_SIDED * even)
+            .then(|| format!("at support {name:?} the deepest wear is {ratio} times that all round, {what}"))
     };
     found.supports.iter().enumerate().filter_map(one).collect()
 }
@@ -197,7 +221,13 @@ mod tests {
             histories: rates.iter().map(|rate| vec![state(rate * years)]).collect(),
         };
         let points = [0.0, 10.0, 20.0].map(point).to_vec();
-        WearHistories { supports: vec!["plate".to_owned()], points, windows: 6, refuted: Vec::new() }
+        WearHistories {
+            supports: vec!["plate".to_owned()],
+            points,
+            depths_at_end_m: Vec::new(),
+            windows: 6,
+            refuted: Vec::new(),
+        }
     }
 
     #[test]

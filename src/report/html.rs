@@ -18,7 +18,7 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 45] = [
+const SCRIPT: [&str; 48] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
@@ -37,6 +37,7 @@ const SCRIPT: [&str; 45] = [
     include_str!("page/js/bodies.js"),
     include_str!("page/js/panels.js"),
     include_str!("page/js/phase.js"),
+    include_str!("page/js/sectors.js"),
     include_str!("page/js/supports.js"),
     include_str!("page/js/where.js"),
     include_str!("page/js/contacts.js"),
@@ -57,12 +58,14 @@ const SCRIPT: [&str; 45] = [
     include_str!("page/js/margins.js"),
     include_str!("page/js/flow.js"),
     include_str!("page/js/means.js"),
+    include_str!("page/js/realisations.js"),
     include_str!("page/js/orbit.js"),
     include_str!("page/js/periodic.js"),
     include_str!("page/js/chosen.js"),
     include_str!("page/js/branches.js"),
     include_str!("page/js/diagram.js"),
     include_str!("page/js/continuation.js"),
+    include_str!("page/js/definitions.js"),
     include_str!("page/js/page.js"),
 ];
 

@@ -7,7 +7,7 @@ use super::older;
 use super::scene::{period, scene};
 use crate::error::Result;
 use crate::output::derivatives::{FILE, STATES_FILE};
-use crate::output::{realisations, turbulence};
+use crate::output::{realisations, sector_means, turbulence};
 use crate::study::horizon::LARGEST_GROWTH;
 use serde_json::{Value, json};
 
@@ -26,9 +26,9 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     page["notes"] = notes(&summary, lacking);
     add_left_out(&mut page["notes"], &mut run);
     page["margins"] = summary["scene"]["fluid_elastic"].clone();
-    if folder.has(turbulence::FILES[0]) {
-        let [spectra, pairs] = turbulence::FILES.map(|file| folder.cells(file).map(|cells| cells.for_page(None)));
-        page["turbulence"] = json!({ "spectra": spectra?, "pairs": pairs? });
+    page["turbulence"] = turbulence_tables(folder)?;
+    if summary["realisations"].is_object() {
+        page["draws"] = draws(folder, realisations::FILE, &summary["realisations"])?;
     }
     tell_draw(&mut page, folder, summary["realisations"]["count"].as_u64().unwrap_or(1));
     if folder.manifest["request"]["derivative"].is_array() {
@@ -36,6 +36,31 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     }
     page["runs"] = json!([run]);
     Ok(page)
+}
+
+/// The forces of turbulence, asked and recovered; null where there is none.
+pub(super) fn turbulence_tables(folder: &Folder<'_>) -> Result<Value> {
+    if !folder.has(turbulence::FILES[0]) {
+        return Ok(Value::Null);
+    }
+    let [spectra, pairs] = turbulence::FILES.map(|file| folder.cells(file).map(|cells| cells.for_page(None)));
+    Ok(json!({ "spectra": spectra?, "pairs": pairs? }))
+}
+
+/// Every realisation or history, with its seeds, from the table in `file`; and where around each
+/// support the tube wears in the mean over them, with the limit of the depth. `told` has seeds,
+/// limit and what is to be said of them.
+pub(super) fn draws(folder: &Folder<'_>, file: &str, told: &Value) -> Result<Value> {
+    let sectors =
+        if folder.has(sector_means::FILE) { Some(folder.cells(sector_means::FILE)?.for_page(None)) } else { None };
+    Ok(json!({
+        "table": if folder.has(file) { folder.cells(file)?.for_page(None) } else { Value::Null },
+        "sectors": sectors,
+        "limit": told["limit_m"],
+        "seeds": told["seeds"],
+        "notes": told["notes"],
+        "scheme": folder.manifest["request"]["methods"][0],
+    }))
 }
 
 /// Says in title and subtitle of the page which of `count` realisations it shows, where there are

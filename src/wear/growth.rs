@@ -174,22 +174,31 @@ impl Archard {
         all_round(self.both_coefficients(), scar.width, scar.radius)
     }
 
-    /// Depth worn off the tube where it is deepest, m: of a round support in the sector with the
-    /// most `work` (J), of flats at the flat with the most, and no deeper than one scar of all of
-    /// it; 0 without a coefficient of the tube or a scar, NaN where that would cut the tube in two.
+    /// Depth worn off the tube by `work` (J) in each sector of a round support, or at each of the
+    /// flats, m, and nowhere deeper than one scar of all of it; none without a coefficient of the
+    /// tube or a scar. NaN where it would cut the tube in two.
     #[must_use]
-    pub fn deepest(&self, growth: Growth, work: &WearWork) -> f64 {
-        let most = |works: &[f64]| works.iter().copied().fold(0.0, f64::max);
-        let Some((coefficient, Scar { width, radius, bearing })) = self.coefficient.zip(self.scar) else { return 0.0 };
-        let own = match (growth, bearing) {
-            (Growth::Flats | Growth::Kept, Bearing::Flat) => {
-                flat_depth(coefficient * most(&work.walls), width, radius).unwrap_or(f64::NAN)
-            }
-            _ => all_round(coefficient * most(&work.sectors) * work.sectors.len() as f64, width, radius),
+    pub fn depths(&self, growth: Growth, work: &WearWork) -> Vec<f64> {
+        let Some((coefficient, Scar { width, radius, bearing })) = self.coefficient.zip(self.scar) else {
+            return Vec::new();
         };
         // A sector narrower than the scar that all of the wear makes is no deeper than that.
-        let one_scar = Self { service: 1.0, ..*self }.worn(work.total).depth_one_scar_m;
-        own.min(one_scar.unwrap_or(f64::NAN))
+        let one_scar = Self { service: 1.0, ..*self }.worn(work.total).depth_one_scar_m.unwrap_or(f64::NAN);
+        let flat = |work: &f64| flat_depth(coefficient * work, width, radius).unwrap_or(f64::NAN);
+        let sector = |own: &f64| all_round(coefficient * own * work.sectors.len() as f64, width, radius);
+        let own: Vec<f64> = match (growth, bearing) {
+            (Growth::Flats | Growth::Kept, Bearing::Flat) => work.walls.iter().map(flat).collect(),
+            _ => work.sectors.iter().map(sector).collect(),
+        };
+        own.into_iter().map(|depth| depth.min(one_scar)).collect()
+    }
+
+    /// Depth worn off the tube where it is deepest, m: the largest of [`Archard::depths`], 0 where
+    /// there are none, NaN where one is.
+    #[must_use]
+    pub fn deepest(&self, growth: Growth, work: &WearWork) -> f64 {
+        let larger = |most: f64, depth: f64| if depth.is_nan() || depth > most { depth } else { most };
+        self.depths(growth, work).into_iter().fold(0.0, larger)
     }
 }
 
@@ -267,5 +276,23 @@ mod tests {
         sectors[5] = 3e4;
         let depth = law(Bearing::Hole { gap: 2e-4 }).deepest(Growth::Even, &round(sectors));
         assert!((depth / (4e-13 * 3e4 / (0.009_525 * TAU / 12.0 * 0.025)) - 1.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn the_deepest_part_is_the_deepest_of_all_sectors_or_flats() {
+        let mut sectors = vec![1e4; 12];
+        sectors[5] = 3e4;
+        let hole = law(Bearing::Hole { gap: 2e-4 });
+        let depths = hole.depths(Growth::Even, &round(sectors.clone()));
+        assert_eq!((depths.len(), depths[5]), (12, hole.deepest(Growth::Even, &round(sectors))));
+        assert!((depths[5] / depths[0] - 3.0).abs() < 1e-14);
+        let work = WearWork { total: 3e4, sectors: vec![2.5e3; 12], walls: vec![2e4, 1e4] };
+        let flat = law(Bearing::Flat).depths(Growth::Kept, &work);
+        let wanted = [2e4, 1e4].map(|work| flat_depth(4e-13 * work, 0.025, 0.009_525).unwrap());
+        assert_eq!(flat, wanted);
+        // More than the tube at one flat; and nothing of a tube without a coefficient.
+        let through = WearWork { walls: vec![1e12, 0.0], total: 1e12, ..work.clone() };
+        assert!(law(Bearing::Flat).deepest(Growth::Flats, &through).is_nan());
+        assert!(Archard { coefficient: None, ..hole }.depths(Growth::Even, &work).is_empty());
     }
 }

@@ -14,6 +14,8 @@ mod browser;
 #[cfg(all(feature = "cli", unix))]
 mod drawings;
 #[cfg(all(feature = "cli", unix))]
+mod draws;
+#[cfg(all(feature = "cli", unix))]
 mod flow;
 #[cfg(feature = "cli")]
 mod older;

@@ -138,9 +138,21 @@ fn histories_are_those_of_their_windows_and_years_their_means() {
         assert!(depth == 0.0 || (scar > depth && deepest > depth));
         assert!((depth - 1e-13 * number(row, "work_J") / (TAU * 9.525e-3 * 25e-3)).abs() < 1e-15);
     }
+    // The sectors at the end: of even wear they are the depth all round in the mean, unless one
+    // scar of all of it is less deep than a sector.
+    let sectors = rows(&path.join("w/sector-means.csv"));
+    assert_eq!(sectors.len(), 24);
+    for row in &years[years.len() - 2..] {
+        let own: Vec<f64> =
+            sectors.iter().filter(|one| one["place"] == row["place"]).map(|one| number(one, "depth_m")).collect();
+        let mean = own.iter().sum::<f64>() / own.len() as f64;
+        assert!(mean <= number(row, "depth_all_round_m") * (1.0 + 1e-9), "{mean}");
+        assert!(mean > 0.5 * number(row, "depth_all_round_m"));
+        assert!(own.iter().all(|depth| *depth <= number(row, "depth_deepest_m")));
+    }
     // The same request gives the same bytes.
     said(path, &[&["wear"], &TUBE[..], &["--histories", "4", "--years", "20", "--out", "again"]].concat(), 0);
-    for file in ["history.csv", "years.csv", "wear.svg"] {
+    for file in ["history.csv", "years.csv", "sector-means.csv", "wear.svg"] {
         assert!(fs::read(path.join("w").join(file)).unwrap() == fs::read(path.join("again").join(file)).unwrap());
     }
 }
@@ -192,6 +204,43 @@ fn a_limit_is_reached_after_years_that_are_told() {
         0,
     );
     assert!(err.contains("is deeper than the limit of 0.1650 mm"), "{err}");
+}
+
+#[test]
+fn a_study_ends_where_the_first_history_is_worn_through() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let quick = ["--set", "wear.coefficient=1e-12", "--set", "time.step=2e-4", "--set", "system.modes=4"];
+    let asked = [&["wear"], &TUBE[..5], &quick, &["--histories", "2"]].concat();
+    let (out, err) = said(path, &[&asked[..], &["--years", "80", "--json", "--out", "w"]].concat(), 0);
+    let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let found = &document["histories"]["worn_through"];
+    let (number_of, place) = (found["history"].as_u64().unwrap(), found["support"].as_str().unwrap());
+    assert!((found["wall_m"].as_f64().unwrap() / 1.65e-3 - 1.0).abs() < 1e-14);
+    let history = rows(&path.join("w/history.csv"));
+    let end = number(history.last().unwrap(), "year");
+    assert!(end < 80.0 && (found["time_s"].as_f64().unwrap() / 31_557_600.0 - end).abs() < 1e-12 * end);
+    // In the last row its depth is the wall, and no other is deeper; in no row before is any.
+    for row in &history {
+        let first = row["history"] == number_of.to_string() && row["place"] == place && number(row, "year") == end;
+        let depth = number(row, "depth_deepest_m");
+        assert!(if first { (depth / 1.65e-3 - 1.0).abs() < 1e-12 } else { depth < 1.65e-3 }, "{row:?}");
+    }
+    // The deepest of the history's sectors at the end is that depth.
+    let sectors = &document["histories"]["depths_at_end_m"][number_of as usize - 1];
+    let own = document["histories"]["supports"].as_array().unwrap().iter().position(|name| name == place).unwrap();
+    let deepest = sectors[own].as_array().unwrap().iter().filter_map(serde_json::Value::as_f64).fold(0.0, f64::max);
+    assert!((deepest / 1.65e-3 - 1.0).abs() < 1e-12);
+    let told = document["remarks"].to_string();
+    let words = format!("{place} is worn through after ");
+    assert!(told.contains(&words) && told.contains(&format!(" in history {number_of}, the first of 2, by 1.65 mm")));
+    assert!(told.contains("There the study ends") && !told.contains("means nothing"), "{told} {err}");
+    assert!(told.contains("the coefficients of wear are those of the case in every year"), "{told}");
+    // More years change nothing, and no window is run for them.
+    let (_, err) = said(path, &[&asked[..], &["--years", "90", "--out", "w"]].concat(), 0);
+    assert!(err.contains("all of them there already"), "{err}");
+    let again = rows(&path.join("w/history.csv"));
+    assert_eq!(number(again.last().unwrap(), "year"), end);
 }
 
 #[test]

@@ -18,7 +18,9 @@ use crate::error::{Error, Result};
 use crate::output::animation;
 use crate::output::episodes::Episodes;
 use crate::output::error_parts;
+use crate::output::results::Results;
 use crate::output::run::{self as output, Picture};
+use crate::output::sector_means;
 use crate::output::summary::{Checks, Reasons};
 use crate::output::supports;
 use crate::run::Run;
@@ -38,7 +40,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let CheckedRun { case, mut results, method, reason, run, refinement, truncation, modes, accuracy, shortfall } =
         checked;
     if let Some(study) = &study {
-        error_parts::write_study(&mut results, study)?;
+        write_study(&mut results, &case, study)?;
     }
     let unchecked = [failed("half the step", refinement.as_ref()), failed("more modes", truncation.as_ref())];
     let shortfall = first_shortfall(shortfall, study.as_ref(), unchecked);
@@ -87,6 +89,15 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     }
     answer.fall_short(shortfall);
     Ok(answer)
+}
+
+/// Writes the files of a study of realisations.
+fn write_study(results: &mut Results, case: &Case, study: &RealisationStudy) -> Result<()> {
+    error_parts::write_study(results, study)?;
+    if case.scene.supports.is_empty() {
+        return Ok(());
+    }
+    sector_means::write(&results.place(sector_means::FILE)?, case, &study.realisations)
 }
 
 /// The run, and the study of realisations where one is wanted.

@@ -3,6 +3,7 @@
 mod scene;
 
 use super::detail::Detail;
+use super::realisations;
 use super::request::program;
 use super::supports;
 use super::worn_means;
@@ -18,7 +19,7 @@ use crate::study::realisations::Realisations;
 use crate::study::truncation::{ChosenModes, Truncation};
 use crate::study::verdict::Verdict;
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// All of `summary.json`; every number in SI units.
@@ -143,7 +144,7 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
     let mut document = serde_json::to_value(&summary)
         .map_err(|error| Error::io("the summary", error.to_string(), false).caused_by(error))?;
     if let Some(study) = study {
-        document["realisations"]["worn"] = worn_means::document(case, study);
+        add_study(&mut document["realisations"], case, study);
     }
     // The wear of supports stands under a key of its own, which a scene without supports does not
     // have.
@@ -154,6 +155,14 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         }
     }
     Ok(document)
+}
+
+/// Adds to a study of realisations of `case` what follows from it with the data of the case.
+fn add_study(out: &mut Value, case: &Case, study: &Realisations) {
+    out["worn"] = worn_means::document(case, study);
+    out["limit_m"] = json!(case.wear.limit);
+    out["seeds"] = realisations::seeds(case);
+    out["notes"] = json!(study.groups_in_words());
 }
 
 /// True for a scene without supports.

@@ -54,9 +54,9 @@ pub fn default_methods(scene: &Scene, chosen: Method, penalties: impl Iterator<I
     methods
 }
 
-/// Runs every method on `scene`, and the exact scheme where it has a law for the walls, the
-/// reference first. `progress` is called with the runs done, as a
-/// fraction. A method that fails is a row that gives the reason.
+/// Runs every method on `scene`, and the exact scheme where it has a law for the walls of the
+/// scene, the reference first. `progress` is called with the runs done, as a fraction. A method
+/// that fails is a row that gives the reason.
 ///
 /// # Errors
 /// [`Error::Invalid`] for times that make no sense. Errors of a method are in its row.

@@ -2,6 +2,7 @@
 
 use super::check::Check;
 use super::estimate::{Estimate, Interval, estimates};
+use super::groups::{PlaceGroups, groups};
 use super::realisation::Realisation;
 use serde::Serialize;
 
@@ -17,6 +18,8 @@ pub struct Realisations {
     pub refuted: Vec<u64>,
     /// The mean of every measure of every place.
     pub estimates: Vec<Estimate>,
+    /// Where the realisations fall into two groups.
+    pub groups: Vec<PlaceGroups>,
     /// The checks from which the parts of their errors come.
     pub checks: Vec<Check>,
     /// The realisations.
@@ -39,9 +42,16 @@ impl Realisations {
             interval,
             refuted: refuted.collect(),
             estimates: estimates(&members),
+            groups: groups(&members),
             checks: Vec::new(),
             members,
         }
+    }
+
+    /// Where the realisations fall into two groups, a sentence each.
+    #[must_use]
+    pub fn groups_in_words(&self) -> Vec<String> {
+        self.groups.iter().map(PlaceGroups::to_string).collect()
     }
 }
 
@@ -69,6 +79,17 @@ mod tests {
         assert!((estimate.mean - 3.0).abs() < 1e-15);
         assert!((estimate.standard_deviation.unwrap() - deviation).abs() < 1e-15);
         assert!((estimate.half_width_95.unwrap() - 3.182_446_305_284 * deviation / 2.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn realisations_of_two_attractors_are_told_apart() {
+        let values = [1.0, 5.0, 1.1, 5.2, 0.9, 5.1, 1.05];
+        let members = values.iter().enumerate().map(|(i, &x)| member(i as u64 + 1, x, None)).collect();
+        let [words] = &Realisations::new(members).groups_in_words()[..] else { panic!("one place") };
+        assert!(
+            words.contains("two groups at wall \"stop\": 4 with a mean force of 1.01 N in the mean and 3"),
+            "{words}"
+        );
     }
 
     #[test]

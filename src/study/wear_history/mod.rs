@@ -16,6 +16,9 @@
 //! 0.5 %, or the place of a centre by more than 0.5 % of the gap, unless that is within the scatter
 //! of the windows.
 //!
+//! Histories end where the first of them is worn through the wall of the tube, as far as it is
+//! known, or with the service. A mean over those that are left would be one of the slower ones.
+//!
 //! Under random loads several histories are followed side by side, each window with seeds of its
 //! own, so that the scatter of depths between histories is that of what was not averaged out.
 
@@ -23,7 +26,7 @@ mod state;
 mod support;
 mod window;
 
-pub use state::{WearHistories, WearPoint, WearState, mean};
+pub use state::{WearHistories, WearPoint, WearState, WornThrough, mean};
 pub use support::WearingSupport;
 pub use window::WearWindow;
 
@@ -45,6 +48,9 @@ const MOST_GROWTH: f64 = 0.5;
 
 /// Largest difference of Heun's and Euler's gap, as a share of the gap.
 const TOLERANCE: f64 = 0.005;
+
+/// The time at which a wall is worn through is known to the step over two to this power.
+const HALVINGS: usize = 50;
 
 /// The shortest step, as a share of the time in service.
 const SHORTEST: f64 = 1.0 / 1024.0;
@@ -89,6 +95,8 @@ impl WearPlan<'_> {
         let mut found = WearHistories {
             supports: self.supports.iter().map(|support| support.name.clone()).collect(),
             points: Vec::new(),
+            worn_through: None,
+            depths_at_end_m: Vec::new(),
             windows: 0,
             refuted: Vec::new(),
         };
@@ -98,7 +106,8 @@ impl WearPlan<'_> {
         loop {
             let rates = self.rates(&work, &mut found, kept, keep)?;
             found.points.push(self.point(time, &work, &rates));
-            if time >= self.service {
+            if time >= self.service || found.worn_through.is_some() {
+                found.depths_at_end_m = work.iter().map(|history| self.depths(history)).collect();
                 return Ok(found);
             }
             step = self.longest_step(&work, &rates).min(step).min(self.service - time);
@@ -107,15 +116,42 @@ impl WearPlan<'_> {
                 let then = self.rates(&ahead, &mut found, kept, keep)?;
                 let corrected = advanced(&work, &rates, &then, step);
                 if step <= SHORTEST * self.service || self.agree(&ahead, &corrected) {
-                    work = corrected;
+                    step = self.intact(&work, (&rates, &then), step);
+                    work = advanced(&work, &rates, &then, step);
                     break;
                 }
                 step *= 0.5;
             }
             time = if self.service - time <= step { self.service } else { time + step };
+            found.worn_through = self.worn_through(time, &work);
             step *= 2.0;
             progress(time / self.service);
         }
+    }
+
+    /// The first history that the work has worn through, at that time.
+    fn worn_through(&self, time: f64, work: &Works) -> Option<WornThrough> {
+        work.iter().enumerate().find_map(|(index, history)| {
+            let all = || self.supports.iter().zip(history);
+            let (support, _) = all().find(|(support, work)| support.is_worn_through(work))?;
+            let (history, support, wall_m) = (index + 1, support.name.clone(), support.wall?);
+            Some(WornThrough { history, support, wall_m, time_s: time })
+        })
+    }
+
+    /// How much of a step (s) with the mean of two rates passes until the first history is worn
+    /// through, s.
+    fn intact(&self, work: &Works, (first, second): (&Works, &Works), step: f64) -> f64 {
+        let is_worn_through = |part: f64| self.worn_through(0.0, &advanced(work, first, second, part)).is_some();
+        if !is_worn_through(step) {
+            return step;
+        }
+        let (mut before, mut after) = (0.0, step);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (before + after);
+            *(if is_worn_through(middle) { &mut after } else { &mut before }) = middle;
+        }
+        after
     }
 
     fn check(&self) -> Result<()> {
@@ -134,8 +170,8 @@ impl WearPlan<'_> {
         }
     }
 
-    /// The rates in a window of each history after the work `work` (J), which is run unless all of
-    /// them were kept, with the supports as they are after that work.
+    /// The rates in a window of each history after the work `work` (J), with the supports as they
+    /// are after that work; those that follow the ones that were kept are run.
     fn rates(
         &self,
         work: &Works,
@@ -145,20 +181,19 @@ impl WearPlan<'_> {
     ) -> Result<Works> {
         let (first, last) = (found.windows + 1, found.windows + self.histories as u64);
         let openings: Vec<Vec<Opening>> = work.iter().map(|history| self.openings(history)).collect();
-        let same = |windows: &&[WearWindow]| windows.iter().map(|window| &window.openings).eq(&openings);
-        let windows = match kept.get(found.windows as usize..last as usize).filter(same) {
-            Some(windows) => windows.to_vec(),
-            None => {
-                let of = |number: u64| openings.get((number - first) as usize).map_or(&[][..], Vec::as_slice);
-                let scene = |number: u64| (self.scene)(number, of(number));
-                let members = realisations(first..=last, &scene, self.method, self.options, &mut |_| {})?;
-                let window =
-                    |member: &Realisation| WearWindow::after(member, self.supports, of(member.number).to_vec());
-                let windows: Vec<_> = members.iter().map(window).collect();
-                windows.iter().try_for_each(keep)?;
-                windows
-            }
-        };
+        let there = kept.iter().skip(found.windows as usize).zip(&openings);
+        let same = there.take_while(|(window, openings)| window.openings == **openings);
+        let mut windows: Vec<WearWindow> = same.map(|(window, _)| window.clone()).collect();
+        let next = first + windows.len() as u64;
+        if next <= last {
+            let of = |number: u64| openings.get((number - first) as usize).map_or(&[][..], Vec::as_slice);
+            let scene = |number: u64| (self.scene)(number, of(number));
+            let members = realisations(next..=last, &scene, self.method, self.options, &mut |_| {})?;
+            let window = |member: &Realisation| WearWindow::after(member, self.supports, of(member.number).to_vec());
+            let run: Vec<_> = members.iter().map(window).collect();
+            run.iter().try_for_each(keep)?;
+            windows.extend(run);
+        }
         found.windows += self.histories as u64;
         let refuted = windows.iter().filter(|window| !window.findings.is_empty());
         found.refuted.extend(refuted.map(|window| (window.number, window.findings.clone())));
@@ -168,6 +203,11 @@ impl WearPlan<'_> {
     /// What the work (J) of a history has made of each support.
     fn openings(&self, history: &[WearWork]) -> Vec<Opening> {
         self.supports.iter().zip(history).map(|(support, work)| support.opening(work)).collect()
+    }
+
+    /// The depths that the work (J) of a history has worn off the tube at each support, m.
+    fn depths(&self, history: &[WearWork]) -> Vec<Vec<f64>> {
+        self.supports.iter().zip(history).map(|(support, work)| support.depths(work)).collect()
     }
 
     fn point(&self, time: f64, work: &Works, rates: &Works) -> WearPoint {

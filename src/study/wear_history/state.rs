@@ -44,6 +44,20 @@ impl WearPoint {
     }
 }
 
+/// The first history in which the tube is worn through.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct WornThrough {
+    /// Its number, from 1.
+    pub history: usize,
+    /// The name of the support.
+    pub support: String,
+    /// Thickness of the wall, m.
+    pub wall_m: f64,
+    /// Time in service, s.
+    pub time_s: f64,
+}
+
 /// Histories of wear.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -52,6 +66,11 @@ pub struct WearHistories {
     pub supports: Vec<String>,
     /// From the start to the end.
     pub points: Vec<WearPoint>,
+    /// Where the histories end before the time in service: the first that is worn through.
+    pub worn_through: Option<WornThrough>,
+    /// At the end of each history, of each support: the depth worn off the tube in each sector of a
+    /// round support, or at each flat, m; none of a tube that does not wear.
+    pub depths_at_end_m: Vec<Vec<Vec<f64>>>,
     /// Number of windows that were run, or had been run before.
     pub windows: u64,
     /// The windows that the judge refuted: number and findings.
@@ -67,6 +86,20 @@ pub fn mean(point: &WearPoint, support: usize, quantity: impl Fn(&WearState) -> 
 }
 
 impl WearHistories {
+    /// The mean over the histories of the depth at their end in each sector or at each flat of a
+    /// support, m, and the half width of its 95 % interval.
+    #[must_use]
+    pub fn mean_depths_at_end(&self, support: usize) -> Vec<(f64, Option<f64>)> {
+        let own: Vec<&Vec<f64>> = self.depths_at_end_m.iter().filter_map(|supports| supports.get(support)).collect();
+        let parts = own.first().map_or(0, |depths| depths.len());
+        let part = |part: usize| {
+            let values: Vec<f64> = own.iter().filter_map(|depths| depths.get(part).copied()).collect();
+            let (mean, _, half_width) = mean_of(&values);
+            (mean, half_width)
+        };
+        (0..parts).map(part).collect()
+    }
+
     /// The time in service at which the mean over the histories of a quantity of a support, which
     /// grows, reaches `limit`, s: straight between the points; `None` where it does not.
     #[must_use]

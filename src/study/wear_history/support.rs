@@ -15,6 +15,8 @@ pub struct WearingSupport {
     pub growth: Growth,
     /// The law of wear, with the coefficients of tube and support and a scar.
     pub law: Archard,
+    /// Thickness of the tube's wall, m; `None` where it is not known, or is no tube.
+    pub wall: Option<f64>,
 }
 
 impl WearingSupport {
@@ -49,6 +51,17 @@ impl WearingSupport {
     /// The gap of each wall after the work `work` (J), m.
     pub(super) fn gaps_after(&self, work: &WearWork) -> Vec<f64> {
         self.gaps.iter().zip(self.opening(work).recession).map(|(gap, receded)| gap + receded).collect()
+    }
+
+    /// True if the work `work` (J) has worn through the wall of the tube.
+    pub(super) fn is_worn_through(&self, work: &WearWork) -> bool {
+        let depth = self.law.deepest(self.growth, work);
+        self.wall.is_some_and(|wall| depth.is_nan() || depth >= wall)
+    }
+
+    /// The depth worn off the tube by the work `work` (J) in each sector, or at each flat, m.
+    pub(super) fn depths(&self, work: &WearWork) -> Vec<f64> {
+        self.law.depths(self.growth, work)
     }
 
     /// The state after the work `work` (J) at the work rate `rate` (W).

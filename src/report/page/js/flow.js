@@ -142,7 +142,7 @@ function correlationOfModes({ columns, rows }, looks) {
       { kind: "points", look: looks.recovered, x: points.map(({ x }) => x), y: points.map(({ y }) => y) },
     ];
     plot.redraw();
-    const table = DATA.summary.case_file?.turbulence?.[parseInt(field, 10) - 1];
+    const table = DATA.summary?.case_file?.turbulence?.[parseInt(field, 10) - 1];
     const length = table?.correlation_length;
     const scatter = Math.max(...own.map((i) => columns.scatter[i]));
     told.textContent =

@@ -62,9 +62,23 @@ function textSection() {
     notes.length ? el("ul", { class: "notes" }, notes) : null,
     DATA.command ? el("pre", { tabindex: 0 }, DATA.command) : null,
     folded("The case", DATA.case),
-    folded("The summary, every number", DATA.summary && JSON.stringify(DATA.summary, null, 2)),
+    folded(DATA.wear ? "The summary of the first window, every number" : "The summary, every number", DATA.summary && JSON.stringify(DATA.summary, null, 2)),
     el("div", { class: "bar controls" }, buttons),
   );
+}
+
+/** The motion of the first window of wear, whose other sections follow as on the page of a run. */
+function oneMotion() {
+  const { seeds } = DATA.wear;
+  firstInstant();
+  section(
+    "one-motion",
+    "One motion",
+    `History 1${seeds > 1 ? ` of ${seeds}` : ""}, its first window: the run in the gaps of the start. ` +
+      "What follows is of this run alone; first-window/ has its files.",
+  );
+  heroSection();
+  motionSection();
 }
 
 function saveMotion() {
@@ -128,9 +142,10 @@ if (DATA.kind === "run" && DATA.summary.realisations) {
     (count) => `${count} realisations`,
   );
   whereSection();
+  realisationsSection();
 }
 if (DATA.compare && DATA.compare.means) methodMeansSection();
-if (lead && lead.probes.length && duration > 0) {
+if (lead && !DATA.wear && lead.probes.length && duration > 0) {
   if (DATA.compare && DATA.horizon) view.set(0, DATA.horizon);
   firstInstant();
   heroSection();
@@ -138,31 +153,43 @@ if (lead && lead.probes.length && duration > 0) {
 if (DATA.orbit) orbitHead();
 if (DATA.facts) page.append(factsOf(DATA.facts));
 if (DATA.compare) compareSection();
-if (lead && lead.probes.length) motionSection();
+if (lead && !DATA.wear && lead.probes.length) motionSection();
 if (DATA.chart) chartSection();
 if (DATA.stability) stabilitySection();
 if (DATA.sweep) sweepSection();
 if (DATA.wear) {
   wearSection();
+  if (DATA.scene) wornWhereSection();
+  realisationsSection();
   if (DATA.wear.first)
     meansSection(
       DATA.wear.first,
       "Work rates and forces of the first runs",
       (count) => `the first runs of the ${count} histories, in the gaps of the start`,
     );
+  if (DATA.turbulence || DATA.margins) flowSection();
+  if (lead && lead.probes.length && duration > 0) oneMotion();
 }
 if (DATA.continue) branchSection();
 if (DATA.orbit) orbitSections();
 if (lead && lead.probes.length) phaseSection();
-if (DATA.kind === "run" && (DATA.summary.supports || []).length) {
-  if (!DATA.summary.realisations) whereSection();
+const hasSupports = ["run", "wear"].includes(DATA.kind) && (DATA.summary?.supports || []).length > 0;
+if (hasSupports) {
+  if (DATA.kind === "run" && !DATA.summary.realisations) whereSection();
   supportSection();
 }
 if (lead && runs.some((run) => run.contacts.count)) contactSection();
 if (DATA.derivatives) derivativeSection();
-if (DATA.turbulence || DATA.margins) flowSection();
+if (!DATA.wear && (DATA.turbulence || DATA.margins)) flowSection();
 if (DATA.kind === "run" && DATA.summary.statistics && DATA.summary.statistics.walls.length)
   statisticsSection();
+if (hasSupports || DATA.wear)
+  definitionSection([
+    ...SUPPORT_WORDS,
+    ...(DATA.wear || DATA.summary.realisations?.worn?.length ? DEPTH_WORDS : []),
+    ...(DATA.wear ? HISTORY_WORDS : []),
+    ...((DATA.draws?.seeds || []).length ? DRAW_WORDS : []),
+  ]);
 textSection();
 menu.append(
   ...sections

@@ -60,16 +60,10 @@ function supportPlot({ support, worn, pair: [y, z] }) {
     const [cx, cy] = [X(centre[0]), Y(centre[1])];
     if (!(most > 0)) return;
     ctx.fillStyle = clear(placeColour(support.name), 0.65);
-    for (const sector of worn.sectors) {
-      const [from, to] = [sector.from_deg, sector.to_deg].map((deg) => (-deg * TURN) / 360);
-      const inner = RING[0] * reach * factor * scale(plot);
-      const outer = inner + (sector.work_rate_w / most) * RING[1] * reach * factor * scale(plot);
-      ctx.beginPath();
-      ctx.arc(cx, cy, inner, from, to, true);
-      ctx.arc(cx, cy, outer, to, from, false);
-      ctx.closePath();
-      ctx.fill();
-    }
+    const inner = RING[0] * reach * factor * scale(plot);
+    const high = RING[1] * reach * factor * scale(plot);
+    const parts = worn.sectors.map(({ from_deg: from, to_deg: to, work_rate_w: work }) => ({ from, to, work }));
+    drawWedges(ctx, cx, cy, inner, parts, ({ work }) => inner + (work / most) * high);
   }
   const plot = new Plot({
     x: `Displacement along y (${unit})`,

@@ -1,6 +1,6 @@
 // Where along the structure its supports wear: a bar at the place of each, with its interval.
 
-/** What is drawn: the measure of realisations, its label, and [value, half width] of one run. */
+/** What is drawn of a run: the measure of realisations, its label, and [value, half width]. */
 const WHERE_MEASURES = [
   [
     "work_rate",
@@ -19,18 +19,35 @@ const WHERE_MEASURES = [
   ],
 ];
 
-/** Supports that have a position along the structure: where there are two or more. One between two
- *  bodies stands on both. */
-function placedSupports() {
-  const { supports, statistics } = DATA.summary;
+/** What is drawn of wear over the years: the quantity of years.csv, its unit, and its label. */
+const WHERE_WORN = [
+  ["depth_deepest", "m", "Deepest wear (mm)", 1e3],
+  ["depth_all_round", "m", "Wear all round (mm)", 1e3],
+  ["gap", "m", "Gap (mm)", 1e3],
+  ["work_rate", "W", "Work rate (W)", 1],
+];
+
+/** Supports that have a position along the structure, of those that are `known`: where there are
+ *  two or more, or a line that is drawn to its ends. One between two bodies stands on both. */
+function placedSupports(known) {
   const placed = DATA.scene.supports.flatMap(({ name, at }) => {
+    const places = [at, at && at.body && at.relative_to].filter((place) => place);
+    return places.map(({ body, position }) => ({ ...known(name), name, body, position }));
+  });
+  const there = placed.filter(({ position, name }) => position >= 0 && known(name));
+  return there.length > 1 || (there.length && DATA.scene.ends)
+    ? there.sort((a, b) => a.position - b.position)
+    : [];
+}
+
+/** The supports of a run with their statistics. */
+function supportsOfRun() {
+  const { supports, statistics } = DATA.summary;
+  return placedSupports((name) => {
     const worn = (supports || []).find(({ support }) => support === name);
     const contact = statistics.supports.find(({ support }) => support === name);
-    const places = [at, at && at.body && at.relative_to].filter((place) => place);
-    return places.map(({ body, position }) => ({ name, body, position, worn, contact }));
+    return worn && contact && { worn, contact };
   });
-  const known = placed.filter(({ position, worn, contact }) => position >= 0 && worn && contact);
-  return known.length > 1 ? known.sort((a, b) => a.position - b.position) : [];
 }
 
 /** The value of a measure at a support and the half width of its interval: the mean over the
@@ -44,49 +61,84 @@ function valueWhere(support, [measure, , ofRun]) {
   return mean ? [mean.mean, mean.half_width_95] : [NaN, NaN];
 }
 
+/** Where the supports of a run wear. */
 function whereSection() {
-  const supports = placedSupports();
-  if (!supports.length) return;
-  const choice = { index: 0 };
+  const supports = supportsOfRun();
+  const many = DATA.summary.realisations;
+  const around = many ? sectorParts() : null;
+  if (!supports.length && !around) return;
+  const measures = WHERE_MEASURES.map((measure) => ({
+    label: measure[1],
+    of: (support) => valueWhere(support, measure),
+  }));
+  section(
+    "where",
+    "Where",
+    many
+      ? "The means over the realisations at each support along the structure, with their 95 % intervals." +
+          (around ? " Around each support: the means of each sector, with theirs; depths are those within the service." : "")
+      : "Each support along the structure, with the 95 % interval of its mean over time where it has one.",
+    alongParts(supports, measures),
+    around,
+  );
+}
+
+/** Where wear is at the end of a study over the years. */
+function wornWhereSection() {
+  const { columns, rows } = tableOf(DATA.wear.years);
+  const lastOf = (name) => rows.filter((i) => columns.place[i] === name).pop();
+  const supports = placedSupports((name) => lastOf(name) !== undefined && {});
+  const around = sectorParts();
+  if (!supports.length && !around) return;
+  const limit = 1e3 * DATA.draws.limit;
+  const measures = WHERE_WORN.map(([quantity, unit, label, factor]) => ({
+    label,
+    limit: quantity === "depth_deepest" && limit > 0 ? limit : null,
+    of: ({ name }) =>
+      [`${quantity}_${unit}`, `${quantity}_half_width_95_${unit}`].map(
+        (column) => factor * (columns[column] || [])[lastOf(name)],
+      ),
+  }));
+  const year = columns.year[rows[rows.length - 1]];
+  const mean = DATA.wear.seeds > 1 ? ", in the mean over the histories with 95 % intervals" : "";
+  section(
+    "where",
+    "Where",
+    `At the end of the study, after ${digits(year)} years${mean}: along the structure, and what the tube has lost in each direction around each support.`,
+    alongParts(supports, measures),
+    around,
+  );
+}
+
+/** Bars along the structure, of the measure that is chosen. */
+function alongParts(supports, measures) {
+  if (!supports.length) return null;
   const box = el("div");
-  const build = () => {
+  const build = (measure) => {
     dropPlots(box);
-    const measure = WHERE_MEASURES[choice.index];
     const bodies = DATA.scene.bodies.length ? DATA.scene.bodies : [DATA.scene];
-    const plots = bodies.map(({ name, length }) => {
+    const plots = bodies.map(({ name, ends }) => {
       const here = supports.filter(({ body }) => body === name);
-      return here.length ? wherePlot(here, measure, name, length) : null;
+      return here.length ? wherePlot(here, measure, name, ends) : null;
     });
     box.replaceChildren(...plots.filter((plot) => plot));
     refreshAll();
   };
-  const names = WHERE_MEASURES.map(([, label], i) => [String(i), label]);
-  section(
-    "where",
-    "Where",
-    DATA.summary.realisations
-      ? "The means over the realisations at each support along the structure, with their 95 % intervals."
-      : "Each support along the structure, with the 95 % interval of its mean over time where it has one.",
-    el(
-      "div",
-      { class: "bar controls" },
-      segmented("Measure", names, "0", (i) => {
-        choice.index = +i;
-        build();
-      }),
-    ),
-    box,
-  );
-  build();
+  const names = measures.map(({ label }, i) => [String(i), label]);
+  const choose = segmented("Measure", names, "0", (i) => build(measures[+i]));
+  build(measures[0]);
+  return [el("div", { class: "bar controls" }, choose), box];
 }
 
 /** Bars at the supports over the line of the structure, or of one of its bodies. */
-function wherePlot(supports, measure, body, ownLength) {
-  const values = supports.map((support) => valueWhere(support, measure));
+function wherePlot(supports, { label, limit, of }, body, ownEnds) {
+  const values = supports.map(of);
   const ends = values.flatMap(([value, half]) => [value - (half || 0), value + (half || 0)]);
-  const highest = Math.max(0, ...ends.filter(Number.isFinite));
+  const most = Math.max(0, ...ends.filter(Number.isFinite));
+  const shown = limit && limit < LIMIT_NEAR * most ? limit : null;
+  const highest = Math.max(most, shown || 0);
   const last = supports[supports.length - 1].position;
-  const length = ownLength > 0 ? ownLength : last + supports[0].position;
+  const [first, length] = ownEnds || [0, last + supports[0].position];
   const draw = (ctx, plot) => {
     const floor = plot.sy(0);
     ctx.textAlign = "center";
@@ -116,7 +168,7 @@ function wherePlot(supports, measure, body, ownLength) {
     ctx.strokeStyle = ink.wall;
     ctx.lineWidth = 4;
     ctx.beginPath();
-    ctx.moveTo(plot.sx(0), floor);
+    ctx.moveTo(plot.sx(first), floor);
     ctx.lineTo(plot.sx(length), floor);
     ctx.stroke();
   };
@@ -126,12 +178,13 @@ function wherePlot(supports, measure, body, ownLength) {
   });
   const plot = new Plot({
     x: `Position along ${body || "the structure"} (m)`,
-    y: measure[1],
+    y: label,
     height: 260,
     left: 80,
-    alt: `${measure[1]} at each support: ${told.join("; ")}`,
+    alt: `${label} at each support: ${told.join("; ")}`,
     range: () => [-0.04 * (highest || 1), 1.25 * (highest || 1)],
-    series: [{ kind: "own", look: lookOf(0), x: [0, length], y: [], draw }],
+    series: [{ kind: "own", look: lookOf(0), x: [first, length], y: [], draw }],
+    marks: shown ? [{ y: shown, label: "limit" }] : [],
   });
   return plot.box;
 }
