@@ -20,8 +20,8 @@ pub struct Seeds {
     /// that takes (Stein)
     #[arg(long, value_name = "SHARE", conflicts_with = "count", allow_hyphen_values = true)]
     pub(in crate::cli) until_interval: Option<String>,
-    /// Most realisations of --until-interval, and of --accuracy under random loads; exit code 1
-    /// where more are needed [default: 200]
+    /// Most realisations of --until-interval, and of --accuracy of means; exit code 1 where more
+    /// are needed [default: 200]
     #[arg(long, value_name = "N")]
     pub(in crate::cli) most_seeds: Option<u64>,
 }
@@ -34,7 +34,8 @@ impl Seeds {
     /// without a random load, and where a seed would exceed 2^53.
     pub fn check(&self, case: &Case) -> Result<Option<RealisationCount>> {
         if let (Some(most), None) = (self.most_seeds, &self.until_interval) {
-            let expected = "--until-interval beside it, or --accuracy of a case with random loads: it is their limit";
+            let expected = "--until-interval beside it, or --accuracy of means over random loads or scattered starts: \
+                            it is their limit";
             return Err(Error::invalid("--most-seeds", most, expected));
         }
         let share = self.until_interval.as_ref().map(|text| share("--until-interval", text)).transpose()?;
@@ -46,14 +47,30 @@ impl Seeds {
         Ok(count)
     }
 
+    /// Refuses a number and an interval beside the error of one motion.
+    ///
+    /// # Errors
+    /// As [`Seeds::check`] of a case without a random load, and [`Error::Invalid`] of others.
+    pub fn check_beside_motion(&self, case: &Case) -> Result<()> {
+        let asked = Self { most_seeds: None, ..self.clone() };
+        match asked.check(case)? {
+            None => Ok(()),
+            Some(count) => {
+                let expected = "no realisations beside --accuracy of one motion";
+                let argument = if self.count.is_some() { "--seeds" } else { "--until-interval" };
+                Err(Error::invalid(argument, count.most(), expected))
+            }
+        }
+    }
+
     /// The most realisations of `case` that an error of its means may take.
     ///
     /// # Errors
     /// [`Error::Invalid`] beside a number or an interval, which follow from the error; and where a
     /// seed would exceed 2^53.
     pub fn most_beside_accuracy(&self, case: &Case) -> Result<u64> {
-        let expected = "no such argument beside --accuracy of a case with random loads: the number of realisations \
-                        follows from it, and --most-seeds limits it";
+        let expected = "no such argument beside --accuracy of means: the number of realisations follows from it, and \
+                        --most-seeds limits it";
         if let Some(count) = self.count {
             return Err(Error::invalid("--seeds", count, expected));
         }

@@ -54,7 +54,7 @@ pub fn default_methods(scene: &Scene, chosen: Method, penalties: impl Iterator<I
     methods
 }
 
-/// Runs every method on `scene`, and the exact scheme where it has a law for the walls of the scene,
+/// Runs every method on `scene`, and the exact scheme where it has a law for the scene's walls,
 /// the reference first. `progress` is called with the runs done, as a
 /// fraction. A method that fails is a row that gives the reason.
 ///
