@@ -115,6 +115,7 @@ impl Args {
         if let Some(share) = &self.seeds.until_interval {
             asked.insert("until_interval".to_owned(), json!(share));
             asked.insert("most_seeds".to_owned(), json!(self.seeds.most_seeds));
+            asked.insert("most_time".to_owned(), json!(self.seeds.most_time));
         }
         if let Some(keys) = self.derivatives.asked() {
             asked.insert("derivative".to_owned(), json!(keys));

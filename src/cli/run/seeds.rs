@@ -2,10 +2,10 @@
 
 use crate::case::Case;
 use crate::cli::pipeline::Answer;
-use crate::cli::realisations::{of_argument, share, show_errors};
+use crate::cli::realisations::{of_argument, seconds, share, show_errors};
 use crate::error::{Error, Result};
 use crate::output::{realisations as output, worn_means};
-use crate::study::realisations::{MOST_REALISATIONS, RealisationCount, RealisationStudy};
+use crate::study::realisations::{MOST_REALISATIONS, RealisationCount, RealisationStudy, TimeLimit};
 
 /// How often the run is repeated.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -24,6 +24,11 @@ pub struct Seeds {
     /// are needed [default: 200]
     #[arg(long, value_name = "N")]
     pub(in crate::cli) most_seeds: Option<u64>,
+    /// Most time of --until-interval: 10min, 90s. The pilots say how many realisations, with the
+    /// checks for their errors, fit into it on this machine; exit code 1 where that are fewer than
+    /// the interval needs
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(in crate::cli) most_time: Option<String>,
 }
 
 impl Seeds {
@@ -38,13 +43,25 @@ impl Seeds {
                             it is their limit";
             return Err(Error::invalid("--most-seeds", most, expected));
         }
+        let limit = self.most_time()?;
+        if let (Some(text), None) = (&self.most_time, &self.until_interval) {
+            let expected = "--until-interval beside it: it limits the number of its realisations";
+            return Err(Error::invalid("--most-time", text, expected));
+        }
         let share = self.until_interval.as_ref().map(|text| share("--until-interval", text)).transpose()?;
         let count = RealisationCount::new(self.count, share, self.most_seeds).map_err(of_argument)?;
+        let count = count.map(|count| limit.map_or(count, |limit| count.within_time(limit)));
         if let Some(count) = count {
             case.check_random(count).map_err(of_argument)?;
             case.realisation(count.most())?;
         }
         Ok(count)
+    }
+
+    /// The time that the study may take from now on, where one is named.
+    fn most_time(&self) -> Result<Option<TimeLimit>> {
+        let limit = |text: &String| TimeLimit::from_now(seconds("--most-time", text)?);
+        self.most_time.as_ref().map(limit).transpose()
     }
 
     /// Refuses a number and an interval beside the error of one motion.
@@ -76,6 +93,9 @@ impl Seeds {
         }
         if let Some(share) = &self.until_interval {
             return Err(Error::invalid("--until-interval", share, expected));
+        }
+        if let Some(text) = &self.most_time {
+            return Err(Error::invalid("--most-time", text, expected));
         }
         let most = self.most_seeds.unwrap_or(MOST_REALISATIONS);
         case.realisation(most.max(1))?;
