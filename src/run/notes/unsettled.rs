@@ -24,13 +24,13 @@ pub(crate) fn unsettled(scene: &Scene, statistics: &Statistics) -> Option<String
         Some(from) => {
             let at = amount(from, 4);
             format!(
-                "still settling: {place} is {first} {unit} in the beginning of the window and {rest} {unit} in the rest, \
-                 by more than it scatters; begin the statistics at t = {at} s (time.statistics_from={at})"
+                "still settling: {place} is {first} {unit} in the beginning of the window and {rest} {unit} in the \
+                 rest, by more than it scatters; begin the statistics at t = {at} s (time.statistics_from={at})"
             )
         }
         None => format!(
-            "still settling: {place} is {first} {unit} in the beginning of the window and {rest} {unit} in the rest, and \
-             no half of the window is alike; a later time.statistics_from and a later time.end tell what it comes to"
+            "still settling: {place} is {first} {unit} in the beginning of the window and {rest} {unit} in the rest, \
+             and no half of it is alike; a later time.statistics_from and a later time.end tell what it comes to"
         ),
     })
 }

@@ -72,7 +72,7 @@ impl RealisationPlan<'_> {
                 let run_s = began.elapsed().as_secs_f64() / (PILOTS - 1) as f64;
                 let needed = NeededRealisations::from_pilots(&members, share);
                 let wanted = needed.as_ref().map_or(PILOTS, |needed| needed.count);
-                let affordable = most_time.map(|limit| limit.affordable(run_s, self.runs_of_checks()));
+                let affordable = most_time.map(|limit| limit.affordable(PILOTS, run_s, self.runs_of_checks()));
                 let count = wanted.min(most).min(affordable.unwrap_or(most));
                 let most_time_s = most_time.filter(|_| count < wanted.min(most)).map(|limit| limit.seconds());
                 tell(&Pilots { needed, share, count, most_time_s });

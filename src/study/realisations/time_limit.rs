@@ -1,6 +1,5 @@
 //! How many realisations fit into a time.
 
-use super::count::PILOTS;
 use crate::error::{Error, Result};
 use std::time::Instant;
 
@@ -38,20 +37,20 @@ impl TimeLimit {
         self.seconds
     }
 
-    /// The most realisations that fit into what is left of the time after the pilots, where a run
+    /// The most realisations that fit into what is left of the time after so many `pilots`, where a run
     /// takes `run_s` seconds, as many at once as there are cores, and `others` runs have to be made
     /// besides.
-    pub(super) fn affordable(&self, run_s: f64, others: f64) -> u64 {
-        fitting(self.seconds - self.began.elapsed().as_secs_f64(), run_s, others, self.runs_each)
+    pub(super) fn affordable(&self, pilots: u64, run_s: f64, others: f64) -> u64 {
+        fitting(pilots, self.seconds - self.began.elapsed().as_secs_f64(), run_s, others, self.runs_each)
     }
 }
 
-/// The most realisations of `runs_each` runs each, of which the pilots have had their first, that
-/// fit into `left` seconds beside `others` runs; never fewer than the pilots.
-fn fitting(left: f64, run_s: f64, others: f64, runs_each: f64) -> u64 {
-    let runs = left / run_s - others + PILOTS as f64;
+/// The most realisations of `runs_each` runs each, of which the `pilots` have had their first,
+/// that fit into `left` seconds beside `others` runs; never fewer than the pilots.
+fn fitting(pilots: u64, left: f64, run_s: f64, others: f64, runs_each: f64) -> u64 {
+    let runs = left / run_s - others + pilots as f64;
     // Rounding shall not lose a realisation; infinite where runs take no time.
-    ((runs / runs_each * (1.0 + f64::EPSILON)).floor().max(0.0) as u64).max(PILOTS)
+    ((runs / runs_each * (1.0 + f64::EPSILON)).floor().max(0.0) as u64).max(pilots)
 }
 
 #[cfg(test)]
@@ -62,15 +61,15 @@ mod tests {
     fn what_is_left_of_the_time_is_spent_on_whole_realisations_after_the_checks() {
         // 60 s left at 2 s a run are 30 runs; 12 of them with half the step leave 18, beside the 6
         // that have been made.
-        assert_eq!(fitting(60.0, 2.0, 12.0, 1.0), 24);
-        assert_eq!(fitting(61.9, 2.0, 12.0, 1.0), 24);
-        assert_eq!(fitting(62.0, 2.0, 12.0, 1.0), 25);
+        assert_eq!(fitting(6, 60.0, 2.0, 12.0, 1.0), 24);
+        assert_eq!(fitting(6, 61.9, 2.0, 12.0, 1.0), 24);
+        assert_eq!(fitting(6, 62.0, 2.0, 12.0, 1.0), 25);
         // Of histories of seven windows each: 7 N - 6 runs are 30 at most.
-        assert_eq!(fitting(72.0, 2.0, 0.0, 7.0), 6);
-        assert_eq!(fitting(2.0 * (7.0 * 9.0 - 6.0), 2.0, 0.0, 7.0), 9);
+        assert_eq!(fitting(6, 72.0, 2.0, 0.0, 7.0), 6);
+        assert_eq!(fitting(6, 2.0 * (7.0 * 9.0 - 6.0), 2.0, 0.0, 7.0), 9);
         // The pilots have been made, however late it is; and runs without a duration always fit.
-        assert_eq!((fitting(-5.0, 2.0, 12.0, 1.0), fitting(1.0, 2.0, 12.0, 1.0)), (PILOTS, PILOTS));
-        assert_eq!(fitting(1.0, 0.0, 12.0, 1.0), u64::MAX);
+        assert_eq!((fitting(6, -5.0, 2.0, 12.0, 1.0), fitting(6, 1.0, 2.0, 12.0, 1.0)), (6, 6));
+        assert_eq!(fitting(6, 1.0, 0.0, 12.0, 1.0), u64::MAX);
     }
 
     #[test]
