@@ -12,10 +12,10 @@
 //! Contact statistics for wear models, over one window; `force.rs` sums up each wall's force over
 //! time, piece by piece of each step (`step_force.rs`), `support.rs` that of each support,
 //! `largest_force.rs` finds the stretch in which it is largest, `wear_tally.rs` sums up the work of
-//! wear of every support; `batch.rs` and `student.rs` make intervals; `settling.rs` finds windows that
-//! begin too early; `episodes.rs` joins contacts into episodes, `distribution.rs` counts them, `summary.rs` has mean and largest, `place.rs`
-//! names where they are, `spectrum.rs` estimates spectra, `recovered.rs` compares those of
-//! turbulent forces with what was asked.
+//! wear of every support; `batch.rs` and `student.rs` make intervals; `settling.rs` finds windows
+//! that begin too early; `episodes.rs` joins contacts into episodes, `distribution.rs` counts them,
+//! `summary.rs` has mean and largest, `place.rs` names where they are, `spectrum.rs` estimates
+//! spectra, `recovered.rs` compares those of turbulent forces with what was asked.
 
 mod batch;
 mod distribution;

@@ -138,9 +138,10 @@ mod tests {
     #[test]
     fn of_a_thousand_stationary_series_one_in_twenty_at_most_is_said_to_be_unsettled() {
         // Normal batches, and batches of 20 values of an AR(1) process of φ = 0.8, whose
-        // correlation lasts for 4.5 of them. Both tests together err in at most 5 % of the former, less where
-        // they agree: of 1000 series in 50 ± 7; three times that are allowed, and a tenth of the 50
-        // is asked for, so that the tests do something. Correlated batches err a little more often.
+        // correlation lasts for 4.5 of them. Both tests together err in at most 5 % of the former,
+        // less where they agree: of 1000 series in 50 ± 7; three times that are allowed, and a
+        // tenth of the 50 is asked for, so that the tests do something. Correlated batches err a
+        // little more often.
         let series = 1000;
         let count = |values: &dyn Fn(u64) -> Vec<f64>| {
             let said = |stream: &u64| {

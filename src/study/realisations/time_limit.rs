@@ -37,9 +37,9 @@ impl TimeLimit {
         self.seconds
     }
 
-    /// The most realisations that fit into what is left of the time after so many `pilots`, where a run
-    /// takes `run_s` seconds, as many at once as there are cores, and `others` runs have to be made
-    /// besides.
+    /// The most realisations that fit into what is left of the time after so many `pilots`, where a
+    /// run takes `run_s` seconds, as many at once as there are cores, and `others` runs have to be
+    /// made besides.
     pub(super) fn affordable(&self, pilots: u64, run_s: f64, others: f64) -> u64 {
         fitting(pilots, self.seconds - self.began.elapsed().as_secs_f64(), run_s, others, self.runs_each)
     }
