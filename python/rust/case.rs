@@ -192,7 +192,10 @@ impl Case {
     /// ----------
     /// scheme, step, accuracy : optional
     ///     As in `Scene.run`; a step in place of that of the file. Under random loads the accuracy
-    ///     is one of means: `realisations` has it.
+    ///     is one of means, unless ``of`` says otherwise.
+    /// of : {"motion", "means"}, optional
+    ///     What the accuracy is one of. A run has that of its motion; that of means over
+    ///     realisations is refused here: `realisations` has it, of a chaotic motion too.
     ///
     /// Returns
     /// -------
@@ -214,13 +217,22 @@ impl Case {
     /// >>> import signorini as sg
     /// >>> sg.load("rigid-walls-sine", set={"time.end": 2.0}).run()
     /// <Run: located, 2001 rows to 2.0 s, 20 contacts>
-    #[pyo3(signature = (scheme=None, *, step=None, accuracy=None))]
-    fn run(&self, py: Python<'_>, scheme: Option<&str>, step: Option<f64>, accuracy: Option<f64>) -> PyResult<Py<Run>> {
+    #[pyo3(signature = (scheme=None, *, step=None, accuracy=None, of=None))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        scheme: Option<&str>,
+        step: Option<f64>,
+        accuracy: Option<f64>,
+        of: Option<&str>,
+    ) -> PyResult<Py<Run>> {
         let (scene, time) = (self.scene.bind(py), &self.case.time);
+        let one_motion = one_motion(of, accuracy)?;
         if let Some(tolerance) = accuracy {
-            if self.case.judges_means() {
+            if self.case.judges_means() && !one_motion {
                 let expected = "none for one run of a random load, which is a draw: sg.realisations(case, \
-                                accuracy=...) finds the step for the error of means";
+                                accuracy=...) finds the step for the error of means, of=\"motion\" for that of this \
+                                draw";
                 return Err(wrong("accuracy", format!("{tolerance:?}"), expected));
             }
             let rows = (time.sample, time.statistics_from);
@@ -266,4 +278,19 @@ impl Case {
         let title = self.case.title.as_deref().unwrap_or("without a title");
         format!("<Case {}: {title}>", self.case.name)
     }
+}
+
+/// True if the accuracy of one motion is asked for by its name.
+///
+/// # Errors
+/// `ValueError` for another name, and without an accuracy.
+fn one_motion(of: Option<&str>, accuracy: Option<f64>) -> PyResult<bool> {
+    let Some(of) = of else { return Ok(false) };
+    let expected = match (of, accuracy) {
+        (_, None) => "accuracy beside it: it says what that is one of",
+        ("motion", _) => return Ok(true),
+        ("means", _) => "\"motion\" for a run: sg.realisations(case, accuracy=...) has the accuracy of means",
+        _ => "\"motion\"; sg.realisations(case, accuracy=...) has the accuracy of means",
+    };
+    Err(wrong("of", format!("{of:?}"), expected))
 }

@@ -156,9 +156,17 @@ pub fn _realisations<'py>(
     let done = RunsDone::default();
     let mut watch = |py: Python<'_>| done.tell(progress.bind(py));
     if let Some(share) = accuracy {
-        let most = most_beside_accuracy(asked, step, verdict, case)?;
+        let most = most_beside_accuracy(asked, step, verdict)?;
+        let start_scatter = (!case.is_random()).then(|| case.start_scatter());
+        let case = &case.with_scattered_start().map_err(|error| match case.scene.walls.is_empty() {
+            true => wrong("accuracy", format!("{share:?}"), "a case with a wall or support: its forces have means"),
+            false => raise(error),
+        })?;
+        case.realisation(most.max(1)).map_err(raise)?;
         case.step_search(&plan.method, share, most).validate().map_err(raise)?;
-        let (study, notes, accuracy) = compute_beside(py, || accurate(case, &plan, (share, most), &done), &mut watch)?;
+        let found = compute_beside(py, || accurate(case, &plan, (share, most), &done), &mut watch)?;
+        let (study, notes, mut accuracy) = found;
+        accuracy.start_scatter = start_scatter;
         let mut told = told(&study, &notes, case);
         told["accuracy"] = json!(accuracy);
         return loads(py, &told.to_string());
@@ -171,14 +179,9 @@ pub fn _realisations<'py>(
     loads(py, &told(&study, &notes, case).to_string())
 }
 
-/// The most realisations of `case` that an accuracy may take, unless something stands beside it
+/// The most realisations that an accuracy may take, unless something stands beside it
 /// from which it cannot be told.
-fn most_beside_accuracy(
-    (seeds, until_interval, most): Asked,
-    step: Option<f64>,
-    verdict: bool,
-    case: &sg::case::Case,
-) -> PyResult<u64> {
+fn most_beside_accuracy((seeds, until_interval, most): Asked, step: Option<f64>, verdict: bool) -> PyResult<u64> {
     let follows = "none beside accuracy: the number of realisations follows from it, and most_seeds limits it";
     if let Some(step) = step {
         return Err(wrong("step", format!("{step:?}"), "no step beside accuracy, which finds one"));
@@ -192,12 +195,6 @@ fn most_beside_accuracy(
     if !verdict {
         return Err(wrong("verdict", "False", "True beside accuracy: checks with half the step find the step"));
     }
-    if !case.judges_means() {
-        let expected = "a case with a random load and a wall or support: Case.run has the accuracy of one motion";
-        return Err(wrong("accuracy", "given", expected));
-    }
     let most = most.map_or(Ok(MOST_REALISATIONS), u64::try_from);
-    let most = most.map_err(|_| wrong("most_seeds", "negative", "6 or more: so many are run first"))?;
-    case.realisation(most.max(1)).map_err(raise)?;
-    Ok(most)
+    most.map_err(|_| wrong("most_seeds", "negative", "6 or more: so many are run first"))
 }

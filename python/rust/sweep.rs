@@ -190,7 +190,7 @@ fn drawn(sweep: Sweep, random: Option<Drawn>) -> PyResult<Sweep> {
 fn repeated(sweep: Sweep, given: Asked) -> PyResult<Sweep> {
     Ok(match realisations::asked(given)? {
         None => sweep,
-        Some(RealisationCount::Within { share, most }) => sweep.until_interval(share, Some(most)).map_err(raise)?,
+        Some(RealisationCount::Within { share, most, .. }) => sweep.until_interval(share, Some(most)).map_err(raise)?,
         Some(count) => sweep.realisations(count.most()),
     })
 }

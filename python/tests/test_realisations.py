@@ -187,5 +187,32 @@ def test_an_accuracy_of_means_has_the_step_that_was_found_or_warns_and_is_refuse
             sg.realisations(tube(), accuracy=0.2, **wrong)
     with pytest.raises(ValueError, match="sg.realisations"):
         tube().run(accuracy=0.2)
-    with pytest.raises(ValueError, match="a random load and a wall"):
-        sg.realisations(sg.load("rigid-walls-sine"), accuracy=0.2)
+    mass = {"mass": 1.0, "damping": 0.0, "stiffness": 4.0}
+    free = sg.case({"system": {"oscillator": mass}, "time": {"end": 1.0, "step": 1e-3}})
+    with pytest.raises(ValueError, match="a case with a wall or support"):
+        sg.realisations(free, accuracy=0.2)
+
+
+def test_a_chaotic_motion_has_means_and_an_accuracy_says_what_it_is_one_of() -> None:
+    window = {"time.end": 30.0, "time.statistics_from": 10.0}
+    chaotic = sg.load("rigid-walls-sine", set=window)
+    study = sg.realisations(chaotic, accuracy=0.3)
+    # 5 mm in a period of 0.2 s: a ten-thousandth of it, as a power of ten.
+    assert study.accuracy is not None and study.accuracy["start_scatter"] == 1e-6
+    assert study.accuracy["of"] == "means" and study.accuracy["reached"] <= 0.3
+    scattered = sg.load("rigid-walls-sine", set={**window, "initial.scatter.velocity": 1e-6})
+    again = sg.realisations(scattered, accuracy=0.3)
+    assert again.accuracy is not None and "start_scatter" not in again.accuracy
+    assert (again.table["mean_force_N"] == study.table["mean_force_N"]).all()
+    short = sg.load("rigid-walls-sine", set={"time.end": 0.5})
+    assert short.run(accuracy=1e-2, of="motion").summary["accuracy"]["of"] == "motion"
+    # One draw of a random load has a motion, too.
+    draw = tube().run(accuracy=0.1, of="motion")
+    assert draw.summary["accuracy"]["of"] == "motion"
+    for asked, words in (
+        ({"accuracy": 0.1, "of": "means"}, "sg.realisations"),
+        ({"accuracy": 0.1, "of": "wear"}, 'of is "wear"; expected "motion"'),
+        ({"of": "motion"}, "accuracy beside it"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            short.run(**asked)

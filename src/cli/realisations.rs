@@ -28,6 +28,16 @@ pub fn share(argument: &'static str, text: &str) -> Result<f64> {
     Ok(number.trim().parse::<f64>().map_err(wrong)? / whole)
 }
 
+/// The seconds that `text` of `argument` says: `10min`, `90s`, `1h 30min`.
+///
+/// # Errors
+/// [`Error::Invalid`] under `argument` for a text that is no time above 0.
+pub fn seconds(argument: &'static str, text: &str) -> Result<f64> {
+    let time = humantime::parse_duration(text.trim()).ok().filter(|time| !time.is_zero());
+    time.map(|time| time.as_secs_f64())
+        .ok_or_else(|| Error::invalid(argument, text, "a time above 0 with its unit: 10min, 90s or \"1h 30min\""))
+}
+
 /// The error of a request under the name of the command line's argument: `until_interval` is
 /// `--until-interval`.
 pub fn of_argument(error: Error) -> Error {

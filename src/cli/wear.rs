@@ -4,7 +4,7 @@ use super::command_line::command_line;
 use super::estimate::DurationEstimate;
 use super::first_window::first_window;
 use super::pipeline::Answer;
-use super::realisations::{self, StudyRequest, failed_checks, not_checked, of_argument};
+use super::realisations::{self, StudyRequest, failed_checks, not_checked, of_argument, seconds};
 use super::request::Request;
 use super::run::Seeds;
 use super::ui::Ui;
@@ -18,7 +18,7 @@ use crate::output::{wear_history as output, wear_remarks};
 use crate::run::Options;
 use crate::scheme::Method;
 use crate::study::choice;
-use crate::study::realisations::{Realisation, RealisationCount};
+use crate::study::realisations::{Realisation, RealisationCount, TimeLimit};
 use crate::study::wear_history::{WearHistories, WearPlan, WearingSupport};
 use crate::wear::Opening;
 use serde_json::json;
@@ -69,6 +69,11 @@ pub struct Args {
     /// Most histories of --until-interval; exit code 1 where more are needed [default: 200]
     #[arg(long, value_name = "N", requires = "until_interval")]
     most_seeds: Option<u64>,
+    /// Most time of --until-interval: 10min, 90s. Six first runs say how many histories, of some
+    /// seven runs each, fit into it on this machine; exit code 1 where that are fewer than the
+    /// interval needs. Histories with such a limit begin anew after an interruption
+    #[arg(long, value_name = "TIME", requires = "until_interval", allow_hyphen_values = true)]
+    most_time: Option<String>,
     /// With --until-interval: do not repeat up to six of the first runs with half the step, nor
     /// with more modes, for the errors of the first work rates
     #[arg(long, requires = "until_interval")]
@@ -99,7 +104,9 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let plan = Followed { case: &case, supports: &supports, method: &method, histories, service };
     let alone = [Realisation::of(1, &run)];
     let known = first.as_ref().map_or(&alone[..], |study| &study.realisations.members);
-    let (found, there) = plan.follow(known, &mut results, args.request.place.force, ui)?;
+    // Another number of histories may fit into the time than before: their windows are others.
+    let anew = args.request.place.force || args.most_time.is_some();
+    let (found, there) = plan.follow(known, &mut results, anew, ui)?;
     wear_folder::write(&mut results, &case, (&found, histories), first.as_ref())?;
     let mut document = output::document(&case, &found);
     if let Some(study) = &first {
@@ -138,7 +145,11 @@ impl Args {
 
     /// The number of histories that an interval takes, where one is asked for.
     fn within(&self, case: &Case) -> Result<Option<RealisationCount>> {
-        Seeds { count: None, until_interval: self.until_interval.clone(), most_seeds: self.most_seeds }.check(case)
+        let limit = self.most_time.as_ref().map(|text| TimeLimit::from_now(seconds("--most-time", text)?));
+        let limit = limit.transpose()?.map(|limit| limit.with_runs_each(WINDOWS));
+        let until_interval = self.until_interval.clone();
+        let seeds = Seeds { until_interval, most_seeds: self.most_seeds, ..Seeds::default() };
+        Ok(seeds.check(case)?.map(|count| limit.map_or(count, |limit| count.within_time(limit))))
     }
 }
 

@@ -170,8 +170,8 @@ fn not_reached(error: &Error, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         Error::Unpredictable { tolerance, reached, horizon, end } => write!(
             f,
             "an error of {tolerance:e} is kept until t = {horizon:.6} s only ({reached:.1e} reached): \
-             rounding grows to a quarter of it soon after, and no step predicts the motion up to {end} s; its \
-             means over starts that nobody can tell apart can be kept, with initial.scatter"
+             rounding grows to a quarter of it soon after, and no step predicts the motion up to {end} s; an error \
+             of its means over starts that nobody can tell apart can be kept (--of means; realisations in Python)"
         ),
         _ => Ok(()),
     }

@@ -40,8 +40,12 @@ impl WearRequest<'_> {
     fn recorded(&self) -> Result<Map<String, Value>> {
         let mut settings = match self.count {
             RealisationCount::Exactly(count) => json!({ "histories": count }),
-            RealisationCount::Within { share, most } => {
-                json!({ "until_interval": share, "most_seeds": most, "verdict": self.verdict })
+            RealisationCount::Within { share, most, most_time } => {
+                let mut settings = json!({ "until_interval": share, "most_seeds": most, "verdict": self.verdict });
+                if let Some(limit) = most_time {
+                    settings["most_time_s"] = json!(limit.seconds());
+                }
+                settings
             }
         };
         // As they were asked for: years in seconds and back may differ in the last digit.

@@ -44,6 +44,14 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
         ));
     }
     remarks.extend(groups(found));
+    if histories == 1 && !case.is_random() {
+        remarks.push(
+            "nothing is random here, so that there is one history, and no interval: of a periodic motion `run` tells \
+             by the half width of the work rate how far its periods agree; of a chaotic one initial.scatter makes \
+             several histories, whose depths have intervals"
+                .to_owned(),
+        );
+    }
     remarks.extend(growths(case, found));
     let widened = found.supports.iter().enumerate().filter(|(support, _)| {
         let gap = |point| mean(point, *support, |state| state.gap_m).0;

@@ -69,7 +69,7 @@ pub(super) fn names(list: &Value) -> Vec<Value> {
 fn seeds_asked(count: RealisationCount) -> String {
     match count {
         RealisationCount::Exactly(count) => format!("--seeds {count}"),
-        RealisationCount::Within { share, most } => format!("--until-interval {share} --most-seeds {most}"),
+        RealisationCount::Within { share, most, .. } => format!("--until-interval {share} --most-seeds {most}"),
     }
 }
 

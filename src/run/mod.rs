@@ -125,7 +125,8 @@ pub fn run_with_progress<J: Judging, R: Recording>(
         cautions: Vec::new(),
     };
     run.cautions = notes::cautions(scene, &run);
-    run.notes = [notes::remarks(scene, &run), run.cautions.clone()].concat();
+    let unsettled = R::statistics(&run.statistics).and_then(|statistics| notes::unsettled(scene, statistics));
+    run.notes = notes::remarks(scene, &run).into_iter().chain(run.cautions.clone()).chain(unsettled).collect();
     Ok(run)
 }
 

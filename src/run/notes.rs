@@ -4,6 +4,7 @@ mod approach;
 #[cfg(feature = "cli")]
 mod resting;
 mod setup;
+mod unsettled;
 
 #[cfg(feature = "cli")]
 pub(crate) use approach::NO_CONTACT;
@@ -12,6 +13,7 @@ pub(crate) use resting::resting;
 pub(crate) use setup::setup;
 #[cfg(feature = "cli")]
 pub(crate) use setup::{NEGATIVE_DAMPING, UNRESOLVED_LOAD, unstable};
+pub(crate) use unsettled::unsettled;
 
 use super::finished::Run;
 use super::judging::Judging;

@@ -41,6 +41,9 @@ pub trait Recording: sealed::Sealed + Debug + Copy {
     ) -> (Self::Motion, Self::Statistics);
     #[doc(hidden)]
     fn trajectory(motion: &Self::Motion) -> Option<&Trajectory>;
+    /// The statistics, if the run was recorded.
+    #[doc(hidden)]
+    fn statistics(statistics: &Self::Statistics) -> Option<&Statistics>;
     /// The place of a statistic that is not finite.
     #[doc(hidden)]
     fn not_finite(statistics: &Self::Statistics) -> Option<String>;
@@ -104,6 +107,10 @@ impl Recording for Recorded {
         Some(motion)
     }
 
+    fn statistics(statistics: &Statistics) -> Option<&Statistics> {
+        Some(statistics)
+    }
+
     fn not_finite(statistics: &Statistics) -> Option<String> {
         first_not_finite(statistics).map(|part| format!("statistics.{part}"))
     }
@@ -126,6 +133,10 @@ impl Recording for Unrecorded {
     }
 
     fn trajectory((): &()) -> Option<&Trajectory> {
+        None
+    }
+
+    fn statistics((): &()) -> Option<&Statistics> {
         None
     }
 

@@ -2,6 +2,7 @@
 
 use super::batch::{BATCHES, BatchSums, NO_SUMS, Window};
 use super::largest_force::{LargestForce, LargestStretch};
+use super::settling::Beginning;
 use super::step_force::{impulse, piece};
 use super::support::{SupportForce, SupportTally};
 use crate::scene::Scene;
@@ -256,6 +257,12 @@ impl Forces {
             rms_averaged_over_s: tally.rigid.then_some(self.bin),
             largest: self.largest.get(wall).and_then(LargestStretch::largest),
         })
+    }
+
+    /// The mean force of wall number `wall`, one of `means` means, in the beginning of the window,
+    /// if that differs from the rest.
+    pub(super) fn beginning(&self, wall: usize, means: usize) -> Option<Beginning> {
+        self.window.beginning(&self.walls.get(wall)?.pushed, means)
     }
 
     /// Statistics of each support, where `contacts(i)` began at support i in the window; empty for

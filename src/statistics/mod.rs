@@ -12,10 +12,10 @@
 //! Contact statistics for wear models, over one window; `force.rs` sums up each wall's force over
 //! time, piece by piece of each step (`step_force.rs`), `support.rs` that of each support,
 //! `largest_force.rs` finds the stretch in which it is largest, `wear_tally.rs` sums up the work of
-//! wear of every support; `batch.rs` and `student.rs` make intervals; `episodes.rs` joins contacts
-//! into episodes, `distribution.rs` counts them, `summary.rs` has mean and largest, `place.rs`
-//! names where they are, `spectrum.rs` estimates spectra, `recovered.rs` compares those of
-//! turbulent forces with what was asked.
+//! wear of every support; `batch.rs` and `student.rs` make intervals; `settling.rs` finds windows
+//! that begin too early; `episodes.rs` joins contacts into episodes, `distribution.rs` counts them,
+//! `summary.rs` has mean and largest, `place.rs` names where they are, `spectrum.rs` estimates
+//! spectra, `recovered.rs` compares those of turbulent forces with what was asked.
 
 mod batch;
 mod distribution;
@@ -25,6 +25,7 @@ mod largest_force;
 mod place;
 #[cfg(feature = "cli")]
 mod recovered;
+mod settling;
 mod spectrum;
 mod step_force;
 mod student;
@@ -39,6 +40,7 @@ pub use largest_force::LargestForce;
 pub use place::{ContactPlace, PlaceKind};
 #[cfg(feature = "cli")]
 pub(crate) use recovered::{Pair, Recovered};
+pub use settling::Unsettled;
 #[cfg(feature = "case")]
 pub(crate) use spectrum::FEWEST as FEWEST_VALUES;
 pub use spectrum::Spectrum;
@@ -117,6 +119,13 @@ pub struct WallStatistics {
     pub half_width_95: Option<HalfWidths>,
 }
 
+impl WallStatistics {
+    /// Whether its mean force has an interval.
+    fn has_mean(&self) -> bool {
+        self.force.is_some_and(|force| force.mean_half_width_95_n.is_some())
+    }
+}
+
 /// Contact statistics of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -141,6 +150,10 @@ pub struct Statistics {
     /// contacts are known.
     #[serde(default)]
     pub wear: Vec<WearStatistics>,
+    /// Mean forces of walls and work rates of supports that have an interval, and are others in the
+    /// beginning of the window than in the rest of it; where the force over time is known.
+    #[serde(default)]
+    pub unsettled: Vec<Unsettled>,
 }
 
 impl Statistics {
@@ -163,7 +176,16 @@ impl Statistics {
         let walls = scene.walls.iter().zip(&by_wall).enumerate().map(wall).collect();
         let supports = support::of_supports(scene, &by_wall, from);
         let Window { batches, periods, .. } = window;
-        Self { from_s: from, to_s: to, batches, periods_per_batch: periods, walls, supports, wear: Vec::new() }
+        Self {
+            from_s: from,
+            to_s: to,
+            batches,
+            periods_per_batch: periods,
+            walls,
+            supports,
+            wear: Vec::new(),
+            unsettled: Vec::new(),
+        }
     }
 
     /// Adds the force over time, as summed step by step.
@@ -182,6 +204,11 @@ impl Statistics {
         let contacts = |index: usize| self.supports.get(index).map_or(0, |support| support.contacts);
         let all = forces.of_supports(contacts);
         self.supports.iter_mut().zip(all).for_each(|(support, force)| support.force = Some(force));
+        let means = self.means();
+        for (index, wall) in self.walls.iter().enumerate().filter(|(_, wall)| wall.has_mean()) {
+            let place = || ContactPlace { name: wall.wall.clone(), kind: PlaceKind::Wall };
+            self.unsettled.extend(forces.beginning(index, means).map(|found| Unsettled::of(place(), false, found)));
+        }
         self
     }
 
@@ -189,7 +216,17 @@ impl Statistics {
     #[must_use]
     pub fn with_wear(mut self, wear: &WearTally) -> Self {
         self.wear = wear.statistics();
+        let means = self.means();
+        for (index, own) in self.wear.iter().enumerate().filter(|(_, own)| own.work_rate_half_width_95_w.is_some()) {
+            let place = || ContactPlace { name: own.support.clone(), kind: PlaceKind::Support };
+            self.unsettled.extend(wear.beginning(index, means).map(|found| Unsettled::of(place(), true, found)));
+        }
         self
+    }
+
+    /// How many means are looked at for [`Statistics::unsettled`].
+    fn means(&self) -> usize {
+        self.walls.len() + self.supports.len()
     }
 
     /// Impulse of the wall number `wall` on the body over the window, N s, signed as the force; 0

@@ -1,9 +1,9 @@
 //! The places of contact: walls, and supports made of them.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Whether a place is a wall or a support.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlaceKind {
     /// A wall of the scene; each flat of a support is one.
@@ -13,7 +13,7 @@ pub enum PlaceKind {
 }
 
 /// A wall or a support.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ContactPlace {
     /// Name of the wall or the support.
     #[serde(rename = "place")]

@@ -18,19 +18,22 @@ const MANY: u64 = 400;
 /// For few degrees of freedom the finite sums of the distribution (Abramowitz & Stegun, Handbook of
 /// Mathematical Functions, 26.7.3 and 26.7.4) are inverted by bisection, else the expansion 26.7.5.
 pub(crate) fn student_95(freedom: u64) -> f64 {
-    match freedom {
-        0 => f64::INFINITY,
-        many if many > MANY => expanded(many as f64),
-        few => {
-            // t = √ν tan θ: the share grows with θ.
-            let (mut low, mut high) = (0.0, FRAC_PI_2);
-            for _ in 0..64 {
-                let middle = 0.5 * (low + high);
-                if share(few, middle) < LEVEL { low = middle } else { high = middle }
-            }
-            (few as f64).sqrt() * (0.5 * (low + high)).tan()
-        }
+    if freedom > MANY { expanded(freedom as f64) } else { student(freedom, LEVEL) }
+}
+
+/// The same for an interval that has the share `level`; exact for any, but slow for many degrees of
+/// freedom.
+pub(super) fn student(freedom: u64, level: f64) -> f64 {
+    if freedom == 0 {
+        return f64::INFINITY;
     }
+    // t = √ν tan θ: the share grows with θ.
+    let (mut low, mut high) = (0.0, FRAC_PI_2);
+    for _ in 0..64 {
+        let middle = 0.5 * (low + high);
+        if share(freedom, middle) < level { low = middle } else { high = middle }
+    }
+    (freedom as f64).sqrt() * (0.5 * (low + high)).tan()
 }
 
 /// The share of the distribution between −t and t, with t = √ν tan θ.

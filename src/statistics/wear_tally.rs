@@ -1,6 +1,7 @@
 //! Wear statistics of supports: work of wear, sliding and friction, step by step.
 
 use super::batch::{BatchSums, NO_SUMS, Window};
+use super::settling::Beginning;
 use crate::contact::IMPACT_STEPS;
 use crate::scene::Scene;
 use crate::step::{Path, Step};
@@ -220,6 +221,12 @@ impl WearTally {
             return Vec::new();
         }
         self.tallies.supports.iter().map(|tally| tally.statistics(&self.window)).collect()
+    }
+
+    /// The work rate of support number `support`, one of `means` means, in the beginning of the
+    /// window, if that differs from the rest.
+    pub(super) fn beginning(&self, support: usize, means: usize) -> Option<Beginning> {
+        self.window.beginning(&self.tallies.supports.get(support)?.work, means)
     }
 }
 

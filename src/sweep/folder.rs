@@ -84,7 +84,7 @@ impl Plan {
             Some(RealisationCount::Exactly(count)) => {
                 request.insert(SEEDS.to_owned(), json!(count));
             }
-            Some(RealisationCount::Within { share, most }) => {
+            Some(RealisationCount::Within { share, most, .. }) => {
                 request.insert(UNTIL_INTERVAL.to_owned(), json!(share));
                 request.insert(MOST_SEEDS.to_owned(), json!(most));
             }

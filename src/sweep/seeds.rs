@@ -10,7 +10,7 @@ pub(crate) fn asked(request: &Map<String, Value>) -> Option<RealisationCount> {
     let share = request.get(UNTIL_INTERVAL).and_then(Value::as_f64);
     match (number(SEEDS), share, number(MOST_SEEDS)) {
         (Some(count), ..) => Some(RealisationCount::Exactly(count)),
-        (None, Some(share), Some(most)) => Some(RealisationCount::Within { share, most }),
+        (None, Some(share), Some(most)) => Some(RealisationCount::Within { share, most, most_time: None }),
         _ => None,
     }
 }

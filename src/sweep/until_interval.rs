@@ -39,7 +39,7 @@ impl UntilInterval {
     /// For rows of `sweep` under `header`, with the walls and supports of `scene`; `None` where
     /// intervals do not decide.
     pub fn of(sweep: &Sweep, scene: &Scene, header: &[String]) -> Option<Self> {
-        let Some(RealisationCount::Within { share, most }) = sweep.realisations else { return None };
+        let Some(RealisationCount::Within { share, most, .. }) = sweep.realisations else { return None };
         let find = |name: &str| header.iter().position(|column| column == name);
         let mut judged = Vec::new();
         for (measure, figure) in JUDGED.into_iter().filter(|(measure, _)| sweep.measures.contains(measure)) {

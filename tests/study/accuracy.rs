@@ -325,7 +325,7 @@ fn the_tool_ends_with_1_where_an_error_is_not_kept_and_its_results_stay() {
     assert!(said.contains("accuracy: asked for 1e-6"), "{said}");
     assert!(summary["accuracy"]["reached"].as_f64().unwrap() <= 1e-6);
     assert!(summary["refinement"].is_null());
-    let (code, said, summary) = tool(&["run", "rigid-walls-sine", "--accuracy", "1e-3"]);
+    let (code, said, summary) = tool(&["run", "rigid-walls-sine", "--accuracy", "1e-3", "--of", "motion"]);
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("error: an error of 1e-3 is kept until t = ") && said.contains("kept in spite"), "{said}");
     assert!(summary["accuracy"]["until_s"].as_f64().unwrap() < 10.0);

@@ -79,7 +79,10 @@ fn what_cannot_stand_beside_the_error_of_means_is_refused_by_name() {
         (&["stop.toml", "--accuracy", "100%"], &["--accuracy", "above 0 and below 1"]),
         (&["stop.toml", "--accuracy", "five"], &["--accuracy", "above 0 and below 1"]),
         (&["rigid-walls-sine", "--accuracy", "five"], &["--accuracy", "above 0 and below 1"]),
-        (&["rigid-walls-sine", "--accuracy", "1e-2", "--most-seeds", "9"], &["--most-seeds", "random loads"]),
+        (
+            &["rigid-walls-sine", "--end", "1", "--accuracy", "1e-2", "--most-seeds", "9"],
+            &["--most-seeds", "random loads"],
+        ),
         (&["rigid-walls-sine", "--most-seeds", "9"], &["--most-seeds", "--until-interval"]),
     ] {
         let (_, err) = said(path, &[&["run"], args].concat(), 2);

@@ -262,7 +262,7 @@ fn json_of_a_failure_is_a_document_too() {
     let wrong = document(dir.path(), &["run", "nowhere.toml"], 2);
     assert!(wrong["error"].as_str().unwrap().contains("nowhere.toml") && wrong["exit_code"] == 2);
     // A run that misses the requested accuracy has results, and reports it in the same document.
-    let request = ["run", CASE, "--scheme", "moreau-jean", "--accuracy", "1e-9", "--end", "10"];
+    let request = ["run", CASE, "--scheme", "moreau-jean", "--accuracy", "1e-9", "--of", "motion", "--end", "10"];
     let short = document(dir.path(), &request, 1);
     assert!(short["error"].is_string());
 }

@@ -195,3 +195,36 @@ fn intervals_that_make_no_sense_are_refused() {
     refused(&[&FLOW[..], &["--most-seeds", "50"]].concat(), &["--until-interval"]);
     refused(&["run", "rigid-walls-sine", "--until-interval", "5%"], &["--until-interval", "random load"]);
 }
+
+#[test]
+fn a_time_limits_the_realisations_to_those_that_fit_and_what_was_run_is_kept() {
+    let dir = folder();
+    let path = dir.path();
+    let asked = ["run", "square.toml", "--until-interval", "1%", "--no-verdict"];
+    // Nothing but the pilots fits into a millisecond, and they are run in any case.
+    let (_, err) = said(path, &[&asked[..], &["--most-time", "1ms", "--out", "cut"]].concat(), 1);
+    assert!(err.contains("; 6 are run: no more fit into 0.001 s, by the time of the pilots"), "{err}");
+    assert!(err.contains("error: an interval of ± 1.0 % was not reached: 6 of "), "{err}");
+    assert_eq!(summary(&path.join("cut"))["realisations"]["count"], 6);
+    // They are those of their number.
+    said(path, &["run", "square.toml", "--seeds", "6", "--no-verdict", "--out", "six"], 0);
+    let read = |folder: &str| fs::read_to_string(path.join(folder).join("realisations.csv")).unwrap();
+    assert_eq!(read("cut"), read("six"));
+    // Into a day they all fit, and the limit of their number holds as without a time.
+    let day = ["--most-time", "1day", "--most-seeds", "7"];
+    let (_, err) = said(path, &[&asked[..], &day, &["--out", "day"]].concat(), 1);
+    assert!(err.contains("; 7 are run\n"), "{err}");
+    for (args, words) in [
+        (&["--until-interval", "1%", "--most-time", "0s"][..], &["--most-time is 0s", "above 0"][..]),
+        (&["--until-interval", "1%", "--most-time", "-1s"], &["--most-time is -1s", "above 0"]),
+        (&["--until-interval", "1%", "--most-time", "10"], &["--most-time is 10", "with its unit: 10min"]),
+        (&["--until-interval", "1%", "--most-time", "soon"], &["--most-time is soon", "with its unit: 10min"]),
+        (&["--most-time", "10min"], &["--most-time is 10min", "--until-interval beside it"]),
+        (&["--seeds", "6", "--most-time", "10min"], &["--most-time is 10min", "--until-interval beside it"]),
+        (&["--accuracy", "20%", "--most-time", "10min"], &["--most-time is 10min", "beside --accuracy"]),
+    ] {
+        let (_, err) = said(path, &[&["run", "square.toml"], args, &["--out", "refused"]].concat(), 2);
+        assert!(words.iter().all(|word| err.contains(word)), "{args:?}: {err}");
+    }
+    assert!(!path.join("refused").exists(), "a refused request leaves nothing");
+}

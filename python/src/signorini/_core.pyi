@@ -1,7 +1,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Final, final
+from typing import Any, Final, Literal, final
 
 import numpy as np
 import numpy.typing as npt
@@ -258,7 +258,14 @@ class Case:
     @property
     def fluid_elastic(self) -> FluidElastic | None: ...
     def _fluid_elastic(self) -> dict[str, Any] | None: ...
-    def run(self, scheme: str | None = None, *, step: float | None = None, accuracy: float | None = None) -> Run: ...
+    def run(
+        self,
+        scheme: str | None = None,
+        *,
+        step: float | None = None,
+        accuracy: float | None = None,
+        of: Literal["motion", "means"] | None = None,
+    ) -> Run: ...
     @staticmethod
     def _restore(version: str, bytes: bytes) -> Case: ...
     def __reduce__(self) -> tuple[Any, ...]: ...

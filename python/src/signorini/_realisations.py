@@ -163,7 +163,10 @@ def realisations(
     Parameters
     ----------
     case : Case
-        With a random load or turbulence.
+        With a random load, turbulence or a start that scatters (``initial.scatter``). With
+        ``accuracy`` any other too: the velocities of its start scatter for it, as velocities at a
+        wall by 1e-4 of the gap in a forcing period at most, ``accuracy["start_scatter"]`` says by
+        how much. So a chaotic motion, which no step predicts, has means with an error.
     scheme, step : optional
         As in `Case.run`.
     seeds : int, optional
@@ -175,8 +178,8 @@ def realisations(
     accuracy : float, optional
         In place of ``seeds`` and ``step``: the coarsest step whose part in the errors of work
         rates, mean forces and RMS forces is within this share of them, and as many realisations as
-        its interval and those of the means take. The engine is that of ``signorini run
-        --accuracy``.
+        its interval and those of the means take. The engine is that of ``signorini run --accuracy
+        --of means``.
     most_seeds : int, optional
         The most that ``until_interval`` or ``accuracy`` may take; 200 unless given.
     verdict : bool

@@ -28,9 +28,22 @@ Examples:
   signorini run elastic-wall --derivative wall.upper.stiffness,load.1.harmonic.amplitude
   signorini run tube-in-cross-flow --until-interval 5%   as many as that takes
   signorini run tube-lattice-bars --accuracy 20%   step and seeds for means within 20 %
+  signorini run rigid-walls-sine --end 20 --accuracy 10%   chaos: means, over starts that scatter
+  signorini run rigid-walls-sine --end 20 --accuracy 1e-3 --of motion   its first seconds
 
 Schemes: implicit-euler, paoli-schatzman, moreau-jean, located, generalized-alpha, newmark (for
 demonstration), penalty, event (exact).";
+
+/// What an accuracy is one of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Of {
+    /// One motion: its displacement, and impulse and statistics of each wall; of a chaotic motion
+    /// up to where rounding grows to the error
+    Motion,
+    /// Work rates, mean and RMS forces over realisations. Where nothing is random the velocities of
+    /// the start scatter for it, by 1e-4 of the gap in a forcing period (initial.scatter)
+    Means,
+}
 
 /// Run one case by one scheme: trajectory, contacts, summary and figures
 #[derive(Debug, clap::Args)]
@@ -41,14 +54,19 @@ pub struct Args {
     /// Scheme [default: chosen from the scene; see `signorini explain`]
     #[arg(long, value_name = "NAME", value_parser = values::schemes(), hide_possible_values = true)]
     pub(super) scheme: Option<String>,
-    /// Find scheme and step for this error, 1e-3 or 0.1%, as a share of the gap (without one, of
-    /// the largest displacement) and of each wall's impulse and contact statistics; exit code 1 if
-    /// it is not kept to the end; for a case reduced to modes, find the number of modes too. Under
-    /// random loads it is a share of the mean forces and work rates over realisations: find the
-    /// coarsest step whose part in their errors is within it, and as many seeds as its interval and
-    /// theirs take; exit code 1 where no step or no number of seeds keeps it
+    /// Find scheme and step for this error, 1e-3 or 0.1%. Of a motion it is a share of the gap
+    /// (without one, of the largest displacement) and of each wall's impulse and contact
+    /// statistics; for a case reduced to modes, the number of modes is found too; exit code 1 if it
+    /// is not kept to the end. Of means it is a share of the work rates, mean and RMS forces over
+    /// realisations: the coarsest step whose part in their errors is within it is found, and as
+    /// many seeds as its interval and theirs take; exit code 1 where no step or no number of seeds
+    /// keeps it
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     accuracy: Option<String>,
+    /// What --accuracy is an error of [default: of means where a load or the start is random, and
+    /// where no step predicts the motion to its end (chaos); else of the motion]
+    #[arg(long, value_name = "WHAT", requires = "accuracy")]
+    pub(super) of: Option<Of>,
     /// Do not repeat the run with half the step, nor, for a case reduced to modes, with more modes;
     /// of several realisations up to six are repeated so
     #[arg(long)]
@@ -97,6 +115,7 @@ impl Args {
         if let Some(share) = &self.seeds.until_interval {
             asked.insert("until_interval".to_owned(), json!(share));
             asked.insert("most_seeds".to_owned(), json!(self.seeds.most_seeds));
+            asked.insert("most_time".to_owned(), json!(self.seeds.most_time));
         }
         if let Some(keys) = self.derivatives.asked() {
             asked.insert("derivative".to_owned(), json!(keys));

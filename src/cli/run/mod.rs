@@ -27,6 +27,8 @@ use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::choice;
 use crate::study::realisations::RealisationStudy;
+use accurate::Searched;
+use args::Of;
 use checked::CheckedRun;
 use serde_json::json;
 use std::fmt::Display;
@@ -103,17 +105,27 @@ fn write_study(results: &mut Results, case: &Case, study: &RealisationStudy) -> 
 /// The run, and the study of realisations where one is wanted.
 fn made(args: &Args, case: Case, ui: &Ui) -> Result<(CheckedRun, Option<RealisationStudy>)> {
     let tolerance = args.accuracy()?;
-    if let Some(share) = tolerance.filter(|_| case.judges_means()) {
-        return means::studied(args, case, share, ui).map(|(run, study)| (run, Some(study)));
+    if let Some(tolerance) = tolerance {
+        return accurate(args, case, tolerance, ui);
     }
     let wanted = args.seeds.check(&case)?;
-    let made = match tolerance {
-        Some(tolerance) => accurate::search(args, case, tolerance, ui)?,
-        None => checked::checked(args, case, ui)?,
-    };
+    let made = checked::checked(args, case, ui)?;
     let asked = wanted.map(|count| StudyRequest::new(count, !args.no_verdict));
     let study = asked.map(|asked| realisations::study(&made.case, (&made.run, &made.method), asked, "", ui));
     Ok((made, study.transpose()?))
+}
+
+/// The run that keeps an error; with the study of its realisations where that is one of means.
+fn accurate(args: &Args, case: Case, tolerance: f64, ui: &Ui) -> Result<(CheckedRun, Option<RealisationStudy>)> {
+    let with_study = |(run, study)| (run, Some(study));
+    if args.of == Some(Of::Means) || (args.of.is_none() && case.judges_means()) {
+        return means::studied(args, &case, tolerance, ui).map(with_study);
+    }
+    args.seeds.check_beside_motion(&case)?;
+    match accurate::search(args, case, tolerance, ui)? {
+        Searched::Motion(run) => Ok((*run, None)),
+        Searched::Unpredictable(case, until) => means::of_chaos(args, (&case, until), tolerance, ui).map(with_study),
+    }
 }
 
 fn succeeded<T>(check: Option<&Result<T>>) -> Option<&T> {

@@ -2,10 +2,10 @@
 
 use crate::case::Case;
 use crate::cli::pipeline::Answer;
-use crate::cli::realisations::{of_argument, share, show_errors};
+use crate::cli::realisations::{of_argument, seconds, share, show_errors};
 use crate::error::{Error, Result};
 use crate::output::{realisations as output, worn_means};
-use crate::study::realisations::{MOST_REALISATIONS, RealisationCount, RealisationStudy};
+use crate::study::realisations::{MOST_REALISATIONS, RealisationCount, RealisationStudy, TimeLimit};
 
 /// How often the run is repeated.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -20,10 +20,15 @@ pub struct Seeds {
     /// that takes (Stein)
     #[arg(long, value_name = "SHARE", conflicts_with = "count", allow_hyphen_values = true)]
     pub(in crate::cli) until_interval: Option<String>,
-    /// Most realisations of --until-interval, and of --accuracy under random loads; exit code 1
-    /// where more are needed [default: 200]
+    /// Most realisations of --until-interval, and of --accuracy of means; exit code 1 where more
+    /// are needed [default: 200]
     #[arg(long, value_name = "N")]
     pub(in crate::cli) most_seeds: Option<u64>,
+    /// Most time of --until-interval: 10min, 90s. The pilots say how many realisations, with the
+    /// checks for their errors, fit into it on this machine; exit code 1 where that are fewer than
+    /// the interval needs
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub(in crate::cli) most_time: Option<String>,
 }
 
 impl Seeds {
@@ -34,16 +39,45 @@ impl Seeds {
     /// without a random load, and where a seed would exceed 2^53.
     pub fn check(&self, case: &Case) -> Result<Option<RealisationCount>> {
         if let (Some(most), None) = (self.most_seeds, &self.until_interval) {
-            let expected = "--until-interval beside it, or --accuracy of a case with random loads: it is their limit";
+            let expected = "--until-interval beside it, or --accuracy of means over random loads or scattered starts: \
+                            it is their limit";
             return Err(Error::invalid("--most-seeds", most, expected));
+        }
+        let limit = self.most_time()?;
+        if let (Some(text), None) = (&self.most_time, &self.until_interval) {
+            let expected = "--until-interval beside it: it limits the number of its realisations";
+            return Err(Error::invalid("--most-time", text, expected));
         }
         let share = self.until_interval.as_ref().map(|text| share("--until-interval", text)).transpose()?;
         let count = RealisationCount::new(self.count, share, self.most_seeds).map_err(of_argument)?;
+        let count = count.map(|count| limit.map_or(count, |limit| count.within_time(limit)));
         if let Some(count) = count {
             case.check_realisations(count).map_err(of_argument)?;
             case.realisation(count.most())?;
         }
         Ok(count)
+    }
+
+    /// The time that the study may take from now on, where one is named.
+    fn most_time(&self) -> Result<Option<TimeLimit>> {
+        let limit = |text: &String| TimeLimit::from_now(seconds("--most-time", text)?);
+        self.most_time.as_ref().map(limit).transpose()
+    }
+
+    /// Refuses a number and an interval beside the error of one motion.
+    ///
+    /// # Errors
+    /// As [`Seeds::check`] of a case without a random load, and [`Error::Invalid`] of others.
+    pub fn check_beside_motion(&self, case: &Case) -> Result<()> {
+        let asked = Self { most_seeds: None, ..self.clone() };
+        match asked.check(case)? {
+            None => Ok(()),
+            Some(count) => {
+                let expected = "no realisations beside --accuracy of one motion";
+                let argument = if self.count.is_some() { "--seeds" } else { "--until-interval" };
+                Err(Error::invalid(argument, count.most(), expected))
+            }
+        }
     }
 
     /// The most realisations of `case` that an error of its means may take.
@@ -52,13 +86,16 @@ impl Seeds {
     /// [`Error::Invalid`] beside a number or an interval, which follow from the error; and where a
     /// seed would exceed 2^53.
     pub fn most_beside_accuracy(&self, case: &Case) -> Result<u64> {
-        let expected = "no such argument beside --accuracy of a case with random loads: the number of realisations \
-                        follows from it, and --most-seeds limits it";
+        let expected = "no such argument beside --accuracy of means: the number of realisations follows from it, and \
+                        --most-seeds limits it";
         if let Some(count) = self.count {
             return Err(Error::invalid("--seeds", count, expected));
         }
         if let Some(share) = &self.until_interval {
             return Err(Error::invalid("--until-interval", share, expected));
+        }
+        if let Some(text) = &self.most_time {
+            return Err(Error::invalid("--most-time", text, expected));
         }
         let most = self.most_seeds.unwrap_or(MOST_REALISATIONS);
         case.realisation(most.max(1))?;

@@ -9,7 +9,7 @@ mod target;
 
 pub use coarse::CoarseGrid;
 pub use horizon::foresee;
-pub use outcome::{Accuracy, JudgedBy, Level, Outcome, StepPairs};
+pub use outcome::{Accuracy, AccuracyOf, JudgedBy, Level, Outcome, StepPairs};
 pub use target::{Against, MOST_STEPS, Target, most_steps};
 
 use super::change::Change;
@@ -130,6 +130,7 @@ fn finish(
     };
     let accuracy = Accuracy {
         tolerance: target.tolerance,
+        of: AccuracyOf::Motion,
         reached,
         quantity,
         until_s: perturbed.unwrap_or(until_s),
@@ -140,6 +141,7 @@ fn finish(
         total_steps: refined.levels.iter().map(|l| l.steps).sum(),
         levels: refined.levels,
         pairs: None,
+        start_scatter: None,
     };
     Ok(Outcome { method, reason, run, accuracy, shortfall })
 }

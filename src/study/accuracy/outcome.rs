@@ -23,6 +23,16 @@ pub enum JudgedBy {
     Realisations,
 }
 
+/// What an accuracy is one of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AccuracyOf {
+    /// Of one motion: its displacement, and what the walls receive from it.
+    Motion,
+    /// Of the means over realisations: work rates, mean forces and RMS forces.
+    Means,
+}
+
 /// The realisations by which a step was judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
@@ -54,6 +64,8 @@ pub struct Level {
 pub struct Accuracy {
     /// The error asked for.
     pub tolerance: f64,
+    /// What it is an error of.
+    pub of: AccuracyOf,
     /// The error of the result or, by halving, the last change; over realisations the most that
     /// the part of the step may be of the mean, by its 95 % interval; infinite if nothing could be
     /// compared.
@@ -78,6 +90,11 @@ pub struct Accuracy {
     /// The pairs of runs behind `reached`; `None` unless realisations are judged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pairs: Option<StepPairs>,
+    /// Standard deviation of the velocities of the start, m/s, where a case without anything random
+    /// was given one ([`Case::with_scattered_start`](crate::case::Case::with_scattered_start)), as
+    /// its means are those over starts that nobody can tell apart.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_scatter: Option<f64>,
 }
 
 /// The result; it is returned even if it falls short of the tolerance.

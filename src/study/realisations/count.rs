@@ -1,7 +1,8 @@
 //! How many realisations a study has.
 
 use super::stein::NeededRealisations;
-use crate::error::{Error, Result};
+use super::time_limit::TimeLimit;
+use crate::error::{Error, Result, amount};
 use std::fmt;
 
 /// Realisations from which the number that an interval needs is estimated.
@@ -23,6 +24,9 @@ pub enum RealisationCount {
         share: f64,
         /// Most realisations.
         most: u64,
+        /// The time into which they have to fit, where there is one; the pilots are run in any
+        /// case.
+        most_time: Option<TimeLimit>,
     },
 }
 
@@ -50,7 +54,19 @@ impl RealisationCount {
             (None, Some(_), Some(most)) if most < PILOTS => {
                 Err(Error::invalid("most_seeds", most, format!("{PILOTS} or more: so many are run first")))
             }
-            (None, Some(share), most) => Ok(Some(Self::Within { share, most: most.unwrap_or(MOST_REALISATIONS) })),
+            (None, Some(share), most) => {
+                let most = most.unwrap_or(MOST_REALISATIONS);
+                Ok(Some(Self::Within { share, most, most_time: None }))
+            }
+        }
+    }
+
+    /// The same with a time into which the realisations have to fit; a number stays as it is.
+    #[must_use]
+    pub fn within_time(self, limit: TimeLimit) -> Self {
+        match self {
+            Self::Exactly(_) => self,
+            Self::Within { share, most, .. } => Self::Within { share, most, most_time: Some(limit) },
         }
     }
 
@@ -74,6 +90,8 @@ pub struct Pilots {
     pub share: f64,
     /// How many are run.
     pub count: u64,
+    /// The time (s) into which no more fit, where that limits their number.
+    pub most_time_s: Option<f64>,
 }
 
 impl fmt::Display for Pilots {
@@ -91,7 +109,18 @@ impl fmt::Display for Pilots {
             100.0 * self.share,
             needed.count
         )?;
-        if needed.count > self.count { write!(f, "; {} are run", self.count) } else { Ok(()) }
+        match self.most_time_s {
+            _ if needed.count <= self.count => Ok(()),
+            None => write!(f, "; {} are run", self.count),
+            Some(seconds) => {
+                write!(
+                    f,
+                    "; {} are run: no more fit into {} s, by the time of the pilots",
+                    self.count,
+                    amount(seconds, 3)
+                )
+            }
+        }
     }
 }
 
@@ -104,7 +133,7 @@ mod tests {
         let new = RealisationCount::new;
         assert_eq!(new(None, None, None), Ok(None));
         assert_eq!(new(Some(4), None, None), Ok(Some(RealisationCount::Exactly(4))));
-        let within = |most| Ok(Some(RealisationCount::Within { share: 0.05, most }));
+        let within = |most| Ok(Some(RealisationCount::Within { share: 0.05, most, most_time: None }));
         assert_eq!(new(None, Some(0.05), None), within(200));
         assert_eq!(new(None, Some(0.05), Some(6)), within(6));
         for (seeds, share, most, words) in [

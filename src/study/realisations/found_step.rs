@@ -8,7 +8,7 @@ use super::known::KnownRealisations;
 use super::plan::RealisationStudy;
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::study::accuracy::{Accuracy, JudgedBy, Level, StepPairs};
+use crate::study::accuracy::{Accuracy, AccuracyOf, JudgedBy, Level, StepPairs};
 use crate::time::TimeOptions;
 
 /// The step that a [`StepSearch`](super::StepSearch) found. The study at it is a
@@ -64,6 +64,7 @@ impl FoundStep {
         let kept = if shortfall.is_none() { Some(self.time.step) } else { None };
         let accuracy = Accuracy {
             tolerance,
+            of: AccuracyOf::Means,
             reached,
             quantity,
             until_s: self.scene.duration,
@@ -74,6 +75,7 @@ impl FoundStep {
             levels: self.levels.clone(),
             total_steps: self.known.total_steps(self.scene.duration),
             pairs: Some(StepPairs { count: self.pairs, seen }),
+            start_scatter: None,
         };
         (accuracy, shortfall)
     }

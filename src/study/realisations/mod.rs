@@ -45,6 +45,7 @@ mod runner;
 mod sample;
 mod stein;
 mod step_search;
+mod time_limit;
 mod verdict;
 
 pub use batch::{Batch, Purpose, RandomScenes};
@@ -66,3 +67,4 @@ pub use runner::realisations;
 pub use sample::Realisations;
 pub use stein::{NeededRealisations, widest};
 pub use step_search::StepSearch;
+pub use time_limit::TimeLimit;

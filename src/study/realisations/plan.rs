@@ -11,6 +11,7 @@ use crate::run::{Options, Run};
 use crate::scheme::Method;
 use crate::time::TimeOptions;
 use std::ops::RangeInclusive;
+use std::time::Instant;
 
 /// A study of realisations.
 pub struct RealisationPlan<'a> {
@@ -65,12 +66,17 @@ impl RealisationPlan<'_> {
         let mut members = vec![Realisation::of(1, self.run)];
         let (count, wanted) = match self.count {
             RealisationCount::Exactly(count) => (count, None),
-            RealisationCount::Within { share, most } => {
+            RealisationCount::Within { share, most, most_time } => {
+                let began = Instant::now();
                 members.extend(make(&self.batch(Purpose::Pilots, 2..=PILOTS))?);
+                let run_s = began.elapsed().as_secs_f64() / (PILOTS - 1) as f64;
                 let needed = NeededRealisations::from_pilots(&members, share);
                 let wanted = needed.as_ref().map_or(PILOTS, |needed| needed.count);
-                tell(&Pilots { needed, share, count: wanted.min(most) });
-                (wanted.min(most), Some((share, wanted)))
+                let affordable = most_time.map(|limit| limit.affordable(PILOTS, run_s, self.runs_of_checks()));
+                let count = wanted.min(most).min(affordable.unwrap_or(most));
+                let most_time_s = most_time.filter(|_| count < wanted.min(most)).map(|limit| limit.seconds());
+                tell(&Pilots { needed, share, count, most_time_s });
+                (count, Some((share, wanted)))
             }
         };
         members.extend(make(&self.batch(Purpose::Means, members.len() as u64 + 1..=count))?);
@@ -88,6 +94,13 @@ impl RealisationPlan<'_> {
         };
         let time = TimeOptions { step, sample: Some(self.run.grid.row_spacing()), ..self.time };
         Batch { purpose, numbers, scenes: self.scenes, method: self.method, options: Options::new(time) }
+    }
+
+    /// What the checks cost, in runs of a realisation.
+    fn runs_of_checks(&self) -> f64 {
+        let half_step = if self.method.scheme.entry().order.is_some() { 2.0 } else { 0.0 };
+        let more_modes = self.scenes.modes().map_or(0.0, |[own, more]| more as f64 / own.max(1) as f64);
+        half_step * self.checked as f64 + more_modes * self.checked.min(MOST_CHECKED) as f64
     }
 
     /// The checks of a study of `count` realisations, and those that failed; none for a single
@@ -220,7 +233,7 @@ mod tests {
 
     #[test]
     fn an_interval_out_of_reach_is_told_with_what_it_needs() {
-        let within = RealisationCount::Within { share: 1e-3, most: 7 };
+        let within = RealisationCount::Within { share: 1e-3, most: 7, most_time: None };
         let found = study(within, &mut |batch| batch.run(&mut |_| {})).unwrap();
         let Some(Error::Scattered { share, count: 7, needed, .. }) = found.shortfall else { panic!("{found:?}") };
         assert!(share == 1e-3 && needed > 7);

@@ -276,7 +276,7 @@ impl Steps<'_, '_> {
         let needed = widest.map(|widest| widest.for_share(share));
         let wanted = needed.as_ref().map_or(PILOTS, |needed| needed.count);
         let count = wanted.min(most).max(tried.pairs);
-        (self.tell)(&Pilots { needed, share, count }.to_string());
+        (self.tell)(&Pilots { needed, share, count, most_time_s: None }.to_string());
         Ok(FoundStep {
             time: self.coarse.options(tried.level, &time),
             count: RealisationCount::Exactly(count),

@@ -1,0 +1,36 @@
+//! Whether the window of the statistics begins before the motion has settled.
+
+use crate::error::amount;
+use crate::scene::{LoadKind, Scene};
+use crate::statistics::{Statistics, Unsettled};
+
+/// The note on means that are others in the beginning of the window than in the rest of it, told of
+/// the one that differs most; `None` where there are none, and without a load that goes on: a
+/// motion that dies away is no settled one.
+pub(crate) fn unsettled(scene: &Scene, statistics: &Statistics) -> Option<String> {
+    let lasts = |kind: &LoadKind| !matches!(kind, LoadKind::Constant { .. } | LoadKind::Impulse { .. });
+    if !scene.loads.iter().any(|load| lasts(&load.kind)) {
+        return None;
+    }
+    let share = |one: &Unsettled| (one.first / one.rest - 1.0).abs();
+    let worst = statistics.unsettled.iter().max_by(|a, b| share(a).total_cmp(&share(b)))?;
+    let begins = |one: &Unsettled| one.settled_from_s;
+    // All of them have to have settled.
+    let from = statistics.unsettled.iter().map(begins).reduce(|a, b| a.zip(b).map(|(a, b)| a.max(b))).flatten();
+    let (what, unit) = if worst.is_work_rate { ("work rate", "W") } else { ("mean force", "N") };
+    let (first, rest) = (amount(worst.first, 4), amount(worst.rest, 4));
+    let place = format!("the {what} of {} {:?}", worst.place.kind.word(), worst.place.name);
+    Some(match from {
+        Some(from) => {
+            let at = amount(from, 4);
+            format!(
+                "still settling: {place} is {first} {unit} in the beginning of the window and {rest} {unit} in the \
+                 rest, by more than it scatters; begin the statistics at t = {at} s (time.statistics_from={at})"
+            )
+        }
+        None => format!(
+            "still settling: {place} is {first} {unit} in the beginning of the window and {rest} {unit} in the rest, \
+             and no half of it is alike; a later time.statistics_from and a later time.end tell what it comes to"
+        ),
+    })
+}
