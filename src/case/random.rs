@@ -37,6 +37,14 @@ pub(super) struct NewRandom {
     pub file: Option<String>,
 }
 
+/// The density of `factor` times what has this one.
+fn scaled(density: Density, factor: f64) -> Density {
+    match density {
+        Density::Flat { rms, from, to } => Density::Flat { rms: factor * rms, from, to },
+        Density::Points(points) => Density::Points(points.into_iter().map(|[f, s]| [f, factor * factor * s]).collect()),
+    }
+}
+
 impl Builder<'_> {
     /// The random force of load `index`, over a run until `end`: `factor` (kg) times an
     /// acceleration of the base, or 1 times a force.
@@ -83,7 +91,7 @@ impl Builder<'_> {
         };
         let seed = section.number("seed").map_or(Ok(0), |seed| self.seed(&owner, &seed))?;
         density.validate().map_err(|error| self.at_random(&owner, section, error))?;
-        let force = RandomForce { density: density.scaled(factor), seed, stream: 2 * index as u64 };
+        let force = RandomForce { density: scaled(density, factor), seed, stream: 2 * index as u64 };
         let table = force.table(end).map_err(|error| self.at_random(&owner, section, error))?;
         Ok(NewRandom { force, table, file: file.map(|file| (*file.get_ref()).to_owned()) })
     }

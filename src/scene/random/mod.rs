@@ -113,14 +113,6 @@ impl Density {
         }
     }
 
-    /// That of `factor` times the force.
-    pub(crate) fn scaled(self, factor: f64) -> Self {
-        match self {
-            Self::Flat { rms, from, to } => Self::Flat { rms: factor * rms, from, to },
-            Self::Points(points) => Self::Points(points.into_iter().map(|[f, s]| [f, factor * factor * s]).collect()),
-        }
-    }
-
     /// Refuses an invalid density.
     pub(crate) fn validate(&self) -> Result<()> {
         match self {

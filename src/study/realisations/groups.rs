@@ -153,7 +153,7 @@ mod tests {
         for count in [6, 7, 12, 22, 50] {
             let missed = (0..200).filter(|sample| {
                 // A third about 20, the others about 0.
-                let value = |k: u64| normal(*sample, k) + if k % 3 == 0 { 20.0 } else { 0.0 };
+                let value = |k: u64| normal(*sample, k) + if k.is_multiple_of(3) { 20.0 } else { 0.0 };
                 let values: Vec<f64> = (0..count).map(value).collect();
                 let upper = count.div_ceil(3) as usize;
                 let told = Groups::of(&values);
