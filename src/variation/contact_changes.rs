@@ -8,7 +8,7 @@
 //! ends where its force vanishes, so that the end moves by −δr/ṙ, or with the instant of an impact
 //! elsewhere that ends it.
 
-use crate::step::Contact;
+use crate::step::{Contact, Step};
 
 /// A contact, and its derivatives with respect to each key.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,6 +92,13 @@ impl ContactDerivatives {
     pub fn iter(&self) -> impl Iterator<Item = ContactDerivative<'_>> {
         (0..self.len()).filter_map(|index| self.get(index))
     }
+}
+
+/// True for a lasting contact that has ended before the motion of `step` begins: where the scheme
+/// finds at its end a row with a speed of rounding size, it takes that away first, and releases the
+/// row with the next step.
+pub(super) fn is_late(contact: &Contact, step: &Step<'_>) -> bool {
+    step.start < step.end && contact.start < step.start && contact.end.is_some_and(|end| end <= step.start)
 }
 
 /// The changes of the open contacts of each wall, and of those that have ended.

@@ -129,22 +129,49 @@ impl StructureVariation {
         }
     }
 
-    /// An error where a rigid wall is touched at the end of `step` without speed.
-    pub fn check_grazes(&self, step: &Step<'_>) -> Done {
+    /// Notes which rigid walls the body stands at after `step`: those that it has touched and not
+    /// left since by more than counts as near.
+    pub fn note_standing(&mut self, step: &Step<'_>) {
+        let Self { flow, walls, during, after, length, keys, .. } = self;
+        if keys.terms.is_empty() {
+            return;
+        }
+        for (at, &p) in walls.iter_mut().zip(step.jump).filter(|(at, _)| at.restitution.is_some()) {
+            let touched = at.stands || during[at.row] || after[at.row];
+            let place = || flow.body.rows.dot(at.row, step.q) - at.position;
+            at.stands = p != 0.0 || (touched && place().abs() <= GRAZING * *length);
+        }
+    }
+
+    /// An error where a rigid wall is touched at the end of `step` without speed, unless the body
+    /// is just leaving it: since its contact it has not been away, and it goes ever faster.
+    pub fn check_grazes(&mut self, step: &Step<'_>, stretch: &Stretch<'_>) -> Done {
         if self.keys.terms.is_empty() {
             return Ok(());
         }
-        let Self { flow, walls, names, during, after, a, length, .. } = self;
-        let grazed = |at: &At| {
-            let [place, rate, pull] = [step.q, step.v, a].map(|x| flow.body.rows.dot(at.row, x));
-            let free = at.restitution.is_some() && !during[at.row] && !after[at.row];
-            let near = GRAZING * length;
-            free && (place - at.position).abs() <= near && rate * rate <= 200.0 * near * pull.abs()
-        };
-        match walls.iter().position(grazed) {
-            Some(wall) => Err(NoDerivative::Graze { time: step.end, wall: name_of(names, wall) }),
-            None => Ok(()),
+        let Self { flow, walls, names, during, after, q, v, a, work, length, .. } = self;
+        let (near, mut halfway) = (GRAZING * *length, false);
+        for (wall, at) in walls.iter().enumerate() {
+            if at.restitution.is_none() || during[at.row] || after[at.row] {
+                continue;
+            }
+            let [place, rate, pull] = [step.q, step.v, &a[..]].map(|x| flow.body.rows.dot(at.row, x));
+            if (place - at.position).abs() > near || rate * rate > 200.0 * near * pull.abs() {
+                continue;
+            }
+            if !std::mem::replace(&mut halfway, true) {
+                stretch.middle_state(q, work);
+            }
+            let away = (flow.body.rows.dot(at.row, q) - at.position).abs() > near;
+            let leaves = at.stands && !away && at.sign * rate > 0.0 && at.sign * pull > 0.0;
+            if !leaves {
+                return Err(NoDerivative::Graze { time: step.end, wall: name_of(names, wall) });
+            }
         }
+        if halfway {
+            stretch.end_state(q, v, a);
+        }
+        Ok(())
     }
 
     /// The impacts at the end of `step`, after its blows if it is `blown`.

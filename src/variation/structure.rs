@@ -1,15 +1,16 @@
 //! Several degrees of freedom: changes of the state propagated over each step.
 
 use super::arc_changes::ArcChanges;
+use super::contact_changes::is_late;
 use super::jump::Jump;
 use super::keys::Keys;
 use super::no_derivative::NoDerivative;
-use super::stretch::{ArcEnd, Stretch};
+use super::stretch::{ArcEnd, Release, Stretch};
 use super::tangent::SceneTangent;
 use crate::error::{Error, Result};
 use crate::flow::{Arc, HeldRows, Propagator, Series};
 use crate::scene::Scene;
-use crate::step::{Path, Step};
+use crate::step::{Contact, Path, Step};
 
 /// The data of a wall for the propagation of changes.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +25,8 @@ pub(super) struct At {
     /// For an elastic wall: true if it pushes during the present stretch, and after the last event.
     pub during: bool,
     pub after: bool,
+    /// For a rigid one: true from a contact on until the body has been away from it.
+    pub stands: bool,
 }
 
 /// The name of number `wall` among the `names` of all walls.
@@ -46,6 +49,9 @@ pub(super) struct StructureVariation {
     pub hold: HeldRows,
     /// For each row the wall that acts there, if one does.
     pub wall_of: Vec<usize>,
+    /// For each wall what its force does at the end of the last stretch in which it acts, if that
+    /// was the last one of any length.
+    pub releases: Vec<Option<Release>>,
     /// A typical displacement, m.
     pub length: f64,
     /// True once a step has been seen.
@@ -74,7 +80,7 @@ impl StructureVariation {
         let walls = scene.walls.iter().zip(&flow.body.row_of).map(|(wall, &row)| {
             let (stiffness, damping) = wall.law.spring().map_or((0.0, 0.0), |s| (s.stiffness, s.damping));
             let (sign, position, restitution) = (wall.side().sign(), wall.position(), wall.law.restitution());
-            At { row, sign, position, restitution, stiffness, damping, during: false, after: false }
+            At { row, sign, position, restitution, stiffness, damping, during: false, after: false, stands: false }
         });
         Ok(Self {
             walls: walls.collect(),
@@ -84,6 +90,7 @@ impl StructureVariation {
             after: vec![false; rows],
             hold: HeldRows::with_room(rows),
             wall_of: vec![0; rows],
+            releases: vec![None; scene.walls.len()],
             length: scene.gap_scale(),
             began: false,
             q: vec![0.0; n],
@@ -115,6 +122,7 @@ impl StructureVariation {
     pub fn propagate(&mut self, step: &Step<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         let n = self.degrees_of_freedom();
         let fits = step.q.len() == n && step.force.len() == self.walls.len();
+        self.note_late_ends(step, columns);
         match step.path {
             Path::Series(series) if fits => {
                 let stretch = Stretch::Series(series);
@@ -185,6 +193,7 @@ impl StructureVariation {
             self.after[at.row] |= force != 0.0 && at.restitution.is_some();
         }
         self.began = true;
+        self.note_standing(step);
         if self.bounce(step, columns) {
             return Ok(());
         }
@@ -193,15 +202,18 @@ impl StructureVariation {
         if blown {
             self.end_with_blow(step, columns);
         }
-        if blown || step.jump.iter().any(|&p| p != 0.0) {
+        let struck = self.is_struck(step, blown);
+        if blown || struck {
             self.keys.motion.forget(step.end);
         }
-        if step.jump.iter().any(|&p| p != 0.0) {
+        self.note_releases(stretch);
+        if struck {
             self.impact(step, stretch, blown, columns)?;
         } else {
-            self.check_grazes(step)?;
+            self.check_grazes(step, stretch)?;
             if !blown {
-                self.note_ends(step, stretch, columns);
+                let ended = step.closed.iter().filter(|contact| !is_late(contact, step));
+                ended.for_each(|contact| self.note_end(contact, columns));
             }
             for w in 0..self.walls.len() {
                 if self.walls[w].after && !self.walls[w].during {
@@ -209,9 +221,17 @@ impl StructureVariation {
                 }
             }
         }
-        let others = step.closed.iter().filter(|contact| !blown || contact.start >= step.end);
+        let own = |contact: &&Contact| !is_late(contact, step) && (!blown || contact.start >= step.end);
+        let others = step.closed.iter().filter(own);
         others.for_each(|contact| self.keys.contacts.end(contact));
         Ok(())
+    }
+
+    /// True if something is struck in flight, or by a blow, at the end of `step`. Where it is not,
+    /// impulses at held rows take away what rounding has left of their speeds.
+    fn is_struck(&self, step: &Step<'_>, blown: bool) -> bool {
+        let mut pushed = self.walls.iter().zip(step.jump).filter(|(_, p)| **p != 0.0);
+        pushed.any(|(at, _)| blown || !self.during[at.row])
     }
 
     /// Records which rows are held and which elastic walls push during `stretch`.

@@ -4,4 +4,5 @@ mod closed_forms;
 #[cfg(feature = "case")]
 mod differences;
 mod orbits;
+mod releases;
 mod scenes;
