@@ -126,12 +126,12 @@ impl StructureVariation {
         match step.path {
             Path::Series(series) if fits => {
                 let stretch = Stretch::Series(series);
-                self.begin(&stretch, columns)?;
+                self.begin(&stretch, columns);
                 self.pass(series, columns);
                 self.end(step, &stretch, columns)
             }
             Path::Exact(arc) if fits && self.arcs.is_some() => {
-                self.begin(&Stretch::Arc(arc, ArcEnd::default()), columns)?;
+                self.begin(&Stretch::Arc(arc, ArcEnd::default()), columns);
                 let end = self.pass_arc(arc, columns);
                 self.end(step, &Stretch::Arc(arc, end), columns)
             }
@@ -142,9 +142,11 @@ impl StructureVariation {
     /// Propagates `columns` over `arc`, without what happens at its ends. It does nothing to a
     /// structure.
     pub fn fly(&mut self, arc: &Arc, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
-        self.read(&Stretch::Arc(arc, ArcEnd::default()))?;
+        self.read(&Stretch::Arc(arc, ArcEnd::default()));
         self.pass_arc(arc, columns);
-        Ok(())
+        // Each flight stands for itself.
+        let lost = self.keys.lost.iter_mut().filter_map(Option::take).last();
+        lost.map_or(Ok(()), Err)
     }
 
     /// Propagates the columns over an arc. Returns the motion at its end.
@@ -154,16 +156,15 @@ impl StructureVariation {
     }
 
     /// What happens at the beginning of a stretch, or has happened just before it.
-    fn begin(&mut self, stretch: &Stretch<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
+    fn begin(&mut self, stretch: &Stretch<'_>, columns: &mut [f64]) {
         stretch.start_state(&mut self.q, &mut self.v);
-        self.read(stretch)?;
-        self.come_to_rest(stretch.start(), columns)?;
+        self.read(stretch);
+        self.come_to_rest(stretch.start(), columns);
         for w in 0..self.walls.len() {
             if self.walls[w].during && !self.walls[w].after {
                 self.enter(w, stretch, columns);
             }
         }
-        Ok(())
     }
 
     /// Propagates the columns over a stretch without events.
@@ -197,7 +198,7 @@ impl StructureVariation {
         if self.bounce(step, columns) {
             return Ok(());
         }
-        let blown = self.take_blow(step, columns)?;
+        let blown = self.take_blow(step, columns);
         // A blow ends the contact that it disturbs, and begins another.
         if blown {
             self.end_with_blow(step, columns);
@@ -235,17 +236,18 @@ impl StructureVariation {
     }
 
     /// Records which rows are held and which elastic walls push during `stretch`.
-    fn read(&mut self, stretch: &Stretch<'_>) -> std::result::Result<(), NoDerivative> {
+    fn read(&mut self, stretch: &Stretch<'_>) {
         self.during.fill(false);
         self.walls.iter_mut().for_each(|at| at.during = false);
         for (wall, holds) in stretch.acting_walls() {
             let Some(at) = self.walls.get_mut(wall) else { continue };
             at.during = !holds;
             if holds {
-                if self.during[at.row] && self.keys.differ(wall, self.wall_of[at.row]) {
+                if self.during[at.row] {
                     let both = [self.wall_of[at.row], wall];
                     let walls = both.map(|wall| name_of(&self.names, wall)).to_vec();
-                    return Err(NoDerivative::Together { time: stretch.start(), walls });
+                    let reason = NoDerivative::Together { time: stretch.start(), walls };
+                    self.keys.lose(self.keys.differing(both[0], both[1]), &reason);
                 }
                 self.during[at.row] = true;
                 self.wall_of[at.row] = wall;
@@ -254,6 +256,5 @@ impl StructureVariation {
         let pushing = self.walls.iter().enumerate().filter(|(_, at)| at.during);
         let rows = (0..self.during.len()).filter(|&row| self.during[row]);
         self.flow.set(rows, pushing.map(|(wall, at)| (wall, at.stiffness, at.damping)));
-        Ok(())
     }
 }

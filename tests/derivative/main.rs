@@ -6,3 +6,4 @@ mod differences;
 mod orbits;
 mod releases;
 mod scenes;
+mod single_keys;
