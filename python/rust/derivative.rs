@@ -53,6 +53,9 @@ pub fn _derivative<'py>(scene: &Bound<'py, Scene>, keys: Vec<Key>, times: Vec<f6
     }
     dict.set_item("growth", found.growth)?;
     dict.set_item("ended", found.ended.as_ref().map(ToString::to_string))?;
+    let lost = keys.iter().zip(&found.lost).filter_map(|(key, lost)| Some((&key.0, lost.as_ref()?)));
+    let lost = lost.map(|(key, reason)| (key.clone(), reason.time(), reason.by(key)));
+    dict.set_item("lost", lost.collect::<Vec<(String, f64, String)>>())?;
     dict.set_item("until", found.ended.as_ref().map_or(inner.duration, |reason| reason.time()))?;
     Ok(dict)
 }

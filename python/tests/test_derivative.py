@@ -156,3 +156,18 @@ def test_a_fit_says_what_it_needs() -> None:
         sg.fit(stopped, start, data, error=error, confidence=95.0)
     with pytest.raises(ValueError, match="wall"):
         sg.fit(stopped, start, {**data, "wall": "floor"}, error=error)
+
+
+def test_a_key_without_a_derivative_leaves_the_others_theirs() -> None:
+    def scene(restitution: float, amplitude: float) -> sg.Scene:
+        stop = sg.Wall.upper("stop", 5e-3, restitution=restitution)
+        return sg.oscillator(1.0, 0.2, 100.0, walls=[stop], loads=[sg.Load.harmonic(amplitude, 1.2)], duration=3.0)
+
+    by = sg.derivative(scene, {"restitution": 0.0, "amplitude": 3.0})
+    first = by.contacts["start"][0]
+    assert by.ended is None and by.until == 3.0 and len(by.contacts) > 2
+    assert by.until_by == {"restitution": first, "amplitude": 3.0}
+    assert list(by.ended_by) == ["restitution"] and "by restitution: " in by.ended_by["restitution"]
+    assert np.isnan(by.contacts["impulse_by"]["restitution"]).all()
+    assert np.isfinite(by.contacts["impulse_by"]["amplitude"]).all()
+    assert "restitution of 0" in repr(by)

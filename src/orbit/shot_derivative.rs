@@ -107,6 +107,9 @@ impl Shot {
         while stepper.time() < to {
             let step = stepper.step()?;
             by_key.propagate(&step).map_err(|reason| Error::no_orbit(reason.to_string()))?;
+            if let Some(reason) = by_key.lost().iter().flatten().next() {
+                return Err(Error::no_orbit(reason.to_string()));
+            }
             product.observe(&step).map_err(|reason| Error::no_orbit(reason.to_string()))?;
             step.path.accelerations(&mut begin, &mut acceleration);
         }

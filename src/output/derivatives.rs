@@ -8,7 +8,7 @@ use crate::order::sort_by_number;
 use crate::scene::Scene;
 use crate::study::derivatives::Derivatives;
 use crate::study::horizon::LARGEST_GROWTH;
-use crate::variation::MeanDerivative;
+use crate::variation::{MeanDerivative, NoDerivative};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -48,7 +48,8 @@ const NUMBERS: [(&str, &str); 5] =
 
 /// Writes the contacts, one per row, by their starts, with the derivatives of start, end, approach
 /// speed, departure speed and impulse by each key:
-/// `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what is not known are empty.
+/// `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what is not known are empty, also
+/// those by a key from where the derivatives by it alone end.
 ///
 /// # Errors
 /// As [`csv::table`].
@@ -120,6 +121,9 @@ pub fn table(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Optio
             let mut row = vec![name(scene, one.wall), one.words.to_owned()];
             row.push(format!("{:.4e} {}", one.value, one.unit));
             row.extend(keys.iter().zip(&one.derivative).map(|(key, derivative)| {
+                if !derivative.is_finite() {
+                    return "none".to_owned();
+                }
                 if key.value == 0.0 {
                     return format!("{derivative:+.3e} {}", one.unit);
                 }
@@ -143,7 +147,11 @@ pub fn remarks(keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
              {LARGEST_GROWTH:.0}, and one of 1 % is no longer small; {FILE} has {all}"
         ));
     }
-    remarks.extend(derivatives.ended.as_ref().map(ToString::to_string));
+    let lost = keys.iter().zip(&derivatives.lost).filter_map(|(key, lost)| Some((key, lost.as_ref()?)));
+    remarks.extend(lost.map(|(key, reason)| reason.by(&key.key)));
+    if derivatives.lost.iter().any(Option::is_none) {
+        remarks.extend(derivatives.ended.as_ref().map(ToString::to_string));
+    }
     let coarse = keys.iter().filter(|key| key.error > 1e-12);
     remarks.extend(coarse.map(|key| {
         format!("the derivative of the scene with respect to {} errs by {:.0e} of itself", key.key, key.error)
@@ -193,14 +201,25 @@ pub fn document(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Va
     json!({
         "keys": keys
             .iter()
-            .map(|key| json!({ "key": key.key, "value": key.value, "unit": key.unit, "error": key.error }))
+            .zip(&derivatives.lost)
+            .map(|(key, lost)| {
+                let lost = lost.as_ref();
+                json!({
+                    "key": key.key,
+                    "value": key.value,
+                    "unit": key.unit,
+                    "error": key.error,
+                    "ended_s": lost.map(NoDerivative::time),
+                    "ended": lost.map(|lost| lost.by(&key.key)),
+                })
+            })
             .collect::<Vec<_>>(),
         "contacts": derivatives.contacts.len(),
         "predictable_contacts": derivatives.predictable().count(),
         "measured": measured.collect::<Vec<_>>(),
         "means": derivatives.means.as_ref().map(|means| means_document(scene, means)),
         "growth": derivatives.growth,
-        "ended_s": ended.map(crate::variation::NoDerivative::time),
+        "ended_s": ended.map(NoDerivative::time),
         "ended": ended.map(ToString::to_string),
     })
 }

@@ -44,6 +44,10 @@ pub struct Derivatives {
     pub means: Option<MeanDerivative>,
     /// Why there are no derivatives from a time on, if there are none.
     pub ended: Option<NoDerivative>,
+    /// For each key why there are none by it from a time on, where the key itself is the reason:
+    /// they are NaN from then on, and those by the other keys go on. Where every key has such a
+    /// reason, the last one is that of `ended`.
+    pub lost: Vec<Option<NoDerivative>>,
     /// The largest growth of a change of the start since it was smallest.
     pub growth: f64,
 }
@@ -96,8 +100,9 @@ impl Derivatives {
             ended = variation.propagate(&stepper.step()?).err();
         }
         let means = ended.is_none().then(|| variation.means());
+        let lost = variation.lost().to_vec();
         let (contacts, motion) = variation.take_results();
-        Ok(Self { contacts, motion, means, ended, growth: variation.growth() })
+        Ok(Self { contacts, motion, means, ended, lost, growth: variation.growth() })
     }
 
     /// The contacts that ended while no change of the start had grown by more than

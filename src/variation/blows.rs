@@ -9,35 +9,47 @@ use crate::step::Step;
 
 impl StructureVariation {
     /// Gives the blows at the end of `step` to the state and to the columns of keys; false if there
-    /// are none, or no keys.
-    ///
-    /// # Errors
-    /// [`NoDerivative::Blow`] where a key moves a blow that falls into a contact.
-    pub fn take_blow(&mut self, step: &Step<'_>, columns: &mut [f64]) -> std::result::Result<bool, NoDerivative> {
+    /// are none, or no keys. Keys that move a blow into an impact or a rest, or to where it begins
+    /// or ends a push, are given up ([`NoDerivative::Blow`]).
+    pub fn take_blow(&mut self, step: &Step<'_>, columns: &mut [f64]) -> bool {
         let Self { flow, walls, names, during, after: held_after, q, v, a, wall_of, keys, .. } = self;
         let n = q.len();
         let mut after = vec![0.0; n];
         let time = step.end;
         if time <= 0.0 || !keys.loads.blow(time.next_down(), time, &mut after) {
-            return Ok(false);
+            return false;
         }
         let acts = |(wall, at): (usize, &At)| {
             let held = during[at.row] || held_after[at.row];
-            step.jump[wall] != 0.0 || at.during || at.after || (at.restitution.is_some() && held)
+            step.jump[wall] != 0.0 || at.during != at.after || (at.restitution.is_some() && held)
         };
         let touched = walls.iter().enumerate().position(acts);
         flow.body.solve(&mut after);
         after.iter_mut().zip(&*v).for_each(|(after, v)| *after += v);
         let at = Instant { time, q, before: v, after: &after, acceleration: a, impulse: &[], wall_of };
-        for (terms, change) in keys.terms.iter().zip(columns.chunks_exact_mut(2 * n)) {
+        let (mut moving, still, mut faster) = (Vec::new(), vec![0.0; n], vec![0.0; n]);
+        for (number, (terms, change)) in keys.terms.iter().zip(columns.chunks_exact_mut(2 * n)).enumerate() {
             let (dq, dv) = change.split_at_mut(n);
             terms.add_blow(flow, &at, dv);
-            if let (true, Some(wall)) = (terms.add_moved_blow(flow, time, (dq, dv)), touched) {
-                return Err(NoDerivative::Blow { time, wall: name_of(names, wall) });
+            let Some(moved) = terms.moved_blow(flow, time) else { continue };
+            moving.push(number);
+            // (q̈⁻ − q̈⁺) δt, by the dampers and by the dashpots of walls that push throughout.
+            faster.fill(0.0);
+            flow.body.add_force(&still, &moved, &mut faster);
+            for (wall, at) in walls.iter().enumerate().filter(|(_, at)| at.during && at.after) {
+                let eased = -at.damping * flow.body.rows.dot(at.row, &moved);
+                flow.body.rows.add_transposed(at.row, eased, &mut faster);
+                keys.contacts.add_impulse(wall, number, eased);
             }
+            flow.body.solve(&mut faster);
+            dq.iter_mut().zip(&moved).for_each(|(q, change)| *q += change);
+            dv.iter_mut().zip(&faster).for_each(|(v, faster)| *v += faster);
+        }
+        if let Some(wall) = touched {
+            keys.lose(moving, &NoDerivative::Blow { time, wall: name_of(names, wall) });
         }
         v.copy_from_slice(&after);
-        Ok(true)
+        true
     }
 }
 

@@ -1,6 +1,7 @@
 //! The impact of one degree of freedom on a rigid wall, with nothing else touched: the saltation
 //! matrix and the terms of keys of `jump.rs` for a single row, in plain numbers.
 
+use super::contact_changes::is_late;
 use super::instant::{ONCE, STUCK};
 use super::keys::Keys;
 use super::structure::StructureVariation;
@@ -92,7 +93,7 @@ impl StructureVariation {
             let &mut [q, v] = change else { continue };
             change.copy_from_slice(&bounce.of(KeyChange::default(), [q, v]).state);
         }
-        step.closed.iter().for_each(|contact| contacts.end(contact));
+        step.closed.iter().filter(|contact| !is_late(contact, step)).for_each(|contact| contacts.end(contact));
         self.keys.motion.forget(step.end);
         true
     }

@@ -8,7 +8,7 @@
 //! ends where its force vanishes, so that the end moves by −δr/ṙ, or with the instant of an impact
 //! elsewhere that ends it.
 
-use crate::step::Contact;
+use crate::step::{Contact, Step};
 
 /// A contact, and its derivatives with respect to each key.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,10 +94,19 @@ impl ContactDerivatives {
     }
 }
 
+/// True for a lasting contact that has ended before the motion of `step` begins: where the scheme
+/// finds at its end a row with a speed of rounding size, it takes that away first, and releases the
+/// row with the next step.
+pub(super) fn is_late(contact: &Contact, step: &Step<'_>) -> bool {
+    step.start < step.end && contact.start < step.start && contact.end.is_some_and(|end| end <= step.start)
+}
+
 /// The changes of the open contacts of each wall, and of those that have ended.
 #[derive(Debug)]
 pub(super) struct ContactChanges {
     keys: usize,
+    /// For each key whether it has no derivatives any more.
+    lost: Vec<bool>,
     /// Whether a contact of each wall is open.
     open: Vec<bool>,
     /// For each wall and [`Part`] one after the other the changes by each key of its open contact.
@@ -113,6 +122,7 @@ impl ContactChanges {
     pub fn new(keys: usize, walls: usize) -> Self {
         Self {
             keys,
+            lost: vec![false; keys],
             open: vec![false; walls],
             changes: vec![0.0; walls * PARTS * keys],
             ended: ContactDerivatives { keys, ..ContactDerivatives::default() },
@@ -129,7 +139,8 @@ impl ContactChanges {
             let unknown = matches!(part, Part::End | Part::Departure);
             let first = (wall * PARTS + part as usize) * self.keys;
             let own = self.changes.get_mut(first..first + self.keys).unwrap_or_default();
-            own.fill(if unknown { f64::NAN } else { 0.0 });
+            let none = |lost: bool| if unknown || lost { f64::NAN } else { 0.0 };
+            own.iter_mut().zip(&self.lost).for_each(|(own, &lost)| *own = none(lost));
         }
         self.force.get_mut(wall * self.keys..(wall + 1) * self.keys).unwrap_or_default().fill(0.0);
     }
@@ -148,7 +159,17 @@ impl ContactChanges {
 
     fn set(&mut self, wall: usize, key: usize, part: Part, change: f64) {
         let at = (wall * PARTS + part as usize) * self.keys + key;
-        self.changes.get_mut(at).into_iter().for_each(|own| *own = change);
+        let known = self.lost.get(key) == Some(&false);
+        self.changes.get_mut(at).into_iter().filter(|_| known).for_each(|own| *own = change);
+    }
+
+    /// Gives up the derivatives by `key`: of contacts that are open those of their starts hold.
+    pub fn lose(&mut self, key: usize) {
+        for wall in 0..self.open.len() {
+            self.set_end(wall, key, [f64::NAN; 2]);
+            self.add_impulse(wall, key, f64::NAN);
+        }
+        self.lost.get_mut(key).into_iter().for_each(|lost| *lost = true);
     }
 
     /// Sets the change of the force (N) of the open contact of `wall`.

@@ -31,18 +31,18 @@ type Done = std::result::Result<(), NoDerivative>;
 impl StructureVariation {
     /// Applies the matrix of coming to rest for rows that are held from here on without an impact:
     /// they were at rest already, to rounding.
-    pub fn come_to_rest(&mut self, time: f64, columns: &mut [f64]) -> Done {
+    pub fn come_to_rest(&mut self, time: f64, columns: &mut [f64]) {
         let Self { flow, walls, names, jump, during, after, hold, q, v, a, wall_of, keys, .. } = self;
         let rows = 0..during.len();
         let rests = |row| Struck { row, restitution: 0.0, rests: true, held: true, speed: 0.0, pull: 0.0 };
         let fresh: Vec<Struck> = rows.clone().filter(|&row| during[row] && !after[row]).map(rests).collect();
         if fresh.is_empty() {
-            return Ok(());
+            return;
         }
         let at = Instant { time, q, before: v, after: v, acceleration: a, impulse: &[], wall_of };
         for s in &fresh {
             keys.contacts.begin(wall_of[s.row]);
-            keys.check_touch((flow, names), s.row, &at, columns, true)?;
+            keys.lose_touched((flow, names), s.row, &at, columns, true);
         }
         let held_rows = rows.filter(|&row| during[row]);
         hold.set(&flow.body, held_rows.clone().map(held), std::iter::empty());
@@ -54,7 +54,6 @@ impl StructureVariation {
             }
         });
         jump.apply_to(flow, columns, &keys.terms, &at);
-        Ok(())
     }
 
     /// Elastic wall `w` begins to push in the `stretch` or after it. If the state is on
@@ -129,22 +128,49 @@ impl StructureVariation {
         }
     }
 
-    /// An error where a rigid wall is touched at the end of `step` without speed.
-    pub fn check_grazes(&self, step: &Step<'_>) -> Done {
+    /// Notes which rigid walls the body stands at after `step`: those that it has touched and not
+    /// left since by more than counts as near.
+    pub fn note_standing(&mut self, step: &Step<'_>) {
+        let Self { flow, walls, during, after, length, keys, .. } = self;
+        if keys.terms.is_empty() {
+            return;
+        }
+        for (at, &p) in walls.iter_mut().zip(step.jump).filter(|(at, _)| at.restitution.is_some()) {
+            let touched = at.stands || during[at.row] || after[at.row];
+            let place = || flow.body.rows.dot(at.row, step.q) - at.position;
+            at.stands = p != 0.0 || (touched && place().abs() <= GRAZING * *length);
+        }
+    }
+
+    /// An error where a rigid wall is touched at the end of `step` without speed, unless the body
+    /// is just leaving it: since its contact it has not been away, and it goes ever faster.
+    pub fn check_grazes(&mut self, step: &Step<'_>, stretch: &Stretch<'_>) -> Done {
         if self.keys.terms.is_empty() {
             return Ok(());
         }
-        let Self { flow, walls, names, during, after, a, length, .. } = self;
-        let grazed = |at: &At| {
-            let [place, rate, pull] = [step.q, step.v, a].map(|x| flow.body.rows.dot(at.row, x));
-            let free = at.restitution.is_some() && !during[at.row] && !after[at.row];
-            let near = GRAZING * length;
-            free && (place - at.position).abs() <= near && rate * rate <= 200.0 * near * pull.abs()
-        };
-        match walls.iter().position(grazed) {
-            Some(wall) => Err(NoDerivative::Graze { time: step.end, wall: name_of(names, wall) }),
-            None => Ok(()),
+        let Self { flow, walls, names, during, after, q, v, a, work, length, .. } = self;
+        let (near, mut halfway) = (GRAZING * *length, false);
+        for (wall, at) in walls.iter().enumerate() {
+            if at.restitution.is_none() || during[at.row] || after[at.row] {
+                continue;
+            }
+            let [place, rate, pull] = [step.q, step.v, &a[..]].map(|x| flow.body.rows.dot(at.row, x));
+            if (place - at.position).abs() > near || rate * rate > 200.0 * near * pull.abs() {
+                continue;
+            }
+            if !std::mem::replace(&mut halfway, true) {
+                stretch.middle_state(q, work);
+            }
+            let away = (flow.body.rows.dot(at.row, q) - at.position).abs() > near;
+            let leaves = at.stands && !away && at.sign * rate > 0.0 && at.sign * pull > 0.0;
+            if !leaves {
+                return Err(NoDerivative::Graze { time: step.end, wall: name_of(names, wall) });
+            }
         }
+        if halfway {
+            stretch.end_state(q, v, a);
+        }
+        Ok(())
     }
 
     /// The impacts at the end of `step`, after its blows if it is `blown`.
@@ -155,8 +181,8 @@ impl StructureVariation {
             let mut here = walls.iter().enumerate().filter(|(wall, at)| at.row == row && step.jump[*wall] != 0.0);
             let Some((wall, first)) = here.next() else { continue };
             let others: Vec<(usize, &At)> = here.collect();
-            if others.iter().any(|other| keys.differ(wall, other.0)) {
-                return Err(together(names, step));
+            for other in &others {
+                keys.lose(keys.differing(wall, other.0), &together(names, step));
             }
             wall_of[row] = wall;
             let e = others.iter().filter_map(|(_, at)| at.restitution).chain(first.restitution).fold(0.0, f64::max);
@@ -169,8 +195,9 @@ impl StructureVariation {
             if !rests && (left + e * speed).abs() > ONCE * speed.abs() {
                 return Err(together(names, step));
             }
-            if rests && e == 0.0 && keys.terms.iter().any(|terms| terms.restitution(wall) != 0.0) {
-                return Err(NoDerivative::Rebounds { time: step.end, wall: name_of(names, wall) });
+            if rests && e == 0.0 {
+                let raised = keys.those(|terms| terms.restitution(wall) != 0.0);
+                keys.lose(raised, &NoDerivative::Rebounds { time: step.end, wall: name_of(names, wall) });
             }
             after[row] |= rests;
             let (restitution, pull) = if rests { (0.0, 0.0) } else { (e, acceleration / speed) };
@@ -186,8 +213,8 @@ impl StructureVariation {
         let Self { flow, walls, names, jump, during, q, v, a, wall_of, keys, .. } = self;
         let at = Instant { time: step.end, q, before: v, after: step.v, acceleration: a, impulse: step.jump, wall_of };
         let fixed = blown || (step.index == 0 && step.end <= step.start);
-        let mut free = struck.iter().filter(|s| fixed && !during[s.row]);
-        free.try_for_each(|s| keys.check_touch((flow, names), s.row, &at, columns, false))?;
+        let free = struck.iter().filter(|s| fixed && !during[s.row]);
+        free.for_each(|s| keys.lose_touched((flow, names), s.row, &at, columns, false));
         if !keys.note_impacts((flow, jump), (walls, &struck), (step, stretch), &at, columns) {
             return Err(together(names, step));
         }
@@ -222,27 +249,29 @@ fn together(names: &[String], step: &Step<'_>) -> NoDerivative {
 }
 
 impl Keys {
-    /// An error where a key or the change so far would move a row from the wall that it touches at
-    /// an instant that is fixed, or at rest give it a speed.
-    fn check_touch(
-        &self,
+    /// Gives up the keys that, or whose changes so far, would move a row from the wall that it
+    /// touches at an instant that is fixed, or at rest give it a speed.
+    fn lose_touched(
+        &mut self,
         (flow, names): (&Propagator, &[String]),
         row: usize,
         at: &Instant<'_>,
         columns: &[f64],
         rests: bool,
-    ) -> Done {
+    ) {
         let (n, wall) = (at.q.len(), at.wall_of.get(row).copied().unwrap_or(0));
         let large = |own: f64, more: f64, size: f64| (own + more).abs() > ROUNDING * (own.abs() + more.abs()).max(size);
-        for ((terms, change), sizes) in self.terms.iter().zip(columns.chunks_exact(2 * n)).zip(&self.sizes) {
+        let mut touched = Vec::new();
+        for (key, (terms, change)) in self.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
+            let sizes = self.sizes.get(key).copied().unwrap_or_default();
             let (dq, dv) = change.split_at(n);
             let moved = large(flow.body.rows.dot(row, dq), terms.offset(wall, at.q), sizes[0]);
             let sped = rests && large(flow.body.rows.dot(row, dv), terms.along(wall, at.before), sizes[1]);
-            if moved || sped {
-                return Err(NoDerivative::Touching { time: at.time, wall: name_of(names, wall) });
+            if (moved || sped) && self.lost.get(key) == Some(&None) {
+                touched.push(key);
             }
         }
-        Ok(())
+        self.lose(touched, &NoDerivative::Touching { time: at.time, wall: name_of(names, wall) });
     }
 
     /// Notes what the impacts of an instant do to the contacts of each key. False where several

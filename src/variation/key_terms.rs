@@ -106,27 +106,16 @@ impl KeyTerms {
         velocity.iter_mut().zip(&momentum).for_each(|(v, change)| *v += change);
     }
 
-    /// Adds what the moved instants of blows at `time` (s) make of displacements and velocities:
-    /// (ẋ⁻ − ẋ⁺) δt, which is −M⁻¹J δt and M⁻¹C M⁻¹J δt. False if none moves.
-    pub fn add_moved_blow(&self, flow: &mut Propagator, time: f64, (q, v): (&mut [f64], &mut [f64])) -> bool {
-        let mut change = vec![0.0; q.len()];
-        let mut moves = false;
-        for load in &self.tangent.loads {
-            let later = load.blow_moves(time);
-            if later != 0.0 {
-                moves = true;
-                load.add_own_blow(-later, &mut change);
-            }
-        }
-        if moves {
-            flow.body.solve(&mut change);
-            let (still, mut faster) = (vec![0.0; q.len()], vec![0.0; q.len()]);
-            flow.body.add_force(&still, &change, &mut faster);
-            flow.body.solve(&mut faster);
-            q.iter_mut().zip(&change).for_each(|(q, change)| *q += change);
-            v.iter_mut().zip(&faster).for_each(|(v, faster)| *v += faster);
-        }
-        moves
+    /// What the moved instants of blows at `time` (s) make of displacements, m: (q̇⁻ − q̇⁺) δt =
+    /// −M⁻¹J δt. `None` if none moves.
+    pub fn moved_blow(&self, flow: &mut Propagator, time: f64) -> Option<Vec<f64>> {
+        let moving = self.tangent.loads.iter().map(|load| (load, load.blow_moves(time)));
+        let mut moving = moving.filter(|(_, later)| *later != 0.0).peekable();
+        moving.peek()?;
+        let mut change = vec![0.0; self.tangent.q.len()];
+        moving.for_each(|(load, later)| load.add_own_blow(-later, &mut change));
+        flow.body.solve(&mut change);
+        Some(change)
     }
 
     fn add_inertia(&self, at: &Instant<'_>, momentum: &mut [f64]) {

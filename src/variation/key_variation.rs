@@ -127,8 +127,11 @@ impl KeyVariation {
     ///
     /// # Errors
     /// [`NoDerivative`]: what has been read so far holds, and there is nothing more from then on.
+    /// What ends the derivatives by one key only is none while there are others:
+    /// [`KeyVariation::lost`].
     pub fn propagate(&mut self, step: &Step<'_>) -> std::result::Result<(), NoDerivative> {
         self.variation.propagate(step, &mut self.columns)?;
+        self.give_up()?;
         self.variation.keys.means.add_impulses(step);
         let size = self.witness_size();
         let before = std::mem::replace(&mut self.witness.size, size);
@@ -148,6 +151,29 @@ impl KeyVariation {
         }
         self.variation.keys.contacts.note_growth(self.growth);
         Ok(())
+    }
+
+    /// Makes the columns of lost keys NaN.
+    ///
+    /// # Errors
+    /// Why the last key was lost, where all are.
+    fn give_up(&mut self) -> std::result::Result<(), NoDerivative> {
+        let lost = &self.variation.keys.lost;
+        let size = 2 * self.variation.degrees_of_freedom();
+        let columns = self.columns.chunks_exact_mut(size).zip(lost);
+        columns.filter(|(_, lost)| lost.is_some()).for_each(|(column, _)| column.fill(f64::NAN));
+        if lost.is_empty() || lost.iter().any(Option::is_none) {
+            return Ok(());
+        }
+        let last = lost.iter().flatten().max_by(|a, b| a.time().total_cmp(&b.time()));
+        last.map_or(Ok(()), |reason| Err(reason.clone()))
+    }
+
+    /// For each key why there are no derivatives by it from a time on, if there are none, while
+    /// those by other keys go on: they are NaN from then on.
+    #[must_use]
+    pub fn lost(&self) -> &[Option<NoDerivative>] {
+        &self.variation.keys.lost
     }
 
     /// The contacts that have ended so far, with their derivatives.
@@ -178,7 +204,7 @@ impl KeyVariation {
     }
 
     /// The derivative of the state now, (δq, δq̇) for each key one after the other: m and m/s per
-    /// unit of the key.
+    /// unit of the key. NaN for keys that are [lost](Self::lost).
     #[must_use]
     pub fn state(&self) -> &[f64] {
         let size = 2 * self.variation.degrees_of_freedom();

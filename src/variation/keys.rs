@@ -3,6 +3,7 @@
 use super::contact_changes::ContactChanges;
 use super::key_terms::KeyTerms;
 use super::means::MeanChanges;
+use super::no_derivative::NoDerivative;
 use super::tangent::SceneTangent;
 use crate::flow::{Changes, Propagator, Series, SeriesBody};
 use crate::scene::{Loads, Row, Scene};
@@ -17,6 +18,8 @@ pub(super) struct Keys {
     pub loads: Loads,
     /// The largest |δq| (m) and |δq̇| (m/s) of each key so far.
     pub sizes: Vec<[f64; 2]>,
+    /// For each key why there are no derivatives by it any more, while the others go on.
+    pub lost: Vec<Option<NoDerivative>>,
     changes: Changes,
     /// Displacement and velocity of the motion, and the columns at a time that is asked for.
     work: [Vec<f64>; 2],
@@ -48,6 +51,8 @@ pub(super) struct MotionChanges {
     passed: usize,
     probes: Vec<Row>,
     keys: usize,
+    /// For each key whether it has no derivatives any more.
+    lost: Vec<bool>,
 }
 
 impl Keys {
@@ -60,6 +65,7 @@ impl Keys {
             means: MeanChanges::new(&[], 0),
             loads: Loads::new(&[]),
             sizes: Vec::new(),
+            lost: Vec::new(),
             changes: Changes::new(body, 0),
             work: [vec![0.0; body.n], vec![0.0; body.n]],
             read: Vec::new(),
@@ -79,13 +85,30 @@ impl Keys {
             motion: MotionChanges::new(times, probes, tangents.len()),
             loads: Loads::new(&scene.loads),
             sizes: vec![[0.0; 2]; tangents.len()],
+            lost: vec![None; tangents.len()],
             ..Self::none(body)
         }
     }
 
-    /// True where a key changes the two walls in different ways.
-    pub fn differ(&self, a: usize, b: usize) -> bool {
-        a != b && self.terms.iter().any(|terms| terms.differ(a, b))
+    /// The keys for whose terms `which` holds, of those that have derivatives.
+    pub fn those(&self, which: impl Fn(&KeyTerms) -> bool) -> Vec<usize> {
+        let all = self.terms.iter().zip(&self.lost).enumerate();
+        all.filter(|(_, (terms, lost))| lost.is_none() && which(terms)).map(|(key, _)| key).collect()
+    }
+
+    /// The keys that change the two walls in different ways.
+    pub fn differing(&self, a: usize, b: usize) -> Vec<usize> {
+        if a == b { Vec::new() } else { self.those(|terms| terms.differ(a, b)) }
+    }
+
+    /// Gives up the derivatives by these keys from here on.
+    pub fn lose(&mut self, keys: Vec<usize>, reason: &NoDerivative) {
+        for key in keys {
+            self.lost.get_mut(key).into_iter().for_each(|lost| *lost = Some(reason.clone()));
+            self.contacts.lose(key);
+            self.motion.lost.get_mut(key).into_iter().for_each(|lost| *lost = true);
+            self.means.lose(key);
+        }
     }
 
     /// Propagates `columns`, those of the keys and then changes of the start alone, over a stretch
@@ -150,7 +173,7 @@ impl MotionChanges {
             displacement_by: values(keys),
             velocity_by: values(keys),
         };
-        Self { found, passed: 0, probes, keys }
+        Self { found, passed: 0, probes, keys, lost: vec![false; keys] }
     }
 
     /// Reads the changes at the times that lie in the stretch of `base`.
@@ -180,7 +203,8 @@ impl MotionChanges {
         (q, v): (&[f64], &[f64]),
         terms: &KeyTerms,
     ) {
-        let Self { found, probes, keys, .. } = self;
+        let Self { found, probes, keys, lost, .. } = self;
+        let known = if lost.get(column).copied().unwrap_or(false) { f64::NAN } else { 0.0 };
         for (probe, row) in probes.iter().enumerate() {
             let own = terms.tangent.probes.get(probe);
             let along = |change: &[f64], x: &[f64]| row.dot(change) + own.map_or(0.0, |own| own.dot(x));
@@ -190,8 +214,8 @@ impl MotionChanges {
             };
             set(&mut found.displacement, index, row.dot(q));
             set(&mut found.velocity, index, row.dot(v));
-            set(&mut found.displacement_by, index * *keys + column, along(dq, q));
-            set(&mut found.velocity_by, index * *keys + column, along(dv, v));
+            set(&mut found.displacement_by, index * *keys + column, known + along(dq, q));
+            set(&mut found.velocity_by, index * *keys + column, known + along(dv, v));
         }
     }
 

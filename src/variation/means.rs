@@ -17,7 +17,8 @@ pub struct MeanDerivative {
     pub length: f64,
     /// The mean displacement of each probe, m.
     pub displacement: Vec<f64>,
-    /// Its derivatives, m per unit of the key: for each probe a list of keys.
+    /// Its derivatives, m per unit of the key: for each probe a list of keys. NaN, as all others,
+    /// for a key by which the derivatives end before the run does.
     pub displacement_by: Vec<Vec<f64>>,
     /// The root of the mean square of the displacement of each probe, m.
     pub rms: Vec<f64>,
@@ -116,6 +117,11 @@ impl MeanChanges {
                 changes[1] += 2.0 * weight * (weight * by[1] + of_key * own[1]);
             }
         }
+    }
+
+    /// Gives up the means by key number `key`.
+    pub fn lose(&mut self, key: usize) {
+        self.probes.iter_mut().filter_map(|probe| probe.by.get_mut(key)).for_each(|by| *by = [f64::NAN; 2]);
     }
 
     /// Adds the impulses of `step`.

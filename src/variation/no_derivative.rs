@@ -46,8 +46,8 @@ pub enum NoDerivative {
         /// The name of the wall.
         wall: String,
     },
-    /// A key moves the instant of a blow that falls into a contact, or into an impact: how that
-    /// changes the contact is not known.
+    /// A key moves the instant of a blow that falls into a rest or an impact, or that begins or
+    /// ends a push: how that changes the contact is not known.
     Blow {
         /// Time, s.
         time: f64,
@@ -65,6 +65,12 @@ pub enum NoDerivative {
 }
 
 impl NoDerivative {
+    /// The reason in words, for the derivative by `key` alone.
+    #[must_use]
+    pub fn by(&self, key: &str) -> String {
+        self.to_string().replacen("no derivative", &format!("no derivative by {key}"), 1)
+    }
+
     /// The time at which the reason arises, s: up to there the derivative is known.
     #[must_use]
     pub fn time(&self) -> f64 {

@@ -20,12 +20,37 @@ pub(super) struct ArcEnd {
     pub acceleration: f64,
 }
 
+/// What the force of a wall does at the end of a stretch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Release {
+    /// Its rate, N/s.
+    pub rate: f64,
+    /// The acceleration of the row of the wall, m/s².
+    pub pull: f64,
+}
+
 impl Stretch<'_> {
     /// Time at which it starts, s.
     pub fn start(&self) -> f64 {
         match self {
             Self::Arc(arc, _) => arc.start(),
             Self::Series(series) => series.start(),
+        }
+    }
+
+    /// True for one of no length.
+    pub fn is_empty(&self) -> bool {
+        match self {
+            Self::Arc(arc, _) => arc.end() <= arc.start(),
+            Self::Series(series) => series.end() <= series.start(),
+        }
+    }
+
+    /// Writes displacement (m) and velocity (m/s) halfway between start and end.
+    pub fn middle_state(&self, q: &mut [f64], v: &mut [f64]) {
+        match self {
+            Self::Arc(arc, _) => write(arc.state(0.5 * (arc.start() + arc.end())).into(), q, v),
+            Self::Series(series) => series.state(0.5 * (series.start() + series.end()), q, v),
         }
     }
 

@@ -1,15 +1,16 @@
 //! Several degrees of freedom: changes of the state propagated over each step.
 
 use super::arc_changes::ArcChanges;
+use super::contact_changes::is_late;
 use super::jump::Jump;
 use super::keys::Keys;
 use super::no_derivative::NoDerivative;
-use super::stretch::{ArcEnd, Stretch};
+use super::stretch::{ArcEnd, Release, Stretch};
 use super::tangent::SceneTangent;
 use crate::error::{Error, Result};
 use crate::flow::{Arc, HeldRows, Propagator, Series};
 use crate::scene::Scene;
-use crate::step::{Path, Step};
+use crate::step::{Contact, Path, Step};
 
 /// The data of a wall for the propagation of changes.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +25,8 @@ pub(super) struct At {
     /// For an elastic wall: true if it pushes during the present stretch, and after the last event.
     pub during: bool,
     pub after: bool,
+    /// For a rigid one: true from a contact on until the body has been away from it.
+    pub stands: bool,
 }
 
 /// The name of number `wall` among the `names` of all walls.
@@ -46,6 +49,9 @@ pub(super) struct StructureVariation {
     pub hold: HeldRows,
     /// For each row the wall that acts there, if one does.
     pub wall_of: Vec<usize>,
+    /// For each wall what its force does at the end of the last stretch in which it acts, if that
+    /// was the last one of any length.
+    pub releases: Vec<Option<Release>>,
     /// A typical displacement, m.
     pub length: f64,
     /// True once a step has been seen.
@@ -74,7 +80,7 @@ impl StructureVariation {
         let walls = scene.walls.iter().zip(&flow.body.row_of).map(|(wall, &row)| {
             let (stiffness, damping) = wall.law.spring().map_or((0.0, 0.0), |s| (s.stiffness, s.damping));
             let (sign, position, restitution) = (wall.side().sign(), wall.position(), wall.law.restitution());
-            At { row, sign, position, restitution, stiffness, damping, during: false, after: false }
+            At { row, sign, position, restitution, stiffness, damping, during: false, after: false, stands: false }
         });
         Ok(Self {
             walls: walls.collect(),
@@ -84,6 +90,7 @@ impl StructureVariation {
             after: vec![false; rows],
             hold: HeldRows::with_room(rows),
             wall_of: vec![0; rows],
+            releases: vec![None; scene.walls.len()],
             length: scene.gap_scale(),
             began: false,
             q: vec![0.0; n],
@@ -115,15 +122,16 @@ impl StructureVariation {
     pub fn propagate(&mut self, step: &Step<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         let n = self.degrees_of_freedom();
         let fits = step.q.len() == n && step.force.len() == self.walls.len();
+        self.note_late_ends(step, columns);
         match step.path {
             Path::Series(series) if fits => {
                 let stretch = Stretch::Series(series);
-                self.begin(&stretch, columns)?;
+                self.begin(&stretch, columns);
                 self.pass(series, columns);
                 self.end(step, &stretch, columns)
             }
             Path::Exact(arc) if fits && self.arcs.is_some() => {
-                self.begin(&Stretch::Arc(arc, ArcEnd::default()), columns)?;
+                self.begin(&Stretch::Arc(arc, ArcEnd::default()), columns);
                 let end = self.pass_arc(arc, columns);
                 self.end(step, &Stretch::Arc(arc, end), columns)
             }
@@ -134,9 +142,11 @@ impl StructureVariation {
     /// Propagates `columns` over `arc`, without what happens at its ends. It does nothing to a
     /// structure.
     pub fn fly(&mut self, arc: &Arc, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
-        self.read(&Stretch::Arc(arc, ArcEnd::default()))?;
+        self.read(&Stretch::Arc(arc, ArcEnd::default()));
         self.pass_arc(arc, columns);
-        Ok(())
+        // Each flight stands for itself.
+        let lost = self.keys.lost.iter_mut().filter_map(Option::take).last();
+        lost.map_or(Ok(()), Err)
     }
 
     /// Propagates the columns over an arc. Returns the motion at its end.
@@ -146,16 +156,15 @@ impl StructureVariation {
     }
 
     /// What happens at the beginning of a stretch, or has happened just before it.
-    fn begin(&mut self, stretch: &Stretch<'_>, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
+    fn begin(&mut self, stretch: &Stretch<'_>, columns: &mut [f64]) {
         stretch.start_state(&mut self.q, &mut self.v);
-        self.read(stretch)?;
-        self.come_to_rest(stretch.start(), columns)?;
+        self.read(stretch);
+        self.come_to_rest(stretch.start(), columns);
         for w in 0..self.walls.len() {
             if self.walls[w].during && !self.walls[w].after {
                 self.enter(w, stretch, columns);
             }
         }
-        Ok(())
     }
 
     /// Propagates the columns over a stretch without events.
@@ -185,23 +194,27 @@ impl StructureVariation {
             self.after[at.row] |= force != 0.0 && at.restitution.is_some();
         }
         self.began = true;
+        self.note_standing(step);
         if self.bounce(step, columns) {
             return Ok(());
         }
-        let blown = self.take_blow(step, columns)?;
+        let blown = self.take_blow(step, columns);
         // A blow ends the contact that it disturbs, and begins another.
         if blown {
             self.end_with_blow(step, columns);
         }
-        if blown || step.jump.iter().any(|&p| p != 0.0) {
+        let struck = self.is_struck(step, blown);
+        if blown || struck {
             self.keys.motion.forget(step.end);
         }
-        if step.jump.iter().any(|&p| p != 0.0) {
+        self.note_releases(stretch);
+        if struck {
             self.impact(step, stretch, blown, columns)?;
         } else {
-            self.check_grazes(step)?;
+            self.check_grazes(step, stretch)?;
             if !blown {
-                self.note_ends(step, stretch, columns);
+                let ended = step.closed.iter().filter(|contact| !is_late(contact, step));
+                ended.for_each(|contact| self.note_end(contact, columns));
             }
             for w in 0..self.walls.len() {
                 if self.walls[w].after && !self.walls[w].during {
@@ -209,23 +222,32 @@ impl StructureVariation {
                 }
             }
         }
-        let others = step.closed.iter().filter(|contact| !blown || contact.start >= step.end);
+        let own = |contact: &&Contact| !is_late(contact, step) && (!blown || contact.start >= step.end);
+        let others = step.closed.iter().filter(own);
         others.for_each(|contact| self.keys.contacts.end(contact));
         Ok(())
     }
 
+    /// True if something is struck in flight, or by a blow, at the end of `step`. Where it is not,
+    /// impulses at held rows take away what rounding has left of their speeds.
+    fn is_struck(&self, step: &Step<'_>, blown: bool) -> bool {
+        let mut pushed = self.walls.iter().zip(step.jump).filter(|(_, p)| **p != 0.0);
+        pushed.any(|(at, _)| blown || !self.during[at.row])
+    }
+
     /// Records which rows are held and which elastic walls push during `stretch`.
-    fn read(&mut self, stretch: &Stretch<'_>) -> std::result::Result<(), NoDerivative> {
+    fn read(&mut self, stretch: &Stretch<'_>) {
         self.during.fill(false);
         self.walls.iter_mut().for_each(|at| at.during = false);
         for (wall, holds) in stretch.acting_walls() {
             let Some(at) = self.walls.get_mut(wall) else { continue };
             at.during = !holds;
             if holds {
-                if self.during[at.row] && self.keys.differ(wall, self.wall_of[at.row]) {
+                if self.during[at.row] {
                     let both = [self.wall_of[at.row], wall];
                     let walls = both.map(|wall| name_of(&self.names, wall)).to_vec();
-                    return Err(NoDerivative::Together { time: stretch.start(), walls });
+                    let reason = NoDerivative::Together { time: stretch.start(), walls };
+                    self.keys.lose(self.keys.differing(both[0], both[1]), &reason);
                 }
                 self.during[at.row] = true;
                 self.wall_of[at.row] = wall;
@@ -234,6 +256,5 @@ impl StructureVariation {
         let pushing = self.walls.iter().enumerate().filter(|(_, at)| at.during);
         let rows = (0..self.during.len()).filter(|&row| self.during[row]);
         self.flow.set(rows, pushing.map(|(wall, at)| (wall, at.stiffness, at.damping)));
-        Ok(())
     }
 }

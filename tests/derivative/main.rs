@@ -4,4 +4,6 @@ mod closed_forms;
 #[cfg(feature = "case")]
 mod differences;
 mod orbits;
+mod releases;
 mod scenes;
+mod single_keys;

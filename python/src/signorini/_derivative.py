@@ -60,9 +60,16 @@ class Derivative:
     """The time up to which there are derivatives, s."""
     ended: str | None
     """Why there are none after it; None if they reach to the end."""
+    until_by: dict[str, float]
+    """For each key the time up to which there are derivatives by it, s; they are NaN afterwards."""
+    ended_by: dict[str, str]
+    """Why they end, of the keys by which they end alone while those by other keys go on."""
 
     def __repr__(self) -> str:
-        ended = f"; {self.ended}" if self.ended else ""
+        reasons = list(self.ended_by.values())
+        if self.ended and len(reasons) < len(self.keys):
+            reasons.append(self.ended)
+        ended = "".join(f"; {reason}" for reason in reasons)
         return f"<Derivative by {', '.join(self.keys)}: {len(self.contacts)} contacts to {self.until:.6g} s{ended}>"
 
 
@@ -158,6 +165,8 @@ def found(
         growth=made["growth"],
         until=made["until"],
         ended=made["ended"],
+        until_by={**dict.fromkeys(keys, made["until"]), **{key: time for key, time, _ in made["lost"]}},
+        ended_by={key: reason for key, _, reason in made["lost"]},
     )
 
 
@@ -173,7 +182,8 @@ def derivative(
 
     They are exact, through flights, impacts and lasting contact: no motion is repeated with changed
     numbers. Where a derivative means nothing (a wall that is grazed, a time beyond which the motion
-    is not predictable) there is none, and ``ended`` says why.
+    is not predictable) there is none, and ``ended`` says why. Where one key is the reason (a blow
+    that it moves into a rest, a restitution of 0), ``ended_by`` says so and the others go on.
 
     Parameters
     ----------

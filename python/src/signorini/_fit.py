@@ -289,7 +289,7 @@ def _record(
     errors = _errors("displacement", measured, error, several=False)
     by = found(scene_of, values, (), None)
     late = by.contacts["start"][by.contacts["growth"] > _MOST_GROWTH]
-    until = min([by.until, *late.tolist()])
+    until = min([*by.until_by.values(), *late.tolist()])
     kept = times < until if until < float(times[-1]) else np.ones(len(times), bool)
 
     def read(by: Derivative) -> tuple[Array, npt.NDArray[np.void]]:
@@ -335,6 +335,7 @@ class _Model:
             model, derived = column.read(by)
             residuals.append((model - column.values) / column.errors)
             jacobian.append(np.column_stack([derived[name] for name in self._names]) / column.errors[:, None])
-        self.reason = by.ended or "it has fewer contacts than the data"
+        self.reason = next(iter(by.ended_by.values()), by.ended or "it has fewer contacts than the data")
         self.until = float(self._times[-1]) if len(self._times) else by.until
-        return np.concatenate(residuals), np.concatenate(jacobian)
+        known = np.isfinite(np.concatenate(jacobian)).all(axis=1)
+        return np.where(known, np.concatenate(residuals), np.nan), np.concatenate(jacobian)
