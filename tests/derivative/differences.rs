@@ -156,8 +156,8 @@ fn a_beam_under_a_random_force_has_the_differences_of_its_runs() {
 }
 
 /// Guide, load and probe stand at nodes, where the second derivative of the beam's shape jumps: the
-/// differences of the runs err by the first power of their step, 1e-6, and by 1e-15 times the growth
-/// of 14 over it, 1e-8 of numbers that are differences of larger ones.
+/// differences of the runs err by the first power of their step, 1e-6, and by 1e-15 times the
+/// growth of 14 over it, 1e-8 of numbers that are differences of larger ones.
 #[test]
 fn a_beam_has_derivatives_by_its_length_and_by_places_at_nodes() {
     for (key, value) in [("system.beam.length", 1.0), ("wall.guide.at.position", 0.4), ("load.1.at.position", 0.6)] {
