@@ -24,6 +24,9 @@ const TESTS: usize = 2;
 /// A difference between parts of the window below this share of the mean is none.
 const WORTH_SAYING: f64 = 0.01;
 
+/// Student's t is larger for every level asked for: that of the normal distribution for 97.5 %.
+const LEAST: f64 = 2.24;
+
 /// The fewest batches that show whether a motion has settled.
 const FEWEST: usize = 3;
 
@@ -81,15 +84,18 @@ impl Window {
 
 /// How many of `values`, from the first, differ from the others; `None` where none do.
 fn differing(values: &[f64], level: f64) -> Option<usize> {
-    let beyond = |difference: f64, allowed: f64, rest: f64| {
-        difference.abs() > allowed && difference.abs() > WORTH_SAYING * rest.abs()
+    // Student's t, which takes a search, only of a difference that exceeds the least that it can be.
+    let beyond = |difference: f64, deviation: f64, freedom: usize, rest: f64| {
+        let difference = difference.abs();
+        difference > WORTH_SAYING * rest.abs()
+            && difference > LEAST * deviation
+            && difference > student(freedom as u64, level) * deviation
     };
     let (one, others) = values.split_first()?;
     let count = others.len() as f64;
     if values.len() >= FEWEST {
-        let deviation = (squares(others) / (count - 1.0)).sqrt();
-        let allowed = student(others.len() as u64 - 1, level) * deviation * (1.0 + 1.0 / count).sqrt();
-        if beyond(one - mean(others), allowed, mean(others)) {
+        let deviation = (squares(others) / (count - 1.0) * (1.0 + 1.0 / count)).sqrt();
+        if beyond(one - mean(others), deviation, others.len() - 1, mean(others)) {
             return Some(1);
         }
     }
@@ -99,9 +105,8 @@ fn differing(values: &[f64], level: f64) -> Option<usize> {
     }
     let (first, last) = (&values[..half], &values[values.len() - half..]);
     let freedom = 2 * half - 2;
-    let deviation = ((squares(first) + squares(last)) / freedom as f64).sqrt();
-    let allowed = student(freedom as u64, level) * deviation * (2.0 / half as f64).sqrt();
-    beyond(mean(first) - mean(last), allowed, mean(last)).then_some(half)
+    let deviation = ((squares(first) + squares(last)) / freedom as f64 * 2.0 / half as f64).sqrt();
+    beyond(mean(first) - mean(last), deviation, freedom, mean(last)).then_some(half)
 }
 
 fn mean(values: &[f64]) -> f64 {
