@@ -29,6 +29,8 @@ impl Case {
             None => key.default_number(),
         };
         let Some(value) = value else {
+            // A name that nothing in the file has says so.
+            self.document.clone().set(key, &1.0.into())?;
             let expected = "a key that has a number in the case file or by default";
             return Err(Error::invalid(format!("derivative by {name}"), "left out, or no number", expected));
         };

@@ -152,6 +152,11 @@ pub fn remarks(keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
     if derivatives.lost.iter().any(Option::is_none) {
         remarks.extend(derivatives.ended.as_ref().map(ToString::to_string));
     }
+    if derivatives.ended.is_none() && derivatives.open > 0 {
+        let open = derivatives.open;
+        let contacts = if open == 1 { "1 contact that is" } else { &format!("{open} contacts that are") };
+        remarks.push(format!("{FILE} has no row for {contacts} still open at the end"));
+    }
     let coarse = keys.iter().filter(|key| key.error > 1e-12);
     remarks.extend(coarse.map(|key| {
         format!("the derivative of the scene with respect to {} errs by {:.0e} of itself", key.key, key.error)

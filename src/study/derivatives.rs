@@ -44,6 +44,9 @@ pub struct Derivatives {
     pub means: Option<MeanDerivative>,
     /// Why there are no derivatives from a time on, if there are none.
     pub ended: Option<NoDerivative>,
+    /// The number of contacts that are still open where the derivatives end: they are not among
+    /// `contacts`.
+    pub open: usize,
     /// For each key why there are none by it from a time on, where the key itself is the reason:
     /// they are NaN from then on, and those by the other keys go on. Where every key has such a
     /// reason, the last one is that of `ended`.
@@ -76,9 +79,10 @@ impl Derivatives {
     /// # Errors
     /// What the exact scheme refuses, friction for one; as [`KeyVariation::new`].
     pub fn check(scene: &Scene) -> Result<()> {
+        // First, since it refuses every round support, whatever the exact scheme takes.
+        KeyVariation::new(scene, &[], &[])?;
         check_exact(scene, "derivatives")?;
-        Stepper::new(scene, &Scheme::Event, scene.duration)?;
-        KeyVariation::new(scene, &[], &[]).map(drop)
+        Stepper::new(scene, &Scheme::Event, scene.duration).map(drop)
     }
 
     /// The derivatives of the exact run of `scene` with respect to the keys of `tangents`, with
@@ -100,9 +104,9 @@ impl Derivatives {
             ended = variation.propagate(&stepper.step()?).err();
         }
         let means = ended.is_none().then(|| variation.means());
-        let lost = variation.lost().to_vec();
+        let (lost, open) = (variation.lost().to_vec(), variation.open_contacts());
         let (contacts, motion) = variation.take_results();
-        Ok(Self { contacts, motion, means, ended, lost, growth: variation.growth() })
+        Ok(Self { contacts, motion, means, ended, open, lost, growth: variation.growth() })
     }
 
     /// The contacts that ended while no change of the start had grown by more than

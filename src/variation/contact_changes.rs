@@ -212,6 +212,11 @@ impl ContactChanges {
         self.ended.growth.resize(self.ended.contacts.len(), growth);
     }
 
+    /// The number of contacts that are open.
+    pub fn open(&self) -> usize {
+        self.open.iter().filter(|open| **open).count()
+    }
+
     /// As [`Self::ended`], for good.
     pub fn take_ended(&mut self) -> ContactDerivatives {
         let none = ContactDerivatives { keys: self.keys, ..ContactDerivatives::default() };

@@ -182,7 +182,13 @@ impl KeyVariation {
         self.variation.keys.contacts.ended()
     }
 
-    /// The same, and [`Self::motion`], for good: the variation has none of them afterwards.
+    /// The number of contacts that are still open.
+    pub(crate) fn open_contacts(&self) -> usize {
+        self.variation.keys.contacts.open()
+    }
+
+    /// The same as [`Self::contacts`], and [`Self::motion`], for good: the variation has none of
+    /// them afterwards.
     pub(crate) fn take_results(&mut self) -> (ContactDerivatives, MotionDerivative) {
         let keys = &mut self.variation.keys;
         (keys.contacts.take_ended(), std::mem::take(&mut keys.motion.found))

@@ -165,3 +165,32 @@ fn a_beam_has_derivatives_by_its_length_and_by_places_at_nodes() {
         check(key, &build, value, 1e-6, 1e-5);
     }
 }
+
+/// The shape of a bar is bent at its nodes: the derivative on one side differs from that on the
+/// other.
+#[test]
+fn a_place_at_a_node_of_a_bar_has_no_derivative() {
+    let bar = r#"
+        [system.bar]
+        length = 1.0
+        youngs_modulus = 1.0
+        density = 1.0
+        area = 1.0
+        elements = 5
+        left = "clamped"
+        right = "free"
+        [[wall]]
+        name = "stop"
+        at = { position = 0.6 }
+        side = "upper"
+        position = 0.01
+        [time]
+        end = 1.0
+        step = 1e-3
+    "#;
+    let tangent = |key: &str| Case::parse(bar, "bar.toml", "")?.tangent(&key.parse()?);
+    let refused = tangent("wall.stop.at.position").expect_err("a kink").to_string();
+    assert!(refused.contains("depends smoothly"), "{refused}");
+    let misspelt = tangent("wall.stopp.position").expect_err("no such wall").to_string();
+    assert!(misspelt.contains("no wall is named \"stopp\""), "{misspelt}");
+}

@@ -9,7 +9,7 @@ pub(super) use loads::{LoadChange, LoadTerms};
 use crate::error::{Error, Result};
 use crate::linear::Operator;
 use crate::scene::{LoadKind, Row, Scene};
-use stencil::{SPACINGS, SPACINGS_OF_SIDES, Stencil};
+use stencil::{MORE_SPACINGS, SPACINGS, Stencil};
 
 /// The largest error of the derivative of a number of the scene, as a share: the results are exact
 /// to 1e-8 of themselves, with a hundredth of that for their own rounding.
@@ -78,23 +78,13 @@ impl SceneTangent {
     /// at the start that moves, another duration; errors of `build`.
     pub fn new(name: &str, value: f64, mut build: impl FnMut(f64) -> Result<Scene>) -> Result<Self> {
         let (mut best, mut differs): (Option<Self>, _) = (None, false);
-        let both_sides = SPACINGS_OF_SIDES.map(|apart| (apart, true));
-        for (apart, both) in SPACINGS.map(|apart| (apart, false)).into_iter().chain(both_sides) {
-            if both && best.as_ref().is_some_and(|best| best.error <= MOST_ERROR) {
+        for (number, apart) in SPACINGS.into_iter().chain(MORE_SPACINGS).enumerate() {
+            if number >= SPACINGS.len() && best.as_ref().is_some_and(|best| best.error <= MOST_ERROR) {
                 break;
             }
-            let stencil = match both {
-                false => Stencil::new(value, apart, &mut build)?,
-                true => match Stencil::of_both_sides(value, apart, &mut build) {
-                    Ok(stencil) => stencil,
-                    Err(_) => continue,
-                },
-            };
+            let stencil = Stencil::new(value, apart, &mut build)?;
             let alike = |scene: &Scene| scene.duration == stencil.base.duration && is_alike(&stencil.base, scene);
             if !stencil.scenes().all(alike) {
-                if both {
-                    continue;
-                }
                 return Err(refused(name, value, "a key that keeps walls, loads, their times and the duration"));
             }
             differs |= stencil.scenes().any(|scene| *scene != stencil.base);
