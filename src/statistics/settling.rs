@@ -84,7 +84,8 @@ impl Window {
 
 /// How many of `values`, from the first, differ from the others; `None` where none do.
 fn differing(values: &[f64], level: f64) -> Option<usize> {
-    // Student's t, which takes a search, only of a difference that exceeds the least that it can be.
+    // Student's t, which takes a search, only of a difference that exceeds the least that it can
+    // be.
     let beyond = |difference: f64, deviation: f64, freedom: usize, rest: f64| {
         let difference = difference.abs();
         difference > WORTH_SAYING * rest.abs()
