@@ -36,12 +36,13 @@ const FEWEST: usize = 3;
 pub struct Unsettled {
     /// The wall or support.
     pub place: ContactPlace,
-    /// True if it is the work rate there, W, else the mean force, N.
-    pub is_work_rate: bool,
-    /// The mean over the part of the window that differs.
-    pub first: f64,
-    /// The mean over the rest.
-    pub rest: f64,
+    /// The mean force over the part of the window that differs, and over the rest, N; `None` where
+    /// it is the work rate that differs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean_force_n: Option<[f64; 2]>,
+    /// The same of the work rate, W.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub work_rate_w: Option<[f64; 2]>,
     /// Where the window would have to begin, s; `None` unless half of it is alike.
     pub settled_from_s: Option<f64>,
 }
@@ -58,7 +59,17 @@ impl Unsettled {
     /// Of the work rate or the mean force at `place`.
     pub(super) fn of(place: ContactPlace, is_work_rate: bool, found: Beginning) -> Self {
         let Beginning { first, rest, settled_from_s } = found;
-        Self { place, is_work_rate, first, rest, settled_from_s }
+        let of = |own: bool| own.then_some([first, rest]);
+        Self { place, mean_force_n: of(!is_work_rate), work_rate_w: of(is_work_rate), settled_from_s }
+    }
+
+    /// What differs and its unit, with its means over the part of the window that differs and over
+    /// the rest.
+    pub(crate) fn means(&self) -> (&'static str, &'static str, [f64; 2]) {
+        match (self.work_rate_w, self.mean_force_n) {
+            (Some(means), _) => ("work rate", "W", means),
+            (None, means) => ("mean force", "N", means.unwrap_or_default()),
+        }
     }
 }
 

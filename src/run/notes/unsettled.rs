@@ -12,13 +12,16 @@ pub(crate) fn unsettled(scene: &Scene, statistics: &Statistics) -> Option<String
     if !scene.loads.iter().any(|load| lasts(&load.kind)) {
         return None;
     }
-    let share = |one: &Unsettled| (one.first / one.rest - 1.0).abs();
+    let share = |one: &Unsettled| {
+        let (_, _, [first, rest]) = one.means();
+        (first / rest - 1.0).abs()
+    };
     let worst = statistics.unsettled.iter().max_by(|a, b| share(a).total_cmp(&share(b)))?;
     let begins = |one: &Unsettled| one.settled_from_s;
     // All of them have to have settled.
     let from = statistics.unsettled.iter().map(begins).reduce(|a, b| a.zip(b).map(|(a, b)| a.max(b))).flatten();
-    let (what, unit) = if worst.is_work_rate { ("work rate", "W") } else { ("mean force", "N") };
-    let (first, rest) = (amount(worst.first, 4), amount(worst.rest, 4));
+    let (what, unit, means) = worst.means();
+    let [first, rest] = means.map(|mean| amount(mean, 4));
     let place = format!("the {what} of {} {:?}", worst.place.kind.word(), worst.place.name);
     Some(match from {
         Some(from) => {
