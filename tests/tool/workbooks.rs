@@ -196,7 +196,10 @@ mod sheets {
         let sets = sets.iter().chain(&["support.hole.radius=9.525e-3"]).flat_map(|set| ["--set", set]);
         let worn: Vec<&str> = ["wear", "whirl-in-a-hole", "--years", "0.01"].into_iter().chain(sets).collect();
         for (request, wanted) in [
-            (&["run", "square.toml", "--seeds", "2"][..], "contacts errors realisations sectors supports trajectory"),
+            (
+                &["run", "square.toml", "--seeds", "2"][..],
+                "contacts errors realisations sector-means sectors supports trajectory",
+            ),
             (&["compare", "rigid-walls-sine", "--end", "0.5"], "compare compare-walls contacts distance trajectory"),
             (
                 &[
@@ -211,7 +214,7 @@ mod sheets {
                 ],
                 "realisations sweep",
             ),
-            (&worn, "history.csv years"),
+            (&worn, "contacts history.csv sector-means sectors supports trajectory years"),
             (&["orbit", "rigid-walls-sine", "--set", "wall.*.restitution=0.8"], "contacts orbit"),
         ] {
             let out = request[0];
