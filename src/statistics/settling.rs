@@ -38,10 +38,8 @@ pub struct Unsettled {
     pub place: ContactPlace,
     /// The mean force over the part of the window that differs, and over the rest, N; `None` where
     /// it is the work rate that differs.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_force_n: Option<[f64; 2]>,
     /// The same of the work rate, W.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work_rate_w: Option<[f64; 2]>,
     /// Where the window would have to begin, s; `None` unless half of it is alike.
     pub settled_from_s: Option<f64>,
