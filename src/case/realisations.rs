@@ -12,9 +12,10 @@ use crate::study::truncation::more_modes;
 pub(crate) const RANDOM: &str =
     "a case with a random load or a start that scatters (initial.scatter): without one all runs are the same";
 
-/// What their means are of.
+/// What means over realisations need besides: something whose means they are.
 const NO_WALL: &str = "a case with a wall or a support, whose forces have means over realisations; `sweep --seeds` has \
                        those of displacements (--measure displacement_rms)";
+
 /// How far velocities of a start that nobody knows any better scatter, as a share of the gap in a
 /// forcing period: far less than anybody measures, and far more than rounding.
 const UNKNOWN: f64 = 1e-4;

@@ -83,7 +83,8 @@ impl LoadJumps {
             Some(extra) => self.force.copy_from_slice(extra),
             None => self.force.fill(0.0),
         }
-        let within = self.all.iter().filter(|jump| start < jump.0 && jump.0 <= end);
+        let first = self.all.partition_point(|jump| jump.0 <= start);
+        let within = self.all.iter().skip(first).take_while(|jump| jump.0 <= end);
         for (time, at, jump) in within {
             let share = (end - time) / length - self.weight;
             for &(i, weight) in at.entries() {
