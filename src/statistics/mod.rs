@@ -44,7 +44,7 @@ pub use settling::Unsettled;
 #[cfg(feature = "case")]
 pub(crate) use spectrum::FEWEST as FEWEST_VALUES;
 pub use spectrum::Spectrum;
-pub(crate) use student::student_95;
+pub(crate) use student::{spread, student_95};
 pub use summary::Summary;
 pub use support::{SupportForce, SupportStatistics};
 pub use wear_tally::{SectorStatistics, WearStatistics, WearTally};

@@ -12,7 +12,7 @@
 
 use super::batch::{BatchSums, Window};
 use super::place::ContactPlace;
-use super::student::student;
+use super::student::{spread, student};
 use serde::{Deserialize, Serialize};
 
 /// The share of runs that have settled and are said not to have.
@@ -83,11 +83,8 @@ impl Window {
         let settled = (1..values.len().div_ceil(2))
             .find(|from| after(from).is_some_and(|rest| self::differing(rest, level).is_none()));
         let (first, rest) = values.split_at(settled.unwrap_or(differing));
-        Some(Beginning {
-            first: mean(first),
-            rest: mean(rest),
-            settled_from_s: settled.map(|from| self.start_of(from)),
-        })
+        let [(first, _), (rest, _)] = [first, rest].map(spread);
+        Some(Beginning { first, rest, settled_from_s: settled.map(|from| self.start_of(from)) })
     }
 }
 
@@ -104,8 +101,9 @@ fn differing(values: &[f64], level: f64) -> Option<usize> {
     let (one, others) = values.split_first()?;
     let count = others.len() as f64;
     if values.len() >= FEWEST {
-        let deviation = (squares(others) / (count - 1.0) * (1.0 + 1.0 / count)).sqrt();
-        if beyond(one - mean(others), deviation, others.len() - 1, mean(others)) {
+        let (rest, squares) = spread(others);
+        let deviation = (squares / (count - 1.0) * (1.0 + 1.0 / count)).sqrt();
+        if beyond(one - rest, deviation, others.len() - 1, rest) {
             return Some(1);
         }
     }
@@ -113,20 +111,10 @@ fn differing(values: &[f64], level: f64) -> Option<usize> {
     if half < 2 {
         return None;
     }
-    let (first, last) = (&values[..half], &values[values.len() - half..]);
+    let [(first, first_squares), (last, last_squares)] = [&values[..half], &values[values.len() - half..]].map(spread);
     let freedom = 2 * half - 2;
-    let deviation = ((squares(first) + squares(last)) / freedom as f64 * 2.0 / half as f64).sqrt();
-    beyond(mean(first) - mean(last), deviation, freedom, mean(last)).then_some(half)
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-/// Σ (x − x̄)².
-fn squares(values: &[f64]) -> f64 {
-    let mean = mean(values);
-    values.iter().map(|x| (x - mean) * (x - mean)).sum()
+    let deviation = ((first_squares + last_squares) / freedom as f64 * 2.0 / half as f64).sqrt();
+    beyond(first - last, deviation, freedom, last).then_some(half)
 }
 
 #[cfg(test)]

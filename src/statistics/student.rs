@@ -1,4 +1,4 @@
-//! The quantile of Student's t distribution from which intervals are made.
+//! The quantile of Student's t distribution, and the spread of values: intervals are made of both.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
@@ -11,6 +11,12 @@ const NORMAL: f64 = 1.959_963_984_540_054;
 /// Above this many degrees of freedom the expansion about the normal quantile errs by less than
 /// 1e-12 of t.
 const MANY: u64 = 400;
+
+/// The mean, and the sum of the squares about it.
+pub(crate) fn spread(values: &[f64]) -> (f64, f64) {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    (mean, values.iter().map(|x| (x - mean) * (x - mean)).sum())
+}
 
 /// Student's t for a two-sided interval of 95 % with `freedom` degrees of freedom, 1 or more;
 /// infinite for none.

@@ -13,7 +13,7 @@
 use super::measure::Measure;
 use super::realisation::Realisation;
 use crate::error::amount;
-use crate::statistics::{ContactPlace, PlaceKind};
+use crate::statistics::{ContactPlace, PlaceKind, spread};
 use serde::Serialize;
 use std::fmt;
 
@@ -93,12 +93,6 @@ impl Groups {
 /// From the last of the lower values to the first of the upper ones.
 fn between((low, high): (&[f64], &[f64])) -> f64 {
     low.last().zip(high.first()).map_or(0.0, |(low, high)| high - low)
-}
-
-/// The mean, and the sum of the squares about it.
-fn spread(values: &[f64]) -> (f64, f64) {
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    (mean, values.iter().map(|x| (x - mean) * (x - mean)).sum())
 }
 
 /// Realisations that fall into two groups at a place.
