@@ -122,6 +122,10 @@ def test_the_year_of_the_limit_lies_on_the_curve_of_the_depth(three: sg.WearStud
             if found is not None:
                 # Straight between the points, on either side.
                 assert np.interp(found, three.years["year"][own], depth) == pytest.approx(three.limit, rel=1e-12)
+        if all(year is not None for year in limit.scar_histories):
+            # Student's t of two degrees of freedom.
+            deviation = np.std(np.array(limit.scar_histories, dtype=float), ddof=1)
+            assert limit.scar_half_width == pytest.approx(4.302652729911275 * deviation / 3**0.5, rel=1e-9)
     assert three.limit_years["plate-1"].scar is not None
 
 

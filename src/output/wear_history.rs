@@ -208,7 +208,9 @@ pub fn limits(case: &Case, found: &WearHistories) -> Vec<Value> {
             let mean = limit.and_then(|limit| found.reaches(support, limit, value));
             let each = limit.map_or(Vec::new(), |limit| found.reaches_by_history(support, limit, value));
             let each: Vec<Option<f64>> = each.into_iter().map(in_years).collect();
+            let half_width = limit.and_then(|limit| found.half_width_of_time(support, limit, value));
             own.insert(format!("limit_{depth}_years"), json!(in_years(mean)));
+            own.insert(format!("limit_{depth}_half_width_95_years"), json!(in_years(half_width)));
             own.insert(format!("limit_{depth}_years_of_histories"), json!(each));
         };
         add("deepest", |state| state.depth_deepest_m);

@@ -22,7 +22,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
                 let later = later(&found.reaches_at_last_rate(support, limit, value));
                 return format!("not within {} years{among}{later}", rounded(end));
             };
-            format!("after {} years{among}", in_years(time, &each))
+            format!("after {} years{among}", in_years(time, found.half_width_of_time(support, limit, value)))
         };
         remarks.push(format!(
             "the tube reaches the limit of {} mm at support {name:?} {} where it is deepest, {} if all of its wear \
@@ -44,14 +44,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
         ));
     }
     remarks.extend(groups(found));
-    if histories == 1 && !case.is_random() {
-        remarks.push(
-            "nothing is random here, so that there is one history, and no interval: of a periodic motion `run` tells \
-             by the half width of the work rate how far its periods agree; of a chaotic one initial.scatter makes \
-             several histories, whose depths have intervals"
-                .to_owned(),
-        );
-    }
+    remarks.extend(single(case, found));
     remarks.extend(growths(case, found));
     let widened = found.supports.iter().enumerate().filter(|(support, _)| {
         let gap = |point| mean(point, *support, |state| state.gap_m).0;
@@ -68,18 +61,22 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     remarks
 }
 
-/// A time, s, in years, with the half width of its 95 % interval where each history has one.
-fn in_years(time: f64, each: &[Option<f64>]) -> String {
-    let known: Option<Vec<f64>> = each.iter().map(|time| time.map(|time| time / YEAR)).collect();
-    let half = known.and_then(|years| mean_of(&years).2);
-    half.map_or_else(|| amount(time / YEAR, 3), |half| with_interval(time / YEAR, Some(half)))
+/// A time, s, in years, with the half width of its 95 % interval, s.
+fn in_years(time: f64, half_width: Option<f64>) -> String {
+    half_width.map_or_else(|| amount(time / YEAR, 3), |half| with_interval(time / YEAR, Some(half / YEAR)))
+}
+
+/// The mean of the times (s) of all histories, in years, with its interval; `None` unless each has
+/// one.
+fn mean_in_years(each: &[Option<f64>]) -> Option<String> {
+    let times: Vec<f64> = each.iter().copied().collect::<Option<_>>()?;
+    let (mean, _, half_width) = mean_of(&times);
+    (!times.is_empty()).then(|| in_years(mean, half_width))
 }
 
 /// When the histories reach a limit after their end, s, in words that follow that they do not.
 fn later(each: &[Option<f64>]) -> String {
-    let known: Option<Vec<f64>> = each.iter().copied().collect();
-    let mean = known.filter(|times| !times.is_empty()).map(|times| mean_of(&times).0);
-    mean.map_or_else(String::new, |time| format!(", after {} at the last rate", in_years(time, each)))
+    mean_in_years(each).map_or_else(String::new, |years| format!(", after {years} at the last rate"))
 }
 
 /// When a limit is reached in the single histories, s, in words that follow when their mean does.
@@ -104,6 +101,23 @@ fn groups(found: &WearHistories) -> Vec<String> {
         Some(format!("the histories fall into two groups at support {name:?}: {words}"))
     };
     found.supports.iter().enumerate().filter_map(one).collect()
+}
+
+/// What the interval of a single history is.
+fn single(case: &Case, found: &WearHistories) -> Option<String> {
+    let largest = &found.points.last()?.largest;
+    let [known, lacking] = [true, false].map(|known| largest.iter().any(|state| state.work_j.is_finite() == known));
+    let one = if case.is_random() { "one history" } else { "nothing is random here, so that there is one history" };
+    let interval = match (known, lacking) {
+        (false, false) => return None,
+        (true, _) => {
+            "± is what the 95 % intervals of the work rates of its windows make of it, as if these erred all alike"
+        }
+        (false, true) => "it has no interval: its windows are too short for one of their work rates",
+    };
+    let more = "initial.scatter makes several of a chaotic motion, whose depths have intervals of their own";
+    let more = if case.is_random() { "several histories tell how far their depths scatter" } else { more };
+    Some(format!("{one}; {interval}; {more}"))
 }
 
 /// Supports at which nothing slid in any history, a sentence for all of them.
@@ -139,10 +153,8 @@ fn worn_through(found: &WearHistories) -> Option<String> {
     if let Some(first) = each.get_mut(history - 1) {
         *first = Some(*time_s);
     }
-    let known: Option<Vec<f64>> = each.iter().copied().collect();
-    let all = known.map_or_else(String::new, |times| {
-        format!("; at the last rates all {count} are after {} years", in_years(mean_of(&times).0, &each))
-    });
+    let all = mean_in_years(&each)
+        .map_or_else(String::new, |years| format!("; at the last rates all {count} are after {years} years"));
     Some(format!(
         "{support} is worn through after {years} years in history {history}, the first of {count}, by {wall} mm where \
          it is deepest{all}. There the study ends: a mean over the histories that are left would be one of the slower \
@@ -213,8 +225,8 @@ mod tests {
     use super::*;
     use crate::study::wear_history::WearPoint;
 
-    /// Two histories whose depths grow by `rates` (m a year), at 0, 10 and 20 years.
-    fn histories(rates: [f64; 2]) -> WearHistories {
+    /// Histories whose depths grow by `rates` (m a year), at 0, 10 and 20 years.
+    fn histories(rates: &[f64]) -> WearHistories {
         let state = |depth: f64| WearState {
             gap_m: 1e-3,
             shift_m: [0.0; 2],
@@ -227,6 +239,7 @@ mod tests {
         let point = |years: f64| WearPoint {
             time_s: years * YEAR,
             histories: rates.iter().map(|rate| vec![state(rate * years)]).collect(),
+            largest: rates.iter().take(usize::from(rates.len() == 1)).map(|rate| state(1.1 * rate * years)).collect(),
         };
         let points = [0.0, 10.0, 20.0].map(point).to_vec();
         WearHistories {
@@ -241,14 +254,14 @@ mod tests {
 
     #[test]
     fn the_year_of_a_limit_has_the_interval_of_its_histories_or_follows_from_the_last_rate() {
-        let found = histories([1e-5, 2e-5]);
+        let found = histories(&[1e-5, 2e-5]);
         let depth = |state: &WearState| state.depth_deepest_m;
         // The mean reaches 0.12 mm after 8 years, the histories after 12 and 6: 9 ± t·s/√2 of one
         // degree of freedom is 38 years.
         let each = found.reaches_by_history(0, 1.2e-4, depth);
         let mean = found.reaches(0, 1.2e-4, depth).unwrap();
         assert_eq!(
-            (in_years(mean, &each), among(&each)),
+            (in_years(mean, found.half_width_of_time(0, 1.2e-4, depth)), among(&each)),
             ("8 ± 38".to_owned(), " (its 2 histories after 6 to 12)".to_owned())
         );
         // 0.6 mm: after 60 and 30 years at those rates.
@@ -257,6 +270,13 @@ mod tests {
         assert!((years[0] - 60.0).abs() < 1e-9 && (years[1] - 30.0).abs() < 1e-9, "{years:?}");
         assert!(later(&later_on).starts_with(", after 45 ± ") && later(&later_on).ends_with(" at the last rate"));
         // One that does not grow never reaches it, and nothing is told of their mean.
-        assert_eq!(later(&histories([0.0, 1e-5]).reaches_at_last_rate(0, 6e-4, depth)), "");
+        // Of one history whose windows leave 10 % open: after 12 years, and at 1.1 times the rate
+        // after 12/1.1.
+        let one = histories(&[1e-5]);
+        let half_width = one.half_width_of_time(0, 1.2e-4, depth).unwrap() / YEAR;
+        assert!((half_width - (12.0 - 12.0 / 1.1)).abs() < 1e-9, "{half_width}");
+        let (depth_then, half_width) = super::mean(&one.points[1], 0, depth);
+        assert!((depth_then - 1e-4).abs() < 1e-15 && (half_width.unwrap() - 1e-5).abs() < 1e-15);
+        assert_eq!(later(&histories(&[0.0, 1e-5]).reaches_at_last_rate(0, 6e-4, depth)), "");
     }
 }

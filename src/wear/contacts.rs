@@ -10,7 +10,7 @@
 use super::blows::Blow;
 use super::piece::{ImpulseDuration, Piece, Section, SlidingPiece, degrees};
 use crate::linear::Segment;
-use crate::scene::{Face, Scene, Support, Wall, heading};
+use crate::scene::{Face, PlaneRows, Scene, Support, Wall, heading};
 use crate::step::{Path, Step};
 
 /// The contacts of a scene's supports.
@@ -30,11 +30,14 @@ struct SupportContacts {
 /// A distance slid in a step below this share of the gap scale is the rounding of a place.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
+/// A body as near to a round hole as this share of the gap touches it.
+const TOUCHING: f64 = 1e-9;
+
 /// A contact of a support.
 #[derive(Debug, Clone, Copy)]
 enum Contact {
     Flat { wall: usize, rigid: bool, angle: f64, normal: [f64; 2] },
-    Hole { wall: usize, rigid: bool },
+    Hole { wall: usize, rigid: bool, centre: [f64; 2], gap: f64 },
 }
 
 impl SlidingContacts {
@@ -51,7 +54,7 @@ impl SlidingContacts {
                         angle: direction?.rem_euclid(360.0) % 360.0,
                         normal: heading(direction?),
                     },
-                    Face::Round { .. } => Contact::Hole { wall: index, rigid },
+                    Face::Round { centre, gap, .. } => Contact::Hole { wall: index, rigid, centre, gap },
                 })
             };
             let contacts = support.members(&scene.walls).filter_map(contact).collect();
@@ -86,7 +89,7 @@ impl SlidingContacts {
                     duration: if contact.is_rigid() { ImpulseDuration::Unresolved } else { ImpulseDuration::Lasting },
                     angle: push.angle,
                     normal: push.normal,
-                    began: push.angle,
+                    began: contact.began(step, &section.at, &push),
                     impulse: push.impulse,
                     friction: push.friction,
                     work: 0.0,
@@ -122,6 +125,20 @@ impl Contact {
         match self {
             Self::Flat { rigid, .. } | Self::Hole { rigid, .. } => rigid,
         }
+    }
+
+    /// The angle at the start of a step, degrees. Over a step on a grid that ends in a round hole
+    /// with contact the normal is that of its middle: it turns from the start to there as from there
+    /// to the end.
+    fn began(self, step: &Step<'_>, at: &PlaneRows, push: &Push) -> f64 {
+        let Self::Hole { centre, gap, .. } = self else { return push.angle };
+        let end = [at.y.dot(step.q) - centre[0], at.z.dot(step.q) - centre[1]];
+        if end[0].hypot(end[1]) < (1.0 - TOUCHING) * gap {
+            return push.angle;
+        }
+        let [y, z] = push.normal;
+        let along = 2.0 * (y * end[0] + z * end[1]);
+        degrees([along * y - end[0], along * z - end[1]])
     }
 
     /// The index of the contact, with its force and impulse; `None` if there was none.

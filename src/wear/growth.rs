@@ -71,6 +71,13 @@ impl WearWork {
         }
     }
 
+    /// The same, `factor` times as large everywhere.
+    #[must_use]
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        let all = |work: &[f64]| work.iter().map(|work| factor * work).collect();
+        Self { total: factor * self.total, sectors: all(&self.sectors), walls: all(&self.walls) }
+    }
+
     /// ∫ E(θ) (cos θ, sin θ) dθ, J, with the work of each sector spread evenly over it.
     fn first_harmonic(&self) -> [f64; 2] {
         let width = std::f64::consts::TAU / self.sectors.len() as f64;

@@ -60,7 +60,7 @@ fn the_gap_of_a_steady_whirl_grows_by_its_closed_form() {
         let (out, err) =
             said(dir.path(), &[&["wear"], &WHIRL[..], &["--years", &years, "--force", "--out", "w"]].concat(), 0);
         assert!(out.contains("support") && out.contains("gap") && out.contains("hole"), "{out}");
-        assert!(err.contains("evenly all round") && !err.contains('±'), "{err}");
+        assert!(err.contains("evenly all round") && err.contains("± is what the 95 % intervals"), "{err}");
         let history = rows(&dir.path().join("w/history.csv"));
         let last = history.last().unwrap();
         // Heun's steps whose corrections are up to 0.5 % of the gap leave 0.2 % of its growth.
@@ -77,6 +77,17 @@ fn the_gap_of_a_steady_whirl_grows_by_its_closed_form() {
             // The mass has no coefficient.
             assert_eq!(number(row, "depth_all_round_m"), 0.0);
         }
+        // The interval of the growth, which is in proportion to the work, is that of the work rates
+        // weighted by time: between the least and the largest share of theirs.
+        let years = rows(&dir.path().join("w/years.csv"));
+        let (first, last) = (&years[0], &years[years.len() - 1]);
+        let run = &rows(&dir.path().join("w/first-window/supports.csv"))[0];
+        let half_width = number(first, "work_rate_half_width_95_W");
+        assert!((half_width / number(run, "work_rate_half_width_95_W") - 1.0).abs() < 1e-12);
+        let shares = years.iter().map(|row| number(row, "work_rate_half_width_95_W") / number(row, "work_rate_W"));
+        let (least, most) = shares.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+        let share = number(last, "gap_half_width_95_m") / (number(last, "gap_m") - 5e-3);
+        assert!(0.5 * least <= share && share <= 2.0 * most, "{least} {share} {most}");
     }
 }
 

@@ -26,7 +26,8 @@ class LimitYears:
     ``deepest`` where it is deepest, ``scar`` if all of the wear comes off one scar, ``even`` if it
     comes off evenly all round; None where that is not within the years followed, or without limit.
     The ``histories`` of each are those of the single histories, by which the year scatters; none
-    without limit.
+    without limit. The ``half_width`` of each is that of its 95 % interval: of the histories, where
+    each reaches the limit, or of a single one by the half widths of the work rates of its windows.
     """
 
     deepest: float | None
@@ -35,6 +36,9 @@ class LimitYears:
     deepest_histories: tuple[float | None, ...] = ()
     scar_histories: tuple[float | None, ...] = ()
     even_histories: tuple[float | None, ...] = ()
+    deepest_half_width: float | None = None
+    scar_half_width: float | None = None
+    even_half_width: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +48,8 @@ class WearStudy:
     ``years`` has the columns of ``years.csv``: means over the histories with the half widths of
     their 95 % intervals (``gap_m``, of flats the least; ``depth_deepest_m``,
     ``depth_all_round_m``, ``depth_one_scar_m``, ``work_rate_W`` and the same with
-    ``half_width_95`` in the name), a row for each ``year`` and ``place``. ``history`` has those of ``history.csv``, a row for each
-    history as well. ``limit`` is the depth up to which the tube may wear, m, or None, and
+    ``half_width_95`` in the name), a row for each ``year`` and ``place``. ``history`` has those of
+    ``history.csv``, a row for each history as well. ``limit`` is the depth up to which the tube may wear, m, or None, and
     ``limit_years`` says when each support reaches it. ``histories`` is their number and
     ``windows`` how many runs they took. ``first`` is the study of the first windows, with its
     errors, where the number of histories follows from an interval. ``remarks`` say what the
@@ -128,9 +132,11 @@ class WearStudy:
 
 
 def _limit_years(known: dict[str, Any]) -> LimitYears:
-    names = [f"limit_{name}_years" for name in ("deepest", "one_scar", "all_round")]
-    histories = (tuple(known[f"{name}_of_histories"]) for name in names)
-    return LimitYears(*(known[name] for name in names), *histories)
+    names = [f"limit_{name}" for name in ("deepest", "one_scar", "all_round")]
+    years = [known[f"{name}_years"] for name in names]
+    histories = [tuple(known[f"{name}_years_of_histories"]) for name in names]
+    half_widths = [known[f"{name}_half_width_95_years"] for name in names]
+    return LimitYears(*years, *histories, *half_widths)
 
 
 def wear(

@@ -19,7 +19,9 @@
 //! Histories end where the first of them is worn through the wall of the tube, as far as it is
 //! known, or with the service. A mean over those that are left would be one of the slower ones.
 //!
-//! Under random loads several histories are followed side by side, each window with seeds of its
+//! Of a single history each depth has a half width by those of the work rates of its windows: the
+//! depth if all these rates were larger by theirs, at the same gaps, less the depth found. Under
+//! random loads several histories are followed side by side, each window with seeds of its
 //! own, so that the scatter of depths between histories is that of what was not averaged out.
 
 mod state;
@@ -75,6 +77,14 @@ pub struct WearPlan<'a> {
 /// The work at each support in each history, J; as rates, W.
 type Works = Vec<Vec<WearWork>>;
 
+/// The work rates in a window of each history, W.
+struct Rates {
+    /// As found.
+    found: Works,
+    /// Of a single history if each were larger by its half width; none of several.
+    largest: Works,
+}
+
 impl WearPlan<'_> {
     /// Follows the histories. The windows that were `kept` by an earlier call, numbers 1, 2, … in
     /// order, are not run again where these histories have the same supports in them: all of those
@@ -102,22 +112,27 @@ impl WearPlan<'_> {
         };
         let none = |support: &WearingSupport| WearWork::none(self.options.time.sectors, support.gaps.len());
         let mut work: Works = vec![self.supports.iter().map(none).collect(); self.histories];
+        let mut largest = if self.histories == 1 { work.clone() } else { Works::new() };
         let (mut time, mut step) = (0.0, self.service);
         loop {
             let rates = self.rates(&work, &mut found, kept, keep)?;
-            found.points.push(self.point(time, &work, &rates));
+            let mut point =
+                WearPoint { time_s: time, histories: self.states(&work, &rates.found), largest: Vec::new() };
+            point.largest = self.states(&largest, &rates.largest).concat();
+            found.points.push(point);
             if time >= self.service || found.worn_through.is_some() {
                 found.depths_at_end_m = work.iter().map(|history| self.depths(history)).collect();
                 return Ok(found);
             }
-            step = self.longest_step(&work, &rates).min(step).min(self.service - time);
+            step = self.longest_step(&work, &rates.found).min(step).min(self.service - time);
             loop {
-                let ahead = advanced(&work, &rates, &rates, step);
+                let ahead = advanced(&work, &rates.found, &rates.found, step);
                 let then = self.rates(&ahead, &mut found, kept, keep)?;
-                let corrected = advanced(&work, &rates, &then, step);
+                let corrected = advanced(&work, &rates.found, &then.found, step);
                 if step <= SHORTEST * self.service || self.agree(&ahead, &corrected) {
-                    step = self.intact(&work, (&rates, &then), step);
-                    work = advanced(&work, &rates, &then, step);
+                    step = self.intact(&work, (&rates.found, &then.found), step);
+                    work = advanced(&work, &rates.found, &then.found, step);
+                    largest = advanced(&largest, &rates.largest, &then.largest, step);
                     break;
                 }
                 step *= 0.5;
@@ -178,7 +193,7 @@ impl WearPlan<'_> {
         found: &mut WearHistories,
         kept: &[WearWindow],
         keep: &mut dyn FnMut(&WearWindow) -> Result<()>,
-    ) -> Result<Works> {
+    ) -> Result<Rates> {
         let (first, last) = (found.windows + 1, found.windows + self.histories as u64);
         let openings: Vec<Vec<Opening>> = work.iter().map(|history| self.openings(history)).collect();
         let there = kept.iter().skip(found.windows as usize).zip(&openings);
@@ -197,7 +212,9 @@ impl WearPlan<'_> {
         found.windows += self.histories as u64;
         let refuted = windows.iter().filter(|window| !window.findings.is_empty());
         found.refuted.extend(refuted.map(|window| (window.number, window.findings.clone())));
-        Ok(windows.into_iter().map(|window| window.rates).collect())
+        let single = windows.iter().filter(|_| self.histories == 1);
+        let largest = single.map(WearWindow::largest_rates).collect();
+        Ok(Rates { largest, found: windows.into_iter().map(|window| window.rates).collect() })
     }
 
     /// What the work (J) of a history has made of each support.
@@ -210,12 +227,13 @@ impl WearPlan<'_> {
         self.supports.iter().zip(history).map(|(support, work)| support.depths(work)).collect()
     }
 
-    fn point(&self, time: f64, work: &Works, rates: &Works) -> WearPoint {
+    /// The state of each support in each history after the work `work` (J) at the rates `rates` (W).
+    fn states(&self, work: &Works, rates: &Works) -> Vec<Vec<WearState>> {
         let states = |(work, rates): (&Vec<WearWork>, &Vec<WearWork>)| {
             let all = self.supports.iter().zip(work.iter().zip(rates));
             all.map(|(support, (work, rate))| support.state(work, rate.total)).collect()
         };
-        WearPoint { time_s: time, histories: work.iter().zip(rates).map(states).collect() }
+        work.iter().zip(rates).map(states).collect()
     }
 
     /// The longest step in which no gap grows by more than [`MOST_GROWTH`] of itself, s.

@@ -35,12 +35,21 @@ pub struct WearPoint {
     pub time_s: f64,
     /// Each history, with a state for each support.
     pub histories: Vec<Vec<WearState>>,
+    /// Of a single history each support as it would be if the work rate of every window were larger
+    /// by the half width of its 95 % interval, with a work of NaN where a window has none. None of
+    /// several histories, whose scatter tells more.
+    pub largest: Vec<WearState>,
 }
 
 impl WearPoint {
     /// The state of a history at a support, both by number.
     fn state(&self, history: usize, support: usize) -> Option<&WearState> {
         self.histories.get(history)?.get(support)
+    }
+
+    /// A support, by number, as it would be with the largest work rates, where these are known.
+    fn largest(&self, support: usize) -> Option<&WearState> {
+        self.largest.get(support).filter(|state| state.work_j.is_finite())
     }
 }
 
@@ -77,12 +86,14 @@ pub struct WearHistories {
     pub refuted: Vec<(u64, Vec<Finding>)>,
 }
 
-/// The mean of a quantity over the histories, and the half width of its 95 % interval.
+/// The mean of a quantity over the histories, and the half width of its 95 % interval: of a single
+/// history by the half widths of the work rates of its windows, as if these erred all alike.
 #[must_use]
 pub fn mean(point: &WearPoint, support: usize, quantity: impl Fn(&WearState) -> f64) -> (f64, Option<f64>) {
-    let values: Vec<f64> = point.histories.iter().filter_map(|states| states.get(support)).map(quantity).collect();
+    let values: Vec<f64> = point.histories.iter().filter_map(|states| states.get(support)).map(&quantity).collect();
     let (mean, _, half_width) = mean_of(&values);
-    (mean, half_width)
+    let of_windows = || Some((quantity(point.largest(support)?) - mean).abs());
+    (mean, half_width.or_else(of_windows).filter(|half_width| half_width.is_finite()))
 }
 
 impl WearHistories {
@@ -107,7 +118,22 @@ impl WearHistories {
         self.crossing(limit, |point| Some(mean(point, support, quantity).0))
     }
 
-    /// The same of each history alone.
+    /// The half width of the 95 % interval of that time, s: of the histories where each reaches the
+    /// limit, of a single one by the half widths of the work rates of its windows.
+    #[must_use]
+    pub fn half_width_of_time(
+        &self,
+        support: usize,
+        limit: f64,
+        quantity: impl Fn(&WearState) -> f64 + Copy,
+    ) -> Option<f64> {
+        let time = self.reaches(support, limit, quantity)?;
+        let each: Option<Vec<f64>> = self.reaches_by_history(support, limit, quantity).into_iter().collect();
+        let of_windows = || self.crossing(limit, |point| point.largest(support).map(quantity));
+        each.and_then(|times| mean_of(&times).2).or_else(|| Some(time - of_windows()?))
+    }
+
+    /// The time in service at which each history alone reaches it, s.
     #[must_use]
     pub fn reaches_by_history(
         &self,

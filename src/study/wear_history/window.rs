@@ -17,6 +17,10 @@ pub struct WearWindow {
     pub openings: Vec<Opening>,
     /// The work rates of each support that wears, W.
     pub rates: Vec<WearWork>,
+    /// The half widths of the 95 % intervals of the work rates of all of each support, W: of the
+    /// batches of this one run.
+    #[serde(default)]
+    pub half_widths_95_w: Vec<Option<f64>>,
     /// What the judge refutes in its run.
     pub findings: Vec<Finding>,
 }
@@ -31,11 +35,25 @@ impl WearWindow {
 
     /// What `member` tells of `supports`, of which wear had made `openings`.
     pub(super) fn after(member: &Realisation, supports: &[WearingSupport], openings: Vec<Opening>) -> Self {
-        let rate = |support: &WearingSupport| {
-            let found = member.wear.iter().find(|wear| wear.support == support.name);
-            found.map_or_else(WearWork::default, WearStatistics::rates)
+        let found = |support: &WearingSupport| member.wear.iter().find(|wear| wear.support == support.name);
+        let rate = |support| found(support).map_or_else(WearWork::default, WearStatistics::rates);
+        let half_width = |support| found(support).and_then(|wear| wear.work_rate_half_width_95_w);
+        Self {
+            number: member.number,
+            openings,
+            rates: supports.iter().map(rate).collect(),
+            half_widths_95_w: supports.iter().map(half_width).collect(),
+            findings: member.findings.clone(),
+        }
+    }
+
+    /// The work rates if that of each support were larger by its half width; NaN of a support
+    /// without one.
+    pub(super) fn largest_rates(&self) -> Vec<WearWork> {
+        let larger = |(support, rate): (usize, &WearWork)| {
+            let half_width = self.half_widths_95_w.get(support).copied().flatten();
+            rate.scaled(half_width.map_or(f64::NAN, |half_width| 1.0 + half_width / rate.total))
         };
-        let rates = supports.iter().map(rate).collect();
-        Self { number: member.number, openings, rates, findings: member.findings.clone() }
+        self.rates.iter().enumerate().map(larger).collect()
     }
 }
