@@ -118,7 +118,7 @@ impl Stepper {
     /// Parameters
     /// ----------
     /// force : float or array of shape (degrees of freedom,), optional
-    ///     An extra force, N, constant over the step.
+    ///     An extra force, N, constant over the step, of ``located`` over this part of it.
     ///
     /// Returns
     /// -------
@@ -150,8 +150,8 @@ impl Stepper {
     /// end : float
     ///     s.
     /// force : callable, optional
-    ///     ``force(time, q, v)`` gives the extra force of each step, N, from the state before it:
-    ///     numbers for one degree of freedom, arrays for more.
+    ///     ``force(time, q, v)`` gives the extra force of each step, N, from the state before it,
+    ///     of ``located`` that of each part: numbers for one degree of freedom, arrays for more.
     ///
     /// Returns
     /// -------

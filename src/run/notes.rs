@@ -18,6 +18,7 @@ pub(crate) use unsettled::unsettled;
 use super::finished::Run;
 use super::judging::Judging;
 use super::recording::Recording;
+use crate::error::counted;
 use crate::residual::Energy;
 use crate::scene::{Checked, Scene};
 use crate::scheme::{Counters, Realised, Scheme};
@@ -148,19 +149,20 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
 /// Notes on the counters of steps, of round holes and of friction.
 fn of_counters(scheme: &Scheme, counters: &Counters) -> Vec<String> {
     let mut notes = Vec::new();
+    let steps = |count: u64| counted(count as usize, "step");
     if counters.steps_given_up > 0 {
         notes.push(format!(
-            "in {} steps impacts follow one another too fast for {}: the rest of each was made \
+            "in {} impacts follow one another too fast for {}: the rest of each was made \
              without rebound; use a smaller step",
-            counters.steps_given_up,
+            steps(counters.steps_given_up),
             scheme.entry().name
         ));
     }
     if counters.frozen_steps > 0 {
         notes.push(format!(
-            "in {} steps opposite walls pushed in turn: the body crosses the gap in less than a step and stands \
+            "in {} opposite walls pushed in turn: the body crosses the gap in less than a step and stands \
              still in the result; use a smaller step",
-            counters.frozen_steps
+            steps(counters.frozen_steps)
         ));
     }
     let turn = counters.largest_turn_rad;
@@ -173,16 +175,16 @@ fn of_counters(scheme: &Scheme, counters: &Counters) -> Vec<String> {
     }
     if counters.wedged_steps > 0 {
         notes.push(format!(
-            "in {} steps no impulses of contacts with friction give the rebounds that their restitution demands (a \
-             body is wedged), or only impulses that add energy: these contacts took a restitution of 0 in those steps",
-            counters.wedged_steps
+            "in {} no impulses of contacts with friction give the rebounds that their restitution demands (a \
+             body is wedged), or only impulses that add energy: these contacts took a restitution of 0 there",
+            steps(counters.wedged_steps)
         ));
     }
     if counters.qp_unsettled > 0 {
         notes.push(format!(
-            "in {} steps rounding left the contacts without a common state of sticking and slipping: trust this run \
+            "in {} rounding left the contacts without a common state of sticking and slipping: trust this run \
              only if the judge finds nothing",
-            counters.qp_unsettled
+            steps(counters.qp_unsettled)
         ));
     }
     notes

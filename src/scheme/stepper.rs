@@ -117,8 +117,8 @@ impl Stepper {
     }
 
     /// Advances by one step, or by one part as [`Stepper::step`] does, under an extra force (N, one
-    /// value per degree of freedom), constant over it: for co-simulation with another program. In
-    /// all parts of a divided step that of the first acts.
+    /// value per degree of freedom), constant over it: for co-simulation with another program.
+    /// Each part of a divided step has the force that is given for it.
     ///
     /// # Errors
     /// As [`Stepper::step`]; [`Error::Invalid`] for a force of the wrong length or not finite.

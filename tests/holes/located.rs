@@ -9,7 +9,7 @@ use crate::draws;
 use crate::pendulum::{GAP, IMPULSE, PERIOD, WORK, pendulum};
 use crate::random_structures::Draws;
 use crate::rubbing::{body, hole, isotropic, load, random_scene, with, with_flats};
-use signorini::{Load, Options, Row, Run, Scene, Scheme, WallLaw, run};
+use signorini::{FrictionCoefficients, Load, Options, Row, Run, Scene, Scheme, WallLaw, run};
 use std::f64::consts::{PI, TAU};
 
 /// The run of `located` in steps of `step` seconds, of which the judge finds nothing.
@@ -237,4 +237,61 @@ fn a_blow_on_a_body_that_slides_acts_at_its_instant() {
     // Chords of 0.035 rad: each falls short of its arc by 1e-4 of it in the mean speed.
     assert!(off < 1e-3 * gap && (end - TAU / 2.0).abs() > 0.1, "{off:e} {end}");
     assert!((run.state.v[0].hypot(run.state.v[1]) - 0.7).abs() < 1e-3, "{:?}", run.state);
+}
+
+/// tan φ at which a mass that `force` (N) presses into a hole of the gap `gap` (m) stops, thrown
+/// along the circle at `speed` (m/s) from the lowest point, under kinetic friction `friction`: with
+/// u = φ̇², du/dφ = −2F(sin φ + μ cos φ)/(mγ) − 2μu, which is linear.
+fn stop_on_circle((mass, gap): (f64, f64), force: f64, friction: f64, speed: f64) -> f64 {
+    let (a, mu) = (2.0 * force / (mass * gap), friction);
+    let along = a * (1.0 - 2.0 * mu * mu) / (1.0 + 4.0 * mu * mu);
+    let across = -a * mu - 2.0 * mu * along;
+    let square = |phi: f64| {
+        let start = (speed / gap).powi(2) - along;
+        start * (-2.0 * mu * phi).exp() + along * phi.cos() + across * phi.sin()
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *(if square(middle) > 0.0 { &mut low } else { &mut high }) = middle;
+    }
+    low.tan()
+}
+
+#[test]
+fn static_friction_holds_a_body_where_its_sliding_along_a_circle_ends() {
+    // Thrown along a hole, the body stops where the load along the circle is a tenth to a third of
+    // that across it: the static friction of 0.35 holds it there.
+    let (mass, gap, force) = (1.0, 5e-4, 10.0);
+    let friction = FrictionCoefficients { sticking: 0.35, sliding: 0.1 };
+    let thrown = |start: f64, speed: f64, law: WallLaw| {
+        let mut wall = hole("hole", body(), gap, 0.0, 0.0);
+        (wall.law, wall.friction) = (law, friction);
+        with(isotropic(mass, 0.0, 0.0), wall)
+            .with_load(load(Load::constant(force), Row::dof(0)))
+            .with_initial(&[start, 0.0], &[0.0, speed])
+            .with_duration(0.05)
+    };
+    for part in 0..24 {
+        let speed = 0.0132 + 3e-4 * f64::from(part);
+        let stop = stop_on_circle((mass, gap), force, friction.sliding, speed);
+        assert!((0.1..0.34).contains(&stop), "{stop}");
+        for step in [5e-4, 1e-4, 5e-5] {
+            let run = made(&thrown(gap, speed, WallLaw::Rigid { restitution: 0.0 }), step);
+            let found = run.state.q[1] / run.state.q[0];
+            // It turns by 0.2 rad in some 20 of the longest steps: of order 2.
+            assert!((found / stop - 1.0).abs() < 2e-2, "{speed} m/s, {step} s: {found}, {stop}");
+            // It is pressed against the hole throughout.
+            assert_eq!(run.trajectory.contacts().len(), 1, "{speed} m/s, {step} s");
+        }
+        // On a ring that vibrates under the load by a micrometre.
+        let ring = WallLaw::Elastic { stiffness: 1e5, damping: 0.0 };
+        let scene = thrown(gap + force / 1e5 + 1e-6, speed, ring);
+        let slope = |end: f64| {
+            let run = made(&scene.clone().with_duration(end), 1e-4);
+            run.state.q[1] / run.state.q[0]
+        };
+        let (stopped, last) = (slope(0.015), slope(0.05));
+        assert!(stopped > 0.09 && (last - stopped).abs() < 1e-3, "{speed} m/s: {stopped} {last}");
+    }
 }

@@ -9,4 +9,5 @@ mod random_structures;
 #[path = "../support/rubbing.rs"]
 mod rubbing;
 
+mod exact;
 mod scenes;

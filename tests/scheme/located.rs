@@ -3,7 +3,8 @@
 use crate::common::event_driven::EventDriven;
 use crate::common::{self, slope};
 use crate::random_structures::{chain, on};
-use signorini::{Load, Options, Row, Run, Scene, Scheme, Stepper, Table, TimeOptions, Wall, run};
+use signorini::linear::Symmetric;
+use signorini::{Load, Options, Row, Run, Scene, Scheme, Stepper, Structure, Table, TimeOptions, Wall, run};
 
 fn located(scene: &Scene, step: f64) -> Run {
     let time = TimeOptions { sample: Some(1e-3_f64.max(step)), ..TimeOptions::with_step(step) };
@@ -254,4 +255,47 @@ fn an_extra_force_acts_over_every_part_of_a_step() {
         assert!((inside.state().q[0] - outside.state().q[0]).abs() < 1e-13);
     }
     assert!(inside.counters().parts > 4);
+}
+
+#[test]
+fn the_extra_force_of_each_part_is_the_one_given_for_it() {
+    // A free mass of 1 kg meets a wall within the step: 1000 N over the part after that alone.
+    let scene = Scene::oscillator(1.0, 0.0, 0.0).with_wall(Wall::upper("stop", 1e-4)).with_initial(&[0.0], &[1.0]);
+    for forces in [[0.0, 1000.0], [1000.0, 0.0]] {
+        let mut stepper = Stepper::new(&scene, &Scheme::Located, 1e-3).expect("a stepper");
+        stepper.step_with(&[forces[0]]).expect("a part");
+        let (time, speed) = (stepper.time(), stepper.state().v[0]);
+        assert!(0.0 < time && time < 1e-3 && speed < 0.0, "{time} {speed}");
+        stepper.step_with(&[forces[1]]).expect("the rest");
+        let wanted = speed + forces[1] * (1e-3 - time);
+        assert!((stepper.time() - 1e-3).abs() < 1e-18 && (stepper.state().v[0] - wanted).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn steps_that_do_not_resolve_what_a_wall_strikes_or_a_change_of_a_table_are_said() {
+    // Two masses of 1 kg on a link against a stop; the exact impulse of a stiff link is 1.04 N s.
+    let linked = |stiffness: f64| {
+        let link = [(0, 0, stiffness), (1, 0, -stiffness), (1, 1, stiffness)];
+        let structure = Structure {
+            mass: Symmetric::diagonal(&[1.0; 2]),
+            damping: Symmetric::diagonal(&[0.0; 2]),
+            stiffness: Symmetric::from_entries(2, link.into_iter()),
+        };
+        let wall = Wall::upper("stop", 5e-3).with_restitution(0.8);
+        Scene::structure(structure).with_wall(wall).with_initial(&[0.0; 2], &[0.3; 2]).with_duration(0.05)
+    };
+    let said = |scene: &Scene, words: &str| located(scene, 1e-3).notes.iter().any(|note| note.contains(words));
+    // ½h²k/m of the link: 5000 and 0.1.
+    assert!(said(&linked(1e10), "does not resolve what the wall"));
+    assert!(!said(&linked(2e5), "does not resolve what the wall"));
+    // Between two rows within a step the load falls from 10 to 0.5 N; a step of a tenth of the time
+    // between rows resolves a triangle.
+    let table = |time: &[f64], force: &[f64]| {
+        let load = Load::table(Table::new(time.to_vec(), force.to_vec()).expect("a table"));
+        Scene::oscillator(1.0, 0.0, 100.0).with_load(load).with_duration(0.1)
+    };
+    let words = "passes over a change of the table of load 1 at 0.05";
+    assert!(said(&table(&[0.0, 0.0512345, 0.0512346, 0.2], &[10.0, 10.0, 0.5, 0.5]), words));
+    assert!(!said(&table(&[0.0, 0.0505, 0.101], &[0.0, 10.0, 0.0]), "passes over"));
 }

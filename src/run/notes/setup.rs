@@ -1,6 +1,7 @@
 //! What a reader must know about a scene and a step, independent of the run.
 
 use crate::error::amount;
+use crate::linear::Symmetric;
 use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table, WallLaw};
 use crate::scheme::Scheme;
 use std::f64::consts::{PI, TAU};
@@ -12,6 +13,10 @@ const RESOLVED: f64 = 0.1;
 /// The steps resolve a table if its largest departure between them is below this share of its
 /// range.
 const MISSED: f64 = 1e-2;
+/// The steps pass over a table that changes this share of its range between two of them.
+const PASSED: f64 = 0.1;
+/// A step resolves what a wall strikes if it adds less than this share to the mass there.
+const HEAVIER: f64 = 0.25;
 /// A mode matters if it contributes this share of the static compliance at a wall or load.
 const MATTERS: f64 = 1e-2;
 /// Range of natural frequencies usual in engineering, Hz.
@@ -26,6 +31,7 @@ pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
     if !scheme.is_exact() {
         notes.extend(scene.loads.iter().enumerate().filter_map(|(i, load)| load_resolved(scene, i, load, step)));
         notes.extend(modes_resolved(scene, step));
+        notes.extend((*scheme == Scheme::Located).then(|| struck_resolved(scene, step)).flatten());
         notes.extend(walls_resolved(scene, step));
         notes.extend(dashpots_resolved(scene, step));
     }
@@ -134,25 +140,28 @@ fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<
             })
         }
         LoadKind::Table(table) => {
-            let (missed, rows) = missed(table, step, scene.duration)?;
+            let (missed, rows, at) = missed(table, step, scene.duration)?;
+            let passes = match rows > 1.0 {
+                true => format!("skips rows of the table of load {number}, {rows:.0} rows a step"),
+                false => format!("passes over a change of the table of load {number} at {at} s"),
+            };
             Some(format!(
-                "a step of {step:.2e} s skips rows of the table of load {number}, {rows:.0} rows a step: \
-                 between steps its force departs by up to {missed:.3e} N from the line through its values at \
-                 the steps"
+                "a step of {step:.2e} s {passes}: between steps its force departs by up to {missed:.3e} N from the \
+                 line through its values at the steps"
             ))
         }
         _ => None,
     }
 }
 
-/// The largest departure (N) of a table from the line through its values at the steps, and the
-/// number of its rows per step; `None` where the departure is small.
-fn missed(table: &Table, step: f64, end: f64) -> Option<(f64, f64)> {
+/// The largest departure (N) of a table from the line through its values at the steps, the number
+/// of its rows per step, and where that departure is (s); `None` where the departure is small.
+fn missed(table: &Table, step: f64, end: f64) -> Option<(f64, f64, f64)> {
     let (time, force) = (table.time(), table.force());
     let rows = step * (time.len() - 1) as f64 / (time.last()? - time.first()?);
     let extreme = |start: f64, pick: fn(f64, f64) -> f64| force.iter().copied().fold(start, pick);
     let range = extreme(f64::NEG_INFINITY, f64::max) - extreme(f64::INFINITY, f64::min);
-    let mut most = 0.0_f64;
+    let (mut most, mut most_at) = (0.0_f64, 0.0);
     // The first and last row are jumps from and to 0, which no step resolves.
     let inner = time.iter().zip(force).take(time.len() - 1).skip(1);
     for (&t, &f) in inner.filter(|(t, _)| (0.0..=end).contains(*t)) {
@@ -163,10 +172,13 @@ fn missed(table: &Table, step: f64, end: f64) -> Option<(f64, f64)> {
             |x: f64| if x >= *time.last().unwrap_or(&x) { *force.last().unwrap_or(&0.0) } else { table.piece(x).0 };
         if b > a {
             let seen = at(a) + (at(b) - at(a)) * (t - a) / (b - a);
-            most = most.max((f - seen).abs());
+            if (f - seen).abs() > most {
+                (most, most_at) = ((f - seen).abs(), t);
+            }
         }
     }
-    (rows > 1.0 && most > MISSED * range).then_some((most, rows))
+    let limit = if rows > 1.0 { MISSED } else { PASSED };
+    (most > limit * range).then_some((most, rows, most_at))
 }
 
 /// A note on a mode that the step does not resolve: in modal coordinates the fastest that matters,
@@ -189,6 +201,33 @@ fn modes_resolved(scene: &Scene, step: f64) -> Option<String> {
             amount(omega / TAU, 5)
         )
     })
+}
+
+/// A note on walls that strike what the step does not resolve. `located` gives an impact the mass of
+/// all modes there, 1/(g M⁻¹ gᵀ), and what it sets off in modes that the step does not resolve
+/// goes on without settling: a step moves the structure as if M were M + ¼h²K.
+fn struck_resolved(scene: &Scene, step: f64) -> Option<String> {
+    let System::Structure(structure) = &scene.system else { return None };
+    // The largest share that any mode adds; the frequency is an estimate from below.
+    let resolved = 0.25 * (step * scene.system.frequencies()[1]).powi(2) <= 0.5 * HEAVIER;
+    if resolved || scene.walls.iter().all(|wall| !wall.law.is_rigid()) {
+        return None;
+    }
+    let all = scene.wall_masses();
+    let mut stepped = (**structure).clone();
+    stepped.mass = Symmetric::sum(&[(1.0, &structure.mass), (0.25 * step * step, &structure.stiffness)]);
+    let seen = Scene { system: System::Structure(stepped.into()), ..scene.clone() }.wall_masses();
+    let rigid = scene.walls.iter().zip(all.iter().zip(&seen)).filter(|(wall, _)| wall.law.is_rigid());
+    let heavier = rigid.filter(|(_, (all, seen))| all.is_finite() && **seen > (1.0 + HEAVIER) * **all);
+    let (wall, (all, seen)) = heavier.max_by(|a, b| (a.1.1 / a.1.0).total_cmp(&(b.1.1 / b.1.0)))?;
+    Some(format!(
+        "a step of {step:.2e} s does not resolve what the wall {:?} strikes: impacts are those of {} kg, the mass of \
+         all modes there, and the step moves {} kg; the impulses depend on the step. A smaller step resolves these \
+         modes, or moreau-jean, whose impacts are those of the step",
+        wall.name,
+        amount(*all, 3),
+        amount(*seen, 3)
+    ))
 }
 
 /// ω of the fastest of `modes` that contributes a relevant share of the static compliance at a wall

@@ -40,7 +40,7 @@ pub(super) struct Division<S: Space, C> {
     /// The instants of blows and of jumps of loads, s, in order, and the jumps.
     breaks: Vec<f64>,
     jumps: Option<LoadJumps>,
-    /// The caller's extra force in this step, N.
+    /// The caller's extra force in this part, N.
     extra: S::Vector,
     /// The loads at the end of this step, N.
     load_end: S::Vector,
@@ -140,14 +140,11 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
     pub fn make_part(&mut self, body: &mut Body<S>, step: u64, frame: &mut Frame<S>) -> Result<()> {
         let Some(mut progress) = self.progress else { return Ok(()) };
         let Progress { reached: from, end, .. } = progress;
-        if progress.parts == 0 {
-            self.extra.clone_from(&frame.extra);
-        }
+        self.extra.clone_from(&frame.extra);
         (self.parts, progress.parts) = (self.parts + 1, progress.parts + 1);
         frame.take_back_impulses();
         (frame.start, frame.blown) = (from, false);
         frame.before.clone_from(&frame.v);
-        frame.extra.clone_from(&self.extra);
         self.classify(body, frame);
         let mut limit = self.next_break(from, end).unwrap_or(end);
         if limit.next_down() > from && self.contacts.sets_blows_apart() && self.next_break(from, end).is_some() {

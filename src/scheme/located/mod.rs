@@ -42,6 +42,11 @@
 //! step that does not resolve the motion between two walls) are given up: the rest of that step is
 //! one of implicit-euler, which keeps the body in front of all walls and takes the energy of the
 //! rebounds; such steps are counted and said.
+//!
+//! Impacts have the mass of all modes, and the rule turns the velocity of a mode that the step does
+//! not resolve round in each part: what an impact sets off there never settles, and the impulses
+//! depend on the step. Where a step makes the mass at a wall, that of M + ¼h²K, much larger than
+//! that of M, a note says so.
 
 mod contacts;
 mod crossing;
@@ -88,8 +93,9 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
               since steps are divided where a wall is struck; a body that rests stands on the face; round holes and \
               friction too",
     order: Some(2),
-    fails: "a step with more than 64 parts ends without rebound (reported); an impact costs several steps; a body that \
-            friction jams may have no motion at a coarse step (an error)",
+    fails: "a step with more than 64 parts ends without rebound (reported); a step that does not resolve what a wall \
+            strikes has impulses that depend on it (a note); an impact costs several steps; a body that friction jams \
+            may have no motion at a coarse step (an error)",
     round: Coverage::Stepped("finds the instants of contact, and follows the circle while the body slides along it"),
     elastic_round: Coverage::Stepped("presses with the force of the ring in the middle of each part"),
     friction: Coverage::Stepped("finds the instants at which sliding ends"),

@@ -2,7 +2,11 @@
 //!
 //! A round wall that pushed over a part does so in the next one, until it would have to pull: a
 //! part leaves a speed across the circle, half the angle by which the normal turns times the change
-//! of the sliding velocity, which the next part reflects.
+//! of the sliding velocity, which the next part reflects, also where it turns less.
+//!
+//! Sliding ends where the velocity along the tangent in the middle of a part vanishes. Along the
+//! tangent at its end there is left what the place moves outwards, times half the angle by which
+//! the normal turns: there the place does not slide.
 
 use super::super::body::Body;
 use super::super::matrices::Matrices;
@@ -26,6 +30,8 @@ pub(super) struct PlaneContact {
     pub pushes: bool,
     /// True if it pushed over the last part of some length, or at the instant after that.
     pub pushed: bool,
+    /// True if its friction ended the sliding in the last part.
+    pub stopped: bool,
     /// Outward normal, and the rate of the place along it and along the tangent, m/s.
     pub normal: [f64; 2],
     pub rate: [f64; 2],
@@ -52,6 +58,7 @@ impl PlaneContact {
             lasts: false,
             pushes: false,
             pushed: false,
+            stopped: false,
             normal: point.normal,
             rate: [0.0; 2],
             rounding: 0.0,
@@ -64,7 +71,7 @@ impl PlaneContact {
 
     /// Forgets the last part.
     pub fn forget(&mut self) {
-        (self.lasts, self.pushed, self.stuck) = (false, false, [None; 2]);
+        (self.lasts, self.pushed, self.stopped, self.stuck) = (false, false, false, [None; 2]);
         (self.acceleration, self.pressed) = ([0.0; 2], 0.0);
     }
 
@@ -116,7 +123,7 @@ impl PlaneContact {
 
     /// The sign of the sliding velocity of a contact with friction; 0 where it does not slide.
     pub fn slides(&self) -> f64 {
-        let slides = self.point.friction.acts() && self.rate[1].abs() > self.least;
+        let slides = self.point.friction.acts() && !self.stopped && self.rate[1].abs() > self.least;
         if slides { self.rate[1].signum() } else { 0.0 }
     }
 
@@ -148,16 +155,19 @@ impl PlaneContact {
             }
             _ => [None; 2],
         };
-        self.lasts = false;
         self.pushed = push.is_some();
+        let stopped = |push: &Push| (push.normal[0] * rate[1] - push.normal[1] * rate[0]).abs() <= self.least;
+        self.stopped = self.round.is_some() && push.is_some_and(stopped);
         self.acceleration = change.map(|change| change / length);
         self.pressed = dot(normal, self.acceleration);
+        let reflected = if self.lasts { self.rate[0].abs() } else { 0.0 };
+        self.lasts = false;
         let Some((_, gap)) = self.round else { return };
         let gained = normal[0] * change[1] - normal[1] * change[0];
         self.pressed += sliding * sliding / gap;
         let fastest = sliding.abs().max((sliding - gained).abs());
         let across = 0.5 * h / gap * fastest * (fastest + gained.abs());
-        self.lasts = push.is_some() && dot(normal, rate).abs() <= across;
+        self.lasts = push.is_some() && dot(normal, rate).abs() <= across + reflected + self.least;
     }
 
     /// The time (s) at which it begins to slide: where the straight line through what was left of

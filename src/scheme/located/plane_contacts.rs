@@ -259,6 +259,9 @@ impl Contacts<Matrices> for PlaneContacts {
         if frame.pushing.iter().any(|&wall| body.walls[wall].law.is_rigid()) {
             return Ok(false);
         }
+        if frame.blown {
+            self.all.iter_mut().for_each(|contact| contact.stopped = false);
+        }
         self.classify(body, part, frame);
         let stops = std::mem::take(&mut self.stops);
         if !self.is_struck() && !stops {
@@ -269,6 +272,7 @@ impl Contacts<Matrices> for PlaneContacts {
         self.impact.strike(body, &self.all, frame, rebounds);
         for (contact, jump) in self.all.iter_mut().zip(&frame.jump) {
             contact.pushed |= *jump != 0.0;
+            contact.stopped = false;
         }
         for contact in self.all.iter_mut().filter(|contact| contact.lasts) {
             let after = dot(contact.normal, self.impact.places.pair(contact.point.rows, &frame.v));
