@@ -1,58 +1,54 @@
+//! `located` approaches the exact motion of random scenes: what a scheme and its judge both have
+//! wrong, such as a load that acts too long, no residual shows.
+//!
+//! `SIGNORINI_CASES` and `SIGNORINI_SEED` as for the other test.
+
 use crate::draws;
 use crate::random_scenes::{Units, random_scene};
 use signorini::{Options, Run, Scene, Scheme, run};
+
+/// Steps of the scene's own length that are compared: errors have little time to grow.
+const STEPS: f64 = 15.0;
 
 fn made(scene: &Scene, scheme: Scheme, step: f64) -> Option<Run> {
     run(scene, &scheme, &Options::with_step(step)).ok().filter(|run| run.findings.is_empty())
 }
 
+/// How far `located` is from the exact motion of `scene` at its end in steps of `step` over these
+/// numbers, as shares of the largest displacement or gap; `None` where one of them has no motion.
+fn errors<const N: usize>(scene: &Scene, step: f64, parts: [f64; N]) -> Option<[f64; N]> {
+    let exact = made(scene, Scheme::Event, step)?.state.q;
+    let size = exact.iter().chain(&scene.initial.q).fold(scene.gap_scale(), |size, x| size.max(x.abs()));
+    let mut errors = [0.0; N];
+    for (error, parts) in errors.iter_mut().zip(parts) {
+        let found = made(scene, Scheme::Located, step / parts)?.state.q;
+        *error = found.iter().zip(&exact).map(|(a, b)| (a - b).abs() / size).fold(0.0, f64::max);
+    }
+    Some(errors)
+}
+
 #[test]
 fn located_approaches_the_exact_motion() {
-    let (first, cases) = (draws::seed(1), draws::cases(1000_u64));
-    let names = std::env::var("TRY").unwrap_or("located".to_owned());
-    let (mut tried, mut bad) = (0, 0);
+    let (first, cases) = (draws::seed(31_000_000), draws::cases(400_u64));
+    let (mut compared, mut apart) = (0_u64, 0_u64);
     for seed in first..first + cases {
         let mut drawn = random_scene(seed, Units::Ordinary);
-        let steps = (drawn.scene.duration / drawn.step).round().min(40.0);
-        drawn.scene.duration = steps * drawn.step;
-        let scene = &drawn.scene;
-        let Some(exact) = made(scene, Scheme::Event, drawn.step) else { continue };
-        let scheme = if names == "located" { Scheme::Located } else { Scheme::MoreauJean { theta: 0.5 } };
-        let size = exact.state.q.iter().chain(&scene.initial.q).fold(scene.gap_scale().abs(), |a, x| a.max(x.abs()));
-        let size = if size > 0.0 { size } else { 1.0 };
-        let off = |parts: f64| -> Option<[f64; 2]> {
-            let run = made(scene, scheme, drawn.step / parts)?;
-            let q = run.state.q.iter().zip(&exact.state.q).map(|(a, b)| (a - b).abs() / size).fold(0.0, f64::max);
-            let sum = |run: &Run| {
-                run.statistics.walls.iter().map(|w| w.force.map_or(0.0, |f| f.impulse_n_s)).collect::<Vec<_>>()
-            };
-            let (a, b) = (sum(&run), sum(&exact));
-            let all: f64 = b.iter().sum::<f64>().max(1e-300);
-            let p = a.iter().zip(&b).map(|(a, b)| (a - b).abs() / all).fold(0.0, f64::max);
-            Some([q, p])
-        };
-        let Some(a) = off(8.0) else {
-            println!("seed {seed}: failed");
+        drawn.scene.duration = drawn.step * (drawn.scene.duration / drawn.step).round().min(STEPS);
+        let Some([coarse, fine]) = errors(&drawn.scene, drawn.step, [8.0, 64.0]) else { continue };
+        compared += 1;
+        // Steps of an eighth leave a 64th of the error of order 2; a fourth is far from that.
+        if fine < 1e-5 || fine < coarse / 4.0 {
             continue;
-        };
-        let Some(b) = off(64.0) else { continue };
-        tried += 1;
-        if (0..2).any(|k| b[k] > 1e-6 && b[k] > a[k] / 4.0) {
-            bad += 1;
-            let c = off(512.0).unwrap_or([f64::NAN; 2]);
-            println!(
-                "seed {seed}: n {} walls {} step {:e} steps {steps}: q {:.1e} {:.1e} {:.1e} p {:.1e} {:.1e} {:.1e}",
-                scene.initial.q.len(),
-                scene.walls.len(),
-                drawn.step,
-                a[0],
-                b[0],
-                c[0],
-                a[1],
-                b[1],
-                c[1]
-            );
+        }
+        let finest = errors(&drawn.scene, drawn.step, [512.0]).map_or(f64::INFINITY, |[finest]| finest);
+        if finest > 1e-4 && finest > fine / 8.0 {
+            apart += 1;
+            println!("seed {seed}, step {:e}: {coarse:.1e}, {fine:.1e}, {finest:.1e}", drawn.step);
         }
     }
-    println!("{tried} tried, {bad} bad");
+    println!("{compared} of {cases} scenes compared, {apart} apart");
+    // Where impacts accumulate between several walls, where a spring or dashpot of a wall is not
+    // resolved by any of these steps and where an error grows a thousandfold in these few steps,
+    // the motions part: 67 of 2062 were found.
+    assert!(compared * 3 > cases && 20 * apart < compared, "{apart} of {compared} apart");
 }
