@@ -8,6 +8,11 @@ use std::sync::Arc;
 /// Most rows of a sampled function.
 const MOST_SAMPLES: f64 = 1e7;
 
+/// A change by this share of the range of a table within a step is a steep one, and the most of
+/// them that are listed.
+const STEEP: f64 = 0.1;
+const MOST_STEEP: usize = 32;
+
 /// A force over time, piecewise linear between rows and zero outside them.
 ///
 /// Clones share its rows. A row is found by its index where rows are evenly spaced, else by
@@ -89,6 +94,22 @@ impl Table {
     #[must_use]
     pub fn force(&self) -> &[f64] {
         &self.force
+    }
+
+    /// The rows between which the force changes by more than a tenth of its range within less than
+    /// `step` seconds, s, as where a jump is written as two rows; none where there are many, as in
+    /// a record that the steps only sample.
+    pub(crate) fn steep_rows(&self, step: f64) -> Vec<f64> {
+        let [least, most] = [f64::min, f64::max].map(|pick| self.force.iter().copied().reduce(pick).unwrap_or(0.0));
+        let is_steep = |row: &usize| {
+            let [time, force] = [&self.time, &self.force].map(|column| (column[row + 1] - column[*row]).abs());
+            time < step && force > STEEP * (most - least)
+        };
+        let steep: Vec<usize> = (0..self.time.len() - 1).filter(is_steep).take(MOST_STEEP + 1).collect();
+        if steep.len() > MOST_STEEP {
+            return Vec::new();
+        }
+        steep.into_iter().flat_map(|row| [self.time[row], self.time[row + 1]]).collect()
     }
 
     /// A table of the function `f` (N, of a time in s) over [`from`, `to`] that differs from it by

@@ -128,8 +128,8 @@ impl Contact {
     }
 
     /// The angle at the start of a step, degrees. Over a step on a grid that ends in a round hole
-    /// with contact the normal is that of its middle: it turns from the start to there as from there
-    /// to the end.
+    /// with contact the normal is that of its middle: it turns from the start to there as from
+    /// there to the end.
     fn began(self, step: &Step<'_>, at: &PlaneRows, push: &Push) -> f64 {
         let Self::Hole { centre, gap, .. } = self else { return push.angle };
         let end = [at.y.dot(step.q) - centre[0], at.z.dot(step.q) - centre[1]];

@@ -29,7 +29,9 @@ pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
     notes.extend(unusual(scene));
     notes.extend(unstable(scene));
     if !scheme.is_exact() {
-        notes.extend(scene.loads.iter().enumerate().filter_map(|(i, load)| load_resolved(scene, i, load, step)));
+        notes.extend(
+            scene.loads.iter().enumerate().filter_map(|(i, load)| load_resolved(scene, i, load, (scheme, step))),
+        );
         notes.extend(modes_resolved(scene, step));
         notes.extend((*scheme == Scheme::Located).then(|| struck_resolved(scene, step)).flatten());
         notes.extend(walls_resolved(scene, step));
@@ -127,7 +129,7 @@ fn diagonal(structure: &Structure) -> Option<Vec<(f64, f64)>> {
 pub(crate) const UNRESOLVED_LOAD: &str = "a period of load ";
 
 /// A note on a load that changes faster than the step resolves.
-fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<String> {
+fn load_resolved(scene: &Scene, index: usize, load: &Load, (scheme, step): (&Scheme, f64)) -> Option<String> {
     let number = index + 1;
     match &load.kind {
         LoadKind::Harmonic { amplitude, frequency, .. } => {
@@ -140,7 +142,8 @@ fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<
             })
         }
         LoadKind::Table(table) => {
-            let (missed, rows, at) = missed(table, step, scene.duration)?;
+            let divided = if *scheme == Scheme::Located { table.steep_rows(step) } else { Vec::new() };
+            let (missed, rows, at) = missed(table, (step, &divided), scene.duration)?;
             let passes = match rows > 1.0 {
                 true => format!("skips rows of the table of load {number}, {rows:.0} rows a step"),
                 false => format!("passes over a change of the table of load {number} at {at} s"),
@@ -155,8 +158,9 @@ fn load_resolved(scene: &Scene, index: usize, load: &Load, step: f64) -> Option<
 }
 
 /// The largest departure (N) of a table from the line through its values at the steps, the number
-/// of its rows per step, and where that departure is (s); `None` where the departure is small.
-fn missed(table: &Table, step: f64, end: f64) -> Option<(f64, f64, f64)> {
+/// of its rows per step, and where that departure is (s); `None` where the departure is small. The
+/// steps are `divided` at these rows.
+fn missed(table: &Table, (step, divided): (f64, &[f64]), end: f64) -> Option<(f64, f64, f64)> {
     let (time, force) = (table.time(), table.force());
     let rows = step * (time.len() - 1) as f64 / (time.last()? - time.first()?);
     let extreme = |start: f64, pick: fn(f64, f64) -> f64| force.iter().copied().fold(start, pick);
@@ -164,7 +168,7 @@ fn missed(table: &Table, step: f64, end: f64) -> Option<(f64, f64, f64)> {
     let (mut most, mut most_at) = (0.0_f64, 0.0);
     // The first and last row are jumps from and to 0, which no step resolves.
     let inner = time.iter().zip(force).take(time.len() - 1).skip(1);
-    for (&t, &f) in inner.filter(|(t, _)| (0.0..=end).contains(*t)) {
+    for (&t, &f) in inner.filter(|(t, _)| (0.0..=end).contains(*t) && !divided.contains(t)) {
         let before = (t / step).floor();
         let [a, b] =
             [before, before + 1.0].map(|n| (n * step).clamp(*time.first().unwrap_or(&t), *time.last().unwrap_or(&t)));
@@ -203,8 +207,8 @@ fn modes_resolved(scene: &Scene, step: f64) -> Option<String> {
     })
 }
 
-/// A note on walls that strike what the step does not resolve. `located` gives an impact the mass of
-/// all modes there, 1/(g M⁻¹ gᵀ), and what it sets off in modes that the step does not resolve
+/// A note on walls that strike what the step does not resolve. `located` gives an impact the mass
+/// of all modes there, 1/(g M⁻¹ gᵀ), and what it sets off in modes that the step does not resolve
 /// goes on without settling: a step moves the structure as if M were M + ¼h²K.
 fn struck_resolved(scene: &Scene, step: f64) -> Option<String> {
     let System::Structure(structure) = &scene.system else { return None };

@@ -10,7 +10,7 @@ use super::contacts::{Contacts, Event};
 use super::part::{Part, THETA};
 use crate::error::{Error, Result};
 use crate::qp::{Backend, Failure};
-use crate::scene::Scene;
+use crate::scene::{LoadKind, Scene};
 use crate::step::{Balance, Contract, Friction, LoadJumps};
 
 /// Maximum number of parts of a step.
@@ -37,7 +37,8 @@ const GIVEN_UP: Contract = {
 pub(super) struct Division<S: Space, C> {
     part: Part<S>,
     pub contacts: C,
-    /// The instants of blows and of jumps of loads, s, in order, and the jumps.
+    /// The instants of blows, of jumps of loads and of the rows of tables between which they nearly
+    /// jump, s, in order, and the jumps.
     breaks: Vec<f64>,
     jumps: Option<LoadJumps>,
     /// The caller's extra force in this part, N.
@@ -64,7 +65,12 @@ struct Progress {
 impl<S: Space, C: Contacts<S>> Division<S, C> {
     pub fn new(scene: &Scene, body: &Body<S>, contacts: C, backend: Backend) -> Result<Self> {
         let jumps = LoadJumps::new(scene, Balance::Theta(THETA), body.h);
+        let steep = scene.loads.iter().filter_map(|load| match &load.kind {
+            LoadKind::Table(table) => Some(table.steep_rows(body.h)),
+            _ => None,
+        });
         let mut breaks: Vec<f64> = jumps.iter().flat_map(LoadJumps::instants).chain(body.blow_instants()).collect();
+        breaks.extend(steep.flatten());
         breaks.sort_by(f64::total_cmp);
         breaks.dedup();
         Ok(Self {

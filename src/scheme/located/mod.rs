@@ -28,7 +28,8 @@
 //! the body rests at once (Studer 2009, doi:10.1007/978-3-642-01100-9, discusses such ends of
 //! accumulations), which moves it by O(h²).
 //!
-//! Loads of no duration and jumps of tables divide a step too. Elastic walls act as in moreau-jean;
+//! Loads of no duration and jumps of tables divide a step too, also a jump that is written as two
+//! rows within a step. Elastic walls act as in moreau-jean;
 //! they divide the step where the body meets them: the force of a dashpot jumps there, and a
 //! contact begins with the speed of that instant.
 //!

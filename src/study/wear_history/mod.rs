@@ -227,7 +227,8 @@ impl WearPlan<'_> {
         self.supports.iter().zip(history).map(|(support, work)| support.depths(work)).collect()
     }
 
-    /// The state of each support in each history after the work `work` (J) at the rates `rates` (W).
+    /// The state of each support in each history after the work `work` (J) at the rates `rates`
+    /// (W).
     fn states(&self, work: &Works, rates: &Works) -> Vec<Vec<WearState>> {
         let states = |(work, rates): (&Vec<WearWork>, &Vec<WearWork>)| {
             let all = self.supports.iter().zip(work.iter().zip(rates));
