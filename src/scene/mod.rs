@@ -250,6 +250,17 @@ impl Scene {
         self
     }
 
+    /// The scene of another `system`, the same structure in other coordinates, where `row` turns
+    /// each row into that of the same place there; the initial state stays as it is.
+    fn carried(&self, system: System, mut row: impl FnMut(&Row) -> Row) -> Self {
+        let mut scene = Self { system, ..self.clone() };
+        scene.walls.iter_mut().for_each(|wall| *wall = wall.carried(&mut row));
+        scene.supports.iter_mut().for_each(|support| *support = support.carried(&mut row));
+        scene.loads.iter_mut().for_each(|load| load.at = row(&load.at));
+        scene.probes.iter_mut().for_each(|probe| probe.at = row(&probe.at));
+        scene
+    }
+
     /// The scene with one more support of these walls, which follow the scene's; the place and the
     /// centre are those of the support.
     #[must_use]
