@@ -17,6 +17,7 @@ use crate::error::{Error, Result, Subject, escaped};
 use crate::scene::{Condensation, Damping, Row, Scene, Slider, State, Structure, System, Turbulence};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
 use crate::study::truncation::{Start, Unreduced};
+use std::ops::Range;
 use toml::Spanned;
 
 /// Builds the case of `document`.
@@ -190,9 +191,13 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Full name and text of the file that the case calls `name`, or why it cannot be read.
-    pub fn open(&mut self, name: &str) -> std::result::Result<(String, String), String> {
-        let (path, text) = self.document.open(name)?;
+    /// Full name and text of the file that the case calls `name` at `span`; an error names it after
+    /// `owner` and says what is `expected` in it.
+    pub fn open(&mut self, owner: &str, name: &str, span: Range<usize>, expected: &str) -> Result<(String, String)> {
+        let (path, text) = self.document.open(name).map_err(|reason| {
+            let help = format!("{expected}; its path is relative to the case file");
+            self.source.error(span, &format!("{owner} {name:?}: {reason}"), &help)
+        })?;
         if self.written.files.iter().all(|known| known.file != name) {
             self.written.files.push(FileRead::new(name, &path, &text));
         }
