@@ -127,17 +127,7 @@ impl Builder<'_> {
     /// The scene of `system` with its initial state, walls, supports, loads and probes, the place
     /// of each wall and slider, and the sliders, which the scene does not have yet.
     fn scene(&mut self, file: &Section<'_>, system: System, duration: f64) -> Result<(Scene, Vec<Place>, Vec<Slider>)> {
-        let total = system.degrees_of_freedom();
-        let mut scene = Scene {
-            system,
-            walls: Vec::new(),
-            supports: Vec::new(),
-            loads: Vec::new(),
-            probes: Vec::new(),
-            output_times: Vec::new(),
-            initial: State { q: vec![0.0; total], v: vec![0.0; total] },
-            duration,
-        };
+        let mut scene = Scene::at_rest(system).with_duration(duration);
         if let Some(initial) = file.section("initial") {
             scene.initial = self.initial(&initial)?;
         }
