@@ -168,8 +168,9 @@ pub fn remarks(keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
 fn means_document(scene: &Scene, means: &MeanDerivative) -> Value {
     let rows = |unit: &str, names: Vec<&str>, values: &[f64], by: &[Vec<f64>]| {
         let all = names.into_iter().zip(values).zip(by);
-        let row = |((name, value), by): ((&str, &f64), &Vec<f64>)| json!({ "name": name, "unit": unit, "value": value, "derivative": by });
-        all.map(row).collect::<Vec<Value>>()
+        let rows =
+            all.map(|((name, value), by)| json!({ "name": name, "unit": unit, "value": value, "derivative": by }));
+        rows.collect::<Vec<Value>>()
     };
     let probes = || scene.probes.iter().map(|probe| &*probe.name).collect();
     let walls = (0..scene.walls.len()).map(|wall| scene.wall_name(wall).unwrap_or_default()).collect();
