@@ -51,9 +51,18 @@ impl ser::Error for NotFinite {
 
 /// The methods for values in which there is no number with a fraction.
 macro_rules! pass {
-    ($($method:ident($type:ty)),*) => {
-        $(fn $method(self, _: $type) -> Result<(), NotFinite> {
+    ($($method:ident($($type:ty),*);)*) => {
+        $(fn $method(self, $(_: $type),*) -> Result<(), NotFinite> {
             Ok(())
+        })*
+    };
+}
+
+/// The methods for composite values.
+macro_rules! composite {
+    ($($method:ident($($type:ty),*);)*) => {
+        $(fn $method(self, $(_: $type),*) -> Result<Parts<'a>, NotFinite> {
+            Ok(Parts { visitor: self, next: 0 })
         })*
     };
 }
@@ -83,21 +92,34 @@ impl<'a> ser::Serializer for &'a mut Visitor {
     type SerializeStruct = Parts<'a>;
     type SerializeStructVariant = Parts<'a>;
 
-    pass!(
-        serialize_bool(bool),
-        serialize_i8(i8),
-        serialize_i16(i16),
-        serialize_i32(i32),
-        serialize_i64(i64),
-        serialize_u8(u8),
-        serialize_u16(u16),
-        serialize_u32(u32),
-        serialize_u64(u64),
-        serialize_char(char),
-        serialize_str(&str),
-        serialize_bytes(&[u8]),
-        serialize_unit_struct(&'static str)
-    );
+    pass! {
+        serialize_bool(bool);
+        serialize_i8(i8);
+        serialize_i16(i16);
+        serialize_i32(i32);
+        serialize_i64(i64);
+        serialize_u8(u8);
+        serialize_u16(u16);
+        serialize_u32(u32);
+        serialize_u64(u64);
+        serialize_char(char);
+        serialize_str(&str);
+        serialize_bytes(&[u8]);
+        serialize_none();
+        serialize_unit();
+        serialize_unit_struct(&'static str);
+        serialize_unit_variant(&'static str, u32, &'static str);
+    }
+
+    composite! {
+        serialize_seq(Option<usize>);
+        serialize_tuple(usize);
+        serialize_tuple_struct(&'static str, usize);
+        serialize_tuple_variant(&'static str, u32, &'static str, usize);
+        serialize_map(Option<usize>);
+        serialize_struct(&'static str, usize);
+        serialize_struct_variant(&'static str, u32, &'static str, usize);
+    }
 
     fn serialize_f32(self, number: f32) -> Result<(), NotFinite> {
         Visitor::number(number.into())
@@ -107,20 +129,8 @@ impl<'a> ser::Serializer for &'a mut Visitor {
         Visitor::number(number)
     }
 
-    fn serialize_none(self) -> Result<(), NotFinite> {
-        Ok(())
-    }
-
     fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<(), NotFinite> {
         value.serialize(self)
-    }
-
-    fn serialize_unit(self) -> Result<(), NotFinite> {
-        Ok(())
-    }
-
-    fn serialize_unit_variant(self, _: &'static str, _: u32, _: &'static str) -> Result<(), NotFinite> {
-        Ok(())
     }
 
     fn serialize_newtype_struct<T: Serialize + ?Sized>(self, _: &'static str, value: &T) -> Result<(), NotFinite> {
@@ -135,46 +145,6 @@ impl<'a> ser::Serializer for &'a mut Visitor {
         value: &T,
     ) -> Result<(), NotFinite> {
         value.serialize(self)
-    }
-
-    fn serialize_seq(self, _: Option<usize>) -> Result<Parts<'a>, NotFinite> {
-        Ok(Parts { visitor: self, next: 0 })
-    }
-
-    fn serialize_tuple(self, _: usize) -> Result<Parts<'a>, NotFinite> {
-        self.serialize_seq(None)
-    }
-
-    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<Parts<'a>, NotFinite> {
-        self.serialize_seq(None)
-    }
-
-    fn serialize_tuple_variant(
-        self,
-        _: &'static str,
-        _: u32,
-        _: &'static str,
-        _: usize,
-    ) -> Result<Parts<'a>, NotFinite> {
-        self.serialize_seq(None)
-    }
-
-    fn serialize_map(self, _: Option<usize>) -> Result<Parts<'a>, NotFinite> {
-        self.serialize_seq(None)
-    }
-
-    fn serialize_struct(self, _: &'static str, _: usize) -> Result<Parts<'a>, NotFinite> {
-        self.serialize_seq(None)
-    }
-
-    fn serialize_struct_variant(
-        self,
-        _: &'static str,
-        _: u32,
-        _: &'static str,
-        _: usize,
-    ) -> Result<Parts<'a>, NotFinite> {
-        self.serialize_seq(None)
     }
 }
 

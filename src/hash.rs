@@ -1,4 +1,5 @@
-//! Pseudo-random numbers as a hash of three numbers: the same on every machine and in any order.
+//! Pseudo-random numbers, the same on every machine: as a hash of three numbers in any order, or
+//! each from the one before.
 
 /// 64 bits that depend on all of `seed`, `stream` and `index`: the finaliser of SplitMix64 (Steele,
 /// Lea & Flood 2014, doi:10.1145/2660193.2660195) after each of them.
@@ -17,6 +18,47 @@ fn finish(mut z: u64) -> u64 {
 /// A number from 0 to below 1, from the upper 53 bits.
 pub(crate) fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// The number from 0 to below 1 that follows `state`, which it moves on: a linear congruential
+/// generator with Knuth's multiplier.
+pub(crate) fn next_unit(state: &mut u64) -> f64 {
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    unit(*state)
+}
+
+/// Numbers that look random, the same in every run, each from the one before.
+#[cfg(test)]
+pub(crate) struct Draws {
+    seed: u64,
+    stream: u64,
+    count: u64,
+}
+
+#[cfg(test)]
+impl Draws {
+    pub(crate) fn new(seed: u64, stream: u64) -> Self {
+        Self { seed, stream, count: 0 }
+    }
+
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.count += 1;
+        low + (high - low) * unit(mix(self.seed, self.stream, self.count))
+    }
+
+    pub(crate) fn chance(&mut self, share: f64) -> bool {
+        self.between(0.0, 1.0) < share
+    }
+
+    /// From 2^−`octaves` to 2^`octaves`, as often in one octave as in another.
+    pub(crate) fn size(&mut self, octaves: f64) -> f64 {
+        self.between(-octaves, octaves).exp2()
+    }
+
+    /// A whole number from 0 to below `count`.
+    pub(crate) fn below(&mut self, count: usize) -> usize {
+        self.between(0.0, count as f64) as usize
+    }
 }
 
 #[cfg(test)]

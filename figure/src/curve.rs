@@ -1,4 +1,4 @@
-//! The contents of a panel: curves, stems and marks.
+//! The contents of a panel: curves and marks.
 
 use super::look::Role;
 
@@ -92,52 +92,11 @@ impl Curve {
         self
     }
 
-    /// Draws the curve in the colour of the look `number`, with the dashes and the marker of its
-    /// own look: what the colour stands for has it in every figure.
+    /// Draws the curve in the colour of the look `number`, if there is one, with the dashes and the
+    /// marker of its own look: what the colour stands for has it in every figure.
     #[must_use]
-    pub fn colour(mut self, number: usize) -> Self {
-        self.colour = Some(number);
-        self
-    }
-}
-
-/// Vertical strokes from zero with a marker at their end: impulses.
-#[derive(Debug, Clone)]
-pub struct Stems {
-    pub(super) label: String,
-    /// Pairs (x, y) in the units of the axes.
-    pub(super) points: Vec<(f64, f64)>,
-    pub(super) role: Role,
-    pub(super) look: Option<usize>,
-    pub(super) colour: Option<usize>,
-}
-
-impl Stems {
-    /// One stroke for each of `points`. Forces and impulses have different units: give each its own
-    /// panel.
-    pub fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let points = points.into_iter().collect();
-        Self { label: label.into(), points, role: Role::Ordinary, look: None, colour: None }
-    }
-
-    /// Draws them wide and pale beneath the others, as [`Curve::backdrop`] does.
-    #[must_use]
-    pub fn backdrop(mut self) -> Self {
-        self.role = Role::Backdrop;
-        self
-    }
-
-    /// Sets the look by index, as [`Curve::look`] does.
-    #[must_use]
-    pub fn look(mut self, number: usize) -> Self {
-        self.look = Some(number);
-        self
-    }
-
-    /// Draws them in the colour of the look `number`, as [`Curve::colour`] does.
-    #[must_use]
-    pub fn colour(mut self, number: usize) -> Self {
-        self.colour = Some(number);
+    pub fn colour(mut self, number: impl Into<Option<usize>>) -> Self {
+        self.colour = number.into();
         self
     }
 }

@@ -3,7 +3,7 @@
 //! | type | what it draws |
 //! |---|---|
 //! | [`Figure`] | panels under one another sharing the horizontal axis: responses, phase plots, work–precision charts |
-//! | [`Panel`] | one frame: [`Curve`]s, [`Stems`] (impulses) and [`Mark`]s (walls, floors) |
+//! | [`Panel`] | one frame: [`Curve`]s, stems (impulses) and [`Mark`]s (walls, floors) |
 //! | [`HeatMap`] | classes or numbers over two axes |
 //! | [`Tornado`] | how far each of several inputs moves a number, as bars |
 //! | [`Animation`] | lines that move, in [`View`]s beside and under one another |
@@ -64,7 +64,7 @@ mod tornado;
 pub use animation::{Animation, View};
 pub use axis::Scale;
 pub use class::Class;
-pub use curve::{Curve, Mark, Stems};
+pub use curve::{Curve, Mark};
 pub use heat::HeatMap;
 pub use overlay::{Line, Sign};
 pub use panel::Panel;

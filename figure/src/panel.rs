@@ -1,7 +1,7 @@
 //! One frame of a figure: its vertical axis and its contents.
 
 use super::axis::{Axis, Extent, Scale};
-use super::curve::{Curve, Mark, Stems};
+use super::curve::{Curve, Mark};
 use super::look::Role;
 use super::thin::{Spot, never_goes_back};
 
@@ -13,7 +13,7 @@ pub struct Panel {
     pub(super) y_scale: Scale,
     pub(super) y_range: Option<(f64, f64)>,
     pub(super) curves: Vec<Curve>,
-    pub(super) stems: Vec<Stems>,
+    pub(super) stems: Vec<Curve>,
     pub(super) marks: Vec<Mark>,
     pub(super) outlines: Vec<Vec<(f64, f64)>>,
     pub(super) areas: Vec<Vec<(f64, f64)>>,
@@ -65,9 +65,10 @@ impl Panel {
         self
     }
 
-    /// Adds stems.
+    /// Adds vertical strokes from zero with a marker at their end, one for each point of `stems`:
+    /// impulses. Forces and impulses have different units: give each its own panel.
     #[must_use]
-    pub fn stems(mut self, stems: Stems) -> Self {
+    pub fn stems(mut self, stems: Curve) -> Self {
         self.stems.push(stems);
         self
     }

@@ -1,7 +1,7 @@
 //! The rectangle of a panel on the page, and what is drawn inside it.
 
 use super::axis::Axis;
-use super::curve::{Curve, Mark, MarkKind, Stems};
+use super::curve::{Curve, Mark, MarkKind};
 use super::envelope::Envelope;
 use super::look::{FRAME, GRID, LABEL, Look, Role, SMALL};
 use super::svg::{Anchor, Canvas, Stroke, Text};
@@ -153,7 +153,7 @@ impl PlotArea<'_> {
     }
 
     /// Draws stems from zero; of those in one column of the page only the lowest and the highest.
-    pub(super) fn draw_stems(&self, canvas: &mut Canvas, stems: &Stems, look: Look, budget: usize) {
+    pub(super) fn draw_stems(&self, canvas: &mut Canvas, stems: &Curve, look: Look, budget: usize) {
         let columns = (budget as f64 / (4.0 * self.width)).min(2.0);
         let foot = self.up(self.y_axis.share(0.0).unwrap_or(0.0).clamp(0.0, 1.0));
         let inside = |x: f64| (self.x - 1.0..=self.x + self.width + 1.0).contains(&x);

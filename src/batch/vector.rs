@@ -4,6 +4,7 @@
 //! neighbours. Products and sums are fused only where [`Vector::fma`] says so; there, a machine
 //! without such an instruction rounds twice (plain lanes), one with it once.
 
+use crate::linear::lane_operators;
 use pulp::Simd;
 use pulp::bytemuck::{cast_slice, cast_slice_mut};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -125,19 +126,7 @@ impl<S: Simd> Mask<S> {
     }
 }
 
-macro_rules! arithmetic {
-    ($($name:ident $function:ident $simd:ident),*) => {$(
-        impl<S: Simd> $name for Vector<S> {
-            type Output = Self;
-            #[inline(always)]
-            fn $function(self, b: Self) -> Self {
-                Self { x: self.simd.$simd(self.x, b.x), ..self }
-            }
-        }
-    )*};
-}
-
-arithmetic!(Add add add_f64s, Sub sub sub_f64s, Mul mul mul_f64s, Div div div_f64s);
+lane_operators!(Vector: Add add add_f64s, Sub sub sub_f64s, Mul mul mul_f64s, Div div div_f64s);
 
 impl<S: Simd> Neg for Vector<S> {
     type Output = Self;

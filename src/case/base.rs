@@ -11,6 +11,7 @@
 //! and the inertia of these ends besides.
 
 use super::builder::Builder;
+use super::direction::DIRECTION;
 use super::model::{Model, Place};
 use super::planes::Planes;
 use super::random::{ACCELERATION, NewRandom};
@@ -266,9 +267,8 @@ impl Builder<'_> {
                 return Err(self.refuse(direction.span(), &format!("{owner}: direction"), "a finite number, in deg"));
             }
             (Planes::Two(_), None) => {
-                let help = "expected direction = a number, in deg, from +y (0) towards +z (90)";
                 let title = format!("`direction` is missing in {owner}");
-                return Err(self.source.error(base.span.clone(), &title, help));
+                return Err(self.source.error(base.span.clone(), &title, DIRECTION));
             }
             (Planes::One, Some(direction)) => return Err(self.undirected(owner, direction.span())),
             (Planes::Named, Some(direction)) => {

@@ -17,6 +17,7 @@ use crate::error::{Error, Result, Subject, escaped};
 use crate::scene::{Condensation, Damping, Row, Scene, Slider, State, Structure, System, Turbulence};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
 use crate::study::truncation::{Start, Unreduced};
+use std::ops::Range;
 use toml::Spanned;
 
 /// Builds the case of `document`.
@@ -126,17 +127,7 @@ impl Builder<'_> {
     /// The scene of `system` with its initial state, walls, supports, loads and probes, the place
     /// of each wall and slider, and the sliders, which the scene does not have yet.
     fn scene(&mut self, file: &Section<'_>, system: System, duration: f64) -> Result<(Scene, Vec<Place>, Vec<Slider>)> {
-        let total = system.degrees_of_freedom();
-        let mut scene = Scene {
-            system,
-            walls: Vec::new(),
-            supports: Vec::new(),
-            loads: Vec::new(),
-            probes: Vec::new(),
-            output_times: Vec::new(),
-            initial: State { q: vec![0.0; total], v: vec![0.0; total] },
-            duration,
-        };
+        let mut scene = Scene::at_rest(system).with_duration(duration);
         if let Some(initial) = file.section("initial") {
             scene.initial = self.initial(&initial)?;
         }
@@ -190,9 +181,13 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Full name and text of the file that the case calls `name`, or why it cannot be read.
-    pub fn open(&mut self, name: &str) -> std::result::Result<(String, String), String> {
-        let (path, text) = self.document.open(name)?;
+    /// Full name and text of the file that the case calls `name` at `span`; an error names it after
+    /// `owner` and says what is `expected` in it.
+    pub fn open(&mut self, owner: &str, name: &str, span: Range<usize>, expected: &str) -> Result<(String, String)> {
+        let (path, text) = self.document.open(name).map_err(|reason| {
+            let help = format!("{expected}; its path is relative to the case file");
+            self.source.error(span, &format!("{owner} {name:?}: {reason}"), &help)
+        })?;
         if self.written.files.iter().all(|known| known.file != name) {
             self.written.files.push(FileRead::new(name, &path, &text));
         }

@@ -14,18 +14,8 @@ impl Builder<'_> {
         file: &Spanned<&str>,
         columns: &TableColumns,
     ) -> Result<(String, String)> {
-        let name = *file.get_ref();
-        self.open(name).map_err(|reason| {
-            let help = format!("{}; its path is relative to the case file", columns.expected());
-            let help = help.replacen("expected ", "expected a CSV file: ", 1);
-            // For a table of a load, the name of the file is added; other owners include it
-            // already.
-            let title = match owner.strip_suffix(": table") {
-                Some(load) => format!("{load}: table {name:?}: {reason}"),
-                None => format!("{owner} {name:?}: {reason}"),
-            };
-            self.source.error(file.span(), &title, &help)
-        })
+        let expected = columns.expected().replacen("expected ", "expected a CSV file: ", 1);
+        self.open(owner, file.get_ref(), file.span(), &expected)
     }
 
     /// The columns of its file that a table refers to, and the format of the numbers. `word` is the

@@ -25,20 +25,19 @@ impl Builder<'_> {
     fn matrix(&mut self, what: &str, file: &Spanned<&str>) -> Result<Symmetric> {
         // The structure names an invalid matrix by this key.
         self.positions.push((Subject::of("system").part(format!("{what} matrix")), file.span()));
-        let name = *file.get_ref();
-        let opened = self.open(name);
-        let refuse = |reason: &str| {
-            let help = "expected a Matrix Market file (.mtx) or a CSV file of all rows (.csv); its path is \
-                        relative to the case file";
-            self.source.error(file.span(), &format!("{what} matrix {name:?}: {reason}"), help)
-        };
+        let (name, owner) = (*file.get_ref(), format!("{what} matrix"));
+        let expected = "expected a Matrix Market file (.mtx) or a CSV file of all rows (.csv)";
+        let opened = self.open(&owner, name, file.span(), expected);
         let extension = Path::new(name).extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
         let read = match extension.as_deref() {
             Some("mtx") => read_matrix_market,
             Some("csv") => read_csv,
-            _ => return Err(refuse("neither .mtx nor .csv")),
+            _ => {
+                let help = format!("{expected}; its path is relative to the case file");
+                return Err(self.source.error(file.span(), &format!("{owner} {name:?}: neither .mtx nor .csv"), &help));
+            }
         };
-        let (path, text) = opened.map_err(|reason| refuse(&reason))?;
+        let (path, text) = opened?;
         read(&text).map_err(|error| {
             let source = Source { name: &path, text: &text };
             source.error(error.span.clone(), &error.message, &format!("expected {}", error.expected))

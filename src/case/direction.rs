@@ -9,7 +9,7 @@ use std::ops::Range;
 use toml::Spanned;
 
 /// What to write in place of a missing direction.
-const DIRECTION: &str = "expected direction = a number, in deg, from +y (0) towards +z (90)";
+pub(super) const DIRECTION: &str = "expected direction = a number, in deg, from +y (0) towards +z (90)";
 
 impl Builder<'_> {
     /// Degrees of freedom in all planes.

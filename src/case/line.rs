@@ -91,10 +91,7 @@ impl Builder<'_> {
         let wanted = "a table of points and positions in m, { p0 = 0.0, p1 = 0.05 }, or the name of a CSV file";
         let mut given: Vec<Given> = match value.get_ref() {
             Value::Word(file) => {
-                let (path, text) = self.open(file).map_err(|reason| {
-                    let help = format!("{}; its path is relative to the case file", FILE.description);
-                    self.source.error(value.span(), &format!("line {file:?}: {reason}"), &help)
-                })?;
+                let (path, text) = self.open("line", file, value.span(), FILE.description)?;
                 let read = points(&path, &text, &FILE)?.into_iter();
                 let point = |name: String, at: f64| (format!("{name:?}"), Place::point(&name), at, value.span());
                 read.filter_map(|read| Some(point(read.name, *read.shape.first()?))).collect()

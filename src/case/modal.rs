@@ -116,10 +116,7 @@ impl Builder<'_> {
         self.positions.push((subject.clone(), shapes.span()));
         match shapes.get_ref() {
             Value::Word(file) => {
-                let (path, text) = self.open(file).map_err(|reason| {
-                    let help = format!("{SHAPES}; its path is relative to the case file");
-                    self.source.error(shapes.span(), &format!("shapes {file:?}: {reason}"), &help)
-                })?;
+                let (path, text) = self.open("shapes", file, shapes.span(), SHAPES)?;
                 points(&path, &text, &PointFile { values: k, each: "one for each mode", description: SHAPES })
             }
             Value::Table(entries) => {

@@ -112,11 +112,8 @@ impl Builder<'_> {
             force: "density_N2_per_Hz".to_owned(),
             ..TableColumns::default()
         };
-        let name = *file.get_ref();
-        let (path, text) = self.open(name).map_err(|reason| {
-            let help = format!("{}; its path is relative to the case file", columns.expected());
-            self.source.error(file.span(), &format!("{owner}: file {name:?}: {reason}"), &help)
-        })?;
+        let owner = format!("{owner}: file");
+        let (path, text) = self.open(&owner, file.get_ref(), file.span(), &columns.expected())?;
         let read = table::read(&path, &text, &columns)?;
         Ok(read.time().iter().zip(read.force()).map(|(&f, &s)| [f, s]).collect())
     }

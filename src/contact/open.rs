@@ -3,7 +3,7 @@
 use crate::step::Contact;
 
 /// An open episode at one wall.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct OpenEpisode {
     pub first: f64,
     pub last: f64,
@@ -25,18 +25,7 @@ impl OpenEpisode {
     /// An episode that begins at `time` (s), at which the wall is approached with `approach` (m/s).
     #[inline]
     pub fn new(time: f64, approach: f64) -> Self {
-        Self {
-            first: time,
-            last: time,
-            steps: 0,
-            impulse: 0.0,
-            moment: 0.0,
-            peak: None,
-            forces: [None; 2],
-            short: (0.0, 0.0),
-            approach,
-            departure: 0.0,
-        }
+        Self { first: time, last: time, approach, ..Self::default() }
     }
 
     /// The contact at `wall`, whose impulses have this sign: an impact or not, ended or still open.

@@ -137,32 +137,23 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
-impl<S: Simd> Add for Lanes<S> {
-    type Output = Self;
+/// The operators of a type of lanes, in which `simd` holds the instructions and `x` the numbers.
+macro_rules! lane_operators {
+    ($type:ident: $($name:ident $function:ident $simd:ident),*) => {$(
+        impl<S: Simd> $name for $type<S> {
+            type Output = Self;
 
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self { x: self.simd.add_f64s(self.x, other.x), ..self }
-    }
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self { x: self.simd.$simd(self.x, other.x), ..self }
+            }
+        }
+    )*};
 }
 
-impl<S: Simd> Sub for Lanes<S> {
-    type Output = Self;
+pub(crate) use lane_operators;
 
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self { x: self.simd.sub_f64s(self.x, other.x), ..self }
-    }
-}
-
-impl<S: Simd> Mul for Lanes<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self { x: self.simd.mul_f64s(self.x, other.x), ..self }
-    }
-}
+lane_operators!(Lanes: Add add add_f64s, Sub sub sub_f64s, Mul mul mul_f64s);
 
 impl<S: Simd> Mul<f64> for Lanes<S> {
     type Output = Self;

@@ -32,7 +32,7 @@ mod symmetric;
 
 pub(crate) use band::sum_of_products;
 pub use definite::NotDefinite;
-pub(crate) use entries::{Columns, Lanes, Pass, pass, running_max, update};
+pub(crate) use entries::{Columns, Lanes, Pass, lane_operators, pass, running_max, update};
 pub use factor::Factor;
 #[cfg(test)]
 pub(crate) use factor::counted;

@@ -52,7 +52,7 @@ impl Admissible {
             return Some(format!("a wall pulls the body at rest with {:.3e} N", -self.least_push));
         }
         let nearest = self.nearest.filter(|nearest| nearest.gap <= 0.0)?;
-        let wall = scene.walls.get(nearest.wall).map_or("", |wall| wall.name.as_str());
+        let wall = scene.wall_name(nearest.wall).unwrap_or_default();
         Some(format!("the motion passes {:.3e} m through wall {wall:?} at {:.6} cycles", -nearest.gap, nearest.phase))
     }
 }

@@ -13,18 +13,16 @@
 
 use super::periodic::Orbit;
 use super::problem::Problem;
+use super::shooting::check_dense;
 use super::signature::Signature;
 use super::strobe::{is_stable, square};
 use super::symmetry::mirror;
 use crate::error::{Error, Result};
 use crate::order::sort_by_number;
-use crate::scene::{LoadKind, Row, Scene, System, Wall, forcing_period, frequencies};
+use crate::scene::{LoadKind, Scene, System, Wall, forcing_period, frequencies};
 use crate::scheme::check_exact;
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::TAU;
-
-/// Most degrees of freedom: the matrices are dense.
-const MOST_UNKNOWNS: usize = 200;
 
 /// An orbit with one impact per period of the orbit.
 #[derive(Debug, Clone, PartialEq)]
@@ -133,11 +131,7 @@ pub fn closed_forms(scene: &Scene, most: u32) -> Result<Vec<ClosedForm>> {
 impl Linear {
     fn of(scene: &Scene, omega: f64, period: f64) -> Result<Self> {
         let n = scene.system.degrees_of_freedom();
-        if n > MOST_UNKNOWNS {
-            let expected =
-                format!("at most {MOST_UNKNOWNS}: the matrices of closed forms are dense (reduce it to modes)");
-            return Err(Error::invalid("system", format!("one of {n} degrees of freedom"), expected));
-        }
+        check_dense(scene, "closed forms")?;
         let (mass, damping, stiffness) = match &scene.system {
             System::Oscillator(body) => {
                 let one = |x: f64| DMatrix::from_element(1, 1, x);
@@ -202,7 +196,9 @@ impl Linear {
         let n = self.still.len();
         // The row towards the wall, and the gap in its direction.
         let toward = -wall.side().sign();
-        let row = DVector::from_iterator(n, dense(wall.row(), n).into_iter().map(|x| toward * x));
+        let mut row = DVector::zeros(n);
+        wall.row().add_transposed(1.0, row.as_mut_slice());
+        row *= toward;
         let direction = &self.inverse_mass * &row;
         let direction = &direction / row.dot(&direction);
         let gap = toward * wall.position() - row.dot(&self.still);
@@ -263,14 +259,4 @@ impl Linear {
         sort_by_number(&mut values, |a| -a[0].hypot(a[1]));
         values
     }
-}
-
-fn dense(row: &Row, n: usize) -> Vec<f64> {
-    let mut full = vec![0.0; n];
-    for &(dof, weight) in row.entries() {
-        if let Some(x) = full.get_mut(dof) {
-            *x += weight;
-        }
-    }
-    full
 }

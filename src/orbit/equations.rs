@@ -18,6 +18,7 @@ use super::boundary::{Boundary, OnWall};
 use super::periodic::Orbit;
 use super::problem::Problem;
 use super::signature::{Kind, Signature};
+use super::strobe::Scales;
 use crate::flow::{Arc, Support};
 use crate::scene::Side;
 use nalgebra::{DMatrix, DVector};
@@ -25,28 +26,6 @@ use nalgebra::{DMatrix, DVector};
 /// The unknowns are made dimensionless by a tenth of a cycle, the gap, and the gap times the
 /// forcing's Ω.
 pub(super) const CYCLE: f64 = 0.1;
-
-/// The scales of the unknowns and residuals; the same along a branch.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Scales {
-    /// m.
-    pub length: f64,
-    /// m/s.
-    pub speed: f64,
-}
-
-impl Scales {
-    pub fn of(problem: &Problem) -> Self {
-        let [length, speed] = problem.scales();
-        Self { length, speed }
-    }
-
-    /// N.
-    pub fn force(self, problem: &Problem) -> f64 {
-        let omega = std::f64::consts::TAU / problem.forcing_period();
-        problem.body().mass * self.length * omega * omega
-    }
-}
 
 /// A flight from an event to the next, `j`.
 #[derive(Debug, Clone, Copy)]
@@ -94,12 +73,19 @@ pub(super) enum Closure {
 pub(super) struct Equations<'a> {
     pub signature: &'a Signature,
     pub touching: Vec<Vec<usize>>,
+    /// Of the unknowns and residuals; the same along a branch.
     pub scales: Scales,
 }
 
 impl<'a> Equations<'a> {
     pub fn new(problem: &Problem, signature: &'a Signature, scales: Scales) -> Self {
         Self { signature, touching: problem.touching(signature), scales }
+    }
+
+    /// The scale of forces, N.
+    pub fn force(&self, problem: &Problem) -> f64 {
+        let omega = std::f64::consts::TAU / problem.forcing_period();
+        problem.body().mass * self.scales.length * omega * omega
     }
 
     pub fn unknowns(&self) -> usize {
@@ -171,7 +157,7 @@ impl<'a> Equations<'a> {
         let events = &self.signature.events;
         let period = problem.forcing_period();
         let Scales { length, speed } = self.scales;
-        let force = self.scales.force(problem);
+        let force = self.force(problem);
         if let Some((matrix, _)) = &mut jacobian {
             matrix.fill(0.0);
         }

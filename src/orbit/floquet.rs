@@ -4,7 +4,7 @@ use super::boundary::BoundaryLaw;
 use super::periodic::Orbit;
 use super::problem::Problem;
 use super::signature::Kind;
-use super::strobe::{is_stable, square};
+use super::strobe::{Scales, is_stable, square};
 use crate::error::Result;
 use crate::variation::saltation::{IDENTITY, Matrix2, entry, impact, multiply};
 
@@ -159,7 +159,7 @@ impl Problem {
     /// bound this growth: what impacts amplify may shrink again before the orbit closes.
     pub(super) fn growth_of_rounding(&self, whole: &Orbit, last: usize, propagator: Matrix2) -> f64 {
         let flights = self.flight_maps(whole);
-        let [length, speed] = self.scales();
+        let Scales { length, speed } = self.scales();
         let at_end = |m: &Matrix2, rate: [f64; 2]| {
             let row = |row: [f64; 2]| {
                 let instant = (row[0] * rate[0] + row[1] * rate[1]).abs() * whole.period();

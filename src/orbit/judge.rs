@@ -4,6 +4,7 @@ use super::boundary::BoundaryLaw;
 use super::periodic::Orbit;
 use super::problem::Problem;
 use super::signature::Kind;
+use super::strobe::Scales;
 use super::watch::Watch;
 use crate::error::{Error, Result};
 use crate::flow::Arc;
@@ -126,13 +127,12 @@ impl Problem {
             return Ok(judged);
         }
         let whole = orbit.unfolded(self.mirror());
-        let [scale, speed] = self.scales();
+        let Scales { length: scale, speed } = self.scales();
         let length = self.scene().gap().or(Some(admissible.largest).filter(|q| *q > 0.0)).unwrap_or(scale);
         let (speed, rounding_scale) = (speed * (length / scale), scale / length);
         let Midway { time: start, state, rounding } = self.midway(&whole)?;
         let end = start + whole.period();
-        let mut scene = self.scene().clone();
-        scene.duration = end + whole.period();
+        let scene = self.scene().clone().with_duration(end + whole.period());
         let mut stepper = Stepper::new(&scene, &Scheme::Event, 2.0 * end)?;
         stepper.set_state(start, &State { q: vec![state[0]], v: vec![state[1]] })?;
         let mut watch = Watch::new(self.scene(), self.forcing_period());

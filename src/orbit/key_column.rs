@@ -6,8 +6,9 @@
 //!
 //! δr_i = F(δx₀ − f(x_i⁺) δt_i) + f(x_j) δt_j − s δx_j⁻.
 
-use super::equations::{Equations, Flight, Scales};
+use super::equations::{Equations, Flight};
 use super::problem::Problem;
+use super::strobe::Scales;
 use crate::error::{Error, Result};
 use crate::flow::Arc;
 use crate::variation::{FlightVariation, SceneTangent};
@@ -38,7 +39,7 @@ impl Equations<'_> {
             if let Some(wall) = flight.carrier {
                 let [_, rate, ..] = flight.reaction(arc, wall, span);
                 let change = self.reaction_by(problem, &flight, tangent) + rate * until;
-                column[2 * i] = change / self.scales.force(problem);
+                column[2 * i] = change / self.force(problem);
                 continue;
             }
             let ([_, v, a, ..], [_, end_v, end_a, ..]) = (arc.start_jet(), arc.jet(span));
@@ -111,7 +112,7 @@ mod tests {
         let orbit = problem.settled(400).unwrap();
         let found: Vec<Kind> = orbit.signature.events.iter().map(|event| event.kind).collect();
         assert_eq!(found, kinds);
-        let equations = Equations::new(&problem, &orbit.signature, Scales::of(&problem));
+        let equations = Equations::new(&problem, &orbit.signature, problem.scales());
         let unknowns = equations.gather(&orbit);
         for index in 0..numbers.len() {
             let at = |x: f64| {

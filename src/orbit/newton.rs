@@ -1,6 +1,6 @@
 //! Newton's method on the equations with explicit times.
 
-use super::equations::{Closure, Equations, Scales};
+use super::equations::{Closure, Equations};
 use super::periodic::{Orbit, REPEATED};
 use super::problem::Problem;
 use super::signature::Signature;
@@ -52,8 +52,7 @@ impl Problem {
 
     /// The solution of the equations near `guess`, which must have events.
     fn solved(&self, guess: &Orbit) -> Result<Orbit> {
-        let scales = Scales::of(self);
-        let equations = Equations::new(self, &guess.signature, scales);
+        let equations = Equations::new(self, &guess.signature, self.scales());
         let count = equations.unknowns();
         let mut arc = self.arc();
         let mut unknowns = equations.gather(guess);
@@ -101,7 +100,7 @@ impl Problem {
                  start nearer, or with another signature"
             )));
         }
-        Ok(orbit.rotated(0))
+        Ok(orbit.rotated(0, 1))
     }
 
     pub(super) fn check(&self, orbit: &Orbit) -> Result<()> {

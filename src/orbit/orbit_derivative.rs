@@ -6,7 +6,7 @@
 //!
 //! The multipliers follow from these changes, see `monodromy_derivative.rs`.
 
-use super::equations::{CYCLE, Closure, Equations, Scales};
+use super::equations::{CYCLE, Closure, Equations};
 use super::periodic::Orbit;
 use super::problem::Problem;
 use crate::error::{Error, Result};
@@ -73,7 +73,7 @@ impl Problem {
         if orbit.signature.chatters() {
             return Err(Error::no_orbit("impacts that accumulate are infinitely many: such an orbit is not solved"));
         }
-        let equations = Equations::new(self, &orbit.signature, Scales::of(self));
+        let equations = Equations::new(self, &orbit.signature, self.scales());
         let unknowns = equations.gather(orbit);
         let longer: Vec<f64> =
             tangents.iter().map(|one| one.period(self.scene(), self.forcing_period())).collect::<Result<_>>()?;

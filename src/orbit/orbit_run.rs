@@ -72,9 +72,7 @@ impl OrbitRun {
     pub fn orbit(&self, periods: u32, period: f64) -> Orbit {
         let mut orbit = orbit_of(&self.passages, periods, period);
         for &wall in &self.always {
-            orbit.signature.events.push(Event { kind: Kind::Always, wall });
-            orbit.phases.push(0.0);
-            orbit.speeds.push(0.0);
+            orbit.insert(orbit.phases.len(), Event { kind: Kind::Always, wall }, 0.0, 0.0);
         }
         orbit
     }
@@ -108,9 +106,7 @@ pub(super) fn run_by_key(
     key: Option<ByKey<'_>>,
 ) -> Result<OrbitRun> {
     let [from, to] = span;
-    let mut timed = scene.clone();
-    timed.duration = to;
-    let mut stepper = Stepper::new(&timed, &Scheme::Event, to)?;
+    let mut stepper = Stepper::new(&scene.clone().with_duration(to), &Scheme::Event, to)?;
     stepper.set_state(from, &state(start))?;
     let mut product = if recorded == Recorded::All { Some(Product::new(scene)?) } else { None };
     let mut column = key.map(|key| Column::new(scene, key));

@@ -18,9 +18,7 @@ pub(crate) fn path(scene: &Scene, from: &Strobe, periods: u32, at: &Row) -> Resu
     let period = forcing_period(scene)?;
     let start = from.phase * period;
     let end = start + f64::from(periods) * period;
-    let mut timed = scene.clone();
-    timed.duration = end;
-    let mut stepper = Stepper::new(&timed, &Scheme::Event, end)?;
+    let mut stepper = Stepper::new(&scene.clone().with_duration(end), &Scheme::Event, end)?;
     stepper.set_state(start, &from.state)?;
     let n = from.state.q.len();
     let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);

@@ -76,9 +76,9 @@ impl Orbit {
             && self.speeds.iter().zip(&other.speeds).all(|pair| close(pair, top))
     }
 
-    /// The same orbit listed from its event `first` on; this event falls into the first forcing
-    /// period.
-    pub(super) fn rotated(&self, first: usize) -> Self {
+    /// The same orbit listed from its event `first` on; this event falls into the first `within`
+    /// forcing periods.
+    pub(super) fn rotated(&self, first: usize, within: u32) -> Self {
         let count = self.phases.len();
         if count == 0 {
             return self.clone();
@@ -89,7 +89,8 @@ impl Orbit {
         orbit.speeds.rotate_left(first);
         orbit.phases.rotate_left(first);
         let turn = self.signature.cycles();
-        let start = orbit.phases.first().map_or(0.0, |phase| phase.floor());
+        let within = f64::from(within);
+        let start = orbit.phases.first().map_or(0.0, |phase| (phase / within).floor() * within);
         for (index, phase) in orbit.phases.iter_mut().enumerate() {
             *phase += if index + first >= count { turn } else { 0.0 } - start;
         }
@@ -105,16 +106,7 @@ impl Orbit {
         if !count.is_multiple_of(2) || signature.periods.is_multiple_of(2) || signature.symmetric {
             return None;
         }
-        let half = Self {
-            signature: Signature {
-                events: signature.events.get(..count / 2)?.to_vec(),
-                periods: signature.periods,
-                symmetric: true,
-            },
-            phases: self.phases.get(..count / 2)?.to_vec(),
-            speeds: self.speeds.get(..count / 2)?.to_vec(),
-            forcing_period: self.forcing_period,
-        };
+        let half = self.first(count / 2, signature.periods, true)?;
         half.unfolded(mirror).is(self, near).then_some(half)
     }
 
@@ -129,18 +121,32 @@ impl Orbit {
         let divides = |turns: &u32| signature.periods.is_multiple_of(*turns) && count.is_multiple_of(*turns as usize);
         (2..=signature.periods).rev().filter(divides).find_map(|turns| {
             let part = count / turns as usize;
-            let once = || Self {
-                signature: Signature {
-                    events: signature.events[..part].to_vec(),
-                    periods: signature.periods / turns,
-                    symmetric: false,
-                },
-                phases: self.phases[..part].to_vec(),
-                speeds: self.speeds[..part].to_vec(),
-                forcing_period: self.forcing_period,
-            };
-            self.rotated(part).near(self, near).then(once)
+            self.first(part, signature.periods / turns, false).filter(|_| self.rotated(part, 1).near(self, near))
         })
+    }
+
+    /// The orbit of the first `count` events, over `periods` forcing periods.
+    pub(super) fn first(&self, count: usize, periods: u32, symmetric: bool) -> Option<Self> {
+        Some(Self {
+            signature: Signature { events: self.signature.events.get(..count)?.to_vec(), periods, symmetric },
+            phases: self.phases.get(..count)?.to_vec(),
+            speeds: self.speeds.get(..count)?.to_vec(),
+            forcing_period: self.forcing_period,
+        })
+    }
+
+    /// Adds an event, which becomes event number `index`.
+    pub(super) fn insert(&mut self, index: usize, event: Event, phase: f64, speed: f64) {
+        self.signature.events.insert(index, event);
+        self.phases.insert(index, phase);
+        self.speeds.insert(index, speed);
+    }
+
+    /// Leaves out event number `index`.
+    pub(super) fn remove(&mut self, index: usize) {
+        self.signature.events.remove(index);
+        self.phases.remove(index);
+        self.speeds.remove(index);
     }
 
     /// The shortest orbit that this one repeats, with false; or the half whose mirror image is the

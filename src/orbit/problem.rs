@@ -3,6 +3,7 @@
 
 use super::boundary::{Boundary, BoundaryLaw};
 use super::signature::{Kind, Signature};
+use super::strobe::Scales;
 use super::symmetry::mirror;
 use crate::error::{Error, Result, Subject};
 use crate::flow::{Arc, Start, Support, Touch};
@@ -114,9 +115,9 @@ impl Problem {
         self.mirror.as_deref()
     }
 
-    /// A typical displacement, m, and its product with the forcing's Ω, m/s.
-    pub(super) fn scales(&self) -> [f64; 2] {
-        [self.length, self.length * std::f64::consts::TAU / self.period]
+    /// A typical displacement and its product with the forcing's Ω.
+    pub(super) fn scales(&self) -> Scales {
+        Scales::new(self.length, self.period)
     }
 
     /// An arc to be filled by [`Problem::fly`].

@@ -43,16 +43,15 @@ impl Problem {
     pub fn settled_with(&self, settle: u32, progress: &dyn Fn(f64)) -> Result<Orbit> {
         let period = self.forcing_period();
         let most = settle.saturating_add((REPEATS as u32 + 2) * LONGEST);
-        let mut scene = self.scene().clone();
-        scene.duration = f64::from(most) * period;
-        let mut stepper = Stepper::new(&scene, &Scheme::Event, 16.0 * period)?;
+        let end = f64::from(most) * period;
+        let mut stepper = Stepper::new(&self.scene().clone().with_duration(end), &Scheme::Event, 16.0 * period)?;
         let mut watch = Watch::new(self.scene(), period);
         let mut look = settle.saturating_add(8);
         while look <= most {
             let until = f64::from(look) * period;
             while stepper.time() < until {
                 watch.observe(&stepper.step()?);
-                progress(stepper.time() / scene.duration);
+                progress(stepper.time() / end);
             }
             let settled = watch.passages.partition_point(|passage| passage.phase < f64::from(settle));
             let passages = watch.passages.get(settled..).unwrap_or_default();
@@ -105,7 +104,7 @@ impl Problem {
         if orbit.signature.chatters() {
             // An orbit with chatter is run from one release from rest to the next, and is exact
             // already.
-            return Ok(orbit.repeated(REPEATED).unwrap_or(orbit).rotated(0));
+            return Ok(orbit.repeated(REPEATED).unwrap_or(orbit).rotated(0, 1));
         }
         let whole = self.correct(&orbit)?;
         match whole.folded(self.mirror(), REPEATED) {
@@ -119,7 +118,7 @@ impl Problem {
 /// those of one such stretch.
 fn repeated(passages: &[Passage], problem: &Problem) -> Option<(u32, Vec<Passage>)> {
     let fastest = || passages.iter().fold(0.0, |most: f64, passage| most.max(passage.speed.abs()));
-    let speed = problem.scene().gap().map_or_else(fastest, |_| problem.scales()[1]);
+    let speed = problem.scene().gap().map_or_else(fastest, |_| problem.scales().speed);
     // A body released from rest always moves in the same way: only the instant of the release
     // matters.
     let released = |passage: &Passage| passage.event.kind == Kind::Release;

@@ -65,12 +65,10 @@ impl Shot {
     /// As [`shoot`]; [`Error::Invalid`] for a state of another number of degrees of freedom, or for
     /// values that are not finite.
     pub fn corrected(&self, scene: &Scene) -> Result<Self> {
-        let period = posed(scene)?;
-        let n = scene.system.degrees_of_freedom();
-        self.check(n)?;
-        let shooting = Shooting { scene, period, scales: Scales::new(scene.gap_scale(), period) };
+        let shooting = Shooting::new(scene)?;
+        self.check(scene.system.degrees_of_freedom())?;
         // The phase of the load stays as it is.
-        shooting.solve(self.time / self.forcing_period * period, self.state.clone(), self.periods)
+        shooting.solve(self.time / self.forcing_period * shooting.period, self.state.clone(), self.periods)
     }
 
     /// Refuses data that cannot be an orbit of `n` degrees of freedom.
@@ -112,8 +110,7 @@ impl Shot {
 /// [`Error::NoOrbit`] where the states do not come back, where Newton's method does not converge,
 /// or where the derivative of the run does not exist; those of a run.
 pub fn shoot(scene: &Scene, settle: u32, progress: &dyn Fn(f64)) -> Result<Shot> {
-    let period = posed(scene)?;
-    let shooting = Shooting { scene, period, scales: Scales::new(scene.gap_scale(), period) };
+    let shooting = Shooting::new(scene)?;
     let (time, state, periods) = shooting.settled(settle, progress)?;
     shooting.solve(time, state, periods)
 }
@@ -124,14 +121,20 @@ pub fn shoot(scene: &Scene, settle: u32, progress: &dyn Fn(f64)) -> Result<Shot>
 /// [`Error::Invalid`] for a scene of which they cannot.
 pub(super) fn posed(scene: &Scene) -> Result<f64> {
     scene.validate()?;
-    let n = scene.system.degrees_of_freedom();
-    if n > MOST_UNKNOWNS {
-        let expected = format!("at most {MOST_UNKNOWNS}: the matrices of shooting are dense (reduce it to modes)");
-        return Err(Error::invalid("system", format!("one of {n} degrees of freedom"), expected));
-    }
+    check_dense(scene, "shooting")?;
     // Such a scene is refused before any run.
     Product::new(scene)?;
     forcing_period(scene)
+}
+
+/// Refuses a scene of more degrees of freedom than the dense matrices of `what` are made for.
+pub(super) fn check_dense(scene: &Scene, what: &str) -> Result<()> {
+    let n = scene.system.degrees_of_freedom();
+    if n > MOST_UNKNOWNS {
+        let expected = format!("at most {MOST_UNKNOWNS}: the matrices of {what} are dense (reduce it to modes)");
+        return Err(Error::invalid("system", format!("one of {n} degrees of freedom"), expected));
+    }
+    Ok(())
 }
 
 struct Shooting<'a> {
@@ -140,11 +143,10 @@ struct Shooting<'a> {
     scales: Scales,
 }
 
-impl Shooting<'_> {
-    fn stepper(&self, end: f64, stride: f64) -> Result<Stepper> {
-        let mut scene = self.scene.clone();
-        scene.duration = end;
-        Stepper::new(&scene, &Scheme::Event, stride)
+impl<'a> Shooting<'a> {
+    fn new(scene: &'a Scene) -> Result<Self> {
+        let period = posed(scene)?;
+        Ok(Self { scene, period, scales: Scales::new(scene.gap_scale(), period) })
     }
 
     /// An instant (s) between two events after `settle` periods, the state then, and the number of
@@ -153,7 +155,7 @@ impl Shooting<'_> {
         let first = f64::from(settle) * self.period;
         let most = (REPEATS + 1) * LONGEST + 1;
         let end = first + most as f64 * self.period;
-        let mut stepper = self.stepper(end, self.period)?;
+        let mut stepper = Stepper::new(&self.scene.clone().with_duration(end), &Scheme::Event, self.period)?;
         while stepper.time() < first {
             stepper.step()?;
             progress(stepper.time() / end);

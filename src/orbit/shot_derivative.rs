@@ -97,9 +97,7 @@ impl Shot {
         start: &[f64],
     ) -> Result<(KeyVariation, Product, DVector<f64>)> {
         let to = self.time + f64::from(self.periods) * forcing_period(scene)?;
-        let mut timed = scene.clone();
-        timed.duration = to;
-        let mut stepper = Stepper::new(&timed, &Scheme::Event, to)?;
+        let mut stepper = Stepper::new(&scene.clone().with_duration(to), &Scheme::Event, to)?;
         stepper.set_state(self.time, &self.state)?;
         let (mut by_key, mut product) = (KeyVariation::from_state(scene, tangents, start)?, Product::new(scene)?);
         let n = scene.system.degrees_of_freedom();

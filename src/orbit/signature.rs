@@ -218,7 +218,7 @@ impl Signature {
         if let (Some(letters), true) = (&letters, self.events.iter().all(|event| event.kind == Kind::Impact)) {
             return self.events.iter().filter_map(|event| letters.get(event.wall)).collect();
         }
-        let name = |wall: usize| scene.walls.get(wall).map_or("", |wall| wall.name.as_str());
+        let name = |wall: usize| scene.wall_name(wall).unwrap_or_default();
         let word = |event: &Event| match event.kind {
             Kind::Impact => name(event.wall).to_owned(),
             kind => format!("{}:{}", name(event.wall), kind.name()),

@@ -2,9 +2,10 @@
 
 use super::csv::{self, digits};
 use super::figure::{Line, Scale, Scatter, Sign};
+use super::window::extent;
 use crate::error::Result;
-use crate::orbit::Orbit;
 use crate::orbit::branch::{End, Graph, Label, Point, Special};
+use crate::orbit::{Event, Orbit};
 use crate::scene::Scene;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -108,7 +109,7 @@ impl Drawn<'_> {
     /// The name of the wall at which a special point happens.
     #[must_use]
     pub fn wall(&self, special: &Special) -> Option<&str> {
-        self.scene.walls.get(special.wall?).map(|wall| wall.name.as_str())
+        self.scene.wall_name(special.wall?)
     }
 
     /// Every point in the order of `branches.csv`, special points among the others: the numbers of
@@ -179,9 +180,9 @@ impl Drawn<'_> {
             Some(end) => json!(ended(end)),
         };
         let events = |orbit: &Orbit| -> Vec<Value> {
-            let name = |wall: usize| self.scene.walls.get(wall).map(|wall| wall.name.as_str());
             let events = orbit.signature.events.iter();
-            events.map(|event| json!({ "wall": name(event.wall), "kind": event.kind.name() })).collect()
+            let one = |event: &Event| json!({ "wall": self.scene.wall_name(event.wall), "kind": event.kind.name() });
+            events.map(one).collect()
         };
         let branches = self.graph.branches.iter().enumerate().map(|(number, branch)| {
             let (first, last) = (branch.points.first(), branch.points.last());
@@ -231,11 +232,10 @@ impl Drawn<'_> {
             met.map(|(_, speed)| *speed).filter(|v| v.is_finite()).collect::<Vec<_>>()
         };
         let all = || self.graph.branches.iter().flat_map(|branch| &branch.points);
-        let extent = |values: &mut dyn Iterator<Item = f64>| {
-            values.filter(|x| x.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
-        };
-        let x = extent(&mut all().map(|point| point.value).chain(beneath.iter().map(|point| point.0)));
-        let (_, top) = extent(&mut all().flat_map(shown).chain(beneath.iter().map(|point| point.1)));
+        let values = all().map(|point| point.value).chain(beneath.iter().map(|point| point.0));
+        let x = extent(values.filter(|x| x.is_finite()));
+        let speeds = all().flat_map(shown).chain(beneath.iter().map(|point| point.1));
+        let (_, top) = extent(speeds.filter(|v| v.is_finite()));
         let top = if top.is_finite() && top > 0.0 { top } else { 1.0 };
         let mut scatter = Scatter::new(
             title,

@@ -14,7 +14,7 @@ use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::choice;
 use crate::study::compare::{Comparison, Row};
-use crate::study::difference::{error_length, rows};
+use crate::study::difference::{error_length, largest, rows};
 use crate::study::verdict::Verdict;
 use serde_json::{Value, json};
 
@@ -184,11 +184,6 @@ fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<
     let rows = runs.flat_map(|(method, run)| Site::all(case).map(move |site| (method.clone(), run, site)));
     csv::records(&results.place("compare-walls.csv")?, &columns, rows)
 }
-
-pub(super) fn largest(columns: &[Vec<f64>]) -> f64 {
-    columns.iter().flatten().fold(0.0, |a, x| a.max(x.abs()))
-}
-
 /// Largest force of all walls and round supports in the window, N: of elastic ones at an instant,
 /// of rigid ones the largest mean over a stretch, as in the tables of a run.
 pub(super) fn largest_force(run: &Run) -> Option<f64> {

@@ -2,14 +2,14 @@
 //! of all quantities.
 
 use super::cheapest::time;
-use super::compare::{largest, largest_force, peak};
+use super::compare::{largest_force, peak};
 use super::site::Site;
 use super::table::Table;
 use crate::case::Case;
 use crate::run::Run;
 use crate::scheme::Scheme;
 use crate::study::compare::{Comparison, FINER, Row, is_aperiodic};
-use crate::study::difference::error_length;
+use crate::study::difference::{error_length, largest};
 use crate::study::verdict::Verdict;
 
 /// Most walls that get rows of their own in the table of all quantities; above that it shows sums

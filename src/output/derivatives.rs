@@ -168,11 +168,9 @@ pub fn remarks(keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
 fn means_document(scene: &Scene, means: &MeanDerivative) -> Value {
     let rows = |unit: &str, names: Vec<&str>, values: &[f64], by: &[Vec<f64>]| {
         let all = names.into_iter().zip(values).zip(by);
-        let row = |((name, value), by): ((&str, &f64), &Vec<f64>)| {
-            let by: Vec<Value> = by.iter().map(|x| number(*x)).collect();
-            json!({ "name": name, "unit": unit, "value": number(*value), "derivative": by })
-        };
-        all.map(row).collect::<Vec<Value>>()
+        let rows =
+            all.map(|((name, value), by)| json!({ "name": name, "unit": unit, "value": value, "derivative": by }));
+        rows.collect::<Vec<Value>>()
     };
     let probes = || scene.probes.iter().map(|probe| &*probe.name).collect();
     let walls = (0..scene.walls.len()).map(|wall| scene.wall_name(wall).unwrap_or_default()).collect();
@@ -183,23 +181,17 @@ fn means_document(scene: &Scene, means: &MeanDerivative) -> Value {
     })
 }
 
-/// A number, or null where it is not finite.
-fn number(x: f64) -> Value {
-    if x.is_finite() { json!(x) } else { Value::Null }
-}
-
 /// The same as JSON.
 #[must_use]
 pub fn document(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Value {
     let all = derivatives.measured();
     let measured = all.iter().map(|one| {
-        let by: Vec<Value> = one.derivative.iter().map(|x| number(*x)).collect();
         json!({
             "wall": name(scene, one.wall),
             "name": one.name,
             "unit": one.unit,
             "value": one.value,
-            "derivative": by,
+            "derivative": one.derivative,
         })
     });
     let ended = derivatives.ended.as_ref();

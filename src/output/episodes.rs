@@ -2,14 +2,14 @@
 //! distributed.
 
 use super::csv::{self, digits};
+use super::places::{Chosen, stands_alone};
 use super::results::Results;
 use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
-use crate::order::sort_by_number;
 use crate::run::Run;
 use crate::scene::Scene;
-use crate::statistics::{Distribution, EpisodeStatistics, PlaceKind};
+use crate::statistics::{Distribution, EpisodeStatistics};
 use serde::Serialize;
 
 /// Most rows of the table in the terminal.
@@ -90,15 +90,9 @@ impl Episodes {
     /// many, those of the largest mean impulses. `None` without walls.
     #[must_use]
     pub fn table(&self, scene: &Scene) -> Option<Table> {
-        let own = |one: &&EpisodeStatistics| {
-            let wall = || scene.walls.iter().position(|wall| wall.name == one.place.name);
-            one.place.kind == PlaceKind::Support || wall().is_none_or(|wall| scene.support_of(wall).is_none())
-        };
-        let mut shown: Vec<(usize, &EpisodeStatistics)> = self.places.iter().filter(own).enumerate().collect();
-        let impulse = |one: &EpisodeStatistics| one.impulse_n_s.as_ref().map_or(0.0, |d| d.mean * one.episodes as f64);
-        sort_by_number(&mut shown, |a| -impulse(a.1));
-        shown.truncate(MOST_ROWS);
-        sort_by_number(&mut shown, |one| one.0 as f64);
+        let own = self.places.iter().filter(|one| stands_alone(&one.place, scene));
+        let impulse = |one: &&EpisodeStatistics| one.impulse_n_s.as_ref().map_or(0.0, |d| d.mean * one.episodes as f64);
+        let shown = Chosen::heaviest(own, MOST_ROWS, impulse).shown;
         let header = [
             "place",
             "episodes",
@@ -113,7 +107,7 @@ impl Episodes {
             "99 %",
             "max",
         ];
-        let row = |(_, one): (usize, &EpisodeStatistics)| {
+        let row = |one: &EpisodeStatistics| {
             let mut row = vec![one.place.name.clone(), one.episodes.to_string()];
             for distribution in [&one.impulse_n_s, &one.approach_speed_m_per_s] {
                 let numbers =

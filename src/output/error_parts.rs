@@ -36,7 +36,7 @@ pub fn has_any(study: &Realisations) -> bool {
 /// # Errors
 /// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, study: &Realisations) -> Result<()> {
-    csv::table(path, &columns(), cells(study))
+    csv::table(path, &columns(), cells(study).into_iter())
 }
 
 /// The same for the studies of several methods, with a first column that names them.
@@ -44,12 +44,7 @@ pub fn write(path: &Path, study: &Realisations) -> Result<()> {
 /// # Errors
 /// As [`write`].
 pub fn write_methods(path: &Path, studies: &[(String, &Realisations)]) -> Result<()> {
-    let header: Vec<String> = std::iter::once("method".to_owned()).chain(columns()).collect();
-    let named = |(method, study): &(String, &Realisations)| {
-        let method = method.clone();
-        cells(study).map(move |row| [vec![method.clone()], row].concat()).collect::<Vec<_>>()
-    };
-    csv::table(path, &header, studies.iter().flat_map(named))
+    realisations::write_by_method(path, columns(), studies, cells)
 }
 
 fn columns() -> Vec<String> {
@@ -58,7 +53,7 @@ fn columns() -> Vec<String> {
     header
 }
 
-fn cells(study: &Realisations) -> impl Iterator<Item = Vec<String>> {
+fn cells(study: &Realisations) -> Vec<Vec<String>> {
     let row = |one: &Estimate| {
         let error = one.error?;
         let mut row = vec![one.place.name.clone(), one.place.kind.word().to_owned()];
@@ -70,7 +65,7 @@ fn cells(study: &Realisations) -> impl Iterator<Item = Vec<String>> {
         }
         Some(row)
     };
-    study.estimates.iter().filter_map(row)
+    study.estimates.iter().filter_map(row).collect()
 }
 
 /// Writes `realisations.csv` of a study, and `errors.csv` where errors are known.

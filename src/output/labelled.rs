@@ -1,5 +1,6 @@
 //! A run that is drawn.
 
+use super::figure::Curve;
 use crate::run::Run;
 
 /// A run with the label of its curves.
@@ -13,4 +14,12 @@ pub struct Labelled<'a> {
     pub reference: bool,
     /// Index of its colour and dash pattern, the same in all figures of one command.
     pub look: usize,
+}
+
+impl Labelled<'_> {
+    /// A curve of the run.
+    pub(super) fn curve(&self, points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
+        let curve = Curve::new(self.label, points).look(self.look);
+        if self.reference { curve.backdrop() } else { curve }
+    }
 }

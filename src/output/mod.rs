@@ -137,3 +137,4 @@ pub mod work_precision;
 pub mod worn_means;
 
 pub use window::Span;
+pub(crate) use window::extent;

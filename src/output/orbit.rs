@@ -2,10 +2,10 @@
 //! with the work of wear by sectors.
 
 use super::colours::Places;
-use super::figure::{Curve, Figure, Panel};
+use super::figure::{Figure, Panel};
 use super::labelled::Labelled;
 use super::ring::Ring;
-use super::window::Span;
+use super::window::{Span, extent};
 use crate::scene::{Row, Scene};
 use crate::trajectory::Trajectory;
 
@@ -60,8 +60,7 @@ pub(super) fn orbits(
     views.first()?;
     let whole = (1.0 + ROOM) * half;
     // The horizontal range holds every station.
-    let across = views.iter().map(|(_, centre)| centre[0]);
-    let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    let (low, high) = extent(views.iter().map(|(_, centre)| centre[0]));
     let (middle, whole) = (0.5 * (low + high), whole + 0.5 * (high - low));
     let left_out = (views.len() < count).then(|| format!("{} of {count} places", views.len()));
     let rings = views.iter().flat_map(|(station, _)| &station.rings).filter_map(|ring| ring.largest(runs));
@@ -78,8 +77,7 @@ pub(super) fn orbits(
         panel = panel.range(MM * (centre[1] - whole), MM * (centre[1] + whole));
         for labelled in runs {
             let points = points(&station, &labelled.run.trajectory, span).map(|[y, z]| (MM * y, MM * z));
-            let curve = Curve::new(labelled.label, points).look(labelled.look);
-            panel = panel.curve(if labelled.reference { curve.backdrop() } else { curve });
+            panel = panel.curve(labelled.curve(points));
         }
         if let Some(ring) = station.rings.first() {
             panel = panel.colour(places.colour(ring.name(scene)));
@@ -153,24 +151,20 @@ fn points<'a>(station: &Station, motion: &'a Trajectory, span: Span) -> impl Ite
 /// that holds them, m.
 fn view(station: &Station, runs: &[Labelled<'_>], span: Span) -> Option<([f64; 2], f64)> {
     let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-    let mut include = |point: [f64; 2]| {
+    let include = |ends: &mut [[f64; 2]; 2], point: [f64; 2]| {
         for (end, x) in ends.iter_mut().zip(point).filter(|(_, x)| x.is_finite()) {
             *end = [end[0].min(x), end[1].max(x)];
         }
     };
-    runs.iter().flat_map(|run| points(station, &run.run.trajectory, span)).for_each(&mut include);
-    let moved = ends;
-    let mut include = |point: [f64; 2]| {
-        for (end, x) in ends.iter_mut().zip(point).filter(|(_, x)| x.is_finite()) {
-            *end = [end[0].min(x), end[1].max(x)];
-        }
-    };
-    let middle = moved.map(|[low, high]| 0.5 * (low + high));
+    let moved = runs.iter().flat_map(|run| points(station, &run.run.trajectory, span));
+    moved.for_each(|point| include(&mut ends, point));
+    let middle = ends.map(|[low, high]| 0.5 * (low + high));
     for Flat { a, b, c } in &station.flats {
         let beyond = (c - a * middle[0] - b * middle[1]) / (a * a + b * b);
-        include([middle[0] + beyond * a, middle[1] + beyond * b]);
+        include(&mut ends, [middle[0] + beyond * a, middle[1] + beyond * b]);
     }
-    station.rings.iter().filter_map(|ring| ring.reach(runs)).flatten().for_each(&mut include);
+    let rings = station.rings.iter().filter_map(|ring| ring.reach(runs)).flatten();
+    rings.for_each(|point| include(&mut ends, point));
     let half = ends.iter().map(|[low, high]| 0.5 * (high - low)).fold(0.0, f64::max);
     (half > 0.0 && half.is_finite()).then(|| (ends.map(|[low, high]| 0.5 * (low + high)), half))
 }

@@ -1,7 +1,7 @@
 //! Walls at one place whose contacts are drawn together.
 
 use super::colours::{Places, place_of};
-use super::figure::{Curve, Stems};
+use super::figure::Curve;
 use super::labelled::Labelled;
 use crate::scene::Scene;
 use std::collections::HashMap;
@@ -48,23 +48,9 @@ impl<'a> Part<'a> {
         parts
     }
 
-    /// Their force over time.
+    /// Their force over time, or their impulses.
     pub fn curve(&self, points: Vec<(f64, f64)>) -> Curve {
-        let curve = Curve::new(self.label, points).look(self.look);
-        let curve = if self.backdrop { curve.backdrop() } else { curve };
-        match self.colour {
-            Some(colour) => curve.colour(colour),
-            None => curve,
-        }
-    }
-
-    /// Their impulses.
-    pub fn stems(&self, points: Vec<(f64, f64)>) -> Stems {
-        let stems = Stems::new(self.label, points).look(self.look);
-        let stems = if self.backdrop { stems.backdrop() } else { stems };
-        match self.colour {
-            Some(colour) => stems.colour(colour),
-            None => stems,
-        }
+        let curve = Curve::new(self.label, points).look(self.look).colour(self.colour);
+        if self.backdrop { curve.backdrop() } else { curve }
     }
 }

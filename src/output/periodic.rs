@@ -50,20 +50,14 @@ pub fn shot_closure_of(scene: &Scene) -> String {
     scene.gap().map_or_else(|| format!("{:?} m", scene.gap_scale()), |_| "the gap".to_owned())
 }
 
-/// A number, or null if it is not finite.
-fn finite(x: f64) -> Value {
-    if x.is_finite() { json!(x) } else { Value::Null }
-}
-
 fn pairs(multipliers: &[[f64; 2]]) -> Value {
-    Value::Array(multipliers.iter().map(|[re, im]| json!([finite(*re), finite(*im)])).collect())
+    Value::Array(multipliers.iter().map(|[re, im]| json!([re, im])).collect())
 }
 
 fn events(orbit: &Orbit, scene: &Scene) -> Value {
-    let name = |wall: usize| scene.walls.get(wall).map_or("", |wall| wall.name.as_str());
     let events = orbit.signature.events.iter().enumerate().map(|(index, event)| {
         json!({
-            "wall": name(event.wall),
+            "wall": scene.wall_name(event.wall).unwrap_or_default(),
             "kind": event.kind.name(),
             "phase_cycles": orbit.phases.get(index),
             "speed_m_per_s": orbit.speeds.get(index),
@@ -103,13 +97,13 @@ impl Known<'_> {
             "stable": floquet.is_stable(),
             "admissible": admissible.holds(),
             "not_admissible_because": admissible.reason(scene),
-            "least_speed_m_per_s": finite(admissible.least_speed),
+            "least_speed_m_per_s": admissible.least_speed,
             "least_gap_m": admissible.nearest.map(|nearest| nearest.gap),
             "displacement_max_m": admissible.largest,
             "judge": {
-                "closure": finite(judged.closure),
+                "closure": judged.closure,
                 "closure_of": closure_of(scene),
-                "tolerance": finite(judged.tolerance),
+                "tolerance": judged.tolerance,
                 "same_events": judged.same_events,
             },
             "walls": walls.collect::<Vec<_>>(),
@@ -138,8 +132,8 @@ impl Known<'_> {
     /// # Errors
     /// [`Error::Io`] where the file cannot be written.
     pub fn contacts(&self, path: &Path) -> Result<()> {
-        let name = |wall: usize| self.problem.scene().walls.get(wall).map_or("", |wall| wall.name.as_str());
-        let rows = self.judged.contacts.iter().map(|c| csv::contact_cells(name(c.wall).to_owned(), c));
+        let name = |wall: usize| self.problem.scene().wall_name(wall).unwrap_or_default().to_owned();
+        let rows = self.judged.contacts.iter().map(|c| csv::contact_cells(name(c.wall), c));
         csv::table(path, &csv::CONTACT.map(str::to_owned), rows)
     }
 
@@ -294,7 +288,7 @@ fn coordinates(modal: bool) -> &'static str {
 pub fn listed(found: &[(ClosedForm, Option<bool>)], scene: &Scene) -> Value {
     let one = |(form, admissible): &(ClosedForm, Option<bool>)| {
         json!({
-            "wall": scene.walls.get(form.wall).map(|wall| wall.name.clone()),
+            "wall": scene.wall_name(form.wall),
             "periods": form.periods,
             "symmetric": form.symmetric,
             "phase_cycles": form.phase,
@@ -328,7 +322,7 @@ pub fn shot(found: &Shot, scene: &Scene, case: &str, modal: bool) -> Value {
         "events": events(&found.orbit, scene),
         "multipliers": pairs(&found.multipliers),
         "stable": found.is_stable(),
-        "closure": finite(found.closure),
+        "closure": found.closure,
         "closure_of": shot_closure_of(scene),
         "walls": walls.collect::<Vec<_>>(),
     })

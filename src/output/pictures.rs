@@ -4,19 +4,21 @@
 //! in the figure of forces each place at which walls stand. Where there are more than a page holds,
 //! those with the most contact are drawn, and the title names the others.
 
-use super::figure::{Curve, Figure, Mark, Panel};
+use super::figure::{Figure, Mark, Panel};
 pub use super::labelled::Labelled;
 use super::motion::{Instant, motion};
 use super::orbit::orbits;
 use super::part::Part;
 use super::places::{Chosen, WallPlace};
 use super::rubbed::Rubbed;
-use super::window::{Span, Window};
+use super::window::{Span, Window, extent};
 use crate::error::Result;
 use crate::order::sort_by_number;
 use crate::run::Run;
 use crate::scene::{Row, Scene, Side};
 use crate::step::Contact;
+use crate::study::difference::largest;
+use crate::trajectory::Trajectory;
 
 /// Millimetres per metre: the CSV is in SI units, the figures are in millimetres.
 const MM: f64 = 1e3;
@@ -26,6 +28,9 @@ pub(crate) const FEW_ROWS: f64 = 3.0;
 
 /// A probe that moves by less than this share of the largest motion is drawn as a flat line.
 const STILL: f64 = 1e-9;
+
+/// The rows of a quantity, a list for each probe.
+type Columns = fn(&Trajectory) -> &[Vec<f64>];
 
 /// What is drawn: a title, the walls, the runs and the stretch of time.
 #[derive(Debug, Clone, Copy)]
@@ -54,8 +59,11 @@ impl FigureSet<'_> {
         let probes = self.probes();
         let window = Window::new(self.scene, self.leading(), probes.shown.first().copied(), self.span);
         if !probes.shown.is_empty() {
-            figures.push(("displacement", self.displacement(&probes, &window)));
-            figures.push(("velocity", self.velocity(&probes, &window)));
+            let marked = |panel, probe| self.marks(probe).fold(panel, Panel::mark);
+            let (q, v, shown) = (Trajectory::displacements, Trajectory::velocities, &probes);
+            let displacement = self.over_time("Displacement (mm)", q, |k| k.q, shown, &window, &marked);
+            let velocity = self.over_time("Velocity (mm/s)", v, |k| k.v, shown, &window, &|panel, _| panel);
+            figures.extend([("displacement", displacement), ("velocity", velocity)]);
             figures.push(("phase", self.phase(&probes, &window)));
         }
         let title = |remarks: Vec<String>| self.title(remarks.into_iter().chain(window.words()));
@@ -111,45 +119,35 @@ impl FigureSet<'_> {
         seen.map(|wall| Mark::wall(MM * wall.position(), wall.name.as_str()))
     }
 
-    fn curve(&self, labelled: &Labelled<'_>, points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
-        let curve = Curve::new(labelled.label, points).look(labelled.look);
-        if labelled.reference { curve.backdrop() } else { curve }
-    }
-
     fn motion(&self, run: &Run, probe: usize, window: &Window) -> Vec<Instant> {
         motion(self.scene, run, probe, window.whole, window.detail(), false)
     }
 
     /// The panel of a probe. The smallest range that it draws as motion is a share of the largest
     /// motion of any probe in the leading run.
-    fn moving(&self, label: &str, probe: usize, columns: impl Fn(&Run) -> &[Vec<f64>]) -> Panel {
-        let largest = |run: &Run| columns(run).iter().flatten().fold(0.0_f64, |a, x| a.max(x.abs()));
-        let largest = MM * self.leading().map_or(0.0, largest);
+    fn moving(&self, label: &str, probe: usize, columns: Columns) -> Panel {
+        let largest = MM * self.leading().map_or(0.0, |run| largest(columns(&run.trajectory)));
         self.panel(label, probe).still_below(STILL * largest, largest)
     }
 
-    fn displacement(&self, probes: &Chosen<usize>, window: &Window) -> String {
+    /// A panel over time for each probe: of what has these columns, and this value at an instant.
+    fn over_time(
+        &self,
+        label: &str,
+        columns: Columns,
+        value: fn(&Instant) -> f64,
+        probes: &Chosen<usize>,
+        window: &Window,
+        finish: &dyn Fn(Panel, usize) -> Panel,
+    ) -> String {
         let mut figure = window.over_time(Figure::new(self.title(self.unshown(probes)), "Time (s)"));
         for &probe in &probes.shown {
-            let mut panel = self.moving("Displacement (mm)", probe, |run| run.trajectory.displacements());
+            let mut panel = self.moving(label, probe, columns);
             for labelled in self.runs {
                 let points = self.motion(labelled.run, probe, window);
-                panel = panel.curve(self.curve(labelled, points.iter().map(|k| (k.t, MM * k.q))).oscillating());
+                panel = panel.curve(labelled.curve(points.iter().map(|k| (k.t, MM * value(k)))).oscillating());
             }
-            figure = figure.panel(self.marks(probe).fold(panel, Panel::mark));
-        }
-        figure.to_svg()
-    }
-
-    fn velocity(&self, probes: &Chosen<usize>, window: &Window) -> String {
-        let mut figure = window.over_time(Figure::new(self.title(self.unshown(probes)), "Time (s)"));
-        for &probe in &probes.shown {
-            let mut panel = self.moving("Velocity (mm/s)", probe, |run| run.trajectory.velocities());
-            for labelled in self.runs {
-                let points = self.motion(labelled.run, probe, window);
-                panel = panel.curve(self.curve(labelled, points.iter().map(|k| (k.t, MM * k.v))).oscillating());
-            }
-            figure = figure.panel(panel);
+            figure = figure.panel(finish(panel, probe));
         }
         figure.to_svg()
     }
@@ -158,19 +156,18 @@ impl FigureSet<'_> {
     fn phase(&self, probes: &Chosen<usize>, window: &Window) -> String {
         let remarks = self.unshown(probes).into_iter().chain(window.words());
         let mut figure = Figure::new(self.title(remarks), "Displacement (mm)");
-        let largest = |columns: &[Vec<f64>]| columns.iter().flatten().fold(0.0_f64, |a, x| a.max(x.abs()));
         let leading = self.leading().map(|run| &run.trajectory);
         let still = leading.map_or((0.0, 0.0), |t| (largest(t.displacements()), largest(t.velocities())));
         let still = (STILL * MM * still.0, STILL * MM * still.1);
         for &probe in &probes.shown {
-            let mut panel = self.moving("Velocity (mm/s)", probe, |run| run.trajectory.velocities());
+            let mut panel = self.moving("Velocity (mm/s)", probe, Trajectory::velocities);
             for labelled in self.runs {
                 let shown = window.detail();
                 let orbit = motion(self.scene, labelled.run, probe, shown, shown, true);
                 let points: Vec<_> = orbit.iter().map(|k| (MM * k.q, MM * k.v)).collect();
                 panel = panel.curve(match (stays(&points, still), points.last()) {
-                    (true, Some(&end)) => self.curve(labelled, [end]).marked(),
-                    _ => self.curve(labelled, points),
+                    (true, Some(&end)) => labelled.curve([end]).marked(),
+                    _ => labelled.curve(points),
                 });
             }
             figure = figure.panel(self.marks(probe).map(Mark::upright).fold(panel, Panel::mark));
@@ -203,7 +200,7 @@ impl FigureSet<'_> {
                         forces = true;
                     }
                     if !impacts.is_empty() {
-                        impulse = impulse.stems(part.stems(impacts));
+                        impulse = impulse.stems(part.curve(impacts));
                         impulses = true;
                     }
                 }
@@ -284,8 +281,8 @@ fn near(points: &mut [(f64, f64)], time: f64, distance: f64) -> impl Iterator<It
 /// point, which a line does not show.
 fn stays(orbit: &[(f64, f64)], limit: (f64, f64)) -> bool {
     let range = |of: fn(&(f64, f64)) -> f64| {
-        let ends = orbit.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-        ends.1 - ends.0
+        let (low, high) = extent(orbit.iter().map(of));
+        high - low
     };
     range(|point| point.0) <= limit.0 && range(|point| point.1) <= limit.1
 }

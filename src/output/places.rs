@@ -3,6 +3,7 @@
 use super::window::Span;
 use crate::order::sort_by_number;
 use crate::scene::Scene;
+use crate::statistics::{ContactPlace, PlaceKind};
 use crate::trajectory::Trajectory;
 
 /// Most panels on one page, one below the other.
@@ -59,9 +60,9 @@ impl WallPlace {
 /// A selection of items to draw.
 #[derive(Debug)]
 pub(super) struct Chosen<T> {
-    /// The items selected, in the scene's order.
+    /// The items selected, in their order.
     pub shown: Vec<T>,
-    /// The others, in the scene's order.
+    /// The others, in their order.
     pub left: Vec<T>,
 }
 
@@ -76,14 +77,14 @@ impl<T> Chosen<T> {
         Some(format!("the {shown} of {all} {what} with the most contact, without {}", named(&self.left, name)))
     }
 
-    /// The items of the largest weight, in their order; of equal weights, the first ones.
-    fn heaviest(weighted: Vec<(f64, T)>) -> Self {
-        let mut numbered: Vec<(usize, (f64, T))> = weighted.into_iter().enumerate().collect();
-        sort_by_number(&mut numbered, |a| -a.1.0);
-        let others = numbered.split_off(MOST.min(numbered.len()));
+    /// At most `most` of `items`, those of the largest weight; of equal weights, the first ones.
+    pub fn heaviest(items: impl IntoIterator<Item = T>, most: usize, weight: impl Fn(&T) -> f64) -> Self {
+        let mut numbered: Vec<(usize, T)> = items.into_iter().enumerate().collect();
+        sort_by_number(&mut numbered, |a| -weight(&a.1));
+        let others = numbered.split_off(most.min(numbered.len()));
         let [shown, left] = [numbered, others].map(|mut some| {
             sort_by_number(&mut some, |entry| entry.0 as f64);
-            some.into_iter().map(|(_, (_, item))| item).collect()
+            some.into_iter().map(|(_, item)| item).collect()
         });
         Self { shown, left }
     }
@@ -101,8 +102,7 @@ fn named<T>(items: &[T], name: impl Fn(&T) -> String) -> String {
 impl Chosen<WallPlace> {
     /// The places with the largest impulses in `motion` within `span`.
     pub fn places(scene: &Scene, motion: Option<&Trajectory>, span: Span) -> Self {
-        let weighted = WallPlace::all(scene).into_iter().map(|place| (place.impulse(motion, span), place));
-        Self::heaviest(weighted.collect())
+        Self::heaviest(WallPlace::all(scene), MOST, |place| place.impulse(motion, span))
     }
 }
 
@@ -116,8 +116,14 @@ impl Chosen<usize> {
                 |place: &&WallPlace| place.walls.first().and_then(|&wall| scene.walls.get(wall)).map(|w| w.row()) == at;
             places.iter().find(seen).map_or(0.0, |place| place.impulse(motion, span))
         };
-        Self::heaviest((0..scene.probes.len()).map(|index| (weight(index), index)).collect())
+        Self::heaviest(0..scene.probes.len(), MOST, |&index| weight(index))
     }
+}
+
+/// True for a support, and for a wall that is no flat of one.
+pub(super) fn stands_alone(place: &ContactPlace, scene: &Scene) -> bool {
+    let wall = || scene.walls.iter().position(|wall| wall.name == place.name);
+    place.kind == PlaceKind::Support || wall().is_none_or(|wall| scene.support_of(wall).is_none())
 }
 
 #[cfg(test)]
@@ -139,12 +145,12 @@ mod tests {
 
     #[test]
     fn the_heaviest_are_kept_in_their_order_and_the_title_names_the_others() {
-        let weighted = [1.0, 5.0, 2.0, 0.0, 3.0, 4.0].into_iter().zip(0..6).collect();
-        let chosen = Chosen::heaviest(weighted);
+        let weights = [1.0, 5.0, 2.0, 0.0, 3.0, 4.0];
+        let chosen = Chosen::heaviest(0..6, MOST, |&index: &usize| weights[index]);
         assert_eq!(chosen.shown, [1, 2, 4, 5]);
         let text = "the 4 of 6 probes with the most contact, without p0, p3";
         assert_eq!(chosen.left_out("probes", |i| format!("p{i}")).unwrap(), text);
-        assert_eq!(Chosen::heaviest(vec![(0.0, 7)]).left_out("probes", i32::to_string), None);
+        assert_eq!(Chosen::heaviest([7], MOST, |_| 0.0).left_out("probes", i32::to_string), None);
         let many: Vec<i32> = (0..9).collect();
         assert_eq!(named(&many, i32::to_string), "0, 1, 2, 3, 4, 5, 3 more");
     }

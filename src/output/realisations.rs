@@ -1,12 +1,12 @@
 //! `realisations.csv`, and the table and remarks of a study of realisations for the terminal.
 
 use super::csv;
+use super::places::{Chosen, stands_alone};
 use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
-use crate::order::sort_by_number;
 use crate::scene::Scene;
-use crate::statistics::{ContactPlace, PlaceKind};
+use crate::statistics::ContactPlace;
 use crate::study::realisations::{Estimate, Interval, Measure, Realisations};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -48,7 +48,17 @@ pub fn cells(study: &Realisations) -> (Vec<String>, Vec<Vec<String>>) {
 /// # Errors
 /// As [`write`].
 pub fn write_methods(path: &Path, studies: &[(String, &Realisations)]) -> Result<()> {
-    let header: Vec<String> = std::iter::once("method".to_owned()).chain(header()).collect();
+    write_by_method(path, header(), studies, rows)
+}
+
+/// Writes the `rows` of several methods, with a column in front that names the method.
+pub(super) fn write_by_method(
+    path: &Path,
+    mut header: Vec<String>,
+    studies: &[(String, &Realisations)],
+    rows: fn(&Realisations) -> Vec<Vec<String>>,
+) -> Result<()> {
+    header.insert(0, "method".to_owned());
     let named = |(method, study): &(String, &Realisations)| {
         let method = method.clone();
         rows(study).into_iter().map(move |row| [vec![method.clone()], row].concat())
@@ -90,16 +100,9 @@ fn places(study: &Realisations) -> Vec<&ContactPlace> {
 /// The places that the terminal shows: supports, and walls that are no flats of one; where there
 /// are many, those of the largest mean forces.
 pub(super) fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a ContactPlace> {
-    let wall = |place: &ContactPlace| scene.walls.iter().position(|wall| wall.name == place.name);
-    let own = |place: &&ContactPlace| {
-        place.kind == PlaceKind::Support || wall(place).is_none_or(|wall| scene.support_of(wall).is_none())
-    };
-    let mut places: Vec<(usize, &ContactPlace)> = places(study).into_iter().filter(own).enumerate().collect();
-    let force = |place: &ContactPlace| find(study, place, Measure::MeanForce).map_or(0.0, |one| one.mean);
-    sort_by_number(&mut places, |a| -force(a.1));
-    places.truncate(most);
-    sort_by_number(&mut places, |place| place.0 as f64);
-    places.into_iter().map(|(_, place)| place).collect()
+    let own = places(study).into_iter().filter(|place| stands_alone(place, scene));
+    let force = |place: &&ContactPlace| find(study, place, Measure::MeanForce).map_or(0.0, |one| one.mean);
+    Chosen::heaviest(own, most, force).shown
 }
 
 pub(super) fn find<'a>(study: &'a Realisations, place: &ContactPlace, measure: Measure) -> Option<&'a Estimate> {

@@ -3,8 +3,8 @@
 use super::colours::Places;
 use super::figure::{Curve, Figure, Panel};
 use super::labelled::Labelled;
+use super::places::Chosen;
 use super::window::Window;
-use crate::order::sort_by_number;
 use crate::scene::Scene;
 use crate::trajectory::Trajectory;
 
@@ -60,18 +60,14 @@ impl Rubbed<'_> {
         let first = self.runs.first()?;
         let largest = |points: Points| points.iter().map(|point| point.1.abs()).fold(0.0, f64::max);
         let weighed = |index: usize| Some((index, largest(points(&first.run.trajectory, index)?)));
-        let mut supports: Vec<(usize, f64)> = (0..self.scene.supports.len()).filter_map(weighed).collect();
-        supports.retain(|(_, weight)| *weight > 0.0);
-        let count = supports.len();
-        sort_by_number(&mut supports, |a| -a.1);
-        supports.truncate(MOST);
-        sort_by_number(&mut supports, |entry| entry.0 as f64);
-        supports.first()?;
-        let left_out = (supports.len() < count).then(|| format!("{} of {count} supports", supports.len()));
+        let weighed = (0..self.scene.supports.len()).filter_map(weighed).filter(|(_, weight)| *weight > 0.0);
+        let Chosen { shown, left } = Chosen::heaviest(weighed, MOST, |support| support.1);
+        shown.first()?;
+        let left_out = (!left.is_empty()).then(|| format!("{} of {} supports", shown.len(), shown.len() + left.len()));
         let title = (self.title)(left_out.into_iter().collect());
         let mut figure = self.window.over_time(Figure::new(title, "Time (s)"));
         let places = Places::of(self.scene);
-        for support in supports.iter().filter_map(|(index, _)| Some((*index, self.scene.supports.get(*index)?))) {
+        for support in shown.iter().filter_map(|(index, _)| Some((*index, self.scene.supports.get(*index)?))) {
             let remark = if support.1.friction(&self.scene.walls).sliding == 0.0 { frictionless } else { "" };
             let mut panel = Panel::new(label).heading(format!("{}{remark}", support.1.name));
             for labelled in self.runs {

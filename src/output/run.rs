@@ -3,6 +3,8 @@
 use super::atomic::write_whole;
 use super::detail::Detail;
 use super::pictures::{FigureSet, Labelled};
+use super::places::Chosen;
+use super::realisations::with_decimals;
 use super::record::TABLES;
 use super::results::Results;
 use super::summary::{self, Checks, Reasons};
@@ -10,7 +12,6 @@ use super::table::Table;
 use super::{Span, csv, json, realisations, supports, turbulence};
 use crate::case::Case;
 use crate::error::{Result, counted};
-use crate::order::sort_by_number;
 use crate::qp::Backend;
 use crate::run::Run;
 use crate::scheme::{Method, Scheme};
@@ -101,10 +102,10 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
     let mut rows = Vec::new();
     for wall in busiest(run) {
         let force = |part: fn(&ForceStatistics) -> f64, digits| {
-            wall.force.as_ref().map_or_else(|| "-".to_owned(), |force| fixed(part(force), digits))
+            wall.force.as_ref().map_or_else(|| "-".to_owned(), |force| with_decimals(part(force), digits))
         };
         let largest = |part: fn(&LargestForce) -> f64| {
-            wall.largest_force.as_ref().map_or_else(|| "-".to_owned(), |largest| fixed(part(largest), 4))
+            wall.largest_force.as_ref().map_or_else(|| "-".to_owned(), |largest| with_decimals(part(largest), 4))
         };
         rows.push(vec![
             wall.wall.clone(),
@@ -114,9 +115,9 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
             force(|f| f.rms_n, 4),
             largest(|f| f.mean_n),
             largest(|f| f.at_s),
-            fixed(100.0 * wall.contact_time_ratio, 3),
-            fixed(wall.impact_power_w, 6),
-            fixed(wall.arrived_less_departed_power_w, 6),
+            with_decimals(100.0 * wall.contact_time_ratio, 3),
+            with_decimals(wall.impact_power_w, 6),
+            with_decimals(wall.arrived_less_departed_power_w, 6),
         ]);
     }
     Ok((!rows.is_empty()).then(|| Table::new(&headers, rows)))
@@ -192,12 +193,6 @@ pub fn line(case: &Case, run: &Run, method: &Method) -> String {
     )
 }
 
-/// `x` with `digits` decimals; 0 where rounding would show −0.
-fn fixed(x: f64, digits: usize) -> String {
-    let x = if x.abs() < 0.5 * 10f64.powi(-(digits as i32)) { 0.0 } else { x };
-    format!("{x:.digits$}")
-}
-
 /// The flat walls: a round one is in the table of its support.
 fn flats(run: &Run) -> impl Iterator<Item = &WallStatistics> {
     run.statistics.walls.iter().filter(|wall| !wall.round)
@@ -205,13 +200,8 @@ fn flats(run: &Run) -> impl Iterator<Item = &WallStatistics> {
 
 /// The flat walls of the largest impulses, in the scene's order.
 fn busiest(run: &Run) -> Vec<&WallStatistics> {
-    let walls: Vec<&WallStatistics> = flats(run).collect();
-    let impulse = |wall: &WallStatistics| wall.force.map_or(0.0, |force| force.impulse_n_s.abs());
-    let mut order: Vec<(usize, f64)> = walls.iter().map(|wall| impulse(wall)).enumerate().collect();
-    sort_by_number(&mut order, |a| -a.1);
-    order.truncate(MOST_ROWS);
-    sort_by_number(&mut order, |entry| entry.0 as f64);
-    order.into_iter().filter_map(|(i, _)| walls.get(i).copied()).collect()
+    let impulse = |wall: &&WallStatistics| wall.force.map_or(0.0, |force| force.impulse_n_s.abs());
+    Chosen::heaviest(flats(run), MOST_ROWS, impulse).shown
 }
 
 /// How the steps that met a wall were solved, and how many there were.

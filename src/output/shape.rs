@@ -180,7 +180,7 @@ fn unwatched(case: &Case) -> Vec<(String, Place)> {
     for (wall, place) in case.places.iter().enumerate().filter(|(_, place)| case.sees(place).is_some()) {
         if !known.contains(&place) && all.len() < MOST_MASSES {
             known.push(place);
-            let name = case.scene.walls.get(wall).map_or("", |wall| wall.name.as_str()).replace('-', "_");
+            let name = case.scene.wall_name(wall).unwrap_or_default().replace('-', "_");
             all.push((format!("{WALL}{wall}_{name}_m"), place.clone()));
         }
     }

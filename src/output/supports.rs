@@ -2,10 +2,10 @@
 //! work of wear, sliding, and the worn volume.
 
 use super::csv::{self, digits};
+use super::places::Chosen;
 use super::table::Table;
 use crate::case::{Case, Support};
 use crate::error::Result;
-use crate::order::sort_by_number;
 use crate::run::Run;
 use crate::statistics::{LargestForce, SectorStatistics, SupportForce, SupportStatistics, WearStatistics};
 use crate::wear::Worn;
@@ -101,14 +101,9 @@ fn kind(support: &WearStatistics) -> &'static str {
 /// `None` without supports.
 #[must_use]
 pub fn table(case: &Case, run: &Run) -> Option<Table> {
-    let mut supports: Vec<_> = all(case, run).enumerate().collect();
-    if supports.is_empty() {
-        return None;
-    }
-    sort_by_number(&mut supports, |a| -a.1.wear.work_rate_w);
-    supports.truncate(MOST_ROWS);
-    sort_by_number(&mut supports, |entry| entry.0 as f64);
-    let wears = supports.iter().any(|(_, support)| support.worn.is_some());
+    let supports = Chosen::heaviest(all(case, run), MOST_ROWS, |support| support.wear.work_rate_w).shown;
+    supports.first()?;
+    let wears = supports.iter().any(|support| support.worn.is_some());
     let mut header = vec![
         "support",
         "work rate (W)",
@@ -150,7 +145,7 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
         }
         row
     };
-    let rows = supports.into_iter().map(|(_, support)| row(support)).collect();
+    let rows = supports.into_iter().map(row).collect();
     Some(Table::new(&header, rows).together_from(of_contact))
 }
 

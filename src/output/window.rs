@@ -32,6 +32,11 @@ impl Span {
     }
 }
 
+/// The least and the largest of `values`; without any, infinities the wrong way round.
+pub(crate) fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+}
+
 /// The stretch shown, and the part of it that is shown a second time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Window {

@@ -14,7 +14,7 @@
 //! | `friction.rs`, `pushes.rs`, `supports.rs` | friction, impulses in two planes, and what a run keeps of both |
 //! | `arc.rs`, `series.rs`, `series_scratch.rs`, `circle.rs`, `quadrature.rs` | exact motion, of structures, in round holes; its integrals |
 //! | `energy/` | the energy ledger |
-//! | `momentum_sums.rs`, `run_momentum.rs`, `recorded.rs` | the momentum of a whole run, of every one and of a recorded one |
+//! | `momentum_sums.rs`, `run_momentum.rs` | the momentum of a whole run |
 //! | `own_loads.rs` | the extra force of steps in which no caller adds one |
 //! | `walls.rs`, `front.rs`, `balance.rs`, `extent.rs` | what a run shows of its walls and its momentum, and how far it moves |
 //! | `noise.rs`, `largest_residual.rs`, `weights.rs`, `scales.rs` | the rounding errors and the reference sizes of residuals |
@@ -47,7 +47,6 @@ mod pushes;
 mod quadrature;
 mod quiet_scratch;
 mod quiet_steps;
-mod recorded;
 mod residuals;
 mod ring;
 mod round;
@@ -67,7 +66,6 @@ mod weights;
 
 pub use energy::Energy;
 pub use finding::{Finding, Refuted};
-pub use recorded::{Momentum, momentum};
 pub use residuals::Residuals;
 pub(crate) use residuals::penetration;
 

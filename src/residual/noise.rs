@@ -13,7 +13,7 @@ const MET: f64 = 2e-12;
 
 /// The largest terms of the balances so far, in the metric of the mass, and the rounding errors
 /// that follow from them in the current step.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct NoiseModel {
     /// UNITS · ε · √n.
     unit: f64,
@@ -49,18 +49,11 @@ impl NoiseModel {
         Self {
             unit: UNITS * f64::EPSILON * (mass.len().max(1) as f64).sqrt(),
             gap_scale,
-            end: 0.0,
             span: 1.0,
             clock: 1.0,
             rates: [largest(spring), largest(dashpot)],
             wall: masses.iter().map(|mass| mass.sqrt()).collect(),
-            speed: 0.0,
-            reach: 0.0,
-            strain: 0.0,
-            rub: 0.0,
-            load: 0.0,
-            push: 0.0,
-            energy: 0.0,
+            ..Self::default()
         }
     }
 

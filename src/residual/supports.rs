@@ -12,7 +12,7 @@ const SAME: f64 = 1.0 + 1e-9;
 const INSTANT: f64 = 1e-12;
 
 /// Round supports and friction of a run.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Supports {
     /// Parts of forces that are not along the hole's normal, N.
     pub askew: Residual,
@@ -54,20 +54,13 @@ impl Supports {
         let stands = |index| if scene.stands_on(index, q, v) { 0.0 } else { f64::INFINITY };
         let slid = (0..scene.walls.len()).map(stands);
         Some(Box::new(Self {
-            askew: Residual::default(),
-            struck: Residual::default(),
-            rubs: ComplementarityFront::default(),
             mass: masses.iter().copied().take(scene.walls.len()).collect(),
             pushed: vec![0.0; scene.walls.len()],
             slid: slid.collect(),
-            slid_before: Vec::new(),
             impulse: vec![[0.0; 2]; scene.walls.len()],
             size: vec![0.0; scene.walls.len()],
-            recorded: None,
-            rubbed: Vec::new(),
             rates: vec![[[0.0; 2]; 2]; scene.walls.len()],
-            part: [Vec::new(), Vec::new()],
-            length: 0.0,
+            ..Self::default()
         }))
     }
 

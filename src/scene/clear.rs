@@ -94,11 +94,7 @@ fn move_onto(wall: &Wall, q: &mut [f64]) {
 /// twice.
 fn move_along(at: &Row, by: f64, q: &mut [f64]) {
     let mut row = vec![0.0; q.len()];
-    for &(i, weight) in at.entries() {
-        if let Some(sum) = row.get_mut(i) {
-            *sum += weight;
-        }
-    }
+    at.add_transposed(1.0, &mut row);
     let square: f64 = row.iter().map(|weight| weight * weight).sum();
     if square > 0.0 {
         q.iter_mut().zip(&row).for_each(|(q, weight)| *q -= by * weight / square);

@@ -108,15 +108,8 @@ impl Flats {
         Support { name: self.name.clone(), at: self.at.clone(), centre: self.centre, walls }
     }
 
-    /// True if the flats leave a direction in which the structure is not bounded: all normals lie
-    /// within a half turn.
-    #[must_use]
-    pub fn is_open(&self) -> bool {
-        self.ways_out().next().is_some()
-    }
-
-    /// The ways out between neighbouring flats a half turn or more apart: the direction in the
-    /// middle, degrees, and by how much more than a half turn.
+    /// The ways out between neighbouring flats a half turn or more apart, in which the structure is
+    /// not bounded: the direction in the middle, degrees, and by how much more than a half turn.
     pub(crate) fn ways_out(&self) -> impl Iterator<Item = (f64, f64)> {
         let mut turns: Vec<f64> = self.flats.iter().map(|flat| flat.direction.rem_euclid(360.0)).collect();
         turns.sort_by(f64::total_cmp);
@@ -165,8 +158,9 @@ mod tests {
 
     #[test]
     fn flats_within_a_half_turn_leave_a_way_out() {
-        assert!(flats(&[0.0]).is_open() && flats(&[0.0, 180.0]).is_open() && flats(&[350.0, 10.0, 90.0]).is_open());
-        assert!(!flats(&[0.0, 120.0, 240.0]).is_open() && !flats(&[-45.0, 45.0, 135.0, 225.0]).is_open());
+        let is_open = |directions: &[f64]| flats(directions).ways_out().next().is_some();
+        assert!(is_open(&[0.0]) && is_open(&[0.0, 180.0]) && is_open(&[350.0, 10.0, 90.0]));
+        assert!(!is_open(&[0.0, 120.0, 240.0]) && !is_open(&[-45.0, 45.0, 135.0, 225.0]));
     }
 
     #[test]

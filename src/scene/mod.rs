@@ -153,26 +153,22 @@ impl Scene {
     /// An oscillator (kg, N s/m, N/m) at rest at 0, without walls or loads, for one second.
     #[must_use]
     pub fn oscillator(mass: f64, damping: f64, stiffness: f64) -> Self {
-        Self {
-            system: System::Oscillator(Oscillator { mass, damping, stiffness }),
-            walls: Vec::new(),
-            supports: Vec::new(),
-            loads: Vec::new(),
-            probes: vec![Probe { name: String::new(), at: Row::dof(0) }],
-            output_times: Vec::new(),
-            initial: State { q: vec![0.0], v: vec![0.0] },
-            duration: 1.0,
-        }
+        let system = System::Oscillator(Oscillator { mass, damping, stiffness });
+        Self { probes: vec![Probe { name: String::new(), at: Row::dof(0) }], ..Self::at_rest(system) }
     }
 
     /// A structure at rest at 0, without walls, loads or probes, for one second. What is to be
     /// recorded of its motion is said by [`Scene::with_probe`].
     #[must_use]
     pub fn structure(structure: impl Into<SharedStructure>) -> Self {
-        let structure = structure.into();
-        let rest = vec![0.0; structure.mass.size()];
+        Self::at_rest(System::Structure(structure.into()))
+    }
+
+    /// `system` at rest at 0 with nothing beside it, for one second.
+    pub(crate) fn at_rest(system: System) -> Self {
+        let rest = vec![0.0; system.degrees_of_freedom()];
         Self {
-            system: System::Structure(structure),
+            system,
             walls: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
@@ -248,6 +244,17 @@ impl Scene {
     pub fn with_duration(mut self, duration: f64) -> Self {
         self.duration = duration;
         self
+    }
+
+    /// The scene of another `system`, the same structure in other coordinates, where `row` turns
+    /// each row into that of the same place there; the initial state stays as it is.
+    fn carried(&self, system: System, mut row: impl FnMut(&Row) -> Row) -> Self {
+        let mut scene = Self { system, ..self.clone() };
+        scene.walls.iter_mut().for_each(|wall| *wall = wall.carried(&mut row));
+        scene.supports.iter_mut().for_each(|support| *support = support.carried(&mut row));
+        scene.loads.iter_mut().for_each(|load| load.at = row(&load.at));
+        scene.probes.iter_mut().for_each(|probe| probe.at = row(&probe.at));
+        scene
     }
 
     /// The scene with one more support of these walls, which follow the scene's; the place and the

@@ -122,11 +122,7 @@ impl Scene {
                 let mut response = vec![0.0; s.mass.size()];
                 let mass = |at: &Row| {
                     let mut inverse = 0.0;
-                    for &(i, weight) in at.entries() {
-                        if let Some(x) = response.get_mut(i) {
-                            *x += weight;
-                        }
-                    }
+                    at.add_transposed(1.0, &mut response);
                     if lumped {
                         // Entry by entry, so that the cost per wall does not depend on n.
                         for &(i, _) in at.entries() {
@@ -157,11 +153,7 @@ fn least_mass(hole: &Hole<'_>, n: usize, mass: Option<&mut Factor>) -> f64 {
     let (y, z) = (&hole.at.y, &hole.at.z);
     let mut response = |row: &Row| {
         let mut x = vec![0.0; n];
-        for &(i, weight) in row.entries() {
-            if let Some(x) = x.get_mut(i) {
-                *x += weight;
-            }
-        }
+        row.add_transposed(1.0, &mut x);
         mass.solve(&mut x);
         [y.dot(&x), z.dot(&x)]
     };

@@ -18,7 +18,6 @@ use super::space::{Space, zero};
 use super::staggered::{Staggered, counted_blows};
 use crate::error::{Error, Result};
 use crate::linear::Symmetric;
-use crate::qp::Backend;
 use crate::scene::Scene;
 
 #[derive(Debug)]
@@ -120,8 +119,4 @@ impl<S: Space> Rule<S> for CentralDifference<S> {
     }
 
     fn count(&self, _: &mut Counters) {}
-
-    fn backend(&self) -> Option<Backend> {
-        None
-    }
 }

@@ -110,14 +110,6 @@ impl<S: Space> Motion for Grid<S> {
         self.rule.restart(scene, time, &self.frame)
     }
 
-    fn end(&self) -> f64 {
-        self.frame.end
-    }
-
-    fn state(&self) -> (&[f64], &[f64]) {
-        (self.frame.q.as_ref(), self.frame.v.as_ref())
-    }
-
     fn open_contacts(&self) -> Vec<Contact> {
         self.episodes.still_open()
     }

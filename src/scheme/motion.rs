@@ -35,12 +35,6 @@ pub(super) trait Motion: Debug + Send {
     /// Restarts the motion at `time` (s) from `q` (m) and `v` (m/s), n entries each.
     fn restart(&mut self, scene: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()>;
 
-    /// Time reached, s.
-    fn end(&self) -> f64;
-
-    /// Displacement and velocity there, m and m/s, n entries each.
-    fn state(&self) -> (&[f64], &[f64]);
-
     /// Contact episodes that have not ended.
     fn open_contacts(&self) -> Vec<Contact>;
 
@@ -53,5 +47,7 @@ pub(super) trait Motion: Debug + Send {
     fn count(&self, counters: &mut Counters);
 
     /// The solver of the quadratic programmes; `None` without such programmes.
-    fn backend(&self) -> Option<Backend>;
+    fn backend(&self) -> Option<Backend> {
+        None
+    }
 }

@@ -34,7 +34,6 @@ use super::rule::Rule;
 use super::space::{Space, add_change, zero};
 use super::{Counters, Integrator};
 use crate::error::{Error, Result};
-use crate::qp::Backend;
 use crate::scene::{Scene, WallLaw};
 use crate::step::{Balance, Conserves, Contract, Law, Promise, Tolerances};
 
@@ -224,10 +223,6 @@ impl<S: Space> Rule<S> for Penalty<S> {
 
     fn count(&self, counters: &mut Counters) {
         counters.newton_iterations = self.walls.iterations;
-    }
-
-    fn backend(&self) -> Option<Backend> {
-        None
     }
 }
 

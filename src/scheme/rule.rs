@@ -46,5 +46,7 @@ pub(super) trait Rule<S: Space>: Debug + Send {
     fn count(&self, counters: &mut Counters);
 
     /// The solver of its quadratic programmes; `None` for a rule that has no such programmes.
-    fn backend(&self) -> Option<Backend>;
+    fn backend(&self) -> Option<Backend> {
+        None
+    }
 }

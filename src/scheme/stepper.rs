@@ -248,7 +248,7 @@ impl Stepper {
     pub(crate) fn advance_quiet_into(&mut self, quiet: &mut QuietSteps, most: u64) -> Result<u64> {
         self.asking.pass(self.index)?;
         let from = self.index;
-        let until = from.saturating_add(most.min(quiet.begin(from, self.kernel.motion().end()))).min(self.due);
+        let until = from.saturating_add(most.min(quiet.begin(from, self.time()))).min(self.due);
         let glide = self.kernel.advance_quiet(from, until, Some(quiet));
         self.index = glide.map_err(|error| self.failure(error))?;
         Ok(self.index - from)
@@ -262,20 +262,20 @@ impl Stepper {
     /// Time reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.kernel.motion().end()
+        self.kernel.step(self.index).end
     }
 
     /// State reached; at the start, the state after any impulse at t = 0.
     #[must_use]
     pub fn state(&self) -> State {
-        let (q, v) = self.kernel.motion().state();
+        let Step { q, v, .. } = self.kernel.step(self.index);
         State { q: q.to_vec(), v: v.to_vec() }
     }
 
     /// The velocity reached, m/s, one value per degree of freedom.
     #[inline]
     pub(crate) fn velocity(&self) -> &[f64] {
-        self.kernel.motion().state().1
+        self.kernel.step(self.index).v
     }
 
     /// The scene that the scheme computes: for a penalty, with springs in place of rigid walls.

@@ -12,7 +12,7 @@
 //! of them, then end with the window; what of it lies before the first counts in the mean, by which
 //! the half width is larger than that of the batches.
 
-use super::student::student_95;
+use super::student::{spread, student_95};
 use crate::scene::{Scene, forcing_period};
 
 /// The most batches of a window; so many where the loads have no common period.
@@ -126,10 +126,9 @@ impl Window {
     pub fn half_width_of(&self, values: &BatchSums, mean: f64) -> Option<f64> {
         let values = values.get(..self.batches).filter(|values| values.len() >= FEWEST_OF_ALL)?;
         let count = values.len() as f64;
-        let own = values.iter().sum::<f64>() / count;
-        let square = values.iter().map(|x| (x - own) * (x - own)).sum::<f64>() / (count - 1.0);
+        let (own, squares) = spread(values);
         let before = if self.first > self.from { (mean - own).abs() } else { 0.0 };
-        Some(self.student * (square / count).sqrt() + before)
+        Some(self.student * (squares / (count - 1.0) / count).sqrt() + before)
     }
 
     /// Half width of the 95 % interval of the ratio R = Σxₖ/Σnₖ, from the sums xₖ and the numbers

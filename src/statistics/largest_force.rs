@@ -145,6 +145,7 @@ impl LargestStretch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hash::next_unit;
 
     fn found(stretch: &LargestStretch) -> (f64, f64) {
         let largest = stretch.largest().expect("a push");
@@ -183,10 +184,7 @@ mod tests {
     #[test]
     fn no_stretch_has_more_and_one_has_as_much() {
         let mut seed = 7_u64;
-        let mut draw = || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1_u64 << 53) as f64
-        };
+        let mut draw = || next_unit(&mut seed);
         for _ in 0..50 {
             let length = 0.05 + 0.3 * draw();
             let mut stretch = LargestStretch::new(length);

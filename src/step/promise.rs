@@ -229,12 +229,8 @@ impl Promise {
     #[must_use]
     pub const fn throughout() -> Self {
         Self {
-            rigid: Rigid { force: PromisedForce::Mean, displacement: Some(Bound::Throughout), velocity: None },
-            elastic: Elastic { force: PromisedForce::Mean, law: Law::Throughout },
-            round: None,
             circle: Some(Circle { tail: 1e-4 }),
-            hole: None,
-            friction: None,
+            ..Self::constraints(Some(Bound::Throughout), None, Law::Throughout)
         }
     }
 
@@ -256,13 +252,6 @@ impl Promise {
     /// Springs in place of rigid walls: the mean force of every wall over the step follows `law`.
     #[must_use]
     pub const fn springs(law: Law) -> Self {
-        Self {
-            rigid: Rigid { force: PromisedForce::Mean, displacement: None, velocity: None },
-            elastic: Elastic { force: PromisedForce::Mean, law },
-            round: None,
-            circle: None,
-            hole: None,
-            friction: None,
-        }
+        Self::constraints(None, None, law)
     }
 }

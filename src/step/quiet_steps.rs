@@ -120,11 +120,6 @@ impl QuietSteps {
         &self.v[..self.length]
     }
 
-    /// The force of each wall in each of the steps, N: zeros.
-    pub fn forces(&self) -> &[f64] {
-        &self.zeros
-    }
-
     /// Velocities that enter and leave the balance of each step, m/s.
     pub fn velocities(&self) -> (&[f64], &[f64]) {
         (&self.before[..self.length], &self.after[..self.length])

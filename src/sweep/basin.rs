@@ -121,7 +121,7 @@ pub(super) fn described(attractor: &Attractor, scene: &Scene) -> Vec<String> {
         CHAOTIC.clone_into(&mut cells[0]);
         return cells;
     };
-    let wall = |index: usize| scene.walls.get(index).map_or("", |wall| wall.name.as_str());
+    let wall = |index: usize| scene.wall_name(index).unwrap_or_default();
     let signature = touches.iter().map(|touch| match touch.lasts {
         Lasts::Rest => format!("{}:rest", wall(touch.wall)),
         Lasts::Chatter => format!("{}:chatter", wall(touch.wall)),

@@ -7,6 +7,7 @@ use super::table::{TABLE, Table, label, quantity};
 use crate::error::Result;
 use crate::order::sort_by_number;
 use crate::output::colours::{DOWN, Places, UP};
+use crate::output::extent;
 use crate::output::figure::{Curve, Figure, Panel, Scale, Scatter};
 
 /// Maximum number of curves in one panel.
@@ -156,15 +157,13 @@ fn cloud(title: &str, x: &SweepAxis, groups: &[(String, Vec<String>)], curves: &
     let labels: Vec<&str> = curves.iter().map(|curve| curve.label.as_str()).collect();
     let all = || curves.iter().flat_map(|curve| &curve.points).map(|(point, _)| point);
     let points = || all().filter(|p| p.0.is_finite() && p.1.is_finite());
-    let extent = |pick: fn(&(f64, f64)) -> f64| {
-        points().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
-    };
+    let range = |pick: fn(&(f64, f64)) -> f64| extent(points().map(pick));
     let column = columns.first()?;
     let y_label = label(&column.replace(&place_suffix(column, measure), ""));
     points().next()?;
     let x_label = label(&x.column);
     let mut scatter =
-        Scatter::new(title, (&x_label, x.scale, extent(|p| p.0)), (&y_label, Scale::Linear, extent(|p| p.1)), &labels);
+        Scatter::new(title, (&x_label, x.scale, range(|p| p.0)), (&y_label, Scale::Linear, range(|p| p.1)), &labels);
     for (group, curve) in curves.iter().enumerate() {
         curve.points.iter().for_each(|((x, y), _)| scatter.add(group, *x, *y));
     }

@@ -4,6 +4,7 @@ use super::columns::{Source, of};
 use super::picture::{Kind, Picture};
 use super::table::{SAMPLES, TABLE, Table, label};
 use crate::error::{Error, Result};
+use crate::output::extent;
 use crate::output::figure::{Scale, Scatter};
 use std::collections::BTreeMap;
 
@@ -28,10 +29,7 @@ impl Picture {
         })?;
         let groups: &[&str] = if both == [true, true] { &["up", "down"] } else { &[""] };
         let group = |down: usize| if groups.len() == 2 { down } else { 0 };
-        let extent = |values: &mut dyn Iterator<Item = f64>| {
-            values.filter(|x| x.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
-        };
-        let x_range = extent(&mut of_row.values().map(|(x, _)| *x));
+        let x_range = extent(of_row.values().map(|(x, _)| *x).filter(|x| x.is_finite()));
         let mut y_range = (f64::INFINITY, f64::NEG_INFINITY);
         self.samples(source, &[&y], |_, values| y_range = (y_range.0.min(values[0]), y_range.1.max(values[0])))?;
         if y_range.0 > y_range.1 {

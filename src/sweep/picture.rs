@@ -108,12 +108,9 @@ impl Picture {
         }
         let x = || Self::axis(self.x.as_ref(), &source).map(drop);
         let sampled = source.sample_columns.len() > 1;
-        match self.kind {
-            Some(Kind::Bifurcation | Kind::Section) if !sampled => Err(Error::invalid(
-                "[figure] kind",
-                "of samples",
-                "samples = \"impacts\" or \"periods\" in [measure] beside it",
-            )),
+        let kind = self.kind.or(source.one_at_a_time.then_some(Kind::Tornado));
+        match kind.or(sampled.then_some(Kind::Bifurcation)) {
+            Some(Kind::Bifurcation | Kind::Section) if !sampled => Err(no_samples()),
             Some(Kind::Section) => {
                 self.sampled(self.x.as_ref(), 0, &source)?;
                 self.sampled(self.y.as_ref(), 1, &source).map(drop)
@@ -124,8 +121,6 @@ impl Picture {
                 Err(Error::invalid("[figure] kind", "tornado", expected))
             }
             Some(Kind::Tornado) => self.measures(self.y.as_ref(), &source).map(drop),
-            None if source.one_at_a_time => self.measures(self.y.as_ref(), &source).map(drop),
-            None if sampled => x().and_then(|()| self.sampled(self.y.as_ref(), 0, &source).map(drop)),
             Some(Kind::Basin) if !source.tells_attractors() => {
                 Err(Error::invalid("[figure] kind", "basin", "the measure attractor in [measure] columns beside it"))
             }
@@ -162,7 +157,7 @@ impl Picture {
     }
 
     /// The picture; `None` if there is nothing to draw.
-    pub(super) fn drawn(&self, folder: &Path, request: &Map<String, Value>, title: &str) -> Result<Option<Drawn>> {
+    fn drawn(&self, folder: &Path, request: &Map<String, Value>, title: &str) -> Result<Option<Drawn>> {
         let source = Source::new(folder, request, title);
         let sampled = source.sample_columns.len() > 1;
         let is_map = || !source.random && source.axes.iter().all(|axis| axis.count >= FEW && axis.is_numeric(&source));
@@ -174,11 +169,7 @@ impl Picture {
             _ => Kind::Line,
         });
         if !sampled && matches!(kind, Kind::Bifurcation | Kind::Section) {
-            return Err(Error::invalid(
-                "[figure] kind",
-                "of samples",
-                "samples = \"impacts\" or \"periods\" in [measure] beside it",
-            ));
+            return Err(no_samples());
         }
         match kind {
             Kind::Tornado => self.tornado(&source),
@@ -264,4 +255,10 @@ impl Picture {
             known,
         })
     }
+}
+
+/// For a kind of picture that shows samples, where the tables have none.
+fn no_samples() -> Error {
+    let expected = "samples = \"impacts\" or \"periods\" in [measure] beside it";
+    Error::invalid("[figure] kind", "of samples", expected)
 }

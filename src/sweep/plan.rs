@@ -14,7 +14,6 @@ use crate::output::results::Results;
 use crate::scene::{Scene, State};
 use crate::scheme::{Method, Scheme};
 use crate::study::choice::choose;
-use std::path::Path;
 
 /// Maximum number of rows: their places in the journal are kept in memory, 16 bytes each.
 pub(super) const MOST_ROWS: u64 = 100_000_000;
@@ -159,15 +158,6 @@ impl Plan {
     /// and names what it leaves out.
     pub(crate) fn draw(&self, results: &mut Results) -> Result<Pictures> {
         self.sweep.picture.draw(results, &self.request(), &self.sweep.title)
-    }
-
-    /// Its picture, as SVG text, from the tables in `folder`, to which [`Plan::run_into`] has
-    /// written them; `None` if there is nothing to draw.
-    ///
-    /// # Errors
-    /// [`Error::Io`] for tables that cannot be read.
-    pub fn svg(&self, folder: &Path) -> Result<Option<String>> {
-        Ok(self.sweep.picture.drawn(folder, &self.request(), &self.sweep.title)?.map(|drawn| drawn.svg))
     }
 
     /// The case without the values that vary.

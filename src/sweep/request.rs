@@ -256,20 +256,6 @@ impl Sweep {
         self.axes.iter().flat_map(|axis| &axis.targets).any(|(target, _)| *target == Target::Scheme)
     }
 
-    /// The same sweep with another title; the default is the case's name.
-    #[must_use]
-    pub fn titled(mut self, title: &str) -> Self {
-        title.clone_into(&mut self.title);
-        self
-    }
-
-    /// The same sweep with that picture, which changes nothing in the rows.
-    #[must_use]
-    pub fn pictured(mut self, picture: Picture) -> Self {
-        self.picture = picture;
-        self
-    }
-
     /// The title.
     #[must_use]
     pub fn title(&self) -> &str {

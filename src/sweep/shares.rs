@@ -34,6 +34,7 @@ use super::status::Status;
 use super::table::{SEEDS, TABLE, Table};
 use crate::error::Result;
 use crate::output::csv::digits;
+use crate::output::extent;
 use crate::output::figure::Scale;
 use crate::statistics::student_95;
 use nalgebra::{DMatrix, DVector};
@@ -180,8 +181,7 @@ fn points(source: &Source<'_>, columns: &[String]) -> Result<Vec<Vec<Point>>> {
 fn scale(points: &mut [Point], axes: usize) {
     for axis in 0..axes {
         let of = |point: &Point| point.0.get(axis).copied().unwrap_or(0.0);
-        let (low, high) =
-            points.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let (low, high) = extent(points.iter().map(of));
         let scaled = |x: f64| if high > low { (2.0 * x - low - high) / (high - low) } else { 0.0 };
         points.iter_mut().filter_map(|point| point.0.get_mut(axis)).for_each(|x| *x = scaled(*x));
     }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use signorini::output::atomic::write_whole;
-use signorini::output::figure::{Class, Curve, Figure, HeatMap, Mark, Panel, Scale, Stems};
+use signorini::output::figure::{Class, Curve, Figure, HeatMap, Mark, Panel, Scale};
 
 /// Time, displacement, velocity every millisecond, and the impulses.
 type Motion = (Vec<[f64; 3]>, Vec<(f64, f64)>);
@@ -79,8 +79,8 @@ fn force_as_a_curve_and_impulses_as_stems() {
         .panel(
             Panel::new("Impulse (N s)")
                 .heading("both walls, moreau-jean")
-                .stems(Stems::new("upper wall", side(-1.0)))
-                .stems(Stems::new("lower wall", side(1.0))),
+                .stems(Curve::new("upper wall", side(-1.0)))
+                .stems(Curve::new("lower wall", side(1.0))),
         );
     keep("contact-force", &figure.to_svg());
 }

@@ -2,7 +2,7 @@
 use crate::draws;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use signorini::output::figure::{Class, Curve, Figure, HeatMap, Mark, Panel, Scale, Stems};
+use signorini::output::figure::{Class, Curve, Figure, HeatMap, Mark, Panel, Scale};
 
 /// All numbers of the path data in the document.
 fn path_numbers(svg: &str) -> Vec<f64> {
@@ -44,7 +44,7 @@ fn nothing_a_point_and_a_constant_are_drawn() {
     for points in [vec![], vec![(1.0, 1.0)], vec![(0.0, 0.0); 3], vec![(0.0, 2.0), (1.0, 2.0)], vec![(0.0, -1e-300)]] {
         for log in [false, true] {
             let panel = Panel::new("y").curve(Curve::new("a", points.clone()).marked());
-            let panel = panel.stems(Stems::new("b", points.clone())).mark(Mark::wall(0.0, "wall"));
+            let panel = panel.stems(Curve::new("b", points.clone())).mark(Mark::wall(0.0, "wall"));
             let figure = Figure::new("", "").panel(if log { panel.log() } else { panel });
             path_numbers(&if log { figure.log() } else { figure }.to_svg());
         }
@@ -88,7 +88,7 @@ fn a_million_points_stay_small_and_keep_their_extremes() {
     }
     points.retain(|(t, _)| *t < 2.0);
     let many = (0..12).fold(Panel::new("y"), |panel, k| panel.curve(Curve::new(format!("curve {k}"), points.clone())));
-    let svg = Figure::new("", "").panel(many.stems(Stems::new("stems", points.clone()))).to_svg();
+    let svg = Figure::new("", "").panel(many.stems(Curve::new("stems", points.clone()))).to_svg();
     assert!(svg.len() < 300_000, "{} bytes", svg.len());
     let orbit = points.iter().map(|(t, v)| ((1.0 + 0.1 * t) * (800.0 * t).cos(), v * (1.0 + 0.1 * t)));
     let svg = line(orbit.collect()).to_svg();
@@ -155,7 +155,7 @@ proptest! {
             .heading(label.clone())
             .curve(Curve::new(label.clone(), points.clone()).marked())
             .curve(Curve::new("front", points.clone()).front())
-            .stems(Stems::new("stems", points.clone()));
+            .stems(Curve::new("stems", points.clone()));
         for mark in &marks {
             panel = panel.mark(Mark::wall(*mark, label.clone())).mark(Mark::floor(*mark, label.clone()).upright());
         }

@@ -4,6 +4,8 @@
 mod draws;
 #[path = "../support/random_structures.rs"]
 mod random_structures;
+#[path = "../support/recorded_momentum.rs"]
+mod recorded_momentum;
 #[path = "../support/rubbing.rs"]
 mod rubbing;
 

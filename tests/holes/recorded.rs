@@ -1,7 +1,7 @@
 //! What is recorded of round holes and friction: the momentum of a whole run, and the first row.
 
+use crate::recorded_momentum::momentum;
 use crate::rubbing::{MOREAU_JEAN, body, hole, isotropic, load, with, with_flats};
-use signorini::residual::momentum;
 use signorini::{Load, Options, PlaneRows, Probe, Row, Scene, Scheme, Trajectory, Wall, run};
 
 fn probed(mut scene: Scene) -> Scene {

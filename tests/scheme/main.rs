@@ -8,6 +8,8 @@ mod counting;
 mod draws;
 #[path = "../support/random_structures.rs"]
 mod random_structures;
+#[path = "../support/recorded_momentum.rs"]
+mod recorded_momentum;
 
 mod bar_impact;
 mod blows;

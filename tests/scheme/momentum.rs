@@ -3,8 +3,9 @@
 
 use crate::common::{MOREAU_JEAN, schemes, source};
 use crate::random_structures::{at, chain, on};
+use crate::recorded_momentum::momentum;
 use signorini::linear::Symmetric;
-use signorini::residual::{Judge, momentum};
+use signorini::residual::Judge;
 use signorini::{
     Finding, Integrator, Load, Options, Probe, Refuted, Row, Scene, Scheme, Stepper, Structure, Table, Wall, run,
 };

@@ -43,11 +43,7 @@ impl Wave {
                 value += wave.amplitude * wave.phases[k % 4];
             }
             if value != 0.0 {
-                for &(i, weight) in row.entries() {
-                    if let Some(f) = force.get_mut(i) {
-                        *f += weight * value;
-                    }
-                }
+                row.add_transposed(value, force);
             }
         }
     }

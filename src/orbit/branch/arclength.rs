@@ -101,6 +101,17 @@ pub(super) fn unit(n: usize, index: usize) -> Vector {
     DVector::from_fn(n, |i, _| if i == index { 1.0 } else { 0.0 })
 }
 
+/// Refuses a `range` of a key that is none, and one that leaves out the `value` at the start.
+pub(super) fn check_range([low, high]: [f64; 2], value: f64) -> Result<()> {
+    if !(low.is_finite() && high.is_finite() && low < high) {
+        return Err(Error::invalid("range", format!("{low:?} to {high:?}"), "two numbers, the first below the second"));
+    }
+    if !(low..=high).contains(&value) {
+        return Err(Error::invalid("start", value, format!("a value of the key from {low:?} to {high:?}")));
+    }
+    Ok(())
+}
+
 /// The end of `range` that `value` lies beyond.
 pub(super) fn beyond(range: [f64; 2], value: f64) -> Option<f64> {
     let [low, high] = range;
@@ -225,6 +236,17 @@ pub(super) fn locate<T>(
         (b, fb) = (c, fc);
     }
     best.map(|(_, s, point)| (s, point)).ok_or_else(|| Error::no_orbit("it was not located"))
+}
+
+/// The unit vector x with the least |`matrix` x|.
+pub(super) fn null(matrix: DMatrix<f64>) -> Result<Vector> {
+    let svd = matrix.svd(false, true);
+    let least = svd.singular_values.imin();
+    svd.v_t.map(|v| DVector::from(v.row(least).transpose())).ok_or_else(no_eigenvector)
+}
+
+pub(super) fn no_eigenvector() -> Error {
+    Error::no_orbit("no eigenvector")
 }
 
 fn singular() -> Error {

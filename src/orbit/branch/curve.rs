@@ -1,9 +1,10 @@
 //! A branch of orbits of one signature as a curve: the unknowns of the equations and a key's value.
 
-use super::super::equations::{Closure, Equations, Scales};
+use super::super::equations::{Closure, Equations};
 use super::super::periodic::Orbit;
 use super::super::problem::Problem;
 use super::super::signature::Signature;
+use super::super::strobe::Scales;
 pub(super) use super::arclength::Vector;
 use super::arclength::{self, extended};
 use super::family::{self, Family};
@@ -87,13 +88,8 @@ impl Curve<'_> {
         Ok(Linear { problem, residual, matrix })
     }
 
-    /// The determinant of the Jacobian for perturbations that change sign from one period of the
-    /// orbit to the next: it vanishes with det(M + 1) Πv_i, where M is the derivative over one
-    /// period.
-    pub fn twist(&self, problem: &Problem, y: &Vector) -> f64 {
-        self.twisted(problem, y).determinant()
-    }
-
+    /// The Jacobian for perturbations that change sign from one period of the orbit to the next:
+    /// its determinant vanishes with det(M + 1) Πv_i, where M is the derivative over one period.
     pub fn twisted(&self, problem: &Problem, y: &Vector) -> DMatrix<f64> {
         let equations = Equations::new(problem, &self.signature, self.scales);
         let n = equations.unknowns();
@@ -101,11 +97,6 @@ impl Curve<'_> {
         let jacobian = Some((&mut matrix, Closure::Opposite));
         equations.evaluate(problem, &mut problem.arc(), y.as_slice(), &mut residual, jacobian);
         matrix
-    }
-
-    /// The unit tangent at a point, in the direction of `along`.
-    pub fn tangent(&self, linear: &Linear, along: &Vector) -> Result<Vector> {
-        arclength::tangent(&linear.matrix, along)
     }
 
     /// The point of the curve in the plane through `guess` with the normal `border`; with its

@@ -3,6 +3,7 @@
 use super::super::boundary::BoundaryLaw;
 use super::super::problem::Problem;
 use super::super::signature::Kind;
+use super::super::strobe::Scales;
 use super::curve::{Curve, Vector};
 use super::label::Label;
 use super::point::Point;
@@ -26,9 +27,9 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
     let mut found = vec![Test { label: Label::Fold, event: 0, value: tangent[tangent.len() - 1] }];
     if count > 0 && !signature.rests() {
         let label = if signature.symmetric { Label::SymmetryBreaking } else { Label::PeriodDoubling };
-        found.push(Test { label, event: 0, value: curve.twist(problem, y) });
+        found.push(Test { label, event: 0, value: curve.twisted(problem, y).determinant() });
     }
-    let [length, speed] = problem.scales();
+    let Scales { length, speed } = problem.scales();
     let force = problem.body().mass * speed * speed / length;
     let gap = point.admissible.nearest.map_or(1.0, |nearest| nearest.gap / length);
     found.push(Test { label: Label::GrazingIn, event: 0, value: gap });

@@ -1,7 +1,7 @@
 //! One branch, followed by steps of pseudo-arclength (Keller 1977).
 
 use super::super::signature::Kind;
-use super::arclength::{Stride, beyond, locate, scaled, turns_little, unit};
+use super::arclength::{Stride, beyond, locate, scaled, tangent, turns_little, unit};
 use super::curve::{Curve, Linear, Vector};
 use super::events::{Test, point, tests};
 use super::label::Label;
@@ -20,7 +20,7 @@ struct StepStart {
 }
 
 fn step_start(curve: &Curve<'_>, y: Vector, linear: &Linear, along: &Vector) -> Result<StepStart> {
-    let tangent = curve.tangent(linear, along)?;
+    let tangent = tangent(&linear.matrix, along)?;
     let point = point(curve, &linear.problem, &y)?;
     let tests = tests(curve, &linear.problem, &point, &y, &tangent);
     Ok(StepStart { y, tangent, point, tests })
@@ -170,7 +170,7 @@ impl Follower<'_, '_> {
             }
             let (at, y) = locate([0.0, length], [before.value, after.value], |s| {
                 let (y, linear, _) = curve.correct(&(&now.y + &now.tangent * s), &now.tangent)?;
-                let tangent = curve.tangent(&linear, &now.tangent)?;
+                let tangent = tangent(&linear.matrix, &now.tangent)?;
                 let point = point(curve, &linear.problem, &y)?;
                 let all = tests(curve, &linear.problem, &point, &y, &tangent);
                 Ok((all.get(index).map_or(f64::NAN, |test| test.value), y))

@@ -1,10 +1,9 @@
 //! The graph of branches: which branch begins at which special point.
 
-use super::super::equations::Scales;
 use super::super::periodic::Orbit;
 use super::super::problem::Problem;
 use super::super::shooting::Shot;
-use super::arclength::unit;
+use super::arclength::check_range;
 use super::curve::Curve;
 use super::family::Family;
 use super::net::Net;
@@ -75,13 +74,8 @@ pub fn graph<'s>(
     request: &Request,
     seen: &mut dyn FnMut(&Point),
 ) -> Result<Graph> {
+    check_range(request.range, value)?;
     let [low, high] = request.range;
-    if !(low.is_finite() && high.is_finite() && low < high) {
-        return Err(Error::invalid("range", format!("{low:?} to {high:?}"), "two numbers, the first below the second"));
-    }
-    if !(low..=high).contains(&value) {
-        return Err(Error::invalid("start", value, format!("a value of the key from {low:?} to {high:?}")));
-    }
     let width = high - low;
     // If the key breaks the symmetry of the orbit, the whole orbit is followed instead of its half.
     let beside = if value + 1e-3 * width <= high { value + 1e-3 * width } else { value - 1e-3 * width };
@@ -93,15 +87,13 @@ pub fn graph<'s>(
             if let Some(reason) = problem.admissible(&orbit)?.reason(problem.scene()) {
                 return Err(Error::no_orbit(format!("no body can follow the start: {reason}")));
             }
-            let curve = Curve { family, signature: orbit.signature.clone(), scales: Scales::of(&problem), width };
+            let curve = Curve { family, signature: orbit.signature.clone(), scales: problem.scales(), width };
             let y = curve.gather(&problem, &orbit, value);
-            let along = unit(y.len(), y.len() - 1);
-            Net::new(request).from(curve, y, &along, seen)
+            Net::new(request).from(curve, y, seen)
         }
         Start::Shot(start) => {
             let (curve, y) = Shots::begin(family, start, value, beside, width)?;
-            let along = unit(y.len(), y.len() - 1);
-            Net::new(request).from(curve, y, &along, seen)
+            Net::new(request).from(curve, y, seen)
         }
     }
 }

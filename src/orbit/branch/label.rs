@@ -60,9 +60,7 @@ impl Label {
     /// The wall at which it happens, to event number `event` of `point`.
     pub(super) fn wall(self, event: usize, point: &Point) -> Option<usize> {
         match self {
-            Self::Fold | Self::PeriodDoubling | Self::SymmetryBreaking | Self::BranchPoint | Self::NeimarkSacker => {
-                None
-            }
+            _ if !self.ends() => None,
             Self::GrazingIn => point.admissible.nearest.map(|nearest| nearest.wall),
             _ => point.orbit.signature.events.get(event).map(|event| event.wall),
         }

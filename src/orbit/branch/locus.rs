@@ -5,10 +5,11 @@
 //! of the test function is a finite difference, which enters the matrix only.
 
 use super::super::admissible::Admissible;
-use super::super::equations::{Closure, Equations, Scales};
+use super::super::equations::{Closure, Equations};
 use super::super::periodic::Orbit;
 use super::super::problem::Problem;
-use super::arclength::{GROWTH, Vector, beyond, bordered, extended, tangent, turns_little, unit};
+use super::super::strobe::Scales;
+use super::arclength::{GROWTH, Vector, beyond, bordered, check_range, extended, tangent, turns_little, unit};
 use super::label::Label;
 use super::line::End;
 use super::request::Special;
@@ -88,19 +89,8 @@ pub struct Locus {
 /// `plane` at the start.
 pub fn locus(plane: &Plane<'_>, special: &Special, second: f64, ranges: [[f64; 2]; 2], most: usize) -> Result<Locus> {
     let start = [special.point.value, second];
-    for ([low, high], value) in ranges.into_iter().zip(start) {
-        if !(low.is_finite() && high.is_finite() && low < high) {
-            let expected = "two numbers, the first below the second";
-            return Err(Error::invalid("range", format!("{low:?} to {high:?}"), expected));
-        }
-        if !(low..=high).contains(&value) {
-            return Err(Error::invalid("start", value, format!("a value of the key from {low:?} to {high:?}")));
-        }
-    }
-    if !matches!(
-        special.label,
-        Label::Fold | Label::PeriodDoubling | Label::SymmetryBreaking | Label::GrazingOut | Label::GrazingIn
-    ) {
+    ranges.into_iter().zip(start).try_for_each(|(range, value)| check_range(range, value))?;
+    if !Label::WITH_LOCUS.contains(&special.label) {
         let expected = "fold, period-doubling, symmetry-breaking, grazing-out or grazing-in";
         return Err(Error::invalid("locus", special.label, expected));
     }
@@ -110,7 +100,7 @@ pub fn locus(plane: &Plane<'_>, special: &Special, second: f64, ranges: [[f64; 2
         orbit: special.point.orbit.clone(),
         label: special.label,
         event: special.event,
-        scales: Scales::of(&problem),
+        scales: problem.scales(),
         widths: ranges.map(|[low, high]| high - low),
     };
     let y = traced.gather(&problem, start);

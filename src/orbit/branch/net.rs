@@ -1,7 +1,7 @@
 //! Branches joined at their special points.
 
 use super::super::periodic::Orbit;
-use super::arclength::Vector;
+use super::arclength::{Vector, unit};
 use super::label::Label;
 use super::line::{Begin, End, Followed, Line, Metric, NODE, Passed};
 use super::point::Point;
@@ -23,9 +23,10 @@ impl<'r, C: Followed> Net<'r, C> {
         Self { graph: Graph::default(), queue: VecDeque::new(), request, used: Vec::new() }
     }
 
-    /// All branches asked for; the first goes through `y` in the direction `along`.
-    pub fn from(mut self, curve: C, y: Vector, along: &Vector, seen: &mut dyn FnMut(&Point)) -> Result<Graph> {
-        self.both(&curve, y, along, None, (0, 0), seen)?;
+    /// All branches asked for; the first goes through `y` in the direction in which the key grows.
+    pub fn from(mut self, curve: C, y: Vector, seen: &mut dyn FnMut(&Point)) -> Result<Graph> {
+        let along = unit(y.len(), y.len() - 1);
+        self.both(&curve, y, &along, None, (0, 0), seen)?;
         while let Some((special, passed)) = self.queue.pop_front() {
             self.leave(special, passed, seen);
         }

@@ -5,7 +5,7 @@ use super::super::equations::CYCLE;
 use super::super::periodic::Orbit;
 use super::super::problem::Problem;
 use super::super::signature::{Event, Kind, Signature};
-use super::arclength::{beside, unit};
+use super::arclength::{beside, null, tangent, unit};
 use super::curve::{Curve, Vector};
 use super::events::point;
 use super::follow::follow;
@@ -30,7 +30,7 @@ impl Problem {
 
 impl<'a> Followed for Curve<'a> {
     fn tangent_at(&self, y: &Vector, along: &Vector) -> Result<Vector> {
-        self.tangent(&self.linear(y)?, along)
+        tangent(&self.linear(y)?.matrix, along)
     }
 
     fn follow(
@@ -45,27 +45,6 @@ impl<'a> Followed for Curve<'a> {
     }
 
     fn switch(&self, at: &Passed<Self>) -> Result<Begin<Self>> {
-        self.leave(at)
-    }
-
-    fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)> {
-        let problem = self.problem(y)?;
-        let metric = Metric { mirror: problem.mirror().map(<[usize]>::to_vec), speed: problem.scales()[1], near: NODE };
-        Ok((self.orbit(&problem, y), metric))
-    }
-}
-
-impl<'a> Curve<'a> {
-    /// The curve of another signature of the same family.
-    fn of(&self, signature: &Signature) -> Curve<'a> {
-        Curve { family: self.family, signature: signature.clone(), scales: self.scales, width: self.width }
-    }
-
-    /// The branch that begins at the special point `at` of this one.
-    ///
-    /// # Errors
-    /// [`Error::NoOrbit`] where none was found, with the reason.
-    fn leave(&self, at: &Passed<Self>) -> Result<Begin<Self>> {
         let problem = self.problem(&at.y)?;
         let orbit = &at.point.orbit;
         // A branch of orbits over several periods has met the orbit of one of them: the branch of
@@ -88,14 +67,26 @@ impl<'a> Curve<'a> {
         }
     }
 
+    fn orbit_at(&self, y: &Vector) -> Result<(Orbit, Metric)> {
+        let problem = self.problem(y)?;
+        let metric =
+            Metric { mirror: problem.mirror().map(<[usize]>::to_vec), speed: problem.scales().speed, near: NODE };
+        Ok((self.orbit(&problem, y), metric))
+    }
+}
+
+impl<'a> Curve<'a> {
+    /// The curve of another signature of the same family.
+    fn of(&self, signature: &Signature) -> Curve<'a> {
+        Curve { family: self.family, signature: signature.clone(), scales: self.scales, width: self.width }
+    }
+
     /// The branch that leaves along the eigenvector of a multiplier −1, at a small amplitude.
     fn branch_off(&self, problem: &Problem, at: &Passed<Self>, whole: &Orbit) -> Result<Begin<Self>> {
         let curve = self.of(&whole.signature);
         curve.signature.check(problem.scene())?;
         let origin = curve.gather(problem, whole, at.point.value);
-        let values = self.twisted(problem, &at.y).svd(false, true);
-        let least = values.singular_values.imin();
-        let null = values.v_t.map(|v| v.row(least).transpose()).ok_or_else(|| Error::no_orbit("no eigenvector"))?;
+        let null = null(self.twisted(problem, &at.y))?;
         let n = null.len();
         let share = std::f64::consts::FRAC_1_SQRT_2;
         let aside = DVector::from_fn(2 * n + 1, |i, _| match i {
@@ -114,9 +105,7 @@ impl<'a> Curve<'a> {
         let index = if orbit.phases.is_empty() { 0 } else { nearest.flight + 1 };
         let boundary = problem.boundary(nearest.wall).ok_or_else(|| Error::no_orbit("no wall is touched"))?;
         let mut insert = |index: usize, kind: Kind, phase: f64, speed: f64| {
-            orbit.signature.events.insert(index, Event { kind, wall: nearest.wall });
-            orbit.phases.insert(index, phase);
-            orbit.speeds.insert(index, speed);
+            orbit.insert(index, Event { kind, wall: nearest.wall }, phase, speed);
         };
         if let BoundaryLaw::Rigid(_) = boundary.law {
             insert(index, Kind::Impact, nearest.phase, 0.0);
@@ -152,10 +141,7 @@ impl<'a> Curve<'a> {
             ));
         }
         for _ in 0..gone {
-            let index = if at.event < orbit.phases.len() { at.event } else { 0 };
-            orbit.signature.events.remove(index);
-            orbit.phases.remove(index);
-            orbit.speeds.remove(index);
+            orbit.remove(if at.event < orbit.phases.len() { at.event } else { 0 });
         }
         if orbit.phases.is_empty() {
             orbit.signature = Signature { events: Vec::new(), periods: 1, symmetric: problem.is_symmetric() };
@@ -191,16 +177,11 @@ impl<'a> Curve<'a> {
         if at.label == Label::RestBegins {
             event.kind = Kind::Rest;
             let phase = orbit.phases[at.event];
-            orbit.signature.events.insert(at.event + 1, Event { kind: Kind::Release, wall });
-            orbit.phases.insert(at.event + 1, phase);
-            orbit.speeds.insert(at.event + 1, 0.0);
+            orbit.insert(at.event + 1, Event { kind: Kind::Release, wall }, phase, 0.0);
         } else {
             event.kind = Kind::Impact;
             // Its release is the next event; that of the last one comes first.
-            let next = if at.event + 1 < orbit.phases.len() { at.event + 1 } else { 0 };
-            orbit.signature.events.remove(next);
-            orbit.phases.remove(next);
-            orbit.speeds.remove(next);
+            orbit.remove(if at.event + 1 < orbit.phases.len() { at.event + 1 } else { 0 });
         }
         self.begin(problem, &orbit, at.point.value, Some(at), false)
     }
@@ -219,7 +200,7 @@ impl<'a> Curve<'a> {
         let guess = curve.gather(problem, orbit, value);
         let last = unit(guess.len(), guess.len() - 1);
         let (y, linear, _) = curve.correct(&guess, &last)?;
-        let tangent = curve.tangent(&linear, &last)?;
+        let tangent = tangent(&linear.matrix, &last)?;
         if sided.is_none() {
             return Ok(Begin { curve, y, along: tangent, both });
         }

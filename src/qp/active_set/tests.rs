@@ -21,7 +21,7 @@ fn solved(
 
 #[test]
 fn random_programmes_meet_their_optimality_conditions_from_any_start() {
-    let mut draws = Draws::new(5);
+    let mut draws = Draws::new(5, 0);
     let (mut held, mut free) = (0, 0);
     for trial in 0..300 {
         let (n, m) = (1 + trial % 5, 1 + trial % 8);
@@ -127,7 +127,7 @@ fn a_violation_within_rounding_of_the_largest_motion_is_none() {
 
 #[test]
 fn rounding_is_passed_on_by_the_combination() {
-    let mut draws = Draws::new(6);
+    let mut draws = Draws::new(6, 0);
     for trial in 0..20 {
         let m = 2 + trial % 5;
         let dense = Dense::yielding(&mut draws, m);

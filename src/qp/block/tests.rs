@@ -77,7 +77,7 @@ fn null(w: &DMatrix<f64>) -> DMatrix<f64> {
 fn forces_are_the_limit_of_vanishing_springs() {
     // r = e/δ + r₀ solves (W + δD) r = q for δ → 0: W e = 0, NᵀD e = Nᵀq, W r₀ = q − D e and
     // NᵀD r₀ = 0 for every N with W N = 0.
-    let mut draws = Draws::new(3);
+    let mut draws = Draws::new(3, 0);
     let (mut escaped, mut shared, mut unique) = (0, 0, 0);
     for trial in 0..200 {
         let (n, m) = (1 + trial % 4, 2 + trial % 7);
@@ -137,7 +137,7 @@ fn an_escape_is_measured_by_the_motion_that_it_causes() {
 
 #[test]
 fn rounding_is_passed_on_by_the_combination() {
-    let mut draws = Draws::new(4);
+    let mut draws = Draws::new(4, 0);
     for trial in 0..20 {
         let m = 2 + trial % 5;
         let dense = Dense::yielding(&mut draws, m);

@@ -6,7 +6,7 @@ use crate::qp::tests::trial::{Dense, Draws, chain};
 
 #[test]
 fn the_rows_that_push_are_found_in_all_units() {
-    let mut draws = Draws::new(11);
+    let mut draws = Draws::new(11, 0);
     let mut held = 0;
     for trial in 0..60 {
         let (n, m) = (1 + trial % 6, 1 + trial % 5);

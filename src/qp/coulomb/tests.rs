@@ -4,8 +4,7 @@ use super::*;
 
 /// A number between −1 and 1.
 fn draw(k: &mut u64) -> f64 {
-    *k = k.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*k >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    2.0 * crate::hash::next_unit(k) - 1.0
 }
 
 /// Three contacts of a body of six coordinates, coupled with one another, which move along their

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 #[test]
 fn motions_and_forces_are_those_of_the_full_matrices_in_all_units() {
-    let mut draws = Draws::new(7);
+    let mut draws = Draws::new(7, 0);
     for trial in 0..40 {
         let (n, m) = (1 + trial % 9, 1 + trial % 7);
         let (a, g, problem) = chain(&mut draws, n, m);

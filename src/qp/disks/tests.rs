@@ -3,30 +3,8 @@
 mod solver;
 
 use super::{DiskBound, DiskProblem, dot, norm};
-use crate::hash::{mix, unit};
+pub(super) use crate::hash::Draws;
 use crate::linear::{Rows, Symmetric};
-
-/// Numbers that look random, the same in every run.
-pub(super) struct Draws(u64, u64);
-
-impl Draws {
-    pub fn new(seed: u64) -> Self {
-        Self(seed, 0)
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.1 += 1;
-        low + (high - low) * unit(mix(11, self.0, self.1))
-    }
-
-    pub fn chance(&mut self, share: f64) -> bool {
-        self.between(0.0, 1.0) < share
-    }
-
-    pub fn below(&mut self, count: usize) -> usize {
-        self.between(0.0, count as f64) as usize
-    }
-}
 
 /// A programme with its b and bounds.
 pub(super) struct Case {

@@ -42,7 +42,7 @@ fn take(envelope: &mut Envelope, dense: &Dense, row: usize) {
 
 #[test]
 fn rows_that_come_and_go_are_solved_for_as_by_a_full_matrix() {
-    let mut draws = Draws::new(1);
+    let mut draws = Draws::new(1, 0);
     for trial in 0..60 {
         let (m, reach) = (2 + trial % 11, trial % 4);
         let dense = band(&mut draws, m, reach);
@@ -73,7 +73,7 @@ fn rows_that_come_and_go_are_solved_for_as_by_a_full_matrix() {
 
 #[test]
 fn largest_pivots_first_leave_over_the_rows_that_depend_on_others() {
-    let mut draws = Draws::new(2);
+    let mut draws = Draws::new(2, 0);
     let mut left_over = 0;
     for trial in 0..60 {
         let (n, m) = (1 + trial % 5, 1 + trial % 9);

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 #[test]
 fn a_line_search_ends_where_the_slope_is_zero() {
-    let mut draws = Draws::new(8);
+    let mut draws = Draws::new(8, 0);
     for trial in 0..500 {
         let n = 1 + trial % 7;
         // Numbers that are often 0 or equal, so that kinks fall together or on the start.
@@ -28,7 +28,7 @@ fn a_line_search_ends_where_the_slope_is_zero() {
 
 #[test]
 fn rows_are_factored_by_their_directions() {
-    let mut draws = Draws::new(9);
+    let mut draws = Draws::new(9, 0);
     for trial in 0..40 {
         let (n, m) = (1 + trial % 5, 1 + trial % 9);
         let mass = 10_f64.powf(draws.between(-12.0, 12.0));
@@ -47,7 +47,7 @@ fn rows_are_factored_by_their_directions() {
 
 #[test]
 fn a_shifted_matrix_is_factored_and_solved_for() {
-    let mut draws = Draws::new(10);
+    let mut draws = Draws::new(10, 0);
     for n in 1..8 {
         let half = DMatrix::from_fn(n, n, |_, _| draws.between(-1.0, 1.0));
         let (h, shift) = (&half * half.transpose(), draws.between(0.5, 1.0));

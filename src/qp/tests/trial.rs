@@ -1,31 +1,12 @@
 //! What the tests of this room share: numbers that look random, and programmes as full matrices.
 
-use crate::hash::{mix, unit};
+pub(in crate::qp) use crate::hash::Draws;
 use crate::linear::{Rows, Symmetric};
 use crate::qp::Problem;
 use crate::qp::delassus::Delassus;
 use nalgebra::{DMatrix, DVector};
 
-/// Numbers that look random, the same in every run.
-pub(in crate::qp) struct Draws {
-    pub seed: u64,
-    count: u64,
-}
-
 impl Draws {
-    pub(in crate::qp) fn new(seed: u64) -> Self {
-        Self { seed, count: 0 }
-    }
-
-    pub(in crate::qp) fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.count += 1;
-        low + (high - low) * unit(mix(self.seed, 0, self.count))
-    }
-
-    pub(in crate::qp) fn chance(&mut self, share: f64) -> bool {
-        self.between(0.0, 1.0) < share
-    }
-
     /// A whole number from `low` to `high`.
     pub(in crate::qp) fn whole(&mut self, low: i32, high: i32) -> f64 {
         self.between(f64::from(low) - 0.5, f64::from(high) + 0.5).round()

@@ -92,18 +92,7 @@ impl Scene {
         let walls: Vec<Seen> = self.walls.iter().map(|wall| statics.seen(wall.row())).collect();
         let loads: Vec<Seen> = self.loads.iter().map(|load| statics.seen(&load.at)).collect();
         let probes: Vec<Seen> = self.probes.iter().map(|probe| statics.seen(&probe.at)).collect();
-        let mut scene = Self {
-            system: statics.reduced(&kept)?.into(),
-            walls: self.walls.iter().map(|wall| wall.carried(|row| statics.seen(row).row)).collect(),
-            supports: self.supports.iter().map(|support| support.carried(|row| statics.seen(row).row)).collect(),
-            loads: self.loads.clone(),
-            probes: self.probes.clone(),
-            output_times: self.output_times.clone(),
-            initial: self.initial.clone(),
-            duration: self.duration,
-        };
-        scene.loads.iter_mut().zip(&loads).for_each(|(load, seen)| load.at = seen.row.clone());
-        scene.probes.iter_mut().zip(&probes).for_each(|(probe, seen)| probe.at = seen.row.clone());
+        let mut scene = self.carried(statics.reduced(&kept)?.into(), |row| statics.seen(row).row);
         scene.initial.q = statics.start("displacement", &self.initial.q, &kept)?;
         scene.initial.v = statics.start("velocity", &self.initial.v, &kept)?;
         // Rigid walls are still rigid here, so that the checks of the initial state and of crossing

@@ -3,6 +3,7 @@
 use super::definite::definite;
 use super::dense::eigen;
 use crate::error::{Error, Result};
+use crate::hash::next_unit;
 use crate::interrupt::Asking;
 use crate::linear::{Factor, Operator, Symmetric, negative_pivots};
 use crate::scene::Structure;
@@ -49,7 +50,7 @@ impl Basis {
     /// basis spans the whole space already.
     fn start(&mut self) -> bool {
         let known = self.vectors.len();
-        let mut x: Vec<f64> = (0..self.product.len()).map(|_| random(&mut self.seed)).collect();
+        let mut x: Vec<f64> = (0..self.product.len()).map(|_| next_unit(&mut self.seed) - 0.5).collect();
         self.image(&mut x);
         self.add(x);
         self.vectors.len() > known
@@ -207,9 +208,4 @@ fn complete(structure: &Structure, theta: &[f64], sigma: f64) -> bool {
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn random(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
 }

@@ -122,25 +122,12 @@ impl Scene {
         let damping = modal_damping(&mut kept, &structure.damping);
         let stiffness: Vec<f64> = kept.omega.iter().map(|omega| omega * omega).collect();
         let row = |row: &Row| Row::new(kept.seen(row).into_iter().enumerate().collect());
-        let mut scene = Self {
-            system: System::from(Structure {
-                mass: Symmetric::diagonal(&vec![1.0; modes]),
-                damping,
-                stiffness: Symmetric::diagonal(&stiffness),
-            }),
-            walls: self.walls.iter().map(|wall| wall.carried(row)).collect(),
-            supports: self.supports.iter().map(|support| support.carried(row)).collect(),
-            loads: self.loads.clone(),
-            probes: self.probes.clone(),
-            output_times: self.output_times.clone(),
-            initial: State {
-                q: kept.coordinates(&structure.mass, &self.initial.q),
-                v: kept.coordinates(&structure.mass, &self.initial.v),
-            },
-            duration: self.duration,
+        let (mass, stiffness) = (Symmetric::diagonal(&vec![1.0; modes]), Symmetric::diagonal(&stiffness));
+        let mut scene = self.carried(Structure { mass, damping, stiffness }.into(), row);
+        scene.initial = State {
+            q: kept.coordinates(&structure.mass, &self.initial.q),
+            v: kept.coordinates(&structure.mass, &self.initial.v),
         };
-        scene.loads.iter_mut().for_each(|load| load.at = row(&load.at));
-        scene.probes.iter_mut().for_each(|probe| probe.at = row(&probe.at));
         match start {
             Start::Kept => self.keep_start(&mut scene, modes)?,
             Start::Left => scene.initial = State { q: vec![0.0; modes], v: vec![0.0; modes] },

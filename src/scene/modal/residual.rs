@@ -44,11 +44,7 @@ impl<'a> Residual<'a> {
         let carried = self.modes.expand(&seen);
         let mut force = vec![0.0; n];
         self.mass.add_product(-1.0, &carried, &mut force);
-        for &(i, weight) in row.entries() {
-            if let Some(f) = force.get_mut(i) {
-                *f += weight;
-            }
-        }
+        row.add_transposed(1.0, &mut force);
         let mut x = vec![0.0; n];
         for _ in 0..PASSES {
             let mut y = force.clone();

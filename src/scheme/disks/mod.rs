@@ -26,7 +26,7 @@ use super::Counters;
 use super::motion::Motion;
 use crate::contact::{Episodes, Rates};
 use crate::error::Result;
-use crate::qp::{Backend, DiskCounters};
+use crate::qp::DiskCounters;
 use crate::scene::{Checked, Scene};
 use crate::step::{Balance, Contact, Contract, Law, Step};
 use alpha::Alpha;
@@ -152,14 +152,6 @@ impl Motion for Disks {
         Ok(())
     }
 
-    fn end(&self) -> f64 {
-        self.held.frame.end
-    }
-
-    fn state(&self) -> (&[f64], &[f64]) {
-        (&self.held.frame.q, &self.held.frame.v)
-    }
-
     fn open_contacts(&self) -> Vec<Contact> {
         self.episodes.still_open()
     }
@@ -173,10 +165,6 @@ impl Motion for Disks {
         if let DiskRule::Springs(rule) = &self.rule {
             counters.newton_iterations = rule.iterations();
         }
-    }
-
-    fn backend(&self) -> Option<Backend> {
-        None
     }
 }
 

@@ -1,6 +1,5 @@
 //! Where steps end, what they show, and what is refused.
 
-pub(super) mod draws;
 mod flights;
 mod scan;
 mod units;

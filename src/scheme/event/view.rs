@@ -3,7 +3,6 @@
 use super::{Event, EventCounters};
 use crate::error::Result;
 use crate::flow::Arc;
-use crate::qp::Backend;
 use crate::scene::Scene;
 use crate::scheme::motion::Motion;
 use crate::step::{Contact, Path, Step};
@@ -103,14 +102,6 @@ impl Motion for Event {
         Ok(())
     }
 
-    fn end(&self) -> f64 {
-        self.time
-    }
-
-    fn state(&self) -> (&[f64], &[f64]) {
-        (self.q(), self.v())
-    }
-
     fn open_contacts(&self) -> Vec<Contact> {
         self.open_contacts().copied().collect()
     }
@@ -118,9 +109,5 @@ impl Motion for Event {
     fn count(&self, counters: &mut crate::scheme::Counters) {
         counters.events = self.clock.total().events;
         counters.flow_evaluations = self.clock.total().evaluations;
-    }
-
-    fn backend(&self) -> Option<Backend> {
-        None
     }
 }

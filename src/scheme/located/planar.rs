@@ -125,23 +125,11 @@ impl Motion for LocatedPlanar {
         Ok(())
     }
 
-    fn end(&self) -> f64 {
-        self.frame.end
-    }
-
-    fn state(&self) -> (&[f64], &[f64]) {
-        (&self.frame.q, &self.frame.v)
-    }
-
     fn open_contacts(&self) -> Vec<Contact> {
         self.episodes.still_open()
     }
 
     fn count(&self, counters: &mut Counters) {
         self.division.count(counters);
-    }
-
-    fn backend(&self) -> Option<Backend> {
-        None
     }
 }

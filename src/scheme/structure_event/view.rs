@@ -2,7 +2,6 @@
 
 use super::StructureEvent;
 use crate::error::Result;
-use crate::qp::Backend;
 use crate::scene::Scene;
 use crate::scheme::exact::ExactWall;
 use crate::scheme::motion::Motion;
@@ -26,14 +25,6 @@ impl Motion for StructureEvent {
         self.restart(time, q, v)
     }
 
-    fn end(&self) -> f64 {
-        self.time
-    }
-
-    fn state(&self) -> (&[f64], &[f64]) {
-        (&self.q, &self.v)
-    }
-
     fn open_contacts(&self) -> Vec<Contact> {
         self.barriers.iter().filter_map(ExactWall::shown).collect()
     }
@@ -50,9 +41,5 @@ impl Motion for StructureEvent {
         counters.qp_solves = solves;
         counters.pivots = pivots;
         counters.qp_fallbacks = fallbacks;
-    }
-
-    fn backend(&self) -> Option<Backend> {
-        None
     }
 }

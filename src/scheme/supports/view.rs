@@ -4,7 +4,6 @@ use super::super::Counters;
 use super::super::motion::Motion;
 use super::Supports;
 use crate::error::Result;
-use crate::qp::Backend;
 use crate::scene::Scene;
 use crate::step::{Contact, Step};
 use pulp::{Simd, WithSimd};
@@ -53,14 +52,6 @@ impl Motion for Supports {
         Ok(())
     }
 
-    fn end(&self) -> f64 {
-        self.frame.end
-    }
-
-    fn state(&self) -> (&[f64], &[f64]) {
-        (&self.frame.q, &self.frame.v)
-    }
-
     fn open_contacts(&self) -> Vec<Contact> {
         self.episodes.still_open()
     }
@@ -71,9 +62,5 @@ impl Motion for Supports {
         counters.wedged_steps = self.sweeps.gave_up;
         counters.frozen_steps = self.memory.frozen;
         counters.largest_turn_rad = self.memory.turned;
-    }
-
-    fn backend(&self) -> Option<Backend> {
-        None
     }
 }

@@ -1,5 +1,6 @@
 //! The frequency by which the steps of a scene are measured.
 
+use super::recorded_run::total_mass;
 use crate::scene::Scene;
 use std::f64::consts::TAU;
 
@@ -60,7 +61,7 @@ impl Scale {
     /// The scale of `scene`; `first_contact` (s) is used where neither spring nor sine sets one.
     #[must_use]
     pub fn of(scene: &Scene, first_contact: Option<f64>) -> Self {
-        let total = scene.system.mass_form(&vec![1.0; scene.initial.q.len()], &vec![1.0; scene.initial.q.len()]);
+        let total = total_mass(&scene.system);
         let mass = scene.wall_masses().into_iter().reduce(f64::min).unwrap_or(total);
         let [spring, _] = scene.system.frequencies();
         let sine = scene.harmonic_frequencies().map(|frequency| TAU * frequency);

@@ -132,7 +132,7 @@ impl<'a> Shots<'a> {
         let before = self.scales.similar(&(&until.derivative * &first.derivative));
         let after = self.scales.similar(&(&last.derivative * &since.derivative)) * self.sign();
         let mut row = vec![0.0; n];
-        wall.row().entries().iter().for_each(|&(dof, weight)| row[dof] += sign * weight);
+        wall.row().add_transposed(sign, &mut row);
         free.gap = DVector::from_fn(2 * n, |j, _| (0..n).map(|i| row[i] * before[(i, j)]).sum());
         free.motion.derivative = &after * &before;
         free.after = after.columns(n, n).into_owned();
@@ -184,7 +184,7 @@ impl<'a> Shots<'a> {
         let Some(restitution) = wall.law.restitution() else { return Ok(DVector::zeros(free.after.nrows())) };
         let mut body = SeriesBody::new(scene).ok_or_else(gone)?;
         let mut aside = vec![0.0; body.n];
-        wall.row().entries().iter().for_each(|&(dof, weight)| aside[dof] += weight);
+        wall.row().add_transposed(1.0, &mut aside);
         body.solve(&mut aside);
         let mass = wall.row().dot(&aside);
         let change = (1.0 + restitution) * wall.side().sign() / mass / self.scales.speed;

@@ -119,25 +119,12 @@ impl Shots<'_> {
     /// The orbit listed from the branch's first event on; this event falls into the first period of
     /// the orbit after t = 0.
     fn turned(&self, orbit: Orbit) -> Orbit {
-        let mut whole = orbit.unfolded(self.mirror.as_deref());
+        let whole = orbit.unfolded(self.mirror.as_deref()).rotated(self.first, self.periods);
         let count = whole.phases.len();
         if count == 0 {
             return orbit;
         }
-        let (first, cycles) = (self.first % count, f64::from(self.periods));
-        whole.signature.events.rotate_left(first);
-        whole.speeds.rotate_left(first);
-        whole.phases.rotate_left(first);
-        let from = whole.phases.first().map_or(0.0, |phase| (phase / cycles).floor() * cycles);
-        for (index, phase) in whole.phases.iter_mut().enumerate() {
-            *phase += if index + first >= count { cycles } else { 0.0 } - from;
-        }
-        if orbit.signature.symmetric {
-            whole.signature.symmetric = true;
-            whole.signature.events.truncate(count / 2);
-            whole.phases.truncate(count / 2);
-            whole.speeds.truncate(count / 2);
-        }
-        whole
+        let half = whole.first(count / 2, self.periods, true).filter(|_| orbit.signature.symmetric);
+        half.unwrap_or(whole)
     }
 }

@@ -3,14 +3,14 @@
 use super::Shots;
 use super::follow::follow;
 use crate::error::{Error, Result};
-use crate::orbit::branch::arclength::{Vector, beside, bordered, extended, tangent};
+use crate::orbit::branch::arclength::{Vector, beside, bordered, extended, no_eigenvector, null, tangent};
 use crate::orbit::branch::label::Label;
 use crate::orbit::branch::line::{Begin, Followed, Line, Metric, Passed};
 use crate::orbit::branch::point::Point;
 use crate::orbit::periodic::Orbit;
 use crate::orbit::signature::Signature;
 use crate::order::sort_by_number;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 /// Orbits that differ by less than this are the same: where a branch of twice the period meets that
 /// of the single one, Newton's method on the longer map finds it to half of the digits only.
@@ -85,7 +85,7 @@ impl Shots<'_> {
         let n = at.y.len() - 1;
         let linear = self.linear(&at.y, &mut None)?;
         let twisted = linear.matrix.columns(0, n) + DMatrix::identity(n, n) * 2.0;
-        let aside = extended(&null(&twisted)?, 0.0);
+        let aside = extended(&null(twisted)?, 0.0);
         off(curve, &at.y, &aside)
     }
 
@@ -94,7 +94,7 @@ impl Shots<'_> {
         let n = at.y.len() - 1;
         let linear = self.linear(&at.y, &mut None)?;
         // Without the key's part, the branch itself is left out where it goes along the key.
-        let aside = null(&bordered(&linear.matrix, &self.own_tangent(&linear.matrix, n)?))?;
+        let aside = null(bordered(&linear.matrix, &self.own_tangent(&linear.matrix, n)?))?;
         off(self.anew(), &at.y, &aside)
     }
 
@@ -117,15 +117,4 @@ impl Shots<'_> {
 fn off<'a>(curve: Shots<'a>, origin: &Vector, aside: &Vector) -> Result<Begin<Shots<'a>>> {
     let (y, along) = beside(origin, aside, |guess| Ok(curve.correct(guess, aside, None)?.0))?;
     Ok(Begin { curve, y, along, both: false })
-}
-
-/// The unit vector x with the least |`matrix` x|.
-fn null(matrix: &DMatrix<f64>) -> Result<Vector> {
-    let svd = matrix.clone().svd(false, true);
-    let least = svd.singular_values.imin();
-    svd.v_t.map(|v| DVector::from(v.row(least).transpose())).ok_or_else(no_eigenvector)
-}
-
-fn no_eigenvector() -> Error {
-    Error::no_orbit("no eigenvector")
 }

@@ -16,7 +16,7 @@ fn released(case: &Case) -> Option<(System, Vec<f64>)> {
 fn the_multipliers_found_solve_the_programme_and_name_the_blocks_in_play_in_any_units() {
     let (mut circles, mut lows, mut highs, mut open) = (0, 0, 0, 0);
     for seed in 0..60 {
-        let case = Case::random(&mut Draws::new(2000 + seed), 4, None);
+        let case = Case::random(&mut Draws::new(11, 2000 + seed), 4, None);
         let mut known: Option<Vec<State>> = None;
         for units in Units::all() {
             let case = case.in_units(units);
@@ -56,7 +56,7 @@ fn the_multipliers_found_solve_the_programme_and_name_the_blocks_in_play_in_any_
 
 #[test]
 fn a_free_motion_that_violates_nothing_is_refused() {
-    let mut case = Case::random(&mut Draws::new(3), 1, None);
+    let mut case = Case::random(&mut Draws::new(11, 3), 1, None);
     let wide = || DiskBound::Disk { centre: [0.0; 2], radius: 1e3 };
     case.bounds.iter_mut().for_each(|bound| *bound = wide());
     let mut system = System::new(&case.problem).expect("a definite matrix");

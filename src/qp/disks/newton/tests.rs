@@ -30,7 +30,7 @@ fn solved(case: &Case) -> Option<System> {
 fn a_step_squares_the_distance_from_the_solution() {
     let (mut together, mut beside_strips) = (0, 0);
     for seed in 0..300 {
-        let mut draws = Draws::new(4000 + seed);
+        let mut draws = Draws::new(11, 4000 + seed);
         let case = Case::random(&mut draws, 6, None);
         let Some(mut system) = solved(&case) else { continue };
         let disks = system.states.iter().filter(|state| **state == State::Circle).count();
@@ -57,7 +57,7 @@ fn a_step_squares_the_distance_from_the_solution() {
 fn each_step_counts() {
     let mut counted = 0;
     for seed in 0..20 {
-        let case = Case::random(&mut Draws::new(4000 + seed), 6, None);
+        let case = Case::random(&mut Draws::new(11, 4000 + seed), 6, None);
         let Some(mut system) = solved(&case) else { continue };
         let mut newton = Newton::default();
         assert!(newton.settle(&mut system), "{seed}");

@@ -27,7 +27,7 @@ const ROUNDING: f64 = 1e-13;
 fn a_block_alone_is_answered_exactly_whatever_was_there_before() {
     let mut seen = [0; 4];
     for seed in 0..400 {
-        let mut draws = Draws::new(3000 + seed);
+        let mut draws = Draws::new(11, 3000 + seed);
         let case = Case::random(&mut draws, 1, None);
         let mut system = System::new(&case.problem).expect("a definite matrix");
         let mut x = vec![0.0; case.b.len()];

@@ -11,7 +11,7 @@ fn seen(g: &DMatrix<f64>, rows: &[usize]) -> DMatrix<f64> {
 
 #[test]
 fn forces_balance_and_are_those_of_least_norm() {
-    let mut draws = Draws::new(14);
+    let mut draws = Draws::new(14, 0);
     let mut judged = 0;
     for trial in 0..400 {
         let (n, m) = (1 + trial % 3, 2 + trial % 9);

@@ -66,7 +66,7 @@ impl Sequence {
 
 #[test]
 fn a_programme_is_solved_in_the_same_steps_in_all_units() {
-    let mut draws = Draws::new(12);
+    let mut draws = Draws::new(12, 0);
     let mut total = SolverCounters::default();
     for trial in 0..150 {
         // Few rows, as many as unknowns or more, and far more.
@@ -90,7 +90,7 @@ fn a_programme_is_solved_in_the_same_steps_in_all_units() {
 #[test]
 fn a_band_is_solved_in_the_same_steps_in_all_units() {
     // Steps of a long chain whose rows all see one unknown.
-    let mut draws = Draws::new(13);
+    let mut draws = Draws::new(13, 0);
     for trial in 0..4 {
         let n = 60;
         let (a, _, _) = chain(&mut draws, n, 0);

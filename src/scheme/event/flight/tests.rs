@@ -1,8 +1,8 @@
 //! What shows a flight to be clear of the walls, and where its series meets one.
 
 use super::*;
+use crate::hash::Draws;
 use crate::scene::Wall;
-use crate::scheme::event::tests::draws::Draws;
 use crate::scheme::exact::ExactWall;
 
 fn room(low: f64, high: f64) -> GapBounds {

@@ -6,7 +6,7 @@ mod steps;
 mod touch;
 
 use super::*;
-use crate::scheme::event::tests::draws::Draws;
+use crate::hash::Draws;
 
 /// Rounding of a sum of five terms, in shares of the sum of their magnitudes.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -15,10 +15,6 @@ impl Draws {
     /// Of either sign, and 0 in a third of the cases.
     fn number(&mut self, octaves: f64) -> f64 {
         self.between(-1.5, 1.5).round() * self.size(octaves)
-    }
-
-    fn chance(&mut self, share: f64) -> bool {
-        self.between(0.0, 1.0) < share
     }
 
     /// c₀ > 0, c₁, c₂, c₃, a bound and a window.

@@ -1,7 +1,7 @@
 //! First roots and largest values of polynomials whose roots are chosen.
 
 use super::*;
-use crate::hash::{mix, unit};
+use crate::hash::Draws;
 
 #[test]
 fn the_first_root_is_found_to_rounding() {
@@ -67,11 +67,8 @@ fn product(roots: &[f64]) -> Vec<f64> {
 
 #[test]
 fn the_first_of_many_roots_is_found() {
-    let (mut index, mut tried) = (0, 0);
-    let mut draw = |low: f64, high: f64| {
-        index += 1;
-        low + (high - low) * unit(mix(3, 1, index))
-    };
+    let (mut draws, mut tried) = (Draws::new(3, 1), 0);
+    let mut draw = |low: f64, high: f64| draws.between(low, high);
     for _ in 0..3000 {
         // The others are behind it, some near, some outside the interval, or below 0.
         let first = draw(-6.0, 0.0).exp2();

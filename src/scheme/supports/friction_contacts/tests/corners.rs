@@ -25,9 +25,8 @@ struct Corner {
 
 impl Corner {
     fn random(seed: u64) -> Self {
-        let mut draws = Draws(seed, 0);
-        let below = |draws: &mut Draws, count: usize| draws.between(0.0, count as f64) as usize;
-        let bodies = 1 + below(&mut draws, 3);
+        let mut draws = Draws::new(17, seed);
+        let bodies = 1 + draws.below(3);
         let n = 2 * bodies;
         let half: Vec<Vec<f64>> = (0..n).map(|_| (0..n).map(|_| draws.between(-1.0, 1.0)).collect()).collect();
         let together = draws.chance(0.6);
@@ -52,12 +51,12 @@ impl Corner {
         let speed = |draws: &mut Draws| if draws.chance(0.3) { size(draws, -8.0) } else { 1.0 };
         let start: Vec<f64> = (0..n).map(|_| speed(&mut draws) * draws.between(-1.0, 1.0)).collect();
         let free: Vec<f64> = start.iter().map(|v| v + size(&mut draws, -6.0) * draws.between(-1.0, 1.0)).collect();
-        let (shared_e, shared_mu) = ([0.0, 0.5, 1.0][below(&mut draws, 3)], [0.1, 0.3, 0.8, 2.0][below(&mut draws, 4)]);
+        let (shared_e, shared_mu) = ([0.0, 0.5, 1.0][draws.below(3)], [0.1, 0.3, 0.8, 2.0][draws.below(4)]);
         let (unequal_e, unequal_mu, any_angle) = (draws.chance(0.3), draws.chance(0.3), draws.chance(0.25));
         let (mut contacts, mut bounds) = (Vec::new(), Vec::new());
         for body in 0..bodies {
-            let (sides, turn) = (3 + below(&mut draws, 6), draws.between(0.0, 6.3));
-            for flat in 0..1 + below(&mut draws, 3) {
+            let (sides, turn) = (3 + draws.below(6), draws.between(0.0, 6.3));
+            for flat in 0..1 + draws.below(3) {
                 let angle = turn + std::f64::consts::TAU * flat as f64 / sides as f64;
                 let angle = if any_angle { draws.between(0.0, 6.3) } else { angle };
                 let normal = [angle.cos(), angle.sin()];

@@ -1,7 +1,6 @@
 //! The momentum balance of a whole run, from its recorded trajectory.
 
-use crate::scene::{Face, Loads, Row, Scene, heading};
-use crate::trajectory::Trajectory;
+use signorini::{Face, Loads, Row, Scene, Trajectory, heading};
 
 /// The residual of a run's momentum balance with the recorded impulses of the walls,
 ///
@@ -9,7 +8,6 @@ use crate::trajectory::Trajectory;
 ///
 /// with the integral taken by the trapezoid rule over the rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub struct Momentum {
     /// The largest difference of the two sides over the degrees of freedom, N s.
     pub residual_n_s: f64,
