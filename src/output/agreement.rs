@@ -75,8 +75,8 @@ pub fn half_the_step(case: &Case, comparison: &Comparison, verdicts: &[Option<Ve
     Some(format!("half the step changes {} by {}", row.method, distance(case, comparison, change)))
 }
 
-/// The methods that have a result and an error. The same scheme with another solver of its quadratic
-/// programmes makes the same motion: it is judged once.
+/// The methods that have a result and an error. The same scheme with another solver of its
+/// quadratic programmes makes the same motion: it is judged once.
 fn judged(case: &Case, comparison: &Comparison) -> Vec<Judged> {
     let length = comparison.reference_run().map_or(1.0, |run| error_length(&case.scene, &run.trajectory));
     let mut schemes = Vec::new();

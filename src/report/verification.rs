@@ -20,7 +20,8 @@ const STYLE: &str = "body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;ma
     td{border:0;padding:0}td.number{text-align:left;white-space:normal}td.all{grid-column:1/-1}\
     td[data-name]::before{content:attr(data-name) \" \";color:#5c6168}td.holds,td.fails{order:-1;text-align:right}\
     td.case{order:-2}}\
-    @media screen and (prefers-color-scheme:dark){body{color:#eceef0;background:#15171a}p{color:#a9afb6}p.answer{color:#eceef0}\
+    @media screen and (prefers-color-scheme:dark){body{color:#eceef0;background:#15171a}\
+    p{color:#a9afb6}p.answer{color:#eceef0}\
     th,td,tr{border-color:#2e3338}td[data-name]::before{color:#a9afb6}td.holds{color:#4cc9a4}td.fails{color:#ff8aa5}}\
     @media print{body{max-width:none;color:#000;background:#fff}tr{break-inside:avoid}}";
 

@@ -123,7 +123,7 @@ fn compare_ends_with_a_short_table_and_one_sentence() {
     let (table, conclusion) = said.trim_end().rsplit_once('\n').unwrap();
     assert!(table.lines().all(|line| line.chars().count() <= 60), "{table}");
     assert_eq!(table.lines().filter(|line| line.starts_with("located") || line.starts_with("penalty:")).count(), 5);
-    // The best method with its error in compare.csv, and the worst penalty: at ±5 mm it goes deeper.
+    // The best method with its error in compare.csv, and the worst penalty, deeper than ±5 mm.
     let (header, rows) = csv(&dir.path().join("out/rigid-walls-sine/compare/compare.csv"));
     let number = |row: &[String], name: &str| {
         row[header.iter().position(|head| head == name).unwrap()].parse::<f64>().unwrap_or(f64::NAN)
