@@ -87,7 +87,7 @@ fn judged(case: &Case, comparison: &Comparison) -> Vec<Judged> {
             continue;
         }
         schemes.push(row.method.scheme);
-        let fate = fate(row, run, run.residuals.penetration_m / length, !(error <= ASTRAY));
+        let fate = fate(row, run, run.residuals.penetration_m / length, error.is_nan() || error > ASTRAY);
         let penalty = matches!(row.method.scheme, Scheme::Penalty { .. });
         judged.push(Judged { name: name(&row.method), penalty, error, agrees_until: until, fate });
     }
