@@ -15,7 +15,7 @@ const STYLE: &str = "body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;ma
     th{border-bottom:2px solid #16181b}td.number{text-align:right;white-space:nowrap}\
     td.holds{color:#00614a;font-weight:600}td.fails{color:#a3123a;font-weight:700}\
     div{overflow-x:auto}\
-    @media(max-width:700px){table,tbody{display:block}thead{display:none}\
+    @media screen and (max-width:700px){table,tbody{display:block}thead{display:none}\
     tr{display:grid;grid-template-columns:5fr 4fr;gap:0 10px;padding:8px 0;border-bottom:1px solid #e2e2de}\
     td{border:0;padding:0}td.number{text-align:left;white-space:normal}td.all{grid-column:1/-1}\
     td[data-name]::before{content:attr(data-name) \" \";color:#5c6168}td.holds,td.fails{order:-1;text-align:right}\
@@ -23,7 +23,9 @@ const STYLE: &str = "body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;ma
     @media screen and (prefers-color-scheme:dark){body{color:#eceef0;background:#15171a}\
     p{color:#a9afb6}p.answer{color:#eceef0}\
     th,td,tr{border-color:#2e3338}td[data-name]::before{color:#a9afb6}td.holds{color:#4cc9a4}td.fails{color:#ff8aa5}}\
-    @media print{body{max-width:none;color:#000;background:#fff}tr{break-inside:avoid}}";
+    @media print{@page{margin:12mm}body{max-width:none;margin:0;padding:0;color:#000;background:#fff}\
+    div{overflow:visible}table{font-size:8px}th,td{padding:2px 4px}td.number{white-space:normal}\
+    tr{break-inside:avoid}}";
 
 /// A number with ten digits; `verification.csv` has all of them.
 fn number(x: f64) -> String {

@@ -56,7 +56,8 @@ function drawEndNames(ctx, plot, curves, others) {
       .map(([x, y]) => [plot.sx(x), y]);
   const upright = plot.marks.filter(({ x }) => x !== undefined).map(({ x }) => plot.sx(x));
   const lines = [
-    ...[...curves, ...others].map(spotsOf),
+    ...curves.map(spotsOf),
+    ...others.map(({ x, y }) => x.map((at, k) => [plot.sx(clamp(at, ...plot.X)), plot.sy(y[k])])),
     ...upright.map((x) => [
       [x, plot.y0],
       [x, plot.y1],
