@@ -12,8 +12,9 @@ use super::ui::Ui;
 use super::{values, verdicts};
 use crate::case::Case;
 use crate::error::{Error, Result};
+use crate::output::agreement::{conclusion, half_the_step};
 use crate::output::compare as output;
-use crate::output::compare_table::{all_quantities, conclusion, force_remark, length_word, overview, remark};
+use crate::output::compare_table::{all_quantities, force_remark, length_word, overview, remark};
 use crate::output::document::under_head;
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
@@ -91,7 +92,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let rows = output::write(&mut results, &case, &comparison, &verdicts, [span, common])?;
     let notes: Vec<String> = run_notes(&comparison).into_iter().chain(case.notes()).collect();
     let findings = comparison.findings.iter();
-    let conclusion = conclusion(&case, &comparison, &verdicts);
+    let conclusion = conclusion(&case, &comparison);
     results.add_to_manifest("conclusion", json!(conclusion));
     results.add_to_manifest("error_length", json!(length_word(&case)));
     results.add_to_manifest("reference", json!(comparison.reference_in_words()));
@@ -109,6 +110,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         answer.remarks(force_remark(&case, &comparison));
     }
     answer.prose(conclusion);
+    answer.remarks(half_the_step(&case, &comparison, &verdicts));
     if let Some(studies) = &studies {
         studies.show(&mut answer, &case);
     }

@@ -202,7 +202,7 @@ impl Request {
 
 /// Sets the end of the run, and leaves out rows and a window of statistics that lie beyond it, with
 /// a word about the window.
-fn set_end(file: &mut CaseFile, end: f64, ui: &Ui) -> Result<()> {
+pub(super) fn set_end(file: &mut CaseFile, end: f64, ui: &Ui) -> Result<()> {
     for (name, beyond) in [("time.sample", f64::gt as fn(&f64, &f64) -> bool), ("time.statistics_from", f64::ge)] {
         let key: Key = name.parse()?;
         let Some(x) = file.get(&key)?.and_then(|value| value.number()).filter(|x| beyond(x, &end)) else { continue };

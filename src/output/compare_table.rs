@@ -1,5 +1,4 @@
-//! A comparison for the terminal: a short table with its conclusion in one sentence, and the table
-//! of all quantities.
+//! A comparison for the terminal: a short table, and the table of all quantities.
 
 use super::cheapest::time;
 use super::compare::{largest_force, peak};
@@ -8,9 +7,8 @@ use super::table::Table;
 use crate::case::Case;
 use crate::run::Run;
 use crate::scheme::Scheme;
-use crate::study::compare::{Comparison, FINER, Row, is_aperiodic};
-use crate::study::difference::{error_length, largest};
-use crate::study::verdict::Verdict;
+use crate::study::compare::{Comparison, Row};
+use crate::study::difference::largest;
 
 /// Most walls that get rows of their own in the table of all quantities; above that it shows sums
 /// over all walls.
@@ -18,12 +16,6 @@ const MOST_WALLS: usize = 4;
 
 /// Widest short table, in characters.
 const WIDEST: usize = 60;
-
-/// A motion whose error is more than this share of the length is another one.
-const ASTRAY: f64 = 0.5;
-
-/// A penalty that passes a rigid wall by this share of the gap is no wall.
-const TOO_SOFT: f64 = 1.0;
 
 /// The short table: one row per method.
 #[must_use]
@@ -51,61 +43,8 @@ pub fn overview(case: &Case, comparison: &Comparison) -> Table {
     Table::new(&header, comparison.rows.iter().map(line).collect()).within(WIDEST)
 }
 
-/// What the comparison shows, in one sentence: how far each method is from the reference, which
-/// penalties are no walls, and what half the step changes.
-#[must_use]
-pub fn conclusion(case: &Case, comparison: &Comparison, verdicts: &[Option<Verdict>]) -> String {
-    let reference = match (&comparison.reference, &comparison.refined) {
-        (Ok(_), _) => "the exact motion".to_owned(),
-        (_, Some((method, _))) => format!("a run by {method} with steps {FINER} times finer"),
-        (Err(error), None) => return format!("there is no reference to compare with: {error}"),
-    };
-    let length = comparison.reference_run().map_or(1.0, |run| error_length(&case.scene, &run.trajectory));
-    let distance = |x: f64| match case.scene.gap() {
-        Some(_) => format!("{} of the gap", share(x)),
-        None => format!("{} m", share(x * length)),
-    };
-    let until = if comparison.horizon < case.scene.duration {
-        let why = if is_aperiodic(&case.scene) { "small differences have grown" } else { "chaos takes over" };
-        format!("until {} s, where {why}", share(comparison.horizon))
-    } else {
-        "to the end".to_owned()
-    };
-    let mut parts: Vec<String> = Vec::new();
-    let mut schemes = Vec::new();
-    for row in comparison.rows.iter().filter(|row| !row.method.scheme.is_exact()) {
-        let (Ok(run), Some(error)) = (&row.outcome, row.error) else { continue };
-        // The same scheme with another solver of its quadratic programmes makes the same motion.
-        if schemes.contains(&row.method.scheme) {
-            continue;
-        }
-        schemes.push(row.method.scheme);
-        let (name, depth) = (row.method.to_string(), run.residuals.penetration_m / length);
-        parts.push(match (is_refuted(row), depth > TOO_SOFT) {
-            (true, _) => format!("{name} is refuted"),
-            (_, true) => format!("{name} passes the walls by {}: its springs are too soft for walls", distance(depth)),
-            _ if error > ASTRAY => format!("{name} departs from {reference} by {} {until}", distance(error)),
-            _ if parts.is_empty() => format!("{name} keeps to {reference} within {} {until}", distance(error)),
-            _ => format!("{name} within {}", distance(error)),
-        });
-    }
-    if parts.is_empty() {
-        return "there is nothing to compare: no probe, or no method but the exact one has a result".to_owned();
-    }
-    let first =
-        comparison.rows.iter().zip(verdicts).find_map(|(row, verdict)| Some((row, verdict.as_ref()?.displacement?)));
-    parts.extend(first.map(|(row, change)| format!("half the step changes {} by {}", row.method, distance(change))));
-    parts.join("; ")
-}
-
 fn is_refuted(row: &Row) -> bool {
     row.outcome.as_ref().is_ok_and(|run| !run.findings.is_empty())
-}
-
-/// A share of a length with two digits, as a person writes it.
-fn share(x: f64) -> String {
-    let rounded: f64 = format!("{x:.1e}").parse().unwrap_or(x);
-    if x == 0.0 || (1e-3..1e4).contains(&rounded) { rounded.to_string() } else { format!("{x:.1e}") }
 }
 
 fn short(x: f64) -> String {

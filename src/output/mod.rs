@@ -16,6 +16,7 @@
 //! | [`summary`] | `summary.json` |
 //! | [`run`] | all files of one run, and its table |
 //! | [`compare`] | all files of a comparison, its table and its JSON |
+//! | `agreement` | the conclusion of a comparison in one sentence |
 //! | [`document`] | a chart and a stability study as JSON |
 //! | [`episodes`] | `episodes.csv` and `exceedances.csv`, and their table |
 //! | [`realisations`] | `realisations.csv`, and its table |
@@ -61,17 +62,18 @@
 //! the motion of those along branches and `overlay.rs` points of other results under them,
 //! `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`, `derivatives.rs`,
 //! `table.rs`, `json.rs`, `compare_table.rs` and `method_realisations.rs` (comparisons for the
-//! terminal), `verification.rs` (the manual), `document.rs`, `detail.rs` (what `[statistics]` asks
-//! for: `episodes.rs`, `spectra.rs`), `turbulence.rs` (its forces), `realisations.rs`,
-//! `sector_means.rs` (their sectors), `error_parts.rs` (the errors of their means), `cheapest.rs`
-//! (the conclusion of a chart), `floors.rs` (why its penalties have floors), `stable_steps.rs` (the
-//! conclusion of a stability study), figures (`labelled.rs` is a run that is drawn, `motion.rs` its
-//! motion, `window.rs` the stretch of it, `orbit.rs` with `ring.rs` its way between supports,
-//! `rubbed.rs` the supports over time; `site.rs` is a wall or support with its results, `places.rs`
-//! says which fit on a page, `colours.rs` has the colour of each, `part.rs` the walls that are
-//! drawn together), `format.rs` (figures as SVG, PDF or PNG), `sheets.rs` (tables as a workbook,
-//! feature `xlsx`; feature `cli`).
+//! terminal), `agreement.rs` (their conclusion), `verification.rs` (the manual), `document.rs`,
+//! `detail.rs` (what `[statistics]` asks for: `episodes.rs`, `spectra.rs`), `turbulence.rs` (its
+//! forces), `realisations.rs`, `sector_means.rs` (their sectors), `error_parts.rs` (the errors of
+//! their means), `cheapest.rs` (the conclusion of a chart), `floors.rs` (why its penalties have
+//! floors), `stable_steps.rs` (the conclusion of a stability study), figures (`labelled.rs` is a
+//! run that is drawn, `motion.rs` its motion, `window.rs` the stretch of it, `orbit.rs` with
+//! `ring.rs` its way between supports, `rubbed.rs` the supports over time; `site.rs` is a wall or
+//! support with its results, `places.rs` says which fit on a page, `colours.rs` has the colour of
+//! each, `part.rs` the walls that are drawn together), `format.rs` (figures as SVG, PDF or PNG),
+//! `sheets.rs` (tables as a workbook, feature `xlsx`; feature `cli`).
 
+pub(crate) mod agreement;
 pub(crate) mod animation;
 pub mod atomic;
 pub mod branch_folder;

@@ -1,6 +1,7 @@
 //! Points of other results beneath branches of orbits: read from their tables, written as
 //! `beneath.csv`.
 
+use super::compare::folder_of;
 use super::csv::{self, digits};
 use super::manifest::{self, MANIFEST};
 use crate::case::{CaseFile, Key, MOST_TABLE_BYTES, open_regular, read_text};
@@ -26,8 +27,8 @@ pub fn write(path: &Path, column: &str, points: &[(f64, f64)]) -> Result<()> {
 }
 
 /// The approach speeds of results over `key`, whose values tables have in `column`: of a sweep and
-/// of branches over this key, and of one run or orbit at the value of its case. `path` is their
-/// folder, or the table of a sweep.
+/// of branches over this key, and of one run, orbit or comparison (of its exact motion, else of its
+/// first method) at the value of its case. `path` is their folder, or the table of a sweep.
 ///
 /// # Errors
 /// [`Error::Io`] for results that cannot be read or have no approach speeds over a key;
@@ -41,7 +42,7 @@ pub fn read(path: &Path, key: &Key, column: &str) -> Result<Vec<(f64, f64)>> {
     if !path.is_dir() {
         return Err(wrong("not a regular file; expected a folder of results, or the sweep.csv of `signorini sweep`"));
     }
-    let expected = "expected a folder of results of sweep, continue, orbit or run";
+    let expected = "expected a folder of results of sweep, continue, orbit, run or compare";
     let Some(manifest) = manifest::read(path) else {
         return Err(wrong(&format!("holds no {MANIFEST} that can be read; {expected}")));
     };
@@ -51,13 +52,31 @@ pub fn read(path: &Path, key: &Key, column: &str) -> Result<Vec<(f64, f64)>> {
     match manifest["request"]["command"].as_str().unwrap_or_default() {
         "sweep" => sweep(&path.join("sweep.csv"), column),
         "continue" => branches(path, column),
-        "run" => contacts(path, key, &CaseFile::read(path.join("summary.json"))?),
+        "run" => run(path, key),
+        "compare" => run(&best_method(path)?, key),
         "orbit" => {
             let case = toml::to_string(&manifest["case_file"]).map_err(|error| wrong(&error.to_string()))?;
             contacts(path, key, &CaseFile::from_text(&case, &path.display().to_string(), path))
         }
         other => Err(wrong(&format!("holds results of {other:?}; {expected}"))),
     }
+}
+
+/// The approach speeds of the contacts of one run.
+fn run(folder: &Path, key: &Key) -> Result<Vec<(f64, f64)>> {
+    contacts(folder, key, &CaseFile::read(folder.join("summary.json"))?)
+}
+
+/// The folder of the exact motion of a comparison, or else of its first method with a result.
+fn best_method(path: &Path) -> Result<PathBuf> {
+    let table = Table::open(&path.join("compare.csv"))?;
+    let (method, failure) = (table.place("method")?, table.place("failure")?);
+    let records = table.records()?;
+    let ran: Vec<&str> =
+        records.iter().filter(|row| row.get(failure) == Some("")).filter_map(|row| row.get(method)).collect();
+    let exact = ran.iter().find(|name| **name == "event").or(ran.first());
+    let none = || Error::io(path.display(), "no method of the comparison has a result", true);
+    Ok(path.join(folder_of(exact.ok_or_else(none)?)))
 }
 
 /// The approach speeds of the contacts of one run or orbit, at the value that its case has of

@@ -25,8 +25,11 @@ const SHOWN: [&str; 12] = [
     "remark",
 ];
 
+/// The columns of a point of the picture.
+pub(super) const NUMBERS: [&str; 2] = ["seconds", "displacement_error_over_gap"];
+
 /// The short name of a method.
-fn short(method: &str) -> String {
+pub(super) fn short(method: &str) -> String {
     method.parse::<Method>().map_or_else(|_| method.to_owned(), |method| label(&method))
 }
 
@@ -34,7 +37,7 @@ fn short(method: &str) -> String {
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let table = folder.cells("work-precision.csv")?;
     // What is drawn must be numbers.
-    for name in ["seconds", "displacement_error_over_gap"] {
+    for name in NUMBERS {
         table.column(name)?;
     }
     let told = |key: &str| &folder.manifest[key];

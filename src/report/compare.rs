@@ -1,7 +1,7 @@
 //! The page of a comparison: every method's motion, its distance from the exact one, and the table.
 
 use super::column::{f32, f64};
-use super::folder::Folder;
+use super::folder::{Cells, Folder};
 use super::motion::{add_left_out, motion};
 use super::older;
 use super::run::{of_scene, tell_draw};
@@ -17,9 +17,8 @@ const STRETCHES: usize = 600;
 /// An error over the gap, up to the horizon, from which on a method begins switched off.
 const FAR: f64 = 2.0;
 
-/// What the page of a comparison shows.
-pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
-    let table = folder.cells("compare.csv")?;
+/// The motions of the methods that succeeded, and the summary of the first of them.
+pub(super) fn runs(folder: &Folder<'_>, table: &Cells) -> Result<(Vec<Value>, Value)> {
     let errors = table.column("error_over_gap")?;
     let mut runs = Vec::new();
     let mut first = None;
@@ -43,9 +42,14 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         first.get_or_insert(summary);
         runs.push(run);
     }
-    let Some(summary) = first else {
-        return Err(Error::io(folder.path.join("compare.csv").display(), "no method in it succeeded", true));
-    };
+    let none = || Error::io(folder.path.join("compare.csv").display(), "no method in it succeeded", true);
+    Ok((runs, first.ok_or_else(none)?))
+}
+
+/// What the page of a comparison shows.
+pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
+    let table = folder.cells("compare.csv")?;
+    let (mut runs, summary) = runs(folder, &table)?;
     if runs.iter().all(|run| run["hidden"] == true) {
         runs.iter_mut().for_each(|run| run["hidden"] = json!(false));
     }

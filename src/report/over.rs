@@ -1,31 +1,44 @@
-//! Other results in the figures of a page: a run over a run, a sweep over a sweep.
+//! Other results in the figures of a page: runs and comparisons over each other, a sweep over a
+//! sweep, a chart over a chart.
 
+use super::chart::{NUMBERS, short};
+use super::compare;
 use super::folder::Folder;
 use super::motion::{add_left_out, motion};
 use super::scene::scene;
 use super::sweep::{SAMPLES, TABLE};
 use crate::error::{Error, Result};
+use crate::scheme::{Method, PenaltyLaw, Scheme};
 use serde_json::{Value, json};
 
 /// Adds the results in `other`, shown under `name`, to the figures of `page`, which shows results
 /// of `command`.
 ///
 /// # Errors
-/// [`Error::Io`], a wrong request, where the other results are of another command, or of another
-/// scene or key.
+/// [`Error::Io`], a wrong request, where the other results are of a command whose figures are not
+/// those of the page, or of another scene or key.
 pub(super) fn add(page: &mut Value, command: &str, other: &Folder<'_>, name: &str) -> Result<()> {
     let wrong = |reason: String| Error::io(other.path.display(), reason, true);
     let theirs = other.manifest["request"]["command"].as_str().unwrap_or_default();
-    if theirs != command {
-        return Err(wrong(format!(
-            "holds results of {theirs:?}; expected those of {command:?}, as in the page's folder"
-        )));
-    }
-    match command {
-        "run" => run(page, other, name),
-        "sweep" => sweep(page, other, name),
-        "continue" => Err(wrong("branches are drawn over others by `signorini continue … --over FOLDER`".to_owned())),
-        _ => Err(wrong(format!("the page of {command:?} has no figure for two results; one of run and sweep has"))),
+    let expected = match command {
+        "run" | "compare" => "run or compare",
+        "sweep" | "chart" => command,
+        "continue" => {
+            return Err(wrong("branches are drawn over others by `signorini continue … --over FOLDER`".to_owned()));
+        }
+        _ => {
+            let reason = "has no figure for two results; those of run, compare, sweep and chart have";
+            return Err(wrong(format!("the page of {command:?} {reason}")));
+        }
+    };
+    match (command, theirs) {
+        ("run" | "compare", "run") => run(page, other, name),
+        ("run" | "compare", "compare") => methods(page, other, name),
+        ("sweep", "sweep") => sweep(page, other, name),
+        ("chart", "chart") => chart(page, other, name),
+        _ => {
+            Err(wrong(format!("holds results of {theirs:?}; expected those of {expected}, as the page's figures show")))
+        }
     }
 }
 
@@ -33,22 +46,70 @@ pub(super) fn add(page: &mut Value, command: &str, other: &Folder<'_>, name: &st
 fn run(page: &mut Value, other: &Folder<'_>, name: &str) -> Result<()> {
     let summary = other.json("summary.json")?;
     let mut added = motion(other, "", &summary)?;
+    added["label"] = summary["scheme"].clone();
+    motions(page, other, name, (vec![added], summary))
+}
+
+/// The motions of the methods of a comparison of the same walls and probes.
+fn methods(page: &mut Value, other: &Folder<'_>, name: &str) -> Result<()> {
+    let found = compare::runs(other, &other.cells("compare.csv")?)?;
+    motions(page, other, name, found)
+}
+
+/// Adds motions to those of the page, whose scene is that of `summary`.
+fn motions(page: &mut Value, other: &Folder<'_>, name: &str, (added, summary): (Vec<Value>, Value)) -> Result<()> {
     let names =
         |list: &Value| -> Vec<Value> { list.as_array().into_iter().flatten().map(|one| one["name"].clone()).collect() };
-    let same = [
-        ("walls", &page["scene"]["walls"], &scene(&summary)["walls"]),
-        ("probes", &page["runs"][0]["probes"], &added["probes"]),
-    ];
-    if let Some((what, ..)) = same.iter().find(|(_, own, theirs)| names(own) != names(theirs)) {
-        let reason = format!("its run has other {what} than that of the page: their motions do not go together");
-        return Err(Error::io(other.path.display(), reason, true));
+    let scene = scene(&summary);
+    for mut run in added {
+        let same = [
+            ("walls", &page["scene"]["walls"], &scene["walls"]),
+            ("probes", &page["runs"][0]["probes"], &run["probes"]),
+        ];
+        if let Some((what, ..)) = same.iter().find(|(_, own, theirs)| names(own) != names(theirs)) {
+            let reason = format!("its run has other {what} than that of the page: their motions do not go together");
+            return Err(Error::io(other.path.display(), reason, true));
+        }
+        run["label"] = json!(format!("{}, {name}", run["label"].as_str().unwrap_or_default()));
+        // The pale band is the reference of the page alone.
+        run["reference"] = json!(false);
+        add_left_out(&mut page["notes"], &mut run);
+        if let Some(runs) = page["runs"].as_array_mut() {
+            runs.push(run);
+        }
     }
-    let scheme = summary["scheme"].as_str().unwrap_or_default();
-    added["label"] = json!(format!("{scheme}, {name}"));
-    add_left_out(&mut page["notes"], &mut added);
-    if let Some(runs) = page["runs"].as_array_mut() {
-        runs.push(added);
+    Ok(())
+}
+
+/// The errors and times of another chart, as those of other programs: of a penalty against the
+/// walls its first integrator stands for all.
+fn chart(page: &mut Value, other: &Folder<'_>, name: &str) -> Result<()> {
+    let table = other.cells("work-precision.csv")?;
+    let [seconds, errors] = NUMBERS.map(|column| table.column(column));
+    let (seconds, errors) = (seconds?, errors?);
+    let mut curves: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
+    // The first method of each law of a penalty.
+    let mut laws: Vec<(PenaltyLaw, &str)> = Vec::new();
+    for (row, (error, seconds)) in errors.into_iter().zip(seconds).enumerate() {
+        let method = table.text(row, "method");
+        if let Ok(Method { scheme: Scheme::Penalty { law, .. }, .. }) = method.parse() {
+            match laws.iter().find(|(own, _)| *own == law) {
+                Some((_, first)) if *first != method => continue,
+                Some(_) => {}
+                None => laws.push((law, method)),
+            }
+        }
+        if !(error > 0.0 && seconds > 0.0) {
+            continue;
+        }
+        let label = format!("{}, {name}", short(method));
+        match curves.iter_mut().find(|(own, _)| *own == label) {
+            Some((_, points)) => points.push([error, seconds]),
+            None => curves.push((label, vec![[error, seconds]])),
+        }
     }
+    let own = page["chart"]["programs"].as_array().cloned().unwrap_or_default();
+    page["chart"]["programs"] = own.into_iter().chain(curves.into_iter().map(|curve| json!(curve))).collect();
     Ok(())
 }
 

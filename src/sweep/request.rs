@@ -130,6 +130,16 @@ impl Sweep {
         Ok(self)
     }
 
+    /// The file of the case, whose values all rows share.
+    pub(crate) fn case_file(&mut self) -> &mut CaseFile {
+        &mut self.case
+    }
+
+    /// True where a row ends with its case, and not after its own settle and keep.
+    pub(crate) fn ends_with_case(&self) -> bool {
+        self.window == Window::Case
+    }
+
     /// The same sweep with one more axis. Of several, the last one varies fastest from row to row;
     /// a followed axis varies fastest of all.
     #[must_use]

@@ -77,10 +77,40 @@ fn the_package_holds_what_its_sources_embed_and_no_tests() {
     assert!(embedded > 80, "only {embedded} embedded files found");
     // The licence of the embedded fonts.
     assert!(packed.contains(Path::new("assets/fonts/LICENSE.txt")));
-    for folder in ["tests", "python", "figure", "benches/peers", "docs/pictures", "target", "release", ".ci"] {
+    for folder in ["tests", "python", "figure", "benches/peers", "target", "release", ".ci"] {
         let inside: Vec<_> = packed.iter().filter(|path| path.starts_with(folder)).collect();
         assert!(inside.is_empty(), "the package holds {inside:#?}");
     }
+}
+
+/// The places that the documents of the package link to, by paths from the crate's folder.
+fn linked(document: &Path) -> Vec<PathBuf> {
+    let text = fs::read_to_string(Path::new(ROOT).join(document)).unwrap();
+    let folder = document.parent().unwrap();
+    let links = [("](", ')'), ("src=\"", '"')].map(|(before, after)| {
+        text.split(before).skip(1).filter_map(move |rest| rest.split_once(after)).map(|(link, _)| link)
+    });
+    // A link within the page, one to elsewhere, and what is no link (`[x](a b)` in code).
+    let local = |link: &&str| !link.is_empty() && !link.starts_with('#') && !link.contains([':', ' ', '\n']);
+    let path = |link: &str| folder.join(link.split('#').next().unwrap());
+    links.into_iter().flatten().filter(local).map(path).collect()
+}
+
+#[test]
+fn the_documents_of_the_package_link_only_to_what_it_holds() {
+    let packed = packed("signorini");
+    let plain = |path: &Path| {
+        path.components().fold(PathBuf::new(), |path, part| match part.as_os_str().to_str() {
+            Some("..") => path.parent().unwrap().to_owned(),
+            _ => path.join(part),
+        })
+    };
+    let documents = packed.iter().filter(|path| path.extension().is_some_and(|ending| ending == "md"));
+    let links = documents.flat_map(|document| linked(document).into_iter().map(move |link| (document, plain(&link))));
+    let links: Vec<(&PathBuf, PathBuf)> = links.collect();
+    assert!(links.len() > 30, "only {} links found", links.len());
+    let lost: Vec<_> = links.iter().filter(|(_, link)| !packed.contains(link)).collect();
+    assert!(lost.is_empty(), "not in the package: {lost:#?}");
 }
 
 #[test]

@@ -221,6 +221,10 @@ fn branches_are_written_and_joined() {
     assert!(orbit.len() == 2 && orbit.iter().all(|point| (point[0] - 5.0).abs() < 1e-12), "{orbit:?}");
     let run = points("r");
     assert_eq!(run.len() + 1, lines("r/contacts.csv"));
+    // Of a comparison the exact motion.
+    let compare = ["compare", CASE, "--set", "wall.*.restitution=0.8", "--end", "2", "--no-verdict", "--out", "c"];
+    said(path, &[&compare[..], &["--schemes", "moreau-jean"]].concat(), 0);
+    assert_eq!(points("c").len() + 1, lines("c/event/contacts.csv"));
     // The run settles on the orbit.
     assert!(run.iter().all(|point| point[0] == 5.0) && (run.last().unwrap()[1] - orbit[0][1]).abs() < 1e-2, "{run:?}");
     let second =

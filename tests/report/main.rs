@@ -17,6 +17,8 @@ mod drawings;
 mod draws;
 #[cfg(all(feature = "cli", unix))]
 mod flow;
+#[cfg(all(feature = "cli", unix))]
+mod narrow;
 #[cfg(feature = "cli")]
 mod older;
 #[cfg(all(feature = "cli", unix))]

@@ -591,9 +591,31 @@ fn other_results_are_drawn_in_the_same_figures() {
     assert_eq!(runs[1]["label"], "located, r0.8");
     // The page within the folder is as before.
     assert_eq!(page("r0.7/report.html")["runs"].as_array().unwrap().len(), 1);
+    // A comparison over a run, and a run over a comparison: all motions together.
+    let schemes = ["--schemes", "located,penalty:epsilon=1e-9", "--no-verdict", "--end", "0.5"];
+    said(folder, &[&["compare", CASE], &schemes[..], &["--out", "c"]].concat(), 0);
+    said(folder, &["report", "r0.7", "--over", "c", "--out", "rc.html"], 0);
+    said(folder, &["report", "c", "--over", "r0.7", "--out", "cr.html"], 0);
+    let labels = |path: &str| -> Vec<String> {
+        let runs = page(path)["runs"].clone();
+        runs.as_array().unwrap().iter().map(|run| run["label"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(labels("rc.html"), ["located", "located, c", "penalty:epsilon=1e-9, c", "event, c"]);
+    assert_eq!(labels("cr.html"), ["located", "penalty:epsilon=1e-9", "event", "located, r0.7"]);
+    // A chart over a chart: its curves beside those of other programs.
+    for steps in ["1e-3", "1e-4"] {
+        let of = ["--schemes", "located,penalty:epsilon=1e-9", "--end", "0.5", "--repeats", "1", "--out", steps];
+        said(folder, &[&["chart", CASE, "--steps", &format!("{steps}:5e-5"), "--levels", "3"], &of[..]].concat(), 0);
+    }
+    said(folder, &["report", "1e-3", "--over", "1e-4", "--out", "w.html"], 0);
+    let programs = page("w.html")["chart"]["programs"].clone();
+    let names: Vec<&str> = programs.as_array().unwrap().iter().map(|one| one[0].as_str().unwrap()).collect();
+    assert_eq!(names, ["located, 1e-4", "ε = 1e-9, discrete-gradient, 1e-4"]);
+    assert!(programs[0][1].as_array().unwrap().len() >= 2, "{programs}");
     said(folder, &["run", "bouncing-ball", "--end", "0.5", "--no-verdict", "--out", "ball"], 0);
     for (own, other, words) in [
-        ("r0.7", "s0.8", "holds results of \"sweep\"; expected those of \"run\""),
+        ("r0.7", "s0.8", "holds results of \"sweep\"; expected those of run or compare"),
+        ("1e-3", "c", "holds results of \"compare\"; expected those of chart"),
         ("r0.7", "ball", "its run has other walls than that of the page"),
         ("r0.7", "none", "none: holds no request.json"),
     ] {

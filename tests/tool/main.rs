@@ -29,6 +29,7 @@ mod set_values;
 mod shaken;
 mod statistics;
 mod sweep;
+mod sweep_end;
 mod sweep_seeds;
 mod sweep_shares;
 mod sweep_until_interval;

@@ -68,7 +68,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(2..))]
     pub(super) points: u32,
     /// Draw the impacts of other results beneath the branches: the folder of a sweep or of branches
-    /// over the same key, of a run or of an orbit; or a sweep.csv
+    /// over the same key, of a run, an orbit or a comparison; or a sweep.csv
     #[arg(long, value_name = "RESULTS", value_hint = clap::ValueHint::AnyPath)]
     pub(super) over: Option<PathBuf>,
     /// Follow special points in the plane of --key and this key

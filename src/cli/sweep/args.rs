@@ -4,6 +4,7 @@ use crate::case::{MOST_TABLE_BYTES, read_text};
 use crate::cli::case_args::{Changes, case_file};
 use crate::cli::pipeline::Destination;
 use crate::cli::realisations::{of_argument, share};
+use crate::cli::request::set_end;
 use crate::cli::ui::Ui;
 use crate::cli::values;
 use crate::error::{Error, Result};
@@ -66,6 +67,9 @@ pub struct Args {
     /// Maximum number of instants of a row that are kept: the last ones [default: 200]
     #[arg(long, value_name = "N")]
     most_samples: Option<usize>,
+    /// End of every row, s; a window for statistics that begins later begins at 0 then
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with = "keep")]
+    end: Option<f64>,
     /// Forcing periods before the window of the measures
     #[arg(long, value_name = "N", requires = "keep")]
     settle: Option<u32>,
@@ -151,6 +155,14 @@ impl Args {
         }
         if let Some(keep) = self.keep {
             sweep = sweep.over(Window::Periods { settle: self.settle.unwrap_or(0), keep });
+        }
+        if let Some(end) = self.end {
+            if !sweep.ends_with_case() {
+                let expected =
+                    "a sweep whose rows end with the case; the settle and keep of this one say when they end";
+                return Err(Error::invalid("--end", end, expected));
+            }
+            set_end(sweep.case_file(), end, ui)?;
         }
         if let Some(kernel) = self.kernel {
             sweep = sweep.kernel(kernel);

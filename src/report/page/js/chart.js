@@ -16,6 +16,9 @@ const CHARTED = [
 /** Errors below this are negligible; from this on a result is useless, however cheap. */
 const [NEGLIGIBLE, NO_ANSWER] = [1e-9, 1];
 
+/** Width of a plot, in pixels, from which on curves are named at their ends. */
+const ROOM_FOR_NAMES = 560;
+
 /** The curves of one kind of error, and what is told of their points. */
 class ChartData {
   constructor() {
@@ -153,12 +156,14 @@ function chartSection() {
     plot.yTicks = logTicks(...plot.Y, 12).map(([y]) => [y, prefixed(y, "s", 2)]);
   };
   const name = (curve) => (data.floorOf(curve) || { label: curve.short }).label;
-  const drawNames = (ctx) =>
-    drawEndNames(
-      ctx,
-      plot,
-      plot.curves.map((curve) => ({ ...curve, name: name(curve) })),
-    );
+  const key = el("ul", { class: "curves", hidden: true });
+  // In a narrow window names among the curves would lie on them: they stand below.
+  const drawNames = (ctx) => {
+    const named = plot.curves.map((curve) => ({ ...curve, name: name(curve) }));
+    key.hidden = plot.w >= ROOM_FOR_NAMES;
+    if (key.hidden) drawEndNames(ctx, plot, named, [data.front]);
+    else key.replaceChildren(...namesBeside(plot, named));
+  };
   const told = el("div");
   const reasons = el("ul", { class: "notes floors" });
   const fill = () => {
@@ -203,6 +208,7 @@ function chartSection() {
     el("div", { class: "bar controls" }, tabs),
     told,
     plot.box,
+    key,
     reasons,
     el(
       "p",

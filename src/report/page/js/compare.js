@@ -4,14 +4,14 @@
 /** Names of the columns of compare.csv as people write them, with errors as shares of `length`. */
 const compared = (length) => [
   ["method", "method"],
-  ["step_s", "step (s)"],
-  ["restitution", "restitution"],
   ["error_over_gap", `error / ${length}`],
   ["agrees_until_s", "agrees until (s)"],
-  ["largest_displacement_m", "max |u| (m)"],
-  ["penetration_m", "penetration (m)"],
   ["largest_force_N", "largest force (N)"],
   ["peak_force_N", "peak force (N)"],
+  ["restitution", "restitution"],
+  ["penetration_m", "penetration (m)"],
+  ["largest_displacement_m", "max |u| (m)"],
+  ["step_s", "step (s)"],
   ["energy_residual", "energy residual"],
   ["complementarity_residual", "complementarity"],
   ["step_ns", "ns a step"],
@@ -35,7 +35,7 @@ function compareSection() {
       (reference ? `, against ${reference}${DATA.horizon ? " up to the horizon of prediction" : ""}` : "") +
       (draws > 1 ? `: draw 1 of ${draws}.` : "."),
     conclusionOf(DATA.compare.conclusion),
-    sortable(columns, table.rows, { height: 60 + ROW * table.count }),
+    sortable(columns, table.rows, { height: 60 + 2 * ROW * table.count, wrapped: true }),
     saveBar("compare.csv", () => linesOf(table)),
     distancePlot(),
   );

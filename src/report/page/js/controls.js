@@ -63,7 +63,8 @@ function selection(label, choices, chosen, choose) {
 /** Samples of curves in chips and legends; drawn anew when colours change. */
 const samples = [];
 
-function sampleOf(look) {
+/** A sample of a line, with its marker where the curve has markers. */
+function sampleOf(look, marked = false) {
   const canvas = el("canvas", { width: 90, height: 36, "aria-hidden": "true" });
   const draw = () => {
     const ctx = canvas.getContext("2d");
@@ -76,6 +77,9 @@ function sampleOf(look) {
     ctx.moveTo(1, 6);
     ctx.lineTo(29, 6);
     ctx.stroke();
+    ctx.setLineDash([]);
+    ctx.fillStyle = ctx.strokeStyle;
+    if (marked) drawMarker(ctx, look.marker, 15, 6, 3.4);
   };
   samples.push(draw);
   draw();

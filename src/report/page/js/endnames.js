@@ -19,13 +19,36 @@ function covered(spots) {
   });
 }
 
+/** The first of those for which `of` is least. */
+const leastBy = (list, of) => {
+  const values = list.map(of);
+  return list[values.indexOf(Math.min(...values))];
+};
+
 const overlap = ([x, y, w, h], [a, b, c, d]) => x < a + c && a < x + w && y < b + d && b < y + h;
+
+/** Which edge of the plot all points of a curve lie beyond; "" where one lies between them. */
+function beyondOf(plot, x) {
+  if (x.some((value) => value >= plot.X[0] && value <= plot.X[1])) return "";
+  return extent(x)[1] < plot.X[0] ? "left" : "right";
+}
+
+/** The names of curves as a list, for a plot too narrow for them. */
+function namesBeside(plot, curves) {
+  return curves.map(({ x, name, look }) => {
+    const beyond = beyondOf(plot, x);
+    const where = beyond ? `, beyond the ${beyond} edge` : "";
+    const value = beyond === "left" ? `: ${digits(extent(x)[1], 1)}` : "";
+    return el("li", {}, sampleOf(look, true), el("span", {}, `${name}${value}${where}`));
+  });
+}
 
 /**
  * Draws the names of curves: `curves` is a list of { x, y, name, look }. A curve that lies beyond
- * the axis is named at its edge, with an arrow and, on the left, its value.
+ * the axis is named at its edge, with an arrow and, on the left, its value. `others` are curves
+ * without names.
  */
-function drawEndNames(ctx, plot, curves) {
+function drawEndNames(ctx, plot, curves, others) {
   const spotsOf = (s) =>
     s.x
       .map((x, k) => [x, plot.sy(s.y[k])])
@@ -34,6 +57,7 @@ function drawEndNames(ctx, plot, curves) {
   const upright = plot.marks.filter(({ x }) => x !== undefined).map(({ x }) => plot.sx(x));
   const lines = [
     ...curves.map(spotsOf),
+    ...others.map(({ x, y }) => x.map((at, k) => [plot.sx(clamp(at, ...plot.X)), plot.sy(y[k])])),
     ...upright.map((x) => [
       [x, plot.y0],
       [x, plot.y1],
@@ -43,14 +67,14 @@ function drawEndNames(ctx, plot, curves) {
   const names = [];
   const inFrame = ([x, y, w, h]) =>
     x >= plot.x0 + 2 && x + w <= plot.x1 - 2 && y >= plot.y0 + 2 && y + h <= plot.y1 - 2;
-  const apart = (others) => (place) => !others.some((other) => overlap(place, other));
+  const apart = (parts) => (place) => !parts.some((part) => overlap(place, part));
   ctx.textBaseline = "middle";
   ctx.textAlign = "left";
   ctx.lineJoin = "round";
   for (const s of curves) {
     const own = spotsOf(s).sort(([, y], [, other]) => y - other);
     const most = extent(s.x)[1];
-    const beyond = own.length ? "" : most < plot.X[0] ? "left" : "right";
+    const beyond = beyondOf(plot, s.x);
     const edge = beyond === "left" ? plot.x0 + ASIDE - 2 : plot.x1 - ASIDE + 2;
     const ends = own.length ? [own[0], own[own.length - 1]] : [[edge, plot.sy(Math.max(...s.y))]];
     const text = { "": s.name, left: `◂ ${s.name} (${digits(most, 1)})`, right: `${s.name} ▸` }[beyond];
@@ -65,9 +89,10 @@ function drawEndNames(ctx, plot, curves) {
     const places = Array.from({ length: 40 }, (_, k) => k).flatMap((k) =>
       ends.flatMap(([x, y]) => [...around([x, y + 10 * k]), ...around([x, y - 10 * k])]),
     );
-    // Over a line where there is no room beside all of them, over no other name.
+    // Over as little of lines as can be where there is no room beside all of them, over no name.
     const within = places.filter(inFrame).filter(apart(names));
-    const place = within.find(apart(taken)) || within[0];
+    const hidden = (place) => taken.filter((part) => overlap(place, part)).length;
+    const place = within.find(apart(taken)) || leastBy(within, hidden);
     if (!place) continue;
     names.push(place);
     const [x, y] = [place[0], place[1] + h / 2];

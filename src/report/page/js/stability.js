@@ -14,6 +14,7 @@ const classSwatch = (word) => swatch(word, () => `rgb(${classTone(word)})`);
 function stableSteps() {
   const { steps, conclusion, criterion } = DATA.stability;
   if (!steps) return;
+  const head = ["scheme", "largest stable step", "hω", "one free impact", "beyond it", "reason"];
   const range = (e) =>
     !e ? "–" : e.largest - e.least < 1e-9 ? digits(e.least) : `${digits(e.least, 3)} to ${digits(e.largest, 3)}`;
   const line = (row) => {
@@ -24,13 +25,12 @@ function stableSteps() {
       {},
       el("td", { title: row.scheme }, row.label),
       el("td", { class: step ? null : "none" }, el("b", {}, longest)),
-      el("td", {}, digits(row.largest_stable_step_times_omega, 3)),
-      el("td", {}, range(row.restitution)),
+      el("td", { "data-name": head[2] }, digits(row.largest_stable_step_times_omega, 3)),
+      el("td", { "data-name": head[3] }, range(row.restitution)),
       el("td", {}, beyond ? classSwatch(beyond.class) : "stable on the whole grid"),
-      el("td", {}, beyond ? `${beyond.reason}, at ${prefixed(beyond.step_s, "s")}` : "–"),
+      el("td", { class: beyond ? null : "none" }, beyond ? `${beyond.reason}, at ${prefixed(beyond.step_s, "s")}` : "–"),
     );
   };
-  const head = ["scheme", "largest stable step", "hω", "one free impact", "beyond it", "reason"];
   section(
     "steps",
     "The largest stable step",

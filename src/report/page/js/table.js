@@ -10,7 +10,8 @@ const tables = [];
 
 /**
  * Columns: { name, title, text (true for words), value(row), show(row) }. Options: height, by (index
- * of the column sorted by), up, pick(row) on a click, sorted(index), current() for the row marked.
+ * of the column sorted by), up, pick(row) on a click, sorted(index), current() for the row marked,
+ * wrapped (headings may have several lines, and the first column stays in view).
  */
 function sortable(columns, rows, options = {}) {
   const height = options.height || 400;
@@ -21,7 +22,7 @@ function sortable(columns, rows, options = {}) {
   const box = el(
     "div",
     { class: "scroll", tabindex: 0, style: { maxHeight: `${height}px` } },
-    el("table", {}, el("thead", {}, head), body),
+    el("table", { class: options.wrapped ? "wrapped" : null }, el("thead", {}, head), body),
   );
 
   const compare = (a, b) => {

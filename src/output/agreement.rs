@@ -1,0 +1,160 @@
+//! What a comparison shows, in one sentence: how far the best method agrees with the reference, and
+//! what becomes of the worst one.
+
+use super::work_precision::law_label;
+use crate::case::Case;
+use crate::run::Run;
+use crate::scheme::{Method, PenaltyLaw, Scheme};
+use crate::study::compare::{Comparison, FINER, Row, is_aperiodic};
+use crate::study::difference::error_length;
+use crate::study::verdict::Verdict;
+use std::cmp::Ordering;
+
+/// A motion whose error is more than this share of the length is another one.
+const ASTRAY: f64 = 0.5;
+
+/// A penalty that passes a rigid wall by this share of the gap does not see it.
+const TOO_SOFT: f64 = 1.0;
+
+/// A method that has a result, and what became of it.
+struct Judged {
+    name: String,
+    penalty: bool,
+    error: f64,
+    agrees_until: f64,
+    fate: Fate,
+}
+
+/// From good to bad.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+enum Fate {
+    /// Agrees with the reference as long as that can be asked.
+    Agrees,
+    /// Another motion.
+    Departs,
+    /// Passes the walls as if there were none.
+    Unseen,
+    /// Breaks what its scheme promises.
+    Refuted,
+}
+
+/// The sentence: the best of the methods that keep the walls as constraints, and the worst penalty.
+/// Without penalties the worst of the others, without others the best penalty.
+#[must_use]
+pub fn conclusion(case: &Case, comparison: &Comparison) -> String {
+    let reference = match (&comparison.reference, &comparison.refined) {
+        (Ok(_), _) => "the exact motion".to_owned(),
+        (_, Some((method, _))) => format!("a run by {method} with steps {FINER} times finer"),
+        (Err(error), None) => return format!("there is no reference to compare with: {error}"),
+    };
+    let judged = judged(case, comparison);
+    let by_error = |a: &&Judged, b: &&Judged| a.worse(b);
+    let best = judged.iter().filter(|one| !one.penalty).min_by(by_error);
+    let Some(best) = best.or_else(|| judged.iter().min_by(by_error)) else {
+        return "there is nothing to compare: no probe, or no method but the exact one has a result".to_owned();
+    };
+    let others = || judged.iter().filter(|one| !std::ptr::eq(*one, best));
+    let worst = others().filter(|one| one.penalty).max_by(by_error).or_else(|| others().max_by(by_error));
+    let (limit, distance) = (limit(case, comparison), |x| distance(case, comparison, x));
+    let first = match best.fate {
+        Fate::Agrees => format!("{} agrees with {reference} to {} {limit}", best.name, distance(best.error)),
+        _ => best.becomes(&reference, &distance),
+    };
+    let second = worst.map(|worst| match best.fate {
+        Fate::Refuted | Fate::Unseen => worst.becomes(&reference, &distance),
+        Fate::Agrees | Fate::Departs => worst.becomes("it", &distance),
+    });
+    std::iter::once(first).chain(second).collect::<Vec<_>>().join("; ")
+}
+
+/// What half the step changes, by the first method that was checked.
+#[must_use]
+pub fn half_the_step(case: &Case, comparison: &Comparison, verdicts: &[Option<Verdict>]) -> Option<String> {
+    let checked = comparison.rows.iter().zip(verdicts);
+    let (row, change) = checked.filter_map(|(row, verdict)| Some((row, verdict.as_ref()?.displacement?))).next()?;
+    Some(format!("half the step changes {} by {}", row.method, distance(case, comparison, change)))
+}
+
+/// The methods that have a result and an error. The same scheme with another solver of its
+/// quadratic programmes makes the same motion: it is judged once.
+fn judged(case: &Case, comparison: &Comparison) -> Vec<Judged> {
+    let length = comparison.reference_run().map_or(1.0, |run| error_length(&case.scene, &run.trajectory));
+    let mut schemes = Vec::new();
+    let mut judged = Vec::new();
+    for row in comparison.rows.iter().filter(|row| !row.method.scheme.is_exact()) {
+        let (Ok(run), Some(error), Some(until)) = (&row.outcome, row.error, row.agrees_until) else { continue };
+        if schemes.contains(&row.method.scheme) {
+            continue;
+        }
+        schemes.push(row.method.scheme);
+        let fate = fate(row, run, run.residuals.penetration_m / length, error.is_nan() || error > ASTRAY);
+        let penalty = matches!(row.method.scheme, Scheme::Penalty { .. });
+        judged.push(Judged { name: name(&row.method), penalty, error, agrees_until: until, fate });
+    }
+    judged
+}
+
+fn fate(row: &Row, run: &Run, depth: f64, departs: bool) -> Fate {
+    let penalty = matches!(row.method.scheme, Scheme::Penalty { .. });
+    match (run.findings.is_empty(), penalty && depth > TOO_SOFT, departs) {
+        (false, ..) => Fate::Refuted,
+        (_, true, _) => Fate::Unseen,
+        (.., true) => Fate::Departs,
+        _ => Fate::Agrees,
+    }
+}
+
+/// A method in words: a penalty by the springs that it puts in the place of walls.
+fn name(method: &Method) -> String {
+    let Scheme::Penalty { law, integrator } = method.scheme else { return method.to_string() };
+    let springs = if law == PenaltyLaw::None { String::new() } else { format!(" at {}", law_label(law)) };
+    let by = if integrator == Default::default() { String::new() } else { format!(" by {integrator}") };
+    format!("the penalty{springs}{by}")
+}
+
+/// Up to when the methods are compared, in words.
+fn limit(case: &Case, comparison: &Comparison) -> String {
+    if comparison.horizon >= case.scene.duration {
+        return "to the end".to_owned();
+    }
+    let what = if is_aperiodic(&case.scene) { "small differences have grown" } else { "chaos takes over" };
+    format!("until {what} at {} s", two_digits(comparison.horizon))
+}
+
+/// An error, which is a share of the length of errors, in words.
+fn distance(case: &Case, comparison: &Comparison, share: f64) -> String {
+    let length = comparison.reference_run().map_or(1.0, |run| error_length(&case.scene, &run.trajectory));
+    match case.scene.gap() {
+        Some(_) => format!("{} of the gap", two_digits(share)),
+        None => format!("{} m", two_digits(share * length)),
+    }
+}
+
+/// A number with two digits, as a person writes it.
+fn two_digits(x: f64) -> String {
+    let rounded: f64 = format!("{x:.1e}").parse().unwrap_or(x);
+    if x == 0.0 || (1e-3..1e4).contains(&rounded) { rounded.to_string() } else { format!("{x:.1e}") }
+}
+
+impl Judged {
+    /// What became of the method beside the reference of that name.
+    fn becomes(&self, reference: &str, distance: &dyn Fn(f64) -> String) -> String {
+        let name = &self.name;
+        match self.fate {
+            Fate::Agrees => format!("{name} agrees to {}", distance(self.error)),
+            Fate::Departs => format!("{name} departs from {reference} at {} s", two_digits(self.agrees_until)),
+            Fate::Unseen => format!("{name} does not see the walls"),
+            Fate::Refuted => format!("{name} is refuted"),
+        }
+    }
+
+    /// From the best to the worst: of those that depart, the first to do so is the worst.
+    fn worse(&self, other: &Self) -> Ordering {
+        let fate = self.fate.partial_cmp(&other.fate).unwrap_or(Ordering::Equal);
+        let departure = match self.fate {
+            Fate::Departs => other.agrees_until.total_cmp(&self.agrees_until),
+            _ => Ordering::Equal,
+        };
+        fate.then(departure).then(self.error.total_cmp(&other.error))
+    }
+}
