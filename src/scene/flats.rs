@@ -110,6 +110,7 @@ impl Flats {
 
     /// The ways out between neighbouring flats a half turn or more apart, in which the structure is
     /// not bounded: the direction in the middle, degrees, and by how much more than a half turn.
+    #[cfg(any(test, feature = "case"))]
     pub(crate) fn ways_out(&self) -> impl Iterator<Item = (f64, f64)> {
         let mut turns: Vec<f64> = self.flats.iter().map(|flat| flat.direction.rem_euclid(360.0)).collect();
         turns.sort_by(f64::total_cmp);
