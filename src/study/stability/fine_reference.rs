@@ -1,7 +1,7 @@
 //! The reference of a run: fine runs from neighbouring starts.
 
-use super::recorded_run::{Record, total_mass};
-use super::scale::Scale;
+use super::recorded_run::Record;
+use super::scale::{Scale, total_mass};
 use crate::scene::{Scene, System};
 use crate::step::Contact;
 

@@ -1,7 +1,7 @@
 //! Measurements of one run for a stability map.
 
 use super::ledger::{Ledger, at};
-use super::scale::Scale;
+use super::scale::{Scale, total_mass};
 use crate::error::Result;
 use crate::residual::Judge;
 use crate::scene::{Scene, System, WallLaw};
@@ -191,12 +191,6 @@ impl<'a> EnergyNorm<'a> {
             Self::Several(system, mass) => (system.mass_form(v, v) / mass).sqrt(),
         }
     }
-}
-
-/// 1ᵀM1, kg.
-pub(super) fn total_mass(system: &System) -> f64 {
-    let ones = vec![1.0; system.degrees_of_freedom()];
-    system.mass_form(&ones, &ones)
 }
 
 /// Upper bound, m, of the depth behind a wall of this law (as the scheme sees it) in a sound run.

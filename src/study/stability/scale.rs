@@ -1,7 +1,6 @@
 //! The frequency by which the steps of a scene are measured.
 
-use super::recorded_run::total_mass;
-use crate::scene::Scene;
+use crate::scene::{Scene, System};
 use std::f64::consts::TAU;
 
 /// A frequency with fewer periods in the duration than this is not used: the body hardly begins to
@@ -77,4 +76,10 @@ impl Scale {
         let (omega, origin) = found.unwrap_or((slowest, Origin::Duration));
         Self { omega, origin, mass }
     }
+}
+
+/// 1ᵀM1, kg.
+pub(super) fn total_mass(system: &System) -> f64 {
+    let ones = vec![1.0; system.degrees_of_freedom()];
+    system.mass_form(&ones, &ones)
 }
