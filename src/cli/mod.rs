@@ -47,7 +47,6 @@ mod verify;
 mod wear;
 
 use crate::error::Result;
-use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 use ui::Ui;
@@ -118,7 +117,6 @@ pub fn main(stdout: Stdout) -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(text) => {
-            let text = with_tip(text);
             // What was asked for is not known, since the words could not be read.
             if text.use_stderr() && std::env::args_os().skip(1).any(|word| word == "--json") {
                 Ui::new(true, true, stdout).refused(&text);
@@ -134,19 +132,6 @@ pub fn main(stdout: Stdout) -> ExitCode {
             ExitCode::from(if error.is_request() { 2 } else { 1 })
         }
     }
-}
-
-/// The error with what to write in place of `--end`, where a command has no such option and clap
-/// takes it for `--seed`, in its tip and in the usage.
-fn with_tip(mut error: clap::Error) -> clap::Error {
-    let is = |kind, option: &str| matches!(error.get(kind), Some(ContextValue::String(word)) if word == option);
-    if is(ContextKind::InvalidArg, "--end") && is(ContextKind::SuggestedArg, "--seed") {
-        error.remove(ContextKind::SuggestedArg);
-        error.remove(ContextKind::Usage);
-        let tip = "'--set time.end=SECONDS' sets the end of a run".into();
-        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
-    }
-    error
 }
 
 /// Prints clap's text and exits as the tool does: 0 after --help and --version, 2 after a wrong
@@ -190,7 +175,7 @@ fn command() -> clap::Command {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cli, Stdout, Ui, execute, with_tip};
+    use super::{Cli, Stdout, Ui, execute};
     use crate::linear::counted as factored;
     use crate::scene::counted as checked;
     use clap::Parser;
@@ -206,13 +191,6 @@ mod tests {
         factored::take();
         execute(&cli.command, &Ui::new(true, false, Stdout::Open)).unwrap();
         (checked::take(), factored::take())
-    }
-
-    #[test]
-    fn a_sweep_that_is_given_an_end_is_told_the_key_that_sets_it() {
-        let words = ["signorini", "sweep", "rigid-walls-sine", "--vary", "time.step=1e-4:1e-3:2", "--end", "2"];
-        let said = with_tip(Cli::try_parse_from(words).unwrap_err()).to_string();
-        assert!(said.contains("tip: '--set time.end=SECONDS'") && !said.contains("--seed"), "{said}");
     }
 
     /// Each matrix is factored once, however many users it has: M, C and K where the scene is

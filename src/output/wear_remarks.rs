@@ -246,6 +246,7 @@ mod tests {
             supports: vec!["plate".to_owned()],
             points,
             depths_at_end_m: Vec::new(),
+            largest_depths_at_end_m: Vec::new(),
             worn_through: None,
             windows: 6,
             refuted: Vec::new(),

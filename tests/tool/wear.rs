@@ -357,6 +357,11 @@ fn a_flat_that_slides_steadily_recedes_as_its_volume_grows_evenly() {
     let last = history.last().unwrap();
     // 3e-8 m³ times the ratio of rate and 1 W; with 1 W it is 0.350324 mm.
     assert!(((number(last, "gap_m") - 5e-5) / 0.350_324e-3 - rate.powf(2.0 / 3.0)).abs() < 1e-3, "{last:?}");
+    // The deepest flat is the only one that is worn: its interval is that of the deepest wear.
+    let years = rows(&dir.path().join("w/years.csv"));
+    let flats = rows(&dir.path().join("w/sector-means.csv"));
+    let of_flats = flats.iter().map(|row| number(row, "depth_half_width_95_m")).fold(0.0, f64::max);
+    assert_eq!(of_flats, number(&years[years.len() - 1], "depth_deepest_half_width_95_m"));
 }
 
 #[test]

@@ -107,6 +107,7 @@ impl WearPlan<'_> {
             points: Vec::new(),
             worn_through: None,
             depths_at_end_m: Vec::new(),
+            largest_depths_at_end_m: Vec::new(),
             windows: 0,
             refuted: Vec::new(),
         };
@@ -122,6 +123,7 @@ impl WearPlan<'_> {
             found.points.push(point);
             if time >= self.service || found.worn_through.is_some() {
                 found.depths_at_end_m = work.iter().map(|history| self.depths(history)).collect();
+                found.largest_depths_at_end_m = largest.iter().flat_map(|history| self.depths(history)).collect();
                 return Ok(found);
             }
             step = self.longest_step(&work, &rates.found).min(step).min(self.service - time);

@@ -80,6 +80,9 @@ pub struct WearHistories {
     /// At the end of each history, of each support: the depth worn off the tube in each sector of a
     /// round support, or at each flat, m; none of a tube that does not wear.
     pub depths_at_end_m: Vec<Vec<Vec<f64>>>,
+    /// The same of a single history with the largest work rates ([`WearPoint::largest`]); none of
+    /// several histories.
+    pub largest_depths_at_end_m: Vec<Vec<f64>>,
     /// Number of windows that were run, or had been run before.
     pub windows: u64,
     /// The windows that the judge refuted: number and findings.
@@ -98,7 +101,7 @@ pub fn mean(point: &WearPoint, support: usize, quantity: impl Fn(&WearState) -> 
 
 impl WearHistories {
     /// The mean over the histories of the depth at their end in each sector or at each flat of a
-    /// support, m, and the half width of its 95 % interval.
+    /// support, m, and the half width of its 95 % interval, as of [`mean`].
     #[must_use]
     pub fn mean_depths_at_end(&self, support: usize) -> Vec<(f64, Option<f64>)> {
         let own: Vec<&Vec<f64>> = self.depths_at_end_m.iter().filter_map(|supports| supports.get(support)).collect();
@@ -106,7 +109,9 @@ impl WearHistories {
         let part = |part: usize| {
             let values: Vec<f64> = own.iter().filter_map(|depths| depths.get(part).copied()).collect();
             let (mean, _, half_width) = mean_of(&values);
-            (mean, half_width)
+            let largest = || self.largest_depths_at_end_m.get(support)?.get(part);
+            let of_windows = || Some((largest()? - mean).abs());
+            (mean, half_width.or_else(of_windows).filter(|half_width| half_width.is_finite()))
         };
         (0..parts).map(part).collect()
     }

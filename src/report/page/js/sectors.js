@@ -41,7 +41,7 @@ function partsByPlace({ columns, rows }, [, column, unit, , factor]) {
       to: to + wide,
       text: wide ? `flat at ${digits(from)}°` : `${digits(from)}° to ${digits(to)}°`,
       value: factor * values[i],
-      half: factor * halves[i],
+      half: factor * (halves[i] ?? NaN),
     });
   }
   return places;
