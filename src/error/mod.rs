@@ -15,9 +15,9 @@ pub use cause::Cause;
 pub(crate) use cause::unnumbered;
 pub(crate) use escape::{escaped, escaped_lines};
 pub use subject::{Part, Subject};
-pub(crate) use words::{amount, named};
 #[cfg(feature = "case")]
-pub(crate) use words::{counted, nearest};
+pub(crate) use words::nearest;
+pub(crate) use words::{amount, counted, named};
 
 use std::fmt;
 

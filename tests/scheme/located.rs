@@ -280,7 +280,7 @@ fn steps_that_do_not_resolve_what_a_wall_strikes_or_a_change_of_a_table_are_said
         let structure = Structure {
             mass: Symmetric::diagonal(&[1.0; 2]),
             damping: Symmetric::diagonal(&[0.0; 2]),
-            stiffness: Symmetric::from_entries(2, link.into_iter()),
+            stiffness: Symmetric::from_entries(2, link),
         };
         let wall = Wall::upper("stop", 5e-3).with_restitution(0.8);
         Scene::structure(structure).with_wall(wall).with_initial(&[0.0; 2], &[0.3; 2]).with_duration(0.05)

@@ -136,7 +136,7 @@ fn a_path_of_the_wrong_kind_is_refused_with_what_was_expected() {
         (&orbit, "a folder, not a file; expected the orbit.json of `signorini orbit`"),
         (
             &[&branches[..], &["--over", "folder"]].concat(),
-            "expected a folder of results of sweep, continue, orbit or run",
+            "expected a folder of results of sweep, continue, orbit, run or compare",
         ),
         (&["chart", "rigid-walls-sine", "--with", "folder"], "expected a CSV file with the columns program"),
     ] {

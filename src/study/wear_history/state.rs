@@ -80,8 +80,8 @@ pub struct WearHistories {
     /// At the end of each history, of each support: the depth worn off the tube in each sector of a
     /// round support, or at each flat, m; none of a tube that does not wear.
     pub depths_at_end_m: Vec<Vec<Vec<f64>>>,
-    /// The same of a single history with the largest work rates ([`WearPoint::largest`]); none of
-    /// several histories.
+    /// The same of a single history with the largest work rates (field `largest` of
+    /// [`WearPoint`]); none of several histories.
     pub largest_depths_at_end_m: Vec<Vec<f64>>,
     /// Number of windows that were run, or had been run before.
     pub windows: u64,
