@@ -5,7 +5,7 @@ use super::work_precision::law_label;
 use crate::case::Case;
 use crate::run::Run;
 use crate::scheme::{Method, PenaltyLaw, Scheme};
-use crate::study::compare::{Comparison, FINER, Row, is_aperiodic};
+use crate::study::compare::{Comparison, FINER, is_aperiodic};
 use crate::study::difference::error_length;
 use crate::study::verdict::Verdict;
 use std::cmp::Ordering;
@@ -78,7 +78,7 @@ pub fn half_the_step(case: &Case, comparison: &Comparison, verdicts: &[Option<Ve
 /// The methods that have a result and an error. The same scheme with another solver of its
 /// quadratic programmes makes the same motion: it is judged once.
 fn judged(case: &Case, comparison: &Comparison) -> Vec<Judged> {
-    let length = comparison.reference_run().map_or(1.0, |run| error_length(&case.scene, &run.trajectory));
+    let length = length(case, comparison);
     let mut schemes = Vec::new();
     let mut judged = Vec::new();
     for row in comparison.rows.iter().filter(|row| !row.method.scheme.is_exact()) {
@@ -87,16 +87,17 @@ fn judged(case: &Case, comparison: &Comparison) -> Vec<Judged> {
             continue;
         }
         schemes.push(row.method.scheme);
-        let fate = fate(row, run, run.residuals.penetration_m / length, error.is_nan() || error > ASTRAY);
         let penalty = matches!(row.method.scheme, Scheme::Penalty { .. });
+        let passes = penalty && run.residuals.penetration_m / length > TOO_SOFT;
+        let fate = fate(run, passes, error.is_nan() || error > ASTRAY);
         judged.push(Judged { name: name(&row.method), penalty, error, agrees_until: until, fate });
     }
     judged
 }
 
-fn fate(row: &Row, run: &Run, depth: f64, departs: bool) -> Fate {
-    let penalty = matches!(row.method.scheme, Scheme::Penalty { .. });
-    match (run.findings.is_empty(), penalty && depth > TOO_SOFT, departs) {
+/// What became of a run that passes its walls, or departs from the reference.
+fn fate(run: &Run, passes: bool, departs: bool) -> Fate {
+    match (run.findings.is_empty(), passes, departs) {
         (false, ..) => Fate::Refuted,
         (_, true, _) => Fate::Unseen,
         (.., true) => Fate::Departs,
@@ -121,12 +122,16 @@ fn limit(case: &Case, comparison: &Comparison) -> String {
     format!("until {what} at {} s", two_digits(comparison.horizon))
 }
 
-/// An error, which is a share of the length of errors, in words.
+/// The length of which errors are shares, m.
+fn length(case: &Case, comparison: &Comparison) -> f64 {
+    comparison.reference_run().map_or(1.0, |run| error_length(&case.scene, &run.trajectory))
+}
+
+/// An error, which is a share of that length, in words.
 fn distance(case: &Case, comparison: &Comparison, share: f64) -> String {
-    let length = comparison.reference_run().map_or(1.0, |run| error_length(&case.scene, &run.trajectory));
     match case.scene.gap() {
         Some(_) => format!("{} of the gap", two_digits(share)),
-        None => format!("{} m", two_digits(share * length)),
+        None => format!("{} m", two_digits(share * length(case, comparison))),
     }
 }
 

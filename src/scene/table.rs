@@ -96,14 +96,20 @@ impl Table {
         &self.force
     }
 
+    /// The largest force less the least, N.
+    pub(crate) fn range(&self) -> f64 {
+        let [least, most] = [f64::min, f64::max].map(|pick| self.force.iter().copied().reduce(pick).unwrap_or(0.0));
+        most - least
+    }
+
     /// The rows between which the force changes by more than a tenth of its range within less than
     /// `step` seconds, s, as where a jump is written as two rows; none where there are many, as in
     /// a record that the steps only sample.
     pub(crate) fn steep_rows(&self, step: f64) -> Vec<f64> {
-        let [least, most] = [f64::min, f64::max].map(|pick| self.force.iter().copied().reduce(pick).unwrap_or(0.0));
+        let range = self.range();
         let is_steep = |row: &usize| {
             let [time, force] = [&self.time, &self.force].map(|column| (column[row + 1] - column[*row]).abs());
-            time < step && force > STEEP * (most - least)
+            time < step && force > STEEP * range
         };
         let steep: Vec<usize> = (0..self.time.len() - 1).filter(is_steep).take(MOST_STEEP + 1).collect();
         if steep.len() > MOST_STEEP {

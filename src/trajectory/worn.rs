@@ -62,11 +62,14 @@ impl Worn {
             if let Some(sum) = work.get_mut(piece.support) {
                 *sum += piece.work;
             }
-            let fresh = EpisodeWear { angle: piece.began, work: 0.0, sliding: 0.0 };
+            let fresh = || {
+                let angle = sliding.angle_at_start(piece, step, within[0]);
+                EpisodeWear { angle, work: 0.0, sliding: 0.0 }
+            };
             if piece.duration == ImpulseDuration::Instant {
-                jumps.push((piece.contact, EpisodeWear { work: piece.work, ..fresh }));
+                jumps.push((piece.contact, EpisodeWear { work: piece.work, ..fresh() }));
             } else if let Some(open) = open.get_mut(piece.contact) {
-                let contact = open.get_or_insert(fresh);
+                let contact = open.get_or_insert_with(fresh);
                 contact.work += piece.work;
                 contact.sliding += piece.sliding;
             }

@@ -10,7 +10,7 @@
 use super::blows::Blow;
 use super::piece::{ImpulseDuration, Piece, Section, SlidingPiece, degrees};
 use crate::linear::Segment;
-use crate::scene::{Face, PlaneRows, Scene, Support, Wall, heading};
+use crate::scene::{Face, Scene, Support, Wall, heading};
 use crate::step::{Path, Step};
 
 /// The contacts of a scene's supports.
@@ -89,7 +89,6 @@ impl SlidingContacts {
                     duration: if contact.is_rigid() { ImpulseDuration::Unresolved } else { ImpulseDuration::Lasting },
                     angle: push.angle,
                     normal: push.normal,
-                    began: contact.began(step, &section.at, &push),
                     impulse: push.impulse,
                     friction: push.friction,
                     work: 0.0,
@@ -112,6 +111,29 @@ impl SlidingContacts {
     }
 }
 
+impl SlidingContacts {
+    /// The angle (degrees) at which the contact of `piece` begins at the time `from` (s) in `step`,
+    /// or with that step on a grid. Over a step on a grid that ends in a round hole with contact
+    /// the normal is that of its middle: it turns from the start to there as from there to the end.
+    pub fn angle_at_start(&self, piece: &SlidingPiece, step: &Step<'_>, from: f64) -> f64 {
+        let support = self.supports.get(piece.support).filter(|_| piece.duration != ImpulseDuration::Instant);
+        let found = support.and_then(|all| all.contacts.iter().find(|contact| contact.wall() == piece.contact));
+        let (Some(SupportContacts { section, .. }), Some(&Contact::Hole { centre, gap, .. })) = (support, found) else {
+            return piece.angle;
+        };
+        if let Path::Series(series) = &step.path {
+            return degrees(series.at_hole(piece.contact, from).0);
+        }
+        let [y, z] = piece.normal;
+        let end = [section.at.y.dot(step.q) - centre[0], section.at.z.dot(step.q) - centre[1]];
+        if end[0].hypot(end[1]) < (1.0 - TOUCHING) * gap {
+            return piece.angle;
+        }
+        let along = 2.0 * (y * end[0] + z * end[1]);
+        degrees([along * y - end[0], along * z - end[1]])
+    }
+}
+
 /// Force and impulse of a contact in a step.
 struct Push {
     angle: f64,
@@ -127,18 +149,10 @@ impl Contact {
         }
     }
 
-    /// The angle at the start of a step, degrees. Over a step on a grid that ends in a round hole
-    /// with contact the normal is that of its middle: it turns from the start to there as from
-    /// there to the end.
-    fn began(self, step: &Step<'_>, at: &PlaneRows, push: &Push) -> f64 {
-        let Self::Hole { centre, gap, .. } = self else { return push.angle };
-        let end = [at.y.dot(step.q) - centre[0], at.z.dot(step.q) - centre[1]];
-        if end[0].hypot(end[1]) < (1.0 - TOUCHING) * gap {
-            return push.angle;
+    fn wall(self) -> usize {
+        match self {
+            Self::Flat { wall, .. } | Self::Hole { wall, .. } => wall,
         }
-        let [y, z] = push.normal;
-        let along = 2.0 * (y * end[0] + z * end[1]);
-        degrees([along * y - end[0], along * z - end[1]])
     }
 
     /// The index of the contact, with its force and impulse; `None` if there was none.

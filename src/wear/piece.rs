@@ -43,8 +43,6 @@ pub(crate) struct SlidingPiece {
     /// means over a piece in which the normal turns.
     pub angle: f64,
     pub normal: [f64; 2],
-    /// The angle at its start, degrees.
-    pub began: f64,
     /// Magnitude of the normal impulse, and the friction impulse along t, N s.
     pub impulse: f64,
     pub friction: f64,
@@ -186,11 +184,11 @@ impl Piece<'_> {
             parts([from, to], count as usize, |a, b| {
                 let mut sum = SlidingSums::default();
                 sliding.add(a, b, &mut sum);
-                let [began, angle] = [a, 0.5 * (a + b)].map(|t| degrees(series.at_hole(hole, t).0));
+                let angle = degrees(series.at_hole(hole, 0.5 * (a + b)).0);
                 // Over so short a piece the impulse vector is nearly p n; this is its magnitude p.
                 let push = impulse.between(a, b);
                 let normal = if sum.impulse > 0.0 { push.map(|push| -push / sum.impulse) } else { blank.normal };
-                each(&SlidingPiece { time: std::mem::take(&mut time), angle, began, normal, ..lasting(blank, &sum) });
+                each(&SlidingPiece { time: std::mem::take(&mut time), angle, normal, ..lasting(blank, &sum) });
             });
         }
         self.strike(|| self.speed_left(speed), each);

@@ -163,8 +163,6 @@ fn load_resolved(scene: &Scene, index: usize, load: &Load, (scheme, step): (&Sch
 fn missed(table: &Table, (step, divided): (f64, &[f64]), end: f64) -> Option<(f64, f64, f64)> {
     let (time, force) = (table.time(), table.force());
     let rows = step * (time.len() - 1) as f64 / (time.last()? - time.first()?);
-    let extreme = |start: f64, pick: fn(f64, f64) -> f64| force.iter().copied().fold(start, pick);
-    let range = extreme(f64::NEG_INFINITY, f64::max) - extreme(f64::INFINITY, f64::min);
     let (mut most, mut most_at) = (0.0_f64, 0.0);
     // The first and last row are jumps from and to 0, which no step resolves.
     let inner = time.iter().zip(force).take(time.len() - 1).skip(1);
@@ -182,7 +180,7 @@ fn missed(table: &Table, (step, divided): (f64, &[f64]), end: f64) -> Option<(f6
         }
     }
     let limit = if rows > 1.0 { MISSED } else { PASSED };
-    (most > limit * range).then_some((most, rows, most_at))
+    (most > limit * table.range()).then_some((most, rows, most_at))
 }
 
 /// A note on a mode that the step does not resolve: in modal coordinates the fastest that matters,

@@ -103,6 +103,7 @@ impl PlaneContact {
         (touch, rest): (f64, f64),
         blown: bool,
     ) {
+        self.stopped &= !blown;
         self.normal = normal;
         self.rate = [dot(normal, pair), normal[0] * pair[1] - normal[1] * pair[0]];
         // A body that leaves more slowly comes back before it is out of touch.

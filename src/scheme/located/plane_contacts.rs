@@ -259,9 +259,6 @@ impl Contacts<Matrices> for PlaneContacts {
         if frame.pushing.iter().any(|&wall| body.walls[wall].law.is_rigid()) {
             return Ok(false);
         }
-        if frame.blown {
-            self.all.iter_mut().for_each(|contact| contact.stopped = false);
-        }
         self.classify(body, part, frame);
         let stops = std::mem::take(&mut self.stops);
         if !self.is_struck() && !stops {

@@ -214,8 +214,8 @@ impl WearPlan<'_> {
         found.windows += self.histories as u64;
         let refuted = windows.iter().filter(|window| !window.findings.is_empty());
         found.refuted.extend(refuted.map(|window| (window.number, window.findings.clone())));
-        let single = windows.iter().filter(|_| self.histories == 1);
-        let largest = single.map(WearWindow::largest_rates).collect();
+        let single = if self.histories == 1 { &windows[..] } else { &[] };
+        let largest = single.iter().map(WearWindow::largest_rates).collect();
         Ok(Rates { largest, found: windows.into_iter().map(|window| window.rates).collect() })
     }
 

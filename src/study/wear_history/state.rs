@@ -94,9 +94,15 @@ pub struct WearHistories {
 #[must_use]
 pub fn mean(point: &WearPoint, support: usize, quantity: impl Fn(&WearState) -> f64) -> (f64, Option<f64>) {
     let values: Vec<f64> = point.histories.iter().filter_map(|states| states.get(support)).map(&quantity).collect();
-    let (mean, _, half_width) = mean_of(&values);
-    let of_windows = || Some((quantity(point.largest(support)?) - mean).abs());
-    (mean, half_width.or_else(of_windows).filter(|half_width| half_width.is_finite()))
+    mean_within(&values, point.largest(support).map(quantity))
+}
+
+/// The mean of a quantity over the histories and its half width, with the value of a single history
+/// at the largest work rates, where that is known.
+fn mean_within(values: &[f64], largest: Option<f64>) -> (f64, Option<f64>) {
+    let (mean, _, half_width) = mean_of(values);
+    let of_windows = largest.map(|largest| (largest - mean).abs());
+    (mean, half_width.or(of_windows).filter(|half_width| half_width.is_finite()))
 }
 
 impl WearHistories {
@@ -108,10 +114,8 @@ impl WearHistories {
         let parts = own.first().map_or(0, |depths| depths.len());
         let part = |part: usize| {
             let values: Vec<f64> = own.iter().filter_map(|depths| depths.get(part).copied()).collect();
-            let (mean, _, half_width) = mean_of(&values);
-            let largest = || self.largest_depths_at_end_m.get(support)?.get(part);
-            let of_windows = || Some((largest()? - mean).abs());
-            (mean, half_width.or_else(of_windows).filter(|half_width| half_width.is_finite()))
+            let largest = self.largest_depths_at_end_m.get(support).and_then(|depths| depths.get(part));
+            mean_within(&values, largest.copied())
         };
         (0..parts).map(part).collect()
     }
