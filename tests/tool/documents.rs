@@ -116,3 +116,32 @@ fn my_own_matrices_in_ten_minutes() {
     let rate = table.headers().unwrap().iter().position(|name| name == "work_rate_W").unwrap();
     assert!(table.records().next().unwrap().unwrap()[rate].parse::<f64>().unwrap() > 0.0, "{supports}");
 }
+
+/// Whole sweeps of these pages take minutes: they are planned, which checks all but the runs.
+#[test]
+fn the_sweeps_of_the_documents_can_be_made() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut planned = 0;
+    for page in ["engineer.md", "sweep.md"] {
+        for (language, name, text) in blocks(page) {
+            if let Some(name) = name {
+                fs::write(dir.path().join(name), text).unwrap();
+            } else if language == "sh" {
+                let joined = text.replace("\\\n", " ");
+                let lines = joined.lines().map(|line| line.split(" #").next().unwrap_or_default());
+                for line in lines.filter(|line| line.starts_with("signorini sweep ")) {
+                    let output = Command::new(env!("CARGO_BIN_EXE_signorini"))
+                        .args(words(line).iter().skip(1))
+                        .args(if line.contains("--plan") { [].as_slice() } else { &["--plan"] })
+                        .current_dir(dir.path())
+                        .output()
+                        .unwrap();
+                    let told = String::from_utf8_lossy(&output.stderr);
+                    assert_eq!(output.status.code(), Some(0), "{page}: {line}: {told}");
+                    planned += 1;
+                }
+            }
+        }
+    }
+    assert!(planned >= 10, "{planned}");
+}

@@ -134,7 +134,7 @@ fn planned(plan: &Plan) -> Answer {
     }));
     answer.prose(format!("{} rows{seeds} by {}, {} columns", plan.count(), plan.method(), plan.header().len()));
     if plan.chain_rows() > 1 {
-        answer.prose(format!("{chains} chains of {} rows, each on one thread", plan.chain_rows()));
+        answer.prose(format!("chains of {} rows, {chains} in all, each on one thread", plan.chain_rows()));
     }
     let failed = if estimate.failed > 0 { format!(", {} of which failed", estimate.failed) } else { String::new() };
     let pilots = matches!(plan.realisations(), Some(RealisationCount::Within { .. }));
