@@ -13,7 +13,7 @@ use signorini::output::{error_parts, realisations as output, worn_means};
 use signorini::study::accuracy::Accuracy;
 use signorini::study::realisations::{
     Batch, KnownRealisations, MOST_REALISATIONS, Realisation, RealisationCount, RealisationPlan, RealisationStudy,
-    checked,
+    TimeLimit, checked,
 };
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -54,12 +54,21 @@ impl RunsDone {
     }
 }
 
-/// The number of realisations of `case` that is asked for.
+/// The number of realisations of `case` that is asked for, in at most `most_time` where there is
+/// one: the seconds from now on, and the runs that a realisation costs.
 ///
 /// # Errors
-/// As [`asked`]; `ValueError` for a case without random loads.
-pub fn count(given: Asked, case: &sg::case::Case) -> PyResult<Option<RealisationCount>> {
-    let count = asked(given)?;
+/// As [`asked`]; `ValueError` for a case without random loads, and for a time that makes no sense.
+pub fn count(given: Asked, most_time: Option<(f64, f64)>, case: &sg::case::Case) -> PyResult<Option<RealisationCount>> {
+    let mut count = asked(given)?;
+    if let Some((seconds, runs_each)) = most_time {
+        let limit = TimeLimit::from_now(seconds).map_err(raise)?.with_runs_each(runs_each);
+        let Some(within @ RealisationCount::Within { .. }) = count else {
+            let expected = "until_interval beside it: it limits the number of its realisations";
+            return Err(wrong("most_time", format!("{seconds:?}"), expected));
+        };
+        count = Some(within.within_time(limit));
+    }
     if let Some(count) = count {
         case.check_realisations(count).and_then(|()| case.realisation(count.most())).map_err(raise)?;
     }
@@ -141,11 +150,13 @@ pub fn texts(tables: impl IntoIterator<Item = Option<Table>>) -> String {
 }
 
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
 pub fn _realisations<'py>(
     case: &Bound<'py, Case>,
     scheme: Option<&str>,
     step: Option<f64>,
     asked: Asked,
+    most_time: Option<f64>,
     accuracy: Option<f64>,
     verdict: bool,
     progress: Py<PyAny>,
@@ -157,6 +168,9 @@ pub fn _realisations<'py>(
     let mut watch = |py: Python<'_>| done.tell(progress.bind(py));
     if let Some(share) = accuracy {
         let most = most_beside_accuracy(asked, step, verdict)?;
+        if let Some(seconds) = most_time {
+            return Err(wrong("most_time", format!("{seconds:?}"), "none beside accuracy, which most_seeds limits"));
+        }
         let start_scatter = (!case.is_random()).then(|| case.start_scatter());
         let case = &case.with_scattered_start().map_err(|error| match case.scene.walls.is_empty() {
             true => wrong("accuracy", format!("{share:?}"), "a case with a wall or support: its forces have means"),
@@ -171,7 +185,7 @@ pub fn _realisations<'py>(
         told["accuracy"] = json!(accuracy);
         return loads(py, &told.to_string());
     }
-    let Some(count) = count(asked, case)? else {
+    let Some(count) = count(asked, most_time.map(|seconds| (seconds, 1.0)), case)? else {
         return Err(wrong("seeds", "missing", "the number of realisations, until_interval or accuracy"));
     };
     let work = || study(case, &plan, (count, checked(verdict)), KnownRealisations::default(), &done);

@@ -15,13 +15,13 @@ use signorini::output::wear_folder::{self, WearRequest};
 use signorini::output::wear_journal::WindowJournal;
 use signorini::output::{wear_history as output, wear_remarks};
 use signorini::study::realisations::{KnownRealisations, RealisationCount, RealisationStudy, checked};
-use signorini::study::wear_history::{WearHistories, WearPlan, WearWindow, WearingSupport};
+use signorini::study::wear_history::{USUAL_WINDOWS, WearHistories, WearPlan, WearWindow, WearingSupport};
 use signorini::wear::Opening;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Follows histories of wear: `histories` of them, or as many as the interval `within` takes, a
-/// share with the most that it may take, after a study of their first windows; in `folder`, where
+/// share with the most that it may take and the seconds that it may last, after a study of their first windows; in `folder`, where
 /// one is given, from what it holds of this study. Calls `counted` with the runs of that study, and
 /// `progress` with the per cent of the years that are done.
 #[pyfunction]
@@ -32,7 +32,7 @@ pub fn _wear<'py>(
     step: Option<f64>,
     years: Option<f64>,
     histories: Option<u64>,
-    within: (Option<f64>, Option<i64>),
+    within: (Option<f64>, Option<i64>, Option<f64>),
     verdict: bool,
     folder: Option<PathBuf>,
     counted: Py<PyAny>,
@@ -45,7 +45,9 @@ pub fn _wear<'py>(
     let service = case.service(years).map_err(raise)?;
     // A number beside an interval is refused.
     let beside = histories.filter(|_| within.0.is_some()).map(|count| count as i64);
-    let within = count((beside, within.0, within.1), case)?;
+    let (share, most, most_time) = within;
+    let most_time = most_time.map(|seconds| (seconds, USUAL_WINDOWS));
+    let within = count((beside, share, most), most_time, case)?;
     let asked = case.histories(histories.map(|count| count as usize)).map_err(raise)?;
     let count = within.unwrap_or(RealisationCount::Exactly(asked as u64));
     let request = WearRequest { case, method: &plan.method, years, count, verdict };

@@ -123,6 +123,9 @@ def test_an_interval_that_is_out_of_reach_is_a_warning() -> None:
     with pytest.warns(sg.AccuracyWarning, match="an interval of ± 1.0 % was not reached: 7 of"):
         study = sg.realisations(tube(), until_interval=0.01, most_seeds=7, verdict=False)
     assert study.count == 7
+    # No more than the first six, which are run in any case.
+    with pytest.warns(sg.AccuracyWarning, match="an interval of ± 1.0 % was not reached: 6 of"):
+        assert sg.realisations(tube(), until_interval=0.01, most_time=1e-9, verdict=False).count == 6
 
 
 def test_a_refuted_realisation_is_an_error_with_the_study() -> None:
@@ -148,6 +151,9 @@ def test_a_refuted_realisation_is_an_error_with_the_study() -> None:
         ({"seeds": 2, "until_interval": 0.1}, "until_interval is 0.1; expected no interval beside"),
         ({"until_interval": 5.0}, "until_interval is 5.*above 0 and below 1"),
         ({"until_interval": 0.1, "most_seeds": 3}, "most_seeds is 3; expected 6 or more"),
+        ({"seeds": 2, "most_time": 60.0}, "most_time is 60.0; expected until_interval beside it"),
+        ({"accuracy": 0.1, "most_time": 60.0}, "most_time is 60.0; expected none beside accuracy"),
+        ({"until_interval": 0.1, "most_time": 0.0}, "most_time is 0.0 s; expected a time above 0"),
         ({"seeds": 2, "scheme": "event"}, "event"),
         ({"seeds": 2, "step": -1.0}, "step"),
     ],

@@ -162,6 +162,7 @@ def test_curves_have_their_band_and_the_limit(three: sg.WearStudy) -> None:
         ({"histories": 4, "until_interval": 0.1}, "until_interval is 0.1; expected no interval beside"),
         ({"until_interval": 5}, "until_interval is 5.*above 0 and below 1"),
         ({"most_seeds": 9}, "most_seeds is 9; expected until_interval"),
+        ({"most_time": 9.0}, "most_time is 9.0; expected until_interval"),
         ({"scheme": "event"}, "event"),
     ],
 )

@@ -19,7 +19,7 @@ use crate::run::Options;
 use crate::scheme::Method;
 use crate::study::choice;
 use crate::study::realisations::{Realisation, RealisationCount, TimeLimit};
-use crate::study::wear_history::{WearHistories, WearPlan, WearingSupport};
+use crate::study::wear_history::{USUAL_WINDOWS, WearHistories, WearPlan, WearingSupport};
 use crate::wear::Opening;
 use serde_json::json;
 
@@ -43,9 +43,6 @@ for --until-interval also realisations.csv and errors.csv (the first runs). A st
 last year where the first history is worn through the tube's wall. report.html shows all.
 After an interruption the same command goes on, after the study of the first runs. With more --years
 it goes on from finished results as well: the same results as those of so many years at once.";
-
-/// Windows of a history, about, for the estimate of the duration.
-const WINDOWS: f64 = 7.0;
 
 /// Follow wear over the years: gaps that grow, depths with their intervals, when a limit is reached
 #[derive(Debug, clap::Args)]
@@ -146,7 +143,7 @@ impl Args {
     /// The number of histories that an interval takes, where one is asked for.
     fn within(&self, case: &Case) -> Result<Option<RealisationCount>> {
         let limit = self.most_time.as_ref().map(|text| TimeLimit::from_now(seconds("--most-time", text)?));
-        let limit = limit.transpose()?.map(|limit| limit.with_runs_each(WINDOWS));
+        let limit = limit.transpose()?.map(|limit| limit.with_runs_each(USUAL_WINDOWS));
         let until_interval = self.until_interval.clone();
         let seeds = Seeds { until_interval, most_seeds: self.most_seeds, ..Seeds::default() };
         Ok(seeds.check(case)?.map(|count| limit.map_or(count, |limit| count.within_time(limit))))
@@ -178,7 +175,7 @@ impl Followed<'_> {
         let scene = |number: u64, openings: &[Opening]| case.worn(number, supports, openings);
         let options = Options::new(case.time);
         let plan = WearPlan { supports, scene: &scene, method, options: &options, histories, service };
-        let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step).times(WINDOWS);
+        let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step).times(USUAL_WINDOWS);
         let estimate = estimate.on_all_cores(histories as f64).at_most();
         // Windows lengthen as gaps grow.
         let (found, there) =

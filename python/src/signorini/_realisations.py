@@ -151,6 +151,7 @@ def realisations(
     until_interval: float | None = None,
     accuracy: float | None = None,
     most_seeds: int | None = None,
+    most_time: float | None = None,
     step: float | None = None,
     verdict: bool = True,
     progress: bool = True,
@@ -182,6 +183,9 @@ def realisations(
         --of means``.
     most_seeds : int, optional
         The most that ``until_interval`` or ``accuracy`` may take; 200 unless given.
+    most_time : float, optional
+        Seconds that ``until_interval`` may take: no more realisations, with the checks for their
+        errors, than fit into them by the duration of the first six.
     verdict : bool
         Whether up to six realisations are run again with half the step, and with twice the modes
         where modes are left out, for the `Estimate.error` of each mean.
@@ -205,7 +209,7 @@ def realisations(
     Warns
     -----
     AccuracyWarning
-        Where ``until_interval`` was not reached with ``most_seeds``, or ``accuracy`` with them or
+        Where ``until_interval`` was not reached with ``most_seeds`` or in ``most_time``, or ``accuracy`` with them or
         with any step, and where a check for the errors failed, so that a part of them is not known.
     ResultWarning
         For each note that concerns the results, as in `Scene.run`.
@@ -221,7 +225,8 @@ def realisations(
     """
     with Progress(0, progress) as shown:
         asked = (seeds, until_interval, most_seeds)
-        known = _core._realisations(of_case(case, "realisations"), scheme, step, asked, accuracy, verdict, shown.reach)
+        case = of_case(case, "realisations")
+        known = _core._realisations(case, scheme, step, asked, most_time, accuracy, verdict, shown.reach)
     study = made(known)
     if known["refuted"]:
         raise refuted(known["refuted"], study)

@@ -147,6 +147,7 @@ def wear(
     histories: int | None = None,
     until_interval: float | None = None,
     most_seeds: int | None = None,
+    most_time: float | None = None,
     step: float | None = None,
     verdict: bool = True,
     folder: str | os.PathLike[str] | None = None,
@@ -173,6 +174,9 @@ def wear(
         first gaps within this share of them, as in `realisations`, whose study is ``first``.
     most_seeds : int, optional
         The most histories that ``until_interval`` may take; 200 unless given.
+    most_time : float, optional
+        Seconds that ``until_interval`` may take, as in `realisations`, with about seven runs for
+        each history.
     verdict : bool
         With ``until_interval``: whether the errors of the work rates in the first gaps are found.
     folder : path, optional
@@ -218,7 +222,7 @@ def wear(
     >>> float(study.years["gap_m"][0])
     0.0002
     """
-    case, within = of_case(case, "wear"), (until_interval, most_seeds)
+    case, within = of_case(case, "wear"), (until_interval, most_seeds, most_time)
     if histories is not None:
         whole("histories", histories, 1)
     with Progress(0, progress) as runs, Progress(100, progress, of="per cent of the years") as shown:

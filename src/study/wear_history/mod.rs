@@ -45,6 +45,9 @@ pub const YEAR: f64 = 31_557_600.0;
 /// Histories that are followed under random loads, unless another number is given.
 pub const HISTORIES: usize = 6;
 
+/// Windows of a usual history, each one run: for estimates of the time that it takes.
+pub const USUAL_WINDOWS: f64 = 7.0;
+
 /// Largest growth of a gap in a step, as a share of the gap.
 const MOST_GROWTH: f64 = 0.5;
 
