@@ -20,10 +20,10 @@ use signorini::wear::Opening;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Follows histories of wear: `histories` of them, or as many as the interval `within` takes, a
-/// share with the most that it may take and the seconds that it may last, after a study of their first windows; in `folder`, where
-/// one is given, from what it holds of this study. Calls `counted` with the runs of that study, and
-/// `progress` with the per cent of the years that are done.
+/// Follows histories of wear: `histories` of them, or as many as the interval `within` takes after
+/// a study of their first windows: a share, with the most that it may take and the seconds that it
+/// may last; in `folder`, where one is given, from what it holds of this study. Calls `counted`
+/// with the runs of that study, and `progress` with the per cent of the years that are done.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
 pub fn _wear<'py>(
