@@ -43,6 +43,10 @@ const SHARE_OF_LARGEST: f64 = 0.1;
 /// circle then has an error of some per cent.
 const LARGE_TURN: f64 = 0.2;
 
+/// A contact of fewer steps is not resolved: that of a linear wall takes so many where h² k/m is
+/// the limit of its note.
+const FEW_STEPS: f64 = 10.0;
+
 /// Maximum number of handed-over stretches with a note each.
 const MOST_HANDED: usize = 5;
 
@@ -128,6 +132,7 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
     if let (Scheme::MoreauJean { .. }, Some(trajectory)) = (run.scheme, run.recorded()) {
         notes.extend(trajectory.contacts().iter().filter_map(|contact| standing(scene, contact, &run.state.q)));
     }
+    notes.extend(run.recorded().and_then(|trajectory| strongest(scene, trajectory.contacts(), run.grid.step)));
     for handed in run.handed.iter().take(MOST_HANDED) {
         notes.push(format!(
             "from {:.6} s to {:.6} s impacts follow one another faster than the exact scheme resolves: \
@@ -202,6 +207,23 @@ fn standing(scene: &Scene, contact: &Contact, q: &[f64]) -> Option<String> {
              moreau-jean does not push it back to the face, and the force has an error of the stiffness times \
              that depth; use a smaller step, or located, which rests on the face",
             wall.name
+        )
+    })
+}
+
+/// A note on walls whose stiffness grows with the depth, where the strongest contact takes few
+/// steps: how stiff such walls are is known of the run only.
+fn strongest(scene: &Scene, contacts: &[Contact], step: f64) -> Option<String> {
+    let wall = |contact: &Contact| scene.walls.get(contact.wall).filter(|wall| !wall.law.is_linear());
+    let ended = contacts.iter().filter_map(|contact| Some((contact, wall(contact)?, contact.end?)));
+    let (contact, wall, end) = ended.max_by(|a, b| a.0.impulse.abs().total_cmp(&b.0.impulse.abs()))?;
+    let steps = (end - contact.start) / step;
+    (steps < FEW_STEPS).then(|| {
+        format!(
+            "the step of {step:.2e} s does not resolve the wall {:?}: its strongest contact, of {:.2e} s, takes \
+             {steps:.1} steps; the contact forces there depend on the step instead of the wall's stiffness",
+            wall.name,
+            end - contact.start
         )
     })
 }

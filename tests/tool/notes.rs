@@ -50,6 +50,21 @@ fn a_table_that_ends_or_begins_inside_the_run_is_said() {
     assert_eq!(notes(&scene().with_load(table(&[0.0, 1.0], &[1.0, 2.0])), &MOREAU, 1e-3), "");
 }
 
+/// 1 kg at 1 m/s against k s² with 1.5e6 N/m²: ½mv² = ks³/3 is a depth of 1 cm, where the wall has
+/// 2ks = 3e4 N/m, so that a contact lasts some 20 ms.
+#[test]
+fn a_stiffening_wall_whose_strongest_contact_takes_few_steps_is_said() {
+    let law = WallLaw::HuntCrossley { stiffness: 1.5e6, exponent: 2.0, dissipation: 0.0 };
+    let scene = Scene::oscillator(1.0, 0.0, 0.0)
+        .with_wall(Wall { law, ..Wall::upper("stop", 0.0) })
+        .with_initial(&[-0.01], &[1.0])
+        .with_duration(0.1);
+    let penalty = "penalty".parse::<Scheme>().unwrap();
+    let said = notes(&scene, &penalty, 5e-3);
+    assert!(said.contains("does not resolve the wall \"stop\": its strongest contact"), "{said}");
+    assert!(!notes(&scene, &penalty, 1e-3).contains("strongest"));
+}
+
 #[test]
 fn a_phase_that_looks_like_degrees_is_said() {
     let turned = |phase: f64| notes(&scene().with_load(Load::harmonic(1.0, 5.0, phase)), &MOREAU, 1e-3);
