@@ -250,11 +250,13 @@ impl Case {
         self.scatter();
     }
 
-    /// Draws the velocities of a start that scatters, in all scenes of the case.
+    /// Draws the velocities of a start that scatters, in all scenes of the case. The degrees of
+    /// freedom of sliders, which come last, do not move.
     fn scatter(&mut self) {
         let Some(ScatteredStart { scatter, mean }) = &self.written.scattered else { return };
         let mut v = mean.clone();
-        scatter.add_to(&mut v);
+        let structure = v.len().saturating_sub(self.sliders.len());
+        scatter.add_to(v.get_mut(..structure).unwrap_or_default());
         if let Some(Truncated { whole, reduction }) = &mut self.truncated {
             whole.scatter = Some(*scatter);
             reduction.scene.initial.v.clone_from(&v);

@@ -97,7 +97,7 @@ impl Scene {
     /// round wall it is the least mass over all its directions.
     #[must_use]
     pub fn wall_masses(&self) -> Vec<f64> {
-        let mut masses = self.masses_at_walls();
+        let mut masses = self.masses_along(self.walls.iter().map(|wall| wall.row()));
         if self.holes().next().is_some() {
             let structure = self.system.structure();
             let mut factor = structure.mass_factor().ok();
@@ -110,14 +110,15 @@ impl Scene {
         masses
     }
 
-    fn masses_at_walls(&self) -> Vec<f64> {
+    /// The mass that moves along each of `rows`, 1/(g M⁻¹ gᵀ), kg; infinite where nothing does.
+    pub(in crate::scene) fn masses_along<'a>(&self, rows: impl Iterator<Item = &'a Row>) -> Vec<f64> {
         match &self.system {
             System::Oscillator(o) => {
                 let weight = |row: &Row| row.entries().iter().map(|entry| entry.1).sum::<f64>();
-                self.walls.iter().map(|w| o.mass / weight(w.row()).powi(2)).collect()
+                rows.map(|row| o.mass / weight(row).powi(2)).collect()
             }
             System::Structure(s) => {
-                let Ok(mut factor) = s.mass_factor() else { return vec![f64::INFINITY; self.walls.len()] };
+                let Ok(mut factor) = s.mass_factor() else { return rows.map(|_| f64::INFINITY).collect() };
                 let lumped = s.mass.half_bandwidth() == 0;
                 let mut response = vec![0.0; s.mass.size()];
                 let mass = |at: &Row| {
@@ -137,8 +138,7 @@ impl Scene {
                     }
                     1.0 / inverse
                 };
-                // Walls at one place have the same mass.
-                let places = distinct(self.walls.iter().map(|wall| wall.row()));
+                let places = distinct(rows);
                 let masses: Vec<f64> = places.rows.into_iter().map(mass).collect();
                 places.of.into_iter().filter_map(|place| masses.get(place).copied()).collect()
             }

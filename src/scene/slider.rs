@@ -65,8 +65,9 @@ impl Scene {
     /// which nothing couples to the others: a constant load, the last one, presses it with N on a
     /// rigid flat with e = 0 at which it begins, so that it never moves. The row of that degree of
     /// freedom is the normal of the flat (z of the support), the place of the slider its tangent
-    /// (y). So schemes, judge and statistics need no other law of friction. Its mass, damping and
-    /// stiffness are gMgᵀ, gCgᵀ and gKgᵀ, so that no scale of the structure changes.
+    /// (y). So schemes, judge and statistics need no other law of friction. Its mass is that of the
+    /// place, m = 1/(g M⁻¹ gᵀ), its damping and stiffness m gCgᵀ/gMgᵀ and m gKgᵀ/gMgᵀ, so that no
+    /// scale of the structure changes, in whatever coordinates and units it is.
     ///
     /// # Errors
     /// [`Error::Invalid`] under the slider for a normal force that is not above 0, coefficients
@@ -78,8 +79,11 @@ impl Scene {
         let mut along = vec![0.0; n];
         slider.at.add_transposed(1.0, &mut along);
         let structure = self.system.structure();
+        let mass = self.masses_along([&slider.at].into_iter()).pop().unwrap_or(f64::INFINITY);
+        // Infinite where M is not positive definite, which is refused with the scene.
+        let unit = if mass.is_finite() { mass / structure.mass.form(&along, &along) } else { 1.0 };
         let longer = |matrix: &Symmetric| {
-            let own = (n, n, matrix.form(&along, &along));
+            let own = (n, n, unit * matrix.form(&along, &along));
             Symmetric::from_entries(n + 1, matrix.entries().chain([own]))
         };
         let longer = Structure {

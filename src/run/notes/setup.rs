@@ -219,9 +219,11 @@ fn struck_resolved(scene: &Scene, step: f64) -> Option<String> {
     let mut stepped = (**structure).clone();
     stepped.mass = Symmetric::sum(&[(1.0, &structure.mass), (0.25 * step * step, &structure.stiffness)]);
     let seen = Scene { system: System::Structure(stepped.into()), ..scene.clone() }.wall_masses();
-    let rigid = scene.walls.iter().zip(all.iter().zip(&seen)).filter(|(wall, _)| wall.law.is_rigid());
-    let heavier = rigid.filter(|(_, (all, seen))| all.is_finite() && **seen > (1.0 + HEAVIER) * **all);
-    let (wall, (all, seen)) = heavier.max_by(|a, b| (a.1.1 / a.1.0).total_cmp(&(b.1.1 / b.1.0)))?;
+    // Nothing strikes what presses a slider.
+    let walls = scene.walls.iter().enumerate().zip(all.iter().zip(&seen));
+    let struck = walls.filter(|((index, wall), _)| wall.law.is_rigid() && !scene.is_slider(*index));
+    let heavier = struck.filter(|(_, (all, seen))| all.is_finite() && **seen > (1.0 + HEAVIER) * **all);
+    let ((_, wall), (all, seen)) = heavier.max_by(|a, b| (a.1.1 / a.1.0).total_cmp(&(b.1.1 / b.1.0)))?;
     Some(format!(
         "a step of {step:.2e} s does not resolve what the wall {:?} strikes: impacts are those of {} kg, the mass of \
          all modes there, and the step moves {} kg; the impulses depend on the step. A smaller step resolves these \

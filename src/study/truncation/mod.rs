@@ -72,11 +72,11 @@ impl Unreduced {
         if let Some(damping) = &self.damping {
             reduction = reduction.with_damping(damping)?;
         }
-        for slider in &self.sliders {
-            reduction.scene = reduction.scene.with_slider(&slider.on(&reduction.modes))?;
-        }
         if let Some(scatter) = self.scatter {
             scatter.add_to(&mut reduction.scene.initial.v);
+        }
+        for slider in &self.sliders {
+            reduction.scene = reduction.scene.with_slider(&slider.on(&reduction.modes))?;
         }
         reduction.scene.loads.extend(self.turbulent_loads(&reduction.modes, self.scene.duration)?);
         Ok(reduction)
