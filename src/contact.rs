@@ -205,7 +205,8 @@ impl Episodes {
             });
             self.pushed = pushed;
         }
-        // Beside a blow elsewhere, the impulse of a contact that lasts on may be rounding.
+        // Beside a blow elsewhere, or at an instant of its own, the impulse of a contact that lasts
+        // on may be rounding.
         let rounding = pushing.iter().fold(0.0, |most: f64, &wall| most.max(jump[wall].abs())) * f64::EPSILON;
         for &wall in pushing {
             if length > 0.0 && over(wall) != 0.0 && !self.floor[wall].holds(over(wall), length) {
@@ -223,7 +224,7 @@ impl Episodes {
                 }
                 self.leave_at(wall, rates.after);
             }
-            if jump[wall].abs() > rounding {
+            if jump[wall].abs() > rounding.max(self.floor[wall].force * self.longest) {
                 self.last_impact = end;
                 self.part(wall);
                 let rates = rates(wall);

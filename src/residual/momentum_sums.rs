@@ -7,6 +7,16 @@ use crate::linear::{Lanes, Pass, pass, running_max};
 use crate::scene::Scene;
 use crate::step::Step;
 use pulp::Simd;
+use std::ops::{Add, Sub};
+
+/// A sum and the rounding error of it so far, with `x` added (Kahan 1965, doi:10.1145/363707.363723):
+/// where something rests, each of 1e7 equal terms would be rounded to the same side.
+#[inline(always)]
+pub(super) fn compensated<T: Copy + Add<Output = T> + Sub<Output = T>>([sum, lost]: [T; 2], x: T) -> [T; 2] {
+    let term = x - lost;
+    let next = sum + term;
+    [next, (next - sum) - term]
+}
 
 /// Load and own force of the structure on one degree of freedom: their values in the last step, N,
 /// the sum of the changes of both from step to step, N, the largest sum of sizes, N, and the
@@ -124,6 +134,8 @@ pub(super) struct MomentumSums {
     pub place: Vec<f64>,
     pub rate: Vec<f64>,
     pub load: Vec<f64>,
+    /// The rounding errors of these three sums.
+    lost: [Vec<f64>; 3],
     /// The forces on each degree of freedom.
     pub forces: ForceSums,
     /// Sum of each wall's impulses over the steps seen, N s, and the sum of their magnitudes.
@@ -153,6 +165,7 @@ impl MomentumSums {
             place: zero(),
             rate: zero(),
             load: zero(),
+            lost: [(); 3].map(|()| zero()),
             forces: ForceSums::new(n),
             seen: vec![0.0; walls],
             sizes: vec![0.0; walls],
@@ -187,8 +200,19 @@ impl MomentumSums {
     #[inline(always)]
     pub fn add_ends<S: Simd>(&mut self, simd: S, moves: &StepMotion<'_>, n: usize) {
         let &StepMotion { h, from, shown, load_start, load_end, extra, after, .. } = moves;
-        let sums = [&mut self.place[..], &mut self.load, &mut self.last];
+        let [place_lost, _, load_lost] = &mut self.lost;
+        let sums = [&mut self.place[..], place_lost, &mut self.load, load_lost, &mut self.last];
         let [] = pass(simd, n, ([from, shown, load_start, load_end, extra, after], sums), &AddEnds { h });
+    }
+
+    /// Adds the way of a step of `h` seconds to `rate`, by the velocities at its ends, of which the
+    /// first is that at the end of the step before.
+    pub fn add_way(&mut self, h: f64, velocity_after: &[f64]) {
+        let [_, lost, _] = &mut self.lost;
+        let ends = self.last.iter().zip(velocity_after);
+        for ((rate, lost), (before, after)) in self.rate.iter_mut().zip(lost).zip(ends) {
+            [*rate, *lost] = compensated([*rate, *lost], 0.5 * h * (before + after));
+        }
     }
 
     /// Adds the change of the structure's own force by the displacement `beyond` (m) that blows add
@@ -202,7 +226,8 @@ impl MomentumSums {
     /// Adds n steps of one degree of freedom without extra force, after the first.
     #[inline(always)]
     pub fn add_all(&mut self, moves: &StepMotion<'_>, means: &Scratch, n: usize) {
-        let ([place], [load]) = (&mut self.place[..], &mut self.load[..]) else {
+        let ([place], [load], [place_lost, _, load_lost]) = (&mut self.place[..], &mut self.load[..], &mut self.lost)
+        else {
             return;
         };
         let (mean, spring, damper) = (&means.load[..n], &means.spring[..n], &means.damper[..n]);
@@ -213,8 +238,10 @@ impl MomentumSums {
         }
         self.forces.set(0, sum);
         let ends = |start: &[f64], end: &[f64]| 0.5 * h * start.iter().zip(end).map(|(a, b)| a + b).sum::<f64>();
-        *place += ends(&moves.from[..n], &moves.shown[..n]);
-        *load += ends(&moves.load_start[..n], &moves.load_end[..n]);
+        let sums = [(place, place_lost, moves.from, moves.shown), (load, load_lost, moves.load_start, moves.load_end)];
+        for (sum, lost, start, end) in sums {
+            [*sum, lost[0]] = compensated([*sum, lost[0]], ends(&start[..n], &end[..n]));
+        }
         self.last.fill(moves.after[n - 1]);
     }
 }
@@ -225,16 +252,18 @@ struct AddEnds {
     h: f64,
 }
 
-impl Pass<6, 3, 0> for AddEnds {
+impl Pass<6, 5, 0> for AddEnds {
     #[inline(always)]
     fn of<S: Simd>(
         &self,
         [q0, q1, start, end, extra, after]: [Lanes<S>; 6],
-        [place, load, _]: [Lanes<S>; 3],
+        [place, place_lost, load, load_lost, _]: [Lanes<S>; 5],
         _: [Lanes<S>; 0],
-    ) -> ([Lanes<S>; 3], [Lanes<S>; 0]) {
+    ) -> ([Lanes<S>; 5], [Lanes<S>; 0]) {
         let half = 0.5 * self.h;
-        ([place + (q0 + q1) * half, load + ((start + end) * half + extra * self.h), after], [])
+        let [place, place_lost] = compensated([place, place_lost], (q0 + q1) * half);
+        let [load, load_lost] = compensated([load, load_lost], (start + end) * half + extra * self.h);
+        ([place, place_lost, load, load_lost, after], [])
     }
 }
 

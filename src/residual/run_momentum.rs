@@ -76,9 +76,9 @@ impl Judge {
         if let Some(previous) = &self.previous {
             // For generalized-α, the force at the end of the step, which includes dampers and the
             // walls that are springs.
+            sums.add_way(h, step.velocity_after);
             for i in 0..n {
                 let load = self.load_end[i];
-                sums.rate[i] += 0.5 * h * (sums.last[i] + step.velocity_after[i]);
                 let mut forces = sums.forces.of(i);
                 let force = previous.force[i] + step.extra[i];
                 forces.add(first, h, [load, force - load, 0.0]);

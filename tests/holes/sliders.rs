@@ -227,3 +227,47 @@ fn what_sticks_wears_nothing() {
         assert_eq!((wear.work_rate_w, wear.friction_power_w, wear.sliding_m), (0.0, 0.0, 0.0), "{scheme}");
     }
 }
+
+/// Storeys of 1000 t with friction dampers on the first and between the first two.
+const STOREYS: &str = "[system]\nmodes = 3\n[system.chain]\nmasses = [1e6, 1e6, 1e6]\n\
+    springs = [3.5e8, 3.5e8]\nleft = { stiffness = 3.5e8 }\n[system.damping]\nratio = 0.02\n\
+    [[slider]]\nname = \"ground\"\nat = { dof = 0 }\nnormal_force = 9.81e6\nfriction = 0.1\n\
+    [[slider]]\nname = \"storey\"\nat = { row = [[1, 1.0], [0, -1.0]] }\nnormal_force = 9.81e6\nfriction = 0.1\n\
+    [[load]]\nbase = { amplitude = 3.0, frequency = 0.8 }\n[time]\nend = 2.0\nstep = 2.5e-3\n";
+
+/// 1/(g M⁻¹ gᵀ): 1e6 kg of one storey, half of that between two, in the coordinates of all modes
+/// as in those of the storeys. A mass of another size has other roundings: bodies of 1e6 kg on
+/// pads of 1e-6 kg left them some hundred times.
+#[test]
+fn a_slider_has_the_mass_of_its_place_in_any_coordinates() {
+    for text in [STOREYS, &STOREYS.replace("modes = 3\n", "")] {
+        let case = file(text).case().unwrap();
+        let structure = case.scene.system.structure();
+        for (i, expected) in [(3, 1e6), (4, 0.5e6)] {
+            // The modes are known to some units of rounding of the solver of eigenvalues.
+            assert!((structure.mass.get(i, i) / expected - 1.0).abs() < 1e-9, "{}", structure.mass.get(i, i));
+        }
+        let run = run(&case.scene, &Scheme::Located, &Options::new(case.time)).unwrap();
+        assert_eq!((run.findings.len(), run.trajectory.contacts().len(), run.counters.steps_given_up), (0, 2, 0));
+    }
+}
+
+/// The normal force is the one that is given, however the structure starts.
+#[test]
+fn a_start_that_scatters_does_not_move_what_presses_a_slider() {
+    let scattered = "[initial]\nscatter = { velocity = 1e-3, seed = 4 }\n[time]";
+    let oscillator = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 1e4\n\
+        [[slider]]\nname = \"pad\"\nnormal_force = 10.0\nfriction = 0.1\n[time]\nend = 0.2\nstep = 1e-3\n";
+    let storeys = STOREYS.replace("9.81e6", "10.0");
+    for text in [oscillator, &storeys, &storeys.replace("modes = 3\n", "")] {
+        let case = file(&text.replace("[time]", scattered)).case().unwrap();
+        for case in [&case, &case.realisation(5).unwrap()] {
+            let run = run(&case.scene, &MOREAU_JEAN, &Options::new(case.time)).unwrap();
+            for wall in &run.statistics.walls {
+                let force = wall.force.as_ref().unwrap().mean_n;
+                // The first step has no force yet, and rounding.
+                assert!((force.abs() - 10.0).abs() < 1e-9, "{force}");
+            }
+        }
+    }
+}

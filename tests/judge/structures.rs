@@ -155,3 +155,22 @@ fn bodies_that_travel_far_together_are_not_accused_for_the_rounding_of_their_pla
         assert!((run.state.q[1] / 1800.0 - 1.0).abs() < 1e-2, "{scheme}: {:?}", run.state);
     }
 }
+
+/// Two bodies on springs, of which the second is pulled by two springs alone: their forces have no
+/// sum. What moves is rounding, and adding up 1e4 equal displacements must not be more.
+#[test]
+fn a_structure_that_rests_in_equilibrium_exchanges_no_momentum() {
+    let (first, second, tie, load) = (3055.4, 1663.2, 1988.9, 0.8316);
+    let scene = Scene::structure(Structure {
+        mass: Symmetric::diagonal(&[2.261, 3.36]),
+        damping: Symmetric::diagonal(&[1.0, 1.0]),
+        stiffness: Symmetric::from_entries(2, [(0, 0, first + tie), (0, 1, -tie), (1, 1, second + tie)]),
+    });
+    let determinant = (first + tie) * (second + tie) - tie * tie;
+    let rest = [load * (second + tie) / determinant, load * tie / determinant];
+    let scene = pushed(scene, 0, load).with_initial(&rest, &[0.0; 2]).with_duration(3.0);
+    for scheme in [Scheme::MoreauJean { theta: 0.5 }, Scheme::Located, Scheme::ImplicitEuler] {
+        let run = run(&scene, &scheme, &Options::with_step(3e-4)).unwrap();
+        assert_eq!(run.findings, [], "{scheme}");
+    }
+}

@@ -13,6 +13,7 @@ pub(super) use series::Moved;
 pub(super) use wall_energy::stored;
 
 use super::matrices::{Matrices, Part};
+use super::momentum_sums::compensated;
 use super::step_motion::StepMotion;
 use crate::linear::{pass, running_max};
 use crate::scene::{Forcing, Scene, Wall};
@@ -36,8 +37,8 @@ pub(super) struct Ledger {
     started: bool,
     /// The energy that each wall stored after the last step, J.
     held: Vec<f64>,
-    /// Σ of the steps' residuals, and the rounding error of that sum (Kahan), so that 1e7 steps can
-    /// be checked to rounding.
+    /// Σ of the steps' residuals, and the rounding error of that sum, so that 1e7 steps can be
+    /// checked to rounding.
     residual: f64,
     lost: f64,
     /// The largest rate of the load on the first degree of freedom, N/s.
@@ -241,10 +242,8 @@ impl Ledger {
     #[inline(always)]
     fn book(&mut self, energy: f64, flows: Flows) {
         let Flows { work, passed, damping, impact, dashpot, friction } = flows;
-        let residual = (energy - self.energy) - work + damping + impact + dashpot + friction - self.lost;
-        let sum = self.residual + residual;
-        self.lost = (sum - self.residual) - residual;
-        self.residual = sum;
+        let residual = (energy - self.energy) - work + damping + impact + dashpot + friction;
+        [self.residual, self.lost] = compensated([self.residual, self.lost], residual);
         self.energy = energy;
         let r = &mut self.report;
         r.largest_j = r.largest_j.max(energy);
