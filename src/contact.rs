@@ -209,6 +209,7 @@ impl Episodes {
         // on may be rounding.
         let rounding = pushing.iter().fold(0.0, |most: f64, &wall| most.max(jump[wall].abs())) * f64::EPSILON;
         for &wall in pushing {
+            let struck = jump[wall].abs() > rounding.max(self.floor[wall].force * self.longest);
             if length > 0.0 && over(wall) != 0.0 && !self.floor[wall].holds(over(wall), length) {
                 let (rates, round, longest) = (rates(wall), self.round[wall], self.longest);
                 let episode = self.open(wall, start, rates.before);
@@ -222,9 +223,10 @@ impl Episodes {
                     let (impulse, span) = std::mem::take(&mut episode.short);
                     episode.peak = Some(episode.peak.unwrap_or(0.0).max(impulse / span));
                 }
-                self.leave_at(wall, rates.after);
+                // It ends as the impact begins.
+                self.leave_at(wall, if struck { rates.struck } else { rates.after });
             }
-            if jump[wall].abs() > rounding.max(self.floor[wall].force * self.longest) {
+            if struck {
                 self.last_impact = end;
                 self.part(wall);
                 let rates = rates(wall);

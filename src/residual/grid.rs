@@ -76,6 +76,9 @@ impl Judge {
         let moves = moves!(self, step, per_h, beyond);
         let rates = self.supports.as_ref().map_or(&[][..], |supports| &supports.rates);
         self.energy.observe_grid(simd, &moves, step, &self.scratch.load, rates, n);
+        if within && self.blows.struck.iter().any(|v| *v != 0.0) {
+            self.energy.answer(step, &self.blows.struck);
+        }
         if beyond {
             self.energy.displace(h, step);
             self.sums.displace(&self.matrices, &self.blows.beyond, &mut self.scratch.mean_q);

@@ -14,6 +14,7 @@ pub(super) use wall_energy::stored;
 
 use super::matrices::{Matrices, Part};
 use super::momentum_sums::compensated;
+use super::pushes::pushes;
 use super::step_motion::StepMotion;
 use crate::linear::{pass, running_max};
 use crate::scene::{Forcing, Scene, Wall};
@@ -199,6 +200,31 @@ impl Ledger {
         self.report.load_work_j += lost;
         self.report.damping_j += lost;
         self.flowed += lost.abs();
+    }
+
+    /// Adds to load work and to the losses at walls, J, that the blows of a step, which alone give
+    /// the velocity `struck` (m/s), and the impulses of walls act one after the other: of both
+    /// [`Ledger::observe_grid`] takes the work at the mean velocity of the step. What acts first
+    /// does not feel the other: half of impulse times `struck` is work of the blow that the wall
+    /// takes, or the other way round.
+    #[cold]
+    pub fn answer(&mut self, step: &Step<'_>, struck: &[f64]) {
+        let rigid = |index: usize| self.scene.walls[index].law.is_rigid();
+        let (mut impact, mut friction) = (0.0, 0.0);
+        for (index, (wall, p)) in self.scene.walls.iter().zip(step.impulse).enumerate() {
+            if rigid(index) && *p != 0.0 && !wall.is_round() {
+                impact += 0.5 * (p * wall.row().dot(struck)).abs();
+            }
+        }
+        for (index, at, [push, rub]) in pushes(&self.scene, step) {
+            let given = [at.y.dot(struck), at.z.dot(struck)];
+            let work = |force: [f64; 2]| 0.5 * (force[0] * given[0] + force[1] * given[1]).abs();
+            impact += if rigid(index) { work(push) } else { 0.0 };
+            friction += work(rub);
+        }
+        self.report.load_work_j += impact + friction;
+        self.report.impact_loss_j += impact;
+        self.report.friction_j += friction;
     }
 
     /// Adds the work of the blows of the last step beyond its rule: they work at their own
