@@ -19,8 +19,9 @@ use open::OpenEpisode;
 pub(crate) const IMPACT_STEPS: u64 = 2;
 
 /// If the momentum that a rigid wall reverses in a step exceeds this share of the step's impulse,
-/// the step contains an impact and impulse/h is not a force. (The last bounces of an accumulation
-/// come in adjacent steps and end in a lasting force.)
+/// the step contains an impact and impulse/h is not a force, nor at other rigid walls, to which the
+/// structure may pass it on. (The last bounces of an accumulation come in adjacent steps and end in
+/// a lasting force.)
 const BLOW: f64 = 1e-2;
 
 /// The least length of the parts, of the longest one, over which a round wall's mean force is told.
@@ -125,9 +126,11 @@ impl Episodes {
                 self.part(wall);
             }
         }
+        let impact = |&wall: &usize| self.reverses(wall, rates(wall).struck, impulse.get(wall).copied().unwrap_or(0.0));
+        let elsewhere = pushing.len() > 1 && pushing.iter().any(impact);
         for &wall in pushing {
             if let Some(&p) = impulse.get(wall) {
-                self.push(wall, start + self.instant * h, h, p, rates(wall));
+                self.push(wall, start + self.instant * h, (h, elsewhere), p, rates(wall));
             }
         }
         before.clear();
@@ -155,7 +158,16 @@ impl Episodes {
         self.part(wall);
     }
 
-    fn push(&mut self, wall: usize, instant: f64, h: f64, p: f64, rates: Rates) {
+    /// True if the impulse `p` (N s) of a rigid wall is in large part that of an impact, at which
+    /// the body arrives with the velocity ẇ `struck` (m/s).
+    #[inline]
+    fn reverses(&self, wall: usize, struck: f64, p: f64) -> bool {
+        self.rigid[wall] && self.mass[wall] * struck.abs() > BLOW * p.abs()
+    }
+
+    /// Adds the impulse `p` (N s) of a wall in a step of `h` seconds, in which there may be an
+    /// impact elsewhere.
+    fn push(&mut self, wall: usize, instant: f64, (h, elsewhere): (f64, bool), p: f64, rates: Rates) {
         if self.floor[wall].holds(p, h) {
             return self.leave(wall);
         }
@@ -166,6 +178,7 @@ impl Episodes {
         if self.rigid[wall] && sign * (struck - before) < 0.0 {
             self.part(wall);
         }
+        let reverses = self.reverses(wall, struck, p);
         let fresh = OpenEpisode::new(instant, (-sign * struck).max(0.0));
         let episode = self.open[wall].get_or_insert(fresh);
         episode.steps += 1;
@@ -173,8 +186,8 @@ impl Episodes {
         episode.impulse += p.abs();
         episode.moment += p.abs() * instant;
         episode.departure = (sign * after).max(0.0);
-        let blow = episode.steps <= self.impact_steps || self.mass[wall] * struck.abs() > BLOW * p.abs();
-        if !self.rigid[wall] || !blow {
+        let impact = elsewhere || reverses || episode.steps <= self.impact_steps;
+        if !self.rigid[wall] || !impact {
             episode.peak = Some(episode.peak.unwrap_or(0.0).max(p.abs() / h));
         }
         self.any = true;

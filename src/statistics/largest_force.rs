@@ -13,7 +13,9 @@ use std::collections::VecDeque;
 pub struct LargestForce {
     /// Σ|p| in that stretch over its length, or |force|, N.
     pub mean_n: f64,
-    /// The middle of the stretch, or of the contact with that force, s.
+    /// The middle of the stretch, or of the contact with that force, s. Where a later stretch holds
+    /// the same, as about a single impact, it is the middle of what pushes: the instant of that
+    /// impact.
     pub at_s: f64,
     /// The length, s; 0 for a force at an instant.
     pub averaged_over_s: f64,
@@ -114,8 +116,9 @@ impl LargestStretch {
             }
         }
         if may_be_largest {
-            let impulse = self.sum() - self.sum_at(t - self.length, |point| point.before);
-            self.note(impulse, t - 0.5 * self.length);
+            let from = t - self.length;
+            let before = self.sum_at(from, |point| point.before);
+            self.note(self.sum() - before, 0.5 * (self.first_push(from, before) + t));
         }
         while self.points.get(1).is_some_and(|next| next.time <= t - self.length) {
             self.points.pop_front();
@@ -127,6 +130,16 @@ impl LargestStretch {
         if impulse > self.largest.0 {
             self.largest = (impulse, middle);
         }
+    }
+
+    /// The first instant from `from` (s) on at which something pushes, s, where Σ|p| up to there is
+    /// `before`, N s.
+    fn first_push(&self, from: f64, before: f64) -> f64 {
+        let next = self.points.iter().position(|point| point.after > before);
+        let Some((index, point)) = next.and_then(|index| Some((index, self.points.get(index)?))) else { return from };
+        let last = index.checked_sub(1).and_then(|index| self.points.get(index));
+        let begins = if point.before > before { last.map_or(from, |last| last.time) } else { point.time };
+        begins.max(from)
     }
 
     /// Σ|p| up to `t` (s), at a point on the `side` given.
@@ -161,9 +174,12 @@ mod tests {
         for (t, p) in [(0.5, 2.5), (3.55, 1.0), (3.95, 1.5), (4.45, 0.5), (4.56, 1.4), (9.0, 2.9)] {
             stretch.jump(t, p);
         }
-        // 1.5 + 0.5 + 1.4 from 3.95 to 4.56: the first stretch that holds them ends at 4.56 s.
+        // 1.5 + 0.5 + 1.4 from 3.95 to 4.56.
         let (mean, at) = found(&stretch);
-        assert!((mean - 3.4).abs() < 1e-14 && (at - 4.06).abs() < 1e-14, "{mean} at {at}");
+        assert!((mean - 3.4).abs() < 1e-14 && (at - 4.255).abs() < 1e-14, "{mean} at {at}");
+        // A larger one by itself, at its instant.
+        stretch.jump(12.0, 3.5);
+        assert_eq!(found(&stretch), (3.5, 12.0));
     }
 
     #[test]

@@ -109,7 +109,7 @@ pub struct WallStatistics {
     /// frictionless: this is impact power and contains no sliding wear.
     pub impact_power_w: f64,
     /// That power minus the kinetic energy with which the body left, Σ ½m(approach² −
-    /// departure²)/T, W; of closed episodes. At impacts this is what restitution dissipates. In a
+    /// departure²)/T, W; what rests at a rigid wall has not left with any. At impacts this is what restitution dissipates. In a
     /// lasting contact (elastic walls, penalties, rest) the loads and the structure do work on the
     /// body, and that work is included: the value is negative where the body leaves with more
     /// energy than it brought. What dashpots of walls dissipate is
@@ -259,7 +259,12 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, window: &Window) -> WallSta
     // An empty sum of floats is −0; starting from 0 prints 0.
     let total = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |sum, x| sum + x);
     let end = |c: &Contact| c.end.unwrap_or(to).min(to);
-    let lost = |c: &Contact| c.departure_speed.map_or(0.0, |d| energy(c.approach_speed) - energy(d));
+    let lost = |c: &Contact| match c.departure_speed {
+        Some(departure) => energy(c.approach_speed) - energy(departure),
+        // What still rests at a rigid wall has left with nothing so far; a spring may give it back.
+        None if wall.law.is_rigid() => energy(c.approach_speed),
+        None => 0.0,
+    };
     let touching = |[a, b]: [f64; 2]| total(&mut all.iter().map(|c| (end(c).min(b) - c.start.max(a)).max(0.0)));
     let contacts = here.clone().count();
     let reaching = all.iter().filter(|c| c.end.is_none_or(|end| end >= from));

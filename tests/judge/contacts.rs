@@ -2,7 +2,9 @@
 
 use crate::common::event_driven::EventDriven;
 use crate::common::{self, MOREAU_JEAN, schemes, source};
-use signorini::{Contact, Integrator, Load, Options, Scene, Scheme, Stepper, Table, TimeOptions, Wall, run};
+use signorini::{
+    Chain, Contact, Integrator, Load, Options, Row, Scene, Scheme, Stepper, Table, TimeOptions, Wall, run,
+};
 
 /// Contacts of a run over the scene's duration with steps of `h`.
 fn contacts(scene: &Scene, scheme: &Scheme, h: f64) -> Vec<Contact> {
@@ -461,5 +463,44 @@ fn the_rounding_of_an_impulse_is_that_of_its_own_terms() {
         let [impulse] = found[..] else { panic!("{scheme}: {found:?}") };
         // Ten steps, each known to a hundredth; the first of paoli-schatzman is half a step's.
         assert!((impulse / -2e-7 - 1.0).abs() < 0.06, "{scheme}: {impulse:e} N s");
+    }
+}
+
+/// 1 kg rests on the ground under 5 N, and another kilogram falls onto it at 1 m/s: what the ground
+/// gives at that impact is no force of the rest.
+#[test]
+fn an_impact_that_the_structure_passes_on_is_no_force_of_a_contact_that_lasts() {
+    let chain = Chain { masses: vec![1.0, 1.0], springs: vec![0.0], grounds: [0.0, 0.0] };
+    let scene = Scene::structure(chain.structure().unwrap())
+        .with_wall(Wall::lower("ground", 0.0).with_restitution(0.5))
+        .with_wall(Wall::lower("between", -0.1).at(Row::new(vec![(0, -1.0), (1, 1.0)])).with_restitution(0.8))
+        .with_load(Load { at: Row::dof(0), ..Load::constant(-5.0) })
+        .with_initial(&[0.0, 0.0], &[0.0, -1.0])
+        .with_duration(0.4);
+    for scheme in [Scheme::MoreauJean { theta: 0.5 }, Scheme::Located, Scheme::Event] {
+        for step in [1e-2, 1e-3, 1e-4] {
+            let run = run(&scene, &scheme, &Options::with_step(step)).unwrap();
+            let rest = run.trajectory.contacts().iter().filter(|contact| contact.wall == 0);
+            let peak = rest.filter_map(|contact| contact.peak_force).fold(0.0, f64::max);
+            assert!((peak - 5.0).abs() < 1e-9, "{scheme}, {step}: {peak}");
+        }
+    }
+}
+
+/// 2 kg that fall and stay have lost all they brought, though their contact has not ended.
+#[test]
+fn what_rests_at_the_end_has_left_with_nothing() {
+    for (restitution, scheme) in
+        [(0.0, Scheme::Event), (0.0, Scheme::Located), (0.0, Scheme::MoreauJean { theta: 0.5 })]
+    {
+        let scene = Scene::oscillator(2.0, 0.0, 0.0)
+            .with_wall(Wall::lower("ground", 0.0).with_restitution(0.0))
+            .with_load(Load::constant(-4.0))
+            .with_initial(&[0.01], &[0.0])
+            .with_duration(1.0);
+        let run = run(&scene, &scheme, &Options::with_step(1e-3)).unwrap();
+        // The work of 4 N over 1 cm, within a second; a step's way in the speed of moreau-jean.
+        let lost = run.statistics.walls[0].arrived_less_departed_power_w;
+        assert!((lost - 0.04).abs() < 1e-3, "{scheme}: {lost}");
     }
 }
