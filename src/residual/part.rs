@@ -112,7 +112,9 @@ impl Judge {
         let (place, p, end) = (hole.index, step.jump[hole.index], hole.offset(step.q));
         let distance = end[0].hypot(end[1]);
         let gap = hole.gap - distance;
-        if p == 0.0 && gap > self.walls.touch {
+        let size = terms(hole.at, step.q) + hole.centre[0].abs() + hole.centre[1].abs() + hole.gap;
+        // Rounding decides whether a wall that does not push is touched.
+        if p == 0.0 && gap > -self.noise.of(size) {
             return;
         }
         let n = end.map(|x| x / distance);
@@ -122,15 +124,12 @@ impl Judge {
         let pressure = p / self.h;
         self.walls.observe_force(&mut self.noise, place, (pressure, pressure.abs()), true);
         let speeds = terms(hole.at, step.velocity_after) + terms(hole.at, step.v) + terms(hole.at, &self.blows.struck);
-        let size = terms(hole.at, step.q) + hole.centre[0].abs() + hole.centre[1].abs() + hole.gap;
         self.walls.observe_gap(&self.noise, place, (gap, size), pressure);
         let noise = self.noise.velocity(speeds, self.noise.span) + self.noise.of(size) / hole.gap * speeds;
         let rests = step.resting.contains(&place) && supports.ends_rebounds(hole, (n, struck), self.h, noise);
         let e = if rests || step.wedged.contains(&place) { 0.0 } else { hole.restitution };
         let slack = -after - if struck > 0.0 { e * struck } else { struck };
-        // Rounding decides whether a wall that does not push is touched.
-        let edge = if p == 0.0 && gap > -self.noise.of(size) { f64::INFINITY } else { 0.0 };
-        self.walls.observe_rebound(&self.noise, place, (slack, noise + edge), pressure);
+        self.walls.observe_rebound(&self.noise, place, (slack, noise), pressure);
         if p != 0.0 {
             let across = pressure * (step.normal[place][0] - n[0]).hypot(step.normal[place][1] - n[1]);
             let noise = pressure * self.noise.of(size) / distance + self.noise.wall_force(place);
@@ -145,7 +144,9 @@ impl Judge {
         let (sign, p) = (wall.side().sign(), step.jump[index]);
         let Some(e) = wall.law.restitution().filter(|_| !wall.is_round()) else { return };
         let (gap, before, after) = (wall.gap(row.dot(step.q)), row.dot(step.velocity_after), row.dot(step.v));
-        if p == 0.0 && gap > self.walls.touch {
+        let size = row.size(step.q) + wall.position().abs();
+        // Rounding decides whether a wall that does not push is touched.
+        if p == 0.0 && gap > -self.noise.of(size) {
             return;
         }
         let struck = before + row.dot(&self.blows.struck);
@@ -153,7 +154,6 @@ impl Judge {
         self.walls.observe_force(&mut self.noise, index, (pressure, pressure.abs()), true);
         let wall = &self.scene.walls[index];
         let noise = self.noise.velocity(self.speeds(step, index), self.noise.span);
-        let size = row.size(step.q) + wall.position().abs();
         self.walls.observe_gap(&self.noise, index, (gap, size), pressure);
         // The rebounds end within a step if the acceleration of the part presses the body so; in
         // two planes, of the last one of some length.
@@ -167,9 +167,7 @@ impl Judge {
         };
         let e = if rests || step.wedged.contains(&index) { 0.0 } else { e };
         let slack = rebound(wall, e, struck, after);
-        // Rounding decides whether a wall in front of the body is touched.
-        let edge = if p == 0.0 && gap > 0.0 { f64::INFINITY } else { 0.0 };
-        self.walls.observe_rebound(&self.noise, index, (slack, noise + edge), pressure);
+        self.walls.observe_rebound(&self.noise, index, (slack, noise), pressure);
     }
 
     /// Checks the momentum that the velocity gains at the end of a part, by the impulses `at_end`.

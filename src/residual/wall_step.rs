@@ -174,19 +174,21 @@ impl Judge {
             let closes = promise.velocity == Some(Reached::Closed);
             let is_edge = if closes {
                 // The promise does not cover a wall that is closed only by the rounding error of
-                // its gap.
-                pressure == 0.0 && way > 0.0
+                // its gap: the body strikes it as the next step begins.
+                pressure == 0.0 && way > -self.noise.of(self.size(step, index))
             } else {
                 // Near the limit, rounding decides whether the body reaches the wall within the
                 // step: either is accepted.
                 (way - self.walls.touch).abs() <= self.noise.of(self.size(step, index))
             };
-            let accepted = if is_edge { f64::INFINITY } else { 0.0 };
+            if is_edge {
+                return;
+            }
             if reached {
                 let noise = self.noise.velocity(self.speeds(step, index), self.noise.span);
-                self.walls.observe_rebound(&self.noise, index, (slack, noise + accepted), pressure);
+                self.walls.observe_rebound(&self.noise, index, (slack, noise), pressure);
             } else if !closes && promise.displacement.is_none() {
-                self.walls.observe_law(&self.noise, index, pressure.abs(), accepted);
+                self.walls.observe_law(&self.noise, index, pressure.abs(), 0.0);
             }
         }
     }

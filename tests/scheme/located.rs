@@ -326,3 +326,28 @@ fn a_jump_written_as_two_rows_divides_its_step() {
     let errors = [1e-3, 2.5e-4].map(|step| (located(&struck, step).state.q[0] - exact).abs());
     assert!(errors[0] < 2e-5 && errors[1] < errors[0] / 8.0, "{errors:?}");
 }
+
+/// Speeds, gaps and steps in round numbers: a body strikes its wall where a step ends, to rounding,
+/// and rounding alone decides in which of two steps that is. Each of them keeps the contract.
+#[test]
+fn an_impact_at_the_end_of_a_step_is_in_that_step_or_in_the_next() {
+    for gap in [1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05] {
+        for speed in [0.1, 0.2, 0.5, 0.8, 1.0, 2.0] {
+            for parts in [5.0, 10.0, 20.0, 25.0, 40.0, 50.0, 64.0, 100.0] {
+                let step = gap / speed / parts;
+                let scene = Scene::oscillator(1.0, 0.0, 0.0)
+                    .with_wall(Wall::upper("wall", gap).with_restitution(0.6))
+                    .with_initial(&[0.0], &[speed])
+                    .with_duration(2.0 * gap / speed);
+                let run = run(&scene, &Scheme::Located, &Options::with_step(step)).expect("a run");
+                let what = format!("{gap} m at {speed} m/s in {parts} steps: {:?}", run.findings);
+                let judged = run.judged().expect("a judge");
+                // The rounding of a speed.
+                assert!(run.findings.is_empty() && judged.complementarity < 1e-12, "{what}");
+                assert!((run.state.v[0] / speed + 0.6).abs() < 1e-15, "{what}");
+                // It comes back from where it was struck, the touching distance of 1e-12 in front.
+                assert!((run.state.q[0] / gap - 0.4).abs() < 2e-12, "{what}: {}", run.state.q[0] / gap);
+            }
+        }
+    }
+}
