@@ -73,12 +73,12 @@ impl Check<'_> {
 
     fn unknown(&self, name: &Name<'_>, table: &str) -> Error {
         let known = self.schema.children(table).map(|entry| entry.word);
-        let meant = match nearest(name.get_ref(), known.clone()) {
+        let other = elsewhere(&format!("{table}.{}", name.get_ref())).map(str::to_owned);
+        let meant = match nearest(name.get_ref(), known.clone()).filter(|_| other.is_none()) {
             Some(near) => format!("; did you mean `{near}`?"),
             None => String::new(),
         };
         let title = format!("unknown key `{}` in {}{meant}", name.get_ref(), self.place(table));
-        let other = elsewhere(&format!("{table}.{}", name.get_ref())).map(str::to_owned);
         let help = other.unwrap_or_else(|| known.collect::<Vec<_>>().join(", "));
         self.source.error(name.span(), &title, &format!("expected {help}"))
     }

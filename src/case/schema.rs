@@ -10,6 +10,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("statistics.force_window", "`force_averaging` in [time]: the stretch over which forces are averaged"),
     ("statistics.force_averaging", "`force_averaging` in [time]"),
     ("statistics.statistics_from", "`statistics_from` in [time]"),
+    ("wall.friction", "`friction` in [[slider]] in one plane, in [[support]] in two: a wall has none"),
     ("time.rest", "`rest` in [statistics]"),
     ("time.spectra", "`spectra` in [statistics]"),
 ];

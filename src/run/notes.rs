@@ -84,7 +84,7 @@ pub(crate) fn late_output(scene: &Scene) -> Option<String> {
 /// known before it runs.
 #[must_use]
 pub fn foreseen(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
-    of_restitution(scene, scheme).into_iter().chain(setup(scene, scheme, step)).collect()
+    of_restitution(scene, scheme).into_iter().chain(setup(scene, scheme, step, true)).collect()
 }
 
 /// What limits the use of a run of which no motion was recorded; `energy` is known where it was
@@ -100,7 +100,7 @@ pub(crate) fn unrecorded(
     let mut notes: Vec<String> = of_restitution(scene, scheme).into_iter().collect();
     notes.extend(energy.and_then(|energy| of_energy(energy, None)));
     notes.extend(of_counters(scheme, counters));
-    notes.extend(setup(scene, scheme, step));
+    notes.extend(setup(scene, scheme, step, true));
     notes
 }
 
@@ -147,7 +147,8 @@ pub(crate) fn cautions<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R
         ));
     }
     notes.extend(of_counters(&run.scheme, &run.counters));
-    notes.extend(setup(scene, &run.scheme, run.grid.step));
+    let touched = run.recorded().is_none_or(|trajectory| !trajectory.contacts().is_empty());
+    notes.extend(setup(scene, &run.scheme, run.grid.step, touched));
     notes
 }
 

@@ -279,6 +279,8 @@ fn words_that_are_nearly_right_are_named() {
         said(dir.path(), &["explain", "c.toml"], 2).1
     };
     assert!(with("restitution =", "restitutoin =").contains("did you mean `restitution`?"));
+    let friction = with("restitution =", "friction =");
+    assert!(friction.contains("[[slider]] in one plane") && !friction.contains("did you mean"), "{friction}");
     assert!(with("[system.oscillator]", "[system.ocsillator]").contains("did you mean `oscillator`?"));
     assert!(with("[[wall]]", "[wall]").contains("[[wall]] table, in double brackets"));
     let comma = with("mass = 1.0", "mass = 1,0");

@@ -26,7 +26,7 @@ pub(super) fn untouched(scene: &Scene, trajectory: &Trajectory) -> Option<String
     };
     let covered = if start > 0.0 { 100.0 * (1.0 - nearest / start) } else { 0.0 };
     Some(format!(
-        "{NO_CONTACT}: nearest, the body stays {nearest:.3e} m from the wall {:?}, having covered \
+        "{NO_CONTACT}: in the rows, the body stays {nearest:.3e} m from the wall {:?}, having covered \
          {covered:.2} % of the {start:.3e} m at the start; positions and gaps are in m",
         wall.name
     ))
@@ -48,7 +48,7 @@ fn within(scene: &Scene, trajectory: &Trajectory) -> Option<String> {
     let farthest = seen.max_by(|a, b| (a.1 / a.0.gap).total_cmp(&(b.1 / b.0.gap)));
     match farthest {
         Some((hole, far)) => Some(format!(
-            "{NO_CONTACT}: the body stays within {far:.3e} m of the centre of the round support {:?}, whose gap \
+            "{NO_CONTACT}: in the rows, the body stays within {far:.3e} m of the centre of the round support {:?}, whose gap \
              is {:.3e} m; positions and gaps are in m",
             hole.name, hole.gap
         )),

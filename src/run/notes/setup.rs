@@ -22,8 +22,9 @@ const MATTERS: f64 = 1e-2;
 /// Range of natural frequencies usual in engineering, Hz.
 const USUAL: [f64; 2] = [1e-2, 1e5];
 
-/// Notes on `scene` run by `scheme` in steps of `step` seconds.
-pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
+/// Notes on `scene` run by `scheme` in steps of `step` seconds; those on what walls do only where
+/// they may be `touched`.
+pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64, touched: bool) -> Vec<String> {
     let mut notes: Vec<String> = scene.loads.iter().enumerate().filter_map(|(i, load)| span(scene, i, load)).collect();
     notes.extend(scene.loads.iter().enumerate().filter_map(|(i, load)| turned(i, load)));
     notes.extend(unusual(scene));
@@ -33,6 +34,8 @@ pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64) -> Vec<String> {
             scene.loads.iter().enumerate().filter_map(|(i, load)| load_resolved(scene, i, load, (scheme, step))),
         );
         notes.extend(modes_resolved(scene, step));
+    }
+    if !scheme.is_exact() && touched {
         notes.extend((*scheme == Scheme::Located).then(|| struck_resolved(scene, step)).flatten());
         notes.extend(walls_resolved(scene, step));
         notes.extend(dashpots_resolved(scene, step));
