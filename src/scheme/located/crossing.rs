@@ -31,12 +31,13 @@ impl GapPath {
     }
 
     /// The first τ in [0, s] at which the path crosses the wall from the front, if it goes deeper
-    /// than `touch` (m) behind it or ends behind it while approaching. A wall within `touch` at the
-    /// start counts as touched.
+    /// than `touch` (m) behind it or ends within `touch` of it, or behind it, while approaching: an
+    /// impact at the end of a step belongs to that step. A wall within `touch` at the start counts
+    /// as touched.
     #[inline(always)]
     pub fn crossing(&self, touch: f64) -> Option<f64> {
         // A parabola lies within the hull of its control points.
-        let in_front = self.gap > touch && self.gap + 0.5 * self.span * self.rate > 0.0 && self.end() > 0.0;
+        let in_front = self.gap > touch && self.gap + 0.5 * self.span * self.rate > 0.0 && self.end() > touch;
         if in_front { None } else { self.root(touch) }
     }
 
@@ -47,7 +48,7 @@ impl GapPath {
         if touched && rate < 0.0 {
             return Some(0.0);
         }
-        let arrives = self.end() <= 0.0 && rate + change < 0.0;
+        let arrives = self.end() <= touch && rate + change < 0.0;
         if self.least() >= -touch && !arrives {
             return None;
         }
@@ -101,5 +102,8 @@ mod tests {
         assert_eq!(crossing(0.0, -1.0, 0.0), Some(0.0));
         // It ends exactly on the wall, approaching.
         assert_eq!(crossing(2.0, -1.0, 0.0), Some(2.0));
+        // It ends in front of the wall by less than the touching distance, then by more.
+        assert_eq!(crossing(2.0 + 5e-13, -1.0, 0.0), Some(2.0));
+        assert_eq!(crossing(2.0 + 2e-12, -1.0, 0.0), None);
     }
 }

@@ -6,7 +6,7 @@ use super::super::frame::{Frame, Stretch, step_at};
 use super::super::position;
 use super::super::programme::failure;
 use super::super::space::{Space, zero};
-use super::contacts::{Contacts, Event};
+use super::contacts::{Ahead, Contacts, Event};
 use super::part::{Part, THETA};
 use crate::error::{Error, Result};
 use crate::qp::{Backend, Failure};
@@ -210,17 +210,30 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
             let next = if !found {
                 high = length;
                 0.5 * (low + length)
-            } else if let Some((at, event)) = self.contacts.first_event(body, frame, motion) {
-                (high, target) = (length, Some(event));
-                at
             } else {
-                let ahead = target.map(|event| self.contacts.ahead(body, frame, event, motion));
-                let Some(ahead) = ahead.filter(|ahead| ahead.left > ahead.met) else {
+                let event = self.contacts.first_event(body, frame, motion);
+                let sought = event.map_or(target, |(_, event)| Some(event));
+                let ahead = sought.map(|event| self.contacts.ahead(body, frame, event, motion));
+                // An event at the very end is met there, neither before nor after it.
+                let met = |ahead: &Ahead| match event {
+                    Some((at, _)) => at >= length && ahead.left.abs() <= ahead.met,
+                    None => ahead.left <= ahead.met,
+                };
+                let Some(ahead) = ahead.filter(|ahead| !met(ahead)) else {
                     self.commit(body, frame, length, if length == whole { limit } else { from + length });
                     return Ok(());
                 };
-                low = length;
-                length - ahead.left / ahead.rate
+                target = sought;
+                match event {
+                    Some((at, _)) => {
+                        high = length;
+                        at
+                    }
+                    None => {
+                        low = length;
+                        length - ahead.left / ahead.rate
+                    }
+                }
             };
             let within = low < next && next < high && evaluation < MOST_EVALUATIONS / 2;
             length = if within { next } else { 0.5 * (low + high) };

@@ -189,7 +189,6 @@ impl<S: Space> Located<S> {
     #[inline(never)]
     fn first_crossing(&mut self, frame: &Frame<S>, near: bool) -> Option<(f64, Event)> {
         if !near {
-            self.programme.first_near(&self.arrived)?;
             self.division.classify(&self.body, frame);
         }
         self.division.contacts.first_event(&self.body, frame, (self.programme.x(), self.body.h))
