@@ -144,9 +144,8 @@ impl Judge {
         let (sign, p) = (wall.side().sign(), step.jump[index]);
         let Some(e) = wall.law.restitution().filter(|_| !wall.is_round()) else { return };
         let (gap, before, after) = (wall.gap(row.dot(step.q)), row.dot(step.velocity_after), row.dot(step.v));
-        let size = row.size(step.q) + wall.position().abs();
-        // Rounding decides whether a wall that does not push is touched.
-        if p == 0.0 && gap > -self.noise.of(size) {
+        // Rounding decides whether a wall in front of the body is touched.
+        if p == 0.0 && gap > 0.0 {
             return;
         }
         let struck = before + row.dot(&self.blows.struck);
@@ -154,6 +153,7 @@ impl Judge {
         self.walls.observe_force(&mut self.noise, index, (pressure, pressure.abs()), true);
         let wall = &self.scene.walls[index];
         let noise = self.noise.velocity(self.speeds(step, index), self.noise.span);
+        let size = row.size(step.q) + wall.position().abs();
         self.walls.observe_gap(&self.noise, index, (gap, size), pressure);
         // The rebounds end within a step if the acceleration of the part presses the body so; in
         // two planes, of the last one of some length.

@@ -174,8 +174,8 @@ impl Judge {
             let closes = promise.velocity == Some(Reached::Closed);
             let is_edge = if closes {
                 // The promise does not cover a wall that is closed only by the rounding error of
-                // its gap: the body strikes it as the next step begins.
-                pressure == 0.0 && way > -self.noise.of(self.size(step, index))
+                // its gap.
+                pressure == 0.0 && way > 0.0
             } else {
                 // Near the limit, rounding decides whether the body reaches the wall within the
                 // step: either is accepted.
