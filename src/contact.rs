@@ -241,10 +241,14 @@ impl Episodes {
             }
             if struck {
                 self.last_impact = end;
-                self.part(wall);
                 let rates = rates(wall);
+                // What the structure passes on from an impact elsewhere ends no contact that lasts.
+                if self.reverses(wall, rates.struck, jump[wall]) {
+                    self.part(wall);
+                }
                 let episode = self.open(wall, end, rates.struck);
-                (episode.impulse, episode.moment) = (jump[wall].abs(), jump[wall].abs() * end);
+                (episode.impulse, episode.last) = (episode.impulse + jump[wall].abs(), end);
+                episode.moment += jump[wall].abs() * end;
                 self.leave_at(wall, rates.after);
             }
         }

@@ -25,7 +25,8 @@ impl OpenEpisode {
     /// An episode that begins at `time` (s), at which the wall is approached with `approach` (m/s).
     #[inline]
     pub fn new(time: f64, approach: f64) -> Self {
-        Self { first: time, last: time, approach, ..Self::default() }
+        // Without the sign of a rate of −0.
+        Self { first: time, last: time, approach: approach + 0.0, ..Self::default() }
     }
 
     /// The contact at `wall`, whose impulses have this sign: an impact or not, ended or still open.

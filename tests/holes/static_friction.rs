@@ -5,7 +5,7 @@ use crate::random_structures::Draws;
 use crate::rubbing::{MOREAU_JEAN, body, hole, isotropic, load, random_scene, rotating, with, with_flats};
 use signorini::residual::Judge;
 use signorini::{
-    Finding, FrictionCoefficients, Load, Options, Refuted, Row, Scene, Scheme, Stepper, Table, WallLaw, run,
+    Finding, FrictionCoefficients, Load, Options, Refuted, Row, Scene, Scheme, Slider, Stepper, Table, WallLaw, run,
 };
 use std::f64::consts::PI;
 
@@ -176,6 +176,38 @@ fn no_random_scene_with_a_static_coefficient_is_refuted() {
                 Ok(run) => assert_eq!(run.findings, [], "seed {seed}, {scheme}"),
                 // A body that friction jams may have no motion at a coarse step.
                 Err(error) => assert!(scheme == Scheme::Located && error.to_string().contains("no motion"), "{error}"),
+            }
+        }
+    }
+}
+
+/// 1 kg on 1000 N/m between pads of 10 N in all that hold 4 N together, under a load that grows by
+/// 10 N/s. How pads share what holds the body is not determined: one may be at its limit alone.
+#[test]
+fn contacts_that_hold_the_same_motion_let_go_together() {
+    let scene = |pads: u32| {
+        let load = Table::new(vec![0.0, 1.0], vec![0.0, 10.0]).unwrap();
+        let scene = Scene::oscillator(1.0, 0.0, 1000.0).with_load(Load::table(load)).with_duration(0.6);
+        (0..pads).fold(scene, |scene, number| {
+            let friction = FrictionCoefficients { sticking: 0.4, sliding: 0.2 };
+            let name = format!("pad-{number}");
+            let normal_force = 10.0 / f64::from(pads);
+            scene.with_slider(&Slider { name, at: Row::dof(0), normal_force, friction }).unwrap()
+        })
+    };
+    for scheme in [Scheme::MoreauJean { theta: 0.5 }, Scheme::Located] {
+        for step in [2e-4, 1e-4] {
+            let [one, two, three] =
+                [1, 2, 3].map(|pads| run(&scene(pads), &scheme, &Options::with_step(step)).unwrap());
+            for several in [&two, &three] {
+                assert_eq!(several.findings, []);
+                let [(w, _), (alone, _)] = [several, &one].map(|run| run.trajectory.probe("").unwrap());
+                let slides = several.trajectory.time().iter().zip(w).find(|(_, w)| w.abs() > 1e-9).unwrap().0;
+                // Its first step of motion is well below 1e-9 m.
+                assert!((slides - 0.4).abs() < 4.0 * step + 1e-3, "{scheme}, {step}: {slides}");
+                let apart = w.iter().zip(alone).map(|(w, alone)| (w - alone).abs()).fold(0.0, f64::max);
+                // Of 8 mm: the rounding of impulses that are shared another way.
+                assert!(apart < 1e-10, "{scheme}, {step}: {apart:e}");
             }
         }
     }

@@ -182,12 +182,16 @@ impl FrictionContact {
 
     /// Changes the coefficient of friction if its answer has another: the kinetic one, for the rest
     /// of the step, where it slides in spite of static friction; the static one where its sliding
-    /// velocity turns. Returns whether it changed. The velocities are `y`.
-    pub fn changes_friction(&mut self, y: &[f64]) -> bool {
-        let ([p, f], slides) = (self.impulse, matches!(self.state, State::Ahead | State::Back));
+    /// velocity turns. Returns whether it changed. The velocities are `y`, of which `noise` (m/s)
+    /// is rounding: a contact at its limit that others hold does not slide, whatever its state.
+    pub fn changes_friction(&mut self, y: &[f64], noise: f64) -> bool {
+        let ([p, f], along) = (self.impulse, self.excess(y)[1]);
+        let mut slides = matches!(self.state, State::Ahead | State::Back);
         if slides && self.friction == 0.0 {
             // The answer is the same either way.
-            self.state = if self.excess(y)[1] < 0.0 { State::Back } else { State::Ahead };
+            self.state = if along < 0.0 { State::Back } else { State::Ahead };
+        } else if slides && self.slides == 0.0 && along.abs() <= noise {
+            (self.state, slides) = (State::Stick, false);
         }
         if self.friction > self.kinetic {
             // What holds a body that turns acts against the new velocity, hence along the old one.

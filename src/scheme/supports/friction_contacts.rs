@@ -90,10 +90,14 @@ impl FrictionContacts {
     pub fn solve(&mut self, places: &ContactRows) -> bool {
         loop {
             let pushes = self.solve_once(places);
-            let Self { touches, y, .. } = self;
-            let changes = |any, touch: &mut FrictionContact| touch.changes_friction(y) | any;
-            if !(pushes && touches.iter_mut().fold(false, changes)) {
+            let Self { touches, free, y, .. } = self;
+            if !pushes || touches.iter().all(|touch| touch.holding == touch.kinetic) {
                 return pushes;
+            }
+            let noise = ROUNDING * most(largest_of(free), touches);
+            let changes = |any, touch: &mut FrictionContact| touch.changes_friction(y, noise) | any;
+            if !touches.iter_mut().fold(false, changes) {
+                return true;
             }
         }
     }

@@ -80,13 +80,19 @@ fn which_coefficient_a_contact_has_follows_from_what_it_did_and_does() {
         let mut touch = touch.after(both, did);
         for &(state, f, friction, changes) in answers {
             (touch.state, touch.impulse) = (state, [1.0, f]);
-            assert_eq!((touch.changes_friction(&[0.0; 2]), touch.friction), (changes, friction), "{did:?} {state:?}");
+            let y = [0.0, state.sign()];
+            assert_eq!((touch.changes_friction(&y, 1e-9), touch.friction), (changes, friction), "{did:?} {state:?}");
         }
     }
     // Without kinetic friction the velocity tells which way it slides.
     let mut touch = touch.after(FrictionCoefficients { sliding: 0.0, ..both }, State::Ahead);
     (touch.state, touch.impulse) = (State::Ahead, [1.0, 0.0]);
-    assert!(!touch.changes_friction(&[0.0, 0.1]) && touch.changes_friction(&[0.0, -0.1]) && touch.friction == 0.5);
+    let mut changes = |along: f64| touch.changes_friction(&[0.0, along], 1e-9);
+    assert!(!changes(0.1) && changes(-0.1) && touch.friction == 0.5);
+    // At its limit, and held by others: it sticks.
+    let mut touch = touch.after(both, State::Stick);
+    (touch.state, touch.impulse) = (State::Ahead, [1.0, -0.5]);
+    assert!(!touch.changes_friction(&[0.0, 1e-10], 1e-9) && touch.state == State::Stick && touch.friction == 0.5);
 }
 
 #[test]
