@@ -236,8 +236,11 @@ impl Tallies {
         let Some(tally) = self.supports.get_mut(piece.support) else { return };
         let middle = if piece.duration == ImpulseDuration::Instant { step.end } else { 0.5 * (part[0] + part[1]) };
         tally.add(piece, window.index(middle));
+        // The time of a support counts once, whichever of its walls push over the part: a blow has
+        // none.
         let part = Some((step.index, part[0]));
-        let first = self.touched.get_mut(piece.support).is_some_and(|last| std::mem::replace(last, part) != part);
+        let touched = self.touched.get_mut(piece.support).filter(|_| piece.duration != ImpulseDuration::Instant);
+        let first = touched.is_some_and(|last| std::mem::replace(last, part) != part);
         match piece.duration {
             ImpulseDuration::Instant => tally.impacts += piece.work,
             ImpulseDuration::Lasting => {

@@ -4,6 +4,7 @@
     reason = "reference values stand as they were computed, to more digits than a double holds"
 )]
 
+use signorini::case::CaseFile;
 use signorini::linear::Symmetric;
 use signorini::{
     Flat, Flats, Load, LoadKind, Options, PlaneRows, Row, Run, Scene, Scheme, Structure, TimeOptions, WallLaw,
@@ -214,5 +215,25 @@ fn every_scheme_tells_the_work_of_a_flat() {
         let impulse = run.trajectory.impulse("plate-flat-1").unwrap().abs();
         assert!((found / (impulse * 0.15) - 1.0).abs() < 1e-12, "{scheme}: {found}");
         assert!((found / work - 1.0).abs() < 1e-2, "{scheme}: {found} {work}");
+    }
+}
+
+/// A mass is pressed on one flat for ever and strikes another one at a right angle to it: that takes
+/// nothing from the time in contact, whichever of the two comes first.
+#[test]
+fn a_blow_of_one_flat_takes_no_time_from_another() {
+    let text = "[system]\nplanes = 2\n[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 100.0\n\
+        [[support]]\nname = \"flat\"\nshape = \"flats\"\ndirections = [0.0, 90.0]\ngap = [5e-3, 0.0]\n\
+        restitution = 0.5\n[[load]]\ndirection = 90.0\nconstant = { force = 10.0 }\n\
+        [initial]\ndisplacement = [-0.01, 0.0]\n[time]\nend = 3.0\nstep = 1e-3\n";
+    let turned = text.replace("[0.0, 90.0]", "[90.0, 0.0]").replace("[5e-3, 0.0]", "[0.0, 5e-3]");
+    for text in [text, &turned] {
+        let case = CaseFile::from_text(text, "case.toml", "").case().unwrap();
+        for scheme in [Scheme::Event, Scheme::Located] {
+            let run = run(&case.scene, &scheme, &Options::new(case.time)).unwrap();
+            assert!(run.trajectory.contacts().len() > 5, "{scheme}");
+            let ratio = run.statistics.wear[0].contact_time_ratio;
+            assert!((ratio - 1.0).abs() < 1e-12, "{scheme}: {ratio}");
+        }
     }
 }
