@@ -5,7 +5,7 @@ use super::settling::Beginning;
 use crate::contact::IMPACT_STEPS;
 use crate::scene::Scene;
 use crate::step::{Path, Step};
-use crate::wear::{ImpulseDuration, SlidingContacts, SlidingPiece, WearWork, sector_of};
+use crate::wear::{ImpulseDuration, SlidingContacts, SlidingPiece, WearWork, sectors_over};
 use serde::{Deserialize, Serialize};
 
 /// A support over the window of the statistics.
@@ -266,10 +266,11 @@ impl Tally {
         self.work[batch] += piece.work;
         self.dissipated += piece.dissipated;
         self.rigid |= piece.duration != ImpulseDuration::Lasting;
-        let sector = sector_of(piece.angle, self.sectors.len());
-        if let Some([work, pushed]) = self.sectors.get_mut(sector) {
-            *work += piece.work;
-            *pushed += piece.impulse;
+        for (sector, share) in sectors_over(piece.angle, piece.turn, self.sectors.len()) {
+            if let Some([work, pushed]) = self.sectors.get_mut(sector) {
+                *work += share * piece.work;
+                *pushed += share * piece.impulse;
+            }
         }
         let wall = piece.contact.checked_sub(self.first).and_then(|wall| self.walls.get_mut(wall));
         wall.into_iter().for_each(|work| *work += piece.work);

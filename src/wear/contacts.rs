@@ -88,6 +88,7 @@ impl SlidingContacts {
                     contact: index,
                     duration: if contact.is_rigid() { ImpulseDuration::Unresolved } else { ImpulseDuration::Lasting },
                     angle: push.angle,
+                    turn: 0.0,
                     normal: push.normal,
                     impulse: push.impulse,
                     friction: push.friction,

@@ -32,4 +32,5 @@ pub use depth::{all_round, flat_area, flat_depth, moon_area, moon_depth};
 pub use growth::{Growth, Opening, WearWork};
 pub(crate) use piece::{ImpulseDuration, SlidingPiece};
 pub use sectors::sector_of;
+pub(crate) use sectors::sectors_over;
 pub use work::{sliding_distance, work_of_impulse};

@@ -43,6 +43,8 @@ pub(crate) struct SlidingPiece {
     /// means over a piece in which the normal turns.
     pub angle: f64,
     pub normal: [f64; 2],
+    /// How far the normal turns in it, degrees; 0 where the angle is that of a whole step.
+    pub turn: f64,
     /// Magnitude of the normal impulse, and the friction impulse along t, N s.
     pub impulse: f64,
     pub friction: f64,
@@ -184,11 +186,13 @@ impl Piece<'_> {
             parts([from, to], count as usize, |a, b| {
                 let mut sum = SlidingSums::default();
                 sliding.add(a, b, &mut sum);
-                let angle = degrees(series.at_hole(hole, 0.5 * (a + b)).0);
+                let [y, z] = series.at_hole(hole, 0.5 * (a + b)).0;
+                let (angle, turn) = (degrees([y, z]), (way(a, b) / y.hypot(z)).to_degrees());
                 // Over so short a piece the impulse vector is nearly p n; this is its magnitude p.
                 let push = impulse.between(a, b);
                 let normal = if sum.impulse > 0.0 { push.map(|push| -push / sum.impulse) } else { blank.normal };
-                each(&SlidingPiece { time: std::mem::take(&mut time), angle, normal, ..lasting(blank, &sum) });
+                let time = std::mem::take(&mut time);
+                each(&SlidingPiece { time, angle, turn, normal, ..lasting(blank, &sum) });
             });
         }
         self.strike(|| self.speed_left(speed), each);
