@@ -29,6 +29,22 @@ impl PenaltyOptions {
     /// # Errors
     /// [`Error::Invalid`] whose subject is a part of the `penalty law` of that number.
     pub fn validate(&self, scene: &Scene) -> Result<()> {
+        if let Some(wall) = scene.nonlinear_wall() {
+            let beside = |what: &str, name: &str, expected: &str| {
+                let value = format!("{}, beside {what} {name:?}", wall.law.kind());
+                Err(Error::invalid(Subject::wall(&wall.name), value, expected))
+            };
+            if let Some(rubs) = scene.walls.iter().find(|wall| wall.friction.acts()) {
+                let expected = "no friction, or walls that are rigid or elastic: no scheme steps both";
+                return beside("the friction at", &rubs.name, expected);
+            }
+            let rigid = scene.walls.iter().find(|wall| wall.law.is_rigid());
+            if let (Some(rigid), [PenaltyLaw::None]) = (rigid, &self.laws[..]) {
+                let expected = "a stiffness or an epsilon in [penalty], for the spring in place of the rigid wall: \
+                                penalties alone step that law";
+                return beside("the rigid wall", &rigid.name, expected);
+            }
+        }
         for (index, law) in self.laws.iter().enumerate() {
             law.validate(scene).map_err(|error| match error {
                 Error::Invalid { subject, value, expected } => {

@@ -177,6 +177,13 @@ fn what_makes_no_slider_is_refused_by_name() {
             SDND100.replace("[initial]", "[[wall]]\nname = \"flat\"\nside = \"upper\"\nposition = 1.0\n[initial]"),
             "slider 1: name is \"flat\"",
         ),
+        (
+            SDND100.replace(
+                "[initial]",
+                "[[wall]]\nname = \"hc\"\nside = \"upper\"\nposition = 1.0\nstiffness = 1e6\nexponent = 1.5\n[initial]",
+            ),
+            "wall \"hc\" is the law of Hunt and Crossley, beside the friction at \"flat\"",
+        ),
         (BEAM.replace("position = 0.5", "position = 0.0"), "slider \"clamp\": at: nothing moves there"),
         (BEAM.replace("at = { position = 0.5 }\n", ""), "`at` is missing in slider \"clamp\""),
         (BEAM.replace("modes = 1", "modes = 1\nstatic_correction = true"), "and static_correction is true"),
