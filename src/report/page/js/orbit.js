@@ -266,7 +266,7 @@ function eventTable(orbit) {
     String(i + 1),
     event.wall,
     event.kind,
-    digits(event.phase, 7),
+    digits(event.phase - Math.floor(event.phase), 7),
     event.kind === "release" ? "–" : digits(event.speed, 6),
   ]);
   return plainTable(["Event", "Wall", "Kind", "Phase (cycles)", "Speed (m/s)"], rows);
