@@ -167,6 +167,10 @@ pub fn remarks(run: &Run) -> Vec<String> {
 
 /// Where the intervals of means are, and from what.
 fn intervals(statistics: &Statistics) -> String {
+    let force = |wall: &WallStatistics| wall.force.as_ref().and_then(|force| force.mean_half_width_95_n);
+    if !statistics.walls.iter().any(|wall| force(wall).is_some()) && statistics.batches != 2 {
+        return "no mean force has an interval: the contacts are too few to tell how it scatters".to_owned();
+    }
     match (statistics.batches, statistics.periods_per_batch) {
         (2, None) => "the window has fewer than three periods of the loads, so that no mean has an interval".to_owned(),
         (batches, Some(periods)) => format!(

@@ -96,7 +96,7 @@ impl fmt::Display for WorkRateVerdict {
         let [before, after] = self.work_rate_w;
         match self.half_width_95_w {
             Some(half) if before != after && (after - before).abs() <= half => {
-                write!(f, ", within the run's own interval of ± {:.1e}", half / before.abs())
+                write!(f, ", within the run's own interval of ± {:.1e} of it", half / before.abs())
             }
             _ => Ok(()),
         }
@@ -168,7 +168,7 @@ mod tests {
         };
         assert!(said([0.01, 0.015], Some(0.002)).ends_with("; work rate of support \"plate\" +5.0e-1 of its value"));
         let within = said([0.01, 0.0104], Some(0.001));
-        assert!(within.ends_with("+4.0e-2 of its value, within the run's own interval of ± 1.0e-1"), "{within}");
+        assert!(within.ends_with("+4.0e-2 of its value, within the run's own interval of ± 1.0e-1 of it"), "{within}");
         assert!(said([0.01, 0.01], Some(0.001)).ends_with("unchanged"));
         assert!(said([0.01, 0.0], Some(0.1)).contains("1.0e-2 W → none"));
     }
