@@ -100,7 +100,7 @@ fn branches(folder: &Path, column: &str) -> Result<Vec<(f64, f64)>> {
     let document: Value = serde_json::from_str(&read_text(&path, MOST_TABLE_BYTES).map_err(&wrong)?)
         .map_err(|error| wrong(format!("not valid JSON: {error}")))?;
     let arrives = |event: &Value| {
-        let kind = event["kind"].as_str().and_then(|name| Kind::named(name).ok());
+        let kind = event["kind"].as_str().and_then(|name| name.parse().ok());
         kind.is_some_and(Kind::is_approach)
     };
     let table = Table::open(&folder.join("branches.csv"))?;

@@ -5,7 +5,7 @@ use super::figure::{Curve, Figure, Mark, Panel};
 use super::request::program;
 use crate::case::read_text;
 use crate::error::{Error, Result, counted};
-use crate::orbit::{Admissible, ClosedForm, Event, Floquet, Judged, Kind, Orbit, Problem, Shot, Signature};
+use crate::orbit::{Admissible, ClosedForm, Event, Floquet, Judged, Orbit, Problem, Shot, Signature};
 use crate::scene::{Scene, State};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -200,7 +200,7 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Orbit> {
         let (Some(phase), Some(speed)) = (get("phase_cycles").as_f64(), get("speed_m_per_s").as_f64()) else {
             return wrong(&at("phase_cycles and speed_m_per_s"), entry, "numbers");
         };
-        orbit.signature.events.push(Event { kind: Kind::named(kind)?, wall: scene.wall_index(wall)? });
+        orbit.signature.events.push(Event { kind: kind.parse()?, wall: scene.wall_index(wall)? });
         orbit.phases.push(phase);
         orbit.speeds.push(speed);
     }

@@ -1,10 +1,9 @@
 //! The springs that replace rigid walls in a penalty run, and the integrators.
 
-use crate::error::{Error, Result, named};
+use crate::error::{Error, Result, names};
 use crate::scene::{Scene, Side, Wall, WallLaw};
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::str::FromStr;
 
 /// The spring that replaces every rigid wall of a scene in a penalty run. Elastic walls stay as
 /// they are.
@@ -148,36 +147,9 @@ pub enum Integrator {
     DiscreteGradient,
 }
 
-impl Integrator {
-    /// Every integrator, in the order of the documentation.
-    pub const ALL: [Self; 4] =
-        [Self::Trapezoidal, Self::ImplicitEuler, Self::CentralDifference, Self::DiscreteGradient];
-
-    /// The name on the command line, in case files and tables.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Trapezoidal => "trapezoidal",
-            Self::ImplicitEuler => "implicit-euler",
-            Self::CentralDifference => "central-difference",
-            Self::DiscreteGradient => "discrete-gradient",
-        }
-    }
-}
-
-impl fmt::Display for Integrator {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Integrator {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self> {
-        named("integrator", name, Self::ALL.map(|integrator| (integrator.name(), integrator)))
-    }
-}
+names!(Integrator: "integrator",
+    Trapezoidal => "trapezoidal", ImplicitEuler => "implicit-euler", CentralDifference => "central-difference",
+    DiscreteGradient => "discrete-gradient");
 
 #[cfg(test)]
 mod tests {
