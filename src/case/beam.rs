@@ -125,7 +125,7 @@ impl Builder<'_> {
     }
 
     /// The condition at the end on that `side` of a system of this `kind`.
-    pub fn end(&mut self, kind: &str, side: &str, end: &Spanned<Value<'_>>) -> Result<End> {
+    pub fn end(&self, kind: &str, side: &str, end: &Spanned<Value<'_>>) -> Result<End> {
         let key = format!("{}.{kind}.{side}", self.owner);
         match end.get_ref() {
             Value::Word(word) => match word.as_ref() {

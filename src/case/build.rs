@@ -196,7 +196,7 @@ impl Builder<'_> {
 
     /// The scene without its massless degrees of freedom, and with the damping that is applied
     /// after they are condensed.
-    fn condensed(&mut self, scene: Scene, pending: Option<&Damping>) -> Result<(Scene, Option<Condensation>)> {
+    fn condensed(&self, scene: Scene, pending: Option<&Damping>) -> Result<(Scene, Option<Condensation>)> {
         let System::Structure(structure) = &scene.system else { return Ok((scene, None)) };
         if structure.massless().is_empty() {
             return Ok((scene, None));

@@ -204,7 +204,7 @@ impl Builder<'_> {
     }
 
     /// True for `planes = 2`, which `kind` must allow.
-    fn two_planes(&mut self, planes: Option<Spanned<f64>>, kind: &str) -> Result<bool> {
+    fn two_planes(&self, planes: Option<Spanned<f64>>, kind: &str) -> Result<bool> {
         let Some(planes) = planes else { return Ok(false) };
         match (*planes.get_ref(), kind) {
             (1.0, _) => Ok(false),
