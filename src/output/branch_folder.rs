@@ -1,6 +1,5 @@
 //! The branches of periodic orbits of a case over a key, and the folder of their files.
 
-use super::atomic::write_whole;
 use super::branches::Drawn;
 use super::first_orbit::FirstOrbit;
 use super::results::Results;
@@ -110,7 +109,7 @@ pub fn write(
     if drawn.tells_states() {
         document["place"] = json!(scene.walls.get(drawn.place()).map(|wall| &wall.name));
     }
-    write_whole(&results.place("branches.json")?, json::text(&document).as_bytes())?;
+    results.write("branches.json", json::text(&document))?;
     let title = format!("{}: branches of periodic orbits", family.title());
     results.draw("branches", &drawn.picture(&title, beneath.unwrap_or_default()))?;
     if let Some(points) = beneath {
