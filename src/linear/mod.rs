@@ -15,7 +15,7 @@
 //! `factor.rs` hold the types above (`definite.rs` is the error of a matrix without a factor);
 //! `band.rs` and `band_factor.rs` for narrow, diagonal and full matrices, `sparse.rs` for all
 //! others; `fourier.rs` is the fast Fourier transform; `segment.rs` and `entries.rs` are loops over
-//! vectors with vector instructions; uses nothing else of the crate.
+//! vectors with vector instructions.
 
 mod band;
 mod band_factor;

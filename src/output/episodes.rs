@@ -45,9 +45,6 @@ impl Episodes {
 
     /// Writes `episodes.csv`, a row for each place and quantity, and `exceedances.csv`, a row for
     /// each threshold, into the folder of `results`, under the names that `named` gives.
-    ///
-    /// # Errors
-    /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
     pub fn write(&self, results: &mut Results, named: impl Fn(&str) -> String) -> Result<()> {
         type Record<'a> = (&'a EpisodeStatistics, Quantity<'a>);
         let number = |record: &Record<'_>, of: fn(&Distribution) -> f64| digits(record.1.2.map(of));

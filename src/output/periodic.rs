@@ -111,9 +111,6 @@ impl Known<'_> {
     }
 
     /// Writes the motion over one orbit: time, phase, state and the force of each wall.
-    ///
-    /// # Errors
-    /// [`Error::Io`] where the file cannot be written.
     pub fn motion(&self, path: &Path) -> Result<()> {
         let scene = self.problem.scene();
         let names: Vec<&str> = scene.walls.iter().map(|wall| wall.name.as_str()).collect();
@@ -128,13 +125,10 @@ impl Known<'_> {
     }
 
     /// Writes the contact episodes of the free run over one period, as `contacts.csv` of a run.
-    ///
-    /// # Errors
-    /// [`Error::Io`] where the file cannot be written.
     pub fn contacts(&self, path: &Path) -> Result<()> {
         let name = |wall: usize| self.problem.scene().wall_name(wall).unwrap_or_default().to_owned();
         let rows = self.judged.contacts.iter().map(|c| csv::contact_cells(name(c.wall), c));
-        csv::table(path, &csv::CONTACT.map(str::to_owned), rows)
+        csv::table(path, &csv::CONTACT, rows)
     }
 
     /// The orbit in the plane of displacement and velocity.

@@ -29,9 +29,6 @@ pub(crate) fn titled(title: &str, count: u64) -> String {
 /// Writes one row for each realisation and place: the number of the realisation, the place, its
 /// measures, and how many findings of the judge refute the realisation. Cells of measures that a
 /// place does not have are empty.
-///
-/// # Errors
-/// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, study: &Realisations) -> Result<()> {
     let (header, rows) = cells(study);
     csv::table(path, &header, rows.into_iter())
@@ -44,9 +41,6 @@ pub fn cells(study: &Realisations) -> (Vec<String>, Vec<Vec<String>>) {
 }
 
 /// The same for the studies of several methods, with a first column that names them.
-///
-/// # Errors
-/// As [`write`].
 pub fn write_methods(path: &Path, studies: &[(String, &Realisations)]) -> Result<()> {
     write_by_method(path, header(), studies, rows)
 }
@@ -133,7 +127,6 @@ pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
         row
     };
     let rows: Vec<Vec<String>> = shown(study, scene, MOST_ROWS).into_iter().map(row).collect();
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH))
 }
 
