@@ -130,6 +130,22 @@ impl fmt::Display for PenaltyLaw {
     }
 }
 
+impl Scene {
+    /// The scene with every rigid wall and round hole replaced by the penalty `law`; elastic ones
+    /// stay.
+    ///
+    /// # Errors
+    /// As [`PenaltyLaw::at`], and for numbers that make no sense.
+    pub fn penalised(&self, law: PenaltyLaw) -> Result<Self> {
+        let mut scene = self.clone();
+        for (wall, original) in scene.walls.iter_mut().zip(&self.walls) {
+            wall.law = law.at(original, &self.walls)?;
+            wall.validate()?;
+        }
+        Ok(scene)
+    }
+}
+
 /// How a penalty run advances in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[non_exhaustive]

@@ -31,7 +31,7 @@
 //! | `shares` | the share of each key in the variance of each measure |
 //! | `sensitivity` | effects or shares, as the tables that all rows together give |
 //! | `means` | the means over realisations, for the terminal |
-//! | `notes`, `instability` | what a reader of the table must know: of the case, and of rows that are unstable |
+//! | `instability` | what a reader of the table must know: of the case, and of rows that are unstable |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
 //!
 //! A chain of rows, each of which starts from the end of the last, runs on one thread; a row that
@@ -69,7 +69,6 @@ mod means;
 mod measure;
 mod merge;
 mod motion;
-mod notes;
 mod part;
 mod picture;
 mod plan;
