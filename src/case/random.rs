@@ -221,7 +221,10 @@ impl Case {
         };
         for (index, origin) in case.written.origins.iter_mut().enumerate() {
             let key = origin.seed_key();
-            let Some(force) = origin.random_mut() else { continue };
+            let (Origin::Random { force, .. } | Origin::Second(force) | Origin::RandomBase { force, .. }) = origin
+            else {
+                continue;
+            };
             raised(&mut force.seed)?;
             if let Some(key) = key {
                 // A load of the file has its number in the scene.

@@ -6,7 +6,7 @@
 //! | [`Symmetric`] | a symmetric matrix, by the rows of its lower triangle |
 //! | `MatrixPolynomial` (`polynomial.rs`) | M + sC + s²K for many s |
 //! | [`Rows`] | a few sparse rows, such as those of walls |
-//! | [`Operator`] | a symmetric matrix made ready for products, by diagonals where it is a band |
+//! | `Operator` (`operator.rs`) | a symmetric matrix made ready for products, by diagonals where it is a band |
 //! | [`Factor`] | L D Lᵀ of a positive definite matrix: a band's own, or a sparse one with a fill-reducing order |
 //!
 //! # Files
@@ -36,9 +36,9 @@ pub(crate) use entries::{Columns, Lanes, Pass, lane_operators, pass, running_max
 pub use factor::Factor;
 #[cfg(test)]
 pub(crate) use factor::counted;
-pub use operator::Operator;
+pub(crate) use operator::Operator;
 pub(crate) use polynomial::MatrixPolynomial;
 pub use rows::Rows;
 pub(crate) use segment::Segment;
-pub use sparse::negative_pivots;
+pub(crate) use sparse::negative_pivots;
 pub use symmetric::Symmetric;

@@ -2,7 +2,7 @@
 //! distributed.
 
 use super::csv::{self, digits};
-use super::places::{Chosen, stands_alone};
+use super::places::Chosen;
 use super::results::Results;
 use super::table::Table;
 use crate::case::Case;
@@ -87,7 +87,7 @@ impl Episodes {
     /// many, those of the largest mean impulses. `None` without walls.
     #[must_use]
     pub fn table(&self, scene: &Scene) -> Option<Table> {
-        let own = self.places.iter().filter(|one| stands_alone(&one.place, scene));
+        let own = self.places.iter().filter(|one| one.place.stands_alone(scene));
         let impulse = |one: &&EpisodeStatistics| one.impulse_n_s.as_ref().map_or(0.0, |d| d.mean * one.episodes as f64);
         let shown = Chosen::heaviest(own, MOST_ROWS, impulse).shown;
         let header = [

@@ -1,7 +1,7 @@
 //! `realisations.csv`, and the table and remarks of a study of realisations for the terminal.
 
 use super::csv;
-use super::places::{Chosen, stands_alone};
+use super::places::Chosen;
 use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
@@ -94,7 +94,7 @@ fn places(study: &Realisations) -> Vec<&ContactPlace> {
 /// The places that the terminal shows: supports, and walls that are no flats of one; where there
 /// are many, those of the largest mean forces.
 pub(super) fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a ContactPlace> {
-    let own = places(study).into_iter().filter(|place| stands_alone(place, scene));
+    let own = places(study).into_iter().filter(|place| place.stands_alone(scene));
     let force = |place: &&ContactPlace| find(study, place, Measure::MeanForce).map_or(0.0, |one| one.mean);
     Chosen::heaviest(own, most, force).shown
 }

@@ -74,7 +74,7 @@ mod touch_change;
 pub use contact_changes::{ContactDerivative, ContactDerivatives};
 pub use exponents::{Exponent, Exponents};
 pub(crate) use flight::FlightVariation;
-pub use key_variation::KeyVariation;
+pub(crate) use key_variation::KeyVariation;
 pub use keys::MotionDerivative;
 pub use means::MeanDerivative;
 pub use no_derivative::NoDerivative;
