@@ -181,8 +181,8 @@ impl KeyVariation {
         self.variation.keys.contacts.open()
     }
 
-    /// The contacts that have ended, and the displacements and velocities of the probes at the times
-    /// asked for, with their derivatives: the variation has none of them afterwards.
+    /// The contacts that have ended, and the displacements and velocities of the probes at the
+    /// times asked for, with their derivatives: the variation has none of them afterwards.
     pub(crate) fn take_results(&mut self) -> (ContactDerivatives, MotionDerivative) {
         let keys = &mut self.variation.keys;
         (keys.contacts.take_ended(), std::mem::take(&mut keys.motion.found))
