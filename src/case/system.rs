@@ -255,17 +255,11 @@ impl Builder<'_> {
             Value::List(items) => self.list(&key, subject, items)?,
             _ => return Err(self.refuse_as(springs.span(), &key)),
         };
-        let mut grounds = [0.0; 2];
-        for (side, ground) in ["left", "right"].into_iter().zip(&mut grounds) {
-            let Some(end) = chain.get(side) else { continue };
-            *ground = match self.end("chain", side, end)? {
-                End::Free => 0.0,
-                End::Sprung { stiffness, .. } => stiffness,
-                End::Pinned | End::Clamped => {
-                    return Err(self.refuse_as(end.span(), &format!("{}.chain.{side}", self.owner)));
-                }
-            };
-        }
+        let grounds = self.ends("chain", chain, 0.0, |end| match end {
+            End::Free => Some(0.0),
+            End::Sprung { stiffness, .. } => Some(stiffness),
+            End::Pinned | End::Clamped => None,
+        })?;
         Ok(Chain { masses, springs, grounds })
     }
 }

@@ -1,7 +1,7 @@
 //! The springs that replace rigid walls in a penalty run, and the integrators.
 
 use crate::error::{Error, Result, names};
-use crate::scene::{Scene, Side, Wall, WallLaw};
+use crate::scene::{Scene, Side, Wall, WallLaw, nonnegative, positive};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -79,21 +79,12 @@ impl PenaltyLaw {
     /// # Errors
     /// [`Error::Invalid`] naming `epsilon`, `stiffness` or `damping`.
     pub fn validate(&self, scene: &Scene) -> Result<()> {
-        let positive = |key: &'static str, x: f64| {
-            if x.is_finite() && x > 0.0 {
-                Ok(())
-            } else {
-                Err(Error::invalid(key, format_args!("{x:?}"), "a finite number above 0"))
-            }
-        };
         let (key, value) = match *self {
             Self::None => return scene.walls.iter().try_for_each(|wall| self.at(wall, &scene.walls).map(|_| ())),
             Self::Quartic { epsilon } => positive("epsilon", epsilon).map(|()| ("epsilon", epsilon))?,
             Self::Linear { stiffness, damping } => {
                 positive("stiffness", stiffness)?;
-                if !(damping.is_finite() && damping >= 0.0) {
-                    return Err(Error::invalid("damping", format_args!("{damping:?}"), "a finite number, 0 or more"));
-                }
+                nonnegative("damping", damping)?;
                 ("stiffness", stiffness)
             }
         };
