@@ -19,15 +19,15 @@ pub struct Formats {
 }
 
 impl Formats {
-    /// Refuses a format that this build cannot write.
+    /// The same, where this build can write them.
     ///
     /// # Errors
     /// As [`Format::check`]; [`Error::Invalid`] for a workbook without the feature `xlsx`.
-    pub fn check(&self) -> Result<()> {
+    pub fn checked(self) -> Result<Self> {
         self.pictures.iter().try_for_each(|format| format.check())?;
         match self.workbook && !cfg!(feature = "xlsx") {
             true => Err(not_built("--tables", "xlsx", "csv", "xlsx")),
-            false => Ok(()),
+            false => Ok(self),
         }
     }
 }

@@ -222,11 +222,10 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::Io`] where a table cannot be read or a workbook cannot be written, and as
-    /// [`Formats::check`].
+    /// [`Formats::checked`].
     #[cfg_attr(not(feature = "xlsx"), expect(unused_variables, reason = "there is no workbook"))]
     pub fn write_workbooks(&mut self, progress: &mut (dyn FnMut(f64) + Send)) -> Result<Vec<String>> {
-        self.formats.check()?;
-        match self.formats.workbook {
+        match self.formats.clone().checked()?.workbook {
             #[cfg(feature = "xlsx")]
             true => self.write_sheets(progress),
             _ => Ok(Vec::new()),
