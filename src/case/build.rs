@@ -9,7 +9,6 @@ use super::model::Model;
 use super::planes::Planes;
 use super::report::Source;
 use super::schema::CASE;
-use super::start;
 use super::value::Section;
 use super::walls::NewWall;
 use super::{Case, FileRead, PenaltyOptions, Place, StatisticsOptions, TimeOptions, Truncated, Written};
@@ -89,7 +88,14 @@ impl Builder<'_> {
             wear,
             written: std::mem::take(&mut self.written),
         };
-        let set_start = |case: &mut Case| start.into_iter().for_each(|start| start::start_from(&mut case.scene, start));
+        // A body behind a rigid wall is moved to the wall and keeps its velocity.
+        let set_start = |Case { scene, .. }: &mut Case| {
+            let n = scene.system.degrees_of_freedom();
+            if let Some(start) = start.filter(|start| start.q.len() == n && start.v.len() == n) {
+                scene.initial.clone_from(start);
+                scene.step_out_of_walls();
+            }
+        };
         let built_already = modes.is_none() && case.sliders.is_empty();
         if built_already {
             set_start(&mut case);

@@ -91,8 +91,8 @@ impl Builder<'_> {
         self.source.error(span, &title, &format!("expected {expected}{or}")).caused_by(error.clone())
     }
 
-    /// The same error of `what` as that of `owner`, at the key of its table that `span` finds by its
-    /// name, or at the table.
+    /// The same error of `what` as that of `owner`, at the key of its table that `span` finds by
+    /// its name, or at the table.
     pub fn at_own_key(
         &self,
         [what, owner]: [&str; 2],

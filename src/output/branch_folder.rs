@@ -5,7 +5,7 @@ use super::first_orbit::FirstOrbit;
 use super::results::Results;
 use super::scene_family::SceneFamily;
 use super::{json, orbits, overlay};
-use crate::error::{Result, named};
+use crate::error::Result;
 use crate::interrupt::Carried;
 use crate::orbit::branch::{Graph, Point, Request, Switch, graph};
 use serde::Serialize;
@@ -21,14 +21,6 @@ pub struct BranchRequest {
     pub depth: u32,
     /// Most points of a branch in each direction.
     pub points: u32,
-}
-
-/// The branches to follow that `word` names.
-///
-/// # Errors
-/// [`crate::Error::Unknown`] for another word.
-pub fn switch(word: &str) -> Result<Switch> {
-    named("switch", word, [("no", Switch::No), ("stable", Switch::Stable), ("all", Switch::All)])
 }
 
 impl BranchRequest {
@@ -62,7 +54,7 @@ pub struct BranchSettings<'a> {
     pub from: Option<&'a Path>,
     /// Forcing periods that are run before the motion is checked for repetition.
     pub settle: u32,
-    /// As [`switch`] reads it.
+    /// The name of a [`Switch`].
     pub switch: &'a str,
     /// As in [`BranchRequest`].
     pub depth: u32,

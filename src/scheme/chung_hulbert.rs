@@ -220,8 +220,8 @@ impl<S: Space> ChungHulbert<S> {
     }
 }
 
-/// Whether a rigid wall or hole is met, as `place` finds with the damper not feeling a and the extra
-/// force over a time (s); `closed` if one held the body before.
+/// Whether a rigid wall or hole is met, as `place` finds with the damper not feeling a and the
+/// extra force over a time (s); `closed` if one held the body before.
 #[inline]
 pub(super) fn is_met(unfelt: f64, closed: bool, mut place: impl FnMut(f64) -> Result<bool>) -> Result<bool> {
     if unfelt == 0.0 {
