@@ -39,6 +39,6 @@ pub(crate) use factor::counted;
 pub(crate) use operator::Operator;
 pub(crate) use polynomial::MatrixPolynomial;
 pub use rows::Rows;
-pub(crate) use segment::Segment;
+pub(crate) use segment::{Segment, sum_of_terms};
 pub(crate) use sparse::negative_pivots;
 pub use symmetric::Symmetric;
