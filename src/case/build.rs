@@ -88,14 +88,7 @@ impl Builder<'_> {
             wear,
             written: std::mem::take(&mut self.written),
         };
-        // A body behind a rigid wall is moved to the wall and keeps its velocity.
-        let set_start = |Case { scene, .. }: &mut Case| {
-            let n = scene.system.degrees_of_freedom();
-            if let Some(start) = start.filter(|start| start.q.len() == n && start.v.len() == n) {
-                scene.initial.clone_from(start);
-                scene.step_out_of_walls();
-            }
-        };
+        let set_start = |case: &mut Case| start.into_iter().for_each(|start| start_from(&mut case.scene, start));
         let built_already = modes.is_none() && case.sliders.is_empty();
         if built_already {
             set_start(&mut case);
@@ -330,5 +323,15 @@ impl Builder<'_> {
         let law = Subject::nth("penalty law", index);
         self.positions.push((law.clone(), value.span()));
         self.number(law.part(what), value)
+    }
+}
+
+/// Makes `scene` start from `state`, if it has as many degrees of freedom. If the state lies behind
+/// a rigid wall, the body is moved to the wall and keeps its velocity.
+fn start_from(scene: &mut Scene, state: &State) {
+    let n = scene.system.degrees_of_freedom();
+    if state.q.len() == n && state.v.len() == n {
+        scene.initial.clone_from(state);
+        scene.step_out_of_walls();
     }
 }

@@ -74,6 +74,7 @@ impl CaseFile {
 
     /// The file that is taken for the case `name` in `folder`: the one of that name; else, for a
     /// name without an extension, NAME.toml.
+    #[cfg(feature = "cli")]
     pub(crate) fn found(folder: &Path, name: &str) -> Option<PathBuf> {
         let file = Path::new(name);
         // `..` and `.toml` do not get an extension.
