@@ -37,7 +37,7 @@ pub fn _branches(
     page: bool,
 ) -> PyResult<Vec<&'static str>> {
     let (start, settle, switch, depth, points) = asked;
-    let follow = BranchRequest { switch: branch_folder::switch(&switch).map_err(raise)?, depth, points };
+    let follow = BranchRequest { switch: switch.parse().map_err(raise)?, depth, points };
     let settings = json!(BranchSettings {
         key,
         range: &format!("{}:{}", range[0], range[1]),

@@ -73,7 +73,7 @@ impl Builder<'_> {
     /// The forces of the springs and of the dashpots by which a base moves a structure whose
     /// coordinates are those in space: K ι b and C ι ḃ, with b = −a/ω² of a sine, whose mean is 0.
     fn base_under_fixed_walls(
-        &mut self,
+        &self,
         owner: &str,
         base: &Section<'_>,
         (influence, direction): (Option<&Influence>, Option<&Spanned<f64>>),
@@ -241,7 +241,7 @@ impl Builder<'_> {
 
     /// The row M ι/m through which a load of `kind` acts, and the mass m, kg.
     fn moved(
-        &mut self,
+        &self,
         (owner, kind): (&str, &str),
         base: &Section<'_>,
         (influence, direction): (Option<&Influence>, Option<&Spanned<f64>>),

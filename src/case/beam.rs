@@ -25,17 +25,12 @@ impl Builder<'_> {
                 _ => return Err(self.refuse_as(word.span(), &format!("{}.bar.mass_matrix", self.owner))),
             },
         };
-        let mut ends = [BarEnd::Free; 2];
-        for (side, made) in ["left", "right"].into_iter().zip(&mut ends) {
-            let Some(end) = bar.get(side) else { continue };
-            *made = match self.end("bar", side, end)? {
-                End::Free => BarEnd::Free,
-                End::Clamped => BarEnd::Fixed,
-                End::Sprung { stiffness, .. } => BarEnd::Sprung { stiffness },
-                End::Pinned => return Err(self.refuse_as(end.span(), &format!("{}.bar.{side}", self.owner))),
-            };
-        }
-        let [left, right] = ends;
+        let [left, right] = self.ends("bar", bar, BarEnd::Free, |end| match end {
+            End::Free => Some(BarEnd::Free),
+            End::Clamped => Some(BarEnd::Fixed),
+            End::Sprung { stiffness, .. } => Some(BarEnd::Sprung { stiffness }),
+            End::Pinned => None,
+        })?;
         let mut number = |key| self.required(("bar", key), bar, key);
         let [length, area] = ["length", "area"].map(&mut number);
         let [youngs_modulus, density] = ["youngs_modulus", "density"].map(&mut number);
@@ -44,17 +39,12 @@ impl Builder<'_> {
     }
 
     pub fn beam(&mut self, beam: &Section<'_>) -> Result<Beam> {
-        let mut ends = [BeamEnd::Free; 2];
-        for (side, made) in ["left", "right"].into_iter().zip(&mut ends) {
-            let Some(end) = beam.get(side) else { continue };
-            *made = match self.end("beam", side, end)? {
-                End::Free => BeamEnd::Free,
-                End::Pinned => BeamEnd::Pinned,
-                End::Clamped => BeamEnd::Clamped,
-                End::Sprung { stiffness, rotational } => BeamEnd::Sprung { stiffness, rotational },
-            };
-        }
-        let [left, right] = ends;
+        let [left, right] = self.ends("beam", beam, BeamEnd::Free, |end| match end {
+            End::Free => Some(BeamEnd::Free),
+            End::Pinned => Some(BeamEnd::Pinned),
+            End::Clamped => Some(BeamEnd::Clamped),
+            End::Sprung { stiffness, rotational } => Some(BeamEnd::Sprung { stiffness, rotational }),
+        })?;
         let length = self.length(beam)?;
         let mut number = |key| self.required(("beam", key), beam, key);
         let youngs_modulus = number("youngs_modulus");
@@ -124,15 +114,32 @@ impl Builder<'_> {
         }
     }
 
-    /// The condition at the end on that `side` of a system of this `kind`.
-    pub fn end(&mut self, kind: &str, side: &str, end: &Spanned<Value<'_>>) -> Result<End> {
-        let key = format!("{}.{kind}.{side}", self.owner);
+    /// The ends of a system of this `kind`, as `of` takes them, which has no value for some; `free`
+    /// where they are not given.
+    pub fn ends<E: Copy>(
+        &self,
+        kind: &str,
+        system: &Section<'_>,
+        free: E,
+        of: impl Fn(End) -> Option<E>,
+    ) -> Result<[E; 2]> {
+        let mut ends = [free; 2];
+        for (side, made) in ["left", "right"].into_iter().zip(&mut ends) {
+            let Some(end) = system.get(side) else { continue };
+            let key = format!("{}.{kind}.{side}", self.owner);
+            *made = of(self.end(kind, &key, end)?).ok_or_else(|| self.refuse_as(end.span(), &key))?;
+        }
+        Ok(ends)
+    }
+
+    /// The condition at the end that `key` names.
+    fn end(&self, kind: &str, key: &str, end: &Spanned<Value<'_>>) -> Result<End> {
         match end.get_ref() {
             Value::Word(word) => match word.as_ref() {
                 "free" => Ok(End::Free),
                 "pinned" => Ok(End::Pinned),
                 "clamped" => Ok(End::Clamped),
-                _ => Err(self.refuse_as(end.span(), &key)),
+                _ => Err(self.refuse_as(end.span(), key)),
             },
             Value::Table(entries) => {
                 let (mut stiffness, mut rotational) = (None, 0.0);
@@ -141,7 +148,7 @@ impl Builder<'_> {
                     let known = name.get_ref() == "stiffness" || (name.get_ref() == "rotational" && kind == "beam");
                     if !known {
                         let title = format!("unknown key `{}` in `{key}`", name.get_ref());
-                        let help = format!("expected {}", accepted(&key).unwrap_or_default());
+                        let help = format!("expected {}", accepted(key).unwrap_or_default());
                         return Err(self.source.error(name.span(), &title, &help));
                     }
                     let x = self.finite(&part, value, "a number, 0 or more")?;
@@ -150,10 +157,10 @@ impl Builder<'_> {
                     }
                     if name.get_ref() == "stiffness" { stiffness = Some(x) } else { rotational = x }
                 }
-                let stiffness = stiffness.ok_or_else(|| self.refuse_as(end.span(), &key))?;
+                let stiffness = stiffness.ok_or_else(|| self.refuse_as(end.span(), key))?;
                 Ok(End::Sprung { stiffness, rotational })
             }
-            _ => Err(self.refuse_as(end.span(), &key)),
+            _ => Err(self.refuse_as(end.span(), key)),
         }
     }
 }

@@ -9,7 +9,6 @@ use super::model::Model;
 use super::planes::Planes;
 use super::report::Source;
 use super::schema::CASE;
-use super::start;
 use super::value::Section;
 use super::walls::NewWall;
 use super::{Case, FileRead, PenaltyOptions, Place, StatisticsOptions, TimeOptions, Truncated, Written};
@@ -89,7 +88,7 @@ impl Builder<'_> {
             wear,
             written: std::mem::take(&mut self.written),
         };
-        let set_start = |case: &mut Case| start.into_iter().for_each(|start| start::start_from(&mut case.scene, start));
+        let set_start = |case: &mut Case| start.into_iter().for_each(|start| start_from(&mut case.scene, start));
         let built_already = modes.is_none() && case.sliders.is_empty();
         if built_already {
             set_start(&mut case);
@@ -196,7 +195,7 @@ impl Builder<'_> {
 
     /// The scene without its massless degrees of freedom, and with the damping that is applied
     /// after they are condensed.
-    fn condensed(&mut self, scene: Scene, pending: Option<&Damping>) -> Result<(Scene, Option<Condensation>)> {
+    fn condensed(&self, scene: Scene, pending: Option<&Damping>) -> Result<(Scene, Option<Condensation>)> {
         let System::Structure(structure) = &scene.system else { return Ok((scene, None)) };
         if structure.massless().is_empty() {
             return Ok((scene, None));
@@ -324,5 +323,15 @@ impl Builder<'_> {
         let law = Subject::nth("penalty law", index);
         self.positions.push((law.clone(), value.span()));
         self.number(law.part(what), value)
+    }
+}
+
+/// Makes `scene` start from `state`, if it has as many degrees of freedom. If the state lies behind
+/// a rigid wall, the body is moved to the wall and keeps its velocity.
+fn start_from(scene: &mut Scene, state: &State) {
+    let n = scene.system.degrees_of_freedom();
+    if state.q.len() == n && state.v.len() == n {
+        scene.initial.clone_from(state);
+        scene.step_out_of_walls();
     }
 }

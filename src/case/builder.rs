@@ -8,7 +8,7 @@ use super::report::Source;
 use super::schema::accepted;
 use super::value::{Section, Value};
 use super::wording::written;
-use crate::error::{Error, Result, Subject};
+use crate::error::{Error, Part, Result, Subject};
 use crate::scene::{Scene, Wall};
 use std::ops::Range;
 use toml::Spanned;
@@ -89,6 +89,22 @@ impl Builder<'_> {
             ""
         };
         self.source.error(span, &title, &format!("expected {expected}{or}")).caused_by(error.clone())
+    }
+
+    /// The same error of `what` as that of `owner`, at the key of its table that `span` finds by
+    /// its name, or at the table.
+    pub fn at_own_key(
+        &self,
+        [what, owner]: [&str; 2],
+        table: &Section<'_>,
+        error: Error,
+        span: impl Fn(&str) -> Option<Range<usize>>,
+    ) -> Error {
+        let Error::Invalid { subject, value, expected } = &error else { return error };
+        let key = subject.parts().get(1).and_then(|part| if let Part::Name(name) = part { span(name) } else { None });
+        let title = format!("{} is {value}", subject.to_string().replacen(what, owner, 1));
+        let span = key.unwrap_or(table.span.clone());
+        self.source.error(span, &title, &format!("expected {expected}")).caused_by(error.clone())
     }
 
     pub fn noted(&self, subject: &Subject) -> Option<Range<usize>> {

@@ -72,6 +72,17 @@ impl CaseFile {
         Ok(Self::from_text(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new(""))))
     }
 
+    /// The file that is taken for the case `name` in `folder`: the one of that name; else, for a
+    /// name without an extension, NAME.toml.
+    #[cfg(feature = "cli")]
+    pub(crate) fn found(folder: &Path, name: &str) -> Option<PathBuf> {
+        let file = Path::new(name);
+        // `..` and `.toml` do not get an extension.
+        let bare = file.extension().is_none() && file.file_name().is_some();
+        let files = [folder.join(name), folder.join(format!("{name}.toml"))];
+        files.into_iter().take(if bare { 2 } else { 1 }).find(|file| file.is_file())
+    }
+
     /// The built-in case of that name.
     ///
     /// # Errors

@@ -159,7 +159,7 @@ impl Builder<'_> {
     }
 
     fn profile(
-        &mut self,
+        &self,
         Field { key, subject, .. }: &Field,
         name: &Name<'_>,
         list: &Spanned<Value<'_>>,

@@ -34,12 +34,6 @@ impl KeyValue {
     pub fn is_whole(&self) -> bool {
         self.0.is_integer()
     }
-
-    /// The word, if it is one.
-    #[must_use]
-    pub fn word(&self) -> Option<&str> {
-        self.0.as_str()
-    }
 }
 
 impl From<f64> for KeyValue {
@@ -112,8 +106,8 @@ mod tests {
         assert_eq!(read(" 3 "), KeyValue::from(3));
         assert_eq!(read("true"), KeyValue::from(true));
         assert_eq!(read("generalized-alpha"), KeyValue::from("generalized-alpha"));
-        assert_eq!(read("\"0.8\"").word(), Some("0.8"));
-        assert_eq!(read("moreau-jean:theta=0.6".replace("=0.6", "").as_str()).word(), Some("moreau-jean:theta"));
+        assert_eq!(read("\"0.8\"").0.as_str(), Some("0.8"));
+        assert_eq!(read("moreau-jean:theta=0.6".replace("=0.6", "").as_str()).0.as_str(), Some("moreau-jean:theta"));
         assert_eq!(read("[1, 2]").to_string(), "[1, 2]");
         for text in ["", "[1", "a = 1\nb = 2", "{x", "\"a"] {
             assert!(text.parse::<KeyValue>().is_err(), "{text}");

@@ -184,7 +184,7 @@ impl Builder<'_> {
         Ok((row, moves))
     }
 
-    fn place(&mut self, key: &str, kind: &Name<'_>, value: &Spanned<Value<'_>>, load: bool) -> Result<Place> {
+    fn place(&self, key: &str, kind: &Name<'_>, value: &Spanned<Value<'_>>, load: bool) -> Result<Place> {
         let on_line = matches!(self.model, Model::Bar(_) | Model::Beam(_));
         match kind.get_ref().as_ref() {
             "dof" if self.planes == Planes::Named => {
@@ -239,7 +239,7 @@ impl Builder<'_> {
     }
 
     /// The rows along y and along z of matrices of both planes.
-    fn rows_of(&mut self, key: &str, entries: &[&Entry<'_>]) -> Result<Place> {
+    fn rows_of(&self, key: &str, entries: &[&Entry<'_>]) -> Result<Place> {
         let (mut y, mut z) = (Vec::new(), Vec::new());
         for (plane, value) in entries {
             let row = self.row(&format!("{key}: {}", plane.get_ref()), value)?;

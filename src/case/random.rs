@@ -5,7 +5,7 @@ use super::table::{self, TableColumns};
 use super::value::Section;
 use super::written::{Origin, ScatteredStart};
 use super::{Case, Truncated};
-use crate::error::{Error, Part, Result};
+use crate::error::{Error, Result};
 use crate::scene::{Density, Load, LoadKind, RandomForce, Table};
 use std::ops::Range;
 use toml::Spanned;
@@ -120,21 +120,14 @@ impl Builder<'_> {
 
     /// An error of a random force, at the key that it is about.
     fn at_random(&self, owner: &str, section: &Section<'_>, error: Error) -> Error {
-        let Error::Invalid { subject, value, expected } = &error else { return error };
         let density = || section.span_of("psd").or(section.span_of("file"));
-        let span = match subject.parts().get(1) {
-            Some(Part::Name(name)) => match name.as_ref() {
-                key @ ("rms" | "from") => section.span_of(key),
-                "to" | "band" => section.span_of("to").or_else(density),
-                "psd" => density(),
-                // An invalid end of the run is refused at its own key.
-                _ => None,
-            },
+        self.at_own_key(["random load", owner], section, error, |name| match name {
+            "rms" | "from" => section.span_of(name),
+            "to" | "band" => section.span_of("to").or_else(density),
+            "psd" => density(),
+            // An invalid end of the run is refused at its own key.
             _ => None,
-        };
-        let title = format!("{} is {value}", subject.to_string().replacen("random load", owner, 1));
-        let span = span.unwrap_or(section.span.clone());
-        self.source.error(span, &title, &format!("expected {expected}")).caused_by(error.clone())
+        })
     }
 }
 
@@ -221,7 +214,10 @@ impl Case {
         };
         for (index, origin) in case.written.origins.iter_mut().enumerate() {
             let key = origin.seed_key();
-            let Some(force) = origin.random_mut() else { continue };
+            let (Origin::Random { force, .. } | Origin::Second(force) | Origin::RandomBase { force, .. }) = origin
+            else {
+                continue;
+            };
             raised(&mut force.seed)?;
             if let Some(key) = key {
                 // A load of the file has its number in the scene.

@@ -206,7 +206,7 @@ mod tests {
             };
             for entry in KEYS.iter().filter(|entry| !entry.is_inner() && !entry.is_table()) {
                 let Ok(value) = entry.default.trim_matches('`').parse::<KeyValue>() else { continue };
-                let written = value.word().is_none() || entry.default.starts_with("`\"");
+                let written = value.0.as_str().is_none() || entry.default.starts_with("`\"");
                 let table = entry.key.rsplit_once('.').map_or("", |(table, _)| table);
                 let full = |path: &str| match path.split_once('.') {
                     Some((list, rest)) if is_list(list) => {

@@ -204,7 +204,7 @@ impl Builder<'_> {
     }
 
     /// True for `planes = 2`, which `kind` must allow.
-    fn two_planes(&mut self, planes: Option<Spanned<f64>>, kind: &str) -> Result<bool> {
+    fn two_planes(&self, planes: Option<Spanned<f64>>, kind: &str) -> Result<bool> {
         let Some(planes) = planes else { return Ok(false) };
         match (*planes.get_ref(), kind) {
             (1.0, _) => Ok(false),
@@ -255,17 +255,11 @@ impl Builder<'_> {
             Value::List(items) => self.list(&key, subject, items)?,
             _ => return Err(self.refuse_as(springs.span(), &key)),
         };
-        let mut grounds = [0.0; 2];
-        for (side, ground) in ["left", "right"].into_iter().zip(&mut grounds) {
-            let Some(end) = chain.get(side) else { continue };
-            *ground = match self.end("chain", side, end)? {
-                End::Free => 0.0,
-                End::Sprung { stiffness, .. } => stiffness,
-                End::Pinned | End::Clamped => {
-                    return Err(self.refuse_as(end.span(), &format!("{}.chain.{side}", self.owner)));
-                }
-            };
-        }
+        let grounds = self.ends("chain", chain, 0.0, |end| match end {
+            End::Free => Some(0.0),
+            End::Sprung { stiffness, .. } => Some(stiffness),
+            End::Pinned | End::Clamped => None,
+        })?;
         Ok(Chain { masses, springs, grounds })
     }
 }

@@ -4,7 +4,7 @@ use super::Case;
 use super::builder::Builder;
 use super::model::{Model, Place};
 use super::value::{Section, Value};
-use crate::error::{Error, Part, Result};
+use crate::error::{Error, Result};
 use crate::scene::{Row, Turbulence, TurbulenceSpectrum};
 use std::ops::Range;
 use toml::Spanned;
@@ -235,15 +235,8 @@ impl Builder<'_> {
 
     /// An error of a field, at the key that it is about.
     fn at_turbulence(&self, owner: &str, table: &Section<'_>, error: Error) -> Error {
-        let Error::Invalid { subject, value, expected } = &error else { return error };
-        let span: Option<Range<usize>> = match subject.parts().get(1) {
-            Some(Part::Name(name)) if name == "band" => table.span_of("to"),
-            Some(Part::Name(name)) => table.span_of(name),
-            _ => None,
-        };
-        let title = format!("{} is {value}", subject.to_string().replacen("turbulence", owner, 1));
-        let span = span.unwrap_or(table.span.clone());
-        self.source.error(span, &title, &format!("expected {expected}")).caused_by(error.clone())
+        let key = |name: &str| table.span_of(if name == "band" { "to" } else { name });
+        self.at_own_key(["turbulence", owner], table, error, key)
     }
 }
 

@@ -100,14 +100,6 @@ impl Origin {
         }
     }
 
-    /// The same, to be changed.
-    pub(super) fn random_mut(&mut self) -> Option<&mut RandomForce> {
-        match self {
-            Self::Random { force, .. } | Self::Second(force) | Self::RandomBase { force, .. } => Some(force),
-            Self::Stated | Self::Dashpots | Self::Base { .. } | Self::Gravity(_) => None,
-        }
-    }
-
     /// The key of the load under which its seed stands; `None` for loads without a seed of their
     /// own.
     pub(super) fn seed_key(&self) -> Option<&'static str> {

@@ -5,7 +5,7 @@ use super::ui::Ui;
 use super::values;
 use crate::case::{Case, CaseFile, Embedded, KeyValue};
 use crate::error::{Error, Result};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The case of a command.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -18,28 +18,19 @@ pub struct CaseArgs {
     changes: Changes,
 }
 
-/// Finds the case `name`: the file of that name; else, for a name without an extension, the file
-/// NAME.toml in the current folder; else the built-in case of that name. Says which it took
-/// wherever there is a built-in case of that name.
+/// Finds the case `name`: the file [`CaseFile::found`] in the current folder, else the built-in
+/// case of that name. Says which it took wherever there is a built-in case of that name.
 ///
 /// # Errors
 /// As [`CaseFile::read`].
 pub fn case_file(name: &str, ui: &Ui) -> Result<CaseFile> {
-    let file = Path::new(name);
-    let beside = PathBuf::from(format!("{name}.toml"));
-    // `..` and `.toml` do not get an extension.
-    let bare = !name.is_empty() && file.extension().is_none() && file.file_name().is_some();
-    let built_in = Embedded::named(name);
-    let taken = match &built_in {
-        _ if file.is_file() => file,
-        _ if bare && beside.is_file() => &beside,
-        Ok(embedded) => {
-            ui.message(&format!("{name}: the built-in case"));
-            return CaseFile::embedded(embedded.name);
-        }
-        Err(_) => file,
-    };
-    if built_in.is_ok() || taken != file {
+    let (found, built_in) = (CaseFile::found(Path::new(""), name), Embedded::named(name));
+    if let (None, Ok(embedded)) = (&found, &built_in) {
+        ui.message(&format!("{name}: the built-in case"));
+        return CaseFile::embedded(embedded.name);
+    }
+    let taken = found.unwrap_or_else(|| name.into());
+    if built_in.is_ok() || taken != Path::new(name) {
         let other = if built_in.is_ok() { ", not the built-in case of that name" } else { "" };
         ui.message(&format!("{name}: the file {}{other}", taken.display()));
     }

@@ -7,7 +7,6 @@ use super::pipeline::Answer;
 use super::realisations::{self, not_checked};
 use super::request::Request;
 use super::run::checked_seeds;
-use super::run_notes::run_notes;
 use super::ui::Ui;
 use super::{values, verdicts};
 use crate::case::Case;
@@ -235,4 +234,25 @@ fn document(case: &Case, comparison: &Comparison, rows: Vec<Value>, conclusion: 
         "notes": notes,
     });
     under_head(case, document)
+}
+
+/// Every note of the rows, with the methods to which it applies.
+fn run_notes(comparison: &Comparison) -> Vec<String> {
+    let runs =
+        comparison.rows.iter().filter_map(|row| Some((row.method.to_string(), &row.outcome.as_ref().ok()?.notes)));
+    let mut notes: Vec<(&str, Vec<String>)> = Vec::new();
+    let mut count = 0;
+    for (method, of_run) in runs {
+        count += 1;
+        for note in of_run {
+            match notes.iter_mut().find(|(text, _)| text == note) {
+                Some((_, methods)) => methods.push(method.clone()),
+                None => notes.push((note, vec![method.clone()])),
+            }
+        }
+    }
+    let said = |(note, methods): (&str, Vec<String>)| {
+        if methods.len() == count { note.to_owned() } else { format!("{}: {note}", methods.join(", ")) }
+    };
+    notes.into_iter().map(said).collect()
 }

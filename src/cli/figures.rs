@@ -112,7 +112,7 @@ impl Plate {
         let span = Span { from: 0.0, to: case.scene.duration };
         let sheet = FigureSet { title: &title, scene: &case.scene, runs: &labelled, span };
         let force = self.content == Content::Force;
-        Ok(sheet.figures()?.into_iter().filter(|(name, _)| (*name == "contact-force") == force).collect())
+        Ok(sheet.figures().into_iter().filter(|(name, _)| (*name == "contact-force") == force).collect())
     }
 
     fn run(&self, case: &Case, method: &Method, ui: &Ui) -> Result<Run> {

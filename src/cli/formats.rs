@@ -17,10 +17,9 @@ impl FileFormats {
     /// The formats asked for.
     ///
     /// # Errors
-    /// As [`Formats::check`].
+    /// As [`Formats::checked`].
     pub fn usable(&self) -> Result<Formats> {
-        let formats = Formats { pictures: self.pictures.asked(), workbook: self.tables.workbook() };
-        formats.check().map(|()| formats)
+        Formats { pictures: self.pictures.asked(), workbook: self.tables.workbook() }.checked()
     }
 }
 
@@ -48,10 +47,9 @@ impl PictureFormats {
     /// The formats asked for of a command that writes pictures alone.
     ///
     /// # Errors
-    /// As [`Formats::check`].
+    /// As [`Formats::checked`].
     pub fn usable(&self) -> Result<Formats> {
-        let formats = Formats { pictures: self.asked(), workbook: false };
-        formats.check().map(|()| formats)
+        Formats { pictures: self.asked(), workbook: false }.checked()
     }
 }
 
@@ -79,9 +77,8 @@ impl TableFormats {
     /// The formats asked for of a command that writes tables alone.
     ///
     /// # Errors
-    /// As [`Formats::check`].
+    /// As [`Formats::checked`].
     pub fn usable(&self) -> Result<Formats> {
-        let formats = Formats { pictures: Vec::new(), workbook: self.workbook() };
-        formats.check().map(|()| formats)
+        Formats { pictures: Vec::new(), workbook: self.workbook() }.checked()
     }
 }

@@ -9,10 +9,9 @@
 //! `verify.rs`, `completions.rs`), `case_args.rs`, `request.rs`, `formats.rs` and `drawing.rs` for
 //! arguments that several have, `command_line.rs` for lines as a shell takes them, `pipeline.rs`
 //! for what all commands share (the folder of results, the report, what is printed), `ui.rs` for
-//! stdout and stderr (`bar.rs` shows progress, `terminal.rs` breaks lines, `run_notes.rs` lists
-//! notes once), `estimate.rs` says how long work will take, `realisations.rs` makes the study of
-//! realisations of `run` and `wear`, `values.rs` lists the values that shells complete (feature
-//! `cli`).
+//! stdout and stderr (`bar.rs` shows progress, `terminal.rs` breaks lines), `estimate.rs` says how
+//! long work will take, `realisations.rs` makes the study of realisations of `run` and `wear`,
+//! `values.rs` lists the values that shells complete (feature `cli`).
 
 mod bar;
 mod case_args;
@@ -36,7 +35,6 @@ mod realisations;
 mod report;
 mod request;
 mod run;
-mod run_notes;
 mod stability;
 mod sweep;
 mod terminal;

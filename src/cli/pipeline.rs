@@ -7,7 +7,6 @@ use super::formats::FileFormats;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result};
-use crate::output::atomic::write_whole;
 use crate::output::results::Results;
 use crate::output::table::Table;
 use crate::report;
@@ -161,7 +160,7 @@ impl Answer {
                 Some(reason) => ui.message(&reason),
                 None => {
                     let page = report::page(&folder, &manifest)?;
-                    write_whole(&results.place(report::FILE)?, page.as_bytes())?;
+                    results.write(report::FILE, page)?;
                     results.finish()?;
                     open = format!("; open {}", folder.join(report::FILE).display());
                 }

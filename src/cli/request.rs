@@ -10,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::qp::Backend;
 use crate::scene::System;
 use crate::scheme::{Integrator, Method, Scheme};
+use crate::study::choice;
 
 /// Arguments common to `run`, `compare` and `wear`.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -112,6 +113,19 @@ impl Request {
         }
         method.scheme.validate()?;
         Ok(method)
+    }
+
+    /// The method that `asked` names, or the one chosen for the case, with the reason.
+    pub fn chosen(&self, asked: Option<&str>, case: &Case) -> Result<(Method, String)> {
+        let (method, reason) = match asked {
+            Some(name) => (self.method(name, case)?, "asked for".to_owned()),
+            None => {
+                let choice = choice::choose(&case.scene);
+                (self.method(&choice.method.to_string(), case)?, choice.reason)
+            }
+        };
+        self.check_use(&[method])?;
+        Ok((method, reason))
     }
 
     /// The methods of a list, separated as [`method_names`] does.

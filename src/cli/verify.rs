@@ -4,7 +4,6 @@ use super::formats::TableFormats;
 use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
-use crate::output::atomic::write_whole;
 use crate::output::results::Results;
 use crate::output::verification::{TABLE, conclusion, shortfall, table, write};
 use crate::report::verification::{FILE, page};
@@ -32,7 +31,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let mut results = Results::open(&args.out, request, args.force, args.tables.usable()?)?;
     let (lines, failures) = ui.with_bar("verifying", |bar| verify(&|share| bar.set_share(share)));
     write(&results.place(TABLE)?, &lines)?;
-    write_whole(&results.place(FILE)?, page(&lines).as_bytes())?;
+    results.write(FILE, page(&lines))?;
     let conclusion = conclusion(&lines);
     let page_to_open = format!("; open {}", args.out.join(FILE).display());
     let mut answer =

@@ -17,7 +17,6 @@ use crate::output::wear_journal::WindowJournal;
 use crate::output::{wear_history as output, wear_remarks};
 use crate::run::Options;
 use crate::scheme::Method;
-use crate::study::choice;
 use crate::study::realisations::{Realisation, RealisationCount, TimeLimit};
 use crate::study::wear_history::{USUAL_WINDOWS, WearHistories, WearPlan, WearingSupport};
 use crate::wear::Opening;
@@ -87,8 +86,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let within = args.within(&case)?;
     let histories = case.histories(args.histories).map_err(of_argument)?;
     let service = case.service(args.years).map_err(of_argument)?;
-    let (method, reason) = args.chosen(&case)?;
-    args.request.check_use(&[method])?;
+    let (method, reason) = args.request.chosen(args.scheme.as_deref(), &case)?;
     let (place, count) = (&args.request.place, within.unwrap_or(RealisationCount::Exactly(histories as u64)));
     let verdict = !args.no_verdict;
     let asked = WearRequest { case: &case, method: &method, years: args.years, count, verdict };
@@ -131,15 +129,6 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
 }
 
 impl Args {
-    /// The scheme, and why this one.
-    fn chosen(&self, case: &Case) -> Result<(Method, String)> {
-        let choice = choice::choose(&case.scene);
-        Ok(match &self.scheme {
-            Some(name) => (self.request.method(name, case)?, "asked for".to_owned()),
-            None => (self.request.method(&choice.method.to_string(), case)?, choice.reason),
-        })
-    }
-
     /// The number of histories that an interval takes, where one is asked for.
     fn within(&self, case: &Case) -> Result<Option<RealisationCount>> {
         let limit = self.most_time.as_ref().map(|text| TimeLimit::from_now(seconds("--most-time", text)?));

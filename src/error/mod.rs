@@ -4,16 +4,19 @@
 //!
 //! The one error type, its words (`words.rs`), what it refers to (`subject.rs`) and its cause
 //! (`cause.rs`); `is_request` separates a wrong request (exit code 2) from a failed run (exit code
-//! 1); `escape.rs` writes control characters of names as `\u{1b}`.
+//! 1); `escape.rs` writes control characters of names as `\u{1b}`;
+//! `names.rs` names the values of enums.
 
 mod cause;
 mod escape;
+mod names;
 mod subject;
 mod words;
 
 pub use cause::Cause;
 pub(crate) use cause::unnumbered;
 pub(crate) use escape::{escaped, escaped_lines};
+pub(crate) use names::names;
 pub use subject::{Part, Subject};
 #[cfg(feature = "case")]
 pub(crate) use words::nearest;

@@ -6,7 +6,7 @@
 //! | [`Symmetric`] | a symmetric matrix, by the rows of its lower triangle |
 //! | `MatrixPolynomial` (`polynomial.rs`) | M + sC + s²K for many s |
 //! | [`Rows`] | a few sparse rows, such as those of walls |
-//! | [`Operator`] | a symmetric matrix made ready for products, by diagonals where it is a band |
+//! | `Operator` (`operator.rs`) | a symmetric matrix made ready for products, by diagonals where it is a band |
 //! | [`Factor`] | L D Lᵀ of a positive definite matrix: a band's own, or a sparse one with a fill-reducing order |
 //!
 //! # Files
@@ -15,7 +15,7 @@
 //! `factor.rs` hold the types above (`definite.rs` is the error of a matrix without a factor);
 //! `band.rs` and `band_factor.rs` for narrow, diagonal and full matrices, `sparse.rs` for all
 //! others; `fourier.rs` is the fast Fourier transform; `segment.rs` and `entries.rs` are loops over
-//! vectors with vector instructions; uses nothing else of the crate.
+//! vectors with vector instructions.
 
 mod band;
 mod band_factor;
@@ -36,9 +36,9 @@ pub(crate) use entries::{Columns, Lanes, Pass, lane_operators, pass, running_max
 pub use factor::Factor;
 #[cfg(test)]
 pub(crate) use factor::counted;
-pub use operator::Operator;
+pub(crate) use operator::Operator;
 pub(crate) use polynomial::MatrixPolynomial;
 pub use rows::Rows;
-pub(crate) use segment::Segment;
-pub use sparse::negative_pivots;
+pub(crate) use segment::{Segment, sum_of_terms};
+pub(crate) use sparse::negative_pivots;
 pub use symmetric::Symmetric;

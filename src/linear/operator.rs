@@ -8,11 +8,8 @@ use super::update;
 /// a beam's, dense), else by rows.
 #[derive(Debug, Clone)]
 pub enum Operator {
-    /// By diagonals.
-    #[doc(hidden)]
     Band(Band),
     /// By rows of the lower triangle.
-    #[doc(hidden)]
     Sparse(Symmetric),
 }
 

@@ -49,14 +49,14 @@ impl Segment {
     #[inline(always)]
     pub fn dot(&self, x: &[f64]) -> f64 {
         let (values, x) = self.beside(x);
-        sum(values, x, |term| term)
+        sum_of_terms(values, x, |term| term)
     }
 
     /// The sum of the sizes of the terms of its product with `x`.
     #[inline(always)]
     pub fn size(&self, x: &[f64]) -> f64 {
         let (values, x) = self.beside(x);
-        sum(values, x, f64::abs)
+        sum_of_terms(values, x, f64::abs)
     }
 
     /// Its products with several vectors, and the sums of the sizes of their terms, each in the
@@ -102,7 +102,7 @@ impl Segment {
 /// The sum of `of` the products of a and b, in four independent sums, so that their additions
 /// overlap.
 #[inline(always)]
-fn sum(a: &[f64], b: &[f64], of: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn sum_of_terms(a: &[f64], b: &[f64], of: impl Fn(f64) -> f64) -> f64 {
     let (mut a, mut b) = (a.chunks_exact(4), b.chunks_exact(4));
     let mut sums = [0.0; 4];
     for (a, b) in a.by_ref().zip(b.by_ref()) {

@@ -11,7 +11,7 @@ use super::problem::Problem;
 use super::strobe::Scales;
 use crate::error::{Error, Result};
 use crate::flow::Arc;
-use crate::variation::{FlightVariation, SceneTangent};
+use crate::variation::{SceneTangent, StructureVariation};
 use nalgebra::DVector;
 
 impl Equations<'_> {
@@ -29,7 +29,7 @@ impl Equations<'_> {
         tangent: &SceneTangent,
     ) -> Result<DVector<f64>> {
         let longer = tangent.period(problem.scene(), problem.forcing_period())?;
-        let mut variation = FlightVariation::new(problem.scene(), std::slice::from_ref(tangent))?;
+        let mut variation = StructureVariation::with_keys(problem.scene(), std::slice::from_ref(tangent), &[])?;
         let mut column = DVector::zeros(self.unknowns());
         let Scales { length, speed } = self.scales;
         for i in 0..self.signature.events.len() {
@@ -46,7 +46,7 @@ impl Equations<'_> {
             let (mut change, to) = flight.ends_by(tangent);
             change[0] -= v * later;
             change[1] -= a * later;
-            variation.over(arc, &mut change).map_err(|reason| Error::no_orbit(reason.to_string()))?;
+            variation.fly(arc, &mut change).map_err(|reason| Error::no_orbit(reason.to_string()))?;
             column[2 * i] = (change[0] + end_v * until - flight.sign * to[0]) / length;
             column[2 * i + 1] = (change[1] + end_a * until - flight.sign * to[1]) / speed;
         }

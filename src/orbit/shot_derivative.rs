@@ -74,8 +74,8 @@ impl Shot {
             starts.extend((&state - &end * start).iter());
             states.push(state.as_slice().to_vec());
         }
-        let (second, ..) = self.once(scene, tangents, &starts)?;
-        let contacts = second.contacts().clone();
+        let (mut second, ..) = self.once(scene, tangents, &starts)?;
+        let (contacts, _) = second.take_results();
         let phase = |contact: ContactDerivative<'_>| {
             let of_key = |(later, longer): (&f64, &f64)| (later - contact.contact.start / period * longer) / period;
             contact.start_by.iter().zip(&longer).map(of_key).collect()

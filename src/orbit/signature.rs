@@ -1,8 +1,7 @@
 //! The signature of a periodic orbit: its events in order.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, names};
 use crate::scene::Scene;
-use std::fmt;
 
 /// What happens at a wall. Each event has a speed, defined here for each kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -28,34 +27,11 @@ pub enum Kind {
     Always,
 }
 
+names!(Kind: "kind of event",
+    Impact => "impact", Rest => "rest", Chatter => "chatter", Release => "release", Enter => "enter",
+    Leave => "leave", Again => "again", Always => "always");
+
 impl Kind {
-    /// All of them.
-    pub const ALL: [Self; 8] =
-        [Self::Impact, Self::Rest, Self::Chatter, Self::Release, Self::Enter, Self::Leave, Self::Again, Self::Always];
-
-    /// Its name, as signatures are written.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Impact => "impact",
-            Self::Rest => "rest",
-            Self::Chatter => "chatter",
-            Self::Release => "release",
-            Self::Enter => "enter",
-            Self::Leave => "leave",
-            Self::Again => "again",
-            Self::Always => "always",
-        }
-    }
-
-    /// The kind of that name.
-    ///
-    /// # Errors
-    /// [`Error::Unknown`], listing the kinds.
-    pub fn named(name: &str) -> Result<Self> {
-        crate::error::named("kind of event", name, Self::ALL.map(|kind| (kind.name(), kind)))
-    }
-
     /// True for a kind whose speed is an approach speed.
     #[must_use]
     pub fn is_approach(self) -> bool {
@@ -146,7 +122,7 @@ impl Signature {
                 continue;
             }
             let (name, kind) = word.split_once(':').unwrap_or((word, Kind::Impact.name()));
-            events.push(Event { kind: Kind::named(kind)?, wall: scene.wall_index(name)? });
+            events.push(Event { kind: kind.parse()?, wall: scene.wall_index(name)? });
         }
         let signature = Self { events, periods, symmetric: false };
         signature.check(scene)?;
@@ -233,10 +209,4 @@ fn initials(scene: &Scene) -> Option<Vec<char>> {
         scene.walls.iter().filter_map(|wall| wall.name.chars().next()).map(|c| c.to_ascii_uppercase()).collect();
     let alone = |(index, letter): (usize, &char)| !letters[..index].contains(letter) && letter.is_ascii_alphabetic();
     (letters.len() == scene.walls.len() && letters.iter().enumerate().all(alone)).then_some(letters)
-}
-
-impl fmt::Display for Kind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
 }

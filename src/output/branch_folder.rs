@@ -1,12 +1,11 @@
 //! The branches of periodic orbits of a case over a key, and the folder of their files.
 
-use super::atomic::write_whole;
 use super::branches::Drawn;
 use super::first_orbit::FirstOrbit;
 use super::results::Results;
 use super::scene_family::SceneFamily;
 use super::{json, orbits, overlay};
-use crate::error::{Result, named};
+use crate::error::Result;
 use crate::interrupt::Carried;
 use crate::orbit::branch::{Graph, Point, Request, Switch, graph};
 use serde::Serialize;
@@ -22,14 +21,6 @@ pub struct BranchRequest {
     pub depth: u32,
     /// Most points of a branch in each direction.
     pub points: u32,
-}
-
-/// The branches to follow that `word` names.
-///
-/// # Errors
-/// [`crate::Error::Unknown`] for another word.
-pub fn switch(word: &str) -> Result<Switch> {
-    named("switch", word, [("no", Switch::No), ("stable", Switch::Stable), ("all", Switch::All)])
 }
 
 impl BranchRequest {
@@ -63,7 +54,7 @@ pub struct BranchSettings<'a> {
     pub from: Option<&'a Path>,
     /// Forcing periods that are run before the motion is checked for repetition.
     pub settle: u32,
-    /// As [`switch`] reads it.
+    /// The name of a [`Switch`].
     pub switch: &'a str,
     /// As in [`BranchRequest`].
     pub depth: u32,
@@ -110,7 +101,7 @@ pub fn write(
     if drawn.tells_states() {
         document["place"] = json!(scene.walls.get(drawn.place()).map(|wall| &wall.name));
     }
-    write_whole(&results.place("branches.json")?, json::text(&document).as_bytes())?;
+    results.write("branches.json", json::text(&document))?;
     let title = format!("{}: branches of periodic orbits", family.title());
     results.draw("branches", &drawn.picture(&title, beneath.unwrap_or_default()))?;
     if let Some(points) = beneath {

@@ -142,9 +142,6 @@ impl Drawn<'_> {
 
     /// Writes one row per point of each branch, in order along it; special points stand among them
     /// with their label.
-    ///
-    /// # Errors
-    /// [`Error::Io`](crate::Error::Io) where the file cannot be written.
     pub fn branches(&self, path: &Path) -> Result<()> {
         let rows = self
             .points()
@@ -154,9 +151,6 @@ impl Drawn<'_> {
     }
 
     /// Writes one row per special point, with the branches that it leads to.
-    ///
-    /// # Errors
-    /// [`Error::Io`](crate::Error::Io) where the file cannot be written.
     pub fn specials(&self, path: &Path) -> Result<()> {
         let rows = self.graph.specials.iter().enumerate().map(|(number, special)| {
             let leads = special.leads_to.iter().map(|branch| (branch + 1).to_string()).collect::<Vec<_>>().join(" ");

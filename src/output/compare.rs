@@ -36,9 +36,6 @@ pub(crate) const DISTANCE: &str = "distance.csv";
 /// pictures of all runs together the second. Returns the comparison's rows as JSON: for each run
 /// its summary (without the scene, which all share) and what the comparison found; for a method
 /// that failed, the reason.
-///
-/// # Errors
-/// [`crate::Error::Io`] where a file cannot be written.
 pub fn write(
     results: &mut Results,
     case: &Case,
@@ -110,7 +107,7 @@ fn figures(results: &mut Results, case: &Case, comparison: &Comparison, span: Sp
     };
     let title = case.heading();
     let sheet = FigureSet { title, scene: &case.scene, runs: &runs, span };
-    for (name, svg) in sheet.figures()? {
+    for (name, svg) in sheet.figures() {
         results.draw(name, &svg)?;
     }
     Ok(())

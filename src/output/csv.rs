@@ -18,16 +18,14 @@ const BLOCK: usize = 1 << 16;
 /// impulse in a row is that since the row before it, so that a column sums to the impulse of the
 /// run, and the force is that impulse over the distance of the rows. Columns carry the names of
 /// probes, walls and supports as [`words`] writes them.
-///
-/// # Errors
-/// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn trajectory(path: &Path, trajectory: &Trajectory) -> Result<()> {
     let states = [trajectory.displacements(), trajectory.velocities()];
     let (mut header, mut columns) = probe_columns(trajectory.probes(), trajectory.time(), states);
-    let flats = trajectory.walls().iter().zip(words(trajectory.walls()));
-    for (wall, word) in flats.filter(|(wall, _)| !trajectory.holes().contains(wall)) {
+    let columns_of_walls = trajectory.contact_forces().iter().zip(trajectory.contact_impulses());
+    let walls = trajectory.walls().iter().zip(words(trajectory.walls())).zip(columns_of_walls);
+    for ((_, word), (force, impulse)) in walls.filter(|((wall, _), _)| !trajectory.holes().contains(wall)) {
         header.extend([format!("contact_force_{word}_N"), format!("contact_impulse_{word}_N_s")]);
-        columns.extend([trajectory.contact_force(wall)?, trajectory.contact_impulse(wall)?]);
+        columns.extend([force.as_slice(), impulse]);
     }
     let holes = trajectory.hole_forces().iter().zip(trajectory.hole_impulses());
     for (([force_y, force_z], [impulse_y, impulse_z]), word) in holes.zip(words(trajectory.holes())) {
@@ -80,9 +78,6 @@ pub(super) fn probe_numbers<S: AsRef<str>>(probes: &[S]) -> Vec<[(String, &'stat
 /// no peak force, and an episode still open at the end of the run has no end: those cells are
 /// empty. In scenes with supports each row also says where around the support the contact began,
 /// its work of wear and the distance slid in it; those cells are empty at other walls.
-///
-/// # Errors
-/// As [`trajectory`].
 pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
     let mut header = CONTACT.to_vec();
     let wears = !trajectory.supports().is_empty();
@@ -102,7 +97,6 @@ pub fn contacts(path: &Path, trajectory: &Trajectory) -> Result<()> {
         }
         row
     });
-    let header: Vec<String> = header.into_iter().map(str::to_owned).collect();
     table(path, &header, rows)
 }
 
@@ -147,19 +141,13 @@ pub fn words<S: AsRef<str>>(names: &[S]) -> Vec<String> {
 pub type Column<'a, R> = (&'static str, &'a dyn Fn(&R) -> String);
 
 /// Writes a table with a row for each of `records`, by its columns.
-///
-/// # Errors
-/// As [`trajectory`].
 pub fn records<R>(path: &Path, columns: &[Column<'_, R>], records: impl IntoIterator<Item = R>) -> Result<()> {
-    let header: Vec<String> = columns.iter().map(|column| column.0.to_owned()).collect();
+    let header: Vec<&str> = columns.iter().map(|column| column.0).collect();
     table(path, &header, records.into_iter().map(|record| columns.iter().map(|column| column.1(&record)).collect()))
 }
 
 /// Writes a table of text cells under a header.
-///
-/// # Errors
-/// As [`trajectory`].
-pub fn table(path: &Path, header: &[String], rows: impl Iterator<Item = Vec<String>>) -> Result<()> {
+pub fn table(path: &Path, header: &[impl AsRef<[u8]>], rows: impl Iterator<Item = Vec<String>>) -> Result<()> {
     let failed = |e: csv::Error| Error::io(path.display(), e.to_string(), false).caused_by(e);
     let mut writer = csv::Writer::from_writer(WholeFile::create(path)?);
     writer.write_record(header).map_err(failed)?;

@@ -50,9 +50,6 @@ const NUMBERS: [(&str, &str); 5] =
 /// speed, departure speed and impulse by each key:
 /// `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what is not known are empty, also
 /// those by a key from where the derivatives by it alone end.
-///
-/// # Errors
-/// As [`csv::table`].
 pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Result<()> {
     let mut header: Vec<String> = csv::CONTACT.iter().copied().chain(["growth"]).map(str::to_owned).collect();
     header.extend(keys.iter().flat_map(|key| NUMBERS.map(|(what, unit)| key.header(what, unit))));
@@ -75,9 +72,6 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivati
 /// Writes displacement and velocity of each probe at the output times of the scene, with their
 /// derivatives by each key: `displacement_tip_by_wall_stop_stiffness_m_per_N_per_m`. Cells of what
 /// is not known are empty.
-///
-/// # Errors
-/// As [`csv::table`].
 pub fn write_states(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Result<()> {
     let names: Vec<&str> = scene.probes.iter().map(|probe| &*probe.name).collect();
     let mut header = vec!["time_s".to_owned()];
@@ -132,7 +126,6 @@ pub fn table(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Optio
             row
         })
         .collect();
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     (!rows.is_empty()).then(|| Table::new(&header, rows))
 }
 

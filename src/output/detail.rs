@@ -31,9 +31,6 @@ impl Detail {
 
     /// Writes its files into the folder of `results`, under the names that `named` gives; `title`
     /// is that of the figures.
-    ///
-    /// # Errors
-    /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
     pub fn write(&self, results: &mut Results, title: &str, named: impl Fn(&str) -> String) -> Result<()> {
         self.episodes.write(results, &named)?;
         spectra::write(&self.spectra, results, title, &named)

@@ -2,7 +2,7 @@
 //! distributed.
 
 use super::csv::{self, digits};
-use super::places::{Chosen, stands_alone};
+use super::places::Chosen;
 use super::results::Results;
 use super::table::Table;
 use crate::case::Case;
@@ -45,9 +45,6 @@ impl Episodes {
 
     /// Writes `episodes.csv`, a row for each place and quantity, and `exceedances.csv`, a row for
     /// each threshold, into the folder of `results`, under the names that `named` gives.
-    ///
-    /// # Errors
-    /// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
     pub fn write(&self, results: &mut Results, named: impl Fn(&str) -> String) -> Result<()> {
         type Record<'a> = (&'a EpisodeStatistics, Quantity<'a>);
         let number = |record: &Record<'_>, of: fn(&Distribution) -> f64| digits(record.1.2.map(of));
@@ -90,7 +87,7 @@ impl Episodes {
     /// many, those of the largest mean impulses. `None` without walls.
     #[must_use]
     pub fn table(&self, scene: &Scene) -> Option<Table> {
-        let own = self.places.iter().filter(|one| stands_alone(&one.place, scene));
+        let own = self.places.iter().filter(|one| one.place.stands_alone(scene));
         let impulse = |one: &&EpisodeStatistics| one.impulse_n_s.as_ref().map_or(0.0, |d| d.mean * one.episodes as f64);
         let shown = Chosen::heaviest(own, MOST_ROWS, impulse).shown;
         let header = [

@@ -32,17 +32,11 @@ pub fn has_any(study: &Realisations) -> bool {
 /// Writes one row for each judged mean: the place, the measure, the mean with the half width of its
 /// interval (the error of sampling), the total error, and the other parts with theirs. Cells of
 /// parts that are not known are empty.
-///
-/// # Errors
-/// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, study: &Realisations) -> Result<()> {
     csv::table(path, &columns(), cells(study).into_iter())
 }
 
 /// The same for the studies of several methods, with a first column that names them.
-///
-/// # Errors
-/// As [`write`].
 pub fn write_methods(path: &Path, studies: &[(String, &Realisations)]) -> Result<()> {
     realisations::write_by_method(path, columns(), studies, cells)
 }
@@ -69,9 +63,6 @@ fn cells(study: &Realisations) -> Vec<Vec<String>> {
 }
 
 /// Writes `realisations.csv` of a study, and `errors.csv` where errors are known.
-///
-/// # Errors
-/// As [`write`].
 pub fn write_study(results: &mut Results, study: &RealisationStudy) -> Result<()> {
     realisations::write(&results.place(realisations::FILE)?, &study.realisations)?;
     if has_any(&study.realisations) {
@@ -131,7 +122,6 @@ fn table_of(studies: &[(Option<&str>, &Realisations)], scene: &Scene) -> Option<
         row
     };
     let rows: Vec<Vec<String>> = judged.iter().map(row).collect();
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH))
 }
 

@@ -6,10 +6,8 @@
 //! not depend on the fonts of the machine.
 
 use super::atomic::write_whole;
-use crate::error::{Error, Result, named};
-use std::fmt;
+use crate::error::{Error, Result, names};
 use std::path::Path;
-use std::str::FromStr;
 
 /// The formats in which the results of a request are written.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -21,15 +19,15 @@ pub struct Formats {
 }
 
 impl Formats {
-    /// Refuses a format that this build cannot write.
+    /// The same, where this build can write them.
     ///
     /// # Errors
     /// As [`Format::check`]; [`Error::Invalid`] for a workbook without the feature `xlsx`.
-    pub fn check(&self) -> Result<()> {
+    pub fn checked(self) -> Result<Self> {
         self.pictures.iter().try_for_each(|format| format.check())?;
         match self.workbook && !cfg!(feature = "xlsx") {
             true => Err(not_built("--tables", "xlsx", "csv", "xlsx")),
-            false => Ok(()),
+            false => Ok(self),
         }
     }
 }
@@ -55,20 +53,10 @@ pub enum Format {
     Png,
 }
 
+// The name is also the extension of its files.
+names!(Format: "format of pictures", Svg => "svg", Pdf => "pdf", Png => "png");
+
 impl Format {
-    /// Every format.
-    pub const ALL: [Self; 3] = [Self::Svg, Self::Pdf, Self::Png];
-
-    /// The name of the format, which is also the extension of its files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Svg => "svg",
-            Self::Pdf => "pdf",
-            Self::Png => "png",
-        }
-    }
-
     /// Refuses a format that this build cannot write.
     ///
     /// # Errors
@@ -93,20 +81,6 @@ impl Format {
             Self::Pdf => write_whole(path, &convert::pdf(svg).map_err(failed)?),
             Self::Png => write_whole(path, &convert::png(svg).map_err(failed)?),
         }
-    }
-}
-
-impl fmt::Display for Format {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for Format {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self> {
-        named("format of pictures", name, Self::ALL.map(|format| (format.name(), format)))
     }
 }
 

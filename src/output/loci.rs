@@ -9,9 +9,6 @@ use std::path::Path;
 
 /// Writes one row per point: number and label of the locus, the values of both keys (`columns`),
 /// and signature, phases and speeds of the orbit.
-///
-/// # Errors
-/// [`crate::Error::Io`] where the file cannot be written.
 pub fn table(path: &Path, loci: &[Locus], columns: &[String; 2], scene: &Scene) -> Result<()> {
     let events = loci.iter().flat_map(|locus| locus.points.first()).map(|point| point.orbit.phases.len()).max();
     let mut header: Vec<String> = ["locus", "label", "point"].map(str::to_owned).to_vec();

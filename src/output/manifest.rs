@@ -88,9 +88,6 @@ pub(super) fn made(manifest: &Value) -> Option<&str> {
 }
 
 /// Writes `manifest` into `folder`, and what is in the folder onto the disk.
-///
-/// # Errors
-/// [`Error::Io`] where it cannot be written.
 pub(super) fn write(folder: &Path, manifest: &Value) -> Result<()> {
     write_whole(&folder.join(MANIFEST), format!("{manifest:#}\n").as_bytes())?;
     sync_folder(folder)

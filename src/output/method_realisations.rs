@@ -36,9 +36,6 @@ impl MethodStudy {
 /// Writes one row for each method, place and measure: the mean, the deviation of one realisation
 /// and the half width of the interval of the mean, the same of the difference from `reference`, and
 /// how many realisations the judge refutes.
-///
-/// # Errors
-/// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, studies: &[MethodStudy], reference: &str) -> Result<()> {
     let columns: [csv::Column<'_, (&MethodStudy, &Estimate)>; 12] = [
         ("method", &|(one, _)| one.method.clone()),

@@ -1,4 +1,5 @@
-//! The files of a run: tables, a summary and pictures, each written whole or not at all.
+//! The files of a request: tables, documents and pictures, each written whole or not at all. Where
+//! one cannot be written, the function that writes it returns [`Error::Io`](crate::Error::Io).
 //!
 //! | module | what it holds |
 //! |---|---|
@@ -8,17 +9,18 @@
 //! | `record` | rows, length and digest of a table, and whether it still has them |
 //! | `journal` | what a long computation has done, so that it goes on after an interruption |
 //! | `lock` | one writer in a folder at a time |
-//! | [`request`] | the request, as recorded beside its results |
+//! | [`request`], `values` | the request, as recorded beside its results, and the case by its keys |
 //! | [`csv`] | `trajectory.csv`, `output.csv` and `contacts.csv` |
 //! | [`derivatives`] | `derivatives.csv`, and the table of what 1 % more of a key changes |
 //! | [`supports`] | `supports.csv`, `sectors.csv`, the table of supports and their part of the summary |
 //! | `turbulence` | `turbulence.csv`, `turbulence-pairs.csv`: forces on modes, asked and applied |
-//! | [`summary`] | `summary.json` |
+//! | [`summary`], `json` | `summary.json`, and how JSON is written |
 //! | [`run`] | all files of one run, and its table |
-//! | [`compare`] | all files of a comparison, its table and its JSON |
+//! | [`compare`], `compare_table`, `method_realisations` | all files of a comparison, its tables and its JSON |
 //! | `agreement` | the conclusion of a comparison in one sentence |
+//! | `verification` | the page and the table of the manual |
 //! | [`document`] | a chart and a stability study as JSON |
-//! | [`episodes`] | `episodes.csv` and `exceedances.csv`, and their table |
+//! | `detail` | what `[statistics]` asks for: [`episodes`] (`episodes.csv`, `exceedances.csv`) and `spectra` |
 //! | [`realisations`] | `realisations.csv`, and its table |
 //! | [`worn_means`] | worn volume and depths over realisations: a table, and a part of the summary |
 //! | [`sector_means`] | `sector-means.csv`: where around each support a tube wears |
@@ -34,6 +36,9 @@
 //! | [`loci`] | curves of special points over two keys |
 //! | [`table`] | tables for people, as wide as the terminal |
 //! | [`pictures`] | the figures of one or several runs |
+//! | `labelled`, `motion`, `window` | a run that is drawn, its motion, and the stretch of it |
+//! | `orbit`, `ring`, `rubbed` | its way between supports, and the supports over time |
+//! | `site`, `places`, `part`, `colours` | walls and supports: their results, which fit on a page, which are drawn together, and in which colour |
 //! | [`stability`] | tables and maps of a stability study |
 //! | `stable_steps` | the largest stable step of each scheme, and the conclusion of a stability study |
 //! | `cheapest` | the cheapest methods of a chart, and its conclusion |
@@ -48,30 +53,6 @@
 //! | `sheets` | `tables.xlsx`: tables as the sheets of a workbook |
 //! | `animation` | `animation.svg`: a tube in motion between its walls |
 //! | [`mod@format`] | figures as files: SVG, PDF, PNG; the formats of a request |
-//!
-//! # Files
-//!
-//! The files of a request, each written whole or not at all: `results.rs` is the folder, which one
-//! writer at a time (`lock.rs`) fills, `manifest.rs` says what it may replace and what belongs to
-//! it, `record.rs` whether a table is still as it was written, `journal.rs` keeps what an
-//! interrupted request has done, `atomic.rs` writes a file onto the disk before it gets its name,
-//! `request.rs` records the request and `values.rs` the case by its keys, `run.rs` and `compare.rs`
-//! write all files and tables of a run and of a comparison, `periodic.rs` and `branches.rs` those
-//! of periodic orbits (`first_orbit.rs` finds or reads the first, `branch_folder.rs` follows the
-//! branches of a case over the scenes of `scene_family.rs` and the key of `varied.rs`), `orbits.rs`
-//! the motion of those along branches and `overlay.rs` points of other results under them,
-//! `shape.rs` the shape of a structure over time; `summary/`, `csv.rs`, `derivatives.rs`,
-//! `table.rs`, `json.rs`, `compare_table.rs` and `method_realisations.rs` (comparisons for the
-//! terminal), `agreement.rs` (their conclusion), `verification.rs` (the manual), `document.rs`,
-//! `detail.rs` (what `[statistics]` asks for: `episodes.rs`, `spectra.rs`), `turbulence.rs` (its
-//! forces), `realisations.rs`, `sector_means.rs` (their sectors), `error_parts.rs` (the errors of
-//! their means), `cheapest.rs` (the conclusion of a chart), `floors.rs` (why its penalties have
-//! floors), `stable_steps.rs` (the conclusion of a stability study), figures (`labelled.rs` is a
-//! run that is drawn, `motion.rs` its motion, `window.rs` the stretch of it, `orbit.rs` with
-//! `ring.rs` its way between supports, `rubbed.rs` the supports over time; `site.rs` is a wall or
-//! support with its results, `places.rs` says which fit on a page, `colours.rs` has the colour of
-//! each, `part.rs` the walls that are drawn together), `format.rs` (figures as SVG, PDF or PNG),
-//! `sheets.rs` (tables as a workbook, feature `xlsx`; feature `cli`).
 
 pub(crate) mod agreement;
 pub(crate) mod animation;

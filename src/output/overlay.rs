@@ -18,12 +18,9 @@ pub const FILE: &str = "beneath.csv";
 const SPEED: &str = "approach_speed_m_per_s";
 
 /// Writes the points: the value of the key, under the name `column`, and the approach speed.
-///
-/// # Errors
-/// [`Error::Io`] where the file cannot be written.
 pub fn write(path: &Path, column: &str, points: &[(f64, f64)]) -> Result<()> {
     let rows = points.iter().map(|(x, y)| vec![digits(Some(*x)), digits(Some(*y))]);
-    csv::table(path, &[column, SPEED].map(str::to_owned), rows)
+    csv::table(path, &[column, SPEED], rows)
 }
 
 /// The approach speeds of results over `key`, whose values tables have in `column`: of a sweep and
@@ -100,7 +97,7 @@ fn branches(folder: &Path, column: &str) -> Result<Vec<(f64, f64)>> {
     let document: Value = serde_json::from_str(&read_text(&path, MOST_TABLE_BYTES).map_err(&wrong)?)
         .map_err(|error| wrong(format!("not valid JSON: {error}")))?;
     let arrives = |event: &Value| {
-        let kind = event["kind"].as_str().and_then(|name| Kind::named(name).ok());
+        let kind = event["kind"].as_str().and_then(|name| name.parse().ok());
         kind.is_some_and(Kind::is_approach)
     };
     let table = Table::open(&folder.join("branches.csv"))?;

@@ -5,7 +5,7 @@ use super::figure::{Curve, Figure, Mark, Panel};
 use super::request::program;
 use crate::case::read_text;
 use crate::error::{Error, Result, counted};
-use crate::orbit::{Admissible, ClosedForm, Event, Floquet, Judged, Kind, Orbit, Problem, Shot, Signature};
+use crate::orbit::{Admissible, ClosedForm, Event, Floquet, Judged, Orbit, Problem, Shot, Signature};
 use crate::scene::{Scene, State};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -111,9 +111,6 @@ impl Known<'_> {
     }
 
     /// Writes the motion over one orbit: time, phase, state and the force of each wall.
-    ///
-    /// # Errors
-    /// [`Error::Io`] where the file cannot be written.
     pub fn motion(&self, path: &Path) -> Result<()> {
         let scene = self.problem.scene();
         let names: Vec<&str> = scene.walls.iter().map(|wall| wall.name.as_str()).collect();
@@ -128,13 +125,10 @@ impl Known<'_> {
     }
 
     /// Writes the contact episodes of the free run over one period, as `contacts.csv` of a run.
-    ///
-    /// # Errors
-    /// [`Error::Io`] where the file cannot be written.
     pub fn contacts(&self, path: &Path) -> Result<()> {
         let name = |wall: usize| self.problem.scene().wall_name(wall).unwrap_or_default().to_owned();
         let rows = self.judged.contacts.iter().map(|c| csv::contact_cells(name(c.wall), c));
-        csv::table(path, &csv::CONTACT.map(str::to_owned), rows)
+        csv::table(path, &csv::CONTACT, rows)
     }
 
     /// The orbit in the plane of displacement and velocity.
@@ -200,7 +194,7 @@ pub fn read(path: &Path, scene: &Scene) -> Result<Orbit> {
         let (Some(phase), Some(speed)) = (get("phase_cycles").as_f64(), get("speed_m_per_s").as_f64()) else {
             return wrong(&at("phase_cycles and speed_m_per_s"), entry, "numbers");
         };
-        orbit.signature.events.push(Event { kind: Kind::named(kind)?, wall: scene.wall_index(wall)? });
+        orbit.signature.events.push(Event { kind: kind.parse()?, wall: scene.wall_index(wall)? });
         orbit.phases.push(phase);
         orbit.speeds.push(speed);
     }

@@ -12,7 +12,6 @@ use super::part::Part;
 use super::places::{Chosen, WallPlace};
 use super::rubbed::Rubbed;
 use super::window::{Span, Window, extent};
-use crate::error::Result;
 use crate::order::sort_by_number;
 use crate::run::Run;
 use crate::scene::{Row, Scene, Side};
@@ -51,10 +50,8 @@ impl FigureSet<'_> {
     /// contact force (where there are walls), force of round supports, work of wear. For a run of
     /// many periods the figures over time show the whole run and, beside it, the last periods; the
     /// phase plot shows the last periods only.
-    ///
-    /// # Errors
-    /// None beyond those of a trajectory asked for its own walls.
-    pub fn figures(&self) -> Result<Vec<(&'static str, String)>> {
+    #[must_use]
+    pub fn figures(&self) -> Vec<(&'static str, String)> {
         let mut figures = Vec::new();
         let probes = self.probes();
         let window = Window::new(self.scene, self.leading(), probes.shown.first().copied(), self.span);
@@ -71,13 +68,13 @@ impl FigureSet<'_> {
             figures.push(("orbit", orbits));
         }
         if self.scene.walls.iter().any(|wall| !wall.is_round()) {
-            figures.push(("contact-force", self.contact_force(&window)?));
+            figures.push(("contact-force", self.contact_force(&window)));
         }
         let title = |remarks: Vec<String>| self.title(remarks);
         let rubbed = Rubbed { scene: self.scene, runs: self.runs, window: &window, title: &title };
         figures.extend(rubbed.force().map(|figure| ("support-force", figure)));
         figures.extend(rubbed.work().map(|figure| ("wear-work", figure)));
-        Ok(figures)
+        figures
     }
 
     /// The run whose contacts decide what is drawn: the reference, else the first.
@@ -177,7 +174,7 @@ impl FigureSet<'_> {
 
     /// For each place: finite forces as curves in N and impulses of impacts as stems in N s, in
     /// separate panels, each drawn only where it occurs.
-    fn contact_force(&self, window: &Window) -> Result<String> {
+    fn contact_force(&self, window: &Window) -> String {
         let places = Chosen::places(self.scene, self.leading().map(|run| &run.trajectory), self.span);
         let mut figure = window
             .over_time(Figure::new(self.title(places.left_out("places", |place| place.name(self.scene))), "Time (s)"));
@@ -212,7 +209,7 @@ impl FigureSet<'_> {
                 figure = figure.panel(impulse);
             }
         }
-        Ok(figure.to_svg())
+        figure.to_svg()
     }
 
     /// True for a contact that overlaps the stretch drawn.

@@ -3,7 +3,6 @@
 use super::window::Span;
 use crate::order::sort_by_number;
 use crate::scene::Scene;
-use crate::statistics::{ContactPlace, PlaceKind};
 use crate::trajectory::Trajectory;
 
 /// Most panels on one page, one below the other.
@@ -118,12 +117,6 @@ impl Chosen<usize> {
         };
         Self::heaviest(0..scene.probes.len(), MOST, |&index| weight(index))
     }
-}
-
-/// True for a support, and for a wall that is no flat of one.
-pub(super) fn stands_alone(place: &ContactPlace, scene: &Scene) -> bool {
-    let wall = || scene.walls.iter().position(|wall| wall.name == place.name);
-    place.kind == PlaceKind::Support || wall().is_none_or(|wall| scene.support_of(wall).is_none())
 }
 
 #[cfg(test)]

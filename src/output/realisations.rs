@@ -1,7 +1,7 @@
 //! `realisations.csv`, and the table and remarks of a study of realisations for the terminal.
 
 use super::csv;
-use super::places::{Chosen, stands_alone};
+use super::places::Chosen;
 use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
@@ -29,9 +29,6 @@ pub(crate) fn titled(title: &str, count: u64) -> String {
 /// Writes one row for each realisation and place: the number of the realisation, the place, its
 /// measures, and how many findings of the judge refute the realisation. Cells of measures that a
 /// place does not have are empty.
-///
-/// # Errors
-/// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, study: &Realisations) -> Result<()> {
     let (header, rows) = cells(study);
     csv::table(path, &header, rows.into_iter())
@@ -44,9 +41,6 @@ pub fn cells(study: &Realisations) -> (Vec<String>, Vec<Vec<String>>) {
 }
 
 /// The same for the studies of several methods, with a first column that names them.
-///
-/// # Errors
-/// As [`write`].
 pub fn write_methods(path: &Path, studies: &[(String, &Realisations)]) -> Result<()> {
     write_by_method(path, header(), studies, rows)
 }
@@ -100,7 +94,7 @@ fn places(study: &Realisations) -> Vec<&ContactPlace> {
 /// The places that the terminal shows: supports, and walls that are no flats of one; where there
 /// are many, those of the largest mean forces.
 pub(super) fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a ContactPlace> {
-    let own = places(study).into_iter().filter(|place| stands_alone(place, scene));
+    let own = places(study).into_iter().filter(|place| place.stands_alone(scene));
     let force = |place: &&ContactPlace| find(study, place, Measure::MeanForce).map_or(0.0, |one| one.mean);
     Chosen::heaviest(own, most, force).shown
 }
@@ -133,7 +127,6 @@ pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
         row
     };
     let rows: Vec<Vec<String>> = shown(study, scene, MOST_ROWS).into_iter().map(row).collect();
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH))
 }
 

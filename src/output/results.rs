@@ -15,7 +15,7 @@ mod tests;
 #[cfg(feature = "xlsx")]
 mod workbook;
 
-use super::atomic::{check_folder, remove_abandoned, sync_files, sync_folder};
+use super::atomic::{check_folder, remove_abandoned, sync_files, sync_folder, write_whole};
 use super::format::Formats;
 use super::lock::Lock;
 use super::manifest::{self, UNFINISHED};
@@ -137,6 +137,14 @@ impl Results {
         Ok(self.staged(name))
     }
 
+    /// Writes `bytes` as the file `name`, as [`Results::place`] places it.
+    ///
+    /// # Errors
+    /// As [`Results::place`].
+    pub fn write(&mut self, name: &str, bytes: impl AsRef<[u8]>) -> Result<()> {
+        write_whole(&self.place(name)?, bytes.as_ref())
+    }
+
     fn staged(&self, name: &str) -> PathBuf {
         self.stage.place(name)
     }
@@ -214,11 +222,10 @@ impl Results {
     ///
     /// # Errors
     /// [`Error::Io`] where a table cannot be read or a workbook cannot be written, and as
-    /// [`Formats::check`].
+    /// [`Formats::checked`].
     #[cfg_attr(not(feature = "xlsx"), expect(unused_variables, reason = "there is no workbook"))]
     pub fn write_workbooks(&mut self, progress: &mut (dyn FnMut(f64) + Send)) -> Result<Vec<String>> {
-        self.formats.check()?;
-        match self.formats.workbook {
+        match self.formats.clone().checked()?.workbook {
             #[cfg(feature = "xlsx")]
             true => self.write_sheets(progress),
             _ => Ok(Vec::new()),
@@ -227,9 +234,6 @@ impl Results {
 
     /// Records the request in the folder, with the file `journal` in it, from which the request
     /// goes on after an interruption, and which [`Results::finish`] removes last.
-    ///
-    /// # Errors
-    /// [`Error::Io`] where it cannot be written.
     pub(crate) fn begin(&mut self, journal: &str) -> Result<()> {
         self.journal = Some(journal.to_owned());
         self.write_unfinished()

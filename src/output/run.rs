@@ -1,6 +1,5 @@
 //! Files of one run, and the table of its walls; shared by `run`, `compare` and any other caller.
 
-use super::atomic::write_whole;
 use super::detail::Detail;
 use super::pictures::{FigureSet, Labelled};
 use super::places::Chosen;
@@ -39,9 +38,6 @@ pub struct Picture {
 /// `turbulence-pairs.csv`, the figures, what `[statistics]` asks for, and
 /// `summary.json`, into the folder of `results` or, where `prefix` is not empty, into a folder of
 /// that name in it. Returns the summary, which records all tables written there so far.
-///
-/// # Errors
-/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
 pub fn write(
     results: &mut Results,
     prefix: &str,
@@ -67,7 +63,7 @@ pub fn write(
     let draws = checks.realisations.map_or(1, |study| study.count as u64);
     let title = &realisations::titled(case.heading(), draws);
     let sheet = FigureSet { title, scene: &case.scene, runs: &runs, span: picture.span };
-    for (name, svg) in sheet.figures()? {
+    for (name, svg) in sheet.figures() {
         results.draw(&named(name), &svg)?;
     }
     let detail = Detail::of(case, run)?;
@@ -77,16 +73,14 @@ pub fn write(
     let checks = Checks { detail: detail.as_ref(), ..checks };
     let mut document = summary::document(case, run, reasons, checks)?;
     document[TABLES] = results.tables(prefix)?;
-    write_whole(&results.place(&named("summary.json"))?, json::text(&document).as_bytes())?;
+    results.write(&named("summary.json"), json::text(&document))?;
     Ok(document)
 }
 
 /// The table of walls for the terminal; where there are many, the walls of the largest impulses.
 /// `None` without walls.
-///
-/// # Errors
-/// Never in practice: only walls of the trajectory itself are looked up.
-pub fn table(run: &Run) -> Result<Option<Table>> {
+#[must_use]
+pub fn table(run: &Run) -> Option<Table> {
     let headers = [
         "wall",
         "contacts",
@@ -120,7 +114,7 @@ pub fn table(run: &Run) -> Result<Option<Table>> {
             with_decimals(wall.arrived_less_departed_power_w, 6),
         ]);
     }
-    Ok((!rows.is_empty()).then(|| Table::new(&headers, rows)))
+    (!rows.is_empty()).then(|| Table::new(&headers, rows))
 }
 
 /// The remarks below the table of walls, a sentence each.

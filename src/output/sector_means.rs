@@ -55,9 +55,6 @@ fn means(lists: &[Vec<f64>]) -> Vec<Mean> {
 /// Writes the means over the realisations of `study`: the work rate of each sector of each support,
 /// also of each flat, and the depth worn off the tube there within the service of the case, where
 /// it has a law of wear.
-///
-/// # Errors
-/// [`crate::Error::Io`] where the file cannot be written; it is written whole or not at all.
 pub fn write(path: &Path, case: &Case, study: &Realisations) -> Result<()> {
     let mut rows = Vec::new();
     for (index, support) in case.scene.supports.iter().enumerate() {
@@ -81,9 +78,6 @@ pub fn write(path: &Path, case: &Case, study: &Realisations) -> Result<()> {
 
 /// Writes the means over histories of wear at their end: the depth worn off the tube in each sector
 /// of a round support, and at each flat.
-///
-/// # Errors
-/// As [`write`].
 pub fn write_histories(path: &Path, case: &Case, found: &WearHistories) -> Result<()> {
     let mut rows = Vec::new();
     for (index, name) in found.supports.iter().enumerate() {

@@ -97,9 +97,6 @@ impl Shape {
 
     /// Writes the displacements that [`Shape::take`] gave, with six digits: a drawing shows no
     /// more. The header has the place of each station, in m, or the number of its mass.
-    ///
-    /// # Errors
-    /// [`Error::Io`] where the file cannot be written; it is written whole or not at all.
     pub fn write(&self, path: &Path, time: &[f64], columns: &[Vec<f64>]) -> Result<()> {
         let failed = |error: std::io::Error| Error::io(path.display(), error.to_string(), false).caused_by(error);
         let mut file = WholeFile::create(path)?;

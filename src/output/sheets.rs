@@ -123,9 +123,6 @@ impl Sheets {
 
     /// Writes the workbook to `path`, whole or not at all. `progress` is called with the bytes that
     /// are written.
-    ///
-    /// # Errors
-    /// [`Error::Io`] where it cannot be written.
     pub fn write(mut self, path: &Path, progress: &mut (dyn FnMut(u64) + Send)) -> Result<()> {
         let mut counted = CountedFile { file: WholeFile::create(path)?, written: 0, progress };
         self.workbook.save_to_writer(&mut counted).map_err(|error| failure(path, &error))?;

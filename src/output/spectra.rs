@@ -150,9 +150,6 @@ pub(super) fn of(case: &Case, run: &Run) -> Result<Vec<SpectrumFile>> {
 
 /// Writes the files of `spectra` and their figures into the folder of `results`, under the names
 /// that `named` gives; `title` is that of the figures.
-///
-/// # Errors
-/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
 pub(super) fn write(
     spectra: &[SpectrumFile],
     results: &mut Results,

@@ -15,9 +15,6 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 /// Writes one row per scheme and phase.
-///
-/// # Errors
-/// [`crate::Error::Io`] where the file cannot be written.
 pub fn impacts(path: &Path, maps: &[ImpactMap]) -> Result<()> {
     type Point<'a> = (&'a ImpactMap, &'a Result<Impact>);
     let seen = |point: &Point<'_>, of: fn(&Impact) -> Option<f64>| number(point.1.as_ref().ok().and_then(of));
@@ -41,9 +38,6 @@ pub fn impacts(path: &Path, maps: &[ImpactMap]) -> Result<()> {
 }
 
 /// Writes one row per cell of every map; a failed cell gives the reason.
-///
-/// # Errors
-/// [`crate::Error::Io`] where the file cannot be written.
 pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
     type Square<'a> = (&'a Row, &'a Cell);
     let value =
@@ -77,9 +71,6 @@ pub fn cells(path: &Path, maps: &Maps) -> Result<()> {
 
 /// Writes one row per scheme and step of [`Quality`]: energies as shares of the reference's largest
 /// energy, and the largest lasting contact; a failed run gives the reason.
-///
-/// # Errors
-/// [`crate::Error::Io`] where the file cannot be written.
 pub fn quality(path: &Path, quality: &Quality) -> Result<()> {
     let seen = |line: &LastingForce, of: fn(&Seen) -> f64| number(line.outcome.as_ref().ok().map(of));
     let contact = |line: &LastingForce| line.outcome.as_ref().ok().and_then(|seen| seen.contact.clone());

@@ -39,9 +39,6 @@ fn all<'a>(case: &'a Case, run: &'a Run) -> impl Iterator<Item = Known<'a>> {
 }
 
 /// Writes `supports.csv` and `sectors.csv` where `place` says, if there are supports.
-///
-/// # Errors
-/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
 pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &Run) -> Result<()> {
     if run.statistics.wear.is_empty() {
         return Ok(());

@@ -32,8 +32,13 @@ impl Table {
     /// A table under `header`. Where it is too wide, columns that do not fit stand in a second
     /// block below the first, again after the column of names.
     #[must_use]
-    pub fn new(header: &[&str], rows: Vec<Vec<String>>) -> Self {
-        Self { header: header.iter().map(|&text| text.to_owned()).collect(), rows, widest: None, together: None }
+    pub fn new(header: &[impl AsRef<str>], rows: Vec<Vec<String>>) -> Self {
+        Self {
+            header: header.iter().map(|text| text.as_ref().to_owned()).collect(),
+            rows,
+            widest: None,
+            together: None,
+        }
     }
 
     /// The same table, never wider than `width` characters where its text can be broken.

@@ -16,9 +16,6 @@ pub const FILES: [&str; 2] = ["turbulence.csv", "turbulence-pairs.csv"];
 type Found<'a> = (String, &'a [f64], Recovered);
 
 /// Writes the files where `place` says, if the case has turbulence.
-///
-/// # Errors
-/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
 pub(super) fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case) -> Result<()> {
     let found = recovered(case)?;
     if found.is_empty() {

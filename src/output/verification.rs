@@ -49,9 +49,6 @@ pub(crate) fn shortfall(lines: &[Verified]) -> Option<Error> {
 }
 
 /// Writes `verification.csv`.
-///
-/// # Errors
-/// [`Error::Io`] where the file cannot be written.
 pub(crate) fn write(path: &Path, lines: &[Verified]) -> Result<()> {
     let columns: [csv::Column<'_, &Verified>; 11] = [
         ("case", &|line| line.case.clone()),

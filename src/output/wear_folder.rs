@@ -68,9 +68,6 @@ impl WearRequest<'_> {
 /// Writes the files of `histories` histories of wear at the supports of `case`: `history.csv`,
 /// `years.csv`, `sector-means.csv`, of turbulence those of its forces, the picture `wear`, and
 /// those of the study `first` of their first windows.
-///
-/// # Errors
-/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
 pub fn write(
     results: &mut Results,
     case: &Case,

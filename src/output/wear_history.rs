@@ -42,9 +42,6 @@ impl Quantity {
 
 /// Writes `history.csv`, one row a history, time and support, and `years.csv`, the means over the
 /// histories with the half widths of their 95 % intervals.
-///
-/// # Errors
-/// [`crate::Error::Io`] where a file cannot be written; each is written whole or not at all.
 pub fn write(results: &mut Results, found: &WearHistories) -> Result<()> {
     for (name, (header, rows)) in [("history.csv", history(found)), ("years.csv", years(found))] {
         csv::table(&results.place(name)?, &header, rows.into_iter())?;

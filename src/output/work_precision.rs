@@ -20,9 +20,6 @@ const NO_ANSWER: f64 = 1.0;
 
 /// Writes one row per point: errors, times, counters, and the reason where a run failed or was left
 /// out.
-///
-/// # Errors
-/// As [`csv::table`].
 pub fn table(path: &Path, chart: &WorkPrecision) -> Result<()> {
     let front = front(chart, &[]);
     let rows = chart.series.iter().flat_map(|s| s.points.iter().map(move |p| (&s.method, p)));
@@ -31,9 +28,6 @@ pub fn table(path: &Path, chart: &WorkPrecision) -> Result<()> {
 
 /// Writes one row per point that ran and per wall, for any number of walls: the errors of impulses
 /// against the scene and, for a penalty, also against its own springs.
-///
-/// # Errors
-/// As [`csv::table`].
 pub fn walls(path: &Path, scene: &Scene, chart: &WorkPrecision) -> Result<()> {
     type Place<'a> = (&'a Method, Option<f64>, &'a Measured, usize, &'a str);
     let error = |errors: Option<&Errors>, wall: usize| number(errors.and_then(|e| e.impulse.get(wall).copied()));

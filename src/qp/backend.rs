@@ -1,9 +1,7 @@
 //! The choice of solver.
 
-use crate::error::{Error, named};
+use crate::error::names;
 use serde::{Deserialize, Serialize};
-use std::fmt;
-use std::str::FromStr;
 
 /// The solver of the programme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -20,32 +18,5 @@ pub enum Backend {
     Clarabel,
 }
 
-impl Backend {
-    /// Every choice, in the order in which they are listed to users.
-    pub const ALL: [Self; 4] = [Self::Auto, Self::Clamp, Self::Condensed, Self::Clarabel];
-
-    /// The name by which a user asks for it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Clamp => "clamp",
-            Self::Condensed => "condensed",
-            Self::Clarabel => "clarabel",
-        }
-    }
-}
-
-impl fmt::Display for Backend {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Backend {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self, Error> {
-        named("QP solver", name, Self::ALL.map(|backend| (backend.name(), backend)))
-    }
-}
+names!(Backend: "QP solver",
+    Auto => "auto", Clamp => "clamp", Condensed => "condensed", Clarabel => "clarabel");

@@ -14,7 +14,6 @@ pub struct Solver {
     n: usize,
     m: usize,
     scale: f64,
-    reason: &'static str,
     solution: Solution,
     counters: SolverCounters,
     /// The rows of the last programme that have a bound, where the caller has not listed them.
@@ -40,32 +39,14 @@ impl Solver {
         problem.check()?;
         super::finite("scale", &[scale], |v| v > 0.0 && v.is_finite())?;
         let (n, m) = (problem.a.size(), problem.g.count());
-        let (clamp, reason) = match backend {
-            Backend::Auto if n == 1 => (true, "one unknown: the programme is a clamp, exact and without iteration"),
-            Backend::Auto => (
-                false,
-                "several unknowns: condensed onto the walls, which is exact, and starts from the last step's contacts",
-            ),
-            Backend::Clamp => (true, "the clamp was asked for"),
-            Backend::Condensed => (false, "the condensed solver was asked for"),
-            Backend::Clarabel => (false, "Clarabel was asked for"),
-        };
+        let clamp = backend == Backend::Clamp || (backend == Backend::Auto && n == 1);
         let kind = if clamp {
             Kind::Clamp(Clamp::new(&problem, scale)?)
         } else {
             Kind::Condensed(Box::new(Condensed::new(problem, backend == Backend::Clarabel)?))
         };
         let solution = Solution { x: vec![0.0; n], multiplier: vec![0.0; m] };
-        Ok(Self {
-            kind,
-            n,
-            m,
-            scale,
-            reason,
-            solution,
-            counters: SolverCounters::default(),
-            bounded: Vec::with_capacity(m),
-        })
+        Ok(Self { kind, n, m, scale, solution, counters: SolverCounters::default(), bounded: Vec::with_capacity(m) })
     }
 
     /// The minimiser and its multipliers for b and bounds of this step. After a failure the solver
@@ -137,12 +118,6 @@ impl Solver {
             Kind::Condensed(condensed) if condensed.always => Backend::Clarabel,
             Kind::Condensed(_) => Backend::Condensed,
         }
-    }
-
-    /// Why this solver was chosen: a sentence for a summary.
-    #[must_use]
-    pub fn reason(&self) -> &'static str {
-        self.reason
     }
 
     /// What it has done so far.

@@ -1,20 +1,14 @@
-//! Sums over slices, written so that several terms are added at once.
+//! Sums over slices.
 
-/// a · b in four independent sums, so that their additions overlap.
+use crate::linear::sum_of_terms;
+
+/// a · b, of long slices in four independent sums.
 #[inline]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     if a.len() < 8 {
         return a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b);
     }
-    let mut sums = [0.0; 4];
-    let (left, right) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest: f64 = left.remainder().iter().zip(right.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in left.zip(right) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += a * b;
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+    sum_of_terms(a, b, |term| term)
 }
 
 /// out += factor · x.

@@ -25,17 +25,8 @@ pub(super) struct Scratch {
 impl Scratch {
     /// Zeros, n of each.
     pub fn new(n: usize) -> Self {
-        let zero = || vec![0.0; n];
-        Self {
-            load: zero(),
-            mean_q: zero(),
-            mean_v: zero(),
-            gained: zero(),
-            residual: zero(),
-            inertia: zero(),
-            damper: zero(),
-            spring: zero(),
-        }
+        let [load, mean_q, mean_v, gained, residual, inertia, damper, spring] = std::array::from_fn(|_| vec![0.0; n]);
+        Self { load, mean_q, mean_v, gained, residual, inertia, damper, spring }
     }
 
     /// Computes the mean load, displacement and velocity of a step, and starts its balance with

@@ -46,14 +46,6 @@ impl Loads {
         self.blows
     }
 
-    /// Writes the force of each part at `t`, N, without the blows.
-    #[inline]
-    pub fn forces(&self, t: f64, out: &mut [f64]) {
-        for (force, (_, forcing)) in out.iter_mut().zip(&self.parts) {
-            *force = forcing.force(t);
-        }
-    }
-
     /// Sets what the loads act on to 0 in `out`.
     #[inline(always)]
     pub(crate) fn clear(&self, out: &mut [f64]) {
@@ -62,14 +54,6 @@ impl Loads {
                 Some(segment) if segment.fits(out.len()) => segment.clear(out),
                 _ => row.entries().iter().for_each(|&(i, _)| out.get_mut(i).into_iter().for_each(|x| *x = 0.0)),
             }
-        }
-    }
-
-    /// Adds one force (N) for each part, through its row, to `out`.
-    #[inline(always)]
-    pub fn scatter(&self, forces: impl Iterator<Item = f64>, out: &mut [f64]) {
-        for (part, force) in self.parts.iter().zip(&self.segments).zip(forces) {
-            scatter(part, force, out);
         }
     }
 

@@ -82,7 +82,7 @@ pub use slider::Slider;
 pub use structure::Structure;
 pub use support::{Hole, Support};
 pub use system::{Oscillator, System};
-pub(crate) use system::{finite, positive};
+pub(crate) use system::{finite, nonnegative, positive};
 pub use table::Table;
 pub use turbulence::{Turbulence, TurbulenceSpectrum};
 #[cfg(test)]

@@ -53,21 +53,6 @@ pub struct Hole<'a> {
 }
 
 impl Support {
-    /// The displacement (or the velocity) of the place in both planes, for `q` of one value per
-    /// degree of freedom: (g_y · q, g_z · q), without the centre.
-    #[must_use]
-    pub fn seen(&self, q: &[f64]) -> [f64; 2] {
-        self.at.dot(q)
-    }
-
-    /// The displacement w of the place from the centre of the support, m, for the displacement `q`
-    /// (m, one value per degree of freedom).
-    #[must_use]
-    pub fn offset(&self, q: &[f64]) -> [f64; 2] {
-        let [y, z] = self.seen(q);
-        [y - self.centre[0], z - self.centre[1]]
-    }
-
     /// Its walls among those of the scene, with their indices.
     pub fn members<'a>(&self, walls: &'a [Wall]) -> impl Iterator<Item = (usize, &'a Wall)> + Clone + use<'a> {
         let (start, end) = (self.walls.start, self.walls.end);

@@ -128,32 +128,24 @@ fn first(x: &[f64]) -> f64 {
     x.first().copied().unwrap_or(0.0)
 }
 
+fn checked(subject: impl Into<Subject>, value: f64, fits: bool, expected: &str) -> Result<()> {
+    if value.is_finite() && fits { Ok(()) } else { Err(Error::invalid(subject, format_args!("{value:?}"), expected)) }
+}
+
 pub(crate) fn positive(subject: impl Into<Subject>, value: f64) -> Result<()> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(Error::invalid(subject, format_args!("{value:?}"), "a finite number above 0"))
-    }
+    checked(subject, value, value > 0.0, "a finite number above 0")
 }
 
 pub(crate) fn nonnegative(subject: impl Into<Subject>, value: f64) -> Result<()> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(())
-    } else {
-        Err(Error::invalid(subject, format_args!("{value:?}"), "a finite number, 0 or more"))
-    }
+    checked(subject, value, value >= 0.0, "a finite number, 0 or more")
 }
 
 /// Refuses a damping ratio of −1 or less: M + s C + s² K would not be positive definite for every s
 /// > 0.
 pub(crate) fn above_minus_one(subject: impl Into<Subject>, value: f64) -> Result<()> {
-    if value.is_finite() && value > -1.0 {
-        Ok(())
-    } else {
-        Err(Error::invalid(subject, format_args!("{value:?}"), "a finite number above -1"))
-    }
+    checked(subject, value, value > -1.0, "a finite number above -1")
 }
 
 pub(crate) fn finite(subject: impl Into<Subject>, value: f64) -> Result<()> {
-    if value.is_finite() { Ok(()) } else { Err(Error::invalid(subject, format_args!("{value:?}"), "a finite number")) }
+    checked(subject, value, true, "a finite number")
 }

@@ -220,6 +220,21 @@ impl<S: Space> ChungHulbert<S> {
     }
 }
 
+/// Whether a rigid wall or hole is met, as `place` finds with the damper not feeling a and the
+/// extra force over a time (s); `closed` if one held the body before.
+#[inline]
+pub(super) fn is_met(unfelt: f64, closed: bool, mut place: impl FnMut(f64) -> Result<bool>) -> Result<bool> {
+    if unfelt == 0.0 {
+        place(0.0)
+    } else if closed {
+        // What holds the body is met, whichever way a heavy damper would throw it.
+        Ok(place(unfelt)? || place(0.0)?)
+    } else {
+        // The displacement of what is met, unless by that nothing is.
+        Ok(place(0.0)? && (place(unfelt)? || place(0.0)?))
+    }
+}
+
 fn mu([alpha_m, alpha_f, ..]: [f64; 4]) -> f64 {
     (1.0 - alpha_m) / (1.0 - alpha_f)
 }

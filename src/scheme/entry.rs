@@ -1,6 +1,8 @@
 //! What is known of each scheme beside its rule. Refusals, the table of schemes in README.md,
 //! `explain`, notes and comparisons are made from these entries.
 
+use crate::error::names;
+
 /// How a scheme treats walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SchemeKind {
@@ -12,20 +14,7 @@ pub enum SchemeKind {
     Penalty,
 }
 
-impl SchemeKind {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Exact, Self::Qp, Self::Penalty];
-
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Qp => "QP",
-            Self::Penalty => "penalty",
-        }
-    }
-}
+names!(SchemeKind, Exact => "exact", Qp => "QP", Penalty => "penalty");
 
 /// The restitution that a scheme realises at rigid walls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

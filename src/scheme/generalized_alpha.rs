@@ -36,7 +36,7 @@
 
 use super::Counters;
 use super::body::Body;
-use super::chung_hulbert::{ChungHulbert, weights};
+use super::chung_hulbert::{ChungHulbert, is_met, weights};
 use super::entry::{Coverage, NO_LAW_OF_RINGS, NO_SPEED_TO_STICK_AT, Realised, SchemeEntry, SchemeKind};
 use super::flat_row::FlatRow;
 use super::frame::Frame;
@@ -150,16 +150,8 @@ impl<S: Space> GeneralizedAlpha<S> {
     /// q⁺, v⁺ without the rigid walls' impulses unless one was met, a⁺ likewise, and the elastic
     /// walls' forces. Returns whether a rigid wall was met.
     fn displace(&mut self, step: u64, frame: &mut Frame<S>) -> Result<bool> {
-        let met = if self.rule.unfelt == 0.0 {
-            self.place(step, frame, 0.0)?
-        } else if self.closed {
-            // A wall that holds the body is met, whichever way a heavy damper would throw it.
-            self.place(step, frame, self.rule.unfelt)? || self.place(step, frame, 0.0)?
-        } else {
-            // The displacement of a met wall, unless by that none is.
-            self.place(step, frame, 0.0)?
-                && (self.place(step, frame, self.rule.unfelt)? || self.place(step, frame, 0.0)?)
-        };
+        let (unfelt, closed) = (self.rule.unfelt, self.closed);
+        let met = is_met(unfelt, closed, |unfelt| self.place(step, frame, unfelt))?;
         self.rule.displace(self.place.x().as_ref(), met, self.body.h, frame);
         Ok(met)
     }

@@ -6,7 +6,7 @@
 //! | `event/`, `structure_event/`, `exact/` | the exact scheme, of one degree of freedom and of several, and what both share |
 //! | `entry.rs`, `fits.rs` | what is known of each scheme beside its rule, and which scenes it refuses |
 //! | `name.rs`, `method.rs` | schemes, and schemes with their solver, as words |
-//! | `penalty_law.rs`, `penalise.rs` | the springs of a penalty scheme, and the scene with them |
+//! | `penalty_law.rs` | the springs of a penalty scheme, and the scene with them |
 //! | `rule.rs`, `grid.rs` | the trait of a scheme on a grid, and the type that drives it |
 //! | `space.rs`, `line.rs`, `matrices.rs` | its arithmetic: numbers, or vectors and matrices |
 //! | `body.rs`, `flat_row.rs`, `blows.rs`, `start.rs` | the structure, its walls and loads, and the forces at the start |
@@ -58,7 +58,6 @@ mod motion;
 mod name;
 mod newton;
 mod paoli_schatzman;
-mod penalise;
 mod penalty;
 mod penalty_law;
 mod position;

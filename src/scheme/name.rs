@@ -3,6 +3,7 @@
 use super::generalized_alpha::RHO;
 use super::{Integrator, PenaltyLaw, Scheme};
 use crate::error::{Error, Result, named};
+use crate::scene::{nonnegative, positive};
 use std::fmt;
 use std::str::FromStr;
 
@@ -106,13 +107,6 @@ impl Scheme {
     /// [`Error::Invalid`]: θ outside [½, 1], ρ∞ outside [0, 1], an ε or stiffness that is not
     /// positive, a negative damping.
     pub fn validate(&self) -> Result<()> {
-        let positive = |key: &'static str, x: f64| {
-            if x > 0.0 && x.is_finite() {
-                Ok(())
-            } else {
-                Err(Error::invalid(key, format_args!("{x:?}"), "a finite number above 0"))
-            }
-        };
         match *self {
             Self::MoreauJean { theta } if !(0.5..=1.0).contains(&theta) => Err(Error::invalid(
                 "theta",
@@ -127,10 +121,7 @@ impl Scheme {
             Self::Penalty { law: PenaltyLaw::Quartic { epsilon }, .. } => positive("penalty.epsilon", epsilon),
             Self::Penalty { law: PenaltyLaw::Linear { stiffness, damping }, .. } => {
                 positive("penalty.stiffness", stiffness)?;
-                if damping >= 0.0 && damping.is_finite() {
-                    return Ok(());
-                }
-                Err(Error::invalid("penalty.damping", format_args!("{damping:?}"), "a finite number, 0 or more"))
+                nonnegative("penalty.damping", damping)
             }
             _ => Ok(()),
         }

@@ -1,10 +1,9 @@
 //! The springs that replace rigid walls in a penalty run, and the integrators.
 
-use crate::error::{Error, Result, named};
-use crate::scene::{Scene, Side, Wall, WallLaw};
+use crate::error::{Error, Result, names};
+use crate::scene::{Scene, Side, Wall, WallLaw, nonnegative, positive};
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::str::FromStr;
 
 /// The spring that replaces every rigid wall of a scene in a penalty run. Elastic walls stay as
 /// they are.
@@ -80,21 +79,12 @@ impl PenaltyLaw {
     /// # Errors
     /// [`Error::Invalid`] naming `epsilon`, `stiffness` or `damping`.
     pub fn validate(&self, scene: &Scene) -> Result<()> {
-        let positive = |key: &'static str, x: f64| {
-            if x.is_finite() && x > 0.0 {
-                Ok(())
-            } else {
-                Err(Error::invalid(key, format_args!("{x:?}"), "a finite number above 0"))
-            }
-        };
         let (key, value) = match *self {
             Self::None => return scene.walls.iter().try_for_each(|wall| self.at(wall, &scene.walls).map(|_| ())),
             Self::Quartic { epsilon } => positive("epsilon", epsilon).map(|()| ("epsilon", epsilon))?,
             Self::Linear { stiffness, damping } => {
                 positive("stiffness", stiffness)?;
-                if !(damping.is_finite() && damping >= 0.0) {
-                    return Err(Error::invalid("damping", format_args!("{damping:?}"), "a finite number, 0 or more"));
-                }
+                nonnegative("damping", damping)?;
                 ("stiffness", stiffness)
             }
         };
@@ -131,6 +121,22 @@ impl fmt::Display for PenaltyLaw {
     }
 }
 
+impl Scene {
+    /// The scene with every rigid wall and round hole replaced by the penalty `law`; elastic ones
+    /// stay.
+    ///
+    /// # Errors
+    /// As [`PenaltyLaw::at`], and for numbers that make no sense.
+    pub fn penalised(&self, law: PenaltyLaw) -> Result<Self> {
+        let mut scene = self.clone();
+        for (wall, original) in scene.walls.iter_mut().zip(&self.walls) {
+            wall.law = law.at(original, &self.walls)?;
+            wall.validate()?;
+        }
+        Ok(scene)
+    }
+}
+
 /// How a penalty run advances in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -148,36 +154,9 @@ pub enum Integrator {
     DiscreteGradient,
 }
 
-impl Integrator {
-    /// Every integrator, in the order of the documentation.
-    pub const ALL: [Self; 4] =
-        [Self::Trapezoidal, Self::ImplicitEuler, Self::CentralDifference, Self::DiscreteGradient];
-
-    /// The name on the command line, in case files and tables.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Trapezoidal => "trapezoidal",
-            Self::ImplicitEuler => "implicit-euler",
-            Self::CentralDifference => "central-difference",
-            Self::DiscreteGradient => "discrete-gradient",
-        }
-    }
-}
-
-impl fmt::Display for Integrator {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Integrator {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self> {
-        named("integrator", name, Self::ALL.map(|integrator| (integrator.name(), integrator)))
-    }
-}
+names!(Integrator: "integrator",
+    Trapezoidal => "trapezoidal", ImplicitEuler => "implicit-euler", CentralDifference => "central-difference",
+    DiscreteGradient => "discrete-gradient");
 
 #[cfg(test)]
 mod tests {

@@ -9,7 +9,7 @@ use super::{Handover, Method, Scheme};
 use crate::error::{Error, Result};
 use crate::interrupt::Asking;
 use crate::qp::Backend;
-use crate::scene::{Checked, Scene, State};
+use crate::scene::{Checked, Scene, State, positive};
 use crate::scheme::Counters;
 use crate::step::{Contact, Contract, LoadJumps, QuietSteps, Step};
 
@@ -82,9 +82,7 @@ impl Stepper {
     /// The same for a scene that has been checked.
     pub(crate) fn by(scene: &Checked, Method { scheme, backend }: Method, step: f64) -> Result<Self> {
         scheme.validate()?;
-        if !(step.is_finite() && step > 0.0) {
-            return Err(Error::invalid("step", format_args!("{step:?}"), "a finite number above 0"));
-        }
+        positive("step", step)?;
         fits::check(scene, Method { scheme, backend })?;
         let scene = match scheme {
             Scheme::Penalty { law, .. } => scene.with_laws(|scene| scene.penalised(law))?,

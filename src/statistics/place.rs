@@ -1,5 +1,6 @@
 //! The places of contact: walls, and supports made of them.
 
+use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
 /// Whether a place is a wall or a support.
@@ -20,6 +21,14 @@ pub struct ContactPlace {
     pub name: String,
     /// Which of the two it is.
     pub kind: PlaceKind,
+}
+
+impl ContactPlace {
+    /// True for a support, and for a wall that is no flat of one.
+    pub(crate) fn stands_alone(&self, scene: &Scene) -> bool {
+        let wall = || scene.walls.iter().position(|wall| wall.name == self.name);
+        self.kind == PlaceKind::Support || wall().is_none_or(|wall| scene.support_of(wall).is_none())
+    }
 }
 
 impl PlaceKind {

@@ -77,7 +77,7 @@ impl Derivatives {
     /// An error if no run of `scene` has derivatives, whatever the keys are.
     ///
     /// # Errors
-    /// What the exact scheme refuses, friction for one; as [`KeyVariation::new`].
+    /// What the exact scheme refuses, friction for one; [`Error::Invalid`] for round supports.
     pub fn check(scene: &Scene) -> Result<()> {
         // First, since it refuses every round support, whatever the exact scheme takes.
         KeyVariation::new(scene, &[], &[])?;
@@ -89,9 +89,9 @@ impl Derivatives {
     /// displacements and velocities of the probes at `times` (s, increasing, from 0 to the end).
     ///
     /// # Errors
-    /// As [`KeyVariation::new`], [`Error::Invalid`] for a time outside of the run, and
-    /// errors of the exact scheme. A run that has no derivative from a time on is none: see
-    /// [`Derivatives::ended`].
+    /// As [`Derivatives::check`], [`Error::Invalid`] for times outside of the run or not
+    /// increasing, and errors of the exact scheme. A run that has no derivative from a time on is
+    /// none: see [`Derivatives::ended`].
     pub fn new(scene: &Scene, tangents: &[SceneTangent], times: &[f64]) -> Result<Self> {
         let mut variation = KeyVariation::new(scene, tangents, times)?;
         if let Some(time) = times.iter().find(|time| !(0.0..=scene.duration).contains(*time)) {

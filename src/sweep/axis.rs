@@ -4,10 +4,11 @@
 use super::follow::Follow;
 use super::layout::Layout;
 use super::target::{Target, with_unit};
-use super::values::{Values, finite};
+use super::values::Values;
 use crate::case::KeyValue;
 use crate::error::{Error, Result};
 use crate::order::sort_by_number;
+use crate::scene::finite;
 
 /// One dimension of a sweep.
 ///
@@ -153,7 +154,7 @@ impl Axis {
             if *factor != 1.0 && *target == Target::Scheme {
                 return Err(Error::invalid(key("factors"), target, "no factors: the values are words"));
             }
-            finite(&key, "factors", *factor)?;
+            finite(key("factors"), *factor)?;
         }
         self.values.validate(&key)?;
         match layout {

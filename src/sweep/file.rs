@@ -134,14 +134,9 @@ impl Sweep {
 
 /// The case of that name in a sweep file.
 fn case_file(name: &str, folder: &Path) -> Result<CaseFile> {
-    let path = folder.join(name);
-    let beside = folder.join(format!("{name}.toml"));
-    let bare = Path::new(name).extension().is_none();
-    match Embedded::named(name) {
-        _ if path.is_file() => CaseFile::read(path),
-        _ if bare && beside.is_file() => CaseFile::read(beside),
-        Ok(embedded) => CaseFile::embedded(embedded.name),
-        Err(_) => CaseFile::read(path),
+    match (CaseFile::found(folder, name), Embedded::named(name)) {
+        (None, Ok(embedded)) => CaseFile::embedded(embedded.name),
+        (found, _) => CaseFile::read(found.unwrap_or_else(|| folder.join(name))),
     }
 }
 

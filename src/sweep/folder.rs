@@ -14,7 +14,6 @@ use super::table::{MOST_SEEDS, ONE_AT_A_TIME, REALISATIONS, SAMPLES, SEEDS, TABL
 use crate::batch::Width;
 use crate::case::{open_regular, sha256};
 use crate::error::{Error, Result};
-use crate::output::atomic::write_whole;
 use crate::output::json;
 use crate::output::manifest::{self, FINGERPRINT};
 use crate::output::record::{Record, TABLES};
@@ -231,7 +230,7 @@ pub(super) fn of_shard(mut request: Map<String, Value>, shard: Shard) -> Map<Str
 /// [`Error::Io`] where it cannot be written.
 pub(crate) fn write_summary(results: &mut Results, mut document: Value) -> Result<Value> {
     document[TABLES] = results.tables("")?;
-    write_whole(&results.place("summary.json")?, json::text(&document).as_bytes())?;
+    results.write("summary.json", json::text(&document))?;
     Ok(document)
 }
 

@@ -1,7 +1,6 @@
 //! Rows that start one from another.
 
-use crate::error::{Error, Result, named};
-use std::str::FromStr;
+use crate::error::names;
 
 /// The direction in which the values of an axis are taken, if each row starts from the end of the
 /// last one.
@@ -18,16 +17,4 @@ pub enum Follow {
     Both,
 }
 
-impl Follow {
-    /// The words for it in a sweep file.
-    pub(super) const ALL: [(&'static str, Self); 4] =
-        [("no", Self::No), ("up", Self::Up), ("down", Self::Down), ("both", Self::Both)];
-}
-
-impl FromStr for Follow {
-    type Err = Error;
-
-    fn from_str(word: &str) -> Result<Self> {
-        named("direction to follow", word, Self::ALL)
-    }
-}
+names!(Follow: "direction to follow", No => "no", Up => "up", Down => "down", Both => "both");

@@ -1,8 +1,21 @@
-//! Rows whose motion is unstable: each says so itself, and the table is told of them once.
+//! What a reader of the table must know: of the case, and of rows whose motion is unstable, each of
+//! which says so itself, and the table is told of them once.
 
+use super::Plan;
 use crate::case::{BEYOND_LIMIT, Case};
 use crate::run::notes::{NEGATIVE_DAMPING, unstable};
 use crate::scene::Scene;
+
+impl Plan {
+    /// What a reader of the results must know of the case as it stands, and random forces that take
+    /// time and memory, in words. Whether its flow is stable, each row says for itself.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let flow = self.base.unstable_in_flow();
+        let own = self.base.notes().into_iter().filter(|note| flow.as_ref() != Some(note));
+        own.chain(self.base.large_random_forces()).collect()
+    }
+}
 
 /// What the row of `case`, run as `scene`, says of its motion: that the flow or its damping makes
 /// it unstable.

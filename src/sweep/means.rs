@@ -71,7 +71,6 @@ pub(crate) fn means(folder: &Path, request: &Map<String, Value>) -> Result<Optio
         header.remove(1);
         rows.iter_mut().for_each(|cells| drop(cells.remove(1)));
     }
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let remark = format!(
         "± is the half width of the 95 % interval of the mean over {}, by Student's t; their seeds \
          are the same in every row",

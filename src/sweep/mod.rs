@@ -12,7 +12,7 @@
 //! | `axis`, `values`, `target`, `follow`, `random`, `layout` | the values that vary: lists, grids, ranges, tied keys, random designs |
 //! | `measure`, `sample` | the quantities computed for a row, by name |
 //! | `forcing` | the period of the loads |
-//! | `plan`, `headers` | the rows, by number, and the columns of the tables |
+//! | `plan`, `headers`, `check` | the rows, by number, the columns of the tables, and what is checked before a row runs |
 //! | `row`, `lacking`, `status` | one row: built, run, measured; why a measure has no value |
 //! | `realisations`, `fold` | rows with several realisations of their random loads, and the means over them |
 //! | `until_interval`, `run_set`, `seeds` | how many that are, where intervals decide; which are run together |
@@ -31,28 +31,13 @@
 //! | `shares` | the share of each key in the variance of each measure |
 //! | `sensitivity` | effects or shares, as the tables that all rows together give |
 //! | `means` | the means over realisations, for the terminal |
-//! | `notes`, `instability` | what a reader of the table must know: of the case, and of rows that are unstable |
+//! | `instability` | what a reader of the table must know: of the case, and of rows that are unstable |
 //! | `shard`, `merge` | parts of a sweep, and joining them |
 //!
 //! A chain of rows, each of which starts from the end of the last, runs on one thread; a row that
 //! follows no other is a chain by itself. Each thread takes the next chain when it has finished
 //! one. So chains begin in the order of the rows, the journal is nearly sorted, and the load is
 //! balanced.
-//!
-//!
-//! # Files
-//!
-//! One case, many runs: `request.rs` and `file.rs` are the request, `axis.rs`, `values.rs` and
-//! `random/` the values that vary, `plan.rs` numbers the rows, which `check.rs` checks before they
-//! run, `row.rs` computes one row, measured by `row_observer.rs`, `batched.rs` computes many
-//! oscillators side by side, `realisations.rs` numbers the runs of rows with several realisations
-//! of their random loads, `until_interval.rs` says how many their intervals take, `run_set.rs`
-//! which are run together, and `fold.rs` makes a row of them, `basin.rs` finds the attractor of
-//! each row and `attractors.rs` numbers them, `chains.rs` computes rows on threads, `run.rs` runs a
-//! sweep into a folder, `block.rs`, `found.rs` and `folder.rs` keep unfinished sweeps on disk,
-//! `estimate.rs` and `finished.rs` say how long a sweep takes and took, `merge.rs` joins shards,
-//! `picture.rs` draws (feature `cli`).
-#![doc = include_str!("../../docs/sweep.md")]
 
 mod attractors;
 mod axis;
@@ -84,7 +69,6 @@ mod means;
 mod measure;
 mod merge;
 mod motion;
-mod notes;
 mod part;
 mod picture;
 mod plan;

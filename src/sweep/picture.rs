@@ -2,11 +2,10 @@
 
 use super::columns::{Source, SweepAxis, is_half_width, of};
 use super::measure::Measure;
-use crate::error::{Error, Result, named};
+use crate::error::{Error, Result, names};
 use crate::output::results::Results;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 /// The kind of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,24 +26,9 @@ pub enum Kind {
     Tornado,
 }
 
-impl Kind {
-    const ALL: [(&'static str, Self); 6] = [
-        ("line", Self::Line),
-        ("heat", Self::Heat),
-        ("basin", Self::Basin),
-        ("bifurcation", Self::Bifurcation),
-        ("section", Self::Section),
-        ("tornado", Self::Tornado),
-    ];
-}
-
-impl FromStr for Kind {
-    type Err = Error;
-
-    fn from_str(word: &str) -> Result<Self> {
-        named("kind of figure", word, Self::ALL)
-    }
-}
+names!(Kind: "kind of figure",
+    Line => "line", Heat => "heat", Basin => "basin", Bifurcation => "bifurcation", Section => "section",
+    Tornado => "tornado");
 
 /// The picture that is drawn; what is left out is chosen from the sweep. Columns are named in full,
 /// or without wall and unit: `approach_speed`.
@@ -136,8 +120,7 @@ impl Picture {
 
     /// Written as JSON, and read from it.
     pub(super) fn document(&self) -> Value {
-        let kind = self.kind.and_then(|kind| Kind::ALL.iter().find(|entry| entry.1 == kind)).map(|entry| entry.0);
-        json!({ "kind": kind, "x": self.x, "y": self.y, "z": self.z, "wall": self.wall })
+        json!({ "kind": self.kind.map(Kind::name), "x": self.x, "y": self.y, "z": self.z, "wall": self.wall })
     }
 
     pub(super) fn from_document(document: &Value) -> Self {

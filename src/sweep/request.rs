@@ -9,9 +9,8 @@ use super::random::Random;
 use super::sample::Samples;
 use super::target::Target;
 use crate::case::{CaseFile, KeyValue};
-use crate::error::{Error, Result, named};
+use crate::error::{Error, Result, names};
 use crate::study::realisations::RealisationCount;
-use std::str::FromStr;
 
 /// The duration of a row, and the window of its measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,13 +46,7 @@ pub enum Kernel {
     Batch,
 }
 
-impl FromStr for Kernel {
-    type Err = Error;
-
-    fn from_str(word: &str) -> Result<Self> {
-        named("kernel", word, [("scalar", Self::Scalar), ("batch", Self::Batch)])
-    }
-}
+names!(Kernel: "kernel", Scalar => "scalar", Batch => "batch");
 
 /// Default number of instants of a row that are kept: the last ones.
 pub const MOST_SAMPLES: usize = 200;

@@ -1,9 +1,7 @@
 //! Instants of a row: which are kept, and their columns.
 
-use crate::error::{Error, Result, named};
+use crate::error::names;
 use crate::scene::Scene;
-use std::fmt;
-use std::str::FromStr;
 
 /// One instant of a row.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,15 +41,9 @@ pub enum Samples {
     Impacts,
 }
 
-impl Samples {
-    /// The word for it in a sweep file.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Periods => "periods",
-            Self::Impacts => "impacts",
-        }
-    }
+names!(Samples: "kind of samples", Periods => "periods", Impacts => "impacts");
 
+impl Samples {
     /// Columns after the row's number.
     #[must_use]
     pub fn columns(self, scene: &Scene) -> Vec<String> {
@@ -71,19 +63,5 @@ impl Samples {
                     .collect()
             }
         }
-    }
-}
-
-impl fmt::Display for Samples {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl FromStr for Samples {
-    type Err = Error;
-
-    fn from_str(word: &str) -> Result<Self> {
-        named("kind of samples", word, [Self::Periods, Self::Impacts].map(|kind| (kind.name(), kind)))
     }
 }

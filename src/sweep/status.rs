@@ -1,7 +1,6 @@
 //! The status of a row.
 
-use crate::error::Error;
-use std::fmt;
+use crate::error::{Error, names};
 
 /// The status of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,25 +31,12 @@ pub enum Status {
     Failed,
 }
 
-impl Status {
-    /// The word for it in the table.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ok => "ok",
-            Self::Unjudged => "unjudged",
-            Self::Handed => "handed",
-            Self::Invalid => "invalid",
-            Self::TooManyEvents => "too-many-events",
-            Self::NotFinite => "not-finite",
-            Self::Diverged => "diverged",
-            Self::NotSolved => "not-solved",
-            Self::Refuted => "refuted",
-            Self::Partial => "partial",
-            Self::Failed => "failed",
-        }
-    }
+names!(Status,
+    Ok => "ok", Unjudged => "unjudged", Handed => "handed", Invalid => "invalid", TooManyEvents => "too-many-events",
+    NotFinite => "not-finite", Diverged => "diverged", NotSolved => "not-solved", Refuted => "refuted",
+    Partial => "partial", Failed => "failed");
 
+impl Status {
     /// True for a row whose measures are valid.
     #[must_use]
     pub fn is_good(self) -> bool {
@@ -72,11 +58,5 @@ impl Status {
             error if error.is_request() => Self::Invalid,
             _ => Self::Failed,
         }
-    }
-}
-
-impl fmt::Display for Status {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }

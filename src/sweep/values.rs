@@ -3,6 +3,7 @@
 use super::random::Normal;
 use crate::case::KeyValue;
 use crate::error::{Error, Result};
+use crate::scene::finite;
 
 /// The values of an axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,8 +120,8 @@ impl Values {
                 above_zero(key, from.min(*to))
             }
             Self::Range { from, to, log } => {
-                finite(key, "from", *from)?;
-                finite(key, "to", *to)?;
+                finite(key("from"), *from)?;
+                finite(key("to"), *to)?;
                 if from >= to {
                     return Err(Error::invalid(key("to"), format_args!("{to:?}"), format!("more than from, {from:?}")));
                 }
@@ -131,14 +132,9 @@ impl Values {
     }
 }
 
-/// Refuses a number that is not finite.
-pub(super) fn finite(key: &dyn Fn(&str) -> String, name: &str, x: f64) -> Result<()> {
-    if x.is_finite() { Ok(()) } else { Err(Error::invalid(key(name), format_args!("{x:?}"), "a finite number")) }
-}
-
 fn grid(key: &dyn Fn(&str) -> String, from: f64, to: f64, points: u64) -> Result<()> {
-    finite(key, "from", from)?;
-    finite(key, "to", to)?;
+    finite(key("from"), from)?;
+    finite(key("to"), to)?;
     if from == to {
         let expected = "a number other than from: the range is empty";
         return Err(Error::invalid(key("to"), format_args!("{to:?}"), expected));

@@ -217,14 +217,9 @@ impl ContactChanges {
         self.open.iter().filter(|open| **open).count()
     }
 
-    /// As [`Self::ended`], for good.
+    /// The contacts that have ended; afterwards it has none of them.
     pub fn take_ended(&mut self) -> ContactDerivatives {
         let none = ContactDerivatives { keys: self.keys, ..ContactDerivatives::default() };
         std::mem::replace(&mut self.ended, none)
-    }
-
-    /// The contacts that have ended.
-    pub fn ended(&self) -> &ContactDerivatives {
-        &self.ended
     }
 }

@@ -10,7 +10,7 @@ use crate::step::{Contact, Step};
 
 impl StructureVariation {
     /// Notes what the forces do at the end of `stretch`, of the walls that act in it.
-    pub fn note_releases(&mut self, stretch: &Stretch<'_>) {
+    pub(super) fn note_releases(&mut self, stretch: &Stretch<'_>) {
         let Self { flow, walls, a, keys, releases, .. } = self;
         if keys.terms.is_empty() {
             return;

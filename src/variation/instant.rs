@@ -59,7 +59,7 @@ impl StructureVariation {
     /// Elastic wall `w` begins to push in the `stretch` or after it. If the state is on
     /// its face and moves into it, the force of its dashpot jumps; a push that begins elsewhere
     /// begins with a force of 0.
-    pub fn enter(&mut self, w: usize, stretch: &Stretch<'_>, columns: &mut [f64]) {
+    pub(super) fn enter(&mut self, w: usize, stretch: &Stretch<'_>, columns: &mut [f64]) {
         self.keys.contacts.begin(w);
         if !self.began {
             return;
@@ -144,7 +144,7 @@ impl StructureVariation {
 
     /// An error where a rigid wall is touched at the end of `step` without speed, unless the body
     /// is just leaving it: since its contact it has not been away, and it goes ever faster.
-    pub fn check_grazes(&mut self, step: &Step<'_>, stretch: &Stretch<'_>) -> Done {
+    pub(super) fn check_grazes(&mut self, step: &Step<'_>, stretch: &Stretch<'_>) -> Done {
         if self.keys.terms.is_empty() {
             return Ok(());
         }
@@ -174,7 +174,7 @@ impl StructureVariation {
     }
 
     /// The impacts at the end of `step`, after its blows if it is `blown`.
-    pub fn impact(&mut self, step: &Step<'_>, stretch: &Stretch<'_>, blown: bool, columns: &mut [f64]) -> Done {
+    pub(super) fn impact(&mut self, step: &Step<'_>, stretch: &Stretch<'_>, blown: bool, columns: &mut [f64]) -> Done {
         let Self { flow, walls, names, jump, during, after, wall_of, v, a, keys, .. } = self;
         let (mut struck, mut passing): (Vec<Struck>, Vec<usize>) = (Vec::new(), Vec::new());
         for row in 0..during.len() {

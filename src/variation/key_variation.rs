@@ -176,29 +176,16 @@ impl KeyVariation {
         &self.variation.keys.lost
     }
 
-    /// The contacts that have ended so far, with their derivatives.
-    #[must_use]
-    pub fn contacts(&self) -> &ContactDerivatives {
-        self.variation.keys.contacts.ended()
-    }
-
     /// The number of contacts that are still open.
     pub(crate) fn open_contacts(&self) -> usize {
         self.variation.keys.contacts.open()
     }
 
-    /// The same as [`Self::contacts`], and [`Self::motion`], for good: the variation has none of
-    /// them afterwards.
+    /// The contacts that have ended, and the displacements and velocities of the probes at the
+    /// times asked for, with their derivatives: the variation has none of them afterwards.
     pub(crate) fn take_results(&mut self) -> (ContactDerivatives, MotionDerivative) {
         let keys = &mut self.variation.keys;
         (keys.contacts.take_ended(), std::mem::take(&mut keys.motion.found))
-    }
-
-    /// The displacements and velocities of the probes at the times asked for, with their
-    /// derivatives.
-    #[must_use]
-    pub fn motion(&self) -> &MotionDerivative {
-        &self.variation.keys.motion.found
     }
 
     /// Means of displacements and forces from the start of the run up to now, with their

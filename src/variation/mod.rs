@@ -46,8 +46,8 @@
 //! `exponents.rs` holds Lyapunov exponents. With respect to keys: `tangent/` is the derivative of
 //! the scene, `key_variation.rs` that of a run, with `keys.rs`, `key_terms.rs` and
 //! `contact_changes.rs`, `ends.rs` and `means.rs`; `arc_changes.rs` (with `touch_change.rs`) is
-//! that of closed-form motion, of which `flight.rs` takes one flight at a time; `stretch.rs` is the
-//! motion of a step of either kind. Knows no scheme.
+//! that of closed-form motion; `stretch.rs` is the motion of a step of either kind. Knows no
+//! scheme.
 
 mod arc_changes;
 mod blows;
@@ -55,7 +55,6 @@ mod bounce;
 mod contact_changes;
 mod ends;
 mod exponents;
-mod flight;
 mod instant;
 mod jump;
 mod key_terms;
@@ -73,12 +72,12 @@ mod touch_change;
 
 pub use contact_changes::{ContactDerivative, ContactDerivatives};
 pub use exponents::{Exponent, Exponents};
-pub(crate) use flight::FlightVariation;
-pub use key_variation::KeyVariation;
+pub(crate) use key_variation::KeyVariation;
 pub use keys::MotionDerivative;
 pub use means::MeanDerivative;
 pub use no_derivative::NoDerivative;
 pub use oscillator::OscillatorVariation;
 pub use product::{Product, Variation};
+pub(crate) use structure::StructureVariation;
 pub use tangent::SceneTangent;
 pub(crate) use tangent::WallTangent;

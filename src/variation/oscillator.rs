@@ -92,7 +92,7 @@ impl OscillatorVariation {
     }
 
     /// Walls that began to push at the end of the last step, which only the present step shows.
-    fn entered_between(&mut self, arc: &Arc) -> Matrix2 {
+    fn entered_between(&self, arc: &Arc) -> Matrix2 {
         let mut whole = IDENTITY;
         if self.dashpots.is_empty() || !self.began {
             return whole;

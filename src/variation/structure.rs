@@ -36,35 +36,35 @@ pub(super) fn name_of(names: &[String], wall: usize) -> String {
 
 /// Propagates changes of the start over the steps of a structure.
 #[derive(Debug)]
-pub(super) struct StructureVariation {
-    pub flow: Propagator,
-    pub walls: Vec<At>,
+pub(crate) struct StructureVariation {
+    pub(super) flow: Propagator,
+    pub(super) walls: Vec<At>,
     /// The names of the walls.
-    pub names: Vec<String>,
-    pub jump: Jump,
+    pub(super) names: Vec<String>,
+    pub(super) jump: Jump,
     /// Rows held during the present stretch, and after the last event.
-    pub during: Vec<bool>,
-    pub after: Vec<bool>,
+    pub(super) during: Vec<bool>,
+    pub(super) after: Vec<bool>,
     /// The latter as constraints.
-    pub hold: HeldRows,
+    pub(super) hold: HeldRows,
     /// For each row the wall that acts there, if one does.
-    pub wall_of: Vec<usize>,
+    pub(super) wall_of: Vec<usize>,
     /// For each wall what its force does at the end of the last stretch in which it acts, if that
     /// was the last one of any length.
-    pub releases: Vec<Option<Release>>,
+    pub(super) releases: Vec<Option<Release>>,
     /// A typical displacement, m.
-    pub length: f64,
+    pub(super) length: f64,
     /// True once a step has been seen.
-    pub began: bool,
+    pub(super) began: bool,
     /// The state and the acceleration just before an event, and work space.
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
-    pub a: Vec<f64>,
-    pub work: Vec<f64>,
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    pub(super) a: Vec<f64>,
+    pub(super) work: Vec<f64>,
     /// The keys by which the first columns are derivatives.
-    pub keys: Keys,
+    pub(super) keys: Keys,
     /// The changes over closed-form motion; only beside keys.
-    pub arcs: Option<Box<ArcChanges>>,
+    pub(super) arcs: Option<Box<ArcChanges>>,
 }
 
 impl StructureVariation {
@@ -139,8 +139,11 @@ impl StructureVariation {
         }
     }
 
-    /// Propagates `columns` over `arc`, without what happens at its ends. It does nothing to a
-    /// structure.
+    /// Propagates `columns`, (δq, δq̇) of each key one after the other, from the start of `arc` to
+    /// its end, both at fixed instants, without what happens there. It does nothing to a structure.
+    ///
+    /// # Errors
+    /// [`NoDerivative::Together`] where the body rests on two walls that a key moves apart.
     pub fn fly(&mut self, arc: &Arc, columns: &mut [f64]) -> std::result::Result<(), NoDerivative> {
         self.read(&Stretch::Arc(arc, ArcEnd::default()));
         self.pass_arc(arc, columns);

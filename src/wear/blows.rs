@@ -36,7 +36,7 @@ impl Blow {
                 }
             }
             mass.solve(&mut x);
-            let at_support = |support: &Support| Self { time, change: support.seen(&x) };
+            let at_support = |support: &Support| Self { time, change: support.at.dot(&x) };
             all.iter_mut().zip(&scene.supports).for_each(|(of, support)| of.push(at_support(support)));
         }
         all

@@ -41,6 +41,18 @@ fn balance(line: &str) -> i32 {
     bare.chars().map(|c| i32::from("{([".contains(c)) - i32::from("})]".contains(c))).sum()
 }
 
+/// An item, with `names!` of `src/error/names.rs` written out.
+fn written_out(item: String) -> Vec<String> {
+    let Some((of, list)) = item.strip_prefix("names!(").and_then(|rest| rest.split_once([':', ','])) else {
+        return vec![item];
+    };
+    let count = list.matches("=>").count();
+    let parse = item.starts_with(&format!("names!({of}:")).then(|| format!("impl FromStr for {of} {{}}"));
+    let members = format!("    pub const ALL: [Self; {count}];\n    pub const fn name(self) -> &'static str {{");
+    let blocks = [format!("impl {of} {{\n{members}\n}}"), format!("impl fmt::Display for {of} {{}}")];
+    blocks.into_iter().chain(parse).collect()
+}
+
 fn read(path: &Path) -> Source {
     let text = fs::read_to_string(path).unwrap();
     let (mut items, mut item, mut depth) = (Vec::new(), String::new(), 0);
@@ -53,7 +65,7 @@ fn read(path: &Path) -> Source {
         depth += balance(line);
         let ends = line.trim_end().ends_with([';', '}']) || line.trim() == "}";
         if depth == 0 && ends {
-            items.push(std::mem::take(&mut item));
+            items.extend(written_out(std::mem::take(&mut item)));
         }
     }
     items.retain(|item| !item.contains("#[cfg(test)]"));

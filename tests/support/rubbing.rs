@@ -132,7 +132,7 @@ impl Sums {
                 };
                 (normal, p, step.friction[index])
             });
-            let rates = [step.velocity_before, step.velocity_after].map(|v| support.seen(v));
+            let rates = [step.velocity_before, step.velocity_after].map(|v| support.at.dot(v));
             for ([y, z], p, f) in contacts.filter(|contact| contact.1 > 0.0) {
                 let [before, after] = rates.map(|[vy, vz]| vz * y - vy * z);
                 self.impulse += p;

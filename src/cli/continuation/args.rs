@@ -5,7 +5,7 @@ use crate::cli::pipeline::Destination;
 use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
 use crate::orbit::SETTLE;
-use crate::orbit::branch::Label;
+use crate::orbit::branch::{Label, Switch};
 use crate::output::branch_folder::BranchSettings;
 use crate::output::scene_family::SceneFamily;
 use crate::output::varied::KeyRange;
@@ -59,7 +59,7 @@ pub struct Args {
     /// Which branches that begin at special points are followed: no, stable (beside stable orbits),
     /// all
     #[arg(long, value_name = "WORD", default_value = "stable")]
-    #[arg(value_parser = ["no", "stable", "all"], hide_possible_values = true)]
+    #[arg(value_parser = PossibleValuesParser::new(Switch::ALL.map(Switch::name)), hide_possible_values = true)]
     pub(super) switch: String,
     /// Maximum number of switches between the first branch and any other
     #[arg(long, value_name = "N", default_value_t = 4)]

@@ -9,7 +9,7 @@ use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
 use crate::orbit::branch::{Graph, Locus, OnLocus};
-use crate::output::branch_folder::{self, BranchRequest, switch};
+use crate::output::branch_folder::{self, BranchRequest};
 use crate::output::branches::{Drawn, ended};
 use crate::output::first_orbit::FirstOrbit;
 use crate::output::request::{extended, request};
@@ -55,7 +55,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
 
 /// Follows the branches with a progress bar, which shows the value of the key on the current one.
 fn branches(args: &Args, family: &SceneFamily, first: &FirstOrbit, ui: &Ui) -> Result<Graph> {
-    let request = BranchRequest { switch: switch(&args.switch)?, depth: args.depth, points: args.points };
+    let request = BranchRequest { switch: args.switch.parse()?, depth: args.depth, points: args.points };
     ui.with_bar("branches", |bar| request.follow(family, first, &mut |share| bar.set_share(share)))
 }
 

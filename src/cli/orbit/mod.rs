@@ -3,7 +3,6 @@
 mod args;
 mod list;
 mod structure;
-mod written;
 
 pub use args::Args;
 
@@ -12,12 +11,12 @@ use super::ui::Ui;
 use crate::error::{Error, Result};
 use crate::orbit::{Floquet, Kind, Orbit, Problem};
 use crate::output::first_orbit::FirstOrbit;
+use crate::output::json;
 use crate::output::periodic::{self, Known, closure_of, tells_state};
 use crate::output::table::Table;
 use crate::scene::System;
 use list::list;
 use structure::{structure, told};
-use written::write_document;
 
 /// Instants of the motion over one orbit.
 const POINTS: u32 = 2000;
@@ -52,7 +51,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let judged = problem.judge(&orbit, POINTS)?;
     let (floquet, admissible) = (problem.floquet(&orbit)?, problem.admissible(&orbit)?);
     let known = Known { problem: &problem, orbit: &orbit, floquet, admissible, judged: &judged };
-    let document = write_document(&mut results, known.document(&case.name))?;
+    let document = known.document(&case.name);
+    results.write("orbit.json", json::text(&document))?;
     if !judged.motion.is_empty() {
         known.motion(&results.place("orbit.csv")?)?;
         known.contacts(&results.place("contacts.csv")?)?;

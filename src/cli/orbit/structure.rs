@@ -1,13 +1,13 @@
 //! An orbit of a structure.
 
 use super::args::Args;
-use super::written::write_document;
 use crate::case::Case;
 use crate::cli::pipeline::Answer;
 use crate::cli::ui::Ui;
 use crate::error::counted;
 use crate::error::{Error, Result};
 use crate::orbit::{Shot, shoot};
+use crate::output::json;
 use crate::output::periodic::{read_shot, shot, shot_closure_of};
 use crate::output::results::Results;
 use crate::output::table::Table;
@@ -33,7 +33,8 @@ pub(super) fn structure(args: &Args, case: &Case, ui: &Ui) -> Result<Answer> {
 /// The answer that tells an orbit by its state.
 pub(super) fn told(args: &Args, case: &Case, found: &Shot, mut results: Results) -> Result<Answer> {
     let (scene, modal) = (&case.scene, case.truncated.is_some());
-    let document = write_document(&mut results, shot(found, scene, &case.name, modal))?;
+    let document = shot(found, scene, &case.name, modal);
+    results.write("orbit.json", json::text(&document))?;
     let mut answer = Answer::of(results, !args.place.no_report, document);
     show_structure(&mut answer, found, scene);
     Ok(answer)

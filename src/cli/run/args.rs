@@ -11,7 +11,6 @@ use crate::error::{Error, Result};
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
 use crate::scheme::Method;
-use crate::study::choice;
 use serde_json::{Value, json};
 
 const EXAMPLES: &str = "\
@@ -94,16 +93,13 @@ impl Args {
 
     /// The method asked for or chosen, with the reason.
     pub(super) fn chosen(&self, case: &Case) -> Result<(Method, String)> {
-        let choice = choice::choose(&case.scene);
-        let (method, reason) = match (&self.scheme, self.derivatives.scheme()) {
-            (None, Some(exact)) => {
-                (self.request.method(&exact, case)?, "derivatives are those of the exact motion".into())
+        match self.derivatives.scheme().filter(|_| self.scheme.is_none()) {
+            Some(exact) => {
+                let (method, _) = self.request.chosen(Some(&exact), case)?;
+                Ok((method, "derivatives are those of the exact motion".into()))
             }
-            (Some(name), _) => (self.request.method(name, case)?, "asked for".into()),
-            (None, None) => (self.request.method(&choice.method.to_string(), case)?, choice.reason),
-        };
-        self.request.check_use(&[method])?;
-        Ok((method, reason))
+            None => self.request.chosen(self.scheme.as_deref(), case),
+        }
     }
 
     /// Opens the folder of the results of `case` by `methods`, with these further settings.

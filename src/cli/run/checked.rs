@@ -6,7 +6,6 @@ use crate::cli::estimate::DurationEstimate;
 use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
 use crate::output::animation::{self, animation};
-use crate::output::atomic::write_whole;
 use crate::output::results::Results;
 use crate::output::shape::{self, Shape};
 use crate::run::{Options, Run, run_with_progress};
@@ -67,7 +66,7 @@ pub(super) fn made(
             shape.write(&results.place(shape::FILE)?, time, &moved)?;
             let picture = shape.stations().and_then(|stations| animation(&case, &stations, time, &moved));
             if let Some(svg) = picture {
-                write_whole(&results.place(animation::FILE)?, svg.as_bytes())?;
+                results.write(animation::FILE, svg)?;
             }
         }
         // Side by side; the longer one moves the bar.

@@ -158,7 +158,7 @@ fn checked_line<T: Display>(what: &str, check: Option<&Result<T>>) -> Option<Str
 
 /// Shows a run: its tables with the remarks on them, its figures in a line, and its notes.
 fn show(answer: &mut Answer, case: &Case, run: &Run, method: &Method) -> Result<()> {
-    if let Some(table) = output::table(run)? {
+    if let Some(table) = output::table(run) {
         answer.table(table, "summary.json");
         answer.remarks(output::remarks(run));
     }

@@ -1,7 +1,7 @@
 //! What happens at the special points of branches.
 
 use super::point::Point;
-use std::fmt;
+use crate::error::names;
 
 /// A special point of a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,28 +34,16 @@ pub enum Label {
     Corner,
 }
 
+names!(Label,
+    Fold => "fold", PeriodDoubling => "period-doubling", SymmetryBreaking => "symmetry-breaking",
+    BranchPoint => "branch-point", NeimarkSacker => "neimark-sacker", GrazingOut => "grazing-out",
+    GrazingIn => "grazing-in", RestBegins => "rest-begins", RestEnds => "rest-ends",
+    ContactEnds => "contact-ends", Corner => "corner");
+
 impl Label {
     /// Those that can be followed in the plane of two keys.
     pub const WITH_LOCUS: [Self; 5] =
         [Self::Fold, Self::PeriodDoubling, Self::SymmetryBreaking, Self::GrazingIn, Self::GrazingOut];
-
-    /// Its name, as tables write it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fold => "fold",
-            Self::PeriodDoubling => "period-doubling",
-            Self::SymmetryBreaking => "symmetry-breaking",
-            Self::BranchPoint => "branch-point",
-            Self::NeimarkSacker => "neimark-sacker",
-            Self::GrazingOut => "grazing-out",
-            Self::GrazingIn => "grazing-in",
-            Self::RestBegins => "rest-begins",
-            Self::RestEnds => "rest-ends",
-            Self::ContactEnds => "contact-ends",
-            Self::Corner => "corner",
-        }
-    }
 
     /// The wall at which it happens, to event number `event` of `point`.
     pub(super) fn wall(self, event: usize, point: &Point) -> Option<usize> {
@@ -71,11 +59,5 @@ impl Label {
     pub fn ends(self) -> bool {
         use Label::{BranchPoint, Fold, NeimarkSacker, PeriodDoubling, SymmetryBreaking};
         !matches!(self, Fold | PeriodDoubling | SymmetryBreaking | BranchPoint | NeimarkSacker)
-    }
-}
-
-impl fmt::Display for Label {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }

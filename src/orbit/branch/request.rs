@@ -3,6 +3,7 @@
 use super::label::Label;
 use super::line::End;
 use super::point::Point;
+use crate::error::names;
 
 /// At which special points the branches that begin there are followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -15,6 +16,8 @@ pub enum Switch {
     /// At all of them.
     All,
 }
+
+names!(Switch: "switch", No => "no", Stable => "stable", All => "all");
 
 /// A request for branches.
 #[derive(Debug, Clone, Copy, PartialEq)]

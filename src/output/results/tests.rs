@@ -65,7 +65,7 @@ fn nothing_is_replaced_before_everything_is_written() {
     fill(path, 1.0, false, "a.csv").unwrap();
     let manifest = fs::read(path.join(MANIFEST)).unwrap();
     let mut results = Results::open(path, request(1.0), false, Formats::default()).unwrap();
-    write_whole(&results.place("a.csv").unwrap(), b"x\n2\n3\n").unwrap();
+    results.write("a.csv", b"x\n2\n3\n").unwrap();
     assert_eq!(fs::read(path.join("a.csv")).unwrap(), b"1");
     // Another writer waits for its turn.
     let second = Results::open(path, request(1.0), false, Formats::default()).unwrap_err();
@@ -95,14 +95,14 @@ fn an_interrupted_request_names_its_journal_and_earlier_files() {
     assert_eq!(super::manifest::files(&manifest).collect::<Vec<_>>(), ["journal", "old.csv"]);
     let mut results = Results::open(path, request(2.0), false, Formats::default()).unwrap();
     results.begin("journal").unwrap();
-    write_whole(&results.place("new.csv").unwrap(), b"x\n2\n3\n").unwrap();
+    results.write("new.csv", b"x\n2\n3\n").unwrap();
     results.finish().unwrap();
     assert!(!path.join("journal").exists() && !path.join("old.csv").exists());
     let manifest = super::manifest::read(path).unwrap();
     assert!(super::manifest::is_finished(&manifest));
     assert_eq!(Record::read(&manifest, "new.csv").map(|record| (record.rows, record.bytes)), Some((2, 6)));
     // What is added later leaves the records as they are.
-    write_whole(&results.place("picture.svg").unwrap(), b"<svg/>").unwrap();
+    results.write("picture.svg", b"<svg/>").unwrap();
     results.finish().unwrap();
     let later = super::manifest::read(path).unwrap();
     assert_eq!(later[TABLES], manifest[TABLES]);
@@ -119,10 +119,10 @@ fn a_larger_request_goes_on_from_the_journal_of_finished_results() {
     let mut results = open(2.0, false).unwrap();
     fs::write(path.join("journal"), "1").unwrap();
     results.begin_and_keep("journal").unwrap();
-    write_whole(&results.place("a.csv").unwrap(), b"x\n").unwrap();
+    results.write("a.csv", b"x\n").unwrap();
     results.finish().unwrap();
     // What is added later changes nothing of that.
-    write_whole(&results.place("b.csv").unwrap(), b"x\n").unwrap();
+    results.write("b.csv", b"x\n").unwrap();
     results.finish().unwrap();
     drop(results);
     let files = || {
@@ -140,7 +140,7 @@ fn a_larger_request_goes_on_from_the_journal_of_finished_results() {
     let mut results = Results::open_growing(path, grown, Some("end_s"), false, Formats::default()).unwrap();
     results.begin_and_keep("journal").unwrap();
     assert_eq!(files(), ["journal", "a.csv", "b.csv"]);
-    write_whole(&results.place("a.csv").unwrap(), b"x\n").unwrap();
+    results.write("a.csv", b"x\n").unwrap();
     results.finish().unwrap();
     assert_eq!(files(), ["a.csv", "journal"]);
     assert!(path.join("journal").exists() && !path.join("b.csv").exists());

@@ -126,7 +126,7 @@ impl Newton {
     }
 
     /// Frees the strips that would pull, and returns whether there were any.
-    fn release_blocks(&mut self, system: &mut System) -> bool {
+    fn release_blocks(&self, system: &mut System) -> bool {
         let mut freed = false;
         for (unknown, &push) in self.unknowns.iter().zip(&self.found).filter(|(unknown, _)| !unknown.bends) {
             let Unknown { block, along, .. } = *unknown;

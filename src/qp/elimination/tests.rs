@@ -2,17 +2,13 @@
 
 use super::*;
 use crate::linear::{Rows, Symmetric};
+use crate::qp::tests::trial::tridiagonal;
 
 /// The programme with the rows `rows` (unknown, factor, compliance).
 fn problem(a: Symmetric, rows: &[(usize, f64, f64)]) -> Problem {
     let entries: Vec<[(usize, f64); 1]> = rows.iter().map(|&(column, g, _)| [(column, g)]).collect();
     let g = Rows::new(a.size(), entries.iter().map(|row| row.as_slice()));
     Problem { a, g, compliance: rows.iter().map(|row| row.2).collect() }
-}
-
-/// A tridiagonal matrix.
-fn chain(n: usize, own: f64, neighbour: f64) -> Symmetric {
-    Symmetric::from_entries(n, (0..n).map(|i| (i, i, own)).chain((1..n).map(|i| (i, i - 1, neighbour))))
 }
 
 /// Numbers in [0, 1) that look random: multiples of the golden ratio.
@@ -117,7 +113,7 @@ fn random_programmes_meet_their_optimality_conditions() {
 fn changes_of_state_are_counted() {
     // Three unknowns apart from one another: x = b/2, of which two pass their bounds ±1.
     let rows = [(0, 1.0, 0.0), (1, 1.0, 0.0), (2, 1.0, 0.0)];
-    let apart = problem(chain(3, 2.0, 0.0), &rows);
+    let apart = problem(tridiagonal(3, 2.0, 0.0), &rows);
     let (lo, hi) = ([-1.0; 3], [1.0; 3]);
     let mut pivoting = None;
     let (x, r, changes) = solved(&apart, &mut pivoting, (&[4.0, 1.0, -6.0], &lo, &hi)).expect("settles");
@@ -147,7 +143,7 @@ fn changes_of_state_are_counted() {
 
 #[test]
 fn a_bound_is_violated_by_more_than_rounding_in_all_units() {
-    let apart = problem(chain(2, 1.0, 0.0), &[(0, 1.0, 0.0), (1, 1.0, 0.0)]);
+    let apart = problem(tridiagonal(2, 1.0, 0.0), &[(0, 1.0, 0.0), (1, 1.0, 0.0)]);
     for unit in [1e-9, 1.0, 1e9] {
         // A row beyond its bound by half of what rounding may do to lengths near 1, and by twice.
         let b = [0.5e-12, 2e-12].map(|x| x * unit);
@@ -160,14 +156,14 @@ fn a_bound_is_violated_by_more_than_rounding_in_all_units() {
 fn a_held_neighbour_moves_to_the_right_hand_side() {
     // x₁ is held at 1 by 2x₁ ≤ 2, between x₀ and x₂: 4x₀ = 1, 4x₂ = 5 + 1, and its force is that of
     // its equation 4 − x₀ − x₂ = b + 2r.
-    let held = problem(chain(3, 4.0, -1.0), &[(1, 2.0, 0.0)]);
+    let held = problem(tridiagonal(3, 4.0, -1.0), &[(1, 2.0, 0.0)]);
     let (x, r, changes) = solved(&held, &mut None, (&[0.0, 9.0, 5.0], &[f64::NEG_INFINITY], &[2.0])).expect("settles");
     assert_eq!((x, r, changes), (vec![0.25, 1.0, 1.5], vec![0.5 * (4.0 - 0.25 - 1.5 - 9.0)], 1));
 }
 
 #[test]
 fn programmes_of_another_kind_are_left_to_pivoting() {
-    let two = || chain(2, 2.0, -1.0);
+    let two = || tridiagonal(2, 2.0, -1.0);
     let of = |a: Symmetric, rows: &[(usize, f64, f64)]| Elimination::new(&problem(a, rows)).is_some();
     assert!(of(two(), &[(0, 1.0, 0.0), (1, -2.0, 0.5)]));
     // No row, a row without an entry, two rows on one unknown.
@@ -185,8 +181,8 @@ fn programmes_of_another_kind_are_left_to_pivoting() {
 #[test]
 fn what_does_not_settle_or_is_not_definite_changes_nothing() {
     // Not definite: D of LDLᵀ is 1 and 1 − 4.
-    let bad = problem(chain(2, 1.0, 2.0), &[(0, 1.0, 0.0)]);
-    let good = problem(chain(2, 1.0, 0.0), &[(0, 1.0, 0.0)]);
+    let bad = problem(tridiagonal(2, 1.0, 2.0), &[(0, 1.0, 0.0)]);
+    let good = problem(tridiagonal(2, 1.0, 0.0), &[(0, 1.0, 0.0)]);
     let system = Delassus::new(&good).expect("definite");
     let mut pivoting = Pivoting::new(&system);
     let rhs = Rhs { b: &[5.0, 5.0], lo: &[-1.0], hi: &[9.0] };
@@ -195,7 +191,7 @@ fn what_does_not_settle_or_is_not_definite_changes_nothing() {
     assert_eq!(elimination.solve(&system, &mut pivoting, &rhs, 1.0, (&mut x, &mut r)), None);
     assert_eq!((x, r, pivoting.called().count()), ([7.0, 7.0], [3.0], 0));
     // Singular: D is 1 and 1 − 1.
-    let mut elimination = Elimination::new(&problem(chain(2, 1.0, 1.0), &[(0, 1.0, 0.0)])).expect("a band");
+    let mut elimination = Elimination::new(&problem(tridiagonal(2, 1.0, 1.0), &[(0, 1.0, 0.0)])).expect("a band");
     assert_eq!(elimination.solve(&system, &mut pivoting, &rhs, 1.0, (&mut x, &mut r)), None);
     assert_eq!((x, r, pivoting.called().count()), ([7.0, 7.0], [3.0], 0));
 }

@@ -7,6 +7,7 @@ mod units;
 
 use super::*;
 use crate::linear::{Rows, Symmetric};
+use crate::qp::tests::trial::tridiagonal;
 
 const INF: f64 = f64::INFINITY;
 
@@ -17,14 +18,9 @@ fn single(a: Symmetric) -> Problem {
     Problem { a, g: Rows::new(n, entries.iter().map(|row| row.as_slice())), compliance: vec![0.0; n] }
 }
 
-/// A tridiagonal matrix.
-fn chain(n: usize, own: f64, neighbour: f64) -> Symmetric {
-    Symmetric::from_entries(n, (0..n).map(|i| (i, i, own)).chain((1..n).map(|i| (i, i - 1, neighbour))))
-}
-
 #[test]
 fn clarabel_answers_where_pivoting_does_not_settle() {
-    let chain = || single(chain(3, 2.0, -1.0));
+    let chain = || single(tridiagonal(3, 2.0, -1.0));
     let rhs = Rhs { b: &[5.0, -4.0, 1.0], lo: &[-1.0; 3], hi: &[1.0; 3] };
     let mut sound = Solver::new(chain(), Backend::Condensed, 1.0).unwrap();
     let exact = sound.solve(&rhs).unwrap().clone();
@@ -38,7 +34,7 @@ fn clarabel_answers_where_pivoting_does_not_settle() {
 
 #[test]
 fn a_solver_says_which_it_is() {
-    let solver = |backend| Solver::new(single(chain(1, 2.0, 0.0)), backend, 1.0).unwrap();
+    let solver = |backend| Solver::new(single(tridiagonal(1, 2.0, 0.0)), backend, 1.0).unwrap();
     for backend in [Backend::Clamp, Backend::Condensed, Backend::Clarabel] {
         assert_eq!(solver(backend).backend(), backend);
     }

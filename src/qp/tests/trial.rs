@@ -81,6 +81,11 @@ pub(in crate::qp) fn solution(matrix: &DMatrix<f64>, asked: &DVector<f64>) -> DV
     if asked.is_empty() { asked.clone() } else { matrix.clone().lu().solve(asked).expect("regular") }
 }
 
+/// A tridiagonal matrix.
+pub(in crate::qp) fn tridiagonal(n: usize, own: f64, neighbour: f64) -> Symmetric {
+    Symmetric::from_entries(n, (0..n).map(|i| (i, i, own)).chain((1..n).map(|i| (i, i - 1, neighbour))))
+}
+
 /// A chain of masses on springs, in a unit of stiffness far from 1, with rows that see some of it:
 /// A, G and the programme.
 pub(in crate::qp) fn chain(draws: &mut Draws, n: usize, m: usize) -> (DMatrix<f64>, DMatrix<f64>, Problem) {

@@ -3,14 +3,12 @@
 mod account;
 mod arc;
 mod series;
-mod wall_energy;
 mod walls;
 mod work;
 
 pub use account::Energy;
 pub(super) use arc::{Along, Instants};
 pub(super) use series::Moved;
-pub(super) use wall_energy::stored;
 
 use super::matrices::{Matrices, Part};
 use super::momentum_sums::compensated;
@@ -21,7 +19,6 @@ use crate::scene::{Forcing, Scene, Wall};
 use crate::step::{Balance, Contract, QuietSteps, Step};
 use pulp::Simd;
 use std::sync::Arc;
-use wall_energy::half;
 use work::Work;
 
 #[derive(Debug, Clone)]
@@ -286,6 +283,17 @@ impl Ledger {
         let residual = if self.residual == 0.0 { 0.0 } else { self.residual.abs() / exchanged };
         Energy { final_j: self.energy, residual_j: self.residual, exchanged_j: exchanged, residual, ..self.report }
     }
+}
+
+/// Energy stored in a wall at displacement `w`, J; 0 for a damped wall that does not touch the
+/// body.
+pub(super) fn stored(wall: &Wall, w: f64, touching: bool) -> f64 {
+    if wall.law.is_damped() && !touching { 0.0 } else { wall.law.energy(-wall.gap(w)) }
+}
+
+/// Energy stored half a step on the way from `w` to `w + shift`: the mean of both ends.
+fn half(wall: &Wall, w: f64, shift: f64, touching: bool) -> f64 {
+    0.5 * (stored(wall, w, touching) + stored(wall, w + shift, touching))
 }
 
 #[cfg(test)]

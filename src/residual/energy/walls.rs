@@ -2,8 +2,7 @@
 
 use super::super::complementarity::mean_pressure;
 use super::super::pushes::pushes;
-use super::wall_energy::{half, stored};
-use super::{Flows, Ledger};
+use super::{Flows, Ledger, half, stored};
 use crate::step::Step;
 
 impl Ledger {

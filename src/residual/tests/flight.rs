@@ -5,9 +5,7 @@ use crate::flow::{Arc, Start, Touch};
 use crate::scene::{Load, Wall};
 
 fn start(scene: &Scene, q: f64, v: f64) -> Judge {
-    let tolerances = Tolerances::of(Conserves::Everything);
-    let (balance, promise) = (Balance::Exact, Promise::throughout());
-    Judge::new(scene, Contract { balance, promise, instant: 1.0, tolerances, divides: false }, 1.0, &[q], &[v])
+    stretch::start(scene, (&[q], &[v]))
 }
 
 /// The exact motion of `scene` from a time and state on, over `span` seconds, with these walls in

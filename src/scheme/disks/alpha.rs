@@ -7,7 +7,7 @@
 //! reflected. With n at w⁺ a body that slides would lose speed as in implicit-euler; only where the
 //! step crosses the hole, so that the middle says nothing of the normal, it is taken there.
 
-use super::super::chung_hulbert::ChungHulbert;
+use super::super::chung_hulbert::{ChungHulbert, is_met};
 use super::super::matrices::Matrices;
 use super::super::supports::closed_hole_state;
 use super::disk_programme::DiskProgramme;
@@ -94,14 +94,8 @@ impl Alpha {
     /// q⁺, v⁺ without the impulses of rigid walls and holes unless one was met, a⁺ likewise, and
     /// the forces of elastic walls. Returns whether a rigid wall or hole was met.
     fn displace(&mut self, step: u64, held: &mut HoleBody) -> Result<bool> {
-        let met = if self.rule.unfelt == 0.0 {
-            self.put(step, held, 0.0)?
-        } else if self.closed {
-            // A hole that holds the body is met, whichever way a heavy damper would throw it.
-            self.put(step, held, self.rule.unfelt)? || self.put(step, held, 0.0)?
-        } else {
-            self.put(step, held, 0.0)? && (self.put(step, held, self.rule.unfelt)? || self.put(step, held, 0.0)?)
-        };
+        let (unfelt, closed) = (self.rule.unfelt, self.closed);
+        let met = is_met(unfelt, closed, |unfelt| self.put(step, held, unfelt))?;
         self.rule.displace(self.place.x(), met, held.body.h, &mut held.frame);
         Ok(met)
     }

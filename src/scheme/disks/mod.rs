@@ -56,10 +56,11 @@ impl DiskRule {
 
     fn counters(&self) -> DiskCounters {
         match self {
-            Self::Position(rule) => rule.counters(),
+            Self::Position(rule) => rule.bounds.counters(),
             Self::Alpha(rule) => rule.counters(),
-            Self::Velocity(rule) => rule.counters(),
-            Self::Springs(rule) => rule.counters(),
+            Self::Velocity(rule) => rule.bounds.counters(),
+            // It solves no programme.
+            Self::Springs(_) => DiskCounters::default(),
         }
     }
 }

@@ -8,12 +8,11 @@ use super::disk_programme::DiskProgramme;
 use super::hole_body::HoleBody;
 use crate::error::Result;
 use crate::linear::Symmetric;
-use crate::qp::DiskCounters;
 use crate::scene::Scene;
 
 #[derive(Debug)]
 pub(super) struct Position {
-    bounds: DiskProgramme,
+    pub bounds: DiskProgramme,
     b: Vec<f64>,
 }
 
@@ -83,9 +82,5 @@ impl Position {
             let disk = held.disk(hole, now, [now[0] + given[0], now[1] + given[1]]);
             self.bounds.bind_hole(held.index(hole), disk);
         }
-    }
-
-    pub fn counters(&self) -> DiskCounters {
-        self.bounds.counters()
     }
 }

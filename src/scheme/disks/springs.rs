@@ -20,7 +20,6 @@ use super::super::space::Space;
 use super::hole_body::HoleBody;
 use crate::error::{Error, Result};
 use crate::linear::{Factor, Rows};
-use crate::qp::DiskCounters;
 use crate::scene::{Row, Scene};
 use nalgebra::{DMatrix, DVector};
 
@@ -254,11 +253,6 @@ impl Springs {
     /// Newton steps so far.
     pub fn iterations(&self) -> u64 {
         self.iterations
-    }
-
-    /// It solves no programme.
-    pub fn counters(&self) -> DiskCounters {
-        DiskCounters::default()
     }
 }
 

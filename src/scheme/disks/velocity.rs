@@ -9,13 +9,13 @@ use super::super::supports::hole_state;
 use super::disk_programme::DiskProgramme;
 use super::hole_body::HoleBody;
 use crate::error::Result;
-use crate::qp::{DiskBound, DiskCounters};
+use crate::qp::DiskBound;
 use crate::scene::Scene;
 
 #[derive(Debug)]
 pub(super) struct Velocity {
     theta: f64,
-    bounds: DiskProgramme,
+    pub bounds: DiskProgramme,
     b: Vec<f64>,
 }
 
@@ -44,7 +44,7 @@ impl Velocity {
     }
 
     /// Sets the bounds on δ = v⁺ − v.
-    fn bind(&mut self, held: &mut HoleBody) {
+    fn bind(&mut self, held: &HoleBody) {
         let (h, ht) = (held.body.h, held.body.h * self.theta);
         for (wall, face) in held.flats.iter().map(|&wall| (wall, held.body.walls[wall])) {
             let seen = |x: &Vec<f64>| held.body.seen(wall, x);
@@ -133,9 +133,5 @@ impl Velocity {
                 held.rounds[hole].law.is_rigid() && y * vy + z * vz > 0.0
             }
         })
-    }
-
-    pub fn counters(&self) -> DiskCounters {
-        self.bounds.counters()
     }
 }

@@ -10,10 +10,20 @@
 
 use super::Event;
 use super::gap_bounds::GapBounds;
-use super::hit::Hit;
 use crate::error::Result;
 use crate::flow::Jet;
 use crate::scheme::exact;
+
+/// Where the search ended.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hit {
+    /// Time since the arc's start, s.
+    pub tau: f64,
+    /// Displacement (m) and velocity (m/s) there, from the left.
+    pub state: [f64; 2],
+    /// The wall of the event; `None` where there is none up to the end.
+    pub wall: Option<usize>,
+}
 
 /// Length of the longest leap, in radians of the fastest oscillation.
 const RADIANS: f64 = 2.0;

@@ -3,7 +3,6 @@
 
 mod flight;
 mod gap_bounds;
-mod hit;
 mod instant;
 mod motion;
 mod root;

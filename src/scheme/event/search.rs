@@ -1,8 +1,7 @@
 //! The search for the next event of an arc.
 
 use super::Event;
-use super::flight::Flown;
-use super::hit::Hit;
+use super::flight::{Flown, Hit};
 use super::root::{Below, Step};
 use crate::error::Result;
 use crate::flow::{Jet, Support};

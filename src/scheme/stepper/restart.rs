@@ -2,7 +2,7 @@
 
 use super::Stepper;
 use crate::error::{Error, Result};
-use crate::scene::State;
+use crate::scene::{State, nonnegative};
 use crate::scheme::Scheme;
 use crate::scheme::frame::step_at;
 use crate::time::MOST_STEPS;
@@ -86,9 +86,7 @@ impl Stepper {
 
     /// The number of the step that starts at `time`.
     fn index_at(&self, time: f64, exact: bool) -> Result<u64> {
-        if !(time.is_finite() && time >= 0.0) {
-            return Err(Error::invalid("time", format_args!("{time:?}"), "a finite number, 0 or more"));
-        }
+        nonnegative("time", time)?;
         let steps = time / self.step;
         if exact && steps <= MOST_STEPS {
             return Ok(self.index);

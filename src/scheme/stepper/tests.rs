@@ -4,7 +4,7 @@ use super::super::{Integrator, PenaltyLaw};
 use super::*;
 use crate::linear::Symmetric;
 use crate::scene::{Load, PlaneRows, Row, Structure, Table, Wall, WallLaw};
-use crate::statistics::{Forces, Statistics, WearTally};
+use crate::statistics::{ForceStatistics, Forces, Statistics, WearTally};
 use crate::trajectory::Recorder;
 
 const WITH_PROGRAMMES: [Scheme; 5] = [
@@ -155,6 +155,16 @@ fn a_row_at_the_instant_of_an_impact_shows_the_state_after_it() {
     assert_eq!(found.displacement(), [0.0, 0.25, 0.5, 0.375, 0.25]);
 }
 
+/// The force of the first wall over an exact run in one step.
+fn exact_force(scene: &Scene) -> ForceStatistics {
+    let mut stepper = Stepper::new(scene, &Scheme::Event, 1e9).unwrap();
+    let mut forces = Forces::new(scene, 0.0, 1e9);
+    while stepper.time() < scene.duration {
+        forces.observe(&stepper.step().unwrap());
+    }
+    Statistics::new(scene, &[], 0.0).with_forces(&forces).walls[0].force.unwrap()
+}
+
 #[test]
 fn the_mean_square_of_a_force_that_swings_often_in_one_step_is_that_of_its_closed_form() {
     // 3 N press 1 kg onto a spring, on which it swings by 2 N: 103 times in the run, which is one
@@ -167,12 +177,7 @@ fn the_mean_square_of_a_force_that_swings_often_in_one_step_is_that_of_its_close
             .with_load(Load::constant(-3.0))
             .with_initial(&[-5.0 / stiffness], &[0.0])
             .with_duration(103.0 * period);
-        let mut stepper = Stepper::new(&scene, &Scheme::Event, 1e9).unwrap();
-        let mut forces = Forces::new(&scene, 0.0, 1e9);
-        while stepper.time() < scene.duration {
-            forces.observe(&stepper.step().unwrap());
-        }
-        let wall = Statistics::new(&scene, &[], 0.0).with_forces(&forces).walls[0].force.unwrap();
+        let wall = exact_force(&scene);
         assert!((wall.mean_n - 3.0).abs() < 1e-9, "{wall:?}");
         // 3² + 2²/2; Gauss's rule of two points over a radian of the squared force errs by 1/4320
         // of its fourth derivative, which has the mean 0 over whole periods.
@@ -193,12 +198,7 @@ fn the_mean_square_of_a_single_push_is_that_of_its_closed_form() {
             .with_load(Load::constant(1.0))
             .with_initial(&[-5.0 / stiffness], &[0.0])
             .with_duration(100.0 / omega);
-        let mut stepper = Stepper::new(&scene, &Scheme::Event, 1e9).unwrap();
-        let mut forces = Forces::new(&scene, 0.0, 1e9);
-        while stepper.time() < scene.duration {
-            forces.observe(&stepper.step().unwrap());
-        }
-        let wall = Statistics::new(&scene, &[], 0.0).with_forces(&forces).walls[0].force.unwrap();
+        let wall = exact_force(&scene);
         // Gauss's rule of two points over at most half a radian: 1/4320 of its fourth power times
         // the third derivative at the end, 36 N², of 18 N².
         let expected = (square / 100.0).sqrt();

@@ -153,11 +153,12 @@ impl StructureEvent {
         };
         let still = s.grid.open_contacts();
         self.shown.closed.extend(still.into_iter().map(ended));
-        self.resume()
+        self.resume();
+        Ok(())
     }
 
     /// Resumes the exact motion where a stretch has ended.
-    fn resume(&mut self) -> Result<()> {
+    fn resume(&mut self) {
         self.crowd.handed = self.time;
         (self.crowd.since, self.crowd.at_since) = (self.time, self.clock.total().events);
         self.clock.pass(self.time);
@@ -168,7 +169,6 @@ impl StructureEvent {
         self.turn();
         self.reclassify();
         // Blows due now are given in the next step of the exact motion.
-        Ok(())
     }
 }
 

@@ -5,7 +5,6 @@ use super::estimate::Estimate;
 use super::sample::Realisations;
 use super::stein::NeededRealisations;
 use crate::scene::Scene;
-use crate::statistics::{ContactPlace, PlaceKind};
 
 /// A mean counts if it is at least this share of the sum over all places of its kind.
 const LEAST_SHARE: f64 = 0.05;
@@ -14,11 +13,7 @@ const LEAST_SHARE: f64 = 0.05;
 /// forces of walls that are no flats of a support, each with 5 % or more of its sum over all
 /// supports, or over all such walls.
 pub(super) fn counted<'a>(study: &'a Realisations, scene: &Scene) -> Vec<&'a Estimate> {
-    let is_flat = |place: &ContactPlace| {
-        let wall = scene.walls.iter().position(|wall| place.kind == PlaceKind::Wall && wall.name == place.name);
-        wall.is_some_and(|wall| scene.support_of(wall).is_some())
-    };
-    let own = |one: &&Estimate| one.measure.is_judged() && !is_flat(&one.place);
+    let own = |one: &&Estimate| one.measure.is_judged() && one.place.stands_alone(scene);
     let all: Vec<&Estimate> = study.estimates.iter().filter(own).collect();
     let sum = |like: &Estimate| -> f64 {
         let same = |one: &&&Estimate| (one.place.kind, one.measure) == (like.place.kind, like.measure);

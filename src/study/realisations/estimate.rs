@@ -3,7 +3,7 @@
 use super::error_parts::ErrorParts;
 use super::measure::{Figure, Measure};
 use super::realisation::Realisation;
-use crate::statistics::{ContactPlace, student_95};
+use crate::statistics::{ContactPlace, PlaceKind, student_95};
 use serde::Serialize;
 
 /// What the half widths of a study are.
@@ -61,6 +61,14 @@ pub(crate) fn mean_of(values: &[f64]) -> (f64, Option<f64>, Option<f64>) {
 /// The values of the quantity of `figure` in all of `members`; `None` where one has none.
 fn values(figure: &Figure, members: &[Realisation]) -> Option<Vec<f64>> {
     members.iter().map(|member| member.value(&figure.place, figure.measure)).collect()
+}
+
+/// The figures of `wanted` with their values in all of `members`; work rates of supports only.
+pub(super) fn judged(members: &[Realisation], wanted: Measure) -> impl Iterator<Item = (&Figure, Vec<f64>)> {
+    let figures = members.first().map_or(&[][..], |member| &member.figures).iter();
+    let own = figures.filter(move |figure| figure.measure == wanted);
+    let own = own.filter(move |figure| wanted != Measure::WorkRate || figure.place.kind == PlaceKind::Support);
+    own.filter_map(|figure| Some((figure, values(figure, members)?)))
 }
 
 /// The estimates over `members`, which have the same places.

@@ -10,7 +10,8 @@
 //! (counted over 200 000 samples each). A single value apart is no group: it may be the end of a
 //! long tail.
 
-use super::measure::Measure;
+use super::estimate::judged;
+use super::measure::{Figure, Measure};
 use super::realisation::Realisation;
 use crate::error::amount;
 use crate::statistics::{ContactPlace, PlaceKind, spread};
@@ -123,12 +124,10 @@ pub(super) fn groups(members: &[Realisation]) -> Vec<PlaceGroups> {
     let figures = members.first().map_or(&[][..], |member| &member.figures);
     let supports = figures.iter().any(|figure| figure.place.kind == PlaceKind::Support);
     let measure = if supports { Measure::WorkRate } else { Measure::MeanForce };
-    let judged = figures.iter().filter(|figure| figure.measure == measure);
-    let groups = judged.filter(|figure| !supports || figure.place.kind == PlaceKind::Support).filter_map(|figure| {
-        let values: Option<Vec<f64>> = members.iter().map(|member| member.value(&figure.place, measure)).collect();
-        Some(PlaceGroups { place: figure.place.clone(), measure, groups: Groups::of(&values?)? })
-    });
-    groups.collect()
+    let groups = |(figure, values): (&Figure, Vec<f64>)| {
+        Some(PlaceGroups { place: figure.place.clone(), measure, groups: Groups::of(&values)? })
+    };
+    judged(members, measure).filter_map(groups).collect()
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! How many realisations an interval needs.
 
-use super::estimate::mean_of;
-use super::measure::Measure;
+use super::estimate::{judged, mean_of};
+use super::measure::{Figure, Measure};
 use super::realisation::Realisation;
 use crate::error::Error;
-use crate::statistics::{ContactPlace, PlaceKind};
+use crate::statistics::ContactPlace;
 use serde::Serialize;
 
 /// How many realisations bring the 95 % intervals of the judged means within a share of them: those
@@ -32,17 +32,13 @@ pub struct NeededRealisations {
 }
 
 /// The judged means of `members`: place, measure, mean and half width.
-fn judged(members: &[Realisation]) -> Vec<(ContactPlace, Measure, f64, f64)> {
-    let of = |wanted: Measure| -> Vec<(ContactPlace, Measure, f64, f64)> {
-        let figures = members.first().map_or(&[][..], |member| &member.figures).iter();
-        let own = figures.filter(|figure| figure.measure == wanted);
-        let own = own.filter(|figure| wanted != Measure::WorkRate || figure.place.kind == PlaceKind::Support);
-        own.filter_map(|figure| {
-            let values: Option<Vec<f64>> = members.iter().map(|member| member.value(&figure.place, wanted)).collect();
-            let (mean, _, half) = mean_of(&values?);
+fn means(members: &[Realisation]) -> Vec<(ContactPlace, Measure, f64, f64)> {
+    let of = |wanted| -> Vec<_> {
+        let mean = |(figure, values): (&Figure, Vec<f64>)| {
+            let (mean, _, half) = mean_of(&values);
             Some((figure.place.clone(), wanted, mean.abs(), half?)).filter(|_| mean != 0.0)
-        })
-        .collect()
+        };
+        judged(members, wanted).filter_map(mean).collect()
     };
     let rates = of(Measure::WorkRate);
     if rates.is_empty() { of(Measure::MeanForce) } else { rates }
@@ -79,7 +75,7 @@ impl NeededRealisations {
 /// The judged mean whose interval is widest, with that share, among `members`.
 #[must_use]
 pub fn widest(members: &[Realisation]) -> Option<NeededRealisations> {
-    let all = judged(members).into_iter().map(|(place, measure, mean, half)| NeededRealisations {
+    let all = means(members).into_iter().map(|(place, measure, mean, half)| NeededRealisations {
         count: members.len() as u64,
         pilot_share: half / mean,
         place,
@@ -90,8 +86,8 @@ pub fn widest(members: &[Realisation]) -> Option<NeededRealisations> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::measure::Figure;
     use super::*;
+    use crate::statistics::PlaceKind;
 
     fn members(values: &[(f64, f64)]) -> Vec<Realisation> {
         let figure = |name: &str, kind, measure, value| {

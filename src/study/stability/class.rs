@@ -2,6 +2,7 @@
 
 use super::fine_reference::{FineReference, REST, exchanged};
 use super::recorded_run::{Record, depth_bound};
+use crate::error::names;
 use crate::scene::{Scene, System};
 use crate::scheme::Scheme;
 use crate::step::Contact;
@@ -61,24 +62,11 @@ pub enum Class {
     Diverged,
 }
 
+names!(Class,
+    Stable => "stable", Dissipative => "dissipative", Frozen => "frozen", Astray => "another-motion",
+    Gaining => "energy-gaining", Diverged => "diverged");
+
 impl Class {
-    /// Every class, from harmless to worst.
-    pub const ALL: [Self; 6] =
-        [Self::Stable, Self::Dissipative, Self::Frozen, Self::Astray, Self::Gaining, Self::Diverged];
-
-    /// The name in tables and legends.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Stable => "stable",
-            Self::Dissipative => "dissipative",
-            Self::Frozen => "frozen",
-            Self::Astray => "another-motion",
-            Self::Gaining => "energy-gaining",
-            Self::Diverged => "diverged",
-        }
-    }
-
     /// The letter on a map.
     #[must_use]
     pub fn letter(self) -> char {
@@ -90,12 +78,6 @@ impl Class {
             Self::Gaining => 'G',
             Self::Diverged => 'X',
         }
-    }
-}
-
-impl fmt::Display for Class {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
     }
 }
 

@@ -69,20 +69,6 @@ impl ImpactMap {
         let e = || self.measured().map(|i| i.restitution);
         Some((e().reduce(f64::min)?, e().reduce(f64::max)?))
     }
-
-    /// Mean of e² over the phases: the expected share of kinetic energy kept in an impact at a
-    /// random phase.
-    #[must_use]
-    pub fn mean_energy_ratio(&self) -> Option<f64> {
-        let count = self.measured().count();
-        (count > 0).then(|| self.measured().map(|i| i.restitution.powi(2)).sum::<f64>() / count as f64)
-    }
-
-    /// Largest difference from the closed form, where there is one.
-    #[must_use]
-    pub fn error(&self) -> Option<f64> {
-        self.measured().filter_map(|i| i.theory.map(|e| (e - i.restitution).abs())).reduce(f64::max)
-    }
 }
 
 /// The maps of all schemes for a body of `mass` (kg), steps of `h` (s) and a rigid wall of

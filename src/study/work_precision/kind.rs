@@ -1,6 +1,7 @@
 //! The kinds of errors.
 
 use super::errors::Errors;
+use crate::error::names;
 
 /// One of the errors by which charts and tables compare methods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,20 +14,9 @@ pub enum Quantity {
     ContactTime,
 }
 
+names!(Quantity, Displacement => "displacement", Impulse => "impulse", ContactTime => "contact time");
+
 impl Quantity {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Displacement, Self::Impulse, Self::ContactTime];
-
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Displacement => "displacement",
-            Self::Impulse => "impulse",
-            Self::ContactTime => "contact time",
-        }
-    }
-
     /// This error of a run: `None` where there was no contact to compare; for contact times NaN
     /// where a contact is missing or spurious.
     #[must_use]

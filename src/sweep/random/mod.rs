@@ -8,9 +8,8 @@ mod sobol;
 pub use normal::Normal;
 pub use sobol::MOST_DIMENSIONS;
 
-use crate::error::{Error, Result, named};
+use crate::error::{Error, Result, names};
 use crate::hash;
-use std::str::FromStr;
 
 /// The kind of a random design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,24 +24,7 @@ pub enum Design {
     Sobol,
 }
 
-impl Design {
-    const ALL: [(&'static str, Self); 3] =
-        [("uniform", Self::Uniform), ("lhs", Self::LatinHypercube), ("sobol", Self::Sobol)];
-
-    /// The word for it in a sweep file.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        Self::ALL.iter().find(|entry| entry.1 == self).map_or("", |entry| entry.0)
-    }
-}
-
-impl FromStr for Design {
-    type Err = Error;
-
-    fn from_str(word: &str) -> Result<Self> {
-        named("random design", word, Self::ALL)
-    }
-}
+names!(Design: "random design", Uniform => "uniform", LatinHypercube => "lhs", Sobol => "sobol");
 
 /// A random design over all axes of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

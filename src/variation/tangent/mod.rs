@@ -166,12 +166,6 @@ impl SceneTangent {
         force[0]
     }
 
-    /// The name of the value.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
     /// The value.
     #[must_use]
     pub fn value(&self) -> f64 {

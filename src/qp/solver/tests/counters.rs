@@ -6,7 +6,7 @@ use crate::qp::tests::trial::Dense;
 #[test]
 fn programmes_without_a_force_are_counted() {
     for backend in [Backend::Clamp, Backend::Condensed, Backend::Clarabel] {
-        let mut solver = Solver::new(single(chain(1, 1.0, 0.0)), backend, 1.0).unwrap();
+        let mut solver = Solver::new(single(tridiagonal(1, 1.0, 0.0)), backend, 1.0).unwrap();
         let mut free = |b: f64| {
             solver.solve(&Rhs { b: &[b], lo: &[-1.0], hi: &[1.0] }).unwrap();
             solver.counters().free
@@ -37,17 +37,17 @@ fn rows_that_change_their_state_are_counted() {
     let (lo, hi): (&[f64], &[f64]) = (&[-1.0; 2], &[1.0; 2]);
     // Rows that hardly move one another start where the free motion puts them: nothing changes.
     let loose: [Step; 2] = [(&[4.0, -4.0], lo, hi), (&[-4.0, 0.1], lo, hi)];
-    assert_eq!(pivots(single(chain(2, 2.0, -0.1)), &loose), [0, 0]);
+    assert_eq!(pivots(single(tridiagonal(2, 2.0, -0.1)), &loose), [0, 0]);
     // Others start from the last programme's. At first both are held. Then 2x₁ − 1 = −5 with x₀ = 1
     // makes the second one pull, which is freed; it falls to −2, where the first pulls. That is
     // freed and the second held at −1, where x₀ = ½.
     let both: &[f64] = &[2.0, 2.0];
     let tight: [Step; 3] = [(both, lo, hi), (both, lo, hi), (&[2.0, -5.0], lo, hi)];
-    assert_eq!(pivots(single(chain(2, 2.0, -1.0)), &tight), [2, 2, 5]);
+    assert_eq!(pivots(single(tridiagonal(2, 2.0, -1.0)), &tight), [2, 2, 5]);
     // A row between two bounds at one place is brought into play once, whichever way it pushes.
     let coincide = [[2.0, 0.0], [-2.0, 0.0], [2.0, 0.0]];
     let coincide = coincide.each_ref().map(|b| (&b[..], &[0.0, -9.0][..], &[0.0, 9.0][..]));
-    assert_eq!(pivots(single(chain(2, 2.0, -1.0)), &coincide), [1, 1, 1]);
+    assert_eq!(pivots(single(tridiagonal(2, 2.0, -1.0)), &coincide), [1, 1, 1]);
     // A row that touches without a force stays: y = 1 for both with r = (−1, −1), then (0, −1).
     let dense = Dense::rigid([[1.0, 0.0], [0.5, 1.0]]);
     assert_eq!(pivots(dense.problem(), &[(&[2.5, 1.5], lo, hi), (&[1.5, 1.5], lo, hi)]), [2, 2]);
@@ -56,7 +56,7 @@ fn rows_that_change_their_state_are_counted() {
 #[test]
 fn programmes_solved_on_the_band_are_counted() {
     let n = 200;
-    let mut solver = Solver::new(single(chain(n, 1.0, -0.1)), Backend::Condensed, 1.0).unwrap();
+    let mut solver = Solver::new(single(tridiagonal(n, 1.0, -0.1)), Backend::Condensed, 1.0).unwrap();
     let mut solve = |lifted: usize| {
         let b: Vec<f64> = (0..n).map(|i| if i < lifted { -1.0 } else { 1.0 }).collect();
         solver.solve(&Rhs { b: &b, lo: &vec![-INF; n], hi: &vec![0.0; n] }).unwrap();
