@@ -9,8 +9,9 @@ use crate::step::Step;
 use pulp::Simd;
 use std::ops::{Add, Sub};
 
-/// A sum and the rounding error of it so far, with `x` added (Kahan 1965, doi:10.1145/363707.363723):
-/// where something rests, each of 1e7 equal terms would be rounded to the same side.
+/// A sum and the rounding error of it so far, with `x` added (Kahan 1965,
+/// doi:10.1145/363707.363723): where something rests, each of 1e7 equal terms would be rounded to
+/// the same side.
 #[inline(always)]
 pub(super) fn compensated<T: Copy + Add<Output = T> + Sub<Output = T>>([sum, lost]: [T; 2], x: T) -> [T; 2] {
     let term = x - lost;

@@ -109,10 +109,10 @@ pub struct WallStatistics {
     /// frictionless: this is impact power and contains no sliding wear.
     pub impact_power_w: f64,
     /// That power minus the kinetic energy with which the body left, Σ ½m(approach² −
-    /// departure²)/T, W; what rests at a rigid wall has not left with any. At impacts this is what restitution dissipates. In a
-    /// lasting contact (elastic walls, penalties, rest) the loads and the structure do work on the
-    /// body, and that work is included: the value is negative where the body leaves with more
-    /// energy than it brought. What dashpots of walls dissipate is
+    /// departure²)/T, W; what rests at a rigid wall has not left with any. At impacts this is what
+    /// restitution dissipates. In a lasting contact (elastic walls, penalties, rest) the loads and
+    /// the structure do work on the body, and that work is included: the value is negative where
+    /// the body leaves with more energy than it brought. What dashpots of walls dissipate is
     /// [`Energy::wall_damping_j`](crate::residual::Energy::wall_damping_j).
     pub arrived_less_departed_power_w: f64,
     /// Half widths of the intervals of the numbers above; those of the force are in `force`.

@@ -18,8 +18,8 @@ pub fn sector_of(angle: f64, count: usize) -> usize {
     if at < count { at } else { 0 }
 }
 
-/// The sectors among `count` over which a contact turns evenly by `turn` about `angle`, degrees, and
-/// the share of its work in each.
+/// The sectors among `count` over which a contact turns evenly by `turn` about `angle`, degrees,
+/// and the share of its work in each.
 pub(crate) fn sectors_over(angle: f64, turn: f64, count: usize) -> impl Iterator<Item = (usize, f64)> {
     let width = 360.0 / count as f64;
     let [from, to] = [-0.5, 0.5].map(|half| (angle + half * turn.abs()) / width);
