@@ -218,8 +218,8 @@ fn every_scheme_tells_the_work_of_a_flat() {
     }
 }
 
-/// A mass is pressed on one flat for ever and strikes another one at a right angle to it: that takes
-/// nothing from the time in contact, whichever of the two comes first.
+/// A mass is pressed on one flat for ever and strikes another one at a right angle to it: that
+/// takes nothing from the time in contact, whichever of the two comes first.
 #[test]
 fn a_blow_of_one_flat_takes_no_time_from_another() {
     let text = "[system]\nplanes = 2\n[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 100.0\n\

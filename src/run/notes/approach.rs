@@ -48,8 +48,8 @@ fn within(scene: &Scene, trajectory: &Trajectory) -> Option<String> {
     let farthest = seen.max_by(|a, b| (a.1 / a.0.gap).total_cmp(&(b.1 / b.0.gap)));
     match farthest {
         Some((hole, far)) => Some(format!(
-            "{NO_CONTACT}: in the rows, the body stays within {far:.3e} m of the centre of the round support {:?}, whose gap \
-             is {:.3e} m; positions and gaps are in m",
+            "{NO_CONTACT}: in the rows, the body stays within {far:.3e} m of the centre of the round support {:?}, \
+             whose gap is {:.3e} m; positions and gaps are in m",
             hole.name, hole.gap
         )),
         None => scene.holes().next().map(|_| format!("{NO_CONTACT}, with any support")),
