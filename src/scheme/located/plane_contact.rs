@@ -178,3 +178,121 @@ impl PlaneContact {
         (more > left).then(|| middle + left * (middle - before) / (more - left))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{FrictionCoefficients, PlaneRows, Row};
+
+    const FRICTION: FrictionCoefficients = FrictionCoefficients { sticking: 0.5, sliding: 0.2 };
+
+    /// A contact in a hole of 0.02 m about the origin, or at a flat in the direction of y.
+    fn contact(round: bool) -> PlaneContact {
+        let point = ContactPoint { rows: [0, 1], normal: [1.0, 0.0], friction: FRICTION };
+        let at = PlaneRows { y: Row::dof(0), z: Row::dof(1) };
+        let wall = if round { Wall::round("hole", at, 0.02) } else { Wall::upper("flat", 0.0) };
+        PlaneContact { rounding: 1e-15, least: 1e-9, ..PlaneContact::new(0, point, &wall) }
+    }
+
+    fn push(impulse: f64, friction: f64) -> Push {
+        Push { wall: 0, impulse, friction, normal: [1.0, 0.0] }
+    }
+
+    #[test]
+    fn rebounds_end_within_a_step_if_their_flights_add_up_to_no_more() {
+        // 2 e v/(a(1 − e)) = 2 · 0.5 · 3/(8 · 0.5) = 0.75 s.
+        let struck = PlaneContact { rate: [3.0, 0.0], pressed: 8.0, ..contact(false) };
+        assert!(struck.rebounds_end(0.5, 0.76) && !struck.rebounds_end(0.5, 0.74));
+        // Where it stays, or rebounds for ever, none end.
+        assert!(!struck.rebounds_end(0.0, 10.0) && !struck.rebounds_end(1.0, 10.0));
+        assert!(!PlaneContact { pressed: -8.0, ..struck }.rebounds_end(0.5, 10.0));
+    }
+
+    #[test]
+    fn what_presses_a_body_is_its_acceleration_and_the_turning_of_the_circle() {
+        // At w = (0.02, 0) it slides at 0.3 m/s, 0.1 m/s faster than 0.05 s before, and 0.2 m/s of
+        // its velocity were taken along the normal.
+        let ends = ([1.0, 0.0], [0.0, 0.3], [-0.2, 0.1]);
+        let [mut flat, mut round] = [contact(false), contact(true)];
+        for contact in [&mut flat, &mut round] {
+            contact.rate = [0.0, 0.2];
+            contact.keep(Some(&push(0.4, -0.08)), ends, (0.05, 1.0, 0.1));
+            assert_eq!((contact.pushed, contact.stopped, contact.acceleration), (true, false, [-4.0, 2.0]));
+        }
+        assert!((flat.pressed + 4.0).abs() < 1e-12 && (round.pressed - (0.3 * 0.3 / 0.02 - 4.0)).abs() < 1e-12);
+        // A hole that pushed does so in the next part; a flat is asked anew.
+        assert!(round.lasts && !flat.lasts);
+    }
+
+    #[test]
+    fn a_round_wall_lasts_while_what_is_left_across_it_is_that_of_the_turning() {
+        // Half the angle by which the normal turns in a step of 0.1 s, ½ · 0.1 · 0.3/0.02, times
+        // the sum of the fastest sliding and of its change: 0.75 · 0.4 = 0.3 m/s.
+        let lasts = |across: f64, reflected: f64, pushes: bool| {
+            let mut contact = PlaneContact { lasts: reflected != 0.0, rate: [reflected, 0.2], ..contact(true) };
+            let push = push(0.4, -0.08);
+            contact.keep(pushes.then_some(&push), ([1.0, 0.0], [across, 0.3], [0.0, 0.1]), (0.05, 1.0, 0.1));
+            contact.lasts
+        };
+        assert!(lasts(0.299, 0.0, true) && lasts(-0.299, 0.0, true) && !lasts(0.301, 0.0, true));
+        // What the last part left is reflected by this one.
+        assert!(lasts(0.349, 0.05, true) && lasts(-0.349, -0.05, true) && !lasts(0.351, 0.05, true));
+        assert!(!lasts(0.0, 0.0, false));
+    }
+
+    #[test]
+    fn a_body_begins_to_slide_where_what_is_left_of_static_friction_vanishes() {
+        let mut contact = contact(false);
+        assert_eq!(contact.slips(), None);
+        // 0.5 · 2 − 0.4 = 0.6 N s over 0.1 s at 1 s; 0.5 · 2 − 0.8 = 0.2 N s at 1.1 s: in 0.05 s.
+        for (friction, middle) in [(0.4, 1.0), (-0.8, 1.1)] {
+            contact.keep(Some(&push(-2.0, friction)), ([1.0, 0.0], [0.0, 1e-10], [0.0; 2]), (0.1, middle, 0.1));
+        }
+        let [Some((_, more)), Some((_, left))] = contact.stuck else { panic!("{contact:?}") };
+        assert!((more - 6.0).abs() < 1e-12 && (left - 2.0).abs() < 1e-12);
+        assert!((contact.slips().unwrap() - 1.15).abs() < 1e-12);
+        // Where more is left each time, it never does; nor where it slid in one of the parts.
+        contact.stuck.swap(0, 1);
+        assert_eq!(contact.slips(), None);
+        contact.keep(Some(&push(-2.0, 0.4)), ([1.0, 0.0], [0.0, 1e-3], [0.0; 2]), (0.1, 1.2, 0.1));
+        assert_eq!(contact.stuck, [None; 2]);
+    }
+
+    #[test]
+    fn static_friction_holds_what_pushed_before_and_does_not_slide() {
+        let resting = PlaneContact { pushed: true, rate: [0.0, 1e-10], ..contact(false) };
+        assert_eq!((resting.slides(), resting.friction()), (0.0, 0.5));
+        let sliding = PlaneContact { rate: [0.0, -1e-3], ..resting };
+        assert_eq!((sliding.slides(), sliding.friction()), (-1.0, 0.2));
+        assert_eq!(PlaneContact { stopped: true, ..sliding }.friction(), 0.5);
+        assert_eq!(PlaneContact { pushed: false, ..resting }.friction(), 0.2);
+    }
+
+    #[test]
+    fn a_body_in_touch_rests_where_it_comes_back_before_it_is_out_of_it() {
+        // At 0.2 m/s along the circle of 0.02 m it turns with 2 m/s², and comes back within the
+        // touching distance of 1e-6 m if it leaves with less than √(2 · 1e-6 · 2) = 2e-3 m/s.
+        let place = |outwards: f64, round: bool, lasts: bool, blown: bool| {
+            let mut contact = PlaneContact { lasts, ..contact(round) };
+            contact.classify(true, ([1.0, 0.0], [outwards, 0.2], 0.2), (1e-6, 1e-5), blown);
+            contact.place
+        };
+        assert_eq!(
+            (place(-1.9e-3, true, false, false), place(-2.1e-3, true, false, false)),
+            (Place::Resting, Place::Leaving)
+        );
+        assert_eq!(
+            (place(1.9e-3, true, false, false), place(2.1e-3, true, false, false)),
+            (Place::Resting, Place::Struck)
+        );
+        assert_eq!(
+            (place(-0.9e-5, false, false, false), place(-1.1e-5, false, false, false)),
+            (Place::Resting, Place::Leaving)
+        );
+        // A contact that lasts does so however fast it is across the circle, but for a blow.
+        assert_eq!((place(0.1, true, true, false), place(0.1, true, true, true)), (Place::Resting, Place::Struck));
+        let mut away = contact(true);
+        away.classify(false, ([1.0, 0.0], [0.0, 0.2], 0.2), (1e-6, 1e-5), false);
+        assert_eq!(away.place, Place::Away);
+    }
+}
