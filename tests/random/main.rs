@@ -9,5 +9,6 @@ mod random_structures;
 #[path = "../support/rubbing.rs"]
 mod rubbing;
 
+mod alike;
 mod exact;
 mod scenes;
