@@ -82,6 +82,9 @@ fn scenes_that_say_the_same_move_alike() {
                 if error > 1e-8 {
                     apart += 1;
                     println!("seed {seed}, {scheme}, step {:e}, {how}: {error:.1e}", drawn.step);
+                    if cases == 1 {
+                        println!("{scene:?}");
+                    }
                 }
             }
         }
