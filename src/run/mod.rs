@@ -95,7 +95,8 @@ pub fn run_with_progress<J: Judging, R: Recording>(
     let from = options.time.statistics_from;
     // The statistics of a run that diverged refer to the time up to there.
     let until = diverged.as_ref().map_or(scene.duration, |diverged| diverged.time);
-    let seen = Scene { duration: until, ..Scene::clone(scene) };
+    // A penalty has springs in place of rigid walls.
+    let seen = Scene { duration: until, ..stepper.scene().clone() };
     let (trajectory, statistics) = R::finish(recorder, &stepper.open_contacts(), &seen, scene.wall_masses(), from);
     // The rows of a run that diverged end before it does, and do not hold all of its impulses.
     let recorded = R::trajectory(&trajectory).filter(|_| diverged.is_none());

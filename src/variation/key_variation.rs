@@ -32,32 +32,6 @@ const MOST_GROWTH: f64 = 1e6;
 /// it changes the restitution. One further column without a key, the witness, tells how fast
 /// changes grow: the derivative is given up where it is known to be worth nothing
 /// ([`NoDerivative`]).
-///
-/// ```
-/// use signorini::variation::{KeyVariation, SceneTangent};
-/// use signorini::{Load, Scene, Scheme, Stepper, Wall};
-///
-/// // A ball that falls from 1 m onto a floor with e = 0.8.
-/// let scene = |e: f64| {
-///     Ok(Scene::oscillator(1.0, 0.0, 0.0)
-///         .with_wall(Wall::lower("floor", 0.0).with_restitution(e))
-///         .with_load(Load::constant(-9.81))
-///         .with_initial(&[1.0], &[0.0])
-///         .with_duration(2.0))
-/// };
-/// let tangent = SceneTangent::new("restitution", 0.8, scene)?;
-/// let scene = scene(0.8)?;
-/// let mut stepper = Stepper::new(&scene, &Scheme::Event, scene.duration)?;
-/// let mut variation = KeyVariation::new(&scene, &[tangent], &[])?;
-/// while stepper.time() < scene.duration {
-///     variation.propagate(&stepper.step()?)?;
-/// }
-/// // The second impact comes 2ev/g after the first.
-/// let second = variation.contacts().get(1).expect("an impact");
-/// let expected = 2.0 * (2.0 * 9.81_f64).sqrt() / 9.81;
-/// assert!((second.start_by[0] / expected - 1.0).abs() < 1e-12);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Debug)]
 pub struct KeyVariation {
     variation: StructureVariation,

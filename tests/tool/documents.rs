@@ -123,10 +123,12 @@ fn the_sweeps_of_the_documents_can_be_made() {
     let dir = tempfile::tempdir().unwrap();
     let mut planned = 0;
     for page in ["engineer.md", "sweep.md"] {
-        for (language, name, text) in blocks(page) {
-            if let Some(name) = name {
-                fs::write(dir.path().join(name), text).unwrap();
-            } else if language == "sh" {
+        let (files, others): (Vec<_>, Vec<_>) = blocks(page).into_iter().partition(|(_, name, _)| name.is_some());
+        for (_, name, text) in files {
+            fs::write(dir.path().join(name.unwrap()), text).unwrap();
+        }
+        for (language, _, text) in others {
+            if language == "sh" {
                 let joined = text.replace("\\\n", " ");
                 let lines = joined.lines().map(|line| line.split(" #").next().unwrap_or_default());
                 for line in lines.filter(|line| line.starts_with("signorini sweep ")) {
