@@ -126,11 +126,17 @@ impl Episodes {
                 self.part(wall);
             }
         }
-        let impact = |&wall: &usize| self.reverses(wall, rates(wall).struck, impulse.get(wall).copied().unwrap_or(0.0));
-        let elsewhere = pushing.len() > 1 && pushing.iter().any(impact);
+        let mut impact = false;
         for &wall in pushing {
             if let Some(&p) = impulse.get(wall) {
-                self.push(wall, start + self.instant * h, (h, elsewhere), p, rates(wall));
+                impact |= self.push(wall, start + self.instant * h, (h, p), rates(wall));
+            }
+        }
+        for &wall in pushing {
+            if let (Some(Some(episode)), Some(p)) = (self.open.get_mut(wall), impulse.get(wall))
+                && (!self.rigid[wall] || !(impact || episode.steps <= self.impact_steps))
+            {
+                episode.peak = Some(episode.peak.unwrap_or(0.0).max(p.abs() / h));
             }
         }
         before.clear();
@@ -165,11 +171,12 @@ impl Episodes {
         self.rigid[wall] && self.mass[wall] * struck.abs() > BLOW * p.abs()
     }
 
-    /// Adds the impulse `p` (N s) of a wall in a step of `h` seconds, in which there may be an
-    /// impact elsewhere.
-    fn push(&mut self, wall: usize, instant: f64, (h, elsewhere): (f64, bool), p: f64, rates: Rates) {
+    /// Adds the impulse `p` (N s) of a wall in a step of `h` seconds. Returns whether it is that of
+    /// an impact.
+    fn push(&mut self, wall: usize, instant: f64, (h, p): (f64, f64), rates: Rates) -> bool {
         if self.floor[wall].holds(p, h) {
-            return self.leave(wall);
+            self.leave(wall);
+            return false;
         }
         let sign = self.side[wall].sign();
         let Rates { before, struck, after } = rates;
@@ -178,7 +185,6 @@ impl Episodes {
         if self.rigid[wall] && sign * (struck - before) < 0.0 {
             self.part(wall);
         }
-        let reverses = self.reverses(wall, struck, p);
         let fresh = OpenEpisode::new(instant, (-sign * struck).max(0.0));
         let episode = self.open[wall].get_or_insert(fresh);
         episode.steps += 1;
@@ -186,11 +192,8 @@ impl Episodes {
         episode.impulse += p.abs();
         episode.moment += p.abs() * instant;
         episode.departure = (sign * after).max(0.0);
-        let impact = elsewhere || reverses || episode.steps <= self.impact_steps;
-        if !self.rigid[wall] || !impact {
-            episode.peak = Some(episode.peak.unwrap_or(0.0).max(p.abs() / h));
-        }
         self.any = true;
+        self.reverses(wall, struck, p)
     }
 
     /// Adds a part of a step of `length` seconds, at whose end the impulses `jump` (N s) act; the

@@ -36,6 +36,17 @@ fn words(line: &str) -> Vec<String> {
         .collect()
 }
 
+/// Runs a command line of a page with `more` arguments, which succeeds, and returns what it prints.
+fn done(page: &str, line: &str, more: &[&str], folder: &Path) -> String {
+    let words = words(line);
+    assert_eq!(words.first().map(String::as_str), Some("signorini"), "{page}: {line}");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_signorini"));
+    let output = command.args(&words[1..]).args(more).current_dir(folder).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{page}: {line}: {told}");
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
 /// Writes the files and runs the commands; returns how many of each, and what was printed.
 fn follow(page: &str, folder: &Path) -> (usize, usize, String) {
     let (mut files, mut commands, mut said) = (0, 0, String::new());
@@ -45,13 +56,7 @@ fn follow(page: &str, folder: &Path) -> (usize, usize, String) {
             files += 1;
         } else if language == "sh" {
             for line in text.replace("\\\n", " ").lines() {
-                let words = words(line);
-                assert_eq!(words.first().map(String::as_str), Some("signorini"), "{page}: {line}");
-                let tool = env!("CARGO_BIN_EXE_signorini");
-                let output = Command::new(tool).args(&words[1..]).current_dir(folder).output().unwrap();
-                let told = String::from_utf8_lossy(&output.stderr);
-                assert_eq!(output.status.code(), Some(0), "{page}: {line}: {told}");
-                said += &String::from_utf8_lossy(&output.stdout);
+                said += &done(page, line, &[], folder);
                 commands += 1;
             }
         }
@@ -132,14 +137,7 @@ fn the_sweeps_of_the_documents_can_be_made() {
                 let joined = text.replace("\\\n", " ");
                 let lines = joined.lines().map(|line| line.split(" #").next().unwrap_or_default());
                 for line in lines.filter(|line| line.starts_with("signorini sweep ")) {
-                    let output = Command::new(env!("CARGO_BIN_EXE_signorini"))
-                        .args(words(line).iter().skip(1))
-                        .args(if line.contains("--plan") { [].as_slice() } else { &["--plan"] })
-                        .current_dir(dir.path())
-                        .output()
-                        .unwrap();
-                    let told = String::from_utf8_lossy(&output.stderr);
-                    assert_eq!(output.status.code(), Some(0), "{page}: {line}: {told}");
+                    done(page, line, if line.contains("--plan") { &[] } else { &["--plan"] }, dir.path());
                     planned += 1;
                 }
             }
