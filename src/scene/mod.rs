@@ -14,7 +14,7 @@
 //! all loads), `random/` (random forces as
 //! tables), `turbulence/` (random forces along a line, on modes), `fluid_elastic.rs` (the stability
 //! of a tube in that flow), `held.rs` (a structure held at places), `clear.rs` (a start moved out
-//! of walls), `function.rs`, `scales.rs` (frequencies, and the mass that a wall feels),
+//! of walls), `gap.rs` (the length that residuals are told in), `function.rs`, `scales.rs` (frequencies, and the mass that a wall feels),
 //! `scene_key.rs` (the path of a number of a scene), `row.rs` (a location on a structure, as
 //! weights of degrees of freedom), `builders/` (chains, bars, tubes, modal data), `matrices/` (read
 //! from text), `condensation/` (degrees of freedom without mass), `damping.rs`, `modal/` (modes,
@@ -32,6 +32,7 @@ mod forcing;
 mod forcing_period;
 mod friction;
 mod function;
+mod gap;
 mod grid_forcing;
 mod held;
 mod law;
@@ -91,10 +92,6 @@ pub use wall::{Face, Side, Wall};
 
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
-
-/// A start closer to a wall than this share of the displacements there is on it: more than the
-/// rounding of a static equilibrium on a wall.
-const ON_WALL: f64 = 1e-9;
 
 /// Displacements and velocities at one instant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -294,65 +291,10 @@ impl Scene {
         self.walls.iter().find(|wall| !wall.law.is_linear())
     }
 
-    /// The reference length γ₀ of the scene, m: the smallest of half the distances between an upper
-    /// and a lower wall on one row and of the gaps of round supports; else the largest distance of
-    /// a wall from the initial position; else the largest |position| of a wall; else the initial
-    /// displacement; else 1 m. Residuals and solvers are made dimensionless by it. Zero gaps are
-    /// ignored.
-    #[must_use]
-    pub fn gap_scale(&self) -> f64 {
-        let positive = |x: &f64| x.is_finite() && *x > 0.0;
-        self.gap()
-            .or_else(|| self.walls.iter().map(|w| w.position().abs()).filter(positive).reduce(f64::max))
-            .or_else(|| self.initial.q.iter().map(|q| q.abs()).filter(positive).reduce(f64::max))
-            .unwrap_or(1.0)
-    }
-
-    /// The gap of the scene, m: the smallest of half the distances between an upper and a lower
-    /// wall on one row and of the gaps of round supports; else the largest distance of a wall from
-    /// the initial position, unless the start is on it. `None` where there is none above 0.
-    pub(crate) fn gap(&self) -> Option<f64> {
-        let positive = |x: &f64| x.is_finite() && *x > 0.0;
-        let (place, lower) = self.lower_walls();
-        let uppers = self.walls.iter().zip(place).filter(|(w, _)| w.side() == Side::Upper && !w.is_round());
-        let spans = uppers.flat_map(|(upper, place)| {
-            lower[place].iter().map(move |lower| 0.5 * (upper.position() - lower.position()))
-        });
-        let least = spans.chain(self.holes().map(|hole| hole.gap)).filter(positive).reduce(f64::min);
-        if least.is_some() {
-            return least;
-        }
-        // A start on a wall is off it by rounding.
-        let largest = self.initial.q.iter().fold(0.0, |largest: f64, q| largest.max(q.abs()));
-        let start = |w: &Wall| {
-            let gap = w.gap(w.row().dot(&self.initial.q)).abs();
-            let weights: f64 = w.row().entries().iter().map(|(_, weight)| weight.abs()).sum();
-            if gap > ON_WALL * (w.position().abs() + weights * largest) { gap } else { 0.0 }
-        };
-        self.walls.iter().map(start).filter(positive).reduce(f64::max)
-    }
-
     /// True for one degree of freedom whose walls stand on it directly: schemes on a grid then
     /// compute with numbers. A wall behind a lever makes the oscillator a structure of 1 × 1
     /// matrices.
     pub(crate) fn is_line(&self) -> bool {
         matches!(self.system, System::Oscillator(_)) && self.walls.iter().all(|wall| *wall.row() == Row::dof(0))
-    }
-
-    /// Distance within which a wall counts as in contact, m: 1e-12 of [`Scene::gap_scale`].
-    #[must_use]
-    pub fn touching_distance(&self) -> f64 {
-        1e-12 * self.gap_scale()
-    }
-
-    /// For each wall, which of the distinct rows it has; and for each of those rows, its lower
-    /// walls.
-    fn lower_walls(&self) -> (Vec<usize>, Vec<Vec<&Wall>>) {
-        let places = distinct(self.walls.iter().map(|wall| wall.row()));
-        let mut lower = vec![Vec::new(); places.rows.len()];
-        for (wall, &place) in self.walls.iter().zip(&places.of).filter(|(wall, _)| wall.side() == Side::Lower) {
-            lower[place].push(wall);
-        }
-        (places.of, lower)
     }
 }

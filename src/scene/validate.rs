@@ -1,7 +1,7 @@
 //! Which scenes are valid.
 
 use super::system::{finite, positive};
-use super::{Row, Scene, Side, Wall};
+use super::{Row, Scene, Side, Wall, distinct};
 use crate::error::{Error, Result, Subject};
 use std::collections::HashSet;
 
@@ -61,8 +61,12 @@ impl Scene {
                 return Err(Error::invalid(key, "a place that nothing moves", "a place that can move"));
             }
         }
-        let (place, lower) = self.lower_walls();
-        for (wall, place) in self.walls.iter().zip(place) {
+        let places = distinct(self.walls.iter().map(|wall| wall.row()));
+        let mut lower = vec![Vec::new(); places.rows.len()];
+        for (wall, &place) in self.walls.iter().zip(&places.of).filter(|(wall, _)| wall.side() == Side::Lower) {
+            lower[place].push(wall);
+        }
+        for (wall, place) in self.walls.iter().zip(places.of) {
             check_crossing(wall, &lower[place])?;
         }
         self.check_start()?;

@@ -1,0 +1,120 @@
+//! The length of a scene in which its residuals are told: the gap of its walls.
+//!
+//! A wall that stands much farther away than another one bounds nothing that the other one lets
+//! happen, such as a wall at −1000 m for a side that has none. It has no part in the length: an
+//! error of a whole gap at 0.5 mm would be told as a millionth of 500 m.
+
+use super::{Scene, Side, Wall, distinct};
+
+/// A start closer to a wall than this share of the displacements there is on it: more than the
+/// rounding of a static equilibrium on a wall.
+const ON_WALL: f64 = 1e-9;
+/// A wall that is this many times as far away as the nearest one is far.
+const FAR: f64 = 100.0;
+
+fn positive(x: &f64) -> bool {
+    x.is_finite() && *x > 0.0
+}
+
+impl Scene {
+    /// The reference length γ₀ of the scene, m: the smallest of half the distances between an upper
+    /// and a lower wall on one row and of the gaps of round supports; else the largest distance of
+    /// a wall from the initial position; else the largest |position| of a wall; else the initial
+    /// displacement; else 1 m. Residuals and solvers are made dimensionless by it. Zero gaps are
+    /// ignored, and walls more than 100 times as far from the start and from zero as the nearest.
+    #[must_use]
+    pub fn gap_scale(&self) -> f64 {
+        let near = self.near_walls();
+        gap_of(&near)
+            .or_else(|| largest(near.iter().map(|(wall, _)| wall.position().abs())))
+            .or_else(|| largest(self.initial.q.iter().map(|q| q.abs())))
+            .unwrap_or(1.0)
+    }
+
+    /// The gap of the scene, m: the smallest of half the distances between an upper and a lower
+    /// wall on one row and of the gaps of round supports; else the largest distance of a wall from
+    /// the initial position, unless the start is on it. `None` where there is none above 0. Walls
+    /// that are far have no part in it.
+    pub(crate) fn gap(&self) -> Option<f64> {
+        gap_of(&self.near_walls())
+    }
+
+    /// Distance within which a wall counts as in contact, m: 1e-12 of [`Scene::gap_scale`].
+    #[must_use]
+    pub fn touching_distance(&self) -> f64 {
+        1e-12 * self.gap_scale()
+    }
+
+    /// The walls that are not far, with their distance from the start (m), which is 0 for a start
+    /// on the wall.
+    fn near_walls(&self) -> Vec<(&Wall, f64)> {
+        let q = &self.initial.q;
+        let size = q.iter().fold(0.0, |largest: f64, q| largest.max(q.abs()));
+        let start = |wall: &Wall| {
+            let gap = wall.gap(wall.row().dot(q)).abs();
+            let weights: f64 = wall.row().entries().iter().map(|(_, weight)| weight.abs()).sum();
+            // A start on a wall is off it by rounding.
+            if gap > ON_WALL * (wall.position().abs() + weights * size) { gap } else { 0.0 }
+        };
+        let away = |(wall, start): &(&Wall, f64)| start.max(wall.position().abs());
+        let mut walls: Vec<_> = self.walls.iter().map(|wall| (wall, start(wall))).collect();
+        let most = FAR * walls.iter().map(away).filter(positive).fold(f64::INFINITY, f64::min);
+        walls.retain(|wall| away(wall) <= most);
+        walls
+    }
+}
+
+fn largest(lengths: impl Iterator<Item = f64>) -> Option<f64> {
+    lengths.filter(positive).reduce(f64::max)
+}
+
+/// The gap of these walls, each with its distance from the start.
+fn gap_of(near: &[(&Wall, f64)]) -> Option<f64> {
+    let rows = distinct(near.iter().map(|(wall, _)| wall.row()));
+    let mut lower = vec![Vec::new(); rows.rows.len()];
+    let flat = |side| {
+        let walls = near.iter().zip(&rows.of);
+        walls
+            .filter(move |((wall, _), _)| wall.side() == side && !wall.is_round())
+            .map(|((wall, _), row)| (wall.position(), *row))
+    };
+    for (position, row) in flat(Side::Lower) {
+        lower[row].push(position);
+    }
+    let spans = flat(Side::Upper).flat_map(|(upper, row)| lower[row].iter().map(move |lower| 0.5 * (upper - lower)));
+    let gaps = near.iter().filter(|(wall, _)| wall.is_round()).map(|(wall, _)| wall.position());
+    let least = spans.chain(gaps).filter(positive).reduce(f64::min);
+    least.or_else(|| largest(near.iter().map(|(_, start)| *start)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Row;
+
+    fn scene(walls: impl IntoIterator<Item = Wall>) -> Scene {
+        walls.into_iter().fold(Scene::oscillator(1.0, 0.0, 100.0), Scene::with_wall)
+    }
+
+    #[test]
+    fn a_wall_far_away_has_no_part_in_the_gap() {
+        let near = Wall::upper("upper", 5e-4);
+        let far = [
+            Wall::lower("lower", -1e3),
+            Wall::upper("far", 1e2),
+            Wall::lower("far", -1e2).at(Row::new(vec![(0, 2.0)])),
+        ];
+        for far in far {
+            assert_eq!(scene([near.clone(), far.clone()]).gap(), Some(5e-4));
+            assert_eq!(scene([far, near.clone()]).gap_scale(), 5e-4);
+        }
+        // 50 times as far is near: half the distance of the pair.
+        assert_eq!(scene([near, Wall::lower("lower", -2.5e-2)]).gap(), Some(0.5 * (5e-4 + 2.5e-2)));
+    }
+
+    #[test]
+    fn a_start_close_to_a_wall_makes_no_other_wall_far() {
+        let walls = [Wall::upper("upper", 5e-3), Wall::upper("second", 8e-3)];
+        assert_eq!(scene(walls).with_initial(&[5e-3 - 1e-8], &[0.0]).gap(), Some(8e-3 - (5e-3 - 1e-8)));
+    }
+}
