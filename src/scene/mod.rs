@@ -11,10 +11,10 @@
 //! that rub under a known force), `friction.rs` (coefficients of friction), `load.rs`, `table.rs`
 //! (a force sampled over time), `loads.rs` (their sum over degrees of freedom), `forcing.rs` and
 //! `grid_forcing.rs` (over one, and at the instants of a grid), `forcing_period.rs` (the period of
-//! all loads), `random/` (random forces as
-//! tables), `turbulence/` (random forces along a line, on modes), `fluid_elastic.rs` (the stability
-//! of a tube in that flow), `held.rs` (a structure held at places), `clear.rs` (a start moved out
-//! of walls), `gap.rs` (the length that residuals are told in), `function.rs`, `scales.rs` (frequencies, and the mass that a wall feels),
+//! all loads), `random/` (random forces as tables), `turbulence/` (random forces along a line, on
+//! modes), `fluid_elastic.rs` (the stability of a tube in that flow), `held.rs` (a structure held
+//! at places), `clear.rs` (a start moved out of walls), `gap.rs` (the length that residuals are
+//! told in), `function.rs`, `scales.rs` (frequencies, and the mass that a wall feels),
 //! `scene_key.rs` (the path of a number of a scene), `row.rs` (a location on a structure, as
 //! weights of degrees of freedom), `builders/` (chains, bars, tubes, modal data), `matrices/` (read
 //! from text), `condensation/` (degrees of freedom without mass), `damping.rs`, `modal/` (modes,

@@ -61,14 +61,7 @@ impl Scene {
                 return Err(Error::invalid(key, "a place that nothing moves", "a place that can move"));
             }
         }
-        let places = distinct(self.walls.iter().map(|wall| wall.row()));
-        let mut lower = vec![Vec::new(); places.rows.len()];
-        for (wall, &place) in self.walls.iter().zip(&places.of).filter(|(wall, _)| wall.side() == Side::Lower) {
-            lower[place].push(wall);
-        }
-        for (wall, place) in self.walls.iter().zip(places.of) {
-            check_crossing(wall, &lower[place])?;
-        }
+        check_crossing(&self.walls)?;
         self.check_start()?;
         self.check_supports(|name, row| self.check_row(|| Subject::support(name), row))
     }
@@ -128,18 +121,23 @@ fn taken(kind: &'static str, index: usize, name: &str) -> Error {
 }
 
 /// Refuses a rigid upper wall below a rigid lower one of its row.
-fn check_crossing(upper: &Wall, lower: &[&Wall]) -> Result<()> {
-    if upper.side() == Side::Lower || !upper.law.is_rigid() {
-        return Ok(());
+fn check_crossing(walls: &[Wall]) -> Result<()> {
+    let places = distinct(walls.iter().map(|wall| wall.row()));
+    let mut lower = vec![Vec::new(); places.rows.len()];
+    let rigid = |side| walls.iter().zip(&places.of).filter(move |(wall, _)| wall.side() == side && wall.law.is_rigid());
+    for (wall, &place) in rigid(Side::Lower) {
+        lower[place].push(wall);
     }
-    match lower.iter().find(|lower| lower.law.is_rigid() && lower.position() > upper.position()) {
-        Some(lower) => Err(Error::invalid(
-            Subject::wall(&upper.name).part("position"),
-            format_args!("{:?}", upper.position()),
-            format!("at least {:?}, the position of the rigid lower wall {:?}", lower.position(), lower.name),
-        )),
-        None => Ok(()),
+    for (upper, &place) in rigid(Side::Upper) {
+        if let Some(lower) = lower[place].iter().find(|lower| lower.position() > upper.position()) {
+            return Err(Error::invalid(
+                Subject::wall(&upper.name).part("position"),
+                format_args!("{:?}", upper.position()),
+                format!("at least {:?}, the position of the rigid lower wall {:?}", lower.position(), lower.name),
+            ));
+        }
     }
+    Ok(())
 }
 
 /// Number of scenes that this thread has checked; used by tests.
