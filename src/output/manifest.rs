@@ -20,7 +20,7 @@ pub(super) const UNFINISHED: &str = "unfinished";
 
 /// Files that results consist of: a folder with one of them but no manifest holds results of an
 /// unknown request.
-const RESULTS: [&str; 9] = [
+const RESULTS: [&str; 10] = [
     "summary.json",
     "trajectory.csv",
     "compare.csv",
@@ -30,6 +30,7 @@ const RESULTS: [&str; 9] = [
     "sweep.csv",
     "orbit.json",
     "branches.csv",
+    "report.html",
 ];
 
 /// The name of a file of unknown results in `folder`, if there is one.

@@ -294,11 +294,14 @@ pub fn walls(scene: &Scene) -> Vec<(usize, String)> {
                     std::f64::consts::PI / omega
                 )
             }
-            WallLaw::HuntCrossley { stiffness, exponent, dissipation } => format!(
-                "Hunt and Crossley's law, {stiffness:e} N/m^{exponent} and {dissipation:e} s/m: an impact at v m/s has \
-                 a restitution of about 1 − {:.3e} v",
-                dissipation / 1.5
-            ),
+            WallLaw::HuntCrossley { stiffness, exponent, dissipation } => {
+                let law = format!("Hunt and Crossley's law, {stiffness:e} N/m^{exponent} and {dissipation:e} s/m");
+                if dissipation == 0.0 {
+                    format!("{law}: an impact loses nothing")
+                } else {
+                    format!("{law}: an impact at v m/s has a restitution of about 1 − {:.3e} v", dissipation / 1.5)
+                }
+            }
             WallLaw::Quartic { epsilon, .. } => format!("penalty, ε = {epsilon:e} m³/N"),
         };
         let feels = if several { format!("; feels {mass:.4e} kg") } else { String::new() };

@@ -489,3 +489,17 @@ fn special_files_in_place_of_named_ones_are_refused() {
     let told = said(dir.path(), &asked(&sweep, &["--range", "4:5", "--over", "pipe"]), 2);
     assert!(told.contains("not a regular file"), "{told}");
 }
+
+/// A page of the user's own is no result of the tool: a run into its folder leaves it.
+#[test]
+fn a_page_that_no_manifest_lists_is_not_replaced() {
+    let dir = tempfile::tempdir().unwrap();
+    let (folder, page) = (dir.path(), dir.path().join("out/report.html"));
+    fs::create_dir(page.parent().unwrap()).unwrap();
+    fs::write(&page, "of the user").unwrap();
+    let args = ["run", "bouncing-ball", "--end", "0.1", "--out", "out"];
+    assert!(said(folder, &args, 2).contains("holds results (report.html) but no request.json"));
+    assert_eq!(fs::read_to_string(&page).unwrap(), "of the user");
+    said(folder, &[&args[..], &["--force"]].concat(), 0);
+    assert!(fs::read_to_string(&page).unwrap().starts_with("<!doctype html>"));
+}
