@@ -115,7 +115,10 @@ impl StructureVariation {
                 let own = of_wall.map_or(0.0, |wall| wall.stiffness * (place - at.position) + wall.damping * rate);
                 -(at.stiffness * beyond + at.damping * faster + own) / (at.stiffness * rate + at.damping * pull)
             };
-            keys.contacts.set_start(w, number, [later, -at.sign * (faster + pull * later)]);
+            // A force that leaves 0 within the wall begins a contact of a body that moves out of it:
+            // it approaches with speed 0, by every key.
+            let approach = if at.sign * rate < 0.0 { -at.sign * (faster + pull * later) } else { 0.0 };
+            keys.contacts.set_start(w, number, [later, approach]);
             if !on_face {
                 continue;
             }

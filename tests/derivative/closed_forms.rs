@@ -63,6 +63,39 @@ fn impacts_that_accumulate_end_in_a_rest_without_memory() {
     assert_eq!((found.motion.displacement_by[0], found.motion.velocity_by[0], found.ended), (0.0, 0.0, None));
 }
 
+/// A block inside a buffer of stiffness k and dashpot c that leaves too fast for its force, F(t) =
+/// k s + c ṡ < 0, and is pushed back: the contact begins at F = 0 as it still leaves, with approach
+/// speed 0 by every key. With s = s₀ − v t + a t²/2 the instant moves by −(∂F/∂key)/Ḟ.
+#[test]
+fn a_contact_that_begins_within_a_buffer_has_no_approach_speed() {
+    let (m, k, c, v, push) = (1.0, 100.0, 10.0, 2.0, 100.0);
+    let scene = |push: f64, v: f64| {
+        Ok(Scene::oscillator(m, 0.0, 0.0)
+            .with_wall(Wall::upper("buffer", 0.0).with_elasticity(k, c))
+            .with_load(Load::constant(push))
+            // Ends the contact again.
+            .with_load(Load::impulse(-20.0, 0.05))
+            .with_initial(&[0.1], &[-v])
+            .with_duration(0.1))
+    };
+    let keys = [
+        SceneTangent::new("push", push, |push| scene(push, v)).unwrap(),
+        SceneTangent::new("speed", v, |v| scene(push, v)).unwrap(),
+    ];
+    let found = Derivatives::new(&scene(push, v).unwrap(), &keys, &[]).unwrap();
+    let contact = found.contacts.get(0).expect("a contact");
+    // k (0.1 − 2t + 50t²) + c (−2 + 100t) = −10 + 800t + 5000t² = 0.
+    let t = (-800.0 + (800.0 * 800.0 + 4.0 * 5000.0 * 10.0_f64).sqrt()) / 1e4;
+    let rate = k * (-v + push * t) + c * push;
+    // Rounding, over the condition of the root.
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-12 * b.abs(), "{a} {b}");
+    near(contact.contact.start, t);
+    assert_eq!(contact.contact.approach_speed, 0.0);
+    near(contact.start_by[0], -(0.5 * k * t * t + c * t) / rate);
+    near(contact.start_by[1], (k * t + c) / rate);
+    assert_eq!(contact.approach_speed_by, [0.0, 0.0]);
+}
+
 /// A block thrown against a buffer of stiffness k and dashpot c leaves it where the force vanishes,
 /// at e = exp(−ζ (π − 2 asin ζ)/√(1 − ζ²)) … for ζ < 1 by the phase at which k s + c ṡ = 0.
 #[test]
