@@ -92,7 +92,9 @@ impl Growth {
         // Between far walls the free vibration relates speeds to displacements, not the gap: by the
         // gap a vibration without contact would grow.
         let [natural, _] = scene.system.frequencies();
-        let rate = (speed / length).max(natural);
+        // Without a gap, as of a body that starts on an elastic wall, the vibration on the wall does.
+        let pressed = if scene.gap().is_some() { natural } else { natural.hypot(stiffest(scene).sqrt()) };
+        let rate = (speed / length).max(pressed);
         Ok(Self { time, factor: products.iter().map(|m| norm(m, rate)).collect(), source: Source::Saltation })
     }
 
@@ -118,6 +120,12 @@ impl Growth {
         let rows = self.time.iter().zip(&self.factor).filter(|(t, _)| **t <= time);
         rows.map(|(_, f)| if f.is_nan() { LARGEST_GROWTH } else { *f }).fold(1.0, f64::max)
     }
+}
+
+/// The largest stiffness of a wall over the mass that it feels, 1/s².
+fn stiffest(scene: &Scene) -> f64 {
+    let each = scene.walls.iter().zip(scene.wall_masses());
+    each.map(|(wall, mass)| wall.law.tangent(f64::MIN_POSITIVE) / mass).fold(0.0, f64::max)
 }
 
 /// The largest singular value of a 2 × 2 matrix, with velocities counted in units of `rate` (1/s)

@@ -16,7 +16,7 @@
 //! show how far rounding grows, δ is small ([`SMALL`]). The scheme's response to the phase of an
 //! impact within its step separates two of its runs too, and is part of the growth they show.
 
-use super::difference::largest;
+use super::difference::{error_length, largest, worse};
 use super::exact::limit_events;
 use super::growth::{Growth, Source};
 use crate::error::Result;
@@ -65,7 +65,7 @@ pub(super) fn growth(scene: &Scene, method: &Method, step: f64, delta: f64) -> R
 /// The growth along the whole run of `watched`, whose probes are compared every `spacing` seconds.
 fn within(watched: &Scene, method: &Method, step: f64, delta: f64, spacing: f64) -> Result<Growth> {
     let base = record(watched, method, step, spacing, None)?;
-    let length = watched.gap_scale();
+    let length = error_length(watched, &base);
     let speed = largest(base.velocities()).max(length / (spacing * ROWS as f64));
     let directions = if watched.initial.v.len() > 1 { DIRECTIONS } else { 1 };
     let mut start = 0.0_f64;
@@ -102,7 +102,7 @@ fn follow(time: &[f64], w: &[f64], moved: &[f64], (length, speed): (f64, f64), f
         };
         let rate = (row.saturating_sub(2)..row + 2).filter_map(slope).reduce(f64::min).unwrap_or(0.0);
         full |= now.is_nan() || now.abs() > FULL * length;
-        *factor = if full { f64::NAN } else { super::difference::worse(*factor, (now / length).hypot(rate / speed)) };
+        *factor = if full { f64::NAN } else { worse(*factor, (now / length).hypot(rate / speed)) };
     }
 }
 

@@ -108,3 +108,16 @@ fn a_stiff_dashpot_does_not_make_a_motion_unpredictable() {
     assert!(growth.factor.iter().all(|factor| *factor < 5.0), "{:?}", growth.factor);
     assert_eq!(growth.horizon(LARGEST_GROWTH), scene.duration);
 }
+
+/// A block on a pad, a spring and a dashpot beneath it, is a damped oscillator: nothing grows in
+/// it. It starts on the pad and so has no gap that would tell speeds and displacements together.
+#[test]
+fn nothing_grows_in_a_block_on_its_pad() {
+    let block = Scene::oscillator(1.0, 0.0, 0.0)
+        .with_wall(Wall::upper("pad", 0.0).with_elasticity(100.0, 10.0))
+        .with_load(Load::constant(1.0));
+    let growth = Growth::of(&block).unwrap();
+    assert_eq!(growth.horizon(LARGEST_GROWTH), block.duration);
+    // At ζ = ½ a change at most grows by the transient of a damped oscillator.
+    assert!(growth.until(block.duration) < 2.0, "{growth:?}");
+}
