@@ -1,5 +1,7 @@
-//! Whether a body can follow an orbit: it passes through no wall, and walls only push.
+//! Whether a body can follow an orbit: it passes through no wall, and walls only push, and push
+//! whenever they can.
 
+use super::boundary::BoundaryLaw;
 use super::extremes::extremes;
 use super::periodic::Orbit;
 use super::problem::Problem;
@@ -31,6 +33,11 @@ pub struct Admissible {
     /// The least force with which a wall carries a body at rest, N; infinite without a rest. It is
     /// 0 at the release itself, which is left out.
     pub least_push: f64,
+    /// Where an elastic wall with a dashpot comes nearest to letting go of the body within a
+    /// contact, or, behind its face once it has let go, to pushing again; its `gap` is the force
+    /// there over the stiffness of the wall, below 0 where it does so. `None` where no force turns
+    /// back from 0, and for structures.
+    pub nearest_change: Option<Nearest>,
     /// The largest |displacement|, m; of accumulating impacts only the first counts.
     pub largest: f64,
 }
@@ -39,7 +46,8 @@ impl Admissible {
     /// True if a body can follow the orbit.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.least_speed > 0.0 && self.least_push > 0.0 && self.nearest.is_none_or(|nearest| nearest.gap > 0.0)
+        let clear = |nearest: Option<Nearest>| nearest.is_none_or(|nearest| nearest.gap > 0.0);
+        self.least_speed > 0.0 && self.least_push > 0.0 && clear(self.nearest) && clear(self.nearest_change)
     }
 
     /// Why no body can follow the orbit; `None` if one can. `walls` are the names.
@@ -51,9 +59,15 @@ impl Admissible {
         if self.least_push <= 0.0 {
             return Some(format!("a wall pulls the body at rest with {:.3e} N", -self.least_push));
         }
-        let nearest = self.nearest.filter(|nearest| nearest.gap <= 0.0)?;
-        let wall = scene.wall_name(nearest.wall).unwrap_or_default();
-        Some(format!("the motion passes {:.3e} m through wall {wall:?} at {:.6} cycles", -nearest.gap, nearest.phase))
+        let passed = |nearest: &Nearest| nearest.gap <= 0.0;
+        let name = |nearest: Nearest| scene.wall_name(nearest.wall).unwrap_or_default();
+        if let Some(nearest) = self.nearest.filter(passed) {
+            let (wall, gap, phase) = (name(nearest), -nearest.gap, nearest.phase);
+            return Some(format!("the motion passes {gap:.3e} m through wall {wall:?} at {phase:.6} cycles"));
+        }
+        let change = self.nearest_change.filter(passed)?;
+        let (wall, phase) = (name(change), change.phase);
+        Some(format!("wall {wall:?} lets go of the body, or pushes it again, at {phase:.6} cycles"))
     }
 }
 
@@ -67,8 +81,13 @@ impl Problem {
         self.check(orbit)?;
         let signature = &orbit.signature;
         let mut arc = self.arc();
-        let mut found =
-            Admissible { least_speed: f64::INFINITY, nearest: None, least_push: f64::INFINITY, largest: 0.0 };
+        let mut found = Admissible {
+            least_speed: f64::INFINITY,
+            nearest: None,
+            least_push: f64::INFINITY,
+            nearest_change: None,
+            largest: 0.0,
+        };
         if signature.events.is_empty() {
             let cycles = signature.cycles();
             self.fly(&mut arc, self.quiet()?, [0.0, cycles * self.forcing_period()], &[], None);
@@ -96,6 +115,11 @@ impl Problem {
                 _ => {
                     self.fly(&mut arc, from.state, [start, span], &touching[index], None);
                     self.near(&arc, index, orbit.phases[index], &mut found);
+                    let change = self.nearest_change(&arc, index, orbit.phases[index]);
+                    let gap = |nearest: Option<Nearest>| nearest.map_or(f64::INFINITY, |nearest| nearest.gap);
+                    if gap(change) < gap(found.nearest_change) {
+                        found.nearest_change = change;
+                    }
                 }
             }
         }
@@ -103,7 +127,7 @@ impl Problem {
     }
 
     fn near(&self, arc: &Arc, flight: usize, phase: f64, found: &mut Admissible) {
-        extremes(arc, arc.end() - arc.start(), |tau, q, acceleration| {
+        extremes(arc, arc.end() - arc.start(), [1.0, 0.0], |tau, &[q, ..], acceleration| {
             found.largest = found.largest.max(q.abs());
             for (wall, boundary) in self.boundaries().iter().enumerate() {
                 // A wall is approached where the motion turns back from its side.
@@ -117,6 +141,30 @@ impl Problem {
                 }
             }
         });
+    }
+
+    /// Where an elastic wall with a dashpot comes nearest to an event inside the flight of `arc`,
+    /// which event number `flight` begins at `phase` (cycles). Its force is P = k s + c ṡ at depth
+    /// s. While the wall pushes, the least P counts; once it has let go of a body that is still
+    /// behind its face, the largest one.
+    pub(super) fn nearest_change(&self, arc: &Arc, flight: usize, phase: f64) -> Option<Nearest> {
+        let mut found: Option<Nearest> = None;
+        for (wall, boundary) in self.boundaries().iter().enumerate() {
+            let BoundaryLaw::Elastic { stiffness, damping } = boundary.law else { continue };
+            if damping == 0.0 {
+                continue;
+            }
+            let pushes = arc.touching().any(|touching| touching == wall);
+            let away = if pushes { boundary.toward } else { -boundary.toward };
+            extremes(arc, arc.end() - arc.start(), [1.0, damping / stiffness], |tau, &[q, v, ..], curvature| {
+                let turns_back = away * curvature > 0.0 && (pushes || boundary.gap(q) < 0.0);
+                let gap = away * (q - boundary.position + damping / stiffness * v);
+                if turns_back && found.is_none_or(|nearest| gap < nearest.gap) {
+                    found = Some(Nearest { gap, wall, flight, phase: phase + tau / self.forcing_period() });
+                }
+            });
+        }
+        found
     }
 
     /// The least force of `wall` on the body that rests on it, N; over `span` (s) without its end.

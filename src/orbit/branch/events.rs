@@ -33,6 +33,7 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
     let force = problem.body().mass * speed * speed / length;
     let gap = point.admissible.nearest.map_or(1.0, |nearest| nearest.gap / length);
     found.push(Test { label: Label::GrazingIn, event: 0, value: gap });
+    let touching = problem.touching(signature);
     for (index, event) in signature.events.iter().enumerate() {
         let Some(boundary) = problem.boundary(event.wall) else { continue };
         let speed = orbit.speeds[index] / curve.scales.speed;
@@ -46,6 +47,14 @@ pub(super) fn tests(curve: &Curve<'_>, problem: &Problem, point: &Point, y: &Vec
         }
         let state = boundary.after(event.kind, orbit.speeds[index]).state;
         let mut arc = problem.arc();
+        if let (Kind::Enter | Kind::Leave | Kind::Again, BoundaryLaw::Elastic { damping, .. }) =
+            (event.kind, boundary.law)
+            && damping > 0.0
+        {
+            problem.fly(&mut arc, state, [start, lasts * problem.forcing_period()], &touching[index], None);
+            let nearest = problem.nearest_change(&arc, index, orbit.phases[index]);
+            add(Label::ContactEnds, nearest.map_or(1.0, |nearest| nearest.gap / length));
+        }
         match (event.kind, boundary.law) {
             (Kind::Rest, _) => {
                 problem.fly(&mut arc, state, [start, 0.0], &[], Some(event.wall));

@@ -28,7 +28,8 @@ pub enum Label {
     RestBegins,
     /// The duration of a rest has become 0.
     RestEnds,
-    /// The duration of a contact with an elastic wall has become 0.
+    /// The duration of a contact with an elastic wall has become 0; or one of duration 0 begins, or
+    /// a pause of duration 0 within one, where the wall has a dashpot.
     ContactEnds,
     /// Two events coincide: what follows depends on which of them is first.
     Corner,

@@ -230,7 +230,9 @@ impl Traced<'_> {
         });
         let least = least.map(|(i, _)| y[2 * i + 1]).fold(f64::INFINITY, f64::min);
         found.least_speed = if least > -ROUNDING { f64::INFINITY } else { least * self.scales.speed };
-        found.nearest = found.nearest.filter(|nearest| nearest.gap < -ROUNDING * self.scales.length);
+        for nearest in [&mut found.nearest, &mut found.nearest_change] {
+            *nearest = nearest.filter(|nearest| nearest.gap < -ROUNDING * self.scales.length);
+        }
         Ok(found.reason(problem.scene()))
     }
 

@@ -19,6 +19,9 @@ use nalgebra::DVector;
 /// orbits.
 const PROBE: f64 = 1e-4;
 
+/// Half of the duration of a push or pause with which a new branch begins, in [`CYCLE`].
+const SHORT: f64 = 1e-3;
+
 impl Problem {
     /// The shorter orbit that `orbit` repeats, or whose mirror image is its second half, and the
     /// label of the point where a branch of such orbits begins.
@@ -62,7 +65,12 @@ impl<'a> Followed for Curve<'a> {
                 Err(Error::no_orbit("the branch itself goes on beyond"))
             }
             Label::ContactEnds | Label::Corner => {
-                Err(Error::no_orbit(format!("what follows a {} is not known: start from a run beyond it", at.label)))
+                self.divide(&problem, at).or_else(|| self.join(&problem, at)).unwrap_or_else(|| {
+                    Err(Error::no_orbit(format!(
+                        "what follows a {} is not known: start from a run beyond it",
+                        at.label
+                    )))
+                })
             }
         }
     }
@@ -128,6 +136,61 @@ impl<'a> Curve<'a> {
             return Err(Error::no_orbit("no orbit with a short contact was found beside the touching one"));
         }
         Ok(Begin { curve, y, along, both: false })
+    }
+
+    /// Adds a short pause where an elastic wall with a dashpot lets go of the body, or a short push
+    /// where it pushes again behind its face; `None` at another special point.
+    fn divide(&self, problem: &Problem, at: &Passed<Self>) -> Option<Result<Begin<Self>>> {
+        let change = at.point.admissible.nearest_change.filter(|_| at.label == Label::ContactEnds)?;
+        if change.gap.abs() > PROBE * self.scales.length {
+            return None;
+        }
+        let mut orbit = at.point.orbit.clone();
+        let (touching, events) = (problem.touching(&orbit.signature), &orbit.signature.events);
+        let (touching, event, phase) =
+            (touching.get(change.flight)?, events.get(change.flight)?, *orbit.phases.get(change.flight)?);
+        let from = problem.boundary(event.wall)?.after(event.kind, *orbit.speeds.get(change.flight)?).state;
+        let (period, mut arc) = (problem.forcing_period(), problem.arc());
+        problem.fly(&mut arc, from, [phase * period, (change.phase - phase) * period], touching, None);
+        let speed = -problem.boundary(change.wall)?.toward * arc.state(change.phase * period).1;
+        let kinds =
+            if touching.contains(&change.wall) { [Kind::Leave, Kind::Again] } else { [Kind::Again, Kind::Leave] };
+        let index = change.flight + 1;
+        let half = SHORT * CYCLE;
+        for (kind, phase) in kinds.into_iter().zip([change.phase - half, change.phase + half]).rev() {
+            orbit.insert(index, Event { kind, wall: change.wall }, phase, speed);
+        }
+        let curve = self.of(&orbit.signature);
+        let guess = curve.gather(problem, &orbit, at.point.value);
+        // The duration is kept: the equations are singular for duration 0.
+        let share = std::f64::consts::FRAC_1_SQRT_2;
+        let along = DVector::from_fn(guess.len(), |i, _| match i {
+            i if i == 2 * index => -share,
+            i if i == 2 * index + 2 => share,
+            _ => 0.0,
+        });
+        Some(curve.correct(&guess, &along).and_then(|(y, ..)| {
+            if (&y - &guess).norm() > CYCLE {
+                return Err(Error::no_orbit("no orbit with the short push or pause was found beside this one"));
+            }
+            Ok(Begin { curve, y, along, both: false })
+        }))
+    }
+
+    /// Leaves out a pause within a contact with an elastic wall, or a push behind its face, whose
+    /// duration has become 0; `None` at another special point.
+    fn join(&self, problem: &Problem, at: &Passed<Self>) -> Option<Result<Begin<Self>>> {
+        let mut orbit = at.point.orbit.clone();
+        let count = orbit.signature.events.len();
+        let next = (at.event + 1) % count.max(1);
+        let [first, second] = [*orbit.signature.events.get(at.event)?, *orbit.signature.events.get(next)?];
+        let pair = matches!((first.kind, second.kind), (Kind::Leave, Kind::Again) | (Kind::Again, Kind::Leave));
+        if at.label != Label::Corner || first.wall != second.wall || !pair || next == 0 {
+            return None;
+        }
+        orbit.remove(next);
+        orbit.remove(at.event);
+        Some(self.begin(problem, &orbit, at.point.value, Some(at), false))
     }
 
     /// Leaves out the impact whose speed has become 0.

@@ -107,6 +107,7 @@ impl Shots<'_> {
                 phase: touch.phase,
             }),
             least_push: f64::INFINITY,
+            nearest_change: None,
             largest: motion.largest,
         };
         let product = own.iter().fold(Complex::from(1.0), |product, z| product * z).re;
