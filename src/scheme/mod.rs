@@ -75,7 +75,7 @@ pub use counters::Counters;
 pub use entry::{Coverage, Realised, SchemeEntry, SchemeKind};
 pub use equilibrium::equilibrium;
 pub(crate) use exact::{TAIL_CHANGE, TAIL_HEIGHT, TIME_UNITS};
-pub(crate) use fits::check_exact;
+pub(crate) use fits::{check_exact, check_some_scheme};
 pub use handover::Handover;
 pub use method::Method;
 pub use penalty_law::{Integrator, PenaltyLaw};
