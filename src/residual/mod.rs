@@ -293,7 +293,7 @@ impl Judge {
     #[inline(always)]
     fn begin_next_step<S: Simd>(&mut self, simd: S, step: &Step<'_>, n: usize) {
         for walls_of_row in self.wide.iter().filter_map(|&index| self.row_walls.get(index)) {
-            self.extent.speed = self.extent.speed.max(walls_of_row.size(step.velocity_after));
+            self.extent.speed = self.extent.speed.max(walls_of_row.row.size(step.velocity_after));
         }
         self.extent.observe(simd, step.q, step.velocity_after, &self.weights, n);
         self.q[..n].copy_from_slice(&step.q[..n]);
