@@ -85,8 +85,7 @@ impl Interrupt {
     }
 
     /// True once the function has returned true.
-    #[must_use]
-    pub fn is_stopped(&self) -> bool {
+    fn is_stopped(&self) -> bool {
         self.0.stopped.load(Ordering::Relaxed)
     }
 

@@ -21,15 +21,18 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// it may take.
 pub type Asked = (Option<i64>, Option<f64>, Option<i64>);
 
-/// The number of realisations that is asked for.
+/// The number of realisations that is asked for, in at most `most_time` seconds from now on where
+/// that is given.
 ///
 /// # Errors
 /// `ValueError` for numbers that make no sense.
-pub fn asked((seeds, until_interval, most): Asked) -> PyResult<Option<RealisationCount>> {
+pub fn asked((seeds, until_interval, most): Asked, most_time: Option<f64>) -> PyResult<Option<RealisationCount>> {
     let count = |name: &str, count: Option<i64>| {
         count.map(|count| u64::try_from(count).map_err(|_| wrong(name, count, "1 or more realisations"))).transpose()
     };
-    RealisationCount::new(count("seeds", seeds)?, until_interval, count("most_seeds", most)?).map_err(raise)
+    let (seeds, most) = (count("seeds", seeds)?, count("most_seeds", most)?);
+    let limit = most_time.map(TimeLimit::from_now).transpose().map_err(raise)?;
+    RealisationCount::new(seeds, until_interval, most, limit).map_err(raise)
 }
 
 /// How far a study is: runs that are done, in thousandths, and the runs of all batches that have
@@ -54,21 +57,12 @@ impl RunsDone {
     }
 }
 
-/// The number of realisations of `case` that is asked for, in at most `most_time` where there is
-/// one: the seconds from now on, and the runs that a realisation costs.
+/// The number of realisations of `case` that is asked for.
 ///
 /// # Errors
-/// As [`asked`]; `ValueError` for a case without random loads, and for a time that makes no sense.
-pub fn count(given: Asked, most_time: Option<(f64, f64)>, case: &sg::case::Case) -> PyResult<Option<RealisationCount>> {
-    let mut count = asked(given)?;
-    if let Some((seconds, runs_each)) = most_time {
-        let limit = TimeLimit::from_now(seconds).map_err(raise)?.with_runs_each(runs_each);
-        let Some(within @ RealisationCount::Within { .. }) = count else {
-            let expected = "until_interval beside it: it limits the number of its realisations";
-            return Err(wrong("most_time", format!("{seconds:?}"), expected));
-        };
-        count = Some(within.within_time(limit));
-    }
+/// As [`asked`]; `ValueError` for a case without random loads.
+pub fn count(given: Asked, most_time: Option<f64>, case: &sg::case::Case) -> PyResult<Option<RealisationCount>> {
+    let count = asked(given, most_time)?;
     if let Some(count) = count {
         case.check_realisations(count).and_then(|()| case.realisation(count.most())).map_err(raise)?;
     }
@@ -185,7 +179,7 @@ pub fn _realisations<'py>(
         told["accuracy"] = json!(accuracy);
         return loads(py, &told.to_string());
     }
-    let Some(count) = count(asked, most_time.map(|seconds| (seconds, 1.0)), case)? else {
+    let Some(count) = count(asked, most_time, case)? else {
         return Err(wrong("seeds", "missing", "the number of realisations, until_interval or accuracy"));
     };
     let work = || study(case, &plan, (count, checked(verdict)), KnownRealisations::default(), &done);

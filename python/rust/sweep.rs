@@ -188,7 +188,7 @@ fn drawn(sweep: Sweep, random: Option<Drawn>) -> PyResult<Sweep> {
 
 /// `sweep` with rows of so many realisations, where several are asked for.
 fn repeated(sweep: Sweep, given: Asked) -> PyResult<Sweep> {
-    Ok(match realisations::asked(given)? {
+    Ok(match realisations::asked(given, None)? {
         None => sweep,
         Some(RealisationCount::Within { share, most, .. }) => sweep.until_interval(share, Some(most)).map_err(raise)?,
         Some(count) => sweep.realisations(count.most()),

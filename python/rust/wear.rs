@@ -46,8 +46,7 @@ pub fn _wear<'py>(
     // A number beside an interval is refused.
     let beside = histories.filter(|_| within.0.is_some()).map(|count| count as i64);
     let (share, most, most_time) = within;
-    let most_time = most_time.map(|seconds| (seconds, USUAL_WINDOWS));
-    let within = count((beside, share, most), most_time, case)?;
+    let within = count((beside, share, most), most_time, case)?.map(|count| count.with_runs_each(USUAL_WINDOWS));
     let asked = case.histories(histories.map(|count| count as usize)).map_err(raise)?;
     let count = within.unwrap_or(RealisationCount::Exactly(asked as u64));
     let request = WearRequest { case, method: &plan.method, years, count, verdict };

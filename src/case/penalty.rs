@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, Subject};
 use crate::scene::Scene;
-use crate::scheme::{Integrator, PenaltyLaw};
+use crate::scheme::{Integrator, PenaltyLaw, check_some_scheme};
 
 /// The springs that replace the rigid walls in penalty runs. Elastic walls stay as they are.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -29,21 +29,13 @@ impl PenaltyOptions {
     /// # Errors
     /// [`Error::Invalid`] whose subject is a part of the `penalty law` of that number.
     pub fn validate(&self, scene: &Scene) -> Result<()> {
-        if let Some(wall) = scene.nonlinear_wall() {
-            let beside = |what: &str, name: &str, expected: &str| {
-                let value = format!("{}, beside {what} {name:?}", wall.law.kind());
-                Err(Error::invalid(Subject::wall(&wall.name), value, expected))
-            };
-            if let Some(rubs) = scene.walls.iter().find(|wall| wall.friction.acts()) {
-                let expected = "no friction, or walls that are rigid or elastic: no scheme steps both";
-                return beside("the friction at", &rubs.name, expected);
-            }
-            let rigid = scene.walls.iter().find(|wall| wall.law.is_rigid());
-            if let (Some(rigid), [PenaltyLaw::None]) = (rigid, &self.laws[..]) {
-                let expected = "a stiffness or an epsilon in [penalty], for the spring in place of the rigid wall: \
-                                penalties alone step that law";
-                return beside("the rigid wall", &rigid.name, expected);
-            }
+        check_some_scheme(scene)?;
+        let rigid = scene.walls.iter().find(|wall| wall.law.is_rigid());
+        if let (Some(wall), Some(rigid), [PenaltyLaw::None]) = (scene.nonlinear_wall(), rigid, &self.laws[..]) {
+            let value = format!("{}, beside the rigid wall {:?}", wall.law.kind(), rigid.name);
+            let expected = "a stiffness or an epsilon in [penalty], for the spring in place of the rigid wall: \
+                            penalties alone step that law";
+            return Err(Error::invalid(Subject::wall(&wall.name), value, expected));
         }
         for (index, law) in self.laws.iter().enumerate() {
             law.validate(scene).map_err(|error| match error {

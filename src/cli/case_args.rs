@@ -16,6 +16,9 @@ pub struct CaseArgs {
     case: String,
     #[command(flatten)]
     changes: Changes,
+    /// Restitution of every rigid wall and support, 0 to 1
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    restitution: Option<f64>,
 }
 
 /// Finds the case `name`: the file [`CaseFile::found`] in the current folder, else the built-in
@@ -67,11 +70,14 @@ impl CaseArgs {
     ///
     /// # Errors
     /// As [`case_file`] and [`CaseFile::set`]; [`Error::Invalid`] for an argument that is not
-    /// KEY=VALUE.
+    /// KEY=VALUE, and for a restitution where no wall is rigid.
     pub fn file(&self, ui: &Ui) -> Result<CaseFile> {
         let mut file = case_file(&self.case, ui)?;
         for (key, value) in self.changes.pairs()? {
             file.set(&key.parse()?, &value)?;
+        }
+        if let Some(restitution) = self.restitution {
+            set_restitution(&mut file, restitution)?;
         }
         Ok(file)
     }
@@ -80,7 +86,8 @@ impl CaseArgs {
     #[must_use]
     pub fn command_line(&self, command: &str) -> String {
         let sets = self.changes.set.iter().map(|pair| format!(" --set {}", quoted(pair)));
-        format!("signorini {command} {}{}", quoted(&self.case), sets.collect::<String>())
+        let restitution = self.restitution.map(|e| format!(" --restitution {e:?}"));
+        format!("signorini {command} {}{}", quoted(&self.case), sets.chain(restitution).collect::<String>())
     }
 
     /// The case of that file. Says the size of random forces that take time and memory.
@@ -89,16 +96,6 @@ impl CaseArgs {
     /// As [`CaseArgs::file`] and [`CaseFile::case`].
     pub fn read(&self, ui: &Ui) -> Result<Case> {
         built(&self.file(ui)?, ui)
-    }
-
-    /// The same case with another restitution at every rigid wall and support.
-    ///
-    /// # Errors
-    /// As [`CaseArgs::read`], and [`Error::Invalid`] for a case without a rigid wall.
-    pub fn read_with_restitution(&self, restitution: Option<f64>, ui: &Ui) -> Result<Case> {
-        let mut file = self.file(ui)?;
-        set_restitution(&mut file, restitution)?;
-        built(&file, ui)
     }
 }
 
@@ -110,8 +107,7 @@ pub(super) fn built(file: &CaseFile, ui: &Ui) -> Result<Case> {
 }
 
 /// Gives every rigid wall and support that restitution.
-pub(super) fn set_restitution(file: &mut CaseFile, restitution: Option<f64>) -> Result<()> {
-    let Some(restitution) = restitution else { return Ok(()) };
+fn set_restitution(file: &mut CaseFile, restitution: f64) -> Result<()> {
     let keys = file.restitutions()?;
     if keys.is_empty() {
         file.case()?;

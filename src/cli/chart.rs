@@ -44,9 +44,6 @@ pub struct Args {
     /// End of the run, s; the comparison ends earlier where the motion is too sensitive
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     end: Option<f64>,
-    /// Restitution of every rigid wall and support, 0 to 1
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
-    restitution: Option<f64>,
     /// Coarsest and finest step, s [default: a sixteenth of the fastest period, and 1e6 steps,
     /// fewer for many degrees of freedom]
     #[arg(long, value_name = "COARSE:FINE")]
@@ -72,8 +69,7 @@ pub struct Args {
 }
 
 pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
-    let Args { end, restitution, .. } = *args;
-    let settings = Request { case: args.case.clone(), end, restitution, ..Request::default() };
+    let settings = Request { case: args.case.clone(), end: args.end, ..Request::default() };
     let case = settings.read(ui)?;
     let (methods, refused) = match &args.schemes {
         Some(list) => (settings.methods(list, &case)?, Vec::new()),

@@ -166,8 +166,9 @@ fn execute(command: &Command, ui: &Ui) -> Result<()> {
     answer.conclude(ui)
 }
 
-/// The tool's command, for shell completions.
-fn command() -> clap::Command {
+/// The tool's command, for shell completions and tests.
+#[must_use]
+pub fn command() -> clap::Command {
     <Cli as clap::CommandFactory>::command()
 }
 
@@ -177,34 +178,6 @@ mod tests {
     use crate::linear::counted as factored;
     use crate::scene::counted as checked;
     use clap::Parser;
-    use std::path::Path;
-
-    /// The commands of a document: its lines in blocks of shell, without their remarks.
-    fn commands(page: &str) -> Vec<Vec<String>> {
-        let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(page)).unwrap();
-        let shell = text.split("```").skip(1).step_by(2).filter_map(|block| block.strip_prefix("sh\n"));
-        let joined = shell.map(|block| block.replace("\\\n", " ")).collect::<String>();
-        let words = |line: &str| line.split_whitespace().map(|word| word.replace('\'', "")).collect();
-        let lines = joined.lines().map(|line| line.split(" #").next().unwrap_or_default());
-        lines.filter(|line| line.starts_with("signorini ")).map(words).collect()
-    }
-
-    /// The tests of the tool run the commands of the pages for own data; these take minutes.
-    #[test]
-    fn the_commands_of_the_documents_are_known() {
-        let mut known = 0;
-        for page in ["README.md", "cases/README.md", "docs/engineer.md", "docs/orbits.md", "docs/statistics.md"]
-            .into_iter()
-            .chain(["docs/researcher.md", "docs/sweep.md", "docs/holes.md"])
-        {
-            for words in commands(page) {
-                let parsed = Cli::try_parse_from(&words);
-                assert!(parsed.is_ok(), "{page}: {words:?}: {}", parsed.err().unwrap());
-                known += 1;
-            }
-        }
-        assert!(known >= 40, "{known}");
-    }
 
     /// Number of times that `signorini run CASE --scheme moreau-jean --no-verdict` checks a scene,
     /// and the sizes of the matrices that it factors.

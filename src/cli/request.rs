@@ -1,7 +1,7 @@
 //! The arguments of `run`, `compare` and `wear`: the case, its changes, and the settings of
 //! methods.
 
-use super::case_args::{CaseArgs, built, set_restitution};
+use super::case_args::{CaseArgs, built};
 use super::pipeline::Destination;
 use super::ui::Ui;
 use super::values;
@@ -30,9 +30,6 @@ pub struct Request {
     /// the case's, or 1e-3]
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub force_averaging: Option<f64>,
-    /// Restitution of every rigid wall and support, 0 to 1
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
-    pub restitution: Option<f64>,
     /// Modes to keep, in place of the case's
     #[arg(long, value_name = "K")]
     pub modes: Option<i64>,
@@ -83,7 +80,6 @@ impl Request {
             file.remove(&"penalty.damping".parse()?)?;
             file.set(&"penalty.epsilon".parse()?, &KeyValue::from(&[epsilon][..]))?;
         }
-        set_restitution(&mut file, self.restitution)?;
         built(&file, ui)
     }
 

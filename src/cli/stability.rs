@@ -52,9 +52,6 @@ const KAPPA: f64 = 0.1;
 pub struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// Restitution of every rigid wall and support, 0 to 1
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
-    restitution: Option<f64>,
     /// Most steps of a run of a map: it takes that much longer, and its finest steps are that much
     /// finer [default: 1e6, for many degrees of freedom fewer]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1000..=1_000_000_000))]
@@ -69,7 +66,7 @@ pub struct Args {
 /// A case that makes no sense or has no wall, a folder that cannot be written, a reference run that
 /// fails.
 pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
-    let case = args.case.read_with_restitution(args.restitution, ui)?;
+    let case = args.case.read(ui)?;
     let asked = extended(request("stability", &case, &[]), json!({ "most_steps": args.most_steps }));
     let mut results = args.place.open(&case, "stability", asked)?;
     let question = MapRequest { scene: &case.scene, laws: &case.penalty.laws };

@@ -4,7 +4,7 @@ use super::command_line::command_line;
 use super::estimate::DurationEstimate;
 use super::first_window::first_window;
 use super::pipeline::Answer;
-use super::realisations::{self, StudyRequest, failed_checks, not_checked, of_argument, seconds};
+use super::realisations::{self, StudyRequest, failed_checks, not_checked, of_argument};
 use super::request::Request;
 use super::run::Seeds;
 use super::ui::Ui;
@@ -17,7 +17,7 @@ use crate::output::wear_journal::WindowJournal;
 use crate::output::{wear_history as output, wear_remarks};
 use crate::run::Options;
 use crate::scheme::Method;
-use crate::study::realisations::{Realisation, RealisationCount, TimeLimit};
+use crate::study::realisations::{Realisation, RealisationCount};
 use crate::study::wear_history::{USUAL_WINDOWS, WearHistories, WearPlan, WearingSupport};
 use crate::wear::Opening;
 use serde_json::json;
@@ -131,11 +131,9 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
 impl Args {
     /// The number of histories that an interval takes, where one is asked for.
     fn within(&self, case: &Case) -> Result<Option<RealisationCount>> {
-        let limit = self.most_time.as_ref().map(|text| TimeLimit::from_now(seconds("--most-time", text)?));
-        let limit = limit.transpose()?.map(|limit| limit.with_runs_each(USUAL_WINDOWS));
-        let until_interval = self.until_interval.clone();
-        let seeds = Seeds { until_interval, most_seeds: self.most_seeds, ..Seeds::default() };
-        Ok(seeds.check(case)?.map(|count| limit.map_or(count, |limit| count.within_time(limit))))
+        let (until_interval, most_time) = (self.until_interval.clone(), self.most_time.clone());
+        let seeds = Seeds { count: None, until_interval, most_seeds: self.most_seeds, most_time };
+        Ok(seeds.check(case)?.map(|count| count.with_runs_each(USUAL_WINDOWS)))
     }
 }
 

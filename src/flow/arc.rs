@@ -186,8 +186,7 @@ impl Arc {
     }
 
     /// Impulse of the load over [from, to] within the arc, N s.
-    #[must_use]
-    pub fn load_impulse(&self, from: f64, to: f64) -> f64 {
+    pub(crate) fn load_impulse(&self, from: f64, to: f64) -> f64 {
         self.force.integral(self.since(from), self.since(to))
     }
 

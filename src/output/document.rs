@@ -2,10 +2,11 @@
 //! missing or not finite is null.
 
 use super::request::program;
+use super::work_precision::failure;
 use crate::case::Case;
 use crate::study::stability::lasting::{LastingForce, Quality};
 use crate::study::stability::plan::Maps;
-use crate::study::work_precision::{Errors, Measured, MethodPoints, Outcome, Point, WorkPrecision};
+use crate::study::work_precision::{Errors, Measured, MethodPoints, Point, WorkPrecision};
 use serde_json::{Value, json};
 
 /// `value`, an object, with the keys that every document has: program and case.
@@ -66,11 +67,7 @@ fn point(point: &Point, walls: &[&str]) -> Value {
         "errors_against_own_springs": measured.and_then(|m| m.own.as_ref()).map(|own| errors(own, walls)),
         "counters": measured.map(|m| m.counters),
         "notes": measured.map(|m| &m.notes),
-        "failure": match &point.outcome {
-            Outcome::Failed(error) => Some(error.to_string()),
-            Outcome::LeftOut(seconds) => Some(format!("left out: it would take about {seconds:.1} s")),
-            Outcome::Ran(_) => None,
-        },
+        "failure": failure(&point.outcome, ""),
     })
 }
 

@@ -86,15 +86,20 @@ fn header() -> Vec<String> {
     header
 }
 
+/// Why a point has no numbers, an error after the word `failed`; `None` where it has them.
+pub(super) fn failure(outcome: &Outcome, failed: &str) -> Option<String> {
+    match outcome {
+        Outcome::Failed(error) => Some(format!("{failed}{error}")),
+        Outcome::LeftOut(seconds) => Some(format!("left out: it would take about {seconds:.1} s")),
+        Outcome::Ran(_) => None,
+    }
+}
+
 fn row(chart: &WorkPrecision, method: &Method, point: &Point, front: &[(f64, f64)]) -> Vec<String> {
     let mut row = vec![method.to_string(), number(point.step)];
     let Some(m) = point.measured() else {
         row.resize(header().len() - 1, String::new());
-        row.push(match &point.outcome {
-            Outcome::Failed(error) => format!("failed: {error}"),
-            Outcome::LeftOut(seconds) => format!("left out: it would take about {seconds:.1} s"),
-            Outcome::Ran(_) => String::new(),
-        });
+        row.push(failure(&point.outcome, "failed: ").unwrap_or_default());
         return row;
     };
     let errors = |e: Option<&Errors>| {

@@ -154,20 +154,23 @@ impl Rhs<'_> {
     /// Checks that l < +∞, u > −∞, and that no row's own bounds cross by more than rounding, for
     /// the rows `bounded`.
     fn check(&self, scale: f64, bounded: impl IntoIterator<Item = usize>) -> Result<(), Failure> {
-        for row in bounded {
-            let (lo, hi) = (self.lo[row], self.hi[row]);
-            if lo.is_nan() || lo == f64::INFINITY {
-                return Err(Failure::NotFinite { what: "lower bound", index: row });
-            }
-            if hi.is_nan() || hi == f64::NEG_INFINITY {
-                return Err(Failure::NotFinite { what: "upper bound", index: row });
-            }
-            if lo > hi && lo - hi > ROUNDING * scale.max(lo.abs()).max(hi.abs()) {
-                return Err(Failure::Infeasible { row, against: row });
-            }
-        }
-        Ok(())
+        bounded.into_iter().try_for_each(|row| check_bounds(row, self.lo[row], self.hi[row], scale))
     }
+}
+
+/// The same for one row.
+#[inline]
+fn check_bounds(row: usize, lo: f64, hi: f64, scale: f64) -> Result<(), Failure> {
+    if lo.is_nan() || lo == f64::INFINITY {
+        return Err(Failure::NotFinite { what: "lower bound", index: row });
+    }
+    if hi.is_nan() || hi == f64::NEG_INFINITY {
+        return Err(Failure::NotFinite { what: "upper bound", index: row });
+    }
+    if lo > hi && lo - hi > ROUNDING * scale.max(lo.abs()).max(hi.abs()) {
+        return Err(Failure::Infeasible { row, against: row });
+    }
+    Ok(())
 }
 
 /// Checks that every entry of a programme is finite, and no compliance negative.

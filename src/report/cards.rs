@@ -7,7 +7,7 @@ use crate::case::UNSTABLE;
 use crate::residual::Refuted;
 use crate::run::notes::{NO_CONTACT, UNRESOLVED_LOAD};
 use crate::study::verdict::largest_change;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 /// Changes by refinement up to this share need no attention, and energy unaccounted for up to this
@@ -26,7 +26,8 @@ pub(super) fn cards(summary: &Value) -> Vec<Value> {
 }
 
 /// The state of a card: the promise is kept, needs attention, is broken, or was not checked.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub(super) enum State {
     Good,
     Mind,
@@ -35,12 +36,6 @@ pub(super) enum State {
 }
 
 pub(super) fn card(title: &str, state: State, verdict: String, text: String) -> Value {
-    let state = match state {
-        State::Good => "good",
-        State::Mind => "mind",
-        State::Bad => "bad",
-        State::Open => "open",
-    };
     json!({ "title": title, "state": state, "verdict": verdict, "text": text })
 }
 
@@ -294,19 +289,11 @@ fn contact(summary: &Value) -> Value {
     let broken = broken(summary, Promise::Contact);
     if let (true, Some(note)) = (broken.is_empty(), note(summary, NO_CONTACT)) {
         let text = note.trim_start_matches(NO_CONTACT).trim_start_matches([':', ',', ' ']);
-        return card(
-            "Contact conditions",
-            State::Mind,
-            "No contact at all".to_owned(),
-            format!("In this run: {text}."),
-        );
+        let (verdict, text) = ("No contact at all".to_owned(), format!("In this run: {text}."));
+        return card("Contact conditions", State::Mind, verdict, text);
     }
-    let text = format!(
-        "Deepest {} µm behind a rigid wall; strongest pull {} N.",
-        short(1e6 * number(&residuals["penetration_m"])),
-        short(number(&residuals["tension_n"]))
-    );
-    let depth = number(&residuals["penetration_m"]);
+    let [depth, pull] = ["penetration_m", "tension_n"].map(|key| number(&residuals[key]));
+    let text = format!("Deepest {} µm behind a rigid wall; strongest pull {} N.", short(1e6 * depth), short(pull));
     if broken.is_empty() && depth > 0.0 && summary["scheme"].as_str().is_some_and(|name| name.starts_with("penalty")) {
         let deep = depth > SMALL * number(&summary["refinement"]["length_m"]);
         let verdict = format!("The springs in place of rigid walls give way by up to {} µm", short(1e6 * depth));

@@ -63,8 +63,7 @@ impl Judge {
         }
         self.noise.state(&[running_max(-low, high)], &[fastest], 0.0, &self.weights);
         // In flight, most instants are in front of all walls.
-        let clear =
-            |walls_of_row: &RowWalls| walls_of_row.is_clear((walls_of_row.of(&[low]), walls_of_row.of(&[high])), 0.0);
+        let clear = |walls: &RowWalls| walls.is_clear((walls.row.of(&[low]), walls.row.of(&[high])), 0.0);
         if arc.is_rest() || arc.touches() || !self.row_walls.iter().all(clear) {
             (0..at.count).for_each(|k| self.sample_walls(arc, k, at, along));
         }

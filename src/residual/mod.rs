@@ -125,6 +125,8 @@ pub struct Judge {
     series: SeriesScratch,
     /// Impulses over a part of a step, one entry a wall, N s.
     over: Vec<f64>,
+    /// Friction over a part of a step, or at its end, N s.
+    rubbed: Vec<f64>,
     /// The vector instructions of the machine.
     arch: pulp::Arch,
     /// Work space for several steps at once; `None` where each is to be seen alone.
@@ -181,8 +183,7 @@ impl Judge {
         let (q, v) = (fit(q), fit(v));
         let walls = WallCheck::new(scene, &q, &v);
         let grid_load = scene.is_line().then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
-        let row_walls = RowWalls::all(scene);
-        let (weights, blows) = (Weights::new(scene), loads.has_blows());
+        let (row_walls, weights, blows) = (RowWalls::all(scene), Weights::new(scene), loads.has_blows());
         let mut noise = NoiseModel::new(&weights, masses, scene.gap_scale());
         noise.begin(h, 0.0);
         Self {
@@ -210,6 +211,7 @@ impl Judge {
             scratch: Scratch::new(n),
             series: SeriesScratch::new(n),
             over: vec![0.0; scene.walls.len()],
+            rubbed: Vec::new(),
             arch: pulp::Arch::new(),
             quiet_scratch: QuietScratch::new(scene, contract, &weights, blows),
             balance: BalanceCheck::default(),
@@ -291,7 +293,7 @@ impl Judge {
     #[inline(always)]
     fn begin_next_step<S: Simd>(&mut self, simd: S, step: &Step<'_>, n: usize) {
         for walls_of_row in self.wide.iter().filter_map(|&index| self.row_walls.get(index)) {
-            self.extent.speed = self.extent.speed.max(walls_of_row.size(step.velocity_after));
+            self.extent.speed = self.extent.speed.max(walls_of_row.row.size(step.velocity_after));
         }
         self.extent.observe(simd, step.q, step.velocity_after, &self.weights, n);
         self.q[..n].copy_from_slice(&step.q[..n]);

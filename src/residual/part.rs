@@ -41,11 +41,14 @@ impl Judge {
             self.contract.promise.rigid.velocity = None;
             self.h = length;
             let before = self.balance.largest_so_far();
-            let rubbed = self.supports.as_mut().map(|supports| supports.friction_over(step));
-            let friction = rubbed.as_deref().unwrap_or(step.friction);
-            self.observe_grid(&Step { v: step.velocity_after, impulse: &over, friction, ..*step });
-            if let (Some(supports), Some(rubbed)) = (&mut self.supports, rubbed) {
-                supports.keep_part(rubbed, step, (length, h));
+            if let Some(supports) = &mut self.supports {
+                supports.begin_part();
+            }
+            let friction = self.part_friction(step, false);
+            self.observe_grid(&Step { v: step.velocity_after, impulse: &over, friction: &friction, ..*step });
+            self.rubbed = friction;
+            if let Some(supports) = &mut self.supports {
+                supports.keep_part(step, (length, h));
             }
             self.balance.spread_over_step(before, length / h);
             (self.contract, self.h) = (own, h);
@@ -60,6 +63,16 @@ impl Judge {
         }
     }
 
+    /// The friction over a part, or that at its end, where a wall with an impulse there has it; the
+    /// vector is that of `rubbed`.
+    fn part_friction(&mut self, step: &Step<'_>, at_end: bool) -> Vec<f64> {
+        let mut friction = std::mem::take(&mut self.rubbed);
+        friction.clear();
+        let part = |(f, jump): (&f64, &f64)| if (*jump != 0.0) == at_end { *f } else { 0.0 };
+        friction.extend(step.friction.iter().zip(step.jump).map(part));
+        friction
+    }
+
     /// Checks the jump of the velocity at the end of a part of `length` seconds.
     fn observe_jump(&mut self, step: &Step<'_>, length: f64) {
         self.noise.begin(self.h, step.end);
@@ -67,10 +80,11 @@ impl Judge {
         for index in 0..self.scene.walls.len() {
             self.rebound_at_end(step, length, index);
         }
-        let friction = self.supports.as_ref().map_or_else(Vec::new, |supports| supports.friction_at_end(step));
+        let friction = self.part_friction(step, true);
         let at_end = Step { velocity_after: step.v, impulse: step.jump, friction: &friction, ..*step };
         self.supports_at_end(step, &at_end);
         self.jump_momentum(step, &at_end);
+        self.rubbed = friction;
         let mid: Vec<f64> = step.velocity_after.iter().zip(&self.blows.struck).map(|(v, struck)| v + struck).collect();
         let (blow, left) = (&self.blows.impulse, step.velocity_after);
         self.energy.observe_series(step, Moved::default(), blow, left, &mid);

@@ -18,7 +18,7 @@ pub(super) struct RowMotion {
 /// The walls of one row.
 #[derive(Debug, Clone)]
 pub(super) struct RowWalls {
-    row: View,
+    pub row: View,
     /// The open interval, m, in which no wall is touched.
     clear: (f64, f64),
     /// Their indices.
@@ -45,23 +45,11 @@ impl RowWalls {
         row_walls
     }
 
-    /// The row times `x`.
-    #[inline(always)]
-    pub fn of(&self, x: &[f64]) -> f64 {
-        self.row.of(x)
-    }
-
     /// What the row does in a step that begins at the displacement `start` (m).
     #[inline(always)]
     pub fn seen(&self, step: &Step<'_>, start: &[f64]) -> RowMotion {
         let [start, end, before, after] = self.row.each([start, step.q, step.velocity_before, step.velocity_after]);
         RowMotion { start, end, before, after }
-    }
-
-    /// The sum of the sizes of the terms of the row times `x`.
-    #[inline(always)]
-    pub fn size(&self, x: &[f64]) -> f64 {
-        self.row.size(x)
     }
 
     /// True if the row reaches several degrees of freedom and one of its walls is rigid.
@@ -124,8 +112,8 @@ mod tests {
         let x: Vec<f64> = (0..10).map(|i| 1.25 - 0.75 * f64::from(i * i % 7)).collect();
         for (walls_of_row, row) in row_walls.iter().zip(&rows) {
             let terms: Vec<f64> = row.entries().iter().map(|&(i, weight)| weight * x[i]).collect();
-            assert_eq!(walls_of_row.of(&x), terms.iter().sum::<f64>(), "{row:?}");
-            assert_eq!(walls_of_row.size(&x), terms.iter().map(|term| term.abs()).sum::<f64>(), "{row:?}");
+            assert_eq!(walls_of_row.row.of(&x), terms.iter().sum::<f64>(), "{row:?}");
+            assert_eq!(walls_of_row.row.size(&x), terms.iter().map(|term| term.abs()).sum::<f64>(), "{row:?}");
         }
         let scene = walls(&rows);
         let wide: Vec<bool> = row_walls.iter().map(|walls_of_row| walls_of_row.is_wide(&scene)).collect();

@@ -34,8 +34,6 @@ pub(super) struct Supports {
     pub size: Vec<f64>,
     /// The sums of the round walls as the recorder has them, in their order, if told.
     pub recorded: Option<Vec<[f64; 2]>>,
-    /// Friction over a part of a step without that at its end, N s.
-    rubbed: Vec<f64>,
     /// Velocities that enter and leave the balance of the step at the place of each wall that
     /// pushes or rubs, m/s.
     pub rates: Vec<[[f64; 2]; 2]>,
@@ -64,23 +62,13 @@ impl Supports {
         }))
     }
 
-    /// The friction over a part: a wall with an impulse at its end has its friction there.
-    pub fn friction_over(&mut self, step: &Step<'_>) -> Vec<f64> {
+    /// A part of a step begins.
+    pub fn begin_part(&mut self) {
         self.slid_before.clone_from(&self.slid);
-        let mut rubbed = std::mem::take(&mut self.rubbed);
-        rubbed.clear();
-        rubbed.extend(step.friction.iter().zip(step.jump).map(|(f, jump)| if *jump == 0.0 { *f } else { 0.0 }));
-        rubbed
     }
 
-    /// The friction at the end of a part.
-    pub fn friction_at_end(&self, step: &Step<'_>) -> Vec<f64> {
-        step.friction.iter().zip(step.jump).map(|(f, jump)| if *jump == 0.0 { 0.0 } else { *f }).collect()
-    }
-
-    /// Keeps a part of `length` seconds of a step of `h` seconds, whose friction was `rubbed`.
-    pub fn keep_part(&mut self, rubbed: Vec<f64>, step: &Step<'_>, (length, h): (f64, f64)) {
-        self.rubbed = rubbed;
+    /// Keeps a part of `length` seconds of a step of `h` seconds.
+    pub fn keep_part(&mut self, step: &Step<'_>, (length, h): (f64, f64)) {
         // In the last roundings before a blow there is no acceleration to tell.
         if length > INSTANT * h {
             self.length = length;

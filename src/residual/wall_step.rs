@@ -33,11 +33,11 @@ impl Judge {
                 step.impulse[wall] == 0.0 && step.force[wall] == 0.0 && self.walls.last_force[wall] == 0.0
             };
             if !beyond && walls_of_row.walls.iter().all(still) {
-                let mut rate = walls_of_row.of(step.velocity_before).abs();
+                let mut rate = walls_of_row.row.of(step.velocity_before).abs();
                 if blows {
-                    rate += walls_of_row.of(&self.blows.struck).abs();
+                    rate += walls_of_row.row.of(&self.blows.struck).abs();
                 }
-                if walls_of_row.is_clear((walls_of_row.of(&self.q), walls_of_row.of(step.q)), self.h * rate) {
+                if walls_of_row.is_clear((walls_of_row.row.of(&self.q), walls_of_row.row.of(step.q)), self.h * rate) {
                     continue;
                 }
             }

@@ -145,7 +145,7 @@ impl Diverged {
 /// Energy of motion and of all springs at `state`, J.
 fn energy(scene: &Scene, State { q, v }: &State) -> f64 {
     let walls: f64 = scene.walls.iter().map(|wall| wall.law.energy(-wall.gap(wall.coordinate(q)))).sum();
-    0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + walls
+    scene.system.energy(q, v) + walls
 }
 
 /// Bounds on the impulse of all loads on each degree of freedom, N s; `of` gives that of a load.

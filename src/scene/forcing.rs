@@ -111,8 +111,7 @@ impl Forcing {
 
     /// A bound on the rate of change of the force between the jumps of tables, N/s; functions are
     /// not included.
-    #[must_use]
-    pub fn steepest(&self) -> f64 {
+    pub(crate) fn steepest(&self) -> f64 {
         let waves: f64 = self.harmonics.iter().map(|h| h.amplitude.abs() * h.omega).sum();
         let rise = |t: &[f64], f: &[f64]| ((f[1] - f[0]) / (t[1] - t[0])).abs();
         let pieces = |table: &Table| {
@@ -134,24 +133,21 @@ impl Forcing {
 
     /// Moment of the impulses in (from, to] about `about` (s), Σ (about − t_b) J_b, N s²: divided
     /// by the mass, the displacement that they give a free body until then.
-    #[must_use]
-    pub fn impulse_moment(&self, from: f64, to: f64, about: f64) -> f64 {
+    pub(crate) fn impulse_moment(&self, from: f64, to: f64, about: f64) -> f64 {
         self.impulses.iter().filter(|&&(t, _)| t > from && t <= to).map(|&(t, p)| (about - t) * p).sum()
     }
 
     /// Sum of the impulses within half a step `h` (s) of the instant `step` · h, N s: each impulse
     /// after t = 0 belongs to exactly one step.
     #[inline]
-    #[must_use]
-    pub fn impulse_about(&self, step: u64, h: f64) -> f64 {
+    pub(crate) fn impulse_about(&self, step: u64, h: f64) -> f64 {
         self.impulse_about_since(0.0, step, h)
     }
 
     /// The same for the impulses after the time `since` (s) only: where a motion was set to a new
     /// state, that state includes the earlier ones.
     #[inline]
-    #[must_use]
-    pub fn impulse_about_since(&self, since: f64, step: u64, h: f64) -> f64 {
+    pub(crate) fn impulse_about_since(&self, since: f64, step: u64, h: f64) -> f64 {
         // The limit between two steps is computed as the same product for both: t − h/2 of one and
         // t + h/2 of the other would differ in the last digit.
         let edge = |half_steps: f64| (half_steps * h).max(since);
@@ -159,8 +155,7 @@ impl Forcing {
     }
 
     /// Sum of the impulses at t = 0, N s; the run starts from the state after them.
-    #[must_use]
-    pub fn initial_impulse(&self) -> f64 {
+    pub(crate) fn initial_impulse(&self) -> f64 {
         self.impulses.iter().filter(|&&(t, _)| t == 0.0).map(|&(_, p)| p).sum()
     }
 }

@@ -86,24 +86,24 @@ impl Loads {
 
     /// Writes the moment of the blows in (from, to] about `about` (s) to `out`, N s², as
     /// [`Forcing::impulse_moment`]. Returns whether it is not zero.
-    pub fn blow_moment(&self, from: f64, to: f64, about: f64, out: &mut [f64]) -> bool {
+    pub(crate) fn blow_moment(&self, from: f64, to: f64, about: f64, out: &mut [f64]) -> bool {
         self.blow_by(|forcing| forcing.impulse_moment(from, to, about), out)
     }
 
     /// Writes the sum of the blows within half a step `h` (s) of the instant `step` · h to `out`,
     /// as [`Forcing::impulse_about`]. Returns whether there is one.
-    pub fn blow_about(&self, step: u64, h: f64, out: &mut [f64]) -> bool {
+    pub(crate) fn blow_about(&self, step: u64, h: f64, out: &mut [f64]) -> bool {
         self.blow_by(|forcing| forcing.impulse_about(step, h), out)
     }
 
     /// The same for the blows after the time `since` (s) only, as [`Forcing::impulse_about_since`].
-    pub fn blow_about_since(&self, since: f64, step: u64, h: f64, out: &mut [f64]) -> bool {
+    pub(crate) fn blow_about_since(&self, since: f64, step: u64, h: f64, out: &mut [f64]) -> bool {
         self.blow_by(|forcing| forcing.impulse_about_since(since, step, h), out)
     }
 
     /// Writes the blows at t = 0 to `out`, N s: the start is the state after them. Returns whether
     /// there is one.
-    pub fn initial_blow(&self, out: &mut [f64]) -> bool {
+    pub(crate) fn initial_blow(&self, out: &mut [f64]) -> bool {
         self.blow_by(Forcing::initial_impulse, out)
     }
 

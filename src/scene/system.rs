@@ -82,6 +82,11 @@ impl System {
         }
     }
 
+    /// ½vᵀMv + ½qᵀKq: kinetic and strain energy at a state, without walls, J.
+    pub(crate) fn energy(&self, q: &[f64], v: &[f64]) -> f64 {
+        0.5 * (self.mass_form(v, v) + self.stiffness_form(q, q))
+    }
+
     /// Adds `scale` M x to `out`, both of length n.
     pub fn add_mass(&self, scale: f64, x: &[f64], out: &mut [f64]) {
         match self {

@@ -57,6 +57,19 @@ fn nonlinear_wall(scene: &Scene, scheme: Scheme) -> Option<&Wall> {
     scene.nonlinear_wall().filter(|_| scheme.entry().kind != SchemeKind::Penalty)
 }
 
+/// Refuses a scene that no scheme steps: penalties, which alone step a law that is not linear, have
+/// no friction.
+///
+/// # Errors
+/// [`Error::Invalid`] whose subject is the wall with that law.
+pub(crate) fn check_some_scheme(scene: &Scene) -> Result<()> {
+    let rubs = scene.walls.iter().find(|wall| wall.friction.acts());
+    let (Some(wall), Some(rubs)) = (scene.nonlinear_wall(), rubs) else { return Ok(()) };
+    let value = format!("{}, beside the friction at {:?}", wall.law.kind(), rubs.name);
+    let expected = "no friction, or walls that are rigid or elastic: no scheme steps both";
+    Err(Error::invalid(Subject::wall(&wall.name), value, expected))
+}
+
 /// What would be accepted in place of what is refused: one of `schemes`, or the scene without it.
 fn expected(schemes: &[&str], refusal: &Refusal) -> String {
     let mut choices = [schemes, refusal.instead].concat();
@@ -90,6 +103,7 @@ pub(crate) fn check_exact(scene: &Scene, asked: impl Display) -> Result<()> {
 /// # Errors
 /// [`Error::Invalid`]: what of the scene it is, and what would be accepted.
 pub(super) fn check(scene: &Scene, Method { scheme, backend }: Method) -> Result<()> {
+    check_some_scheme(scene)?;
     if let Some(wall) = nonlinear_wall(scene, scheme) {
         let expected = "a rigid or an elastic wall, or the scheme penalty, which steps through that law";
         return Err(Error::invalid(Subject::wall(&wall.name).part("law"), wall.law.kind(), expected));

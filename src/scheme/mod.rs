@@ -76,6 +76,8 @@ pub use entry::{Coverage, Realised, SchemeEntry, SchemeKind};
 pub use equilibrium::equilibrium;
 pub(crate) use exact::{TAIL_CHANGE, TAIL_HEIGHT, TIME_UNITS};
 pub(crate) use fits::check_exact;
+#[cfg(feature = "case")]
+pub(crate) use fits::check_some_scheme;
 pub use handover::Handover;
 pub use method::Method;
 pub use penalty_law::{Integrator, PenaltyLaw};

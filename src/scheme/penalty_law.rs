@@ -68,8 +68,7 @@ impl PenaltyLaw {
     }
 
     /// True for a spring without damping, which conserves energy.
-    #[must_use]
-    pub fn is_lossless(&self) -> bool {
+    pub(crate) fn is_lossless(&self) -> bool {
         !matches!(*self, Self::Linear { damping, .. } if damping > 0.0)
     }
 

@@ -213,8 +213,7 @@ impl Statistics {
     }
 
     /// Adds what slides at supports, as summed step by step.
-    #[must_use]
-    pub fn with_wear(mut self, wear: &WearTally) -> Self {
+    pub(crate) fn with_wear(mut self, wear: &WearTally) -> Self {
         self.wear = wear.statistics();
         let means = self.means();
         for (index, own) in self.wear.iter().enumerate().filter(|(_, own)| own.work_rate_half_width_95_w.is_some()) {

@@ -223,8 +223,7 @@ fn number(scene: &Scene, contacts: &[Contact], wall: usize, from: f64) -> Option
 
 /// The time (s) up to which the displacements of two runs with the same rows agree at every probe
 /// to within `tolerance` of the gap, or without one of the largest displacement.
-#[must_use]
-pub fn agree_until(scene: &Scene, run: &Trajectory, against: &Trajectory, tolerance: f64) -> f64 {
+pub(crate) fn agree_until(scene: &Scene, run: &Trajectory, against: &Trajectory, tolerance: f64) -> f64 {
     let length = difference::error_length(scene, against);
     if against.displacements().is_empty() {
         return scene.duration;

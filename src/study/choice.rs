@@ -65,8 +65,7 @@ pub fn choose(scene: &Scene) -> Choice {
 /// The method for an error named beforehand, given the outcome of the exact scheme on `scene`: the
 /// exact scheme where it succeeds, since no stepping scheme is as cheap at any error; else the
 /// stepping scheme that converges fastest for these walls.
-#[must_use]
-pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
+pub(crate) fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
     let run = match exact {
         Ok(run) => run,
         Err(error) => {
@@ -98,8 +97,7 @@ pub fn for_error(scene: &Scene, exact: &Result<Run>) -> Choice {
 
 /// The stepping scheme that converges fastest for the walls of `scene`: for an error named
 /// beforehand, and for runs with finer steps that others are compared with.
-#[must_use]
-pub fn stepping_for_error(scene: &Scene) -> Choice {
+pub(crate) fn stepping_for_error(scene: &Scene) -> Choice {
     if scene.nonlinear_wall().is_some() {
         return choose(scene);
     }

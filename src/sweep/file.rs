@@ -126,7 +126,7 @@ impl Sweep {
         let (share, most) = (run.number(UNTIL_INTERVAL), run.whole_number(MOST_SEEDS, MOST_WHOLE)?);
         sweep.realisations = match (share, most) {
             (None, None) => seeds.map(RealisationCount::Exactly),
-            _ => RealisationCount::new(seeds, share, most)?,
+            _ => RealisationCount::new(seeds, share, most, None)?,
         };
         Ok(sweep)
     }

@@ -250,7 +250,7 @@ impl Sweep {
     /// # Errors
     /// As [`RealisationCount::new`].
     pub fn until_interval(mut self, share: f64, most: Option<u64>) -> Result<Self> {
-        self.realisations = RealisationCount::new(None, Some(share), most)?;
+        self.realisations = RealisationCount::new(None, Some(share), most, None)?;
         Ok(self)
     }
 

@@ -30,8 +30,7 @@ fn segment(alpha: f64) -> f64 {
 
 /// Area (m²) of the segment that a flat cuts off a tube of radius `radius` (m) at `depth` (m), from
 /// 0 to twice the radius.
-#[must_use]
-pub fn flat_area(depth: f64, radius: f64) -> f64 {
+pub(super) fn flat_area(depth: f64, radius: f64) -> f64 {
     let share = (depth / (2.0 * radius)).clamp(0.0, 1.0);
     radius * radius * segment(2.0 * share.sqrt().asin())
 }
@@ -39,8 +38,7 @@ pub fn flat_area(depth: f64, radius: f64) -> f64 {
 /// Area (m²) of the moon by which a tube of radius `radius` (m) lies outside a hole that is wider
 /// by the radial gap `gap` (m, above 0), when it is moved by `depth` (m) beyond touching; from 0 to
 /// twice the radius.
-#[must_use]
-pub fn moon_area(depth: f64, radius: f64, gap: f64) -> f64 {
+fn moon_area(depth: f64, radius: f64, gap: f64) -> f64 {
     let depth = depth.clamp(0.0, 2.0 * radius);
     let [alpha, beta] = half_angles(depth, radius, gap);
     let hole = radius + gap;
@@ -66,8 +64,7 @@ fn half_angles(depth: f64, radius: f64, gap: f64) -> [f64; 2] {
 /// let (flat, hole) = (flat_depth(30e-9, 25e-3, 9.525e-3), moon_depth(30e-9, 25e-3, 9.525e-3, 0.2e-3));
 /// assert!((flat.unwrap() - 0.350e-3).abs() < 1e-6 && (hole.unwrap() - 0.109e-3).abs() < 1e-6);
 /// ```
-#[must_use]
-pub fn flat_depth(volume: f64, width: f64, radius: f64) -> Option<f64> {
+pub(super) fn flat_depth(volume: f64, width: f64, radius: f64) -> Option<f64> {
     let sound = volume >= 0.0 && [width, radius].iter().all(|x| x.is_finite() && *x > 0.0);
     let slope = |depth: f64| 2.0 * (depth * (2.0 * radius - depth)).max(0.0).sqrt();
     sound.then(|| depth_of(volume / width, radius, |depth| flat_area(depth, radius), slope)).flatten()
@@ -75,8 +72,7 @@ pub fn flat_depth(volume: f64, width: f64, radius: f64) -> Option<f64> {
 
 /// As [`flat_depth`], in a round hole that is wider than the tube by the radial gap `gap` (m, above
 /// 0).
-#[must_use]
-pub fn moon_depth(volume: f64, width: f64, radius: f64, gap: f64) -> Option<f64> {
+pub(super) fn moon_depth(volume: f64, width: f64, radius: f64, gap: f64) -> Option<f64> {
     let sound = volume >= 0.0 && [width, radius, gap].iter().all(|x| x.is_finite() && *x > 0.0);
     let slope = |depth: f64| 2.0 * radius * half_angles(depth, radius, gap)[0].sin();
     sound.then(|| depth_of(volume / width, radius, |depth| moon_area(depth, radius, gap), slope)).flatten()
@@ -84,8 +80,7 @@ pub fn moon_depth(volume: f64, width: f64, radius: f64, gap: f64) -> Option<f64>
 
 /// Depth (m) by which `volume` (m³), taken off evenly all round a tube of radius `radius` (m) over
 /// `width` (m), makes it thinner, V/(2πRL): the other extreme from a single scar.
-#[must_use]
-pub fn all_round(volume: f64, width: f64, radius: f64) -> f64 {
+pub(super) fn all_round(volume: f64, width: f64, radius: f64) -> f64 {
     volume / (2.0 * PI * radius * width)
 }
 

@@ -140,8 +140,7 @@ impl Growth {
 
     /// The time (s) until a wall, of which `gaps` (m) are those of the start, has receded by
     /// `share` of its gap, after `work` (J) at the rate `rate` (W); infinite where none does.
-    #[must_use]
-    pub fn time_to_open(self, law: &Archard, gaps: &[f64], work: &WearWork, rate: &WearWork, share: f64) -> f64 {
+    pub(crate) fn time_to_open(self, law: &Archard, gaps: &[f64], work: &WearWork, rate: &WearWork, share: f64) -> f64 {
         let Some(scar) = law.scar else { return f64::INFINITY };
         let Scar { width, radius, .. } = scar;
         let open = self.opening(law, work).recession;

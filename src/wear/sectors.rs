@@ -9,8 +9,7 @@
 ///
 /// assert_eq!([0.0, 29.9, 30.0, 359.9, 360.0, -30.0].map(|angle| sector_of(angle, 12)), [0, 0, 1, 11, 0, 11]);
 /// ```
-#[must_use]
-pub fn sector_of(angle: f64, count: usize) -> usize {
+fn sector_of(angle: f64, count: usize) -> usize {
     let share = angle.rem_euclid(360.0) / 360.0;
     // By rounding, a small negative angle may give a share of 1, and an edge may come out a little
     // below its number.

@@ -25,15 +25,13 @@ fn mean_size(from: f64, to: f64) -> f64 {
 /// // 2 N s while the body is turned round from 1 m/s to -1 m/s: at 0.5 m/s in the mean.
 /// assert_eq!(signorini::wear::work_of_impulse(2.0, 1.0, -1.0), 1.0);
 /// ```
-#[must_use]
-pub fn work_of_impulse(impulse: f64, before: f64, after: f64) -> f64 {
+pub(super) fn work_of_impulse(impulse: f64, before: f64, after: f64) -> f64 {
     impulse * mean_size(before, after)
 }
 
 /// Distance ∫ |v_t| dt slid in `time` (s), m, while the sliding velocity goes evenly from `before`
 /// to `after` (m/s).
-#[must_use]
-pub fn sliding_distance(time: f64, before: f64, after: f64) -> f64 {
+pub(super) fn sliding_distance(time: f64, before: f64, after: f64) -> f64 {
     time * mean_size(before, after)
 }
 

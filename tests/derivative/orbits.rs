@@ -46,20 +46,27 @@ fn closed_form(scene: &Scene, [phase, speed]: [f64; 2]) -> ([f64; 2], Vec<[f64; 
     ([phase + apart(best.phase), best.speed], best.multipliers.clone())
 }
 
+/// The scene with another value of one number.
+fn changed(scene: fn(Numbers) -> Scene, mut numbers: Numbers, index: usize, x: f64) -> Scene {
+    numbers[index] = x;
+    scene(numbers)
+}
+
+fn tangents(scene: fn(Numbers) -> Scene, numbers: Numbers) -> Vec<SceneTangent> {
+    let by = |index: usize| {
+        SceneTangent::new(NAMES[index], numbers[index], |x| Ok(changed(scene, numbers, index, x))).expect("a key")
+    };
+    (0..7).map(by).collect()
+}
+
 /// The five-point difference with a step of 1e-3 errs by about 1e-12, and so does rounding over
 /// that step.
 fn check(scene: fn(Numbers) -> Scene, numbers: Numbers) {
     let own = scene(numbers);
     let orbit = shoot(&own, 300, &|_| {}).expect("an orbit");
     assert_eq!(orbit.periods, 1);
-    let at = |index: usize, x: f64| {
-        let mut changed = numbers;
-        changed[index] = x;
-        scene(changed)
-    };
-    let tangent = |index: usize| SceneTangent::new(NAMES[index], numbers[index], |x| Ok(at(index, x))).expect("a key");
-    let tangents: Vec<SceneTangent> = (0..7).map(tangent).collect();
-    let by = orbit.derivative(&own, &tangents).expect("derivatives");
+    let at = |index: usize, x: f64| changed(scene, numbers, index, x);
+    let by = orbit.derivative(&own, &tangents(scene, numbers)).expect("derivatives");
     assert_eq!(by.contacts.len(), 1);
     let contact = by.contacts.get(0).expect("an impact");
     let start = [contact.contact.start / orbit.forcing_period, contact.contact.approach_speed];
@@ -102,14 +109,8 @@ fn check_orbit(scene: fn(Numbers) -> Scene, numbers: Numbers, kinds: &[Kind], fo
     let problem = Problem::new(scene(numbers)).expect("a problem");
     let orbit = problem.settled(400).expect("an orbit");
     assert_eq!(orbit.signature.events.iter().map(|event| event.kind).collect::<Vec<_>>(), kinds);
-    let at = |index: usize, x: f64| {
-        let mut changed = numbers;
-        changed[index] = x;
-        scene(changed)
-    };
-    let tangent = |index: usize| SceneTangent::new(NAMES[index], numbers[index], |x| Ok(at(index, x))).expect("a key");
-    let tangents: Vec<SceneTangent> = (0..7).map(tangent).collect();
-    let by = problem.derivative(&orbit, &tangents).expect("derivatives");
+    let at = |index: usize, x: f64| changed(scene, numbers, index, x);
+    let by = problem.derivative(&orbit, &tangents(scene, numbers)).expect("derivatives");
     let own = listed(&orbit, &problem.floquet(&orbit).expect("multipliers").multipliers);
     for (index, name) in NAMES.into_iter().enumerate() {
         let step = 2.5e-4 * numbers[index];

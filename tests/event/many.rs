@@ -89,12 +89,10 @@ fn diagonal(mass: &[f64], damping: &[f64], stiffness: &[f64]) -> Structure {
     Structure { mass: of(mass), damping: of(damping), stiffness: of(stiffness) }
 }
 
-fn scene(structure: Structure) -> Scene {
-    let n = structure.mass.size();
-    let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_initial(&vec![0.0; n], &vec![0.0; n]);
-    scene.system = structure.into();
-    scene.probes = (0..n).map(|i| Probe { name: format!("q{i}"), at: Row::dof(i) }).collect();
-    scene
+/// A scene with a probe at each degree of freedom.
+pub fn scene(structure: Structure) -> Scene {
+    let probes = (0..structure.mass.size()).map(|i| Probe { name: format!("q{i}"), at: Row::dof(i) }).collect();
+    Scene { probes, ..Scene::structure(structure) }
 }
 
 /// Masses m between springs k, fixed at both ends, with damping β K.

@@ -2,11 +2,12 @@
 //! contract.
 
 use crate::draws;
+use crate::many::scene;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use signorini::linear::Symmetric;
 use signorini::residual::{Judge, Residuals};
-use signorini::{Error, Load, Probe, Row, Scene, Scheme, Side, Stepper, Structure, Wall, WallLaw};
+use signorini::{Error, Load, Row, Scene, Scheme, Side, Stepper, Structure, Wall, WallLaw};
 
 /// n degrees of freedom: L Lᵀ with L from the entries, plus `ridge` on the diagonal.
 fn gram(n: usize, entries: &[f64], ridge: f64) -> Symmetric {
@@ -14,14 +15,6 @@ fn gram(n: usize, entries: &[f64], ridge: f64) -> Symmetric {
     let product = |i: usize, j: usize| (0..n).map(|k| l(i, k) * l(j, k)).sum::<f64>();
     let entry = |i: usize, j: usize| (i, j, product(i, j) + if i == j { ridge } else { 0.0 });
     Symmetric::from_entries(n, (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| entry(i, j)))
-}
-
-fn scene(structure: Structure) -> Scene {
-    let n = structure.mass.size();
-    let mut scene = Scene::oscillator(1.0, 0.0, 0.0).with_initial(&vec![0.0; n], &vec![0.0; n]);
-    scene.system = structure.into();
-    scene.probes = (0..n).map(|i| Probe { name: format!("q{i}"), at: Row::dof(i) }).collect();
-    scene
 }
 
 #[derive(Debug, Clone)]

@@ -2,17 +2,13 @@
 
 use crate::common::event_driven::EventDriven;
 use crate::common::schemes;
+use crate::settling::settle;
 use signorini::scheme::event::Event;
 use signorini::{Contact, Load, Options, Scene, Scheme, Table, TimeOptions, Wall, run};
 
 /// Runs to the end; every contact.
 fn follow(scene: &Scene, stride: f64) -> (Event, Vec<Contact>) {
-    let mut event = Event::new(scene, stride).expect("a sound scene");
-    let mut contacts = Vec::new();
-    while !event.is_done() {
-        event.advance(0.0).expect("followed to the end");
-        contacts.extend_from_slice(event.step().closed);
-    }
+    let (event, mut contacts) = settle(scene, stride);
     contacts.extend(event.open_contacts());
     (event, contacts)
 }

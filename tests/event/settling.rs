@@ -4,7 +4,7 @@ use signorini::scheme::event::Event;
 use signorini::{Load, Scene, Wall, WallLaw};
 
 /// Runs to the end; every closed contact.
-fn settle(scene: &Scene, stride: f64) -> (Event, Vec<signorini::Contact>) {
+pub fn settle(scene: &Scene, stride: f64) -> (Event, Vec<signorini::Contact>) {
     let mut event = Event::new(scene, stride).expect("a sound scene");
     let mut contacts = Vec::new();
     while !event.is_done() {

@@ -3,7 +3,7 @@
 
 use crate::random_structures::Draws;
 use crate::rubbing::{body, hole, isotropic, load, random_scene, rotating, turned, with};
-use crate::steps::{HoleStep, follow, judged};
+use crate::steps::{HoleStep, beside_line, follow, judged};
 use signorini::{Finding, Load, Refuted, Row, Scene, Scheme, Stepper, Wall, WallLaw, heading};
 
 const JEAN: Scheme = Scheme::MoreauJean { theta: 0.5 };
@@ -94,16 +94,7 @@ fn motion_on_a_diameter_is_that_between_two_elastic_walls() {
                 .with_load(load(Load::harmonic(5.0, 6.0, 0.3), along.clone()))
                 .with_load(load(Load::impulse(0.3, 0.123_46), along))
                 .with_initial(&[1e-3 * c, 1e-3 * s], &[0.2 * c, 0.2 * s]);
-            let mut beside = Stepper::new(&line, &scheme, 1e-4).unwrap();
-            let mut pushes = 0;
-            follow(&round, &scheme, 1e-4, 6000, |step| {
-                let other = beside.step().unwrap();
-                let [w, v] = [step.q, step.v].map(|x| c * x[0] + s * x[1]);
-                assert!((w - other.q[0]).abs() < 1e-12 && (v - other.v[0]).abs() < 1e-9, "{scheme:?}, {}", step.end);
-                let p = (other.impulse[0] + other.impulse[1]).abs();
-                assert!((step.impulse[0] - p).abs() < 1e-9, "{scheme:?}, {}", step.end);
-                pushes += u32::from(step.impulse[0] > 0.0);
-            });
+            let pushes = beside_line([&line, &round], [c, s], &scheme, 6000, [1e-12, 1e-9, 1e-9]);
             assert!(pushes > 100, "{pushes}");
         }
     }

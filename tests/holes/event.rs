@@ -55,7 +55,7 @@ fn near(found: f64, wanted: f64, share: f64) -> bool {
 }
 
 /// A free mass in a round hole: `disk-billiard` at e = 1, `disk-settling` at e = ½.
-fn free(restitution: f64) -> Scene {
+pub fn free(restitution: f64) -> Scene {
     with(isotropic(1.3, 0.0, 0.0), hole("hole", body(), 2e-3, restitution, 0.0))
         .with_initial(&[0.5e-3, -0.3e-3], &[0.11, 0.07])
         .with_duration(0.5)

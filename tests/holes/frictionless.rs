@@ -1,11 +1,13 @@
 //! Round holes without friction: closed forms with 25 digits, the motion between planar walls, and
 //! what holds of every scene.
 
+use crate::event::free;
 use crate::pendulum::{IMPULSE, PERIOD, WORK, pendulum};
 use crate::random_structures::Draws;
 use crate::rubbing::{
     MOREAU_JEAN, Sums, body, energy, follow, hole, isotropic, load, random_scene, rotating, turned, with, with_flats,
 };
+use crate::steps::beside_line;
 use signorini::linear::{Rows, Symmetric};
 use signorini::qp::{Backend, Problem, Rhs, Solver};
 use signorini::{
@@ -62,13 +64,6 @@ fn a_pendulum_in_a_hole_is_followed_with_order_two() {
         let order = (coarse[k] / fine[k]).abs().log2() / 2.0;
         assert!(k == 1 || (1.8..2.2).contains(&order), "{order}: {coarse:?} {fine:?}");
     }
-}
-
-/// A free mass in a round hole.
-fn free(restitution: f64) -> Scene {
-    with(isotropic(1.3, 0.0, 0.0), hole("hole", body(), 2e-3, restitution, 0.0))
-        .with_initial(&[0.5e-3, -0.3e-3], &[0.11, 0.07])
-        .with_duration(0.5)
 }
 
 #[test]
@@ -146,19 +141,10 @@ fn along_a_diameter_a_hole_is_a_pair_of_walls() {
         let round = with(isotropic(1.2, 0.6, 900.0), hole("hole", body(), 2e-3, e, 0.0))
             .with_load(load(Load::harmonic(5.0, 6.0, 0.3), Row::new(vec![(0, c), (1, s)])))
             .with_initial(&[1e-3 * c, 1e-3 * s], &[0.2 * c, 0.2 * s]);
-        let mut beside = Stepper::new(&line, &MOREAU_JEAN, 1e-4).unwrap();
-        let mut pushes = 0;
-        follow(&round, 1e-4, 8000, |step| {
-            let other = beside.step().unwrap();
-            let [w, v] = [step.q, step.v].map(|x| c * x[0] + s * x[1]);
-            // Impacts, and sliding back and forth, multiply the roundings by little.
-            assert!((w - other.q[0]).abs() < 1e-13 * 2e-3 * 1e3, "{e}, {}: {w} {}", step.end, other.q[0]);
-            assert!((v - other.v[0]).abs() < 1e-13 * 1e3, "{e}, {}: {v} {}", step.end, other.v[0]);
-            let p = -(other.impulse[0] + other.impulse[1]).abs();
-            assert!((step.impulse[0] + p).abs() < 1e-10, "{e}, {}", step.end);
-            pushes += u32::from(step.impulse[0] > 0.0);
-        });
-        assert!(pushes > 10, "{pushes}");
+        // Impacts, and sliding back and forth, multiply the roundings by little.
+        let within = [1e-13 * 2e-3 * 1e3, 1e-13 * 1e3, 1e-10];
+        let pushes = beside_line([&line, &round], [c, s], &MOREAU_JEAN, 8000, within);
+        assert!(pushes > 10, "{e}: {pushes}");
     }
 }
 

@@ -3,7 +3,7 @@
 
 use crate::random_structures::Draws;
 use crate::rubbing::{body, change_hole, hole, isotropic, load, random_scene, rotating, turned, with};
-use crate::steps::{HoleStep, Pushes, follow};
+use crate::steps::{HoleStep, Pushes, beside_line, follow};
 use signorini::residual::Judge;
 use signorini::study::compare::compare;
 use signorini::{
@@ -73,17 +73,8 @@ fn motion_on_a_diameter_is_that_between_two_penalised_walls() {
                 .with_load(load(Load::harmonic(12.0, 5.0, 0.3), along.clone()))
                 .with_load(load(Load::impulse(0.3, 0.123_46), along))
                 .with_initial(&[1e-3 * c, 1e-3 * s], &[0.2 * c, 0.2 * s]);
-            let mut beside = Stepper::new(&line, &penalty(law), 1e-4).unwrap();
-            let mut pushes = 0;
-            follow(&round, &penalty(law), 1e-4, 6000, |step| {
-                let other = beside.step().unwrap();
-                let [w, v] = [step.q, step.v].map(|x| c * x[0] + s * x[1]);
-                // Roundings, which each contact amplifies a little.
-                assert!((w - other.q[0]).abs() < 1e-12 && (v - other.v[0]).abs() < 1e-9, "{law}, {}", step.end);
-                let p = (other.impulse[0] + other.impulse[1]).abs();
-                assert!((step.impulse[0] - p).abs() < 1e-9, "{law}, {}", step.end);
-                pushes += u32::from(step.impulse[0] > 0.0);
-            });
+            // Roundings, which each contact amplifies a little.
+            let pushes = beside_line([&line, &round], [c, s], &penalty(law), 6000, [1e-12, 1e-9, 1e-9]);
             assert!(pushes > 100, "{law}, {degrees}: {pushes}");
         }
     }

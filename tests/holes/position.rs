@@ -5,7 +5,7 @@ use crate::draws::{cases, seed};
 use crate::pendulum::{GAP, IMPULSE, PERIOD, WORK, pendulum};
 use crate::random_structures::Draws;
 use crate::rubbing::{Sums, body, hole, isotropic, load, random_scene, rotating, turned, with, with_flats};
-use crate::steps::{HoleStep, follow, judged};
+use crate::steps::{HoleStep, beside_line, follow, judged};
 use signorini::{Finding, Load, Refuted, Row, Scene, Scheme, Stepper, Wall, equilibrium, heading};
 
 const EULER: Scheme = Scheme::ImplicitEuler;
@@ -32,19 +32,10 @@ fn motion_on_a_diameter_is_that_between_two_walls() {
                 line = line.with_load(one.clone());
                 round = round.with_load(load(one, along.clone()));
             }
-            let mut beside = Stepper::new(&line, &scheme, 1e-4).unwrap();
-            let mut pushes = 0;
-            follow(&round, &scheme, 1e-4, 8000, |step| {
-                let other = beside.step().unwrap();
-                let [w, v] = [step.q, step.v].map(|x| c * x[0] + s * x[1]);
-                // Roundings of the gap, and over h of the velocity.
-                assert!((w - other.q[0]).abs() < 1e-13 * 2e-3 * 1e3, "{e}, {}: {w} {}", step.end, other.q[0]);
-                assert!((v - other.v[0]).abs() < 1e-10, "{e}, {}: {v} {}", step.end, other.v[0]);
-                let p = (other.impulse[0] + other.impulse[1]).abs();
-                assert!((step.impulse[0] - p).abs() < 1e-10, "{e}, {}", step.end);
-                pushes += u32::from(step.impulse[0] > 0.0);
-            });
-            assert!(pushes > 10, "{pushes}");
+            // Roundings of the gap, and over h of the velocity.
+            let within = [1e-13 * 2e-3 * 1e3, 1e-10, 1e-10];
+            let pushes = beside_line([&line, &round], [c, s], &scheme, 8000, within);
+            assert!(pushes > 10, "{e}: {pushes}");
         }
     }
 }

@@ -64,6 +64,25 @@ pub fn follow(scene: &Scene, scheme: &Scheme, h: f64, steps: u64, mut observe: i
     stepper
 }
 
+/// How many of `steps` steps of 0.1 ms push the body of `round`, which moves on the diameter along
+/// the unit vector (c, s) as that of `line` does between two walls: displacements, m, velocities,
+/// m/s, and impulses, N s, are `within` these of each other.
+pub fn beside_line([line, round]: [&Scene; 2], [c, s]: [f64; 2], scheme: &Scheme, steps: u64, within: [f64; 3]) -> u32 {
+    let mut beside = Stepper::new(line, scheme, 1e-4).unwrap_or_else(|error| panic!("{error}"));
+    let mut pushes = 0;
+    follow(round, scheme, 1e-4, steps, |step| {
+        let other = beside.step().unwrap_or_else(|error| panic!("{error}"));
+        let [w, v] = [step.q, step.v].map(|x| c * x[0] + s * x[1]);
+        let p = (other.impulse[0] + other.impulse[1]).abs();
+        for ((found, known), within) in [(w, other.q[0]), (v, other.v[0]), (step.impulse[0], p)].into_iter().zip(within)
+        {
+            assert!((found - known).abs() < within, "{scheme:?}, {}: {found} {known}", step.end);
+        }
+        pushes += u32::from(step.impulse[0] > 0.0);
+    });
+    pushes
+}
+
 /// What a judge finds in `steps` steps of `h` seconds, of each of which `alter` has changed
 /// impulses and displacement before.
 pub fn judged(

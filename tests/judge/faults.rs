@@ -3,20 +3,11 @@
 
 use crate::common::{CONSTRAINED, INTEGRATORS, MOREAU_JEAN, elastic, source, spring};
 use crate::random_structures::{Draws, random_scene};
+use crate::shown::{Shown, of_kind};
 use signorini::residual::{Judge, Residuals};
 use signorini::{Face, Finding, Load, LoadKind, Refuted, Scene, Scheme, Side, Step, Stepper, Table, Wall};
 
 const GENERALIZED_ALPHA: Scheme = Scheme::GeneralizedAlpha { rho: 0.8 };
-
-/// What the judge is shown of a step in place of the true values.
-#[derive(Debug, Clone)]
-struct Shown {
-    q: Vec<f64>,
-    v: Vec<f64>,
-    after: Vec<f64>,
-    impulse: Vec<f64>,
-    force: Vec<f64>,
-}
 
 /// The wall, this much farther from the origin.
 fn scaled(wall: &Wall, by: f64) -> Wall {
@@ -37,18 +28,10 @@ fn judge(
     for number in 0..steps {
         let force = vec![if number % 3 == 1 { extra } else { 0.0 }; state.q.len()];
         let step = if extra == 0.0 { stepper.step() } else { stepper.step_with(&force) };
-        let mut step = step.expect("a step");
-        let mut shown = Shown {
-            q: step.q.to_vec(),
-            v: step.v.to_vec(),
-            after: step.velocity_after.to_vec(),
-            impulse: step.impulse.to_vec(),
-            force: step.force.to_vec(),
-        };
+        let step = step.expect("a step");
+        let mut shown = Shown::of(&step);
         alter(&step, &mut shown);
-        (step.q, step.v, step.velocity_after) = (&shown.q, &shown.v, &shown.after);
-        (step.impulse, step.force) = (&shown.impulse, &shown.force);
-        judge.observe(&step);
+        judge.observe(&shown.in_place(&step));
     }
     (judge.findings(), judge.residuals())
 }
@@ -59,10 +42,6 @@ fn as_seen(scene: &Scene, scheme: Scheme) -> Scene {
         Scheme::Penalty { law, .. } => scene.penalised(law).expect("walls to replace"),
         _ => scene.clone(),
     }
-}
-
-fn of_kind(findings: &[Finding], refuted: Refuted) -> &Finding {
-    findings.iter().find(|finding| finding.refuted == refuted).unwrap_or_else(|| panic!("{refuted:?}: {findings:?}"))
 }
 
 fn schemes() -> Vec<Scheme> {

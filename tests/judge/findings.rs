@@ -3,6 +3,7 @@
 
 use crate::common::{self, MOREAU_JEAN, source, spring};
 use crate::random_structures::{Draws, random_scene};
+use crate::shown::Shown;
 use signorini::residual::Judge;
 use signorini::{
     Bound, Contract, Error, Finding, Integrator, Load, Oscillator, Refuted, Scene, Scheme, Step, Stepper, System, Wall,
@@ -17,36 +18,18 @@ fn judged(
     scheme: &Scheme,
     h: f64,
     steps: u32,
-    mut alter: impl FnMut(&Step<'_>, &mut Altered),
+    mut alter: impl FnMut(&Step<'_>, &mut Shown),
 ) -> Result<Vec<Finding>, Error> {
     let mut stepper = Stepper::new(scene, scheme, h)?;
     let state = stepper.state();
     let mut judge = Judge::new(stepper.scene(), stepper.contract(), h, &state.q, &state.v);
     for _ in 0..steps {
         let step = stepper.step()?;
-        let mut altered = Altered {
-            q: step.q.to_vec(),
-            v: step.v.to_vec(),
-            after: step.velocity_after.to_vec(),
-            impulse: step.impulse.to_vec(),
-            force: step.force.to_vec(),
-        };
-        alter(&step, &mut altered);
-        let Altered { q, v, after, impulse, force } = altered;
-        let mut seen = step;
-        (seen.q, seen.v, seen.velocity_after) = (&q, &v, &after);
-        (seen.impulse, seen.force) = (&impulse, &force);
-        judge.observe(&seen);
+        let mut shown = Shown::of(&step);
+        alter(&step, &mut shown);
+        judge.observe(&shown.in_place(&step));
     }
     Ok(judge.findings())
-}
-
-struct Altered {
-    q: Vec<f64>,
-    v: Vec<f64>,
-    after: Vec<f64>,
-    impulse: Vec<f64>,
-    force: Vec<f64>,
 }
 
 /// The kinds of findings, each once.
@@ -65,10 +48,10 @@ const FIRST_IMPACT: u64 = 76;
 
 #[test]
 fn each_kind_of_broken_promise_is_found_with_its_place() {
-    let found = |scheme: &Scheme, alter: &dyn Fn(&Step<'_>, &mut Altered)| {
+    let found = |scheme: &Scheme, alter: &dyn Fn(&Step<'_>, &mut Shown)| {
         judged(&source(0.8, 0.8), scheme, STEP, 300, alter).expect("a run")
     };
-    let scene_with = |scene: &Scene, scheme: &Scheme, alter: &dyn Fn(&Step<'_>, &mut Altered)| {
+    let scene_with = |scene: &Scene, scheme: &Scheme, alter: &dyn Fn(&Step<'_>, &mut Shown)| {
         judged(scene, scheme, STEP, 300, alter).expect("a run")
     };
     for scheme in [MOREAU_JEAN, Scheme::PaoliSchatzman, Scheme::ImplicitEuler, Scheme::GeneralizedAlpha { rho: 0.8 }] {
@@ -115,7 +98,7 @@ fn each_kind_of_broken_promise_is_found_with_its_place() {
     // Energy from nowhere, where the scheme conserves it: the speed of a free body grows by one
     // part in a thousand.
     let free = Scene::oscillator(1.0, 0.0, 0.0).with_initial(&[0.0], &[0.1]);
-    let made = |step: &Step<'_>, a: &mut Altered| {
+    let made = |step: &Step<'_>, a: &mut Shown| {
         if step.index >= 40 {
             a.v[0] *= 1.001;
             a.after[0] *= 1.001;

@@ -16,6 +16,7 @@ mod findings;
 mod ledger;
 mod parts;
 mod parts_planar;
+mod shown;
 mod structures;
 mod together;
 #[cfg(feature = "case")]

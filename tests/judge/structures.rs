@@ -1,5 +1,6 @@
 //! Faults of known size in the exact motion of a structure, each against its closed form.
 
+use crate::shown::of_kind;
 use signorini::linear::Symmetric;
 use signorini::residual::{Judge, Residuals};
 use signorini::{Finding, Load, Options, Refuted, Row, Scene, Scheme, Step, Stepper, Structure, Wall, run};
@@ -36,10 +37,6 @@ fn judge(
         judge.observe(&step);
     }
     (judge.findings(), judge.residuals())
-}
-
-fn of_kind(findings: &[Finding], refuted: Refuted) -> &Finding {
-    findings.iter().find(|finding| finding.refuted == refuted).unwrap_or_else(|| panic!("{refuted:?}: {findings:?}"))
 }
 
 #[test]

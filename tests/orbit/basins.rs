@@ -1,5 +1,6 @@
 //! Attractors and their basins: against closed forms of the orbits, long free runs, and themselves
 //! whatever computes them.
+use crate::source::source;
 use nalgebra::Complex;
 use signorini::case::CaseFile;
 use signorini::linear::Symmetric;
@@ -11,14 +12,6 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// The source oscillator: 1 kg, 0.2 N s/m, 100 N/m, walls at ±5 mm, 3 N.
-fn source(restitution: f64, frequency: f64) -> Scene {
-    Scene::oscillator(1.0, 0.2, 100.0)
-        .with_wall(Wall::upper("upper", 5e-3).with_restitution(restitution))
-        .with_wall(Wall::lower("lower", -5e-3).with_restitution(restitution))
-        .with_load(Load::harmonic(3.0, frequency, 0.0))
-}
-
 fn periodic(attractor: Option<Attractor>) -> (Vec<State>, Vec<signorini::study::attractor::Touch>, Vec<Complex<f64>>) {
     let Some(Attractor::Periodic { strobes, touches, multipliers }) = attractor else { panic!("{attractor:?}") };
     (strobes, touches, multipliers)
@@ -26,7 +19,7 @@ fn periodic(attractor: Option<Attractor>) -> (Vec<State>, Vec<signorini::study::
 
 #[test]
 fn the_symmetric_orbit_at_5_hz_has_the_speed_phase_and_multipliers_of_its_closed_form() {
-    let scene = source(0.8, 5.0);
+    let scene = source(5.0, 0.8);
     let (strobes, touches, multipliers) = periodic(Attractor::of(&scene, 0.2, 400, 60).unwrap());
     assert_eq!((strobes.len(), touches.len()), (1, 2));
     let upper = touches.iter().find(|touch| touch.wall == 0).unwrap();
@@ -41,7 +34,7 @@ fn the_symmetric_orbit_at_5_hz_has_the_speed_phase_and_multipliers_of_its_closed
 #[test]
 fn the_quiet_motion_is_the_steady_state_and_is_certain_at_once() {
     // On the quiet motion itself: amplitude and phase of the linear response.
-    let scene = source(0.8, 5.0);
+    let scene = source(5.0, 0.8);
     let omega = TAU * 5.0;
     let response = Complex::new(3.0, 0.0) / Complex::new(100.0 - omega * omega, 0.2 * omega);
     let scene = scene.with_initial(&[1e-4], &[omega * response.re]);
@@ -60,7 +53,7 @@ fn the_quiet_motion_is_the_steady_state_and_is_certain_at_once() {
 #[test]
 fn an_orbit_that_rests_is_superstable() {
     // e = 0 at 1 Hz: from each wall the load lets go, and the other one holds.
-    let (strobes, touches, multipliers) = periodic(Attractor::of(&source(0.0, 1.0), 1.0, 100, 20).unwrap());
+    let (strobes, touches, multipliers) = periodic(Attractor::of(&source(1.0, 0.0), 1.0, 100, 20).unwrap());
     assert_eq!((strobes.len(), touches.len()), (1, 2));
     for touch in &touches {
         assert_eq!(touch.lasts, Lasts::Rest);
@@ -71,7 +64,7 @@ fn an_orbit_that_rests_is_superstable() {
     assert!((lower.phase - 3.945_519_530_218_851_5 / TAU).abs() < 1e-12, "{lower:?}");
     assert!(multipliers.iter().all(|m| m.norm() == 0.0));
     // At e = 0.5 it chatters before it rests.
-    let (_, touches, multipliers) = periodic(Attractor::of(&source(0.5, 1.0), 1.0, 100, 20).unwrap());
+    let (_, touches, multipliers) = periodic(Attractor::of(&source(1.0, 0.5), 1.0, 100, 20).unwrap());
     assert_eq!(touches.iter().map(|touch| touch.lasts).collect::<Vec<_>>(), [Lasts::Chatter; 2]);
     assert!(multipliers.iter().all(|m| m.norm() == 0.0));
 }
@@ -97,7 +90,7 @@ fn a_motion_that_never_leaves_its_wall_is_not_quiet() {
 
 #[test]
 fn chaos_is_told_by_its_exponent() {
-    assert_eq!(Attractor::of(&source(0.8, 2.75), 1.0 / 2.75, 100, 400).unwrap(), Some(Attractor::Chaotic));
+    assert_eq!(Attractor::of(&source(2.75, 0.8), 1.0 / 2.75, 100, 400).unwrap(), Some(Attractor::Chaotic));
 }
 
 #[test]

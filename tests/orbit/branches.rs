@@ -1,24 +1,11 @@
 //! Branches of periodic orbits against thresholds evaluated with sixty digits.
 
+use crate::source::{ball, near, only_of, source, values};
 use signorini::orbit::branch::{End, Label};
 use signorini::orbit::branch::{Graph, Locus, Request, Special, Switch, graph, locus};
 use signorini::orbit::{Orbit, Problem, Signature};
 use signorini::{Error, Load, Result, Scene, Wall};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-fn source(frequency: f64, restitution: f64) -> Scene {
-    Scene::oscillator(1.0, 0.2, 100.0)
-        .with_wall(Wall::upper("upper", 5e-3).with_restitution(restitution))
-        .with_wall(Wall::lower("lower", -5e-3).with_restitution(restitution))
-        .with_load(Load::harmonic(3.0, frequency, 0.0))
-}
-
-fn ball(gamma: f64) -> Scene {
-    Scene::oscillator(1.0, 0.0, 0.0)
-        .with_wall(Wall::lower("table", 0.0).with_restitution(0.7))
-        .with_load(Load::constant(-9.81))
-        .with_load(Load::harmonic(9.81 * gamma, 10.0, 0.0))
-}
 
 fn settled(scene: Scene) -> Orbit {
     Problem::new(scene).unwrap().settled(600).unwrap()
@@ -39,23 +26,6 @@ fn only(graph: &Graph, label: Label) -> &Special {
     let found: Vec<_> = graph.specials.iter().filter(|special| special.label == label).collect();
     assert_eq!(found.len(), 1, "{label}: {:?}", values(graph));
     found[0]
-}
-
-/// The one special point of `label` on branch number `branch`.
-fn only_of(graph: &Graph, branch: usize, label: Label) -> &Special {
-    let mut found = graph.specials.iter().filter(|special| special.branch == branch && special.label == label);
-    let special = found.next().unwrap_or_else(|| panic!("{:?}", values(graph)));
-    assert!(found.next().is_none());
-    special
-}
-
-fn values(graph: &Graph) -> Vec<(Label, f64, usize)> {
-    graph.specials.iter().map(|special| (special.label, special.point.value, special.branch)).collect()
-}
-
-/// The thresholds have thirty digits; test functions are located to rounding.
-fn near(found: f64, expected: f64, share: f64) {
-    assert!((found - expected).abs() <= share * expected.abs(), "{found:.16} for {expected:.16}");
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod command;
 mod basins;
 mod branches;
 mod orbits;
+mod source;
 mod structures;
 #[cfg(feature = "cli")]
 mod tool;

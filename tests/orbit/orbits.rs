@@ -1,37 +1,16 @@
 //! Periodic orbits against closed forms evaluated with sixty digits, and against the free run.
 
+use crate::source::{ball, near, source};
 use signorini::linear::Symmetric;
 use signorini::orbit::{ClosedForm, Event, Kind, Orbit, Problem, Signature, closed_forms, shoot};
 use signorini::{Error, FrictionCoefficients, Load, Row, Scene, Scheme, Slider, State, Stepper, Structure, Wall};
 use std::f64::consts::{FRAC_PI_2, TAU};
-
-/// The oscillator of the source at a frequency (Hz) and restitution.
-fn source(frequency: f64, restitution: f64) -> Scene {
-    Scene::oscillator(1.0, 0.2, 100.0)
-        .with_wall(Wall::upper("upper", 5e-3).with_restitution(restitution))
-        .with_wall(Wall::lower("lower", -5e-3).with_restitution(restitution))
-        .with_load(Load::harmonic(3.0, frequency, 0.0))
-}
 
 /// Dankowicz & Schilder 2013, example 15.2 (doi:10.1137/1.9781611972573), under A cos t.
 fn coco(amplitude: f64) -> Scene {
     Scene::oscillator(1.0, 0.1, 1.0)
         .with_wall(Wall::upper("stop", 1.0).with_restitution(0.8))
         .with_load(Load::harmonic(amplitude, 1.0 / TAU, FRAC_PI_2))
-}
-
-/// A ball on a moving table, in its frame, at the table's acceleration `gamma` g.
-fn ball(gamma: f64) -> Scene {
-    Scene::oscillator(1.0, 0.0, 0.0)
-        .with_wall(Wall::lower("table", 0.0).with_restitution(0.7))
-        .with_load(Load::constant(-9.81))
-        .with_load(Load::harmonic(9.81 * gamma, 10.0, 0.0))
-}
-
-/// Equal to `share` of the value: the references have thirty digits, the orbits the rounding of a
-/// few flights, amplified by at most the inverse distance of a multiplier from 1.
-fn near(found: f64, expected: f64, share: f64) {
-    assert!((found - expected).abs() <= share * expected.abs(), "{found:e} for {expected:e}");
 }
 
 fn of_speed(scene: &Scene, speed: f64) -> ClosedForm {

@@ -1,6 +1,7 @@
 //! Branches of periodic orbits of structures, against those of one degree of freedom, closed forms
 //! and free runs.
 
+use crate::source::{near, only_of, source, values};
 use signorini::linear::Symmetric;
 use signorini::orbit::branch::{End, Graph, Label, Point, Request, Special, Switch, graph};
 use signorini::orbit::{Kind, Problem, Shot, closed_forms, shoot};
@@ -27,13 +28,6 @@ fn beside(first: &Scene, [mass, damping, stiffness]: [f64; 3], frequency: f64) -
     scene.loads = first.loads.iter().map(|load| Load { at: at.clone(), ..load.clone() }).collect();
     scene.loads.push(Load { at: Row::new(vec![(0, -s), (1, c)]), ..Load::harmonic(0.5, frequency, 0.3) });
     scene
-}
-
-fn source(frequency: f64, restitution: f64) -> Scene {
-    Scene::oscillator(1.0, 0.2, 100.0)
-        .with_wall(Wall::upper("upper", 5e-3).with_restitution(restitution))
-        .with_wall(Wall::lower("lower", -5e-3).with_restitution(restitution))
-        .with_load(Load::harmonic(3.0, frequency, 0.0))
 }
 
 fn source_beside(frequency: f64, restitution: f64) -> Scene {
@@ -64,21 +58,6 @@ fn follow(
     graph(family, start, value, &request, &mut |_| ()).unwrap()
 }
 
-fn values(graph: &Graph) -> Vec<(Label, f64, usize)> {
-    graph.specials.iter().map(|special| (special.label, special.point.value, special.branch)).collect()
-}
-
-fn only(graph: &Graph, branch: usize, label: Label) -> &Special {
-    let mut found = graph.specials.iter().filter(|special| special.branch == branch && special.label == label);
-    let special = found.next().unwrap_or_else(|| panic!("{label}: {:?}", values(graph)));
-    assert!(found.next().is_none(), "{label}: {:?}", values(graph));
-    special
-}
-
-fn near(found: f64, expected: f64, share: f64) {
-    assert!((found - expected).abs() <= share * expected.abs(), "{found:.16} for {expected:.16}");
-}
-
 /// The state after `periods` forcing periods of the free run from the strobe of `point`.
 fn after(scene: &Scene, point: &Point, state: &State, periods: f64) -> State {
     let strobe = point.strobe.as_ref().unwrap();
@@ -102,9 +81,9 @@ fn a_body_beside_another_one_has_the_branches_of_its_own() {
         let family = |f: f64| Ok(source_beside(f, restitution));
         let start = settled(&source_beside(5.0, restitution));
         let found = follow(&family, &start, 5.0, [4.1, 16.0], (Switch::No, 0));
-        near(only(&found, 0, Label::Fold).point.value, fold, 1e-10);
-        near(only(&found, 0, Label::SymmetryBreaking).point.value, breaking, 1e-10);
-        let graze = only(&found, 0, Label::GrazingOut);
+        near(only_of(&found, 0, Label::Fold).point.value, fold, 1e-10);
+        near(only_of(&found, 0, Label::SymmetryBreaking).point.value, breaking, 1e-10);
+        let graze = only_of(&found, 0, Label::GrazingOut);
         near(graze.point.value, 4.210_773_813_134_604, 1e-10);
         assert!(graze.wall.is_some() && found.branches[0].ends.contains(&Some(End::Special(Label::GrazingOut))));
         // Beyond the graze the motion without contact goes on, without a switch.
@@ -136,14 +115,14 @@ fn impacts_begin_where_the_motion_touches_a_wall() {
     let found = follow(&family, &quiet, 16.0, [4.3, 16.0], (Switch::No, 0));
     assert!(found.specials.is_empty(), "{:?}", values(&found));
     let found = follow(&family, &quiet, 16.0, [4.0, 16.0], (Switch::Stable, 1));
-    let touch = only(&found, 0, Label::GrazingIn);
+    let touch = only_of(&found, 0, Label::GrazingIn);
     near(touch.point.value, 4.210_773_813_134_604, 1e-10);
     // The branch with impacts begins there, unstable, and rises in frequency.
     let impacts = &found.branches[touch.leads_to[0]];
     assert!(impacts.points[0].value > touch.point.value && !impacts.points[0].floquet.is_stable());
-    near(only(&found, touch.leads_to[0], Label::Fold).point.value, 14.610_019_877_539_264, 1e-10);
+    near(only_of(&found, touch.leads_to[0], Label::Fold).point.value, 14.610_019_877_539_264, 1e-10);
     // From the broken symmetry on, orbits without it.
-    let breaking = only(&found, touch.leads_to[0], Label::SymmetryBreaking);
+    let breaking = only_of(&found, touch.leads_to[0], Label::SymmetryBreaking);
     let broken = &found.branches[breaking.leads_to[0]];
     let point = &broken.points[broken.points.len().min(6) - 1];
     assert!(!point.orbit.signature.symmetric && point.orbit.speeds.len() == 2);
@@ -162,7 +141,7 @@ fn periods_double_where_they_do_with_one_degree_of_freedom() {
     let start = settled(&family(2.6).unwrap().with_initial(&[-0.1, 0.0], &[0.0, 0.0]));
     let found = follow(&family, &start, 2.6, [2.4, 2.9], (Switch::Stable, 2));
     // Published to six digits.
-    let doubling = only(&found, 0, Label::PeriodDoubling);
+    let doubling = only_of(&found, 0, Label::PeriodDoubling);
     near(doubling.point.value, 2.653_35, 2e-6);
     let problem = Problem::new(one(2.7)).unwrap();
     let form = closed_forms(problem.scene(), 1).unwrap().into_iter().find(|form| !form.symmetric).unwrap();
@@ -286,13 +265,13 @@ fn an_elastic_wall_is_entered_and_left() {
     // The motion without contact has the amplitude A/|k − mΩ² + icΩ|.
     let omega = TAU;
     let touching = 5e-3 * (100.0 - omega * omega).hypot(2.0 * omega);
-    near(only(&found, 0, Label::GrazingOut).point.value, touching, 1e-10);
+    near(only_of(&found, 0, Label::GrazingOut).point.value, touching, 1e-10);
     let kinds: Vec<Kind> = found.branches[0].points[0].orbit.signature.events.iter().map(|event| event.kind).collect();
     assert_eq!(kinds, [Kind::Enter, Kind::Leave]);
     // And from the other side.
     let start = settled(&family(0.2).unwrap());
     let back = follow(&family, &start, 0.2, [0.1, 0.5], (Switch::No, 0));
-    let touch = only(&back, 0, Label::GrazingIn);
+    let touch = only_of(&back, 0, Label::GrazingIn);
     near(touch.point.value, touching, 1e-10);
     assert!(back.branches[touch.leads_to[0]].points.last().unwrap().value == 0.5);
 }
@@ -344,13 +323,13 @@ fn a_rest_ends_where_it_does_with_one_degree_of_freedom() {
     let request = Request { range: [0.5, 6.0], switch: Switch::All, depth: 1, points: 3000 };
     let start = problem.settled(200).unwrap();
     let own = graph(&|f| Ok(source(f, 0.0)), &start, 1.0, &request, &mut |_| ()).unwrap();
-    let end = only(&found, 0, Label::RestEnds);
-    near(end.point.value, only(&own, 0, Label::RestEnds).point.value, 1e-10);
+    let end = only_of(&found, 0, Label::RestEnds);
+    near(end.point.value, only_of(&own, 0, Label::RestEnds).point.value, 1e-10);
     // Beyond, impacts with e = 0, their fold, and the graze at which they vanish.
     let beyond = end.leads_to[0];
     assert_eq!(found.branches[beyond].points[0].orbit.signature.events.len(), 1);
-    near(only(&found, beyond, Label::Fold).point.value, only(&own, 1, Label::Fold).point.value, 1e-10);
-    near(only(&found, beyond, Label::GrazingOut).point.value, 4.210_773_813_134_604, 1e-10);
+    near(only_of(&found, beyond, Label::Fold).point.value, only_of(&own, 1, Label::Fold).point.value, 1e-10);
+    near(only_of(&found, beyond, Label::GrazingOut).point.value, 4.210_773_813_134_604, 1e-10);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The derivative of a motion with respect to its start: against closed forms, a 60-digit reference
 //! and differences of free runs.
 
+use crate::source::source;
 use nalgebra::{DMatrix, DVector};
 use signorini::linear::Symmetric;
 use signorini::variation::{Exponents, NoDerivative, OscillatorVariation, Product, saltation};
@@ -18,14 +19,6 @@ impl Draw {
     fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
-}
-
-/// The source oscillator: 1 kg, 0.2 N s/m, 100 N/m, walls at ±5 mm, 3 N.
-fn source(restitution: f64, frequency: f64) -> Scene {
-    Scene::oscillator(1.0, 0.2, 100.0)
-        .with_wall(Wall::upper("upper", 5e-3).with_restitution(restitution))
-        .with_wall(Wall::lower("lower", -5e-3).with_restitution(restitution))
-        .with_load(Load::harmonic(3.0, frequency, 0.0))
 }
 
 /// The two masses of the 60-digit reference: ground – 100 N/m – 1 kg – 50 N/m – 0.5 kg, damping
@@ -153,7 +146,8 @@ fn products_of_an_oscillator_are_differences_of_its_runs() {
     agree(
         "rigid",
         (0..40).map(|_| {
-            let mut scene = source(draw.between(0.3, 0.95), draw.between(2.0, 8.0));
+            let restitution = draw.between(0.3, 0.95);
+            let mut scene = source(draw.between(2.0, 8.0), restitution);
             scene.initial = State { q: vec![draw.between(-4e-3, 4e-3)], v: vec![draw.between(-0.3, 0.3)] };
             (scene, draw.between(0.2, 0.6))
         }),
@@ -333,7 +327,7 @@ fn walls_struck_together_have_no_derivative_unless_they_are_apart() {
     }
     // Apart, each has the product of its own.
     let (_, both) = follow(&pair(0.0, 0.0, 0.0), 0.5);
-    let mut single = source(0.8, 5.0);
+    let mut single = source(5.0, 0.8);
     single.walls.truncate(1);
     single.initial.v = vec![0.3];
     let (_, one) = follow(&single, 0.5);
@@ -345,7 +339,7 @@ fn walls_struck_together_have_no_derivative_unless_they_are_apart() {
 
 #[test]
 fn a_scheme_on_a_grid_has_no_derivative() {
-    let scene = source(0.8, 5.0);
+    let scene = source(5.0, 0.8);
     let mut stepper = Stepper::new(&scene, &Scheme::MoreauJean { theta: 0.5 }, 1e-3).unwrap();
     let refused = Product::new(&scene).unwrap().observe(&stepper.step().unwrap()).unwrap_err();
     assert!(matches!(refused, NoDerivative::Unresolved { .. }) && refused.to_string().contains("event"));
@@ -355,7 +349,7 @@ fn a_scheme_on_a_grid_has_no_derivative() {
 fn exponents_of_the_symmetric_orbit_are_half_the_sum_of_drag_and_restitution() {
     // The orbit's multipliers are a complex pair (source oscillator, 5 Hz, e = 0.8), so both
     // exponents are (ln det)/2T; the sum of both is exact in every window of the orbit.
-    let scene = source(0.8, 5.0);
+    let scene = source(5.0, 0.8);
     let mut stepper = Stepper::new(&scene, &Scheme::Event, 0.2).unwrap();
     let mut exponents = Exponents::new(&scene, 2, [100.0, 200.0]).unwrap();
     while stepper.time() < 200.0 * (1.0 - 1e-12) {
@@ -382,7 +376,7 @@ fn exponents_of_the_symmetric_orbit_are_half_the_sum_of_drag_and_restitution() {
 #[test]
 fn exponents_add_up_to_drag_and_restitution_on_any_attractor() {
     for (restitution, frequency) in [(0.9, 2.6), (0.8, 3.4), (0.95, 2.2), (0.7, 4.5)] {
-        let scene = source(restitution, frequency);
+        let scene = source(frequency, restitution);
         let period = 1.0 / frequency;
         let (from, to) = (100.0 * period, 600.0 * period);
         let mut exponents = Exponents::new(&scene, 2, [from, to]).unwrap();
@@ -414,7 +408,7 @@ fn exponents_add_up_to_drag_and_restitution_on_any_attractor() {
 #[test]
 fn a_run_that_rests_has_an_exponent_of_minus_infinity() {
     // e = 0 at 1 Hz: it sticks to each wall once a period.
-    let scene = source(0.0, 1.0);
+    let scene = source(1.0, 0.0);
     let mut exponents = Exponents::new(&scene, 1, [10.0, 20.0]).unwrap();
     let mut stepper = Stepper::new(&scene, &Scheme::Event, 1.0).unwrap();
     while stepper.time() < 20.0 {
@@ -465,7 +459,7 @@ fn a_graze_grows_without_bound() {
 
 #[test]
 fn what_makes_no_exponents_is_refused() {
-    let scene = source(0.8, 5.0);
+    let scene = source(5.0, 0.8);
     let text = |count, window| Exponents::new(&scene, count, window).unwrap_err().to_string();
     assert!(text(0, [0.0, 1.0]).contains("from 1 to 2"));
     assert!(text(3, [0.0, 1.0]).contains("from 1 to 2"));
@@ -477,7 +471,7 @@ fn what_makes_no_exponents_is_refused() {
 fn a_rest_before_the_window_does_not_end_the_growth_in_it() {
     // The body lies on the stop under 3 N until the load turns round; then it bounces between stop
     // and spring.
-    let scene = source(0.8, 5.0);
+    let scene = source(5.0, 0.8);
     let mut held = scene.clone();
     let from = 40.0;
     held.loads.push(Load::table(Table::new(vec![0.0, 20.0], vec![1e2, 1e2]).unwrap()));

@@ -67,11 +67,11 @@ fn frequency(k: f64) -> f64 {
     k * k * (stiffness() / MASS).sqrt() / TAU
 }
 
-fn case(text: &str) -> Case {
+pub fn case(text: &str) -> Case {
     Case::parse(text, "tube.toml", "").unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn with(case: &Case, key: &str, value: impl Into<KeyValue>) -> Case {
+pub fn with(case: &Case, key: &str, value: impl Into<KeyValue>) -> Case {
     case.with(key, value).unwrap_or_else(|error| panic!("{error}"))
 }
 

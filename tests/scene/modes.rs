@@ -1,6 +1,7 @@
 //! Modes: against closed forms, at the order of their elements, and what cutting a scene to them
 //! keeps.
 
+use crate::structures;
 use signorini::State;
 use signorini::linear::{Factor, Symmetric};
 use signorini::{
@@ -16,16 +17,7 @@ fn bar(elements: usize, left: BarEnd, right: BarEnd, mass: MassMatrix) -> Bar {
 
 /// A steel tube of 1 m.
 fn beam(elements: usize, left: BeamEnd, right: BeamEnd) -> Beam {
-    Beam {
-        length: 1.0,
-        youngs_modulus: 2.0e11,
-        density: 7850.0,
-        section: BeamSection::Tube { outer_diameter: 0.01905, inner_diameter: 0.01575 },
-        added_mass: 0.3,
-        elements,
-        left,
-        right,
-    }
+    Beam { length: 1.0, ..structures::beam(elements, left, right) }
 }
 
 fn chain(n: usize, grounds: [f64; 2]) -> Structure {

@@ -8,7 +8,7 @@ use signorini::{Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, Damping, Error, 
 const FORCE: f64 = 100.0;
 
 /// A steel tube of 2 m.
-fn beam(elements: usize, left: BeamEnd, right: BeamEnd) -> Beam {
+pub fn beam(elements: usize, left: BeamEnd, right: BeamEnd) -> Beam {
     Beam {
         length: 2.0,
         youngs_modulus: 2.0e11,

@@ -1,7 +1,8 @@
 //! Turbulence of case files: the variance that it gives a tube in closed form, the same forces
 //! under other numbers of modes, its seeds and planes, and files that are refused.
+use crate::fluid_elastic::{case, with};
 use crate::refused::{Wrong, not_refused};
-use signorini::case::{Case, KeyValue};
+use signorini::case::Case;
 use signorini::{Load, LoadKind, Options, Scheme, Table, run};
 use std::f64::consts::PI;
 
@@ -37,14 +38,6 @@ end = 20.0
 step = 1e-3
 sample = 0.1
 "#;
-
-fn case(text: &str) -> Case {
-    Case::parse(text, "tube.toml", "").unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn with(case: &Case, key: &str, value: impl Into<KeyValue>) -> Case {
-    case.with(key, value).unwrap_or_else(|error| panic!("{error}"))
-}
 
 fn table(load: &Load) -> &Table {
     match &load.kind {

@@ -1,20 +1,13 @@
 //! Accuracy against speed: orders, front, floors and hard scenes from the chart's own data, and the
 //! command itself. Errors, files and counters only: no time is asserted.
 
+use crate::horizon::source;
 use signorini::scheme::SchemeKind;
 use signorini::study::work_precision::{
     Effort, Measured, MethodPoints, Quantity, Steps, WorkPrecision, every_method, study,
 };
 use signorini::{Integrator, Load, Method, PenaltyLaw, Scene, Scheme, Wall};
 use std::process::{Command, Output};
-
-fn source(e: f64, end: f64) -> Scene {
-    Scene::oscillator(1.0, 0.2, 100.0)
-        .with_wall(Wall::upper("upper", 5e-3).with_restitution(e))
-        .with_wall(Wall::lower("lower", -5e-3).with_restitution(e))
-        .with_load(Load::harmonic(3.0, 5.0, 0.0))
-        .with_duration(end)
-}
 
 const MOREAU: Scheme = Scheme::MoreauJean { theta: 0.5 };
 

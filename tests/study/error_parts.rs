@@ -4,10 +4,9 @@ use signorini::linear::Symmetric;
 use signorini::study::realisations::{Check, ErrorParts, Measure, Realisation, Realisations, Refined, realisations};
 use signorini::{Flat, Flats, Load, Options, PlaneRows, Result, Row, Scene, Scheme, Structure, WallLaw, run};
 
-/// The benchmark SDND104 of code_aster (V5.01.104): 1 kg pressed on a flat by 10 N with friction
-/// 0.1, on a base shaken by 1 Hz.
-fn rubbing(acceleration: f64, duration: f64) -> Result<Scene> {
-    let [mass, damping, stiffness] = [1.0, 0.0, 3e-5].map(|x| Symmetric::diagonal(&[x, x]));
+/// 1 kg with that damping (N s/m) and stiffness (N/m) in both planes, pressed on a flat by 10 N.
+pub fn pressed_on_a_flat([damping, stiffness]: [f64; 2], friction: f64, duration: f64) -> Result<Scene> {
+    let [mass, damping, stiffness] = [1.0, damping, stiffness].map(|x| Symmetric::diagonal(&[x, x]));
     let at = PlaneRows::doubled(&Row::dof(0), 1);
     let flats = Flats {
         name: "flat".to_owned(),
@@ -15,16 +14,22 @@ fn rubbing(acceleration: f64, duration: f64) -> Result<Scene> {
         flats: vec![Flat { direction: 90.0, gap: 0.0 }],
         centre: [0.0, 0.0],
         law: WallLaw::Rigid { restitution: 0.0 },
-        friction: 0.1.into(),
+        friction: friction.into(),
     };
     let mut scene = Scene::structure(Structure { mass, damping, stiffness }).with_duration(duration);
     for wall in flats.walls()? {
         scene = scene.with_wall(wall);
     }
     scene.supports.push(flats.support(0));
-    let shaken = Load { at: at.along(0.0), ..Load::harmonic(acceleration, 1.0, std::f64::consts::PI) };
-    let pressed = Load { at: at.along(90.0), ..Load::constant(10.0) };
-    Ok(scene.with_load(shaken).with_load(pressed))
+    Ok(scene.with_load(Load { at: at.along(90.0), ..Load::constant(10.0) }))
+}
+
+/// The benchmark SDND104 of code_aster (V5.01.104): 1 kg pressed on a flat by 10 N with friction
+/// 0.1, on a base shaken by 1 Hz.
+fn rubbing(acceleration: f64, duration: f64) -> Result<Scene> {
+    let at = PlaneRows::doubled(&Row::dof(0), 1).along(0.0);
+    let shaken = Load { at, ..Load::harmonic(acceleration, 1.0, std::f64::consts::PI) };
+    Ok(pressed_on_a_flat([0.0, 3e-5], 0.1, duration)?.with_load(shaken))
 }
 
 /// Four realisations whose accelerations differ from `least` by some `spread`, with steps of `step`

@@ -1,5 +1,6 @@
 //! Means over realisations of random loads, with intervals that hold what they promise.
 
+use crate::error_parts::pressed_on_a_flat;
 use signorini::linear::Symmetric;
 use signorini::study::realisations::{Interval, Measure, Realisation, Realisations, realisations};
 use signorini::{
@@ -42,24 +43,10 @@ fn nineteen_of_twenty_intervals_hold_the_expectation() {
 
 /// A body pressed on a flat by 10 N, which a random force shakes along it, without friction.
 fn slid(seed: u64) -> Result<Scene> {
-    let [mass, damping, stiffness] = [1.0, 20.0, 100.0].map(|x| Symmetric::diagonal(&[x, x]));
-    let at = PlaneRows::doubled(&Row::dof(0), 1);
-    let flats = Flats {
-        name: "flat".to_owned(),
-        at: at.clone(),
-        flats: vec![Flat { direction: 90.0, gap: 0.0 }],
-        centre: [0.0, 0.0],
-        law: WallLaw::Rigid { restitution: 0.0 },
-        friction: 0.0.into(),
-    };
-    let mut scene = Scene::structure(Structure { mass, damping, stiffness }).with_duration(2.0);
-    for wall in flats.walls()? {
-        scene = scene.with_wall(wall);
-    }
-    scene.supports.push(flats.support(0));
     let density = Density::Flat { rms: 0.3, from: 0.5, to: 20.0 };
-    let random = Load { at: at.along(0.0), ..RandomForce { density, seed, stream: 0 }.load(2.0)? };
-    Ok(scene.with_load(Load { at: at.along(90.0), ..Load::constant(10.0) }).with_load(random))
+    let at = PlaneRows::doubled(&Row::dof(0), 1).along(0.0);
+    let random = Load { at, ..RandomForce { density, seed, stream: 0 }.load(2.0)? };
+    Ok(pressed_on_a_flat([20.0, 100.0], 0.0, 2.0)?.with_load(random))
 }
 
 #[test]

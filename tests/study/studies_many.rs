@@ -1,5 +1,6 @@
 //! The studies on several degrees of freedom: compared with one degree of freedom, with sums by
 //! hand, and with closed forms.
+use crate::horizon::source;
 use signorini::linear::Symmetric;
 use signorini::study::accuracy::{Against, Target, reach};
 use signorini::study::change::Change;
@@ -17,15 +18,6 @@ use signorini::{
 };
 
 const MOREAU: Scheme = Scheme::MoreauJean { theta: 0.5 };
-
-/// The source scene.
-fn source(e: f64, duration: f64) -> Scene {
-    Scene::oscillator(1.0, 0.2, 100.0)
-        .with_wall(Wall::upper("upper", 5e-3).with_restitution(e))
-        .with_wall(Wall::lower("lower", -5e-3).with_restitution(e))
-        .with_load(Load::harmonic(3.0, 5.0, 0.0))
-        .with_duration(duration)
-}
 
 /// Two uncoupled oscillators in one scene; names of the second end in 2, and each has its probe.
 fn beside(first: &Scene, second: &Scene) -> Scene {

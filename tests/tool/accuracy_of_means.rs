@@ -2,18 +2,13 @@
 //! random loads, and the work rates of a benchmark.
 use crate::command::said;
 use crate::shaken::before_a_stop;
-use serde_json::Value;
+use crate::table::summary;
 use std::fs;
-use std::path::Path;
 
 fn folder() -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("stop.toml"), before_a_stop(2e-3)).unwrap();
     dir
-}
-
-fn summary(folder: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap()
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::process::Command;
 
 /// The fenced blocks of a page: language, name of the file that it is, if any, and text.
 fn blocks(page: &str) -> Vec<(String, Option<String>, String)> {
-    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(page)).unwrap();
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(page)).unwrap();
     let mut blocks = Vec::new();
     let mut open: Option<(String, Option<String>, String)> = None;
     for line in text.lines() {
@@ -36,6 +36,12 @@ fn words(line: &str) -> Vec<String> {
         .collect()
 }
 
+/// The lines of a block of shell, without their remarks.
+fn lines(text: &str) -> Vec<String> {
+    let joined = text.replace("\\\n", " ");
+    joined.lines().map(|line| line.split(" #").next().unwrap_or_default().to_owned()).collect()
+}
+
 /// Runs a command line of a page with `more` arguments, which succeeds, and returns what it prints.
 fn done(page: &str, line: &str, more: &[&str], folder: &Path) -> String {
     let words = words(line);
@@ -55,8 +61,8 @@ fn follow(page: &str, folder: &Path) -> (usize, usize, String) {
             fs::write(folder.join(name), text).unwrap();
             files += 1;
         } else if language == "sh" {
-            for line in text.replace("\\\n", " ").lines() {
-                said += &done(page, line, &[], folder);
+            for line in lines(&text) {
+                said += &done(page, &line, &[], folder);
                 commands += 1;
             }
         }
@@ -67,7 +73,7 @@ fn follow(page: &str, folder: &Path) -> (usize, usize, String) {
 #[test]
 fn my_own_tube_in_ten_minutes() {
     let dir = tempfile::tempdir().unwrap();
-    let (files, commands, said) = follow("own-tube.md", dir.path());
+    let (files, commands, said) = follow("docs/own-tube.md", dir.path());
     assert_eq!((files, commands), (1, 6));
     for word in ["plate", "bars", "work", "worn", "natural frequencies"] {
         assert!(said.contains(word), "{word}: {said}");
@@ -80,7 +86,7 @@ fn my_own_tube_in_ten_minutes() {
 #[test]
 fn my_own_paper_figure_in_ten_minutes() {
     let dir = tempfile::tempdir().unwrap();
-    let (files, commands, said) = follow("own-paper-figure.md", dir.path());
+    let (files, commands, said) = follow("docs/own-paper-figure.md", dir.path());
     assert_eq!((files, commands), (1, 5));
     for word in ["stop-upper", "symmetry-breaking", "generalized-alpha"] {
         assert!(said.contains(word), "{word}: {said}");
@@ -101,7 +107,7 @@ fn my_own_paper_figure_in_ten_minutes() {
 #[test]
 fn my_own_matrices_in_ten_minutes() {
     let dir = tempfile::tempdir().unwrap();
-    let (files, commands, said) = follow("own-matrices.md", dir.path());
+    let (files, commands, said) = follow("docs/own-matrices.md", dir.path());
     assert_eq!((files, commands), (7, 6));
     // 2 √1000 sin(π/14) / 2π and 2 √1000 sin(5π/14) / 2π.
     assert!(said.contains("natural frequencies from 2.239861 to about 9.069011 Hz"), "{said}");
@@ -127,16 +133,14 @@ fn my_own_matrices_in_ten_minutes() {
 fn the_sweeps_of_the_documents_can_be_made() {
     let dir = tempfile::tempdir().unwrap();
     let mut planned = 0;
-    for page in ["engineer.md", "sweep.md"] {
+    for page in ["docs/engineer.md", "docs/sweep.md"] {
         let (files, others): (Vec<_>, Vec<_>) = blocks(page).into_iter().partition(|(_, name, _)| name.is_some());
         for (_, name, text) in files {
             fs::write(dir.path().join(name.unwrap()), text).unwrap();
         }
         for (language, _, text) in others {
             if language == "sh" {
-                let joined = text.replace("\\\n", " ");
-                let lines = joined.lines().map(|line| line.split(" #").next().unwrap_or_default());
-                for line in lines.filter(|line| line.starts_with("signorini sweep ")) {
+                for line in lines(&text).iter().filter(|line| line.starts_with("signorini sweep ")) {
                     done(page, line, if line.contains("--plan") { &[] } else { &["--plan"] }, dir.path());
                     planned += 1;
                 }
@@ -144,4 +148,23 @@ fn the_sweeps_of_the_documents_can_be_made() {
         }
     }
     assert!(planned >= 10, "{planned}");
+}
+
+/// The commands of all other pages take minutes: they are parsed.
+#[test]
+fn the_commands_of_the_documents_are_known() {
+    let mut known = 0;
+    for page in ["README.md", "cases/README.md", "docs/engineer.md", "docs/orbits.md", "docs/statistics.md"]
+        .into_iter()
+        .chain(["docs/researcher.md", "docs/sweep.md", "docs/holes.md"])
+    {
+        let shell = blocks(page).into_iter().filter(|(language, ..)| language == "sh");
+        let lines = shell.flat_map(|(_, _, text)| lines(&text));
+        for line in lines.filter(|line| line.starts_with("signorini ")) {
+            let parsed = signorini::cli::command().try_get_matches_from(words(&line));
+            assert!(parsed.is_ok(), "{page}: {line}: {}", parsed.err().unwrap());
+            known += 1;
+        }
+    }
+    assert!(known >= 40, "{known}");
 }

@@ -1,7 +1,7 @@
 //! The errors of means over realisations: the table, `errors.csv`, the summary, the exit code.
 use crate::command::said;
 use crate::shaken::square_of_bars;
-use serde_json::Value;
+use crate::table::summary;
 use std::fs;
 use std::path::Path;
 
@@ -99,7 +99,7 @@ fn each_part_is_what_runs_with_the_same_seeds_differ_by() {
     assert_eq!(errors[0].join(","), header);
     // Three means of the support and two of each of its flats.
     assert_eq!(errors.len(), 1 + 3 + 4 * 2);
-    let summary: Value = serde_json::from_str(&fs::read_to_string(path.join("seven/summary.json")).unwrap()).unwrap();
+    let summary = summary(&path.join("seven"));
     let estimates = summary["realisations"]["estimates"].as_array().unwrap();
     for (measure, unit) in [("work_rate", "W"), ("mean_force", "N")] {
         let of = |table: &[Vec<String>]| column(table, "bars", &format!("{measure}_{unit}"));
@@ -164,6 +164,6 @@ fn a_refuted_check_fails_the_command_and_gives_no_part() {
     assert!(err.contains("with 8 modes 2 of 2 realisations are refuted: that part of the errors"), "{err}");
     assert!(err.contains("refuted by the judge") && err.contains("realisation 2 with 8 modes"), "{err}");
     assert_eq!(parts(&out), ["start", "step", "sampling"]);
-    let summary: Value = serde_json::from_str(&fs::read_to_string(path.join("wrong/summary.json")).unwrap()).unwrap();
+    let summary = summary(&path.join("wrong"));
     assert_eq!(summary["realisations"]["checks"][1]["refuted"], serde_json::json!([1, 2]));
 }

@@ -1,5 +1,6 @@
 //! Margins of a tube in a cross flow, in all that shows them: explanation, notes, JSON and pages.
 use crate::command::said;
+use crate::table::summary;
 use serde_json::Value;
 use std::fs;
 
@@ -30,7 +31,7 @@ fn margins_are_in_the_explanation_the_notes_the_json_and_the_pages() {
 
     let (_, err) = said(path, &[&["run"], &CASE[..], &SHORT, &["--no-verdict", "--out", "r"]].concat(), 0);
     assert!(err.contains("note: unstable: work rates mean nothing"), "{err}");
-    let summary: Value = serde_json::from_str(&fs::read_to_string(path.join("r/summary.json")).unwrap()).unwrap();
+    let summary = summary(&path.join("r"));
     is_known(&summary["scene"]["fluid_elastic"]);
 
     let years = ["--years", "1", "--histories", "1", "--json", "--out", "w"];
@@ -60,7 +61,7 @@ fn margins_of_several_bodies_name_them_in_all_that_shows_margins() {
     }
     let (_, err) = said(path, &[&["run"], &case[..], &SHORT, &["--no-verdict", "--out", "r"]].concat(), 0);
     assert!(err.contains("in the mode of") && err.contains("Hz of \"left\""), "{err}");
-    let summary: Value = serde_json::from_str(&fs::read_to_string(path.join("r/summary.json")).unwrap()).unwrap();
+    let summary = summary(&path.join("r"));
     let active = summary["scene"]["fluid_elastic"]["active"].as_array().unwrap();
     assert!(active.iter().any(|one| one["bodies"] == serde_json::json!(["left", "right"])), "{active:?}");
     let page = fs::read_to_string(path.join("r/report.html")).unwrap();

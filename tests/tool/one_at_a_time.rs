@@ -1,17 +1,9 @@
 //! `sweep --one-at-a-time`: effects that equal differences of runs, and what is refused.
 use crate::command::said;
+use crate::table::{number, rows};
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
-
-/// The rows of a table, each by the names of its columns.
-fn rows(path: &Path) -> Vec<HashMap<String, String>> {
-    csv::Reader::from_path(path).unwrap().deserialize().map(|row| row.unwrap()).collect()
-}
-
-fn number(row: &HashMap<String, String>, column: &str) -> f64 {
-    row[column].parse().unwrap_or_else(|_| panic!("{column} is {:?}", row[column]))
-}
 
 const CASE: [&str; 5] = ["tube-round-supports", "--set", "time.end=0.4", "--set", "time.statistics_from=0.1"];
 const GAP: &str = "support.*.gap=1e-4:4e-4";

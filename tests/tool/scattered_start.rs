@@ -1,10 +1,10 @@
 //! Realisations of a chaotic motion: starts that scatter.
 
 use crate::command::said;
+use crate::table::summary;
 use serde_json::Value;
 use signorini::case::Case;
 use std::fs;
-use std::path::Path;
 
 /// An oscillator between rigid walls whose motion is chaotic and forgets its start within some
 /// seconds: its Lyapunov exponent is 3.6 per second.
@@ -21,10 +21,6 @@ const CHAOTIC: [&str; 8] = [
 
 /// From starts that scatter.
 const SCATTER: [&str; 2] = ["--set", "initial.scatter.velocity=1e-6"];
-
-fn summary(folder: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap()
-}
 
 #[test]
 fn realisation_k_is_the_run_of_its_seed_and_a_case_without_modes_or_with_them_scatters() {

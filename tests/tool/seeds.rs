@@ -1,7 +1,7 @@
 //! `run --seeds`: the files, the numbers in them, and what is refused.
 use crate::command::said;
 use crate::shaken::square_of_bars;
-use serde_json::Value;
+use crate::table::summary;
 use std::fs;
 use std::path::Path;
 
@@ -16,10 +16,6 @@ fn folder() -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("square.toml"), square()).unwrap();
     dir
-}
-
-fn summary(path: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(path.join("summary.json")).unwrap()).unwrap()
 }
 
 /// The rows of `realisations.csv`, as cells.

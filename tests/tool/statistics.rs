@@ -1,13 +1,10 @@
 //! `[statistics]`: joined episodes and spectra of a run, in files, summary and on the terminal.
 use crate::command::said;
 use crate::shaken::square_of_bars;
+use crate::table::summary;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-
-fn summary(path: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(path.join("summary.json")).unwrap()).unwrap()
-}
 
 /// The columns of a CSV file of numbers, under its header.
 fn columns(path: &Path) -> (String, Vec<Vec<f64>>) {

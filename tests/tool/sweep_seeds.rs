@@ -2,26 +2,15 @@
 //! interruptions, and what is refused.
 use crate::command::{command, said};
 use crate::shaken::{IN_A_FLOW, before_a_stop};
+use crate::table::{number, rows, summary};
 use serde_json::Value;
 use signorini::case::CaseFile;
 use signorini::study::realisations::RealisationCount;
 use signorini::sweep::{Axis, Measure, Samples, Status, Sweep, Window};
 use signorini::{Options, run};
-use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
-
-/// The rows of a table, each by the names of its columns.
-fn rows(path: &Path) -> Vec<HashMap<String, String>> {
-    let mut reader = csv::Reader::from_path(path).unwrap();
-    reader.deserialize().map(|row| row.unwrap()).collect()
-}
-
-fn number(row: &HashMap<String, String>, column: &str) -> f64 {
-    let cell = row.get(column).unwrap_or_else(|| panic!("no column {column}"));
-    cell.parse().unwrap_or_else(|_| panic!("{column} is {cell:?}"))
-}
 
 const GAPS: [&str; 3] = ["0.0001", "0.0002", "0.0004"];
 
@@ -107,7 +96,7 @@ fn a_row_is_run_with_seeds_bit_for_bit() {
         );
         let of_run = rows(&path.join("run/realisations.csv"));
         let of_row: Vec<_> = realisations.iter().filter(|run| run["row"] == mean["row"]).collect();
-        let summary: Value = serde_json::from_str(&fs::read_to_string(path.join("run/summary.json")).unwrap()).unwrap();
+        let summary = summary(&path.join("run"));
         let estimates = summary["realisations"]["estimates"].as_array().unwrap();
         for (support, word) in [("plate-1", "plate_1"), ("plate-2", "plate_2")] {
             for (name, measure, unit, column) in [

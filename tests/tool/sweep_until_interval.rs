@@ -2,10 +2,9 @@
 //! shards, rows out of reach, and what is refused.
 use crate::command::said;
 use crate::shaken::square_of_bars;
-use serde_json::Value;
+use crate::table::{rows, summary};
 use signorini::case::CaseFile;
 use signorini::sweep::{Axis, Measure, Shard, Status, Sweep, SweepOptions};
-use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
@@ -24,10 +23,6 @@ fn folder() -> tempfile::TempDir {
     dir
 }
 
-fn rows(path: &Path) -> Vec<HashMap<String, String>> {
-    csv::Reader::from_path(path).unwrap().deserialize().map(|row| row.unwrap()).collect()
-}
-
 fn bytes(folder: &Path) -> Vec<Vec<u8>> {
     ["sweep.csv", "realisations.csv"].map(|name| fs::read(folder.join(name)).unwrap()).to_vec()
 }
@@ -44,8 +39,7 @@ fn a_row_is_run_until_its_interval_bit_for_bit() {
         let set = format!("support.bars.gap={gap}");
         let run = ["run", "square.toml", "--set", &set, "--until-interval", "30%", "--no-verdict", "--out", gap];
         said(path, &run, 0);
-        let summary: Value =
-            serde_json::from_str(&fs::read_to_string(path.join(gap).join("summary.json")).unwrap()).unwrap();
+        let summary = summary(&path.join(gap));
         let study = &summary["realisations"];
         assert_eq!((mean["seeds"].clone(), mean["status"].as_str()), (study["count"].to_string(), "ok"), "{gap}");
         let own = realisations.iter().filter(|run| run["row"] == row.to_string());

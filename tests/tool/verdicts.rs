@@ -1,16 +1,11 @@
 //! What the tool says of a run's accuracy and of its schemes: with units, and only what was seen.
 use crate::command::said;
-use serde_json::Value;
+use crate::table::summary;
 use std::fs;
-use std::path::Path;
 use std::process::Command;
 
 fn line<'a>(text: &'a str, begins: &str) -> &'a str {
     text.lines().find(|line| line.starts_with(begins)).unwrap_or_else(|| panic!("{begins}: {text}"))
-}
-
-fn summary(folder: &Path) -> Value {
-    serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap()
 }
 
 #[test]

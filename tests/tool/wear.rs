@@ -2,21 +2,12 @@
 //! limits, and what is refused.
 use crate::command::{command, said};
 use crate::shaken::square_of_bars;
+use crate::table::{number, rows};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::fs;
-use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
-
-/// The rows of a table, each by the names of its columns.
-fn rows(path: &Path) -> Vec<HashMap<String, String>> {
-    csv::Reader::from_path(path).unwrap().deserialize().map(|row| row.unwrap()).collect()
-}
-
-fn number(row: &HashMap<String, String>, column: &str) -> f64 {
-    row[column].parse().unwrap_or_else(|_| panic!("{column} is {:?}", row[column]))
-}
 
 /// The mass that whirls in a hole of 25 mm width, which alone wears; after 5 s it has settled in
 /// the gap of the window.

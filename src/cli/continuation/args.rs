@@ -1,6 +1,6 @@
 //! The arguments of `signorini continue`.
 
-use crate::cli::case_args::{CaseArgs, set_restitution};
+use crate::cli::case_args::CaseArgs;
 use crate::cli::pipeline::Destination;
 use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
@@ -41,9 +41,6 @@ docs/orbits.md has the method and the labels.";
 pub struct Args {
     #[command(flatten)]
     pub(super) case: CaseArgs,
-    /// Restitution of every rigid wall, 0 to 1
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
-    pub(super) restitution: Option<f64>,
     /// The key whose value changes along the branches, such as load.1.harmonic.frequency
     #[arg(long, value_name = "KEY")]
     pub(super) key: String,
@@ -89,8 +86,7 @@ pub struct Args {
 impl Args {
     /// The scenes over which the branches are followed.
     pub(super) fn family(&self, ui: &Ui) -> Result<SceneFamily> {
-        let mut file = self.case.file(ui)?;
-        set_restitution(&mut file, self.restitution)?;
+        let file = self.case.file(ui)?;
         let key = KeyRange { names: ["--key", "--range"], key: &self.key, range: limits("--range", &self.range)? };
         let names = ["--second", "--second-range"];
         let second = match (&self.second, &self.second_range) {
@@ -98,12 +94,6 @@ impl Args {
             _ => None,
         };
         SceneFamily::new(file, &key, second.as_ref())
-    }
-
-    /// The command line of `signorini orbit` for the same case.
-    pub(super) fn orbit_command(&self) -> String {
-        let restitution = self.restitution.map(|e| format!(" --restitution {e:?}")).unwrap_or_default();
-        self.case.command_line("orbit") + &restitution
     }
 
     /// What decides on the results beside the case.

@@ -43,7 +43,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         traced = loci::follow(&family, second, &found, args, ui)?;
         write_loci(&mut results, &traced, &family, second)?;
     }
-    results.add_to_manifest("orbit_command", json!(args.orbit_command()));
+    results.add_to_manifest("orbit_command", json!(args.case.command_line("orbit")));
     let mut answer = Answer::of(results, !args.place.no_report, document);
     show_branches(&mut answer, &drawn);
     show_specials(&mut answer, &drawn);

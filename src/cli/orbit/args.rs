@@ -35,9 +35,6 @@ and orbit.json and report.html are written. docs/orbits.md has the method.";
 pub struct Args {
     #[command(flatten)]
     pub(super) case: CaseArgs,
-    /// Restitution of every rigid wall, 0 to 1
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
-    pub(super) restitution: Option<f64>,
     /// Forcing periods that are run before the motion is checked for repetition
     #[arg(long, value_name = "N", default_value_t = SETTLE)]
     pub(super) settle: u32,

@@ -22,7 +22,7 @@ use structure::{structure, told};
 const POINTS: u32 = 2000;
 
 pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
-    let case = args.case.read_with_restitution(args.restitution, ui)?;
+    let case = args.case.read(ui)?;
     if args.list {
         return list(&case);
     }

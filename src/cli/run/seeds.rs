@@ -43,25 +43,19 @@ impl Seeds {
                             it is their limit";
             return Err(Error::invalid("--most-seeds", most, expected));
         }
-        let limit = self.most_time()?;
+        let limit = |text: &String| TimeLimit::from_now(seconds("--most-time", text)?);
+        let limit = self.most_time.as_ref().map(limit).transpose()?;
         if let (Some(text), None) = (&self.most_time, &self.until_interval) {
             let expected = "--until-interval beside it: it limits the number of its realisations";
             return Err(Error::invalid("--most-time", text, expected));
         }
         let share = self.until_interval.as_ref().map(|text| share("--until-interval", text)).transpose()?;
-        let count = RealisationCount::new(self.count, share, self.most_seeds).map_err(of_argument)?;
-        let count = count.map(|count| limit.map_or(count, |limit| count.within_time(limit)));
+        let count = RealisationCount::new(self.count, share, self.most_seeds, limit).map_err(of_argument)?;
         if let Some(count) = count {
             case.check_realisations(count).map_err(of_argument)?;
             case.realisation(count.most())?;
         }
         Ok(count)
-    }
-
-    /// The time that the study may take from now on, where one is named.
-    fn most_time(&self) -> Result<Option<TimeLimit>> {
-        let limit = |text: &String| TimeLimit::from_now(seconds("--most-time", text)?);
-        self.most_time.as_ref().map(limit).transpose()
     }
 
     /// Refuses a number and an interval beside the error of one motion.

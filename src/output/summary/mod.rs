@@ -2,6 +2,8 @@
 
 mod scene;
 
+pub use scene::scene;
+
 use super::detail::Detail;
 use super::realisations;
 use super::request::program;
@@ -83,12 +85,6 @@ pub struct Reasons {
     pub qp: String,
 }
 
-/// The scene of `case` as JSON, in the form used in the summary.
-#[must_use]
-pub fn scene(case: &Case) -> Value {
-    scene::scene(case)
-}
-
 /// The summary of `run` on `case`, and of the `checks` made of it, as JSON: what the file holds,
 /// and what `run --json` prints, both with what is recorded of the tables beside it. A number that
 /// is not finite is null.
@@ -112,7 +108,7 @@ pub fn document(case: &Case, run: &Run, reasons: &Reasons, checks: Checks<'_>) -
         source: case.source.as_deref(),
         case_file: case.document.json()?,
         files: &case.written.files,
-        scene: scene::scene(case),
+        scene: scene(case),
         scheme: run.scheme.to_string(),
         scheme_reason: &reasons.scheme,
         qp_solver: match run.backend {

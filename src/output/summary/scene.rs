@@ -9,7 +9,9 @@ use serde_json::{Map, Value, json};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-pub(super) fn scene(case: &Case) -> Value {
+/// The scene of `case` as JSON, in the form used in the summary.
+#[must_use]
+pub fn scene(case: &Case) -> Value {
     let whole = unreduced(case);
     let mut out = Map::new();
     out.insert(case.model.kind().to_owned(), system(&case.model, &case.without_sliders().system, 0));

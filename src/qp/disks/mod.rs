@@ -34,7 +34,7 @@ mod system;
 
 pub use solver::{DiskCounters, DiskSolver};
 
-use super::{Failure, check_entries, finite, shape};
+use super::{Failure, check_bounds, check_entries, finite, shape};
 use crate::linear::{Rows, Symmetric};
 
 /// What stays the same over all programmes with disks.
@@ -103,16 +103,7 @@ impl DiskBound {
             }
             Self::Strip { normal, lo, hi } => {
                 finite("normal", &normal, f64::is_finite)?;
-                if lo.is_nan() || lo == f64::INFINITY {
-                    return Err(Failure::NotFinite { what: "lower bound", index });
-                }
-                if hi.is_nan() || hi == f64::NEG_INFINITY {
-                    return Err(Failure::NotFinite { what: "upper bound", index });
-                }
-                if lo > hi && lo - hi > super::ROUNDING * scale.max(lo.abs()).max(hi.abs()) {
-                    return Err(Failure::Infeasible { row: index, against: index });
-                }
-                Ok(())
+                check_bounds(index, lo, hi, scale)
             }
         }
     }

@@ -72,7 +72,7 @@ impl Ledger {
         let held: Vec<f64> = scene.walls.iter().map(touching).collect();
         let walls = held.iter().sum::<f64>();
         let room = || vec![0.0; q.len().max(QuietSteps::capacity())];
-        let energy = 0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + walls;
+        let energy = scene.system.energy(q, v) + walls;
         Self {
             scene: Arc::clone(scene),
             matrices: Matrices::new(&scene.system),

@@ -25,7 +25,7 @@ impl Ledger {
     pub fn energy_at(scene: &Scene, q: &[f64], v: &[f64], force: impl Fn(usize) -> f64) -> f64 {
         let walls = scene.walls.iter().enumerate();
         let held: f64 = walls.map(|(index, wall)| stored(wall, wall.row().dot(q), force(index) != 0.0)).sum();
-        0.5 * (scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)) + held
+        scene.system.energy(q, v) + held
     }
 
     /// Adds a stretch and the jump at its end, where the velocity goes from `left` by blows (N s)
@@ -60,8 +60,6 @@ impl Ledger {
                 flows.friction -= 0.5 * (rub[0] * (before[0] + after[0]) + rub[1] * (before[1] + after[1]));
             }
         }
-        let system = &self.scene.system;
-        let own = 0.5 * (system.mass_form(step.v, step.v) + system.stiffness_form(step.q, step.q));
-        self.book(own + walls, flows);
+        self.book(self.scene.system.energy(step.q, step.v) + walls, flows);
     }
 }

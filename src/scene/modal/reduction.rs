@@ -139,10 +139,7 @@ impl Scene {
                 correct(wall, truncation)?;
             }
         }
-        let energy = |scene: &Self| {
-            let State { q, v } = &scene.initial;
-            scene.system.mass_form(v, v) + scene.system.stiffness_form(q, q)
-        };
+        let energy = |scene: &Self| scene.system.energy(&scene.initial.q, &scene.initial.v);
         let whole = energy(self);
         let start_energy_lost =
             if whole > 0.0 && start == Start::Kept { (1.0 - energy(&scene) / whole).max(0.0) } else { 0.0 };

@@ -23,7 +23,7 @@ pub struct Scatter {
 
 impl Scatter {
     /// Adds the deviates to the velocities `v` of a start.
-    pub fn add_to(self, v: &mut [f64]) {
+    pub(crate) fn add_to(self, v: &mut [f64]) {
         for (i, v) in (0..).zip(v) {
             let draw = |which: u64| hash::unit(hash::mix(self.seed, STREAM, 2 * i + which));
             *v += self.deviation * (-2.0 * (1.0 - draw(0)).ln()).sqrt() * (TAU * draw(1)).cos();

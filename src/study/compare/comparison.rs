@@ -64,14 +64,12 @@ pub struct Comparison {
 
 impl Comparison {
     /// The run that errors are against: the exact one, or the refined one in its place.
-    #[must_use]
-    pub fn reference_run(&self) -> Option<&Run> {
+    pub(crate) fn reference_run(&self) -> Option<&Run> {
         self.reference.as_ref().ok().or(self.refined.as_ref().map(|(_, run)| run))
     }
 
     /// What errors are against, in words; `None` where there is no reference.
-    #[must_use]
-    pub fn reference_in_words(&self) -> Option<String> {
+    pub(crate) fn reference_in_words(&self) -> Option<String> {
         match (&self.reference, &self.refined) {
             (Ok(_), _) => Some("the exact motion".to_owned()),
             (_, Some((method, run))) => Some(format!("{method} with steps of {:.2e} s", run.grid.step)),

@@ -32,12 +32,19 @@ pub enum RealisationCount {
 
 impl RealisationCount {
     /// `seeds` realisations, or as many as `until_interval` takes, at most `most`
-    /// ([`MOST_REALISATIONS`] where it is left out); `None` where neither is given.
+    /// ([`MOST_REALISATIONS`] where it is left out) and within `most_time`; `None` where neither is
+    /// given.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under `seeds`, `until_interval` or `most_seeds` for 0 realisations, a
-    /// share that is not between 0 and 1, fewer than [`PILOTS`] allowed, and both or a limit alone.
-    pub fn new(seeds: Option<u64>, until_interval: Option<f64>, most: Option<u64>) -> Result<Option<Self>> {
+    /// [`Error::Invalid`] under `seeds`, `until_interval`, `most_seeds` or `most_time` for 0
+    /// realisations, a share that is not between 0 and 1, fewer than [`PILOTS`] allowed, and both
+    /// or a limit alone.
+    pub fn new(
+        seeds: Option<u64>,
+        until_interval: Option<f64>,
+        most: Option<u64>,
+        most_time: Option<TimeLimit>,
+    ) -> Result<Option<Self>> {
         match (seeds, until_interval, most) {
             (Some(0), ..) => Err(Error::invalid("seeds", 0, "1 or more realisations")),
             (Some(_), Some(share), _) => {
@@ -47,7 +54,13 @@ impl RealisationCount {
             (_, None, Some(most)) => {
                 Err(Error::invalid("most_seeds", most, "until_interval beside it: it is the limit of that number"))
             }
-            (seeds, None, None) => Ok(seeds.map(Self::Exactly)),
+            (seeds, None, None) => match most_time {
+                None => Ok(seeds.map(Self::Exactly)),
+                Some(limit) => {
+                    let expected = "until_interval beside it: it limits the number of its realisations";
+                    Err(Error::invalid("most_time", format!("{:?}", limit.seconds()), expected))
+                }
+            },
             (None, Some(share), _) if !(share > 0.0 && share < 1.0) => {
                 Err(Error::invalid("until_interval", share, "a share above 0 and below 1, such as 0.05"))
             }
@@ -56,17 +69,20 @@ impl RealisationCount {
             }
             (None, Some(share), most) => {
                 let most = most.unwrap_or(MOST_REALISATIONS);
-                Ok(Some(Self::Within { share, most, most_time: None }))
+                Ok(Some(Self::Within { share, most, most_time }))
             }
         }
     }
 
-    /// The same with a time into which the realisations have to fit; a number stays as it is.
+    /// The same where every realisation costs so many runs in all, as where it is the first of the
+    /// windows of a history of wear.
     #[must_use]
-    pub fn within_time(self, limit: TimeLimit) -> Self {
+    pub fn with_runs_each(self, runs_each: f64) -> Self {
         match self {
+            Self::Within { share, most, most_time } => {
+                Self::Within { share, most, most_time: most_time.map(|limit| limit.with_runs_each(runs_each)) }
+            }
             Self::Exactly(_) => self,
-            Self::Within { share, most, .. } => Self::Within { share, most, most_time: Some(limit) },
         }
     }
 
@@ -130,7 +146,7 @@ mod tests {
 
     #[test]
     fn a_number_or_an_interval_is_asked_for_and_not_both() {
-        let new = RealisationCount::new;
+        let new = |seeds, share, most| RealisationCount::new(seeds, share, most, None);
         assert_eq!(new(None, None, None), Ok(None));
         assert_eq!(new(Some(4), None, None), Ok(Some(RealisationCount::Exactly(4))));
         let within = |most| Ok(Some(RealisationCount::Within { share: 0.05, most, most_time: None }));
@@ -147,6 +163,12 @@ mod tests {
         ] {
             let error = new(seeds, share, most).unwrap_err();
             assert!(error.is_request() && error.to_string().starts_with(words), "{error}");
+        }
+        let timed = |seeds, share| RealisationCount::new(seeds, share, None, TimeLimit::from_now(60.0).ok());
+        assert_eq!(timed(None, Some(0.05)).unwrap().unwrap().most(), 200);
+        for seeds in [None, Some(4)] {
+            let error = timed(seeds, None).unwrap_err().to_string();
+            assert!(error.starts_with("most_time is 60.0; expected until_interval beside"), "{error}");
         }
     }
 }

@@ -46,8 +46,7 @@ fn means(members: &[Realisation]) -> Vec<(ContactPlace, Measure, f64, f64)> {
 
 impl NeededRealisations {
     /// From two pilots or more; `None` where nothing is judged: no contact, or no scatter.
-    #[must_use]
-    pub fn from_pilots(pilots: &[Realisation], share: f64) -> Option<Self> {
+    pub(crate) fn from_pilots(pilots: &[Realisation], share: f64) -> Option<Self> {
         Some(widest(pilots)?.for_share(share))
     }
 

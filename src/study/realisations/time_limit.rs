@@ -24,10 +24,8 @@ impl TimeLimit {
         Ok(Self { began: Instant::now(), seconds, runs_each: 1.0 })
     }
 
-    /// The same where every realisation costs so many runs in all, as where it is the first of the
-    /// windows of a history of wear.
-    #[must_use]
-    pub fn with_runs_each(self, runs_each: f64) -> Self {
+    /// The same where every realisation costs so many runs in all.
+    pub(super) fn with_runs_each(self, runs_each: f64) -> Self {
         Self { runs_each, ..self }
     }
 

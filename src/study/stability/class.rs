@@ -125,7 +125,7 @@ pub struct Measurement {
     pub contact_ratio: f64,
     /// Deepest position behind a wall at the end of a step, m.
     pub depth: f64,
-    /// The largest ratio of depth and stated bound over the walls ([`depth_bound`]); 0 where no
+    /// The largest ratio of depth and stated bound over the walls (`depth_bound`); 0 where no
     /// wall is passed.
     pub passed: f64,
     /// Share of steps in which opposite walls push alternately.

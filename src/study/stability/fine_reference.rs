@@ -95,8 +95,7 @@ impl FineReference {
     }
 
     /// Start times of the contacts counted, s.
-    #[must_use]
-    pub fn contact_times(&self, record: &Record) -> Vec<f64> {
+    pub(crate) fn contact_times(&self, record: &Record) -> Vec<f64> {
         counted(&record.contacts, self.threshold, self.joined)
     }
 }

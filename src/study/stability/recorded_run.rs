@@ -205,8 +205,7 @@ impl<'a> EnergyNorm<'a> {
 /// | rigid, moreau-jean | h v (1 − e/2) |
 /// | elastic or penalty of stiffness k_w, any | h v + √(2E/k_w) + 2ma/k_w: one step, the depth at
 /// which the spring stores E, and twice the static depth under the load |
-#[must_use]
-pub fn depth_bound(law: WallLaw, scheme: &Scheme, mass: f64, energy: f64, h: f64, v: f64, a: f64) -> f64 {
+pub(crate) fn depth_bound(law: WallLaw, scheme: &Scheme, mass: f64, energy: f64, h: f64, v: f64, a: f64) -> f64 {
     let stated = match (law.restitution(), law.stiffness()) {
         (Some(e), _) => match scheme {
             Scheme::PaoliSchatzman => 2.0 * e * h * v / (1.0 + e),

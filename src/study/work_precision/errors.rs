@@ -131,8 +131,7 @@ impl Errors {
     }
 
     /// Each error raised to at least `least`, the uncertainty that rounding leaves.
-    #[must_use]
-    pub fn at_least(mut self, least: f64) -> Self {
+    pub(crate) fn at_least(mut self, least: f64) -> Self {
         self.displacement = self.displacement.max(least);
         self.velocity = self.velocity.max(least);
         self.impulse.iter_mut().for_each(|e| *e = e.max(least));
