@@ -46,8 +46,9 @@ impl Impact {
             let rate = contact.rate[0];
             let e = body.walls[wall].law.restitution().unwrap_or(0.0);
             let bound = match contact.place {
-                Place::Away => continue,
-                Place::Leaving => -rate,
+                // A wall that the body leaves has no part in the impact: what drives the body back
+                // into it strikes it next.
+                Place::Away | Place::Leaving => continue,
                 Place::Resting if rate < 0.0 => -rate,
                 Place::Struck if contact.rebounds_end(e, body.h) => {
                     frame.resting.push(wall);
