@@ -35,7 +35,7 @@ const TURNS: usize = 2000;
 
 /// Relative tolerance for the sign of a speed in a programme, over the largest speed of the rows
 /// that touch.
-const TOLD: f64 = 4e-12;
+pub(super) const TOLD: f64 = 4e-12;
 
 /// Maximum number of impacts in turn at one instant: with 0.9995 of the speed left after each, all
 /// are below [`TOLD`].

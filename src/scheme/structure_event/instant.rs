@@ -3,12 +3,16 @@
 
 use super::StructureEvent;
 use super::closed_row::{Cause, ClosedRow, Fate, LEVELS, side_of};
+use super::impact::TOLD;
 use super::round::PLACINGS;
 use super::rows::SIGNS;
 use crate::error::Result;
 use crate::flow::HeldRow;
 use crate::scheme::exact::{ExactWall, Phase};
 use crate::step::Contact;
+
+/// Bodies that move together within this share of the gap touch each other.
+const TOGETHER: f64 = 1e-12;
 
 impl StructureEvent {
     /// Handles everything that happens at the present instant; `hit` is the event that ended the
@@ -115,9 +119,13 @@ impl StructureEvent {
             for (side, closed) in closed.iter_mut().enumerate().filter(|(side, _)| place.carriers[*side] > 0) {
                 // The instant is known only to an ulp of the time.
                 let late = 4.0 * f64::EPSILON * self.time * rate.abs();
+                // Bodies that move together at a wall touch it, at whatever distance the roundings
+                // of their motion have left.
+                let together = rate.abs() <= TOLD * self.body.size(row, &self.v);
+                let near = self.resolution(row, place.bound[side]) + late;
                 *closed = hit == Some(Cause::Gap(row, side))
                     || place.held == SIGNS[side]
-                    || place.gap(side, w) <= self.resolution(row, place.bound[side]) + late;
+                    || place.gap(side, w) <= if together { near.max(TOGETHER * self.length) } else { near };
             }
             if closed == [false, false] {
                 continue;
