@@ -417,6 +417,35 @@ fn a_body_that_no_longer_comes_out_of_its_wall_meets_it_again_behind_the_face() 
 }
 
 #[test]
+fn a_dashpot_that_pushes_again_behind_the_face_begins_another_branch() {
+    let family = |stiffness: f64| {
+        Ok(Scene::oscillator(1.0, 0.93, 43.476)
+            .with_wall(Wall::upper("a", 5.239e-3).with_elasticity(stiffness, 4.763))
+            .with_wall(Wall::lower("b", -4.787e-3).with_elasticity(622.686, 17.234))
+            .with_load(Load::harmonic(1.030_678, 1.542_15, 0.0)))
+    };
+    let start = settled(family(400.0).unwrap());
+    let graph = follow(&family, &start, 400.0, [350.0, 800.0], (Switch::All, 3));
+    // The push of b begins and ends again: three branches one after the other, no fold or doubling.
+    let specials: Vec<_> = graph.specials.iter().map(|special| (special.label, special.branch)).collect();
+    assert_eq!(specials, [(Label::ContactEnds, 0), (Label::Corner, 1)], "{:?}", values(&graph));
+    let events = graph.branches.iter().map(|branch| branch.points[0].orbit.signature.events.len());
+    assert_eq!(events.collect::<Vec<_>>(), [4, 6, 4]);
+    assert_eq!(graph.branches[2].ends[1], Some(End::Range));
+    // Free runs have the same events, but where a push or pause is too short to be told.
+    let apart = |value: f64| graph.specials.iter().all(|special| (special.point.value - value).abs() > 0.1);
+    let mut checked = 0;
+    for branch in &graph.branches {
+        for point in branch.points.iter().step_by(5).filter(|point| apart(point.value)) {
+            let judged = Problem::new(family(point.value).unwrap()).unwrap().judge(&point.orbit, 3).unwrap();
+            assert!(judged.holds(), "{}: {} {}", point.value, judged.closure, judged.same_events);
+            checked += 1;
+        }
+    }
+    assert!(checked > 8, "{checked}");
+}
+
+#[test]
 fn a_branch_of_twice_the_period_ends_where_it_meets_that_of_the_single_one_again() {
     let family = |frequency: f64| {
         Ok(Scene::oscillator(1.3, 0.4, 90.0)

@@ -243,6 +243,10 @@ fn forget_echoes(crossed: &mut Vec<Crossed>, point: &Point, near: f64) {
     let among = |places: &[f64], at: f64| places.iter().any(|place| (place - at).abs() <= near);
     let ends: Vec<f64> = crossed.iter().filter(elastic).map(|crossed| crossed.at).collect();
     crossed.retain(|crossed| crossed.label.ends() || !among(&ends, crossed.at));
+    // The force of a wall within a pause that vanishes vanishes there too.
+    let corner = |crossed: &&Crossed| crossed.label == Label::Corner && elastic(crossed);
+    let corners: Vec<f64> = crossed.iter().filter(corner).map(|crossed| crossed.at).collect();
+    crossed.retain(|crossed| crossed.label != Label::ContactEnds || !among(&corners, crossed.at));
     // Beyond an impact of speed 0 the motion turns back behind its wall: this is not a new contact.
     let gone = |crossed: &&Crossed| crossed.label == Label::GrazingOut;
     let turns: Vec<f64> = crossed.iter().filter(gone).map(|crossed| crossed.at).collect();

@@ -190,6 +190,8 @@ impl<'a> Curve<'a> {
         }
         orbit.remove(next);
         orbit.remove(at.event);
+        // Of a wall that is never left no event remains.
+        orbit.signature.events.iter().find(|event| event.wall == first.wall)?;
         Some(self.begin(problem, &orbit, at.point.value, Some(at), false))
     }
 
