@@ -3,7 +3,7 @@
 use crate::source::{ball, near, only_of, source, values};
 use signorini::orbit::branch::{End, Label};
 use signorini::orbit::branch::{Graph, Locus, Request, Special, Switch, graph, locus};
-use signorini::orbit::{Orbit, Problem, Signature};
+use signorini::orbit::{Event, Kind, Orbit, Problem, Signature};
 use signorini::{Error, Load, Result, Scene, Wall};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -443,6 +443,28 @@ fn a_dashpot_that_pushes_again_behind_the_face_begins_another_branch() {
         }
     }
     assert!(checked > 8, "{checked}");
+}
+
+#[test]
+fn a_push_behind_the_face_of_a_dashpot_comes_out_to_it_and_becomes_a_contact() {
+    let family = |damping: f64| {
+        Ok(Scene::oscillator(1.0, 1.0, 167.0)
+            .with_wall(Wall::upper("a", 3.1e-3).with_elasticity(305.0, damping))
+            .with_load(Load::harmonic(3.9, 1.21, 0.0)))
+    };
+    let start = settled(family(10.0).unwrap());
+    let graph = follow(&family, &start, 10.0, [1.0, 20.0], (Switch::All, 3));
+    let kinds = |events: &[Event]| events.iter().map(|event| event.kind).collect::<Vec<_>>();
+    let found: Vec<_> = graph.branches.iter().map(|branch| kinds(&branch.points[1].orbit.signature.events)).collect();
+    let (enter, leave, again) = (Kind::Enter, Kind::Leave, Kind::Again);
+    let expected = [vec![enter, leave], vec![enter, leave, again, leave], vec![enter, leave, enter, leave]];
+    assert_eq!(found, expected, "{:?}", values(&graph));
+    // The events on which free runs settle.
+    for (damping, events) in [(10.0, &expected[0]), (5.0, &expected[1]), (3.0, &expected[2]), (1.5, &expected[2])] {
+        assert_eq!(&kinds(&settled(family(damping).unwrap()).signature.events), events, "{damping} N s/m");
+    }
+    let last = graph.branches[2].points.iter().rfind(|point| point.value < 3.0).unwrap();
+    assert!(Problem::new(family(last.value).unwrap()).unwrap().judge(&last.orbit, 3).unwrap().holds());
 }
 
 #[test]

@@ -65,11 +65,10 @@ impl<'a> Followed for Curve<'a> {
                 Err(Error::no_orbit("the branch itself goes on beyond"))
             }
             Label::ContactEnds | Label::Corner => {
-                self.divide(&problem, at).or_else(|| self.join(&problem, at)).unwrap_or_else(|| {
-                    Err(Error::no_orbit(format!(
-                        "what follows a {} is not known: start from a run beyond it",
-                        at.label
-                    )))
+                let begun = self.divide(&problem, at).or_else(|| self.join(&problem, at));
+                begun.or_else(|| self.come_out(&problem, at)).unwrap_or_else(|| {
+                    let what = at.label;
+                    Err(Error::no_orbit(format!("what follows a {what} is not known: start from a run beyond it")))
                 })
             }
         }
@@ -226,6 +225,22 @@ impl<'a> Curve<'a> {
         let event = orbit.signature.events.get_mut(at.event).ok_or_else(|| Error::no_orbit("no such event"))?;
         event.kind = Kind::Again;
         self.begin(problem, &orbit, at.point.value, Some(at), false)
+    }
+
+    /// The opposite of [`Curve::stay_behind`]: a wall with a dashpot that pushes again at its face,
+    /// with speed 0, is entered anew beyond; `None` at another special point.
+    fn come_out(&self, problem: &Problem, at: &Passed<Self>) -> Option<Result<Begin<Self>>> {
+        let mut orbit = at.point.orbit.clone();
+        let event = orbit.signature.events.get_mut(at.event).filter(|event| event.kind == Kind::Again)?;
+        event.kind = Kind::Enter;
+        let slow = orbit.speeds.get(at.event)?.abs() <= PROBE * self.scales.speed;
+        (at.label == Label::ContactEnds && slow).then(|| {
+            let curve = self.of(&orbit.signature);
+            let y = curve.gather(problem, &orbit, at.point.value);
+            // At speed 0 the key does not tell these orbits apart, but the speed does.
+            let along = unit(y.len(), 2 * at.event + 1);
+            Ok(Begin { curve, y, along, both: false })
+        })
     }
 
     /// An impact with e = 0 gets a rest of duration 0, or a rest of duration 0 becomes such an
