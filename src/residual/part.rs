@@ -142,7 +142,11 @@ impl Judge {
         let noise = self.noise.velocity(speeds, self.noise.span) + self.noise.of(size) / hole.gap * speeds;
         let rests = step.resting.contains(&place) && supports.ends_rebounds(hole, (n, struck), self.h, noise);
         let e = if rests || step.wedged.contains(&place) { 0.0 } else { hole.restitution };
-        let slack = if struck > 0.0 { -after - e * struck } else { -struck };
+        let slack = match struck > 0.0 {
+            true => -after - e * struck,
+            false if p == 0.0 => -struck,
+            false => -after,
+        };
         self.walls.observe_rebound(&self.noise, place, (slack, noise), pressure);
         if p != 0.0 {
             let across = pressure * (step.normal[place][0] - n[0]).hypot(step.normal[place][1] - n[1]);
@@ -180,8 +184,13 @@ impl Judge {
             2.0 * e * struck.abs() * length <= SAME * (1.0 - e) * self.h * (pressed + noise)
         };
         let e = if rests || step.wedged.contains(&index) { 0.0 } else { e };
-        // A wall that the body leaves does not push: what drives the body back strikes it next.
-        let slack = if sign * struck > 0.0 { sign * struck } else { rebound(wall, e, struck, after) };
+        // A wall that the body leaves has no part in an impact, unless it leaves so slowly that it
+        // rests there: then the wall stops what drives it back.
+        let slack = match sign * struck > 0.0 {
+            false => rebound(wall, e, struck, after),
+            true if p == 0.0 => sign * struck,
+            true => sign * after,
+        };
         self.walls.observe_rebound(&self.noise, index, (slack, noise), pressure);
     }
 

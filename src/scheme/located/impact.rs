@@ -49,7 +49,7 @@ impl Impact {
                 // A wall that the body leaves has no part in the impact: what drives the body back
                 // into it strikes it next.
                 Place::Away | Place::Leaving => continue,
-                Place::Resting if rate < 0.0 => -rate,
+                Place::Resting if rate < 0.0 => 0.0,
                 Place::Struck if contact.rebounds_end(e, body.h) => {
                     frame.resting.push(wall);
                     0.0
