@@ -144,8 +144,8 @@ impl Judge {
         let e = if rests || step.wedged.contains(&place) { 0.0 } else { hole.restitution };
         let slack = match struck > 0.0 {
             true => -after - e * struck,
-            false if p == 0.0 => -struck,
-            false => -after,
+            false if p == 0.0 && hole.friction.acts() => -struck,
+            false => -after - struck,
         };
         self.walls.observe_rebound(&self.noise, place, (slack, noise), pressure);
         if p != 0.0 {
@@ -184,13 +184,10 @@ impl Judge {
             2.0 * e * struck.abs() * length <= SAME * (1.0 - e) * self.h * (pressed + noise)
         };
         let e = if rests || step.wedged.contains(&index) { 0.0 } else { e };
-        // A wall that the body leaves has no part in an impact, unless it leaves so slowly that it
-        // rests there: then the wall stops what drives it back.
-        let slack = match sign * struck > 0.0 {
-            false => rebound(wall, e, struck, after),
-            true if p == 0.0 => sign * struck,
-            true => sign * after,
-        };
+        // A wall with friction that the body leaves need not push: what drives the body back
+        // strikes it next.
+        let is_left = p == 0.0 && sign * struck > 0.0 && wall.friction.acts();
+        let slack = if is_left { sign * struck } else { rebound(wall, e, struck, after) };
         self.walls.observe_rebound(&self.noise, index, (slack, noise), pressure);
     }
 

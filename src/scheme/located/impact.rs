@@ -46,10 +46,12 @@ impl Impact {
             let rate = contact.rate[0];
             let e = body.walls[wall].law.restitution().unwrap_or(0.0);
             let bound = match contact.place {
-                // A wall that the body leaves has no part in the impact: what drives the body back
-                // into it strikes it next.
-                Place::Away | Place::Leaving => continue,
-                Place::Resting if rate < 0.0 => 0.0,
+                Place::Away => continue,
+                // With friction the bound of a wall that the body leaves feeds the motion: such a
+                // wall has no part in the impact, and what drives the body back strikes it next.
+                Place::Leaving if contact.point.friction.acts() => continue,
+                Place::Leaving => -rate,
+                Place::Resting if rate < 0.0 => -rate,
                 Place::Struck if contact.rebounds_end(e, body.h) => {
                     frame.resting.push(wall);
                     0.0

@@ -211,10 +211,9 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
                 let face = self.law.wall(number);
                 let rate = body.seen(face.index, &frame.v);
                 let bound = match self.places[face.index] {
-                    // A wall that the body leaves has no part in the impact: what drives the body
-                    // back into it strikes it next.
-                    Place::Away | Place::Leaving => continue,
+                    Place::Away => continue,
                     Place::Resting => -rate,
+                    Place::Leaving => -2.0 * rate,
                     Place::Struck => {
                         let e = face.law.restitution().unwrap_or(0.0);
                         let ends = e > 0.0 && self.rebounds_end(face.index, e, rate.abs(), body.h);
