@@ -213,3 +213,19 @@ def test_a_key_without_effect_on_the_data_has_no_interval() -> None:
     # The other is known as well as it is without this key.
     alone = sg.fit(lambda stiffness: flight_of(stiffness, 0.3), {"stiffness": 105.0}, data, error=error)
     np.testing.assert_allclose(found.intervals["stiffness"], alone.intervals["stiffness"], rtol=1e-6)
+
+
+def test_a_fit_does_not_depend_on_the_unit_of_the_errors() -> None:
+    # Without errors micrometres count as 1e-6 of a metre: the search must not take them for nothing.
+    time = np.linspace(0.01, 0.08, 8)
+    displacement = sg.derivative(stopped, TRUTH, times=time).displacement
+    noise = 1e-3 * displacement * np.random.default_rng(1).standard_normal(8)
+    data = {"time": time, "displacement": displacement + noise}
+
+    def driven(stiffness: float) -> sg.Scene:
+        return sg.oscillator(1.0, 0.2, stiffness, loads=[sg.Load.harmonic(3.0, 2.5)], duration=9.0)
+
+    plain = sg.fit(driven, {"stiffness": 105.0}, data)
+    given = sg.fit(driven, {"stiffness": 105.0}, data, error={"displacement": 1e-6})
+    # Both searches end where a step changes the sum of squares, or the value, by 1e-12 of itself.
+    np.testing.assert_allclose(plain.intervals["stiffness"], given.intervals["stiffness"], rtol=1e-7)

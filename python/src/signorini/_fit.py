@@ -247,8 +247,9 @@ def fit(
     def jacobian_at(x: Array) -> Array:
         return model.at(x)[1]
 
+    # No bound of the gradient: it has the unit of the residuals.
     made = least_squares(
-        residuals_at, x0, jac=jacobian_at, bounds=(low, high), x_scale=scale, xtol=1e-12, ftol=1e-12, gtol=1e-12
+        residuals_at, x0, jac=jacobian_at, bounds=(low, high), x_scale=scale, xtol=1e-12, ftol=1e-12, gtol=None
     )
     if not made.success:
         raise RunError(f"the search did not converge: {made.message}")
