@@ -80,6 +80,8 @@ def test_what_cannot_be_differentiated_is_refused() -> None:
         sg.derivative(ball, ["height"])
     with pytest.raises(ValueError, match="depends"):
         sg.derivative(lambda nothing: ball(0.5, 0.8), {"nothing": 1.0})
+    with pytest.raises(ValueError, match="system.modes is a whole number"):
+        sg.derivative(sg.load("tube-loose-supports"), ["system.modes"])
     with pytest.raises(ZeroDivisionError):
         sg.derivative(lambda x: ball(1 / 0, x), {"x": 1.0})
     with pytest.raises(ValueError, match="event"):

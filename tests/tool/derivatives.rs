@@ -133,6 +133,12 @@ fn what_cannot_be_differentiated_is_refused_in_one_message() {
     };
     refused(&["--derivative", "wall.floor.stifness"], &["stifness"]);
     refused(&["--derivative", "wall.floor.name"], &["wall.floor.name"]);
+    refused(
+        &["--derivative", "wall.floor.position,wall.floor.restitution, wall.floor.position"],
+        &["wall.floor.position, for the second time", "expected each key once"],
+    );
+    refused(&["--derivative", "load.1.random.seed"], &["load.1.random.seed is a whole number"]);
+    refused(&["--derivative", "system.modes"], &["derivative by system.modes is a whole number", "small amount"]);
     refused(&["--derivative", "time.step"], &["time.step", "depends"]);
     refused(&["--derivative", "time.end"], &["time.end", "duration"]);
     refused(&["--derivative", "wall.floor.restitution", "--scheme", "moreau-jean"], &["--scheme", "event"]);
