@@ -165,3 +165,41 @@ fn a_graze_and_the_horizon_end_the_derivatives_with_their_reason() {
     assert!(rows.len() > 3, "{rows:?}");
     assert!(rows.iter().all(|row| row[growth].parse::<f64>().unwrap() <= 1e6));
 }
+
+/// The rows of the table in the terminal, from its header on.
+fn table_of(out: &str) -> String {
+    let at = out.find(" number ").expect("a table");
+    out[at..].split("derivatives.csv").next().unwrap_or_default().to_owned()
+}
+
+#[test]
+fn a_share_of_a_key_that_would_change_much_is_told_smaller() {
+    // A ball falls through h = 1 m less 0.99 m onto a floor at g: its speed √(2G (h − g)) changes by
+    // −g/2(h − g) = −49.5 % for 1 % more of g, and by −0.495 % for 0.01 % more.
+    let dir = folder();
+    let near = ["--set", "wall.floor.position=0.99", "--set", "time.end=0.05"];
+    let args = ["run", "ball.toml", "--derivative", "wall.floor.position,wall.floor.restitution", "--no-report"];
+    let (out, err) = said(dir.path(), &[&args[..], &near].concat(), 0);
+    let all = format!("{out}{err}");
+    let table = table_of(&out);
+    assert!(table.contains("0.01 % more of") && table.contains("-0.49500 %") && !table.contains("-49."), "{table}");
+    // The impulse grows as 1 + e: by 0.8/1.8 % for 1 % more of e, which is as small as it says.
+    assert!(table.contains(" 1 % more of") && table.contains("+0.444 %"), "{table}");
+    assert!(all.contains("1 % more of wall.floor.position would change a number of the table by more"), "{all}");
+    assert!(!all.contains("1 % more of wall.floor.restitution would"), "{all}");
+}
+
+#[test]
+fn a_number_that_is_0_has_no_percent() {
+    // A body of 1 kg that touches a pad approaches it with the speed 0, whatever its weight is.
+    let dir = tempfile::tempdir().unwrap();
+    let case = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 0.0\n\
+                [[wall]]\nname = \"pad\"\nside = \"upper\"\nposition = 0.0\nstiffness = 100.0\n\
+                [[load]]\nconstant = { force = 1.0 }\n\
+                [[load]]\nimpulse = { impulse = -0.5, time = 0.3 }\n[time]\nend = 1.0\nstep = 1e-3\n";
+    fs::write(dir.path().join("pad.toml"), case).unwrap();
+    let args = ["run", "pad.toml", "--derivative", "load.1.constant.force", "--no-report"];
+    let (out, _) = said(dir.path(), &args, 0);
+    let table = table_of(&out);
+    assert!(table.contains("+0.000e0 m/s") && table.contains(" %") && !table.contains("NaN"), "{table}");
+}
