@@ -65,7 +65,7 @@ impl StructureVariation {
             self.lose_pressed(w, time, columns);
         }
         if !self.began {
-            return;
+            return self.note_pushed_at_start(w, columns);
         }
         let (at, n) = (self.walls[w], self.q.len());
         let [place, rate] = [&self.q, &self.v].map(|x| self.flow.body.rows.dot(at.row, x));
@@ -95,6 +95,17 @@ impl StructureVariation {
         if at.damping > 0.0 && (flow.body.rows.dot(at.row, q) - at.position).abs() <= ON_THE_FACE * *length {
             let now = Instant { time, q, before: v, after: v, acceleration: a, impulse: &[], wall_of };
             keys.lose_touched((flow, names), (at.row, w), &now, columns, false);
+        }
+    }
+
+    /// Notes how the approach speed of a contact with wall `w` changes that begins with the motion.
+    fn note_pushed_at_start(&mut self, w: usize, columns: &[f64]) {
+        let Self { flow, walls, v, keys, .. } = self;
+        let (at, n) = (walls[w], v.len());
+        let into = at.sign * flow.body.rows.dot(at.row, v) < 0.0;
+        for (number, (terms, change)) in keys.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
+            let faster = flow.body.rows.dot(at.row, &change[n..]) + terms.along(w, v);
+            keys.contacts.set_start(w, number, [0.0, if into { -at.sign * faster } else { 0.0 }]);
         }
     }
 

@@ -168,3 +168,17 @@ fn a_pad_with_a_dashpot_that_touches_at_the_start_has_no_derivative_by_its_posit
         assert!((by[0] + by[1] - 1.0).abs() < 1e-9, "{by:?}");
     }
 }
+
+#[test]
+fn a_contact_that_begins_with_the_motion_approaches_at_the_speed_of_the_start() {
+    let speed = |v: f64| {
+        let scene = pressed([0.0, 0.0, 4.0, -1.0, 0.0, 0.0])?;
+        Ok(scene.with_initial(&[0.0], &[v]).with_duration(1.0))
+    };
+    let key = SceneTangent::new("speed", 0.2, speed).expect("a tangent");
+    let found = Derivatives::new(&speed(0.2).unwrap(), &[key], &[]).expect("a run");
+    let first = found.contacts.get(0).expect("a contact");
+    assert_eq!((first.contact.start, first.contact.approach_speed), (0.0, 0.2));
+    // Rounding of the derivative of the start.
+    assert!(first.start_by[0] == 0.0 && (first.approach_speed_by[0] - 1.0).abs() < 1e-14);
+}
