@@ -56,6 +56,43 @@ impl StructureVariation {
         jump.apply_to(flow, columns, &keys.terms, &at);
     }
 
+    /// Rows that `step` leaves at rest on rigid walls without an impact: the last of impacts that
+    /// accumulate, too small to be told from rounding. The contacts begin, and the impulses hold
+    /// the rows from here on.
+    pub(super) fn rest_after_impacts(&mut self, step: &Step<'_>, columns: &[f64]) {
+        let Self { flow, walls, jump, during, after, q, v, a, wall_of, keys, .. } = self;
+        let begins = |(wall, at): (usize, &At)| {
+            let rests = at.restitution.is_some() && step.force[wall] != 0.0 && !during[at.row];
+            rests.then_some((wall, at.row))
+        };
+        let fresh: Vec<(usize, usize)> = walls.iter().enumerate().filter_map(begins).collect();
+        if fresh.is_empty() || keys.terms.is_empty() || step.index == 0 {
+            return;
+        }
+        for &(wall, row) in &fresh {
+            keys.contacts.begin_again(wall, (1.0 - ROUNDING) * step.end);
+            wall_of[row] = wall;
+        }
+        let rests = |&(_, row): &(usize, usize)| Struck {
+            row,
+            restitution: 0.0,
+            rests: true,
+            held: true,
+            speed: 0.0,
+            pull: 0.0,
+        };
+        let struck: Vec<Struck> = fresh.iter().map(rests).collect();
+        jump.begin(flow, &struck, (0..during.len()).filter(|&row| during[row] && after[row]));
+        let at = Instant { time: step.end, q, before: v, after: v, acceleration: a, impulse: step.jump, wall_of };
+        let n = q.len();
+        for (number, (terms, change)) in keys.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
+            let impulses = jump.impulses(flow, change.split_at(n), terms, &at);
+            for (row, impulse) in impulses.into_iter().enumerate().filter(|(row, _)| after[*row]) {
+                keys.contacts.add_impulse(at.wall_of[row], number, impulse);
+            }
+        }
+    }
+
     /// Elastic wall `w` begins to push in the `stretch` or after it; with the time (s) of a
     /// `fixed` instant, which no key moves. If the state is on its face and moves into it, the
     /// force of its dashpot jumps; a push that begins elsewhere begins with a force of 0.
@@ -141,8 +178,8 @@ impl StructureVariation {
                 let own = of_wall.map_or(0.0, |wall| wall.stiffness * (place - at.position) + wall.damping * rate);
                 -(at.stiffness * beyond + at.damping * faster + own) / (at.stiffness * rate + at.damping * pull)
             };
-            // A force that leaves 0 within the wall begins a contact of a body that moves out of it:
-            // it approaches with speed 0, by every key.
+            // A force that leaves 0 within the wall begins a contact of a body that moves out of
+            // it: it approaches with speed 0, by every key.
             let approach = if at.sign * rate < 0.0 { -at.sign * (faster + pull * later) } else { 0.0 };
             keys.contacts.set_start(w, number, [later, approach]);
             if !on_face {

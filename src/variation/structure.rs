@@ -219,6 +219,7 @@ impl StructureVariation {
             self.impact(step, stretch, blown, columns)?;
         } else {
             self.check_grazes(step, stretch)?;
+            self.rest_after_impacts(step, columns);
             if !blown {
                 let ended = step.closed.iter().filter(|contact| !is_late(contact, step));
                 ended.for_each(|contact| self.note_end(contact, columns));
