@@ -20,8 +20,8 @@ impl Case {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a key whose value is no number, or a whole one such as a count, or that the file leaves out where no
-    /// number holds then; else as [`SceneTangent::new`].
+    /// [`Error::Invalid`] for a key whose value is no number, or a whole one such as a count, or
+    /// that the file leaves out where no number holds then; else as [`SceneTangent::new`].
     pub fn tangent(&self, key: &Key) -> Result<SceneTangent> {
         let name = key.to_string();
         if key.is_whole() {

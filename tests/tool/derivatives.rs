@@ -174,7 +174,7 @@ fn table_of(out: &str) -> String {
 
 #[test]
 fn a_share_of_a_key_that_would_change_much_is_told_smaller() {
-    // A ball falls through h = 1 m less 0.99 m onto a floor at g: its speed √(2G (h − g)) changes by
+    // A ball falls from h = 1 m onto a floor at g = 0.99 m: its speed √(2G (h − g)) changes by
     // −g/2(h − g) = −49.5 % for 1 % more of g, and by −0.495 % for 0.01 % more.
     let dir = folder();
     let near = ["--set", "wall.floor.position=0.99", "--set", "time.end=0.05"];

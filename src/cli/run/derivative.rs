@@ -45,8 +45,8 @@ impl DerivativeKeys {
     /// where none are asked for.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for another scheme than event, or a key that is asked for twice; as [`Derivatives::check`] and
-    /// [`Case::tangent`].
+    /// [`Error::Invalid`] for another scheme than event, or a key that is asked for twice; as
+    /// [`Derivatives::check`] and [`Case::tangent`].
     pub(super) fn wanted(&self, asked: Option<&str>, case: &Case) -> Result<Option<Wanted>> {
         let Some(scheme) = self.scheme() else { return Ok(None) };
         if let Some(other) = asked.filter(|name| name.trim() != scheme) {
