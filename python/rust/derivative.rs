@@ -111,7 +111,11 @@ pub fn _scene_at(scene: &Scene, values: Vec<(String, f64)>) -> PyResult<Scene> {
 /// The number at a key of a case file.
 #[pyfunction]
 pub fn _case_value_at(case: &Case, key: &str) -> PyResult<f64> {
-    let value = key.parse().and_then(|key| case.file.get(&key)).map_err(raise)?;
+    let parsed: sg::case::Key = key.parse().map_err(raise)?;
+    if parsed.is_whole() {
+        return Err(wrong(key, "a whole number", "a key that can change by any small amount"));
+    }
+    let value = case.file.get(&parsed).map_err(raise)?;
     value
         .and_then(|value| value.number())
         .ok_or_else(|| wrong(key, "left out, or no number", "a key at which the case file has a number"))

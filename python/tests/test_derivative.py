@@ -80,6 +80,8 @@ def test_what_cannot_be_differentiated_is_refused() -> None:
         sg.derivative(ball, ["height"])
     with pytest.raises(ValueError, match="depends"):
         sg.derivative(lambda nothing: ball(0.5, 0.8), {"nothing": 1.0})
+    with pytest.raises(ValueError, match="system.modes is a whole number"):
+        sg.derivative(sg.load("tube-loose-supports"), ["system.modes"])
     with pytest.raises(ZeroDivisionError):
         sg.derivative(lambda x: ball(1 / 0, x), {"x": 1.0})
     with pytest.raises(ValueError, match="event"):
@@ -171,3 +173,61 @@ def test_a_key_without_a_derivative_leaves_the_others_theirs() -> None:
     assert np.isnan(by.contacts["impulse_by"]["restitution"]).all()
     assert np.isfinite(by.contacts["impulse_by"]["amplitude"]).all()
     assert "restitution of 0" in repr(by)
+
+
+def free(mass: float, damping: float, stiffness: float, force: float) -> sg.Scene:
+    """The mass of `stopped`, with other numbers."""
+    stop = sg.Wall.upper("stop", 5e-3, restitution=0.6)
+    loads = [sg.Load.harmonic(force, 2.5)]
+    return sg.oscillator(mass, damping, stiffness, walls=[stop], loads=loads, duration=9.0)
+
+
+def test_keys_that_only_scale_together_have_no_interval() -> None:
+    # The equation of motion divided by the mass: instants tell the ratios alone.
+    exact = free(1.0, 0.2, 100.0, 3.0).run("event").contacts["start"][:20]
+    start = {"mass": 1.02, "damping": 0.21, "stiffness": 102.0, "force": 3.0}
+    noise = 2e-3 * np.random.default_rng(0).standard_normal(20)
+    for given in (exact, exact + noise):
+        with pytest.warns(sg.ResultWarning, match="do not tell mass, damping, stiffness and force apart"):
+            found = sg.fit(free, start, {"start": given}, error={"start": 2e-3})
+        assert all(interval == (-math.inf, math.inf) for interval in found.intervals.values())
+        assert np.isinf(np.diag(found.covariance)).all() and np.isnan(found.covariance[0, 1])
+    # With one of them fixed the others are told, to the rounding of the search.
+    kept = {key: start[key] for key in ("damping", "stiffness", "force")}
+    found = sg.fit(lambda **of: free(1.0, **of), kept, {"start": exact}, error={"start": 2e-3})
+    assert abs(found.values["stiffness"] / 100.0 - 1.0) < 1e-8
+    assert all(math.isfinite(high - low) for low, high in found.intervals.values())
+
+
+def test_a_key_without_effect_on_the_data_has_no_interval() -> None:
+    def flight_of(stiffness: float, restitution: float) -> sg.Scene:
+        stop = sg.Wall.upper("stop", 5e-3, restitution=restitution)
+        return sg.oscillator(1.0, 0.2, stiffness, walls=[stop], loads=[sg.Load.harmonic(3.0, 2.5)], duration=9.0)
+
+    # All of it before the first impact.
+    time = np.linspace(0.01, 0.08, 8)
+    displacement = sg.derivative(stopped, TRUTH, times=time).displacement
+    noise = 1e-3 * displacement * np.random.default_rng(1).standard_normal(8)
+    data, error = {"time": time, "displacement": displacement + noise}, {"displacement": 1e-6}
+    with pytest.warns(sg.ResultWarning, match=r"^restitution does not change the data"):
+        found = sg.fit(flight_of, {"stiffness": 105.0, "restitution": 0.3}, data, error=error)
+    assert found.intervals["restitution"] == (-math.inf, math.inf) and found.values["restitution"] == 0.3
+    # The other is known as well as it is without this key.
+    alone = sg.fit(lambda stiffness: flight_of(stiffness, 0.3), {"stiffness": 105.0}, data, error=error)
+    np.testing.assert_allclose(found.intervals["stiffness"], alone.intervals["stiffness"], rtol=1e-6)
+
+
+def test_a_fit_does_not_depend_on_the_unit_of_the_errors() -> None:
+    # Without errors micrometres count as 1e-6 of a metre: the search must not take them for nothing.
+    time = np.linspace(0.01, 0.08, 8)
+    displacement = sg.derivative(stopped, TRUTH, times=time).displacement
+    noise = 1e-3 * displacement * np.random.default_rng(1).standard_normal(8)
+    data = {"time": time, "displacement": displacement + noise}
+
+    def driven(stiffness: float) -> sg.Scene:
+        return sg.oscillator(1.0, 0.2, stiffness, loads=[sg.Load.harmonic(3.0, 2.5)], duration=9.0)
+
+    plain = sg.fit(driven, {"stiffness": 105.0}, data)
+    given = sg.fit(driven, {"stiffness": 105.0}, data, error={"displacement": 1e-6})
+    # Both searches end where a step changes the sum of squares, or the value, by 1e-12 of itself.
+    np.testing.assert_allclose(plain.intervals["stiffness"], given.intervals["stiffness"], rtol=1e-7)

@@ -51,6 +51,13 @@ impl Key {
         find(&self.pattern())?.default.parse().ok()
     }
 
+    /// True where whole numbers alone are accepted: a count, or a seed.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        let is_entry = self.parts.last().is_some_and(|part| part.parse::<usize>().is_ok());
+        !is_entry && find(&self.pattern()).is_some_and(|entry| entry.accepted.contains("a whole number"))
+    }
+
     /// True for a value of `[system]` or of a body, which changes the structure, its modes or its
     /// coordinates.
     #[must_use]

@@ -20,10 +20,14 @@ impl Case {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Invalid`] for a key whose value is no number, or that the file leaves out where no
-    /// number holds then; else as [`SceneTangent::new`].
+    /// [`Error::Invalid`] for a key whose value is no number, or a whole one such as a count, or
+    /// that the file leaves out where no number holds then; else as [`SceneTangent::new`].
     pub fn tangent(&self, key: &Key) -> Result<SceneTangent> {
         let name = key.to_string();
+        if key.is_whole() {
+            let expected = "a key that can change by any small amount";
+            return Err(Error::invalid(format!("derivative by {name}"), "a whole number", expected));
+        }
         let value = match self.document.get(key)? {
             Some(value) => value.number(),
             None => key.default_number(),

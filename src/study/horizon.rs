@@ -92,7 +92,8 @@ impl Growth {
         // Between far walls the free vibration relates speeds to displacements, not the gap: by the
         // gap a vibration without contact would grow.
         let [natural, _] = scene.system.frequencies();
-        // Without a gap, as of a body that starts on an elastic wall, the vibration on the wall does.
+        // Without a gap, as of a body that starts on an elastic wall, the vibration on the wall
+        // does.
         let pressed = if scene.gap().is_some() { natural } else { natural.hypot(stiffest(scene).sqrt()) };
         let rate = (speed / length).max(pressed);
         Ok(Self { time, factor: products.iter().map(|m| norm(m, rate)).collect(), source: Source::Saltation })

@@ -145,6 +145,24 @@ impl ContactChanges {
         self.force.get_mut(wall * self.keys..(wall + 1) * self.keys).unwrap_or_default().fill(0.0);
     }
 
+    /// Begins a contact of `wall`, unless one is open, without approach speed at an instant that
+    /// moves as the beginning of the last contact there does, if that has ended at the time `since`
+    /// (s) or later; else how it moves is not known.
+    pub fn begin_again(&mut self, wall: usize, since: f64) {
+        if self.open.get(wall) == Some(&true) {
+            return;
+        }
+        let mut ended = self.ended.contacts.iter().enumerate().rev();
+        let last = ended.find(|(_, contact)| contact.wall == wall);
+        let last = last.filter(|(_, contact)| contact.end.is_some_and(|end| end >= since));
+        let first = last.map(|(index, _)| (index * PARTS + Part::Start as usize) * self.keys);
+        let starts: Vec<f64> = (0..self.keys)
+            .map(|key| first.and_then(|first| self.ended.by.get(first + key)).copied().unwrap_or(f64::NAN))
+            .collect();
+        self.begin(wall);
+        starts.into_iter().enumerate().for_each(|(key, start)| self.set_start(wall, key, [start, 0.0]));
+    }
+
     /// Sets the changes of beginning (s) and approach speed (m/s) of the open contact of `wall`.
     pub fn set_start(&mut self, wall: usize, key: usize, [start, speed]: [f64; 2]) {
         self.set(wall, key, Part::Start, start);

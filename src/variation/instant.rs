@@ -42,7 +42,7 @@ impl StructureVariation {
         let at = Instant { time, q, before: v, after: v, acceleration: a, impulse: &[], wall_of };
         for s in &fresh {
             keys.contacts.begin(wall_of[s.row]);
-            keys.lose_touched((flow, names), s.row, &at, columns, true);
+            keys.lose_touched((flow, names), (s.row, wall_of[s.row]), &at, columns, true);
         }
         let held_rows = rows.filter(|&row| during[row]);
         hold.set(&flow.body, held_rows.clone().map(held), std::iter::empty());
@@ -56,13 +56,53 @@ impl StructureVariation {
         jump.apply_to(flow, columns, &keys.terms, &at);
     }
 
-    /// Elastic wall `w` begins to push in the `stretch` or after it. If the state is on
-    /// its face and moves into it, the force of its dashpot jumps; a push that begins elsewhere
-    /// begins with a force of 0.
-    pub(super) fn enter(&mut self, w: usize, stretch: &Stretch<'_>, columns: &mut [f64]) {
-        self.keys.contacts.begin(w);
-        if !self.began {
+    /// Rows that `step` leaves at rest on rigid walls without an impact: the last of impacts that
+    /// accumulate, too small to be told from rounding. The contacts begin, and the impulses hold
+    /// the rows from here on.
+    pub(super) fn rest_after_impacts(&mut self, step: &Step<'_>, columns: &[f64]) {
+        let Self { flow, walls, jump, during, after, q, v, a, wall_of, keys, .. } = self;
+        let begins = |(wall, at): (usize, &At)| {
+            let rests = at.restitution.is_some() && step.force[wall] != 0.0 && !during[at.row];
+            rests.then_some((wall, at.row))
+        };
+        let fresh: Vec<(usize, usize)> = walls.iter().enumerate().filter_map(begins).collect();
+        if fresh.is_empty() || keys.terms.is_empty() || step.index == 0 {
             return;
+        }
+        for &(wall, row) in &fresh {
+            keys.contacts.begin_again(wall, (1.0 - ROUNDING) * step.end);
+            wall_of[row] = wall;
+        }
+        let rests = |&(_, row): &(usize, usize)| Struck {
+            row,
+            restitution: 0.0,
+            rests: true,
+            held: true,
+            speed: 0.0,
+            pull: 0.0,
+        };
+        let struck: Vec<Struck> = fresh.iter().map(rests).collect();
+        jump.begin(flow, &struck, (0..during.len()).filter(|&row| during[row] && after[row]));
+        let at = Instant { time: step.end, q, before: v, after: v, acceleration: a, impulse: step.jump, wall_of };
+        let n = q.len();
+        for (number, (terms, change)) in keys.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
+            let impulses = jump.impulses(flow, change.split_at(n), terms, &at);
+            for (row, impulse) in impulses.into_iter().enumerate().filter(|(row, _)| after[*row]) {
+                keys.contacts.add_impulse(at.wall_of[row], number, impulse);
+            }
+        }
+    }
+
+    /// Elastic wall `w` begins to push in the `stretch` or after it; with the time (s) of a
+    /// `fixed` instant, which no key moves. If the state is on its face and moves into it, the
+    /// force of its dashpot jumps; a push that begins elsewhere begins with a force of 0.
+    pub(super) fn enter(&mut self, w: usize, stretch: &Stretch<'_>, fixed: Option<f64>, columns: &mut [f64]) {
+        self.keys.contacts.begin(w);
+        if let Some(time) = fixed {
+            self.lose_pressed(w, time, columns);
+        }
+        if !self.began {
+            return self.note_pushed_at_start(w, columns);
         }
         let (at, n) = (self.walls[w], self.q.len());
         let [place, rate] = [&self.q, &self.v].map(|x| self.flow.body.rows.dot(at.row, x));
@@ -80,6 +120,29 @@ impl StructureVariation {
             let own = keys.terms.get(number).map_or(0.0, |terms| terms.offset(w, q));
             let by = flow.body.rows.dot(at.row, dq) + own;
             dv.iter_mut().zip(&*work).for_each(|(v, w)| *v += by * w);
+        }
+    }
+
+    /// Gives up the keys that would move the body away from the face of elastic wall `w`, whose
+    /// push begins at `time` (s) whatever the keys are: while the body is away from it, its dashpot
+    /// does not act, and within it does.
+    fn lose_pressed(&mut self, w: usize, time: f64, columns: &[f64]) {
+        let Self { flow, walls, names, length, q, v, a, wall_of, keys, .. } = self;
+        let at = walls[w];
+        if at.damping > 0.0 && (flow.body.rows.dot(at.row, q) - at.position).abs() <= ON_THE_FACE * *length {
+            let now = Instant { time, q, before: v, after: v, acceleration: a, impulse: &[], wall_of };
+            keys.lose_touched((flow, names), (at.row, w), &now, columns, false);
+        }
+    }
+
+    /// Notes how the approach speed of a contact with wall `w` changes that begins with the motion.
+    fn note_pushed_at_start(&mut self, w: usize, columns: &[f64]) {
+        let Self { flow, walls, v, keys, .. } = self;
+        let (at, n) = (walls[w], v.len());
+        let into = at.sign * flow.body.rows.dot(at.row, v) < 0.0;
+        for (number, (terms, change)) in keys.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {
+            let faster = flow.body.rows.dot(at.row, &change[n..]) + terms.along(w, v);
+            keys.contacts.set_start(w, number, [0.0, if into { -at.sign * faster } else { 0.0 }]);
         }
     }
 
@@ -115,8 +178,8 @@ impl StructureVariation {
                 let own = of_wall.map_or(0.0, |wall| wall.stiffness * (place - at.position) + wall.damping * rate);
                 -(at.stiffness * beyond + at.damping * faster + own) / (at.stiffness * rate + at.damping * pull)
             };
-            // A force that leaves 0 within the wall begins a contact of a body that moves out of it:
-            // it approaches with speed 0, by every key.
+            // A force that leaves 0 within the wall begins a contact of a body that moves out of
+            // it: it approaches with speed 0, by every key.
             let approach = if at.sign * rate < 0.0 { -at.sign * (faster + pull * later) } else { 0.0 };
             keys.contacts.set_start(w, number, [later, approach]);
             if !on_face {
@@ -217,7 +280,7 @@ impl StructureVariation {
         let at = Instant { time: step.end, q, before: v, after: step.v, acceleration: a, impulse: step.jump, wall_of };
         let fixed = blown || (step.index == 0 && step.end <= step.start);
         let free = struck.iter().filter(|s| fixed && !during[s.row]);
-        free.for_each(|s| keys.lose_touched((flow, names), s.row, &at, columns, false));
+        free.for_each(|s| keys.lose_touched((flow, names), (s.row, at.wall_of[s.row]), &at, columns, false));
         if !keys.note_impacts((flow, jump), (walls, &struck), (step, stretch), &at, columns) {
             return Err(together(names, step));
         }
@@ -252,17 +315,17 @@ fn together(names: &[String], step: &Step<'_>) -> NoDerivative {
 }
 
 impl Keys {
-    /// Gives up the keys that, or whose changes so far, would move a row from the wall that it
+    /// Gives up the keys that, or whose changes so far, would move a row from the `wall` that it
     /// touches at an instant that is fixed, or at rest give it a speed.
     fn lose_touched(
         &mut self,
         (flow, names): (&Propagator, &[String]),
-        row: usize,
+        (row, wall): (usize, usize),
         at: &Instant<'_>,
         columns: &[f64],
         rests: bool,
     ) {
-        let (n, wall) = (at.q.len(), at.wall_of.get(row).copied().unwrap_or(0));
+        let n = at.q.len();
         let large = |own: f64, more: f64, size: f64| (own + more).abs() > ROUNDING * (own.abs() + more.abs()).max(size);
         let mut touched = Vec::new();
         for (key, (terms, change)) in self.terms.iter().zip(columns.chunks_exact(2 * n)).enumerate() {

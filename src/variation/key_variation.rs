@@ -65,6 +65,7 @@ impl KeyVariation {
             return Err(Error::invalid("times", "a list", "finite numbers, s, each above the one before"));
         }
         let mut variation = StructureVariation::with_keys(scene, tangents, times)?;
+        variation.from_start = true;
         let columns = variation.keys.start(&mut variation.flow, &scene.initial.v);
         Ok(Self::of(scene, variation, columns, tangents.len()))
     }

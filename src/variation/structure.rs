@@ -54,6 +54,8 @@ pub(crate) struct StructureVariation {
     pub(super) releases: Vec<Option<Release>>,
     /// A typical displacement, m.
     pub(super) length: f64,
+    /// True where the steps come from the start of a run, which no key moves.
+    pub(super) from_start: bool,
     /// True once a step has been seen.
     pub(super) began: bool,
     /// The state and the acceleration just before an event, and work space.
@@ -92,6 +94,7 @@ impl StructureVariation {
             wall_of: vec![0; rows],
             releases: vec![None; scene.walls.len()],
             length: scene.gap_scale(),
+            from_start: false,
             began: false,
             q: vec![0.0; n],
             v: vec![0.0; n],
@@ -165,7 +168,8 @@ impl StructureVariation {
         self.come_to_rest(stretch.start(), columns);
         for w in 0..self.walls.len() {
             if self.walls[w].during && !self.walls[w].after {
-                self.enter(w, stretch, columns);
+                let fixed = (self.from_start && !self.began).then(|| stretch.start());
+                self.enter(w, stretch, fixed, columns);
             }
         }
     }
@@ -196,7 +200,7 @@ impl StructureVariation {
             at.after = force != 0.0 && at.restitution.is_none();
             self.after[at.row] |= force != 0.0 && at.restitution.is_some();
         }
-        self.began = true;
+        let first = self.from_start && !std::mem::replace(&mut self.began, true);
         self.note_standing(step);
         if self.bounce(step, columns) {
             return Ok(());
@@ -215,13 +219,15 @@ impl StructureVariation {
             self.impact(step, stretch, blown, columns)?;
         } else {
             self.check_grazes(step, stretch)?;
+            self.rest_after_impacts(step, columns);
             if !blown {
                 let ended = step.closed.iter().filter(|contact| !is_late(contact, step));
                 ended.for_each(|contact| self.note_end(contact, columns));
             }
             for w in 0..self.walls.len() {
                 if self.walls[w].after && !self.walls[w].during {
-                    self.enter(w, stretch, columns);
+                    let fixed = blown || (first && step.end <= step.start);
+                    self.enter(w, stretch, fixed.then_some(step.end), columns);
                 }
             }
         }

@@ -1,8 +1,9 @@
 //! Closed forms.
 
+use signorini::linear::Symmetric;
 use signorini::study::derivatives::Derivatives;
 use signorini::variation::{NoDerivative, SceneTangent};
-use signorini::{Load, Scene, Wall};
+use signorini::{Flat, Flats, Load, PlaneRows, Row, Scene, Structure, Wall, WallLaw};
 
 const G: f64 = 9.81;
 
@@ -419,5 +420,44 @@ fn a_push_that_an_impact_elsewhere_ends_ends_at_its_instant() {
             let expected = (8.0 * (a[part] - b[part]) - (c[part] - d[part])) / (12.0 * h);
             assert!((ours - expected).abs() <= 1e-9 * (own[part] / number).abs(), "{index} {part}: {ours} {expected}");
         }
+    }
+}
+
+/// A body in two planes that flies with the velocity v at a flat of the normal n at the distance γ
+/// reaches it after γ/(n · v), and is given −(1 + e) m n · v. A flat whose direction passes 0° or
+/// 180° is that of the same flat.
+#[test]
+fn a_flat_is_turned_through_0_and_180_degrees() {
+    let (m, gap, e) = (2.0, 3e-3, 0.6);
+    for (direction, v) in [(0.0, [0.5, 0.2]), (180.0, [-0.5, 0.2]), (90.0, [0.1, 0.4]), (360.0, [0.5, -0.3])] {
+        let scene = |turn: f64| {
+            let at = PlaneRows::doubled(&Row::dof(0), 1);
+            let flats = Flats {
+                name: "plate".to_owned(),
+                at: at.clone(),
+                flats: vec![Flat { direction: direction + turn, gap }],
+                centre: [0.0, 0.0],
+                law: WallLaw::Rigid { restitution: e },
+                friction: 0.0.into(),
+            };
+            let [mass, damping, stiffness] = [m, 0.0, 0.0].map(|x| Symmetric::diagonal(&[x, x]));
+            let scene = Scene::structure(Structure { mass, damping, stiffness }).with_initial(&[0.0, 0.0], &v);
+            Ok(scene.with_support("plate", at, [0.0, 0.0], flats.walls()?).with_duration(0.02))
+        };
+        let key = SceneTangent::new("turn", 0.0, scene).expect("a tangent");
+        let found = Derivatives::new(&scene(0.0).unwrap(), &[key], &[]).unwrap();
+        let contact = found.contacts.get(0).expect("an impact");
+        // Per degree; n turns to its left.
+        let degree = 1_f64.to_radians();
+        let (sin, cos) = (direction * degree).sin_cos();
+        let (fast, faster) = (cos * v[0] + sin * v[1], degree * (cos * v[1] - sin * v[0]));
+        // The error of a difference over a sine, and rounding.
+        let near = |a: f64, b: f64| assert!((a - b).abs() <= 1e-10 * b.abs(), "{direction}: {a} {b}");
+        near(contact.contact.start, gap / fast);
+        near(contact.start_by[0], -gap * faster / (fast * fast));
+        near(contact.contact.approach_speed, fast);
+        near(contact.approach_speed_by[0], faster);
+        near(contact.impulse_by[0] / contact.contact.impulse, faster / fast);
+        near(contact.contact.impulse.abs(), (1.0 + e) * m * fast);
     }
 }

@@ -7,7 +7,7 @@
 use signorini::linear::Symmetric;
 use signorini::study::derivatives::Derivatives;
 use signorini::variation::{NoDerivative, SceneTangent};
-use signorini::{Load, Result, Row, Scene, Structure, Wall};
+use signorini::{Load, Options, PlaneRows, Result, Row, Scene, Scheme, Structure, Wall, run};
 
 /// Compares end, departure speed and impulse of all contacts with central differences of fourth
 /// order over steps of `step` times the value. Returns the number of lasting contacts.
@@ -143,4 +143,40 @@ fn a_body_that_comes_back_to_the_wall_without_speed_grazes_it() {
     let expected = first + std::f64::consts::TAU / 10.0;
     // Where the speed is 0 the instant is known to the root of rounding: ε^½ of the time.
     assert!(wall == "stop" && (time - expected).abs() < 1e-7, "{time} and {expected}");
+}
+
+/// A body in two planes in the corner of two oblique walls, in which its impacts accumulate to rest
+/// at both; under a sine of this amplitude along them.
+fn corner(amplitude: f64) -> Result<Scene> {
+    let way = |degrees: f64| PlaneRows::doubled(&Row::dof(0), 1).along(degrees);
+    let [mass, damping, stiffness] = [1.0, 1.0, 100.0].map(|x| Symmetric::diagonal(&[x, x]));
+    let load = Load { at: way(18.24773691113187), ..Load::harmonic(amplitude, 2.0, 0.0) };
+    Ok(Scene::structure(Structure { mass, damping, stiffness })
+        .with_wall(Wall::upper("a", 2e-3).at(way(0.0)).with_restitution(0.0))
+        .with_wall(Wall::upper("b", 2e-3).at(way(57.364563311164176)).with_restitution(0.6))
+        .with_load(load)
+        .with_duration(0.3))
+}
+
+#[test]
+fn a_rest_that_rounding_lets_begin_without_an_impact_is_one_of_the_contacts() {
+    let contacts = |amplitude: f64| {
+        let run = run(&corner(amplitude).unwrap(), &Scheme::Event, &Options::with_step(1e-3)).expect("a run");
+        run.trajectory.contacts().iter().map(|one| (one.wall, one.impulse)).collect::<Vec<_>>()
+    };
+    let sum = |of: &[(usize, f64)], wall: usize| of.iter().filter(|one| one.0 == wall).map(|one| one.1).sum::<f64>();
+    // Four of them.
+    for amplitude in [3.21, 3.22, 3.23, 3.24] {
+        let key = SceneTangent::new("amplitude", amplitude, corner).expect("a tangent");
+        let found = Derivatives::new(&corner(amplitude).unwrap(), &[key], &[]).expect("a run");
+        assert_eq!(found.contacts.len(), contacts(amplitude).len(), "{amplitude}");
+        for wall in [0, 1] {
+            let own =
+                found.contacts.iter().filter(|one| one.contact.wall == wall).map(|one| one.impulse_by[0]).sum::<f64>();
+            let of = |more: f64| sum(&contacts(amplitude + more), wall);
+            let difference = (of(3e-5) - of(-3e-5)) / 6e-5;
+            // The difference errs by the square of 1e-5 and by rounding over it.
+            assert!((own / difference - 1.0).abs() < 1e-8, "{amplitude} {wall}: {own} {difference}");
+        }
+    }
 }

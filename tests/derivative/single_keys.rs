@@ -115,3 +115,70 @@ fn a_blow_that_is_moved_within_a_push_has_the_differences_of_its_runs() {
         assert!((ours - difference).abs() <= 1e-9 + 1e-8 * difference.abs(), "{i}: {ours} and {difference}");
     }
 }
+
+/// 1 kg at this displacement and speed beside a pad at 0 with this dashpot, pressed by this force
+/// from the start, and struck at 0.1 s.
+fn pressed([displacement, speed, damping, force, pad, blow]: [f64; 6]) -> Result<Scene> {
+    Ok(Scene::oscillator(1.0, 0.0, 0.0)
+        .with_wall(Wall::upper("pad", pad).with_elasticity(100.0, damping))
+        .with_initial(&[displacement], &[speed])
+        .with_load(Load::constant(force))
+        .with_load(Load::impulse(blow, 0.1))
+        .with_duration(0.25))
+}
+
+/// The reasons of the keys of [`pressed`], and the derivatives of the displacement at the end.
+fn of_pressed(own: [f64; 6], keys: &[usize]) -> (Vec<Option<NoDerivative>>, Vec<f64>) {
+    let key = |&index: &usize| {
+        let build = |x: f64| {
+            let mut changed = own;
+            changed[index] = x;
+            pressed(changed)
+        };
+        SceneTangent::new("key", own[index], build).expect("a tangent")
+    };
+    let all: Vec<SceneTangent> = keys.iter().map(key).collect();
+    let found = Derivatives::new(&pressed(own).unwrap(), &all, &[0.25]).expect("a run");
+    let lost = found.lost.iter().map(|lost| lost.clone().or(found.ended.clone())).collect();
+    (lost, found.motion.displacement_by)
+}
+
+/// A pad with a dashpot that is moved into the body acts on it from the start, and one that is
+/// moved away only once the body has come to it, by the impulse c δ less: the displacement after a
+/// short time differs by c t as much as that would be without the pad.
+#[test]
+fn a_pad_with_a_dashpot_that_touches_at_the_start_has_no_derivative_by_its_position() {
+    let touching = |time: f64| Some(NoDerivative::Touching { time, wall: "pad".to_owned() });
+    let (displacement, speed, damping, force, pad, blow) = (0, 1, 2, 3, 4, 5);
+    let keys = [pad, displacement, force, speed, damping];
+    // At rest or moving into the pad.
+    for own in [[0.0, 0.0, 10.0, 1.0, 0.0, 0.0], [0.0, 0.2, 10.0, 0.0, 0.0, 0.0]] {
+        let (lost, by) = of_pressed(own, &keys);
+        assert_eq!(lost, [touching(0.0), touching(0.0), None, None, None]);
+        assert!(by[2..].iter().all(|by| by.is_finite()), "{by:?}");
+    }
+    // A blow that drives the body into a pad that it touches.
+    let (lost, _) = of_pressed([0.0, 0.0, 10.0, 0.0, 0.0, 0.2], &[pad, displacement, blow]);
+    assert_eq!(lost, [touching(0.1), touching(0.1), None]);
+    // Without a dashpot, away from the pad, and within it both sides agree.
+    for own in [[0.0, 0.0, 0.0, 1.0, 0.0, 0.0], [-1e-6, 0.0, 10.0, 1.0, 0.0, 0.0], [1e-6, 0.0, 10.0, 1.0, 0.0, 0.0]] {
+        let (lost, by) = of_pressed(own, &keys[..3]);
+        assert!(lost.iter().all(Option::is_none), "{lost:?}");
+        // What moves both moves the motion along.
+        assert!((by[0] + by[1] - 1.0).abs() < 1e-9, "{by:?}");
+    }
+}
+
+#[test]
+fn a_contact_that_begins_with_the_motion_approaches_at_the_speed_of_the_start() {
+    let speed = |v: f64| {
+        let scene = pressed([0.0, 0.0, 4.0, -1.0, 0.0, 0.0])?;
+        Ok(scene.with_initial(&[0.0], &[v]).with_duration(1.0))
+    };
+    let key = SceneTangent::new("speed", 0.2, speed).expect("a tangent");
+    let found = Derivatives::new(&speed(0.2).unwrap(), &[key], &[]).expect("a run");
+    let first = found.contacts.get(0).expect("a contact");
+    assert_eq!((first.contact.start, first.contact.approach_speed), (0.0, 0.2));
+    // Rounding of the derivative of the start.
+    assert!(first.start_by[0] == 0.0 && (first.approach_speed_by[0] - 1.0).abs() < 1e-14);
+}

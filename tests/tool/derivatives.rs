@@ -133,6 +133,12 @@ fn what_cannot_be_differentiated_is_refused_in_one_message() {
     };
     refused(&["--derivative", "wall.floor.stifness"], &["stifness"]);
     refused(&["--derivative", "wall.floor.name"], &["wall.floor.name"]);
+    refused(
+        &["--derivative", "wall.floor.position,wall.floor.restitution, wall.floor.position"],
+        &["wall.floor.position, for the second time", "expected each key once"],
+    );
+    refused(&["--derivative", "load.1.random.seed"], &["load.1.random.seed is a whole number"]);
+    refused(&["--derivative", "system.modes"], &["derivative by system.modes is a whole number", "small amount"]);
     refused(&["--derivative", "time.step"], &["time.step", "depends"]);
     refused(&["--derivative", "time.end"], &["time.end", "duration"]);
     refused(&["--derivative", "wall.floor.restitution", "--scheme", "moreau-jean"], &["--scheme", "event"]);
@@ -158,4 +164,42 @@ fn a_graze_and_the_horizon_end_the_derivatives_with_their_reason() {
     let growth = header.iter().position(|column| column == "growth").unwrap();
     assert!(rows.len() > 3, "{rows:?}");
     assert!(rows.iter().all(|row| row[growth].parse::<f64>().unwrap() <= 1e6));
+}
+
+/// The rows of the table in the terminal, from its header on.
+fn table_of(out: &str) -> String {
+    let at = out.find(" number ").expect("a table");
+    out[at..].split("derivatives.csv").next().unwrap_or_default().to_owned()
+}
+
+#[test]
+fn a_share_of_a_key_that_would_change_much_is_told_smaller() {
+    // A ball falls from h = 1 m onto a floor at g = 0.99 m: its speed √(2G (h − g)) changes by
+    // −g/2(h − g) = −49.5 % for 1 % more of g, and by −0.495 % for 0.01 % more.
+    let dir = folder();
+    let near = ["--set", "wall.floor.position=0.99", "--set", "time.end=0.05"];
+    let args = ["run", "ball.toml", "--derivative", "wall.floor.position,wall.floor.restitution", "--no-report"];
+    let (out, err) = said(dir.path(), &[&args[..], &near].concat(), 0);
+    let all = format!("{out}{err}");
+    let table = table_of(&out);
+    assert!(table.contains("0.01 % more of") && table.contains("-0.49500 %") && !table.contains("-49."), "{table}");
+    // The impulse grows as 1 + e: by 0.8/1.8 % for 1 % more of e, which is as small as it says.
+    assert!(table.contains(" 1 % more of") && table.contains("+0.444 %"), "{table}");
+    assert!(all.contains("1 % more of wall.floor.position would change a number of the table by more"), "{all}");
+    assert!(!all.contains("1 % more of wall.floor.restitution would"), "{all}");
+}
+
+#[test]
+fn a_number_that_is_0_has_no_percent() {
+    // A body of 1 kg that touches a pad approaches it with the speed 0, whatever its weight is.
+    let dir = tempfile::tempdir().unwrap();
+    let case = "[system.oscillator]\nmass = 1.0\ndamping = 0.0\nstiffness = 0.0\n\
+                [[wall]]\nname = \"pad\"\nside = \"upper\"\nposition = 0.0\nstiffness = 100.0\n\
+                [[load]]\nconstant = { force = 1.0 }\n\
+                [[load]]\nimpulse = { impulse = -0.5, time = 0.3 }\n[time]\nend = 1.0\nstep = 1e-3\n";
+    fs::write(dir.path().join("pad.toml"), case).unwrap();
+    let args = ["run", "pad.toml", "--derivative", "load.1.constant.force", "--no-report"];
+    let (out, _) = said(dir.path(), &args, 0);
+    let table = table_of(&out);
+    assert!(table.contains("+0.000e0 m/s") && table.contains(" %") && !table.contains("NaN"), "{table}");
 }

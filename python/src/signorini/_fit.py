@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -9,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._core import RunError, Scene
+from ._core import ResultWarning, RunError, Scene
 from ._derivative import Derivative, Keys, Source, found, resolved
 from ._types import Array, known
 from ._types import times as checked_times
@@ -19,6 +20,14 @@ _OF_CONTACTS = ("start", "approach_speed", "impulse")
 _MOST_GROWTH = 1e2
 """A small change may grow by this much: beyond, a record tells of the start more than of the keys."""
 
+_NO_EFFECT = 1e-12
+"""A key does not change the data where its whole value changes them by less than this share of the
+values: rounding."""
+
+_APART = 1e-8
+"""Data that one key changes as others together do, to this share, do not tell it from them: the
+derivatives are exact to it."""
+
 
 @dataclass(frozen=True, repr=False)
 class Fit:
@@ -27,9 +36,11 @@ class Fit:
     values: dict[str, float]
     """The fitted values of the keys."""
     intervals: dict[str, tuple[float, float]]
-    """The interval of each at the confidence asked for."""
+    """The interval of each at the confidence asked for; from minus to plus infinity for a key that
+    the data do not tell, whose value is one of many."""
     covariance: Array
-    """Of the values; shape (keys, keys)."""
+    """Of the values; shape (keys, keys). Infinite variances, and NaN beside them, of keys that the
+    data do not tell."""
     residuals: Array
     """Model less data, in units of the standard errors of the data; shape (data,)."""
     scale: float
@@ -138,7 +149,10 @@ def fit(
 
     SciPy's ``least_squares`` does the search; residuals and their derivatives are exact
     (`derivative`). The intervals are those of the linearised model: by Student's t from the scatter
-    of the residuals, whatever the size of the standard errors given.
+    of the residuals, whatever the size of the standard errors given. A key has none where it does
+    not change the data, or where other keys together change them in the same way (mass, damping,
+    stiffness and load leave all instants as they are when they grow by one factor): a warning names
+    these keys.
 
     Parameters
     ----------
@@ -174,6 +188,11 @@ def fit(
         Where the search does not converge.
     ImportError
         Without SciPy.
+
+    Warns
+    -----
+    ResultWarning
+        For keys that the data do not tell.
 
     Examples
     --------
@@ -228,30 +247,78 @@ def fit(
     def jacobian_at(x: Array) -> Array:
         return model.at(x)[1]
 
+    # No bound of the gradient: it has the unit of the residuals.
     made = least_squares(
-        residuals_at, x0, jac=jacobian_at, bounds=(low, high), x_scale=scale, xtol=1e-12, ftol=1e-12, gtol=1e-12
+        residuals_at, x0, jac=jacobian_at, bounds=(low, high), x_scale=scale, xtol=1e-12, ftol=1e-12, gtol=None
     )
     if not made.success:
         raise RunError(f"the search did not converge: {made.message}")
     residuals, jacobian = model.at(made.x)
-    return _summary(made.x, names, residuals, jacobian, (model, scene_of), float(student.ppf(0.5 + confidence / 2, count - len(names))))
+    told = _told(made.x, jacobian, model.size())
+    for text in _untold(names, told):
+        warnings.warn(text, ResultWarning, stacklevel=2)
+    freedom = count - told.rank
+    return _summary(made.x, names, (residuals, told), (model, scene_of), freedom, float(student.ppf(0.5 + confidence / 2, freedom)))
+
+
+@dataclass(frozen=True)
+class _Told:
+    """What the data tell of the keys."""
+
+    unseen: npt.NDArray[np.bool_]
+    """The keys that do not change the data."""
+    mixed: npt.NDArray[np.bool_]
+    """Those whose effect on the data is one that others together have."""
+    rank: int
+    """Number of combinations of keys that the data tell."""
+    inverse: Array
+    """The pseudo-inverse of the Jacobian; shape (keys, data)."""
+
+
+def _told(x: Array, jacobian: Array, data: float) -> _Told:
+    """By the Jacobian at ``x`` of data of the size ``data``, both in units of the standard errors."""
+    size = np.linalg.norm(jacobian, axis=0)
+    unseen = size * np.where(x == 0.0, 1.0, np.abs(x)) <= _NO_EFFECT * data
+    # In units of the columns, which may differ by far.
+    size[unseen] = 1.0
+    columns = np.where(unseen, 0.0, jacobian / size)
+    mixed = np.zeros(len(x), bool)
+    for key in np.flatnonzero(~unseen):
+        others = np.delete(columns, key, axis=1)
+        like = others @ (np.linalg.pinv(others, rcond=_APART) @ columns[:, key])
+        mixed[key] = np.linalg.norm(columns[:, key] - like) < _APART
+    rank = int(np.linalg.matrix_rank(columns, tol=_APART))
+    return _Told(unseen, mixed, rank, np.linalg.pinv(columns, rcond=_APART) / size[:, None])
+
+
+def _untold(names: list[str], told: _Told) -> list[str]:
+    """What the data do not tell, in words."""
+    unseen, mixed = ([name for name, one in zip(names, of, strict=True) if one] for of in (told.unseen, told.mixed))
+    texts = []
+    if unseen:
+        subject, verb = ", ".join(unseen), "does" if len(unseen) == 1 else "do"
+        texts.append(f"{subject} {verb} not change the data: no interval")
+    if mixed:
+        *most, last = mixed
+        together = f"{', '.join(most)} and {last}" if most else last
+        texts.append(f"the data do not tell {together} apart: no intervals; keep one of them fixed, or give other data too")
+    return texts
 
 
 def _summary(
     x: Array,
     names: list[str],
-    residuals: Array,
-    jacobian: Array,
+    found: tuple[Array, _Told],
     origin: tuple[_Model, Callable[[Mapping[str, float]], Scene]],
+    freedom: int,
     quantile: float,
 ) -> Fit:
-    model, scene_of = origin
-    variance = float(residuals @ residuals) / (len(residuals) - len(names))
-    # The pseudo-inverse of the Jacobian in units of its columns, which may differ by far.
-    size = np.linalg.norm(jacobian, axis=0)
-    size[size == 0.0] = 1.0
-    inverse = np.linalg.pinv(jacobian / size) / size[:, None]
-    covariance = variance * (inverse @ inverse.T)
+    (residuals, told), (model, scene_of) = found, origin
+    variance = float(residuals @ residuals) / freedom
+    covariance = variance * (told.inverse @ told.inverse.T)
+    none = np.flatnonzero(told.unseen | told.mixed)
+    covariance[none, :] = covariance[:, none] = np.nan
+    covariance[none, none] = np.inf
     half = quantile * np.sqrt(np.diag(covariance))
     values = {name: float(value) for name, value in zip(names, x, strict=True)}
     return Fit(
@@ -320,6 +387,10 @@ class _Model:
         if self._last is None or not np.array_equal(self._last[0], x):
             self._last = (np.array(x), *self._computed(x))
         return self._last[1], self._last[2]
+
+    def size(self) -> float:
+        """The size of the data, in units of their standard errors."""
+        return float(np.linalg.norm(np.concatenate([column.values / column.errors for column in self._columns])))
 
     def _computed(self, x: Array) -> tuple[Array, Array]:
         count = sum(len(column.values) for column in self._columns)

@@ -45,8 +45,8 @@ impl DerivativeKeys {
     /// where none are asked for.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for another scheme than event; as [`Derivatives::check`] and
-    /// [`Case::tangent`].
+    /// [`Error::Invalid`] for another scheme than event, or a key that is asked for twice; as
+    /// [`Derivatives::check`] and [`Case::tangent`].
     pub(super) fn wanted(&self, asked: Option<&str>, case: &Case) -> Result<Option<Wanted>> {
         let Some(scheme) = self.scheme() else { return Ok(None) };
         if let Some(other) = asked.filter(|name| name.trim() != scheme) {
@@ -58,6 +58,10 @@ impl DerivativeKeys {
         let mut wanted = Wanted { keys: Vec::new(), tangents: Vec::new() };
         for name in &self.derivative {
             let key: Key = name.parse()?;
+            if wanted.keys.iter().any(|other| other.key == key.to_string()) {
+                let found = format!("{key}, for the second time");
+                return Err(Error::invalid("--derivative", found, "each key once"));
+            }
             let tangent = case.tangent(&key)?;
             wanted.keys.push(Varied {
                 key: key.to_string(),

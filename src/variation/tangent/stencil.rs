@@ -15,7 +15,7 @@
 
 use crate::error::{Error, Result};
 use crate::order::sort_by_number;
-use crate::scene::{Row, Scene};
+use crate::scene::{Face, Row, Scene};
 
 /// Distances of two neighbouring values as shares of the value: the first as large as keeps the
 /// error of the formula below that of rounding, ε over this, where the scene is as smooth as 1/x;
@@ -97,7 +97,8 @@ impl Stencil {
             // The farthest first: it is the one most likely to be invalid.
             let mut numbers: Vec<i32> = side.clone().filter(|&k| k != 0).collect();
             sort_by_number(&mut numbers, |k| -f64::from(k.abs()));
-            let scenes: Result<Vec<Scene>> = numbers.iter().map(|&k| valid(value + f64::from(k) * step)).collect();
+            let near = |&k: &i32| Ok(facing_as(&base, valid(value + f64::from(k) * step)?));
+            let scenes: Result<Vec<Scene>> = numbers.iter().map(near).collect();
             match scenes {
                 Ok(scenes) => {
                     let fewer = if *side.start() == -POINTS { FEWER } else { FEWER_ONE_SIDED };
@@ -127,6 +128,7 @@ impl Stencil {
     /// error of the differences.
     pub fn between(base: Scene, [(low, below), (high, above)]: [(f64, Scene); 2]) -> Self {
         let weight = 1.0 / (high - low);
+        let [below, above] = [below, above].map(|scene| facing_as(&base, scene));
         let point = |scene, weight| Point { scene, weights: Weights { central: [weight; 2], ..Weights::default() } };
         let points = vec![point(above, weight), point(below, -weight)];
         Self { base, points, unit: high - low, error: 0.0 }
@@ -191,6 +193,22 @@ impl Stencil {
         let changes: Vec<(usize, f64)> = dofs.into_iter().map(|dof| (dof, change(dof))).collect();
         Row::new(changes.into_iter().filter(|entry| entry.1 != 0.0).collect())
     }
+}
+
+/// `scene` with its flat walls on the sides on which those of `base` stand: a lower wall of the row
+/// −g is an upper one of the row g, and flats whose direction passes 0° or 180° change from one to
+/// the other.
+fn facing_as(base: &Scene, mut scene: Scene) -> Scene {
+    for (wall, own) in scene.walls.iter_mut().zip(&base.walls) {
+        if let (Face::Flat { side, position, at, .. }, Face::Flat { side: own, .. }) = (&mut wall.face, &own.face)
+            && side != own
+        {
+            *side = *own;
+            *position = -*position;
+            *at = Row::combination([(-1.0, &*at)]);
+        }
+    }
+    scene
 }
 
 /// The weight of point `k` among `weights`; 0 if it is none of them.
