@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 const MODES_OF_A_SPAN: u32 = 8;
 const LEAST_MODES: u32 = 16;
 
-/// The frequencies of a pinned beam grow with the squares of 1, 2, .. With two and a half elements in
-/// half a wave its elements make it stiffer by a few thousandths: by less than this factor.
+/// The frequencies of a pinned beam grow with the squares of 1, 2, .. With two and a half elements
+/// in half a wave its elements make it stiffer by a few thousandths: by less than this factor.
 const STIFFER: f64 = 1.01;
 
 /// Most supports: the modes of both planes, and the one beyond them, are modes that can be found.
