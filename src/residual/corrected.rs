@@ -79,6 +79,9 @@ impl Judge {
         let moves = StepMotion::of(step, hs, (&self.q, step.q), loads, &self.blows.impulse);
         let rates = self.supports.as_ref().map_or(&[][..], |supports| &supports.rates);
         self.energy.observe_grid(Scalar, &moves, step, &self.scratch.load, rates, self.q.len());
+        if self.blows.struck.iter().any(|v| *v != 0.0) {
+            self.energy.answer(step, &self.blows.struck);
+        }
         self.balance.observe(&self.noise, worst, path);
     }
 }

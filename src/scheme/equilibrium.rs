@@ -1,7 +1,7 @@
 //! Static equilibrium between walls and in holes.
 
 use crate::error::{Error, Result, Subject};
-use crate::linear::{Rows, Symmetric};
+use crate::linear::{Factor, Rows, Symmetric};
 use crate::qp::{Backend, DiskBound, DiskProblem, DiskSolver, Failure, Problem, Rhs, Solver};
 use crate::scene::{Face, LoadKind, Loads, Scene, Side, State, Wall, WallLaw};
 
@@ -24,6 +24,10 @@ const SETTLED: f64 = 1e-13;
 /// programme moves it by less than this share, and no less than the programme before: moves shrink
 /// from programme to programme until only rounding is left.
 const ROUNDED: f64 = 1e-8;
+
+/// Where no displacement is more than this share of what the loads would cause without any wall,
+/// the walls hold the scene at 0: the rounding of a programme.
+const HELD: f64 = 1e-13;
 
 /// The displacements (m, one per degree of freedom) at which the scene rests under its constant
 /// loads alone, between its walls: the minimiser of
@@ -53,6 +57,7 @@ pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
     let scale = Scene { initial: State { q: vec![0.0; n], v: vec![0.0; n] }, ..scene.clone() }.gap_scale();
     let pull = pull(scene, &force, scale);
     let a = Symmetric::sum(&[(1.0, &structure.stiffness), (pull, &structure.mass)]);
+    let open = open_size(scene, &a, &force);
     let mut held = StaticProgramme::new(scene, a, scale).map_err(|failure| refused(scene, &failure))?;
     let (mut q, mut before) = (vec![0.0; n], f64::INFINITY);
     for _ in 0..MOST_ROUNDS {
@@ -63,8 +68,12 @@ pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
         let moved = x.iter().zip(&q).map(|(new, old)| (new - old).abs()).fold(0.0, f64::max);
         q.copy_from_slice(x);
         if moved <= SETTLED * size || (before <= moved && moved <= ROUNDED * size) {
+            let pressed = held.pressed(&scene.walls);
+            if is_zero(scene, &q, &pressed, open) {
+                return Ok(vec![0.0; n]);
+            }
             let mut rest = Scene { initial: State { q, v: vec![0.0; n] }, ..scene.clone() };
-            rest.press_onto(&held.pressed(&scene.walls));
+            rest.press_onto(&pressed);
             rest.step_out_of_walls();
             return Ok(rest.initial.q);
         }
@@ -73,6 +82,27 @@ pub fn equilibrium(scene: &Scene) -> Result<Vec<f64>> {
     let key = Subject::from(("initial state", "equilibrium"));
     let value = "not found: the constant loads move the structure, and neither its stiffness nor a wall holds it";
     Err(Error::invalid(key, value, "a structure that is held, or walls where the loads push it"))
+}
+
+/// The largest displacement of the first programme without walls, m, for a scene that rigid walls
+/// may hold at 0: `a` is its matrix.
+fn open_size(scene: &Scene, a: &Symmetric, force: &[f64]) -> Option<f64> {
+    scene.walls.iter().find(|wall| stands_at_zero(wall))?;
+    let mut x = force.to_vec();
+    Factor::new(a).ok()?.solve(&mut x);
+    Some(x.iter().fold(0.0, |most: f64, x| most.max(x.abs())))
+}
+
+fn stands_at_zero(wall: &Wall) -> bool {
+    wall.law.is_rigid() && !wall.is_round() && wall.position() == 0.0
+}
+
+/// True if the walls `pressed` are rigid ones at 0, and the displacements `q` only rounding beside
+/// the size `open` (m) of those without walls. Taken for lengths, they would be the only ones of a
+/// scene all of whose walls stand at 0.
+fn is_zero(scene: &Scene, q: &[f64], pressed: &[usize], open: Option<f64>) -> bool {
+    let at_zero = |&index: &usize| scene.walls.get(index).is_some_and(stands_at_zero);
+    open.is_some_and(|open| q.iter().all(|q| q.abs() <= HELD * open)) && pressed.iter().all(at_zero)
 }
 
 /// The programme of a static shape.

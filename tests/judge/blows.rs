@@ -120,6 +120,26 @@ fn a_blow_works_before_the_wall_that_answers_it() {
     }
 }
 
+/// A body of 1 kg that touches a wall, with a blow of 0.1 N s against it: the blow works as on the
+/// free body, J²/2m, and the wall takes (1 − e²) of that.
+#[test]
+fn a_blow_on_a_body_that_touches_a_wall_works_as_on_the_free_body() {
+    let schemes = [GENERALIZED_ALPHA, Scheme::GeneralizedAlpha { rho: 1.0 }, Scheme::MoreauJean { theta: 0.5 }];
+    for (side, s) in [(Wall::upper("wall", 0.0), 1.0), (Wall::lower("wall", 0.0), -1.0)] {
+        for (scheme, e) in schemes.iter().flat_map(|scheme| [0.0, 0.5, 1.0].map(|e| (scheme, e))) {
+            let scene = Scene::oscillator(1.0, 0.0, 0.0)
+                .with_wall(side.clone().with_restitution(e))
+                .with_load(Load::impulse(0.1 * s, 0.05))
+                .with_duration(0.1);
+            let run = run(&scene, scheme, &Options::with_step(1e-3)).expect("a run");
+            let energy = &run.judged().expect("a judge").energy;
+            assert!((energy.load_work_j - 0.005).abs() < 1e-15, "{scheme}, {e}: {energy:?}");
+            assert!((energy.impact_loss_j - (1.0 - e * e) * 0.005).abs() < 1e-15, "{scheme}, {e}: {energy:?}");
+            assert_eq!(run.cautions, Vec::<String>::new(), "{scheme}, {e}");
+        }
+    }
+}
+
 #[test]
 fn a_blow_within_the_step_that_meets_a_spring_is_in_the_speed_of_approach() {
     // From rest a thousandth of a step before the wall.

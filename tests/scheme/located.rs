@@ -356,3 +356,41 @@ fn an_impact_at_the_end_of_a_step_is_in_that_step() {
         }
     }
 }
+
+#[test]
+fn a_body_struck_between_flats_all_round_it_stays_between_them() {
+    // Two pairs of flats without gaps, each with its restitution: the impacts end, and some of the
+    // walls rest before the others do.
+    for h in [1e-4, 1e-3, 3e-3] {
+        for seed in 0..4 {
+            let turn = 37.0 * f64::from(seed);
+            let row = |degrees: f64| {
+                let (sin, cos) = (degrees + turn).to_radians().sin_cos();
+                Row::new(vec![(0, cos), (1, sin)])
+            };
+            let identity = |x: f64| Symmetric::diagonal(&[x, x]);
+            let structure = Structure {
+                mass: identity(1.027186489341313),
+                damping: identity(0.0),
+                stiffness: identity(21.64477422265029),
+            };
+            let mut scene = Scene::structure(structure)
+                .with_load(Load { at: row(90.0), ..Load::impulse(0.03950999592959975, 0.12) })
+                .with_initial(&[0.0, 0.0], &[0.01770852909999271, -0.11803313737360727])
+                .with_duration(0.15);
+            for (name, degrees, e) in [
+                ("a", 123.37518898827526, 0.57),
+                ("b", 243.37518898827526, 0.57),
+                ("c", 311.38839862979347, 1.0),
+                ("d", 401.38839862979347, 1.0),
+            ] {
+                scene = scene.with_wall(Wall::upper(name, 0.0).with_restitution(e).at(row(degrees)));
+            }
+            let found = run(&scene, &Scheme::Located, &Options::with_step(h)).expect("a run");
+            assert_eq!(found.findings, [], "{h}, {turn}");
+            let farthest = found.trajectory.displacements().iter().flatten().fold(0.0_f64, |most, q| most.max(q.abs()));
+            // The touching distance, 1e-12 of a metre.
+            assert!(farthest <= 2e-12, "{h}, {turn}: {farthest:e} m");
+        }
+    }
+}

@@ -1,8 +1,9 @@
 //! A body that has come to rest stays at rest.
 
 use crate::common::{self, INTEGRATORS, MOREAU_JEAN, schemes, spring};
+use crate::random_structures::Draws;
 use signorini::linear::Symmetric;
-use signorini::{Integrator, Load, Options, Row, Scene, Scheme, Stepper, Structure, Wall, equilibrium, run};
+use signorini::{Chain, Integrator, Load, Options, Row, Scene, Scheme, Stepper, Structure, Wall, equilibrium, run};
 
 /// Bounds of a motion over many steps, and the number of contact episodes that ended.
 #[derive(Debug)]
@@ -258,5 +259,67 @@ fn two_bodies_without_a_ground_stand_against_a_wall_with_the_spring_between_them
                 "{wall:?}, {m} kg: {q:?}, not {expected:?}"
             );
         }
+    }
+}
+
+/// Schemes by which a body rests exactly on a rigid wall.
+fn exact_at_rest() -> impl Iterator<Item = Scheme> {
+    common::CONSTRAINED.into_iter().chain([Scheme::Event, Scheme::Located])
+}
+
+/// Fails unless the scene, all of whose walls stand at 0, has its equilibrium there and stays in it
+/// by every scheme. Its loads alone move it by `way` (m) within the run.
+fn stays(mut scene: Scene, way: f64, what: &str) {
+    let q = equilibrium(&scene).expect("a rest");
+    assert!(q.iter().all(|q| *q == 0.0), "{what}: {q:?}");
+    scene = scene.with_initial(&q, &vec![0.0; q.len()]);
+    assert_eq!(scene.validate(), Ok(()), "{what}");
+    for scheme in exact_at_rest() {
+        let found = run(&scene, &scheme, &Options::with_step(1e-3)).expect("a run");
+        assert_eq!(found.findings, [], "{what}, {scheme}: {:?}", found.residuals);
+        let farthest = found.trajectory.displacements().iter().flatten().fold(0.0_f64, |most, q| most.max(q.abs()));
+        assert!(farthest <= 1e-12 * way, "{what}, {scheme}: {farthest:e} m");
+    }
+}
+
+#[test]
+fn a_stack_on_a_floor_at_0_is_at_rest_at_0() {
+    for seed in 0..40 {
+        let mut draws = Draws::new(seed);
+        let n = 1 + seed as usize % 3;
+        let masses: Vec<f64> = (0..n).map(|_| draws.between(0.3, 3.0)).collect();
+        // Free, or between springs, of which some are stiff.
+        let spring = |draws: &mut Draws| 10f64.powf(draws.between(1.0, 7.0));
+        let springs: Vec<f64> = (1..n).map(|_| if seed % 2 == 0 { 0.0 } else { spring(&mut draws) }).collect();
+        let ground = if seed % 4 < 2 { 0.0 } else { spring(&mut draws) };
+        let chain = Chain { masses: masses.clone(), springs, grounds: [ground, 0.0] };
+        let mut scene = Scene::structure(chain.structure().expect("a chain")).with_duration(0.02);
+        for (i, m) in masses.iter().enumerate() {
+            let on_the_last = i > 0 && draws.between(0.0, 1.0) < 0.7;
+            let row = if on_the_last { Row::new(vec![(i, 1.0), (i - 1, -1.0)]) } else { Row::dof(i) };
+            scene = scene.with_wall(Wall::lower(&format!("w{i}"), 0.0).with_restitution(0.5).at(row));
+            scene = scene.with_load(Load { at: Row::dof(i), ..Load::constant(-9.81 * m) });
+        }
+        stays(scene, 0.5 * 9.81 * 0.02 * 0.02, &format!("seed {seed}, {masses:?}"));
+    }
+}
+
+#[test]
+fn a_body_pressed_into_a_corner_of_flats_without_gaps_is_at_rest_at_0() {
+    for seed in 0..40 {
+        let mut draws = Draws::new(seed);
+        let (first, corner) = (draws.between(0.0, 360.0), draws.between(20.0, 160.0));
+        let (k, force) = ([0.0, 100.0][seed as usize % 2], draws.between(0.1, 5.0));
+        let towards = |degrees: f64| degrees.to_radians().sin_cos();
+        let row = |degrees: f64| Row::new(vec![(0, towards(degrees).1), (1, towards(degrees).0)]);
+        let identity = |x: f64| Symmetric::diagonal(&[x, x]);
+        let structure = Structure { mass: identity(1.0), damping: identity(0.1), stiffness: identity(k) };
+        let load = Load { at: row(first + corner * draws.between(0.1, 0.9)), ..Load::constant(force) };
+        let scene = Scene::structure(structure)
+            .with_wall(Wall::upper("one", 0.0).with_restitution(0.5).at(row(first)))
+            .with_wall(Wall::upper("two", 0.0).with_restitution(0.5).at(row(first + corner)))
+            .with_load(load)
+            .with_duration(0.02);
+        stays(scene, 0.5 * force * 0.02 * 0.02, &format!("seed {seed}, {first} and {corner} deg"));
     }
 }

@@ -2,10 +2,19 @@
 
 use crate::case::CaseFile;
 use crate::error::{Error, Result};
+use crate::scene::MOST_MODES;
 use std::f64::consts::TAU;
 
-/// Most supports.
-const MOST_SUPPORTS: u32 = 100;
+/// Modes of each plane for a span, and the least number of all.
+const MODES_OF_A_SPAN: u32 = 8;
+const LEAST_MODES: u32 = 16;
+
+/// The frequencies of a pinned beam grow with the squares of 1, 2, .. With two and a half elements
+/// in half a wave its elements make it stiffer by a few thousandths: by less than this factor.
+const STIFFER: f64 = 1.01;
+
+/// Most supports: the modes of both planes, and the one beyond them, are modes that can be found.
+const MOST_SUPPORTS: u32 = (MOST_MODES as u32 - 1) / (2 * MODES_OF_A_SPAN) - 1;
 
 /// What is known of the tube.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -13,7 +22,7 @@ pub struct Tube {
     /// `new tube`: its length between two pinned ends, m [default: 3]
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     length: Option<f64>,
-    /// `new tube`: number of round supports, evenly spaced [default: 2]
+    /// `new tube`: number of round supports, evenly spaced, 1 to 30 [default: 2]
     #[arg(long, value_name = "N")]
     supports: Option<u32>,
     /// `new tube`: outer diameter, m [default: 19.05e-3]
@@ -65,26 +74,33 @@ impl Tube {
             count => return Err(Error::invalid("--supports", count, format!("from 1 to {MOST_SUPPORTS}"))),
         };
         let spans = supports + 1;
+        let modes = (MODES_OF_A_SPAN * spans).max(LEAST_MODES);
         let span = length / f64::from(spans);
         // Inner diameters of 17 digits would not read well.
         let inner = (1e9 * (outer - 2.0 * wall)).round() / 1e9;
         let support =
             |number: u32| SUPPORT.replace("%NUMBER%", &number.to_string()).replace("%GAP%", &format!("{gap:?}"));
+        let coherent = ((1e6 * 3.0 * outer).round() / 1e6).max(1e-6);
+        let flow = FLOW.replace("%COHERENT%", &format!("{coherent:?}"));
         let values = [
             ("%LENGTH%", format!("{length:?}")),
             ("%SPANS%", vec![format!("{span:?}"); spans as usize].join(", ")),
-            ("%ELEMENTS%", (20 * spans).to_string()),
-            ("%MODES%", (8 * spans).max(16).to_string()),
             ("%OUTER%", format!("{outer:?}")),
             ("%INNER%", format!("{inner:?}")),
-            ("%COHERENT%", format!("{:?}", (1e6 * 3.0 * outer).round() / 1e6)),
             ("%SUPPORTS%", (1..=supports).map(support).collect::<Vec<_>>().join("\n")),
         ];
         let text = values.iter().fold(TEXT.to_owned(), |text, (mark, value)| text.replace(mark, value));
-        let with_step = |step: &str| text.replace("%STEP%", step);
-        let case = CaseFile::from_text(&with_step("5e-5"), name, "").case()?;
-        let [_, fastest] = case.scene.system.frequencies();
-        Ok(with_step(&step_for(fastest)))
+        let filled = |modes: u32, elements: u32, flow: &str| {
+            let marks = [("%MODES%", modes.to_string()), ("%ELEMENTS%", elements.to_string())];
+            marks.iter().fold(text.replace("%FLOW%", flow), |text, (mark, value)| text.replace(mark, value))
+        };
+        // The slowest mode alone, without the flow: many modes, and the coherence of the flow over
+        // all pairs of nodes, take a minute where supports are many.
+        let still = filled(1, 2 * spans, "").replace("%STEP%", "5e-5");
+        let case = CaseFile::from_text(&still, name, "").case()?;
+        let [slowest, _] = case.scene.system.frequencies();
+        let fastest = slowest * f64::from(modes).powi(2) * STIFFER;
+        Ok(filled(modes, 20 * spans, &flow).replace("%STEP%", &step_for(fastest)))
     }
 }
 
@@ -108,7 +124,7 @@ title = "A tube of %LENGTH% m in round supports"
 
 [system]
 planes = 2                  # y and z, across the tube
-modes = %MODES%                  # of each plane
+modes = %MODES%                  # of each plane: eight for every span, 16 at least
 
 [system.beam]
 spans = [%SPANS%]     # m, from end to end; each span ends in a joint
@@ -125,7 +141,15 @@ right = "pinned"
 ratio = 0.01                # of every mode, in the fluid; assumed
 
 %SUPPORTS%
-[[turbulence]]
+%FLOW%[time]
+end = 5.0                   # s
+step = %STEP%                 # s: ten or more in a period of the fastest mode
+sample = 5e-4               # s
+statistics_from = 1.0       # s, after the initial transient
+"#;
+
+/// The flow and the wear by it, with a mark.
+const FLOW: &str = r#"[[turbulence]]
 direction = "both"          # independent fields along y and z
 density = 1000.0            # kg/m^3, of the fluid; assumed
 velocity = 2.0              # m/s in the gaps, or pairs [[m, m/s], ..] along the tube; assumed
@@ -141,11 +165,6 @@ support_coefficient = 1e-14 # 1/Pa, of the supports; assumed
 service = 3.15576e8         # s, ten years
 limit = 0.4                 # of the tube's wall
 
-[time]
-end = 5.0                   # s
-step = %STEP%                 # s: ten or more in a period of the fastest mode
-sample = 5e-4               # s
-statistics_from = 1.0       # s, after the initial transient
 "#;
 
 /// A support, with marks for values.

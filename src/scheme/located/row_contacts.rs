@@ -80,17 +80,23 @@ impl<S: Space> RowContacts<S> {
         e < 1.0 && self.length > 0.0 && 2.0 * e * speed * self.length <= (1.0 - e) * h * pressed
     }
 
-    /// Sets the bounds of the walls at which the body rests and of elastic walls, for a part of
+    /// Sets the bounds of the walls at which the body rests, no speed into them but out of them by
+    /// what rounding has left behind the face, and of elastic walls, for a part of
     /// `length` seconds from the state whose contacts were classified.
     pub fn set_holds(&mut self, body: &Body<S>, length: f64) {
         self.holds.clear();
+        // From behind one face the body returns as far as the others leave room: walls all round it
+        // let it move by no more.
+        let fell = |(wall, face): (usize, &FlatRow)| self.rests(wall) && face.depth(self.seen[wall].0) > 0.0;
+        let returns = body.walls.iter().enumerate().any(fell);
         for (wall, &face) in body.walls.iter().enumerate() {
             if face.law.is_rigid() && !self.rests(wall) {
                 continue;
             }
             let (w, rate) = self.seen[wall];
             let (bound, compliance) = if face.law.is_rigid() {
-                (if self.rests_between(wall) { -rate } else { rest_bound(face, w, rate, body.h) }, 0.0)
+                let depth = if returns && !self.rests_between(wall) { face.depth(w) } else { 0.0 };
+                (face.sign * depth / body.h - rate, 0.0)
             } else {
                 face.spring_bound(w, rate, (length, THETA))
             };
@@ -212,8 +218,9 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
                 let rate = body.seen(face.index, &frame.v);
                 let bound = match self.places[face.index] {
                     Place::Away => continue,
-                    Place::Resting => -rate,
-                    Place::Leaving => -2.0 * rate,
+                    // What leaves slowly may leave: the velocity turned round is always admissible.
+                    Place::Resting if face.sign * rate <= 0.0 => -rate,
+                    Place::Resting | Place::Leaving => -2.0 * rate,
                     Place::Struck => {
                         let e = face.law.restitution().unwrap_or(0.0);
                         let ends = e > 0.0 && self.rebounds_end(face.index, e, rate.abs(), body.h);
@@ -240,11 +247,4 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
     fn count(&self, counters: &mut Counters) {
         counters.qp_solves += self.impacts;
     }
-}
-
-/// The bound on the change of velocity at a rigid wall on which the body rests: no speed into it,
-/// and out of it by what rounding has left behind the face.
-fn rest_bound(face: FlatRow, w: f64, rate: f64, h: f64) -> f64 {
-    let behind = face.depth(w).max(0.0);
-    face.sign * behind / h - rate
 }
