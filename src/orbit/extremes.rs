@@ -16,8 +16,8 @@ const SOON: f64 = 1e-2;
 const STEPS: usize = 80;
 
 /// Calls `observe` with the time since the start (s), the state there with its derivatives, and the
-/// second rate of each extreme of w₀ q + w₁ q̇, `weights` w, of `arc` strictly inside its `span` (s),
-/// in order.
+/// second rate of each extreme of w₀ q + w₁ q̇ strictly inside the `span` (s) of `arc`, in order; w
+/// are the `weights`.
 ///
 /// The rate is a sum of exponentials and sines; in a window of a quarter of the shortest period
 /// over 2π it has more than one root only if its own rate has one there too; the window is then
