@@ -200,7 +200,7 @@ impl StructureVariation {
             at.after = force != 0.0 && at.restitution.is_none();
             self.after[at.row] |= force != 0.0 && at.restitution.is_some();
         }
-        let first = self.from_start && !std::mem::replace(&mut self.began, true);
+        let first = !std::mem::replace(&mut self.began, true) && self.from_start;
         self.note_standing(step);
         if self.bounce(step, columns) {
             return Ok(());
