@@ -56,14 +56,6 @@ fn half_angles(depth: f64, radius: f64, gap: f64) -> [f64; 2] {
 
 /// Depth (m) of a scar that takes `volume` (m³) off a tube of radius `radius` (m) on a flat over
 /// `width` (m); `None` where that is the whole tube or more, or a value is negative or not finite.
-///
-/// ```
-/// use signorini::wear::{flat_depth, moon_depth};
-///
-/// // 30 mm³ off a tube of 19.05 mm, over 25 mm: on a flat, and in a hole wider by 0.2 mm.
-/// let (flat, hole) = (flat_depth(30e-9, 25e-3, 9.525e-3), moon_depth(30e-9, 25e-3, 9.525e-3, 0.2e-3));
-/// assert!((flat.unwrap() - 0.350e-3).abs() < 1e-6 && (hole.unwrap() - 0.109e-3).abs() < 1e-6);
-/// ```
 pub(super) fn flat_depth(volume: f64, width: f64, radius: f64) -> Option<f64> {
     let sound = volume >= 0.0 && [width, radius].iter().all(|x| x.is_finite() && *x > 0.0);
     let slope = |depth: f64| 2.0 * (depth * (2.0 * radius - depth)).max(0.0).sqrt();
@@ -119,6 +111,13 @@ fn depth_of(wanted: f64, radius: f64, area: impl Fn(f64) -> f64, slope: impl Fn(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_scar_is_deeper_on_a_flat_than_in_a_hole() {
+        // 30 mm³ off a tube of 19.05 mm, over 25 mm: on a flat, and in a hole wider by 0.2 mm.
+        let (flat, hole) = (flat_depth(30e-9, 25e-3, 9.525e-3), moon_depth(30e-9, 25e-3, 9.525e-3, 0.2e-3));
+        assert!((flat.unwrap() - 0.350e-3).abs() < 1e-6 && (hole.unwrap() - 0.109e-3).abs() < 1e-6);
+    }
 
     /// Radius of the tube, gap, width and volume of the reference values.
     const TUBE: [f64; 4] = [0.009_525, 0.000_2, 0.025, 3e-8];

@@ -3,12 +3,6 @@
 /// The sector of a contact at `angle`, degrees from +y towards +z, among `count` equal ones. Sector
 /// number k holds the angles from 360k/count to below 360(k + 1)/count. An angle that is not finite
 /// is in the first; so is every angle where `count` is 0.
-///
-/// ```
-/// use signorini::wear::sector_of;
-///
-/// assert_eq!([0.0, 29.9, 30.0, 359.9, 360.0, -30.0].map(|angle| sector_of(angle, 12)), [0, 0, 1, 11, 0, 11]);
-/// ```
 fn sector_of(angle: f64, count: usize) -> usize {
     let share = angle.rem_euclid(360.0) / 360.0;
     // By rounding, a small negative angle may give a share of 1, and an edge may come out a little
@@ -37,6 +31,11 @@ pub(crate) fn sectors_over(angle: f64, turn: f64, count: usize) -> impl Iterator
 #[cfg(test)]
 mod tests {
     use super::{sector_of, sectors_over};
+
+    #[test]
+    fn a_sector_holds_its_lower_edge() {
+        assert_eq!([0.0, 29.9, 30.0, 359.9, 360.0, -30.0].map(|angle| sector_of(angle, 12)), [0, 0, 1, 11, 0, 11]);
+    }
 
     #[test]
     fn what_turns_over_edges_belongs_to_the_sectors_in_proportion() {

@@ -20,11 +20,6 @@ fn mean_size(from: f64, to: f64) -> f64 {
 
 /// Work of wear ∫ |v_t| dp of a normal impulse `impulse` (N s, 0 or more), J, while the sliding
 /// velocity goes from `before` to `after` (m/s) in proportion to it.
-///
-/// ```
-/// // 2 N s while the body is turned round from 1 m/s to -1 m/s: at 0.5 m/s in the mean.
-/// assert_eq!(signorini::wear::work_of_impulse(2.0, 1.0, -1.0), 1.0);
-/// ```
 pub(super) fn work_of_impulse(impulse: f64, before: f64, after: f64) -> f64 {
     impulse * mean_size(before, after)
 }
@@ -38,6 +33,12 @@ pub(super) fn sliding_distance(time: f64, before: f64, after: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_body_that_is_turned_round_slides_at_half_its_speed_in_the_mean() {
+        // 2 N s while it is turned round from 1 m/s to −1 m/s.
+        assert_eq!(work_of_impulse(2.0, 1.0, -1.0), 1.0);
+    }
 
     #[test]
     fn the_mean_speed_of_a_straight_line_is_its_area() {
