@@ -11,7 +11,8 @@ use crate::flow::HeldRow;
 use crate::scheme::exact::{ExactWall, Phase};
 use crate::step::Contact;
 
-/// Bodies that move together within this share of the gap touch each other.
+/// Bodies that move together within this share of the gap touch each other, as
+/// [`Scene::touching_distance`](crate::Scene::touching_distance) has it.
 const TOGETHER: f64 = 1e-12;
 
 impl StructureEvent {
@@ -119,13 +120,13 @@ impl StructureEvent {
             for (side, closed) in closed.iter_mut().enumerate().filter(|(side, _)| place.carriers[*side] > 0) {
                 // The instant is known only to an ulp of the time.
                 let late = 4.0 * f64::EPSILON * self.time * rate.abs();
+                let gap = place.gap(side, w);
                 // Bodies that move together at a wall touch it, at whatever distance the roundings
                 // of their motion have left.
-                let together = rate.abs() <= TOLD * self.body.size(row, &self.v);
-                let near = self.resolution(row, place.bound[side]) + late;
                 *closed = hit == Some(Cause::Gap(row, side))
                     || place.held == SIGNS[side]
-                    || place.gap(side, w) <= if together { near.max(TOGETHER * self.length) } else { near };
+                    || gap <= self.resolution(row, place.bound[side]) + late
+                    || (gap <= TOGETHER * self.length && rate.abs() <= TOLD * self.body.size(row, &self.v));
             }
             if closed == [false, false] {
                 continue;
