@@ -127,12 +127,18 @@ impl<'a> Curve<'a> {
         let half = half / problem.forcing_period();
         insert(index, Kind::Leave, nearest.phase + half, speed);
         insert(index, Kind::Enter, nearest.phase - half, speed);
+        let along = unit(2 * orbit.phases.len() + 1, 2 * index + 1);
+        self.begin_short(problem, &orbit, at.point.value, along)
+    }
+
+    /// The branch that begins at the orbit near `orbit`, one with a contact or pause of short
+    /// duration, in the direction `along`, across which that orbit is found.
+    fn begin_short(&self, problem: &Problem, orbit: &Orbit, value: f64, along: Vector) -> Result<Begin<Self>> {
         let curve = self.of(&orbit.signature);
-        let guess = curve.gather(problem, &orbit, at.point.value);
-        let along = unit(guess.len(), 2 * index + 1);
+        let guess = curve.gather(problem, orbit, value);
         let (y, ..) = curve.correct(&guess, &along)?;
         if (&y - &guess).norm() > CYCLE {
-            return Err(Error::no_orbit("no orbit with a short contact was found beside the touching one"));
+            return Err(Error::no_orbit("no orbit with a short contact or pause was found beside the touching one"));
         }
         Ok(Begin { curve, y, along, both: false })
     }
@@ -159,21 +165,14 @@ impl<'a> Curve<'a> {
         for (kind, phase) in kinds.into_iter().zip([change.phase - half, change.phase + half]).rev() {
             orbit.insert(index, Event { kind, wall: change.wall }, phase, speed);
         }
-        let curve = self.of(&orbit.signature);
-        let guess = curve.gather(problem, &orbit, at.point.value);
         // The duration is kept: the equations are singular for duration 0.
         let share = std::f64::consts::FRAC_1_SQRT_2;
-        let along = DVector::from_fn(guess.len(), |i, _| match i {
+        let along = DVector::from_fn(2 * orbit.phases.len() + 1, |i, _| match i {
             i if i == 2 * index => -share,
             i if i == 2 * index + 2 => share,
             _ => 0.0,
         });
-        Some(curve.correct(&guess, &along).and_then(|(y, ..)| {
-            if (&y - &guess).norm() > CYCLE {
-                return Err(Error::no_orbit("no orbit with the short push or pause was found beside this one"));
-            }
-            Ok(Begin { curve, y, along, both: false })
-        }))
+        Some(self.begin_short(problem, &orbit, at.point.value, along))
     }
 
     /// Leaves out a pause within a contact with an elastic wall, or a push behind its face, whose
