@@ -36,6 +36,13 @@ pub(super) struct Struck {
     pub pull: f64,
 }
 
+impl Struck {
+    /// A row that comes to rest without an impact.
+    pub fn resting(row: usize) -> Self {
+        Self { row, restitution: 0.0, rests: true, speed: 0.0, held: true, pull: 0.0 }
+    }
+}
+
 /// The saltation matrix of one instant.
 #[derive(Debug)]
 pub(super) struct Jump {

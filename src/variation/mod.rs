@@ -41,10 +41,10 @@
 //!
 //! The derivative of a motion with respect to its start, from the steps of the exact scheme:
 //! `saltation.rs` states what each event makes of a small change, `oscillator.rs` and
-//! `structure.rs` (with `jump.rs`, `instant.rs`, `bounce.rs` and `blows.rs`) read it from the
-//! steps, or say why there is none (`no_derivative.rs`), `product.rs` multiplies along a run,
-//! `exponents.rs` holds Lyapunov exponents. With respect to keys: `tangent/` is the derivative of
-//! the scene, `key_variation.rs` that of a run, with `keys.rs`, `key_terms.rs` and
+//! `structure.rs` (with `jump.rs`, `instant.rs`, `push.rs`, `bounce.rs` and `blows.rs`) read it
+//! from the steps, or say why there is none (`no_derivative.rs`), `product.rs` multiplies along a
+//! run, `exponents.rs` holds Lyapunov exponents. With respect to keys: `tangent/` is the derivative
+//! of the scene, `key_variation.rs` that of a run, with `keys.rs`, `key_terms.rs` and
 //! `contact_changes.rs`, `ends.rs` and `means.rs`; `arc_changes.rs` (with `touch_change.rs`) is
 //! that of closed-form motion; `stretch.rs` is the motion of a step of either kind. Knows no
 //! scheme.
@@ -64,6 +64,7 @@ mod means;
 mod no_derivative;
 mod oscillator;
 mod product;
+mod push;
 pub mod saltation;
 mod stretch;
 mod structure;
