@@ -127,6 +127,8 @@ pub struct Judge {
     over: Vec<f64>,
     /// Friction over a part of a step, or at its end, N s.
     rubbed: Vec<f64>,
+    /// The largest speed at which rebounds ended at the instant of the last part, m/s.
+    ended: f64,
     /// The vector instructions of the machine.
     arch: pulp::Arch,
     /// Work space for several steps at once; `None` where each is to be seen alone.
@@ -211,6 +213,7 @@ impl Judge {
             scratch: Scratch::new(n),
             series: SeriesScratch::new(n),
             over: vec![0.0; scene.walls.len()],
+            ended: 0.0,
             rubbed: Vec::new(),
             arch: pulp::Arch::new(),
             quiet_scratch: QuietScratch::new(scene, contract, &weights, blows),

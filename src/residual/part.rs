@@ -36,6 +36,7 @@ impl Judge {
         }
         let (own, h) = (self.contract, self.h);
         if length > 0.0 {
+            self.ended = 0.0;
             // Blows and the impact law belong to the end.
             self.blows.hide();
             self.contract.promise.rigid.velocity = None;
@@ -77,12 +78,14 @@ impl Judge {
     fn observe_jump(&mut self, step: &Step<'_>, length: f64) {
         self.noise.begin(self.h, step.end);
         self.noise.state(step.q, step.v, 0.0, &self.weights);
+        let mut ended = 0.0_f64;
         for index in 0..self.scene.walls.len() {
-            self.rebound_at_end(step, length, index);
+            ended = ended.max(self.rebound_at_end(step, length, index));
         }
         let friction = self.part_friction(step, true);
         let at_end = Step { velocity_after: step.v, impulse: step.jump, friction: &friction, ..*step };
-        self.supports_at_end(step, &at_end);
+        ended = ended.max(self.supports_at_end(step, &at_end));
+        self.ended = self.ended.max(ended);
         self.jump_momentum(step, &at_end);
         self.rubbed = friction;
         let mid: Vec<f64> = step.velocity_after.iter().zip(&self.blows.struck).map(|(v, struck)| v + struck).collect();
@@ -97,13 +100,15 @@ impl Judge {
         self.extent.observe(Scalar, step.q, step.v, &self.weights, step.v.len());
     }
 
-    /// Checks the impulses of round walls and of friction `at_end` of a part.
-    fn supports_at_end(&mut self, step: &Step<'_>, at_end: &Step<'_>) {
-        let Some(mut supports) = self.supports.take() else { return };
+    /// Checks the impulses of round walls and of friction `at_end` of a part, and returns the
+    /// largest speed at which rebounds end there, m/s.
+    fn supports_at_end(&mut self, step: &Step<'_>, at_end: &Step<'_>) -> f64 {
+        let Some(mut supports) = self.supports.take() else { return 0.0 };
+        let mut ended = 0.0_f64;
         let scene = std::sync::Arc::clone(&self.scene);
         for hole in scene.holes() {
             if hole.law.is_rigid() {
-                self.rebound_at_hole(step, &hole, &mut supports);
+                ended = ended.max(self.rebound_at_hole(step, &hole, &mut supports));
             }
             let (place, offset) = (hole.index, hole.offset(step.q));
             let (struck, distance) = (step.jump[place] != 0.0, offset[0].hypot(offset[1]));
@@ -119,17 +124,19 @@ impl Judge {
             supports.give(index, force, force[0].hypot(force[1]));
         }
         self.supports = Some(supports);
+        ended
     }
 
-    /// Checks the impact law of a round wall at the end of a part.
-    fn rebound_at_hole(&mut self, step: &Step<'_>, hole: &Hole<'_>, supports: &mut super::Supports) {
+    /// Checks the impact law of a round wall at the end of a part, and returns the speed at which
+    /// its rebounds end there, m/s.
+    fn rebound_at_hole(&mut self, step: &Step<'_>, hole: &Hole<'_>, supports: &mut super::Supports) -> f64 {
         let (place, p, end) = (hole.index, step.jump[hole.index], hole.offset(step.q));
         let distance = end[0].hypot(end[1]);
         let gap = hole.gap - distance;
         let size = terms(hole.at, step.q) + hole.centre[0].abs() + hole.centre[1].abs() + hole.gap;
         // Rounding decides whether a wall that does not push is touched.
         if p == 0.0 && gap > -self.noise.of(size) {
-            return;
+            return 0.0;
         }
         let n = end.map(|x| x / distance);
         let along = |v: [f64; 2]| n[0] * v[0] + n[1] * v[1];
@@ -140,11 +147,13 @@ impl Judge {
         let speeds = terms(hole.at, step.velocity_after) + terms(hole.at, step.v) + terms(hole.at, &self.blows.struck);
         self.walls.observe_gap(&self.noise, place, (gap, size), pressure);
         let noise = self.noise.velocity(speeds, self.noise.span) + self.noise.of(size) / hole.gap * speeds;
-        let rests = step.resting.contains(&place) && supports.ends_rebounds(hole, (n, struck), self.h, noise);
+        let rests = step.resting.contains(&place)
+            && (struck <= SAME * (self.ended + noise) || supports.ends_rebounds(hole, (n, struck), self.h, noise));
         let e = if rests || step.wedged.contains(&place) { 0.0 } else { hole.restitution };
         let slack = match struck > 0.0 {
             true => -after - e * struck,
-            false if p == 0.0 && hole.friction.acts() => -struck,
+            // A wall that the body leaves need not push: what drives the body back strikes it next.
+            false if p == 0.0 => -struck,
             false => -after - struck,
         };
         self.walls.observe_rebound(&self.noise, place, (slack, noise), pressure);
@@ -153,18 +162,20 @@ impl Judge {
             let noise = pressure * self.noise.of(size) / distance + self.noise.wall_force(place);
             supports.askew.observe(across, noise, self.noise.end, Some(place));
         }
+        if rests { struck } else { 0.0 }
     }
 
-    /// Checks the impact law of a wall at the end of a part.
-    fn rebound_at_end(&mut self, step: &Step<'_>, length: f64, index: usize) {
+    /// Checks the impact law of a wall at the end of a part, and returns the speed at which its
+    /// rebounds end there, m/s.
+    fn rebound_at_end(&mut self, step: &Step<'_>, length: f64, index: usize) -> f64 {
         let wall = &self.scene.walls[index];
         let row = wall.row();
         let (sign, p) = (wall.side().sign(), step.jump[index]);
-        let Some(e) = wall.law.restitution().filter(|_| !wall.is_round()) else { return };
+        let Some(e) = wall.law.restitution().filter(|_| !wall.is_round()) else { return 0.0 };
         let (gap, before, after) = (wall.gap(row.dot(step.q)), row.dot(step.velocity_after), row.dot(step.v));
         // Rounding decides whether a wall in front of the body is touched.
         if p == 0.0 && gap > 0.0 {
-            return;
+            return 0.0;
         }
         let struck = before + row.dot(&self.blows.struck);
         let pressure = sign * p / self.h;
@@ -181,14 +192,16 @@ impl Judge {
                 Some(supports) => (supports.change_in_part(|v| row.dot(v), change), supports.part_length()),
                 None => (change(row.dot(step.velocity_before), before), length),
             };
-            2.0 * e * struck.abs() * length <= SAME * (1.0 - e) * self.h * (pressed + noise)
+            struck.abs() <= SAME * (self.ended + noise)
+                || 2.0 * e * struck.abs() * length <= SAME * (1.0 - e) * self.h * (pressed + noise)
         };
+        let ended = if rests { struck.abs() } else { 0.0 };
         let e = if rests || step.wedged.contains(&index) { 0.0 } else { e };
-        // A wall with friction that the body leaves need not push: what drives the body back
-        // strikes it next.
-        let is_left = p == 0.0 && sign * struck > 0.0 && wall.friction.acts();
+        // A wall that the body leaves need not push: what drives the body back strikes it next.
+        let is_left = p == 0.0 && sign * struck > 0.0;
         let slack = if is_left { sign * struck } else { rebound(wall, e, struck, after) };
         self.walls.observe_rebound(&self.noise, index, (slack, noise), pressure);
+        ended
     }
 
     /// Checks the momentum that the velocity gains at the end of a part, by the impulses `at_end`.

@@ -19,13 +19,15 @@ pub(super) struct Impact {
     /// Contacts that gave up their rebound at the last instant.
     pub wedged: Vec<usize>,
     pub instants: u64,
+    /// The largest speed at which rebounds ended at the current instant, m/s.
+    pub ended: f64,
 }
 
 impl Impact {
     pub fn new(body: &Body<Matrices>, rows: &[&Row], contacts: usize) -> Result<Self> {
         let places = ContactRows::new(body.n, rows, &mut Matrices::mass(&body.matrices)?);
         let sweeps = FrictionContacts::new(body.matrices.mass.clone(), rows, contacts);
-        Ok(Self { places, sweeps, wedged: Vec::new(), instants: 0 })
+        Ok(Self { places, sweeps, wedged: Vec::new(), instants: 0, ended: 0.0 })
     }
 
     /// Changes the velocity of `frame` by the impulses of the walls that are touched, and writes
@@ -37,30 +39,32 @@ impl Impact {
         frame: &mut Frame<Matrices>,
         rebounds: bool,
     ) {
-        let Self { places, sweeps, wedged, instants } = self;
+        let Self { places, sweeps, wedged, instants, ended } = self;
         *instants += 1;
         frame.resting.clear();
         sweeps.wedged.clear();
         sweeps.touches.clear();
+        let e = |wall: usize| body.walls[wall].law.restitution().unwrap_or(0.0);
+        for (wall, contact) in contacts.iter().enumerate() {
+            // With the rebounds at a wall end those at one into which its impulse drove the body.
+            let driven = e(wall) < 1.0 && contact.rate[0] <= *ended;
+            if contact.place == Place::Struck && (driven || contact.rebounds_end(e(wall), body.h)) {
+                frame.resting.push(wall);
+            }
+        }
+        *ended = frame.resting.iter().fold(*ended, |most, &wall| most.max(contacts[wall].rate[0]));
         for (wall, contact) in contacts.iter().enumerate() {
             let rate = contact.rate[0];
-            let e = body.walls[wall].law.restitution().unwrap_or(0.0);
             let bound = match contact.place {
-                Place::Away => continue,
-                // With friction the bound of a wall that the body leaves feeds the motion: such a
-                // wall has no part in the impact, and what drives the body back strikes it next.
-                Place::Leaving if contact.point.friction.acts() => continue,
-                Place::Leaving => -rate,
+                // What drives the body back into a wall that it leaves strikes it next.
+                Place::Away | Place::Leaving => continue,
                 Place::Resting if rate < 0.0 => -rate,
-                Place::Struck if contact.rebounds_end(e, body.h) => {
-                    frame.resting.push(wall);
-                    0.0
-                }
+                Place::Struck if frame.resting.contains(&wall) => 0.0,
                 Place::Struck | Place::Resting if !rebounds => {
                     wedged.push(wall);
                     0.0
                 }
-                Place::Resting | Place::Struck => -e * rate,
+                Place::Resting | Place::Struck => -e(wall) * rate,
             };
             let (laws, at) = ((contact.point.friction.sliding, 0.0), (wall, contact.point.rows));
             sweeps.touches.push(FrictionContact::new(places, at, (contact.normal, bound), laws, [0.0; 2]));

@@ -17,17 +17,18 @@
 //!
 //! minimise ½ δᵀM δ   subject to   ẇ⁺ + ε ẇ ≤ 0 (upper), ≥ 0 (lower)
 //!
-//! over the walls that are touched, with ε = e where the body approaches or rests and 1 where it
-//! separates: Moreau's law at an instant (Moreau 1988, doi:10.1007/978-3-7091-2624-0_1;
-//! `row_contacts.rs`). A wall that is still approached after that is struck again at the same
-//! instant. With friction a wall that the body leaves has no part in it: its bound would feed the
-//! motion by the impulses that it asks for.
+//! over the touched walls that the body approaches or rests on: Moreau's law at an instant (Moreau
+//! 1988, doi:10.1007/978-3-7091-2624-0_1; `row_contacts.rs`). A wall that is approached after that
+//! is struck next at the same instant, also one that the body was leaving: so a wall that is
+//! touched does as one that is a rounding away.
 //!
 //! A body rests where it touches a wall without speed. Such walls bound the velocity at the end of
 //! each part, ẇ⁺ ≤ 0, so that the body stays on the face, at no depth. If the pressing acceleration
 //! a of the part before an impact would end the rebounds within a step, τ = 2e|ẇ|/(a(1 − e)) ≤ h,
 //! the body rests at once (Studer 2009, doi:10.1007/978-3-642-01100-9, discusses such ends of
-//! accumulations), which moves it by O(h²).
+//! accumulations), which moves it by O(h²). What that impulse drives the body into, no faster than
+//! it arrived, has e = 0 too: impacts that accumulate between several walls leave a velocity along
+//! all of them.
 //!
 //! Loads of no duration and jumps of tables divide a step too, also a jump that is written as two
 //! rows within a step. Elastic walls act as in moreau-jean;

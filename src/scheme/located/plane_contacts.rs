@@ -234,6 +234,7 @@ impl Contacts<Matrices> for PlaneContacts {
 
     fn keep(&mut self, body: &Body<Matrices>, part: &Part<Matrices>, frame: &Frame<Matrices>, length: f64) {
         self.unsettled += u64::from(!std::mem::replace(&mut self.settled, true));
+        self.impact.ended = 0.0;
         if length <= INSTANT * body.h {
             self.all.iter_mut().for_each(|contact| contact.lasts = false);
             return;

@@ -31,6 +31,8 @@ pub(super) struct RowContacts<S: Space> {
     /// The change of the rate of each wall's gap in the last part, m/s, and its length, s.
     changes: Vec<f64>,
     length: f64,
+    /// The largest speed at which rebounds ended at the current instant, m/s.
+    ended: f64,
     /// No momentum but that of the walls.
     none: S::Vector,
     impulse: Vec<f64>,
@@ -56,6 +58,7 @@ impl<S: Space> RowContacts<S> {
             opposite: scene.walls.iter().map(opposite).collect(),
             changes: vec![0.0; walls],
             length: 0.0,
+            ended: 0.0,
             none: zero::<S>(body.n),
             impulse: vec![0.0; walls],
             pushing: Vec::with_capacity(walls),
@@ -74,10 +77,12 @@ impl<S: Space> RowContacts<S> {
     }
 
     /// True if the rebounds of a body that strikes a wall at `speed` (m/s) end within a step of `h`
-    /// seconds, under the acceleration of the last part.
+    /// seconds, under the acceleration of the last part, or with those at another wall, whose
+    /// impulse drove the body into this one.
     fn rebounds_end(&self, wall: usize, e: f64, speed: f64, h: f64) -> bool {
         let pressed = -self.changes[wall];
-        e < 1.0 && self.length > 0.0 && 2.0 * e * speed * self.length <= (1.0 - e) * h * pressed
+        let ends = self.length > 0.0 && 2.0 * e * speed * self.length <= (1.0 - e) * h * pressed;
+        e < 1.0 && (ends || speed <= self.ended)
     }
 
     /// Sets the bounds of the walls at which the body rests, no speed into them but out of them by
@@ -198,7 +203,7 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
     }
 
     fn keep(&mut self, body: &Body<S>, part: &Part<S>, _: &Frame<S>, length: f64) {
-        self.length = length;
+        (self.length, self.ended) = (length, 0.0);
         for (wall, (face, change)) in body.walls.iter().zip(&mut self.changes).enumerate() {
             *change = face.sign * body.seen(wall, &part.delta);
         }
@@ -212,23 +217,26 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
         self.impacts += 1;
         self.law.free();
         frame.resting.clear();
+        for (wall, face) in body.walls.iter().enumerate() {
+            let e = face.law.restitution().unwrap_or(0.0);
+            let (place, rate) = (self.places[wall], self.seen[wall].1);
+            if place == Place::Struck && e > 0.0 && self.rebounds_end(wall, e, rate.abs(), body.h) {
+                frame.resting.push(wall);
+            }
+        }
+        self.ended = frame.resting.iter().fold(self.ended, |most, &wall| most.max(self.seen[wall].1.abs()));
         for row in 0..self.law.count_rows() {
             for number in self.law.walls(row) {
                 let face = self.law.wall(number);
-                let rate = body.seen(face.index, &frame.v);
+                let rate = self.seen[face.index].1;
                 let bound = match self.places[face.index] {
-                    Place::Away => continue,
+                    // What drives the body back into a wall that it leaves strikes it next.
+                    Place::Away | Place::Leaving => continue,
                     // What leaves slowly may leave: the velocity turned round is always admissible.
                     Place::Resting if face.sign * rate <= 0.0 => -rate,
-                    Place::Resting | Place::Leaving => -2.0 * rate,
-                    Place::Struck => {
-                        let e = face.law.restitution().unwrap_or(0.0);
-                        let ends = e > 0.0 && self.rebounds_end(face.index, e, rate.abs(), body.h);
-                        if ends {
-                            frame.resting.push(face.index);
-                        }
-                        if ends { -rate } else { -(1.0 + e) * rate }
-                    }
+                    Place::Resting => -2.0 * rate,
+                    Place::Struck if frame.resting.contains(&face.index) => -rate,
+                    Place::Struck => -(1.0 + face.law.restitution().unwrap_or(0.0)) * rate,
                 };
                 self.law.bind(row, number, bound);
             }
