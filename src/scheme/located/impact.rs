@@ -67,7 +67,7 @@ impl Impact {
                 Place::Resting | Place::Struck => -e(wall) * rate,
             };
             let (laws, at) = ((contact.point.friction.sliding, 0.0), (wall, contact.point.rows));
-            sweeps.touches.push(FrictionContact::new(places, at, (contact.normal, bound), laws, [0.0; 2]));
+            sweeps.touches.push(FrictionContact::new(places, at, (contact.normal, bound), laws));
         }
         for (row, rate) in sweeps.free.iter_mut().enumerate() {
             *rate = places.seen(row, &frame.v);

@@ -171,8 +171,8 @@ fn find_normals(
             holds.iter().zip(&frictions).zip(normals.iter().zip(&warm)).map(|((hold, friction), (normal, warm))| {
                 let (laws, contact) = ((*friction, hold.compliance), (hold.wall, hold.rows));
                 let bound = hold.bound(*normal, length);
-                let touch = FrictionContact::new(places, contact, (*normal, bound), laws, *warm);
-                FrictionContact { slides: hold.slides, kinetic: hold.kinetic, ..touch }
+                let touch = FrictionContact::new(places, contact, (*normal, bound), laws);
+                FrictionContact { slides: hold.slides, kinetic: hold.kinetic, impulse: *warm, ..touch }
             });
         sweeps.touches.clear();
         sweeps.touches.extend(touches);

@@ -81,13 +81,12 @@ pub(in crate::scheme) struct FrictionContact {
 }
 
 impl FrictionContact {
-    /// The contact of this normal and bound, with the state and impulse from which sweeps begin.
+    /// The contact of this normal and bound, without an impulse.
     pub fn new(
         places: &ContactRows,
         (index, rows): (usize, [usize; 2]),
         (normal, bound): ([f64; 2], f64),
         (friction, compliance): (f64, f64),
-        impulse: [f64; 2],
     ) -> Self {
         let tangent = if friction > 0.0 { [-normal[1], normal[0]] } else { [0.0; 2] };
         let form = |a: [f64; 2], b: [f64; 2]| places.between((rows, a), (rows, b));
@@ -109,7 +108,7 @@ impl FrictionContact {
             came: 0.0,
             own,
             state: State::Open,
-            impulse,
+            impulse: [0.0; 2],
             slides: 0.0,
         }
     }

@@ -2,11 +2,13 @@
 //! exactly ([`FrictionContact::answer`]), until their states stay; then one linear system for these
 //! states, so that the result is exact to rounding.
 //!
-//! Sweeps start from the impulses of the last step (Jourdan, Alart & Jean 1998,
-//! doi:10.1016/S0045-7825(97)00137-0). Where the linear system does not confirm the states, those
-//! that it suggests are tried before the sweeps go on, as in a semismooth Newton method. Where the
-//! contacts still do not settle, as where several press on few degrees of freedom from nearly
-//! opposite sides, a pivoting method answers them.
+//! Sweeps (Jourdan, Alart & Jean 1998, doi:10.1016/S0045-7825(97)00137-0) start without impulses:
+//! contacts that stick and press against each other, as those on both sides of a wedge, may hold
+//! any self-stress, and what they held in the last step, which may have been an impact, is no force
+//! of this one. Where the linear system does not confirm the states, those that it suggests are
+//! tried before the sweeps go on, as in a semismooth Newton method. Where the contacts still do not
+//! settle, as where several press on few degrees of freedom from nearly opposite sides, a pivoting
+//! method answers them.
 //!
 //! Without friction the problem is a convex programme, the sweeps descend in its dual and the
 //! answer is its minimiser. With friction it is no minimisation: for large μ answers may be

@@ -33,12 +33,12 @@
 mod contact_rows;
 mod friction_contact;
 mod friction_contacts;
+mod last_step;
 mod linear;
 mod normal;
 mod points;
 mod view;
 mod walls_in_play;
-mod warm_start;
 
 pub(super) use contact_rows::ContactRows;
 pub(super) use friction_contact::FrictionContact;
@@ -55,10 +55,10 @@ use crate::error::Result;
 use crate::linear::{Factor, Lanes, Pass, pass, update};
 use crate::scene::{Checked, Wall};
 use crate::step::Contract;
+use last_step::LastStep;
 use normal::HoleState;
 use pulp::Simd;
 use walls_in_play::WallsInPlay;
-use warm_start::WarmStart;
 
 /// The motion of a scene with supports.
 #[derive(Debug)]
@@ -78,7 +78,7 @@ pub(super) struct Supports {
     met: Vec<Option<HoleState>>,
     /// What the blows of the step give towards each hole in play, m/s, one entry a contact.
     given: Vec<f64>,
-    memory: WarmStart,
+    memory: LastStep,
     episodes: Episodes,
     /// The vector instructions of the machine.
     arch: pulp::Arch,
@@ -96,7 +96,7 @@ impl Supports {
         let contacts = points.len();
         let zero = || vec![0.0; body.n];
         let round = scene.walls.iter().map(Wall::is_round).collect();
-        let mut memory = WarmStart::new(round, scene.snug(), places.count());
+        let mut memory = LastStep::new(round, scene.snug(), places.count());
         memory.begin(scene, &scene.initial.q, &scene.initial.v);
         Ok(Self {
             theta,
@@ -124,12 +124,13 @@ impl Supports {
         reach.set_reach(frame, body.h);
         sweeps.touches.clear();
         for index in 0..body.walls.len() {
-            let last = (memory.warm[index], memory.did[index]);
+            let did = memory.did[index];
             if !reach.is_round(index) {
+                let last = (memory.pushes[index], did);
                 sweeps.touches.extend(reach.wall(index, (body, frame), places, last));
                 continue;
             }
-            let found = reach.hole(index, (frame, body.h), places, last);
+            let found = reach.hole(index, (frame, body.h), places, did);
             met[index] = found.map(|(_, met)| met);
             let Some((touch, met)) = found else { continue };
             frame.normal[index] = met.normal;

@@ -80,13 +80,13 @@ impl WallsInPlay {
         update(&mut self.ahead, [&frame.q, frame.struck()], |_, [q, v]| q + AHEAD * h * v);
     }
 
-    /// A wall, if it is in play; `warm` is its impulse in the last step, and what it `did` there.
+    /// A wall, if it is in play; `push` is its push in the last step, N s, and what it `did` there.
     pub fn wall(
         &mut self,
         wall: usize,
         (body, frame): (&Body<Matrices>, &Frame<Matrices>),
         places: &ContactRows,
-        (warm, did): ([f64; 2], State),
+        (push, did): (f64, State),
     ) -> Option<FrictionContact> {
         let (face, point) = (body.walls[wall], self.points[wall]);
         let (bound, compliance) = match (face.law.spring(), face.law.restitution()) {
@@ -101,7 +101,7 @@ impl WallsInPlay {
                 let approach = -face.sign * struck;
                 let epsilon = if approach < 0.0 {
                     1.0
-                } else if self.rests(wall, restitution, approach, warm[0]) {
+                } else if self.rests(wall, restitution, approach, push) {
                     self.resting.push(wall);
                     0.0
                 } else {
@@ -112,7 +112,7 @@ impl WallsInPlay {
             _ => return None,
         };
         let (contact, law) = ((wall, point.rows), (point.friction.sticking, compliance));
-        let touch = FrictionContact::new(places, contact, (point.normal, bound), law, warm);
+        let touch = FrictionContact::new(places, contact, (point.normal, bound), law);
         Some(touch.after(point.friction, did))
     }
 
@@ -123,15 +123,14 @@ impl WallsInPlay {
         self.points[wall].friction.acts() && push > 0.0 && rebounds <= (1.0 - restitution) * push
     }
 
-    /// A round wall, if it is in play; `warm` is its impulse in the last step, and what it `did`
-    /// there.
+    /// A round wall, if it is in play; in the last step it `did` that.
     #[inline(always)]
     pub fn hole(
         &self,
         index: usize,
         (frame, h): (&Frame<Matrices>, f64),
         places: &ContactRows,
-        last: ([f64; 2], State),
+        did: State,
     ) -> Option<(FrictionContact, HoleState)> {
         let (round, point) = (self.rounds[index]?, self.points[index]);
         let ahead = round.offset(places.pair(point.rows, &self.ahead));
@@ -140,21 +139,15 @@ impl WallsInPlay {
         }
         let (at, rate) = (places.pair(point.rows, &frame.q), places.pair(point.rows, frame.struck()));
         let met = hole_state((round.gap, round.restitution), round.offset(at), rate, h)?;
-        Some((self.touch(index, &met, places, last), met))
+        Some((self.touch(index, &met, places, did), met))
     }
 
     /// The contact with a round wall that was `met`.
     #[inline(never)]
-    fn touch(
-        &self,
-        index: usize,
-        met: &HoleState,
-        places: &ContactRows,
-        (warm, did): ([f64; 2], State),
-    ) -> FrictionContact {
+    fn touch(&self, index: usize, met: &HoleState, places: &ContactRows, did: State) -> FrictionContact {
         let point = self.points[index];
         let (contact, law) = ((index, point.rows), (point.friction.sticking, 0.0));
-        let touch = FrictionContact::new(places, contact, (met.normal, met.bound), law, warm);
+        let touch = FrictionContact::new(places, contact, (met.normal, met.bound), law);
         touch.after(point.friction, did)
     }
 }

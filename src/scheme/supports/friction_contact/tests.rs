@@ -9,7 +9,7 @@ fn one(normal: [f64; 2], friction: f64) -> (ContactRows, FrictionContact) {
     let mass = Symmetric::from_entries(2, [(0, 0, 2.0), (0, 1, 0.9), (1, 1, 1.0)]);
     let rows = [Row::dof(0), Row::dof(1)];
     let places = ContactRows::new(2, &[&rows[0], &rows[1]], &mut Factor::new(&mass).unwrap());
-    let touch = FrictionContact::new(&places, (0, [0, 1]), (normal, 0.0), (friction, 0.0), [0.0; 2]);
+    let touch = FrictionContact::new(&places, (0, [0, 1]), (normal, 0.0), (friction, 0.0));
     (places, touch)
 }
 

@@ -43,14 +43,8 @@ impl Scene {
             let bound = dot(normal, at.map(|row| rows[row].dot(&inside))) + draws.between(0.0, 0.3);
             let mu = if draws.chance(0.5) { draws.between(0.0, friction) } else { 0.0 };
             let compliance = if draws.chance(0.3) { draws.between(0.1, 1.0) } else { 0.0 };
-            let impulse = [0.0; 2];
-            sweeps.touches.push(FrictionContact::new(
-                &places,
-                (index, at),
-                (normal, bound * unit),
-                (mu, compliance),
-                impulse,
-            ));
+            let laws = (mu, compliance);
+            sweeps.touches.push(FrictionContact::new(&places, (index, at), (normal, bound * unit), laws));
         }
         for (free, row) in sweeps.free.iter_mut().zip(&rows) {
             *free = unit * (row.dot(&inside) + 2.0 * row.dot(&off));
@@ -225,7 +219,7 @@ fn a_contact_that_sticks_within_rounding_has_no_more_friction_than_coulomb_allow
     let FrictionContacts { touches, free, .. } = sweeps;
     // An elastic wall over a part so short that it gives 2e-12 N s.
     let law = (0.5, 1e12);
-    let mut touch = FrictionContact::new(places, (0, [0, 1]), ([0.6, 0.8], -2.0), law, [0.0; 2]);
+    let mut touch = FrictionContact::new(places, (0, [0, 1]), ([0.6, 0.8], -2.0), law);
     touch.state = State::Stick;
     // Sticking asks for three times the friction that is allowed, 3e-12 N s, which changes the
     // velocity by less than the rounding of slides of some m/s elsewhere.

@@ -68,7 +68,7 @@ impl Corner {
                 let bound = if approach > 0.0 { -e * approach } else { -approach };
                 for _ in 0..if draws.chance(0.1) { 2 } else { 1 } {
                     let (index, at) = (contacts.len(), [2 * body, 2 * body + 1]);
-                    let touch = FrictionContact::new(&places, (index, at), (normal, bound), (mu, compliance), [0.0; 2]);
+                    let touch = FrictionContact::new(&places, (index, at), (normal, bound), (mu, compliance));
                     sweeps.touches.push(touch);
                     contacts.push((body, normal, compliance));
                     bounds.push(bound);
@@ -208,7 +208,7 @@ fn an_oblique_impact_that_would_add_energy_ends_in_rest() {
     let places = ContactRows::new(2, &rows, &mut Factor::new(&a).expect("a mass"));
     for (friction, after) in [(2.0, Some([0.0, 0.0])), (0.0, None)] {
         let mut sweeps = FrictionContacts::new(a.clone(), &rows, 1);
-        sweeps.touches.push(FrictionContact::new(&places, (0, [0, 1]), ([1.0, 0.0], -1.0), (friction, 0.0), [0.0; 2]));
+        sweeps.touches.push(FrictionContact::new(&places, (0, [0, 1]), ([1.0, 0.0], -1.0), (friction, 0.0)));
         sweeps.before.copy_from_slice(&free);
         sweeps.free.copy_from_slice(&free);
         assert!(sweeps.strike(&places));
@@ -248,7 +248,7 @@ fn right_angle(e: f64, friction: f64) -> Corner {
         (ContactRows::new(2, &rows, &mut Factor::new(&a).expect("a mass")), FrictionContacts::new(a, &rows, 2));
     let contacts = vec![(0, [1.0, 0.0], 0.0), (0, [0.0, 1.0], 0.0)];
     for (index, &(_, normal, _)) in contacts.iter().enumerate() {
-        sweeps.touches.push(FrictionContact::new(&places, (index, [0, 1]), (normal, -e), (friction, 0.0), [0.0; 2]));
+        sweeps.touches.push(FrictionContact::new(&places, (index, [0, 1]), (normal, -e), (friction, 0.0)));
     }
     sweeps.free.fill(1.0);
     Corner { mass, contacts, bounds: vec![-e; 2], free: vec![1.0; 2], places, sweeps }

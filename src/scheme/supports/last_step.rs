@@ -9,13 +9,13 @@ const OPPOSITE: f64 = -1.0 + 1e-9;
 
 /// What the last step left, and what is counted from step to step.
 #[derive(Debug)]
-pub(super) struct WarmStart {
+pub(super) struct LastStep {
     /// True for each wall that is round.
     round: Vec<bool>,
     /// True for each flat that leaves no room to move.
     snug: Vec<bool>,
-    /// Impulses p and f of each wall and hole, N s, from which the next step starts.
-    pub warm: Vec<[f64; 2]>,
+    /// The push p of each wall and hole, N s.
+    pub pushes: Vec<f64>,
     /// What each wall and hole did; one that did not push was open.
     pub did: Vec<State>,
     /// Normal of the last contact that pushed at each row's place, if any.
@@ -26,12 +26,12 @@ pub(super) struct WarmStart {
     pub turned: f64,
 }
 
-impl WarmStart {
+impl LastStep {
     /// For walls of which some are `round` and some `snug`, on `rows` rows.
     pub fn new(round: Vec<bool>, snug: Vec<bool>, rows: usize) -> Self {
         Self {
             snug,
-            warm: vec![[0.0; 2]; round.len()],
+            pushes: vec![0.0; round.len()],
             did: vec![State::Open; round.len()],
             round,
             last: vec![None; rows],
@@ -53,7 +53,7 @@ impl WarmStart {
     /// Forgets the last step.
     pub fn forget(&mut self) {
         self.last.fill(None);
-        self.warm.fill([0.0; 2]);
+        self.pushes.fill(0.0);
         self.did.fill(State::Open);
     }
 
@@ -70,7 +70,7 @@ impl WarmStart {
         self.frozen += u64::from(frozen);
         self.forget();
         for touch in touches.iter().filter(|touch| touch.impulse[0] > 0.0) {
-            self.warm[touch.index] = touch.impulse;
+            self.pushes[touch.index] = touch.impulse[0];
             self.did[touch.index] = touch.state;
             if touch.compliance == 0.0 && !self.snug[touch.index] {
                 self.last[touch.rows[0]] = Some(touch.normal);
@@ -104,8 +104,8 @@ mod tests {
         }
     }
 
-    fn memory() -> WarmStart {
-        WarmStart::new(vec![false, false, true, true], vec![false; 4], 8)
+    fn memory() -> LastStep {
+        LastStep::new(vec![false, false, true, true], vec![false; 4], 8)
     }
 
     #[test]
@@ -149,15 +149,15 @@ mod tests {
     }
 
     #[test]
-    fn the_impulses_of_a_step_are_kept_for_the_next_one_only() {
+    fn the_pushes_of_a_step_are_kept_for_the_next_one_only() {
         let mut memory = memory();
         memory.keep(&[touch(1, 0.0, [2.0, -0.5]), touch(3, 0.0, [3.0, 0.7]), touch(2, 0.0, [0.0; 2])], |_| 0.0);
-        assert_eq!(memory.warm, [[0.0; 2], [2.0, -0.5], [0.0; 2], [3.0, 0.7]]);
+        assert_eq!(memory.pushes, [0.0, 2.0, 0.0, 3.0]);
         assert_eq!(memory.did, [State::Open, State::Ahead, State::Open, State::Ahead]);
         memory.keep(&[touch(0, 0.0, [1.0, 0.0])], |_| 0.0);
-        assert_eq!(memory.warm, [[1.0, 0.0], [0.0; 2], [0.0; 2], [0.0; 2]]);
+        assert_eq!(memory.pushes, [1.0, 0.0, 0.0, 0.0]);
         memory.forget();
-        assert_eq!((&memory.warm, &memory.did), (&vec![[0.0; 2]; 4], &vec![State::Open; 4]));
+        assert_eq!((&memory.pushes, &memory.did), (&vec![0.0; 4], &vec![State::Open; 4]));
     }
 
     #[test]
