@@ -162,7 +162,7 @@ impl Judge {
             let noise = pressure * self.noise.of(size) / distance + self.noise.wall_force(place);
             supports.askew.observe(across, noise, self.noise.end, Some(place));
         }
-        if rests { struck } else { 0.0 }
+        if rests && p != 0.0 { struck } else { 0.0 }
     }
 
     /// Checks the impact law of a wall at the end of a part, and returns the speed at which its
@@ -195,7 +195,7 @@ impl Judge {
             struck.abs() <= SAME * (self.ended + noise)
                 || 2.0 * e * struck.abs() * length <= SAME * (1.0 - e) * self.h * (pressed + noise)
         };
-        let ended = if rests { struck.abs() } else { 0.0 };
+        let ended = if rests && p != 0.0 { struck.abs() } else { 0.0 };
         let e = if rests || step.wedged.contains(&index) { 0.0 } else { e };
         // A wall that the body leaves need not push: what drives the body back strikes it next.
         let is_left = p == 0.0 && sign * struck > 0.0;

@@ -52,7 +52,6 @@ impl Impact {
                 frame.resting.push(wall);
             }
         }
-        *ended = frame.resting.iter().fold(*ended, |most, &wall| most.max(contacts[wall].rate[0]));
         for (wall, contact) in contacts.iter().enumerate() {
             let rate = contact.rate[0];
             let bound = match contact.place {
@@ -82,6 +81,9 @@ impl Impact {
             let is_round = contacts[touch.index].round.is_some();
             let sign = if is_round { 1.0 } else { body.walls[touch.index].sign };
             frame.push_at_end(touch.index, sign * touch.impulse[0]);
+            if frame.resting.contains(&touch.index) {
+                *ended = ended.max(contacts[touch.index].rate[0]);
+            }
             frame.friction[touch.index] = touch.impulse[1];
             frame.normal[touch.index] = if is_round { touch.normal } else { [0.0; 2] };
         }

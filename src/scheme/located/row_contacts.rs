@@ -224,7 +224,6 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
                 frame.resting.push(wall);
             }
         }
-        self.ended = frame.resting.iter().fold(self.ended, |most, &wall| most.max(self.seen[wall].1.abs()));
         for row in 0..self.law.count_rows() {
             for number in self.law.walls(row) {
                 let face = self.law.wall(number);
@@ -241,12 +240,15 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
                 self.law.bind(row, number, bound);
             }
         }
-        let Self { law, none, impulse, pushing, .. } = self;
+        let Self { law, none, impulse, pushing, ended, seen, .. } = self;
         law.solve(none, (frame.end, step), impulse, pushing)?;
         for (v, d) in frame.v.as_mut().iter_mut().zip(law.x().as_ref()) {
             *v += d;
         }
         for wall in pushing.drain(..) {
+            if frame.resting.contains(&wall) {
+                *ended = ended.max(seen[wall].1.abs());
+            }
             frame.push_at_end(wall, std::mem::take(&mut impulse[wall]));
         }
         Ok(true)
