@@ -174,8 +174,8 @@ impl Builder<'_> {
 
     /// The probes of the file, or the default ones: one at each of the `sites` with walls or
     /// sliders, with the name of the first there; without any one in the middle of a bar or beam,
-    /// else one at the first degree of freedom. With one degree of freedom there is a single probe,
-    /// without a name.
+    /// else one at the first degree of freedom. One degree of freedom that is the displacement of
+    /// them all has a single probe, without a name.
     pub fn probes(&mut self, probes: &[Section<'_>], sites: &[Site]) -> Result<Vec<Probe>> {
         let mut all: Vec<Probe> = Vec::new();
         if probes.is_empty() {
@@ -218,9 +218,6 @@ impl Builder<'_> {
     /// One probe at each of the `sites`, in two planes one along y and one along z; without any, at
     /// one location that the system has.
     fn default_probes(&mut self, sites: &[Site]) -> Result<Vec<Probe>> {
-        if self.total() == 1 {
-            return Ok(vec![Probe { name: String::new(), at: Row::dof(0) }]);
-        }
         let mut all: Vec<Probe> = Vec::new();
         for site in sites {
             for (way, Site { suffix, place, row }) in self.both_ways(site)? {
@@ -240,6 +237,11 @@ impl Builder<'_> {
                 self.written.probes.push(place);
                 all.push(Probe { name: format!("{suffix}{way}"), at: row });
             }
+        }
+        // A mode, or a degree of freedom behind a lever, is no displacement of a place.
+        if self.total() == 1 && all.iter().all(|probe| probe.at == Row::dof(0)) {
+            self.written.probes.clear();
+            return Ok(vec![Probe { name: String::new(), at: Row::dof(0) }]);
         }
         Ok(all)
     }

@@ -623,3 +623,26 @@ fn modes_of_one_frequency_are_turned_until_damping_uncouples_them() {
     assert_eq!(modes, before);
     assert!(defects(&structure, &modes).0 < 1e-14);
 }
+
+/// One mode, whose coordinate is half the displacement of the point of the wall: without probes of
+/// the file the displacement is that of the point, which reaches the walls and no farther.
+#[test]
+#[cfg(feature = "case")]
+fn one_mode_has_the_displacement_of_the_place_of_its_walls() {
+    let file = |wall: &str| {
+        let text = format!(
+            "[system.modal]\nfrequencies = [2.0]\nshapes = {{ p = [2.0] }}\n{wall}\n[[load]]\nat = {{ point = \"p\" }}\n\
+             harmonic = {{ amplitude = 3.0, frequency = 5.0 }}\n[time]\nend = 2.0\nstep = 1e-3\n"
+        );
+        signorini::case::Case::parse(&text, "modes.toml", ".").unwrap().scene
+    };
+    let scene = file("[[wall]]\nname = \"a\"\nat = { point = \"p\" }\nside = \"both\"\ngap = 4e-3");
+    assert_eq!(scene.probes, [Probe { name: "a".into(), at: Row::new(vec![(0, 2.0)]) }]);
+    let run = signorini::run(&scene, &signorini::Scheme::Located, &signorini::Options::with_step(1e-3)).unwrap();
+    let (displacement, _) = run.trajectory.probe("a").unwrap();
+    let farthest = displacement.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
+    // It strikes within steps of 1e-3 s, at some 0.1 m/s.
+    assert!((3.8e-3..=4e-3 + 1e-12).contains(&farthest), "{farthest}");
+    // Without walls: at the first point.
+    assert_eq!(file("").probes, [Probe { name: "p".into(), at: Row::new(vec![(0, 2.0)]) }]);
+}
