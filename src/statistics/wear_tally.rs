@@ -37,9 +37,10 @@ pub struct WearStatistics {
     pub sliding_speed_m_per_s: Option<f64>,
     /// What friction takes out of the motion per unit time, W.
     pub friction_power_w: f64,
-    /// Time in contact over the window's length: of all steps in which it pushes, where a wall's is
-    /// that of its contact episodes, up to half a step less at both ends of each. On a rigid
-    /// support it depends on the step and on the number of modes.
+    /// Time in contact over the window's length: of all steps in which it pushes, but for contacts
+    /// of one or two steps at rigid walls, which are impacts and take none. A wall's is that of its
+    /// contact episodes, up to half a step less at both ends of each. On a rigid support it depends
+    /// on the step and on the number of modes.
     pub contact_time_ratio: f64,
     /// The sectors, from +y towards +z.
     pub sectors: Vec<SectorStatistics>,
