@@ -25,6 +25,16 @@ fn the_study_is_that_of_seeds_at_the_step_found() {
     assert_eq!((&accuracy["judged_by"], accuracy["tolerance"].as_f64()), (&"realisations".into(), Some(0.9)));
     assert!(accuracy["reached"].as_f64().unwrap() <= 0.9 && accuracy["pairs"]["count"].as_u64().unwrap() >= 6);
     assert!(accuracy["levels"].as_array().unwrap().len() >= 2, "{accuracy}");
+    // The step is searched, start and modes are not: with them the error may be larger.
+    let errors = fs::read_to_string(path.join("found/errors.csv")).unwrap();
+    let share = |line: &str| {
+        let cell = |number| line.split(',').nth(number).unwrap().parse::<f64>().unwrap();
+        cell(6) / cell(4).abs()
+    };
+    let largest = errors.lines().skip(1).map(share).fold(0.0, f64::max);
+    let whole = accuracy["whole"]["share"].as_f64().unwrap();
+    assert!((whole / largest - 1.0).abs() < 1e-12, "{whole} {largest} {errors}");
+    assert_eq!(err.contains("which are not searched, the largest error is "), whole > 0.9, "{err}");
     let step = accuracy["step_s"].as_f64().unwrap();
     assert_eq!((found["step_s"].as_f64(), accuracy["sufficient_step_s"].as_f64()), (Some(step), Some(step)));
     // The same request again, and the same study asked for by its step and its number.

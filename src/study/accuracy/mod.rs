@@ -9,7 +9,7 @@ mod target;
 
 pub use coarse::CoarseGrid;
 pub use horizon::foresee;
-pub use outcome::{Accuracy, AccuracyOf, JudgedBy, Level, Outcome, StepPairs};
+pub use outcome::{Accuracy, AccuracyOf, JudgedBy, Level, Outcome, StepPairs, WholeError};
 pub use target::{Against, MOST_STEPS, Target, most_steps};
 
 use super::change::Change;
@@ -141,6 +141,7 @@ fn finish(
         total_steps: refined.levels.iter().map(|l| l.steps).sum(),
         levels: refined.levels,
         pairs: None,
+        whole: None,
         start_scatter: None,
     };
     Ok(Outcome { method, reason, run, accuracy, shortfall })

@@ -43,6 +43,16 @@ pub struct StepPairs {
     pub seen: bool,
 }
 
+/// The largest error of a mean with all its parts: start, step, modes and sampling.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct WholeError {
+    /// As a share of the mean.
+    pub share: f64,
+    /// Which mean.
+    pub quantity: String,
+}
+
 /// One run of a refinement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Level {
@@ -90,6 +100,10 @@ pub struct Accuracy {
     /// The pairs of runs behind `reached`; `None` unless realisations are judged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pairs: Option<StepPairs>,
+    /// The largest error of a mean that counts with all its parts, of which a search keeps those of
+    /// the step and of sampling; `None` unless realisations are judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub whole: Option<WholeError>,
     /// Standard deviation of the velocities of the start, m/s, where a case without anything random
     /// was given one ([`Case::with_scattered_start`](crate::case::Case::with_scattered_start)), as
     /// its means are those over starts that nobody can tell apart.
@@ -116,7 +130,7 @@ pub struct Outcome {
 impl fmt::Display for Accuracy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(StepPairs { count, seen }) = self.pairs {
-            return write!(
+            write!(
                 f,
                 "asked for {:e}: the part of the step {:.3e} s is {}seen, at most {:.1e} ({}), by {count} pairs of \
                  realisations with it and with half of it; {:.1e} steps in all",
@@ -126,7 +140,15 @@ impl fmt::Display for Accuracy {
                 self.reached,
                 self.quantity,
                 self.total_steps as f64
-            );
+            )?;
+            return match &self.whole {
+                Some(WholeError { share, quantity }) if *share > self.tolerance => write!(
+                    f,
+                    "; with what start and modes may add, which are not searched, the largest error is {share:.1e} \
+                     ({quantity})"
+                ),
+                _ => Ok(()),
+            };
         }
         let how = match self.judged_by {
             JudgedBy::ExactMotion => "against the exact motion",

@@ -8,7 +8,7 @@ use super::known::KnownRealisations;
 use super::plan::RealisationStudy;
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::study::accuracy::{Accuracy, AccuracyOf, JudgedBy, Level, StepPairs};
+use crate::study::accuracy::{Accuracy, AccuracyOf, JudgedBy, Level, StepPairs, WholeError};
 use crate::time::TimeOptions;
 
 /// The step that a [`StepSearch`](super::StepSearch) found. The study at it is a
@@ -75,6 +75,7 @@ impl FoundStep {
             levels: self.levels.clone(),
             total_steps: self.known.total_steps(self.scene.duration),
             pairs: Some(StepPairs { count: self.pairs, seen }),
+            whole: largest_error(&counted),
             start_scatter: None,
         };
         (accuracy, shortfall)
@@ -89,4 +90,12 @@ impl FoundStep {
         let (tolerance, reached, why) = (self.share, largest.at_most(), why.to_owned());
         Some(Error::Biased { part, tolerance, reached, seen: true, quantity, why })
     }
+}
+
+/// The largest error of these means, as a share of the mean.
+fn largest_error(counted: &[&Estimate]) -> Option<WholeError> {
+    let whole = |one: &&Estimate| {
+        Some(WholeError { share: one.error?.total / one.mean.abs(), quantity: one.measure.at(&one.place) })
+    };
+    counted.iter().filter_map(whole).max_by(|a, b| a.share.total_cmp(&b.share))
 }
