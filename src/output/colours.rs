@@ -26,10 +26,13 @@ pub(crate) fn place_of(wall: &str) -> &str {
 pub(crate) struct Places(HashMap<String, usize>);
 
 impl Places {
-    /// The places of these walls, then of these supports, by their names.
+    /// The places of these walls that are none of a support, then of these supports, by their names
+    /// and in their order.
     pub fn new<'a>(walls: impl IntoIterator<Item = &'a str>, supports: impl IntoIterator<Item = &'a str>) -> Self {
+        let supports: Vec<&str> = supports.into_iter().collect();
+        let own = walls.into_iter().map(place_of).filter(|wall| !supports.contains(wall));
         let mut numbers = HashMap::new();
-        for name in walls.into_iter().map(place_of).chain(supports) {
+        for name in own.chain(supports.iter().copied()) {
             if !numbers.contains_key(name) {
                 numbers.insert(name.to_owned(), numbers.len());
             }
@@ -39,8 +42,10 @@ impl Places {
 
     /// The places of a scene.
     pub fn of(scene: &Scene) -> Self {
-        let walls = scene.walls.iter().filter(|wall| !wall.is_round()).map(|wall| wall.name.as_str());
-        Self::new(walls, scene.supports.iter().map(|support| support.name.as_str()))
+        Self::new(
+            scene.walls.iter().map(|wall| wall.name.as_str()),
+            scene.supports.iter().map(|support| support.name.as_str()),
+        )
     }
 
     /// The look whose colour the wall or support of that name has.
@@ -58,9 +63,9 @@ mod tests {
     fn a_support_and_all_its_flats_have_one_colour() {
         let walls = ["upper", "bars-flat-1", "bars-flat-2", "lower"];
         let places = Places::new(walls, ["plate", "bars"]);
-        assert_eq!(["upper", "bars", "lower", "plate"].map(|name| places.0[name]), [0, 1, 2, 3]);
+        assert_eq!(["upper", "lower", "plate", "bars"].map(|name| places.0[name]), [0, 1, 2, 3]);
         let colours = ["upper", "bars-flat-1", "bars-flat-2", "bars", "lower", "plate"].map(|name| places.colour(name));
-        assert_eq!(colours, [1, 2, 2, 2, 3, 5]);
+        assert_eq!(colours, [1, 5, 5, 5, 2, 3]);
         // Not the name of a flat.
         assert_eq!(["a-flat-", "a-flat-x", "-flat"].map(place_of), ["a-flat-", "a-flat-x", "-flat"]);
     }

@@ -60,7 +60,7 @@ pub(super) fn without_page(folder: &Path, reason: &str) -> String {
     )
 }
 
-/// The walls of these names.
+/// The walls or supports of these names.
 pub(super) fn names(list: &Value) -> Vec<Value> {
     list.as_array().into_iter().flatten().map(|name| json!({ "name": name })).collect()
 }
@@ -99,6 +99,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "samples": samples.map(|samples| samples.for_page(None)),
             "axes": axes,
             "walls": names(&request["wall_names"]),
+            "supports": names(&request["support_names"]),
             "scheme": request["methods"][0],
             "kept": kept(folder.path, &table),
             "seeds": seeds.map(in_words),

@@ -33,7 +33,7 @@ pub(super) struct Source<'a> {
     pub sample_columns: Vec<String>,
     /// The names of the walls, of the supports and of the probes.
     pub walls: Vec<String>,
-    supports: Vec<String>,
+    pub supports: Vec<String>,
     probes: Vec<String>,
 }
 

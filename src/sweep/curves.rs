@@ -129,18 +129,19 @@ fn figure(
 }
 
 /// The curves of a panel, each with its look and the look of its colour: of rows up and down those
-/// of the direction, else that of the wall; `None` of a curve of neither.
+/// of the direction, else that of the wall or support; `None` of a curve of neither.
 fn coloured(curves: Vec<MeasureCurve>, source: &Source<'_>) -> Vec<(MeasureCurve, Option<(usize, usize)>)> {
     let both = ["up", "down"].iter().all(|way| curves.iter().any(|curve| curve.direction == *way));
-    let walls: Vec<String> = source.walls.iter().map(|name| name.replace('-', "_")).collect();
-    let places = Places::new(source.walls.iter().map(String::as_str), []);
+    let [walls, supports] = [&source.walls, &source.supports].map(|names| names.iter().map(String::as_str));
+    let names: Vec<(&str, String)> =
+        walls.clone().chain(supports.clone()).map(|name| (name, name.replace('-', "_"))).collect();
+    let places = Places::new(walls, supports);
     let mut seen: Vec<usize> = Vec::new();
     let mut colour = |curve: &MeasureCurve| {
         let colour = if both {
             if curve.direction == "down" { DOWN } else { UP }
         } else {
-            let wall = walls.iter().position(|wall| *wall == curve.place)?;
-            places.colour(source.walls.get(wall)?)
+            places.colour(names.iter().find(|(_, word)| *word == curve.place)?.0)
         };
         // Curves of one colour differ in dashes and markers.
         let look = seen.iter().filter(|other| **other == colour).count();

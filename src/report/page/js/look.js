@@ -57,8 +57,12 @@ const placeOf = (wall) => wall.replace(/-flat-\d+$/, "");
 const PLACES = (() => {
   const { walls = [], supports = [] } =
     DATA.scene || DATA.sweep || DATA.wear || DATA.orbit || DATA.continue || {};
-  // The walls of one orbit have their names as `wall`.
-  return [...new Set([...walls, ...supports].map(({ name, wall }) => placeOf(name ?? wall)))];
+  // The walls of one orbit have their names as `wall`; those of supports come with these.
+  const [ofWalls, ofSupports] = [walls, supports].map((all) =>
+    all.map(({ name, wall }) => placeOf(name ?? wall)),
+  );
+  const own = ofWalls.filter((name) => !ofSupports.includes(name));
+  return [...new Set([...own, ...ofSupports])];
 })();
 const PLACE_COLOURS = [1, 2, 3, 5, 4, 6, 7, 0];
 
