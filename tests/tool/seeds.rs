@@ -224,3 +224,39 @@ fn a_time_limits_the_realisations_to_those_that_fit_and_what_was_run_is_kept() {
     }
     assert!(!path.join("refused").exists(), "a refused request leaves nothing");
 }
+
+/// The oscillator between two walls with e = 0.8 at 4.4 Hz has two attractors that are the mirror
+/// images of each other. Each start settles on one of them, so that realisations of the start fall
+/// into two groups; what one has at the upper wall, the other one has at the lower wall.
+#[test]
+fn starts_that_settle_on_two_attractors_fall_into_two_groups() {
+    let dir = tempfile::tempdir().unwrap();
+    let (restitution, frequency) = ("wall.*.restitution=0.8", "load.1.harmonic.frequency=4.4");
+    let scatter = "initial.scatter.velocity=0.2";
+    let of = ["run", "rigid-walls-sine", "--set", restitution, "--set", frequency, "--set", scatter];
+    let until = ["--end", "60", "--set", "time.statistics_from=40", "--scheme", "event", "--seeds", "24"];
+    let (_, err) = said(dir.path(), &[&of[..], &until, &["--out", "two", "--no-report"]].concat(), 0);
+    assert!(err.contains("the realisations fall into two groups at wall \"upper\": "), "{err}");
+    assert!(err.contains("a hole of more than 100 standard deviations within the groups"), "{err}");
+    let rows = rows(&dir.path().join("two"));
+    let forces = |wall: &str| -> Vec<f64> {
+        rows.iter().filter(|row| row[1] == wall).map(|row| row[3].parse().unwrap()).collect()
+    };
+    let (upper, lower) = (forces("upper"), forces("lower"));
+    assert_eq!((upper.len(), lower.len()), (24, 24));
+    // Of the first realisation and of its mirror image; settled over 88 periods to 1e-9.
+    let alike = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
+    let (first, mirrored) = (upper[0], lower[0]);
+    assert!(!alike(first, mirrored));
+    let count = upper.iter().filter(|force| alike(**force, first)).count();
+    for (upper, lower) in upper.iter().zip(&lower) {
+        let image = alike(*upper, mirrored) && alike(*lower, first);
+        assert!(image || (alike(*upper, first) && alike(*lower, mirrored)), "{upper} {lower}");
+    }
+    let groups = &summary(&dir.path().join("two"))["realisations"]["groups"];
+    let mut counts = [count as u64, 24 - count as u64];
+    if first > mirrored {
+        counts.reverse();
+    }
+    assert_eq!(groups[0]["counts"], serde_json::json!(counts), "{groups}");
+}

@@ -30,6 +30,9 @@ const HOLE: f64 = 3.0;
 /// Of few values it takes this, over the degrees of freedom.
 const HOLE_OF_FEW: f64 = 31.0;
 
+/// Of a wider hole the number tells nothing: the values within the groups differ by rounding.
+const WIDE: f64 = 100.0;
+
 /// A hole below this share of the values is rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -79,10 +82,10 @@ impl Groups {
     /// `factor` in their own.
     pub(crate) fn words(&self, what: &str, unit: &str, factor: f64) -> String {
         let [(few, low), (many, high)] = [0, 1].map(|at| (self.counts[at], amount(factor * self.means[at], 3)));
-        let hole = if self.hole.is_finite() {
-            format!("a hole of {} standard deviations within the groups", amount(self.hole, 2))
-        } else {
-            "nothing".to_owned()
+        let hole = match self.hole {
+            f64::INFINITY => "nothing".to_owned(),
+            hole if hole > WIDE => format!("a hole of more than {WIDE} standard deviations within the groups"),
+            hole => format!("a hole of {} standard deviations within the groups", amount(hole, 2)),
         };
         format!(
             "{few} with a {what} of {low} {unit} in the mean and {many} with {high} {unit}, and {hole} between them: \
