@@ -180,3 +180,32 @@ fn a_wedge_does_not_hold_the_impulse_of_its_landing() {
         assert!((found - located).abs() < 30.0 * step * located, "{step:e}: {found}, {located}");
     }
 }
+
+/// A body slides along one flat into another one, 120° from it, with e = ½ and μ = 0.5. Back along
+/// the first flat with half the speed it would take pushes of 10 and 9 times its momentum, whose
+/// friction adds energy. It stops: with −m v = p (−n ± μ t) + q (−n' ± μ t') of the least p + q,
+/// p = 0.86993 m v and q = 0.05834 m v.
+#[test]
+fn a_body_that_slides_into_a_corner_stops_there() {
+    let (speed, e) = (0.1, 0.5);
+    let scene = with_flats(isotropic(1.0, 0.0, 0.0), "corner", body(), &[(0.0, 1e-3), (120.0, 0.0)], e, 0.5)
+        .with_initial(&[0.0; 2], &heading(30.0).map(|x| speed * x))
+        .with_duration(0.05);
+    for scheme in [MOREAU_JEAN, signorini::Scheme::Located] {
+        let run = run(&scene, &scheme, &Options::with_step(1e-3)).unwrap();
+        assert_eq!(run.findings, [], "{scheme}");
+        assert!(run.state.v.iter().all(|v| v.abs() < 1e-15), "{scheme}: {:?}", run.state);
+        assert!(run.counters.wedged_steps > 0, "{scheme}");
+        let sum =
+            |wall: usize| run.trajectory.contacts().iter().filter(|c| c.wall == wall).map(|c| c.impulse.abs()).sum();
+        let [p, q]: [f64; 2] = [sum(0), sum(1)];
+        if scheme == signorini::Scheme::Located {
+            let [a, b] = [p / speed, q / speed];
+            // (1, μ) p and the edge of the other cone next to it, by hand.
+            let (cos, sin) = (0.5, 0.75_f64.sqrt());
+            let edge = [cos - 0.5 * sin, -sin - 0.5 * cos];
+            let q = (0.5 - 0.5 * sin) / (-edge[1] + 0.5 * edge[0]);
+            assert!((a - sin - edge[0] * q).abs() < 1e-12 && (b - q).abs() < 1e-12, "{a} {b}");
+        }
+    }
+}

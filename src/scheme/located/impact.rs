@@ -75,6 +75,7 @@ impl Impact {
         sweeps.before.copy_from_slice(&sweeps.free);
         if sweeps.strike(places) {
             places.lift(&sweeps.impulse, &mut frame.v);
+            sweeps.relieve(places);
         }
         wedged.extend_from_slice(&sweeps.wedged);
         for touch in sweeps.touches.iter().filter(|touch| touch.impulse[0] != 0.0) {

@@ -17,6 +17,7 @@
 //! energy ([`FrictionContacts::strike`]).
 
 use super::contact_rows::ContactRows;
+use super::corner;
 use super::friction_contact::{FrictionContact, ROUNDING, State};
 use super::linear::{Linear, renew};
 use super::normal::dot;
@@ -159,8 +160,17 @@ impl FrictionContacts {
         pushes
     }
 
+    /// Gives the contacts of each corner in which the body is stopped the impulses of the least sum
+    /// of pushes that stop it ([`corner`]).
+    pub fn relieve(&mut self, places: &ContactRows) {
+        let Self { touches, free, y, .. } = self;
+        renew(places, touches, free, y);
+        corner::relieve(touches, y);
+    }
+
     /// True if the impulses of rigid contacts, some of which rebound and some rub, add energy: to
-    /// the velocities before the step as well as to those that it gives without them.
+    /// the velocities before the step as well as to those that it gives without them; or if
+    /// friction adds more in a corner than the impulses take in all.
     fn gains(&mut self, places: &ContactRows) -> bool {
         let Self { touches, before, free, y, .. } = self;
         let pushing = |touch: &&FrictionContact| touch.impulse[0] > 0.0;
@@ -181,6 +191,11 @@ impl FrictionContacts {
         y.fill(0.0);
         push(true, y);
         let own = 0.5 * work(y);
+        // What friction may add in a corner: no more than the impact takes in all.
+        let most = |rates: &[f64]| (GAIN * own).max(-(work(rates) + own));
+        if [&*before, free].iter().all(|rates| corner::gains(touches, (rates, y), most(rates))) {
+            return true;
+        }
         y.copy_from_slice(free);
         push(false, y);
         work(before).min(work(y)) + own > GAIN * own

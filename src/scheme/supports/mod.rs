@@ -31,6 +31,7 @@
 //! wall.
 
 mod contact_rows;
+mod corner;
 mod friction_contact;
 mod friction_contacts;
 mod last_step;
