@@ -190,6 +190,13 @@ pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
             "worn in {service:.3e} s of service, by Archard's law; the depth on the tube where it is deepest, in a \
              sector or at a flat, if all of it comes off one scar, and if it comes off evenly all round"
         ));
+        if case.is_random() {
+            remarks.push(
+                "the deepest of one run under random loads is an upper figure: a sector, or flat, counts that is the \
+                 deepest by chance; --seeds takes off what that adds"
+                    .to_owned(),
+            );
+        }
     }
     remarks
 }

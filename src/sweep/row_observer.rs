@@ -91,14 +91,14 @@ impl RowObserver {
         self.growth.as_ref().and_then(|growth| growth.as_ref().err()).map(ToString::to_string)
     }
 
-    /// The measures and samples of the row of `case`, with the episodes `open` at its end.
+    /// The measures, depths and samples of the row of `case`, with the episodes `open` at its end.
     pub fn finish(
         mut self,
         sweep: &Sweep,
         case: &Case,
         scene: &Checked,
         open: &[Contact],
-    ) -> (Vec<Option<f64>>, Vec<Sample>) {
+    ) -> (Vec<Option<f64>>, Vec<Vec<f64>>, Vec<Sample>) {
         self.contacts.extend_from_slice(open);
         sort_by_number(&mut self.contacts, |contact| contact.wall as f64);
         sort_by_number(&mut self.contacts, |contact| contact.start);
@@ -117,7 +117,10 @@ impl RowObserver {
             self.push_values(measure, sweep, case, scene, (&statistics, exponent), &mut values);
         }
         let samples = sweep.samples.map_or_else(Vec::new, |samples| self.samples(samples, sweep.most_samples, scene));
-        (values, samples)
+        let supports = statistics.wear.iter().enumerate().filter(|_| sweep.keeps_depths());
+        let sound = |index, wear| case.depth_deepest(index, wear).map(|_| case.depths(index, wear));
+        let depths = supports.map(|(index, wear)| sound(index, wear).unwrap_or_default()).collect();
+        (values, depths, samples)
     }
 
     fn began_here(&self) -> impl Iterator<Item = &Contact> {

@@ -53,12 +53,6 @@ impl WearingSupport {
         self.gaps.iter().zip(self.opening(work).recession).map(|(gap, receded)| gap + receded).collect()
     }
 
-    /// True if the work `work` (J) has worn through the wall of the tube.
-    pub(super) fn is_worn_through(&self, work: &WearWork) -> bool {
-        let depth = self.law.deepest(self.growth, work);
-        self.wall.is_some_and(|wall| depth.is_nan() || depth >= wall)
-    }
-
     /// The depth worn off the tube by the work `work` (J) in each sector, or at each flat, m.
     pub(super) fn depths(&self, work: &WearWork) -> Vec<f64> {
         self.law.depths(self.growth, work)
