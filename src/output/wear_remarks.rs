@@ -137,15 +137,23 @@ fn unworn(found: &WearHistories) -> Option<String> {
 
 /// That the histories end where the tube is worn through.
 fn worn_through(found: &WearHistories) -> Option<String> {
-    let WornThrough { support, wall_m, time_s } = found.worn_through.as_ref()?;
+    let WornThrough { support, wall_m, depth_m, time_s } = found.worn_through.as_ref()?;
     let own = found.supports.iter().position(|name| name == support)?;
-    let half_width = found.half_width_of_time(own, *wall_m, WearQuantity::DepthDeepest);
-    let (wall, years) = (amount(1e3 * wall_m, 3), in_years(*time_s, half_width));
+    let half_width = found.half_width_of_time(own, *depth_m, WearQuantity::DepthDeepest);
+    let (depth, years) = (amount(1e3 * depth_m, 3), in_years(*time_s, half_width));
     let count = found.points.first().map_or(0, |point| point.histories.len());
     let over = if count == 1 { String::new() } else { format!(" over the {count} histories") };
-    Some(format!(
-        "{support} is worn through after {years} years, by {wall} mm where it is deepest{over}: there the study ends"
-    ))
+    Some(match wall_m {
+        Some(_) => format!(
+            "{support} is worn through after {years} years, by {depth} mm where it is deepest{over}: there the study \
+             ends"
+        ),
+        None => format!(
+            "{support} is worn to the radius of the tube, {depth} mm, after {years} years where it is \
+             deepest{over}: there the study ends, since no tube is left; its wall is not known, and `wall` of the \
+             support gives it"
+        ),
+    })
 }
 
 /// What wear does to the gaps, a sentence for each way.

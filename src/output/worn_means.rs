@@ -3,7 +3,9 @@
 
 use super::realisations::{MOST_ROWS, WIDTH, with_interval};
 use super::table::Table;
+use super::through;
 use crate::case::Case;
+use crate::scene::Support;
 use crate::statistics::WearStatistics;
 use crate::study::realisations::{Deepest, Realisations, mean_of};
 use crate::wear::Worn;
@@ -67,6 +69,21 @@ pub fn table(case: &Case, study: &Realisations) -> Option<Table> {
     let header: Vec<&str> = std::iter::once("place").chain(QUANTITIES.map(|(_, _, heading, _)| heading)).collect();
     let rows: Vec<Vec<String>> = means.iter().take(MOST_ROWS).map(row).collect();
     (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH))
+}
+
+/// Warnings where the means of several realisations are deeper than the limit, the wall or the
+/// radius of the tube: those of one realisation are its run's own.
+#[must_use]
+pub fn warnings(case: &Case, study: &Realisations) -> Vec<String> {
+    let of = |(index, support): (usize, &Support)| {
+        let (_, [volume, _, scar, round]) = means(case, study).into_iter().find(|(name, _)| *name == support.name)?;
+        let [volume_m3, depth_one_scar_m, depth_all_round_m] =
+            [volume, scar, round].map(|mean| mean.map(|(mean, ..)| mean));
+        let worn = Worn { volume_m3, depth_one_scar_m, depth_all_round_m, support_volume_m3: None };
+        through::warning(case, index, &worn).map(|words| format!("in the mean over the realisations {words}"))
+    };
+    let several = case.scene.supports.iter().enumerate().filter(|_| study.count > 1);
+    several.filter_map(of).collect()
 }
 
 /// What the table tells, a sentence each.

@@ -204,16 +204,16 @@ impl Plan {
         let cautions = notes::unrecorded(scene, &method.scheme, grid.step, energy.as_ref(), &stepper.counters());
         let unstable = instability::of_row(&case, scene);
         let (open, note) = (stepper.open_contacts(), observer.note());
-        let (measures, depths, samples) = observer.finish(&self.sweep, &case, stepper.checked(), &open);
-        let lacking = lacking::reasons(&self.sweep.measures, &measures, &case);
+        let observed = observer.finish(&self.sweep, &case, stepper.checked(), &open);
+        let lacking = lacking::reasons(&self.sweep.measures, &observed.measures, &case);
         Ok(Done {
-            measures,
-            depths,
-            samples,
+            measures: observed.measures,
+            depths: observed.depths,
+            samples: observed.samples,
             end: stepper.state(),
             handed: stepper.handed().len(),
             findings: judge.map_or_else(Vec::new, |judge| judge.findings()),
-            caution: cautions.into_iter().find(|caution| !unstable.contains(caution)),
+            caution: cautions.into_iter().find(|caution| !unstable.contains(caution)).or(observed.through),
             notes: unstable.into_iter().chain(note).chain(lacking).collect(),
         })
     }

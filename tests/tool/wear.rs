@@ -580,3 +580,87 @@ fn what_does_not_wear_by_gaps_is_refused_by_name() {
         fs::read_dir(folder).unwrap().count() < 2
     }));
 }
+
+/// An oscillator in a round hole under a random force, the tube of which has no wall.
+const HOLE: &str = r#"[system]
+planes = 2
+
+[system.oscillator]
+mass = 1.0
+damping = 6.0
+stiffness = 1000.0
+
+[[support]]
+name = "hole"
+shape = "round"
+gap = 2e-4
+restitution = 0.5
+friction = 0.2
+width = 25e-3
+radius = 9.5e-3
+
+[[load]]
+direction = "both"
+random = { rms = 3.0, from = 1.0, to = 40.0, seed = 1 }
+
+[wear]
+coefficient = 1e-10
+service = 3e10
+
+[time]
+end = 0.5
+step = 1e-3
+statistics_from = 0.1
+"#;
+
+#[test]
+fn a_tube_without_a_wall_ends_at_its_radius_and_one_with_a_wall_there() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    fs::write(path.join("hole.toml"), HOLE).unwrap();
+    let wear = |more: &[&str], out: &str| {
+        let asked = ["wear", "hole.toml", "--histories", "2", "--years", "1000", "--no-report", "--out", out];
+        let (_, err) = said(path, &[&asked[..], more].concat(), 0);
+        let years = rows(&path.join(out).join("years.csv"));
+        (err, number(years.last().unwrap(), "depth_deepest_m"))
+    };
+    let (err, depth) = wear(&[], "w");
+    assert!((depth / 9.5e-3 - 1.0).abs() < 1e-9, "{depth}");
+    assert!(err.contains("hole is worn to the radius of the tube, 9.5 mm, after "), "{err}");
+    // A wall of 1.2 mm, of which 40 % are the limit.
+    fs::write(path.join("hole.toml"), HOLE.replace("radius = 9.5e-3", "radius = 9.5e-3\nwall = 1.2e-3")).unwrap();
+    let (err, depth) = wear(&["--set", "wear.limit=0.4"], "walled");
+    assert!((depth / 1.2e-3 - 1.0).abs() < 1e-9, "{depth}");
+    assert!(err.contains("hole is worn through after ") && err.contains("the limit of 0.48 mm"), "{err}");
+}
+
+#[test]
+fn depths_beyond_the_radius_have_a_note_in_runs_means_and_sweeps() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    // All of it off one scar, deeper than the radius and less than the whole tube.
+    fs::write(path.join("hole.toml"), HOLE.replace("service = 3e10", "service = 1e7")).unwrap();
+    let run = ["run", "hole.toml", "--seeds", "2", "--no-verdict", "--no-report", "--out", "r"];
+    let (_, err) = said(path, &run, 0);
+    let words = "the scar at support \"hole\" is deeper than the radius of the tube, 9.500 mm, whose wall is not known";
+    assert!(err.contains(&format!("note: {words}")), "{err}");
+    assert!(err.contains(&format!("note: in the mean over the realisations {words}")), "{err}");
+    let sweep = ["sweep", "hole.toml", "--vary", "support.*.gap=2e-4,3e-4", "--measure", "depth_all_round"];
+    let (_, err) = said(path, &[&sweep[..], &["--set", "time.step=1e-4", "--no-report", "--out", "s"]].concat(), 0);
+    assert!(err.contains("2 of 2 runs have notes") && err.contains(words), "{err}");
+}
+
+#[test]
+fn a_wall_without_a_radius_or_thicker_than_it_and_a_limit_without_a_wall_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    for (from, to, words) in [
+        ("radius = 9.5e-3", "radius = 9.5e-3\nwall = 0.01", "at most radius"),
+        ("width = 25e-3\nradius = 9.5e-3", "wall = 1e-3", "has a wall and no radius"),
+        ("service = 3e10", "service = 3e10\nlimit = 0.4", "or wall beside radius of each [[support]]"),
+    ] {
+        fs::write(path.join("hole.toml"), HOLE.replace(from, to)).unwrap();
+        let (_, err) = said(path, &["run", "hole.toml", "--out", "r"], 2);
+        assert!(err.contains(words), "{words}: {err}");
+    }
+}

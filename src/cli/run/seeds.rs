@@ -115,6 +115,8 @@ pub fn show(study: &RealisationStudy, answer: &mut Answer, case: &Case) {
     if let Some(table) = worn_means::table(case, &study.realisations) {
         answer.table(table, "summary.json");
         answer.messages(worn_means::remarks(case, &study.realisations));
+        let warnings = worn_means::warnings(case, &study.realisations);
+        answer.messages(warnings.into_iter().map(|words| format!("note: {words}")));
     }
     show_errors(study, answer, case);
 }

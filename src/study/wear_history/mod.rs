@@ -16,8 +16,8 @@
 //! 0.5 %, or the place of a centre by more than 0.5 % of the gap, unless that is within the scatter
 //! of the windows.
 //!
-//! Histories end together: where the deepest depth over all of them is the wall of the tube, as far
-//! as it is known, or with the service. That depth is the largest of the means of all sectors, or
+//! Histories end together: where the deepest depth over all of them is the wall of the tube, or its
+//! radius where the wall is not known, or with the service. That depth is the largest of the means of all sectors, or
 //! flats, less what taking the largest adds, by the jackknife over the histories; the deepest sector
 //! of a single history is one that is the deepest by chance.
 //!
@@ -156,11 +156,12 @@ impl WearPlan<'_> {
     /// The first support at which the work has worn through the tube, at that time.
     fn worn_through(&self, time: f64, work: &Works) -> Option<WornThrough> {
         self.supports.iter().enumerate().find_map(|(index, support)| {
-            let wall_m = support.wall?;
+            let depth_m = support.end()?;
             let own = work.iter().filter_map(|history| history.get(index));
             let depth = Deepest::of(&own.map(|work| support.depths(work)).collect::<Vec<_>>()).value;
-            let is_through = depth.is_nan() || depth >= wall_m;
-            is_through.then(|| WornThrough { support: support.name.clone(), wall_m, time_s: time })
+            let is_through = depth.is_nan() || depth >= depth_m;
+            let wall_m = support.wall;
+            is_through.then(|| WornThrough { support: support.name.clone(), wall_m, depth_m, time_s: time })
         })
     }
 

@@ -99,8 +99,10 @@ impl WearPoint {
 pub struct WornThrough {
     /// The name of the support.
     pub support: String,
-    /// Thickness of the wall, m.
-    pub wall_m: f64,
+    /// Thickness of the wall, m; `None` where it is not known.
+    pub wall_m: Option<f64>,
+    /// The depth at which the histories end, m: the wall, or else the radius of the tube.
+    pub depth_m: f64,
     /// Time in service, s.
     pub time_s: f64,
 }
