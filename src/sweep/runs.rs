@@ -48,7 +48,8 @@ impl Runs {
         Ok(runs)
     }
 
-    /// Makes of the deepest depths of single runs those of the part that is the deepest in the mean.
+    /// Makes of the deepest depths of single runs those of the part that is the deepest in the
+    /// mean.
     fn take_deepest(&mut self, depths: Depths) {
         for ((row, index), own) in depths {
             let (numbers, lists): (Vec<u64>, Vec<Vec<f64>>) = own.into_iter().unzip();
