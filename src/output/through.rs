@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::wear::Worn;
 
 /// A warning where the scar at support number `index`, or all of its wear evenly all round, goes
-/// deeper than the limit, than the wall of the tube, or where the wall is not known than its radius.
+/// deeper than the limit, than the wall of the tube, or than its radius where no wall is known.
 #[must_use]
 pub fn warning(case: &Case, index: usize, worn: &Worn) -> Option<String> {
     let support = case.written.supports.get(index)?;

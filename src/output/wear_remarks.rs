@@ -39,9 +39,9 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     if histories > 1 {
         remarks.push(format!(
             "± is the half width of the 95 % interval of the mean over {histories} histories, by Student's t; each \
-             window of a history has draws of its own. The deepest depth is the largest of the means of all sectors, or \
-             flats, less what taking the largest adds, by the jackknife over the histories; that of one history alone \
-             is an upper figure"
+             window of a history has draws of its own. The deepest depth is the largest of the means of all \
+             sectors, or flats, less what taking the largest adds, by the jackknife over the histories; that of \
+             one history alone is an upper figure"
         ));
     }
     remarks.extend(groups(found));
