@@ -220,15 +220,15 @@ fn a_study_ends_where_the_deepest_depth_over_its_histories_is_the_wall() {
     let history = rows(&path.join("w/history.csv"));
     let end = number(history.last().unwrap(), "year");
     assert!(end < 80.0 && (found["time_s"].as_f64().unwrap() / 31_557_600.0 - end).abs() < 1e-12 * end);
-    // In the last year its depth is the wall, and that of the other support is less deep; in no year
-    // before is any.
+    // In the last year its depth is the wall, and that of the other support is less deep; in no
+    // year before is any.
     for row in rows(&path.join("w/years.csv")) {
         let last = row["place"] == place && number(&row, "year") == end;
         let depth = number(&row, "depth_deepest_m");
         assert!(if last { (depth / 1.65e-3 - 1.0).abs() < 1e-12 } else { depth < 1.65e-3 }, "{row:?}");
     }
-    // By the depths of all sectors at the end: twice the largest mean of the two histories, less the
-    // mean of the largest of each.
+    // By the depths of all sectors at the end: twice the largest mean of the two histories, less
+    // the mean of the largest of each.
     let own = document["histories"]["supports"].as_array().unwrap().iter().position(|name| name == place).unwrap();
     let sectors = [0, 1].map(|history| -> Vec<f64> {
         let all = document["histories"]["depths_at_end_m"][history][own].as_array().unwrap();
