@@ -199,6 +199,9 @@ pub(super) const LISTED: &[KeyEntry] = &[
         tube, for the depth of wear", "one of `width` and `radius` without the other"]),
     entry("support.radius", Number, "m", ["half the `outer_diameter` of a beam", "a number above \
         0: that of the tube, for the depth of wear", "on a beam"]),
+    entry("support.wall", Number, "m", ["that of a beam that is a tube; else not known", "a number \
+        above 0, at most `radius`: the thickness of the tube's wall, of which `limit` in `[wear]` is a \
+        share, and which wear goes through", "on a beam; without `radius`"]),
     entry("support.coefficient", Number, "per_Pa", ["that of `[wear]`", "a number above 0: that of \
         [wear] for this support", "without `service` in `[wear]`"]),
     entry("support.support_coefficient", Number, "per_Pa", ["that of `[wear]`", "a number above 0: \
@@ -225,8 +228,8 @@ pub(super) const LISTED: &[KeyEntry] = &[
     entry("wear.service", Number, "s", ["required beside a coefficient", "a number above 0: the \
         time for which worn volumes and depths are told", "without a coefficient"]),
     entry("wear.limit", Number, "", ["no limit", "a number above 0 and at most 1: the depth up to \
-        which the tube may wear, as a share of its wall", "on other systems than a beam; without \
-        `service`"]),
+        which the tube may wear, as a share of its wall", "where no wall is known: on other systems than \
+        a beam without `wall` of each support with a radius; without `service`"]),
     entry("wear.sectors", Number, "", ["12", "a whole number from 1 to 3600: equal parts of the \
         circle around each support", ""]),
     entry("load", Tables, "", ["no loads", "any number of them, which add up; exactly one kind in \

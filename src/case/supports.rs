@@ -256,12 +256,30 @@ impl Builder<'_> {
         }
         let wear = WearData {
             scar: width.zip(radius.or(tube)),
+            wall: self.wall_of(owner, support, radius)?,
             coefficient: coefficient?,
             support_coefficient: support_coefficient?,
         };
         let first = support.span_of("coefficient").or(support.span_of("support_coefficient"));
         self.note(owner.subject.clone().part("coefficient"), first);
         Ok(wear)
+    }
+
+    /// The thickness of the wall of a tube of the radius `radius`, which no beam has.
+    fn wall_of(&self, owner: &Owner, support: &Section<'_>, radius: Option<f64>) -> Result<Option<f64>> {
+        let (Some(wall), Some(at)) = (self.above_0(&owner.name, "wall", "m", support)?, support.span_of("wall")) else {
+            return Ok(None);
+        };
+        let Some(radius) = radius else {
+            let title = format!("{} has a wall and no radius", owner.name);
+            let help = "expected width and radius beside it, in m; the wall of a beam follows from its diameters";
+            return Err(self.source.error(at, &title, help));
+        };
+        if wall > radius {
+            let wanted = "a number above 0, in m, at most radius: the thickness of the tube's wall";
+            return Err(self.refuse(at, &format!("{}: wall", owner.name), wanted));
+        }
+        Ok(Some(wall))
     }
 
     /// What wear does to the gaps of a support, of flats or round.

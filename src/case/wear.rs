@@ -4,7 +4,7 @@ use super::builder::Builder;
 use super::model::Model;
 use super::realisations::RANDOM;
 use super::value::Section;
-use super::{Case, SupportShape, TimeOptions};
+use super::{Case, Support, SupportShape, TimeOptions};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::statistics::WearStatistics;
@@ -75,20 +75,30 @@ impl Builder<'_> {
     /// The depth up to which the tube may wear, m.
     fn limit(&self, wear: &Section<'_>) -> Result<Option<f64>> {
         let Some(limit) = wear.number("limit") else { return Ok(None) };
-        let walls = self.model.systems().filter_map(|model| match model {
+        let of_systems = self.model.systems().filter_map(|model| match model {
             Model::Beam(beam) => beam.section.wall_thickness(),
             _ => None,
         });
-        let walls: Vec<f64> = walls.collect();
+        let walls: Vec<f64> =
+            of_systems.chain(self.written.supports.iter().filter_map(|support| support.wear.wall)).collect();
         if walls.windows(2).any(|pair| pair[0] != pair[1]) {
             let help = "expected tubes of one wall thickness: the limit is a share of it";
             return Err(self.source.error(limit.span(), "`wear.limit` beside tubes of different walls", help));
         }
         let Some(&wall) = walls.first() else {
-            let help = "expected [system.beam] with outer_diameter and inner_diameter: the limit is a share of the \
-                        wall thickness of a tube";
+            let help = "expected [system.beam] with outer_diameter and inner_diameter, or wall beside radius of each \
+                        [[support]]: the limit is a share of the wall thickness of a tube";
             return Err(self.source.error(limit.span(), "`wear.limit` without the wall of a tube", help));
         };
+        let unknown = |support: &&Support| {
+            let of_beam = self.model.beam(&support.place).and_then(|beam| beam.section.wall_thickness());
+            support.wear.scar.is_some() && support.wear.wall.or(of_beam).is_none()
+        };
+        if let Some(support) = self.written.supports.iter().find(unknown) {
+            let title = format!("`wear.limit` without the wall of the tube at support {:?}", support.name);
+            let help = "expected wall beside its radius, in m: the limit is a share of it";
+            return Err(self.source.error(limit.span(), &title, help));
+        }
         if wear.get("service").is_none() {
             return Err(self.source.error(limit.span(), "`wear` has a limit and no service", SERVICE));
         }
@@ -199,7 +209,9 @@ impl Case {
     /// Thickness of the wall of the tube at support number `index`, m; `None` where the case does
     /// not know it.
     pub(crate) fn wall_at(&self, index: usize) -> Option<f64> {
-        self.model.beam(&self.written.supports.get(index)?.place)?.section.wall_thickness()
+        let support = self.written.supports.get(index)?;
+        let of_beam = || self.model.beam(&support.place)?.section.wall_thickness();
+        support.wear.wall.or_else(of_beam)
     }
 
     /// The scene of realisation `number`, in which wear has opened each of `supports`.

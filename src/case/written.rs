@@ -170,6 +170,9 @@ pub enum SupportShape {
 pub struct WearData {
     /// Width of the support and radius of the tube that slides there, m.
     pub scar: Option<(f64, f64)>,
+    /// Thickness of the tube's wall, m, where the support gives it: that of a beam is in its
+    /// section.
+    pub wall: Option<f64>,
     /// Wear coefficient of the tube there, 1/Pa; `None` where that of `[wear]` holds.
     pub coefficient: Option<f64>,
     /// Wear coefficient of the support, 1/Pa, likewise.

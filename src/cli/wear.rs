@@ -39,7 +39,7 @@ With --until-interval the first runs of the histories are a study of realisation
 Writes history.csv (every history), years.csv (means with their 95 % intervals), sector-means.csv
 (where around each support it wears), wear.svg and, in first-window/, the files of the first run;
 for --until-interval also realisations.csv and errors.csv (the first runs). A study ends before its
-last year where the first history is worn through the tube's wall. report.html shows all.
+last year where the deepest depth over its histories is the tube's wall. report.html shows all.
 After an interruption the same command goes on, after the study of the first runs. With more --years
 it goes on from finished results as well: the same results as those of so many years at once.";
 

@@ -22,6 +22,7 @@
 //! | [`document`] | a chart and a stability study as JSON |
 //! | `detail` | what `[statistics]` asks for: [`episodes`] (`episodes.csv`, `exceedances.csv`) and `spectra` |
 //! | [`realisations`] | `realisations.csv`, and its table |
+//! | [`through`] | depths of wear that the tube does not have |
 //! | [`worn_means`] | worn volume and depths over realisations: a table, and a part of the summary |
 //! | [`sector_means`] | `sector-means.csv`: where around each support a tube wears |
 //! | [`error_parts`] | `errors.csv`, and its table |
@@ -107,6 +108,7 @@ pub(crate) mod stable_steps;
 pub mod summary;
 pub mod supports;
 pub mod table;
+pub mod through;
 pub(crate) mod turbulence;
 mod values;
 pub mod varied;

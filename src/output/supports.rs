@@ -4,7 +4,8 @@
 use super::csv::{self, digits};
 use super::places::Chosen;
 use super::table::Table;
-use crate::case::{Case, Support};
+use super::through;
+use crate::case::Case;
 use crate::error::Result;
 use crate::run::Run;
 use crate::statistics::{LargestForce, SectorStatistics, SupportForce, SupportStatistics, WearStatistics};
@@ -147,7 +148,7 @@ pub fn table(case: &Case, run: &Run) -> Option<Table> {
 }
 
 /// Four significant figures.
-fn figures(x: f64) -> String {
+pub(super) fn figures(x: f64) -> String {
     if x == 0.0 {
         return "0".to_owned();
     }
@@ -190,44 +191,22 @@ pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
             "worn in {service:.3e} s of service, by Archard's law; the depth on the tube where it is deepest, in a \
              sector or at a flat, if all of it comes off one scar, and if it comes off evenly all round"
         ));
+        if case.is_random() {
+            remarks.push(
+                "the deepest of one run under random loads is an upper figure: a sector, or flat, counts that is the \
+                 deepest by chance; --seeds takes off what that adds"
+                    .to_owned(),
+            );
+        }
     }
     remarks
 }
 
-/// Warnings of scars deeper than the limit or the wall of the tube, where the case knows it.
+/// Warnings of scars deeper than the limit, the wall or the radius of the tube.
 #[must_use]
 pub fn warnings(case: &Case, run: &Run) -> Vec<String> {
-    let one = |(Known { wear: support, worn, .. }, written): (Known<'_>, &Support)| {
-        let section = case.model.beam(&written.place)?.section;
-        let (wall, outer) = section.wall_thickness().zip(section.outer_diameter())?;
-        let [thick, whole] = [wall, outer].map(|x| figures(1e3 * x));
-        let worn = worn?;
-        let (volume, round) = (worn.volume_m3?, worn.depth_all_round_m?);
-        let scar = match (worn.depth_one_scar_m, case.wear.limit) {
-            (Some(depth), Some(limit)) if depth > limit && depth <= wall => {
-                return Some(format!(
-                    "the scar at support {:?} is deeper than the limit of {} mm: {} mm³ off one scar is {} mm deep; \
-                     off evenly all round it is {} mm deep",
-                    support.support,
-                    figures(1e3 * limit),
-                    figures(1e9 * volume),
-                    figures(1e3 * depth),
-                    figures(1e3 * round)
-                ));
-            }
-            (Some(depth), _) if depth <= wall => return None,
-            (Some(depth), _) => format!("{} mm deep", figures(1e3 * depth)),
-            (None, _) => format!("deeper than the whole tube, {whole} mm"),
-        };
-        Some(format!(
-            "the scar at support {:?} goes through the tube, whose wall is {thick} mm: {} mm³ off one scar is {scar}; \
-             off evenly all round it is {} mm deep",
-            support.support,
-            figures(1e9 * volume),
-            figures(1e3 * round)
-        ))
-    };
-    all(case, run).zip(&case.written.supports).filter_map(one).collect()
+    let one = |(index, Known { worn, .. }): (usize, Known<'_>)| through::warning(case, index, &worn?);
+    all(case, run).enumerate().filter_map(one).collect()
 }
 
 /// The wear of the supports in the summary; their forces are in its statistics.

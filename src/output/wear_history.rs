@@ -9,24 +9,24 @@ use super::table::Table;
 use super::wear_remarks;
 use crate::case::Case;
 use crate::error::Result;
-use crate::study::wear_history::{WearHistories, WearPoint, WearState, YEAR, mean};
+use crate::study::wear_history::{WearHistories, WearPoint, WearQuantity, YEAR, mean};
 use serde_json::{Map, Value, json};
 
 /// A quantity of a support that changes over the years: its column, its words with the unit of
-/// tables (none where it is in the files alone), what one of these is in SI units, and its value.
+/// tables (none where it is in the files alone), what one of these is in SI units, and what it is.
 struct Quantity {
     column: &'static str,
     words: &'static str,
     unit: f64,
-    value: fn(&WearState) -> f64,
+    value: WearQuantity,
 }
 
 const QUANTITIES: [Quantity; 5] = [
-    Quantity { column: "gap", words: "gap (mm)", unit: 1e-3, value: |state| state.gap_m },
-    Quantity { column: "depth_deepest", words: "deepest (mm)", unit: 1e-3, value: |state| state.depth_deepest_m },
-    Quantity { column: "depth_all_round", words: "all round (mm)", unit: 1e-3, value: |state| state.depth_all_round_m },
-    Quantity { column: "depth_one_scar", words: "", unit: 1e-3, value: |state| state.depth_one_scar_m },
-    Quantity { column: "work_rate", words: "work rate (W)", unit: 1.0, value: |state| state.work_rate_w },
+    Quantity { column: "gap", words: "gap (mm)", unit: 1e-3, value: WearQuantity::Gap },
+    Quantity { column: "depth_deepest", words: "deepest (mm)", unit: 1e-3, value: WearQuantity::DepthDeepest },
+    Quantity { column: "depth_all_round", words: "all round (mm)", unit: 1e-3, value: WearQuantity::DepthAllRound },
+    Quantity { column: "depth_one_scar", words: "", unit: 1e-3, value: WearQuantity::DepthOneScar },
+    Quantity { column: "work_rate", words: "work rate (W)", unit: 1.0, value: WearQuantity::WorkRate },
 ];
 
 /// The quantities of the table for people: the others are in the files alone.
@@ -65,7 +65,7 @@ pub fn history(found: &WearHistories) -> (Vec<String>, Vec<Vec<String>>) {
         for (history, states) in point.histories.iter().enumerate() {
             for (name, state) in found.supports.iter().zip(states) {
                 let mut row = vec![(history + 1).to_string(), csv::digits(Some(point.time_s / YEAR)), name.clone()];
-                row.extend(QUANTITIES.map(|quantity| csv::digits(Some((quantity.value)(state)).filter(finite))));
+                row.extend(QUANTITIES.map(|quantity| csv::digits(Some(quantity.value.of(state)).filter(finite))));
                 let [y, z] = state.shift_m;
                 row.extend([y, z, state.work_j].map(|x| csv::digits(Some(x))));
                 rows.push(row);
@@ -152,7 +152,7 @@ pub fn table(found: &WearHistories) -> Table {
 #[must_use]
 pub fn figure(case: &Case, found: &WearHistories) -> String {
     let colours = Places::of(&case.scene);
-    let panel = |words: &str, value: fn(&WearState) -> f64| {
+    let panel = |words: &str, value: WearQuantity| {
         let mut panel = Panel::new(words);
         for (support, name) in found.supports.iter().enumerate() {
             let means: Vec<_> = found.points.iter().map(|point| (point.time_s, mean(point, support, value))).collect();
@@ -162,18 +162,16 @@ pub fn figure(case: &Case, found: &WearHistories) -> String {
         }
         panel
     };
-    let mut depth = panel("deepest wear of the tube (mm)", |state| state.depth_deepest_m);
+    let mut depth = panel("deepest wear of the tube (mm)", WearQuantity::DepthDeepest);
     let deepest = found.points.last().map_or(0.0, |point| {
-        (0..found.supports.len())
-            .map(|support| mean(point, support, |state| state.depth_deepest_m).0)
-            .fold(0.0, f64::max)
+        (0..found.supports.len()).map(|support| mean(point, support, WearQuantity::DepthDeepest).0).fold(0.0, f64::max)
     });
     if let Some(limit) = case.wear.limit.filter(|limit| *limit < NEAR * deepest) {
         depth = depth.mark(Mark::wall(1e3 * limit, "limit"));
     }
     let title = case.heading();
     let figure = Figure::new(title, "time in service (years)");
-    figure.panel(panel("gap (mm)", |state| state.gap_m)).panel(depth).to_svg()
+    figure.panel(panel("gap (mm)", WearQuantity::Gap)).panel(depth).to_svg()
 }
 
 /// A limit further away than this multiple of the depth is not drawn.
@@ -200,7 +198,7 @@ pub fn limits(case: &Case, found: &WearHistories) -> Vec<Value> {
     let limit = case.wear.limit;
     let limits = found.supports.iter().enumerate().map(|(support, name)| {
         let mut own = Map::from_iter([("place".to_owned(), json!(name)), ("limit_m".to_owned(), json!(limit))]);
-        let mut add = |depth: &str, value: fn(&WearState) -> f64| {
+        let mut add = |depth: &str, value: WearQuantity| {
             let in_years = |time: Option<f64>| time.map(|time| time / YEAR);
             let mean = limit.and_then(|limit| found.reaches(support, limit, value));
             let each = limit.map_or(Vec::new(), |limit| found.reaches_by_history(support, limit, value));
@@ -210,9 +208,9 @@ pub fn limits(case: &Case, found: &WearHistories) -> Vec<Value> {
             own.insert(format!("limit_{depth}_half_width_95_years"), json!(in_years(half_width)));
             own.insert(format!("limit_{depth}_years_of_histories"), json!(each));
         };
-        add("deepest", |state| state.depth_deepest_m);
-        add("all_round", |state| state.depth_all_round_m);
-        add("one_scar", |state| state.depth_one_scar_m);
+        add("deepest", WearQuantity::DepthDeepest);
+        add("all_round", WearQuantity::DepthAllRound);
+        add("one_scar", WearQuantity::DepthOneScar);
         Value::Object(own)
     });
     limits.collect()

@@ -4,8 +4,8 @@
 use super::realisations::{self, with_interval};
 use crate::case::Case;
 use crate::error::amount;
-use crate::study::realisations::{Groups, mean_of};
-use crate::study::wear_history::{WearHistories, WearState, WornThrough, YEAR, mean};
+use crate::study::realisations::Groups;
+use crate::study::wear_history::{WearHistories, WearQuantity, WornThrough, YEAR, mean};
 use crate::wear::Growth;
 
 /// When the limit is reached, and what the figures mean, a sentence each.
@@ -15,11 +15,10 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
     for (support, name) in found.supports.iter().enumerate() {
         let Some(limit) = case.wear.limit else { break };
-        let after = |value: fn(&WearState) -> f64| {
-            let (mean, each) = (found.reaches(support, limit, value), found.reaches_by_history(support, limit, value));
-            let among = among(&each);
-            let Some(time) = mean else {
-                let later = later(&found.reaches_at_last_rate(support, limit, value));
+        let after = |value: WearQuantity| {
+            let among = among(&found.reaches_by_history(support, limit, value), value);
+            let Some(time) = found.reaches(support, limit, value) else {
+                let later = later(found.reaches_at_last_rate(support, limit, value));
                 return format!("not within {} years{among}{later}", rounded(end));
             };
             format!("after {} years{among}", in_years(time, found.half_width_of_time(support, limit, value)))
@@ -28,9 +27,9 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
             "the tube reaches the limit of {} mm at support {name:?} {} where it is deepest, {} if all of its wear \
              comes off one scar, {} if it comes off evenly all round",
             amount(1e3 * limit, 3),
-            after(|state| state.depth_deepest_m),
-            after(|state| state.depth_one_scar_m),
-            after(|state| state.depth_all_round_m)
+            after(WearQuantity::DepthDeepest),
+            after(WearQuantity::DepthOneScar),
+            after(WearQuantity::DepthAllRound)
         ));
     }
     remarks.extend(worn_through(found));
@@ -40,14 +39,16 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     if histories > 1 {
         remarks.push(format!(
             "± is the half width of the 95 % interval of the mean over {histories} histories, by Student's t; each \
-             window of a history has draws of its own"
+             window of a history has draws of its own. The deepest depth is the largest of the means of all \
+             sectors, or flats, less what taking the largest adds, by the jackknife over the histories; that of \
+             one history alone is an upper figure"
         ));
     }
     remarks.extend(groups(found));
     remarks.extend(single(case, found));
     remarks.extend(growths(case, found));
     let widened = found.supports.iter().enumerate().filter(|(support, _)| {
-        let gap = |point| mean(point, *support, |state| state.gap_m).0;
+        let gap = |point| mean(point, *support, WearQuantity::Gap).0;
         let ends = found.points.first().zip(found.points.last()).map(|(first, last)| [gap(first), gap(last)]);
         ends.is_some_and(|[first, last]| first > 0.0 && last > MUCH * first)
     });
@@ -66,28 +67,24 @@ fn in_years(time: f64, half_width: Option<f64>) -> String {
     half_width.map_or_else(|| amount(time / YEAR, 3), |half| with_interval(time / YEAR, Some(half / YEAR)))
 }
 
-/// The mean of the times (s) of all histories, in years, with its interval; `None` unless each has
-/// one.
-fn mean_in_years(each: &[Option<f64>]) -> Option<String> {
-    let times: Vec<f64> = each.iter().copied().collect::<Option<_>>()?;
-    let (mean, _, half_width) = mean_of(&times);
-    (!times.is_empty()).then(|| in_years(mean, half_width))
-}
-
-/// When the histories reach a limit after their end, s, in words that follow that they do not.
-fn later(each: &[Option<f64>]) -> String {
-    mean_in_years(each).map_or_else(String::new, |years| format!(", after {years} at the last rate"))
+/// When a limit is reached after the end, s, in words that follow that it is not before.
+fn later(at_last_rate: Option<(f64, Option<f64>)>) -> String {
+    at_last_rate.map_or_else(String::new, |(time, half_width)| {
+        format!(", after {} at the last rate", in_years(time, half_width))
+    })
 }
 
 /// When a limit is reached in the single histories, s, in words that follow when their mean does.
-fn among(times: &[Option<f64>]) -> String {
+fn among(times: &[Option<f64>], quantity: WearQuantity) -> String {
     let years: Vec<f64> = times.iter().flatten().map(|time| time / YEAR).collect();
     let ends = years.iter().copied().reduce(f64::min).zip(years.iter().copied().reduce(f64::max));
     let Some((first, last)) = ends.filter(|_| times.len() > 1) else { return String::new() };
     let [first, last] = [first, last].map(|years| amount(years, 3));
+    // Of each alone it is the part that is the deepest there, earlier than by the mean.
+    let own = if quantity == WearQuantity::DepthDeepest { ", each by its own deepest part" } else { "" };
     match years.len() == times.len() {
-        true => format!(" (its {} histories after {first} to {last})", times.len()),
-        false => format!(" ({} of its {} histories, the first after {first})", years.len(), times.len()),
+        true => format!(" (its {} histories{own} after {first} to {last})", times.len()),
+        false => format!(" ({} of its {} histories{own}, the first after {first})", years.len(), times.len()),
     }
 }
 
@@ -138,28 +135,25 @@ fn unworn(found: &WearHistories) -> Option<String> {
     })
 }
 
-/// That the histories end where the first is worn through, and when all of them are.
+/// That the histories end where the tube is worn through.
 fn worn_through(found: &WearHistories) -> Option<String> {
-    let WornThrough { history, support, wall_m, time_s } = found.worn_through.as_ref()?;
-    let (wall, years) = (amount(1e3 * wall_m, 3), amount(time_s / YEAR, 3));
-    let count = found.points.first().map_or(0, |point| point.histories.len());
-    if count == 1 {
-        return Some(format!(
-            "{support} is worn through after {years} years, by {wall} mm where it is deepest: there the study ends"
-        ));
-    }
+    let WornThrough { support, wall_m, depth_m, time_s } = found.worn_through.as_ref()?;
     let own = found.supports.iter().position(|name| name == support)?;
-    let mut each = found.reaches_at_last_rate(own, *wall_m, |state| state.depth_deepest_m);
-    if let Some(first) = each.get_mut(history - 1) {
-        *first = Some(*time_s);
-    }
-    let all = mean_in_years(&each)
-        .map_or_else(String::new, |years| format!("; at the last rates all {count} are after {years} years"));
-    Some(format!(
-        "{support} is worn through after {years} years in history {history}, the first of {count}, by {wall} mm where \
-         it is deepest{all}. There the study ends: a mean over the histories that are left would be one of the slower \
-         ones"
-    ))
+    let half_width = found.half_width_of_time(own, *depth_m, WearQuantity::DepthDeepest);
+    let (depth, years) = (amount(1e3 * depth_m, 3), in_years(*time_s, half_width));
+    let count = found.points.first().map_or(0, |point| point.histories.len());
+    let over = if count == 1 { String::new() } else { format!(" over the {count} histories") };
+    Some(match wall_m {
+        Some(_) => format!(
+            "{support} is worn through after {years} years, by {depth} mm where it is deepest{over}: there the study \
+             ends"
+        ),
+        None => format!(
+            "{support} is worn to the radius of the tube, {depth} mm, after {years} years where it is \
+             deepest{over}: there the study ends, since no tube is left; its wall is not known, and `wall` of the \
+             support gives it"
+        ),
+    })
 }
 
 /// What wear does to the gaps, a sentence for each way.
@@ -200,8 +194,8 @@ fn one_sided(case: &Case, found: &WearHistories) -> Vec<String> {
             Growth::Shifted => "and the hole stays a circle, wider and moved: what is sharper than that is lost",
             _ => return None,
         };
-        let [deepest, even] = [|state: &WearState| state.depth_deepest_m, |state: &WearState| state.depth_all_round_m]
-            .map(|value| mean(last, support, value).0);
+        let [deepest, even] =
+            [WearQuantity::DepthDeepest, WearQuantity::DepthAllRound].map(|quantity| mean(last, support, quantity).0);
         let ratio = amount(deepest / even, 2);
         (even > 0.0 && deepest > ONE_SIDED * even)
             .then(|| format!("at support {name:?} the deepest wear is {ratio} times that all round, {what}"))
@@ -223,7 +217,7 @@ const ONE_SIDED: f64 = 3.0;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::wear_history::WearPoint;
+    use crate::study::wear_history::{WearPoint, WearState};
 
     /// Histories whose depths grow by `rates` (m a year), at 0, 10 and 20 years.
     fn histories(rates: &[f64]) -> WearHistories {
@@ -240,6 +234,7 @@ mod tests {
             time_s: years * YEAR,
             histories: rates.iter().map(|rate| vec![state(rate * years)]).collect(),
             largest: rates.iter().take(usize::from(rates.len() == 1)).map(|rate| state(1.1 * rate * years)).collect(),
+            depths_m: rates.iter().map(|rate| vec![vec![rate * years]]).collect(),
         };
         let points = [0.0, 10.0, 20.0].map(point).to_vec();
         WearHistories {
@@ -256,28 +251,37 @@ mod tests {
     #[test]
     fn the_year_of_a_limit_has_the_interval_of_its_histories_or_follows_from_the_last_rate() {
         let found = histories(&[1e-5, 2e-5]);
-        let depth = |state: &WearState| state.depth_deepest_m;
+        let [depth, deepest] = [WearQuantity::DepthAllRound, WearQuantity::DepthDeepest];
         // The mean reaches 0.12 mm after 8 years, the histories after 12 and 6: 9 ± t·s/√2 of one
         // degree of freedom is 38 years.
         let each = found.reaches_by_history(0, 1.2e-4, depth);
         let mean = found.reaches(0, 1.2e-4, depth).unwrap();
         assert_eq!(
-            (in_years(mean, found.half_width_of_time(0, 1.2e-4, depth)), among(&each)),
+            (in_years(mean, found.half_width_of_time(0, 1.2e-4, depth)), among(&each, depth)),
             ("8 ± 38".to_owned(), " (its 2 histories after 6 to 12)".to_owned())
         );
-        // 0.6 mm: after 60 and 30 years at those rates.
-        let later_on = found.reaches_at_last_rate(0, 6e-4, depth);
-        let years: Vec<f64> = later_on.iter().map(|time| time.unwrap() / YEAR).collect();
-        assert!((years[0] - 60.0).abs() < 1e-9 && (years[1] - 30.0).abs() < 1e-9, "{years:?}");
-        assert!(later(&later_on).starts_with(", after 45 ± ") && later(&later_on).ends_with(" at the last rate"));
-        // One that does not grow never reaches it, and nothing is told of their mean.
+        // Of the deepest depth, here of one part, its half width then, 12.706 times 0.04 mm, over
+        // the mean rate of 0.015 mm a year.
+        assert_eq!(in_years(mean, found.half_width_of_time(0, 1.2e-4, deepest)), "8 ± 34");
+        assert!(among(&each, deepest).contains("each by its own deepest part after 6 to 12"));
+        // 0.6 mm: after 60 and 30 years at those rates; by the mean rate after 40, with 12.706
+        // times 0.2 mm over it.
+        let (time, half_width) = found.reaches_at_last_rate(0, 6e-4, depth).unwrap();
+        assert!((time / YEAR - 45.0).abs() < 1e-9 && (half_width.unwrap() / YEAR - 15.0 * 12.706_204_736).abs() < 1e-6);
+        let (time, half_width) = found.reaches_at_last_rate(0, 6e-4, deepest).unwrap();
+        let wanted = 12.706_204_736 * 0.2 / 0.015;
+        assert!((time / YEAR - 40.0).abs() < 1e-9 && (half_width.unwrap() / YEAR - wanted).abs() < 1e-6);
+        assert_eq!(later(found.reaches_at_last_rate(0, 6e-4, deepest)), ", after 40 ± 169 at the last rate");
         // Of one history whose windows leave 10 % open: after 12 years, and at 1.1 times the rate
         // after 12/1.1.
         let one = histories(&[1e-5]);
-        let half_width = one.half_width_of_time(0, 1.2e-4, depth).unwrap() / YEAR;
-        assert!((half_width - (12.0 - 12.0 / 1.1)).abs() < 1e-9, "{half_width}");
-        let (depth_then, half_width) = super::mean(&one.points[1], 0, depth);
-        assert!((depth_then - 1e-4).abs() < 1e-15 && (half_width.unwrap() - 1e-5).abs() < 1e-15);
-        assert_eq!(later(&histories(&[0.0, 1e-5]).reaches_at_last_rate(0, 6e-4, depth)), "");
+        for quantity in [depth, deepest] {
+            let half_width = one.half_width_of_time(0, 1.2e-4, quantity).unwrap() / YEAR;
+            assert!((half_width - (12.0 - 12.0 / 1.1)).abs() < 1e-9, "{half_width}");
+            let (depth_then, half_width) = super::mean(&one.points[1], 0, quantity);
+            assert!((depth_then - 1e-4).abs() < 1e-15 && (half_width.unwrap() - 1e-5).abs() < 1e-15);
+        }
+        // One that does not grow never reaches it, and nothing is told of their mean.
+        assert_eq!(later(histories(&[0.0, 1e-5]).reaches_at_last_rate(0, 6e-4, depth)), "");
     }
 }

@@ -3,9 +3,12 @@
 
 use super::realisations::{MOST_ROWS, WIDTH, with_interval};
 use super::table::Table;
+use super::through;
 use crate::case::Case;
+use crate::scene::Support;
 use crate::statistics::WearStatistics;
-use crate::study::realisations::{Realisations, mean_of};
+use crate::study::realisations::{Deepest, Realisations, mean_of};
+use crate::wear::Worn;
 use serde_json::{Value, json};
 
 /// A quantity: its name, its unit, its heading in the table, and the number of its units in one
@@ -20,21 +23,31 @@ const QUANTITIES: [(&str, &str, &str, f64); 4] = [
 /// Mean, standard deviation and half width; `None` where a realisation has no value.
 type Mean = Option<(f64, Option<f64>, Option<f64>)>;
 
-/// The quantities at support number `index` in one realisation.
-fn quantities(case: &Case, index: usize, wear: &WearStatistics) -> Option<[Option<f64>; QUANTITIES.len()]> {
-    let worn = case.archard(index)?.worn(wear.work_rate_w);
-    Some([worn.volume_m3, case.depth_deepest(index, wear), worn.depth_one_scar_m, worn.depth_all_round_m])
+/// The means at support number `index`: of the deepest depth that of [`Deepest`], over its sectors
+/// or flats.
+fn means_at(case: &Case, index: usize, wear: &[&WearStatistics]) -> Option<[Mean; QUANTITIES.len()]> {
+    let law = case.archard(index)?;
+    let worn: Vec<Worn> = wear.iter().map(|wear| law.worn(wear.work_rate_w)).collect();
+    let mean = |of: fn(&Worn) -> Option<f64>| {
+        let values: Option<Vec<f64>> = worn.iter().map(of).collect();
+        values.filter(|values| !values.is_empty()).map(|values| mean_of(&values))
+    };
+    let has_depths = wear.iter().all(|wear| case.depth_deepest(index, wear).is_some());
+    let depths: Vec<Vec<f64>> = wear.iter().filter(|_| has_depths).map(|wear| case.depths(index, wear)).collect();
+    let deepest = (!depths.is_empty()).then(|| Deepest::of(&depths));
+    Some([
+        mean(|worn| worn.volume_m3),
+        deepest.map(|found| (found.value, found.deviation, found.half_width_95)),
+        mean(|worn| worn.depth_one_scar_m),
+        mean(|worn| worn.depth_all_round_m),
+    ])
 }
 
 /// The means at each support that has a law of wear and any value.
 fn means<'a>(case: &'a Case, study: &Realisations) -> Vec<(&'a str, [Mean; QUANTITIES.len()])> {
     let at = |index: usize| {
-        let members = study.members.iter().map(|member| quantities(case, index, member.wear.get(index)?));
-        let members: Vec<_> = members.collect::<Option<_>>()?;
-        Some(std::array::from_fn(|which| {
-            let values: Option<Vec<f64>> = members.iter().map(|values| values[which]).collect();
-            values.filter(|values| !values.is_empty()).map(|values| mean_of(&values))
-        }))
+        let wear: Option<Vec<&WearStatistics>> = study.members.iter().map(|member| member.wear.get(index)).collect();
+        means_at(case, index, &wear?)
     };
     let supports = case.scene.supports.iter().enumerate();
     let all = supports.filter_map(|(index, support)| Some((support.name.as_str(), at(index)?)));
@@ -56,6 +69,33 @@ pub fn table(case: &Case, study: &Realisations) -> Option<Table> {
     let header: Vec<&str> = std::iter::once("place").chain(QUANTITIES.map(|(_, _, heading, _)| heading)).collect();
     let rows: Vec<Vec<String>> = means.iter().take(MOST_ROWS).map(row).collect();
     (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH))
+}
+
+/// Warnings where the means of several realisations are deeper than the limit, the wall or the
+/// radius of the tube: those of one realisation are its run's own.
+#[must_use]
+pub fn warnings(case: &Case, study: &Realisations) -> Vec<String> {
+    let of = |(index, support): (usize, &Support)| {
+        let (_, [volume, _, scar, round]) = means(case, study).into_iter().find(|(name, _)| *name == support.name)?;
+        let [volume_m3, depth_one_scar_m, depth_all_round_m] =
+            [volume, scar, round].map(|mean| mean.map(|(mean, ..)| mean));
+        let worn = Worn { volume_m3, depth_one_scar_m, depth_all_round_m, support_volume_m3: None };
+        through::warning(case, index, &worn).map(|words| format!("in the mean over the realisations {words}"))
+    };
+    let several = case.scene.supports.iter().enumerate().filter(|_| study.count > 1);
+    several.filter_map(of).collect()
+}
+
+/// What the table tells, a sentence each.
+#[must_use]
+pub fn remarks(case: &Case, study: &Realisations) -> Vec<String> {
+    let deepest = "deepest is the largest of the means of all sectors, or flats, less what taking the largest adds, by \
+                   the jackknife over the realisations";
+    let one = "deepest of one realisation is an upper figure: a sector, or flat, counts that is the deepest by chance";
+    let has_depth = means(case, study).iter().any(|(_, [_, deepest, ..])| deepest.is_some());
+    let deepest = has_depth.then(|| if study.count > 1 { deepest } else { one }.to_owned());
+    let within = "worn volume and depths: within the service of the case, by Archard's law".to_owned();
+    std::iter::once(within).chain(deepest).collect()
 }
 
 /// The means as entries of the form of the study's own estimates; their errors are not judged.

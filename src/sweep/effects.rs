@@ -3,8 +3,10 @@
 //! The effect of a key is the measure at its upper bound less that at its lower bound, the other
 //! keys as in the case. Where rows have several realisations of their random loads, it is the mean
 //! over the realisations of the differences between two rows with the same seeds; the half width of
-//! its 95 % interval follows from their scatter, by Student's t. An effect within its half width is
-//! not distinguished from none.
+//! its 95 % interval follows from their scatter, by Student's t; of the deepest depth, the root of
+//! the sum of the squares of that and of the biases of both rows, see
+//! [`Deepest`](crate::study::realisations::Deepest). An effect within its half width is not
+//! distinguished from none.
 
 use super::columns::Source;
 use super::layout::Layout;
@@ -73,7 +75,10 @@ pub(super) fn effects(source: &Source<'_>) -> Result<Vec<Effect>> {
             let [low, high] = [0, 1].map(|side| Layout::row_of(axis, side));
             let (at_low, at_high) = (runs.of(low, index), runs.of(high, index));
             let pairs: Vec<f64> = at_low.iter().filter_map(|(k, x)| Some(at_high.get(k)? - x)).collect();
-            let (effect, _, half_width_95) = mean_of(&pairs);
+            let (effect, _, half_width) = mean_of(&pairs);
+            // What taking the largest of several means adds is known to itself.
+            let bias = runs.bias(low, index).hypot(runs.bias(high, index));
+            let half_width_95 = half_width.map(|half_width| half_width.hypot(bias));
             Effect {
                 key: source.axes.get(axis).map_or_else(String::new, |axis| axis.key.clone()),
                 bounds: *bounds,

@@ -1,11 +1,13 @@
 //! The row of `sweep.csv` from the lines of its realisations: means, the half widths of their 95 %
-//! intervals, and what the reader must know of realisations that failed.
+//! intervals, and what the reader must know of realisations that failed. The deepest depth is that
+//! of the means of all parts of a support, whose depths stand in a column of their own.
 
+use super::measure::depths_column;
 use super::status::Status;
-use super::table::REALISATION;
+use super::table::{REALISATION, numbers_of};
 use super::until_interval::UntilInterval;
 use crate::output::csv::digits;
-use crate::study::realisations::mean_of;
+use crate::study::realisations::{Deepest, mean_of};
 use csv::StringRecord;
 
 /// Most numbers of realisations that a reason lists.
@@ -17,6 +19,8 @@ pub(super) struct Fold {
     realisation: usize,
     status: usize,
     error: usize,
+    /// The end of the columns of measures.
+    end: usize,
     until: Option<UntilInterval>,
 }
 
@@ -26,13 +30,15 @@ impl Fold {
     pub fn of(header: &[String], until: Option<UntilInterval>) -> Self {
         let find = |name: &str| header.iter().position(|column| column == name).unwrap_or(usize::MAX);
         let (realisation, status, error) = (find(REALISATION), find("status"), find("error"));
-        Self { header: header.to_vec(), realisation, status, error, until }
+        let depths = header.iter().filter(|name| depths_column(name).is_some_and(|list| header.contains(&list)));
+        let end = header.len().saturating_sub(depths.count());
+        Self { header: header.to_vec(), realisation, status, error, end, until }
     }
 
     /// The cells of the row with these `runs`, one or more: what tells the row apart, the number of
     /// realisations in the means, status, reason, then each mean x̄ and the half width t s/√N of
-    /// its interval, by [`mean_of`]. The means are over the runs that have valid measures; where
-    /// one of these lacks a measure, its cells are empty.
+    /// its interval, by [`mean_of`], of the deepest depth by [`Deepest`]. The means are over the
+    /// runs that have valid measures; where one of these lacks a measure, its cells are empty.
     pub fn row(&self, runs: &[StringRecord]) -> Vec<String> {
         let good: Vec<&StringRecord> = runs.iter().filter(|run| Status::is_good_word(self.word(run))).collect();
         let lead = runs.first().into_iter().flat_map(|run| run.iter().take(self.status).enumerate());
@@ -43,16 +49,30 @@ impl Fold {
         let reasons: Vec<String> = self.reasons(runs, &good).into_iter().chain(shortfall).collect();
         cells.extend([good.len().to_string(), status, reasons.join("; ")]);
         for column in self.measures() {
-            let values: Option<Vec<f64>> = good.iter().map(|run| number(run, column)).collect();
-            let mean = values.filter(|values| !values.is_empty()).map(|values| mean_of(&values));
-            cells.push(digits(mean.map(|(mean, ..)| mean)));
-            cells.push(digits(mean.and_then(|(_, _, half_width)| half_width).filter(|half| half.is_finite())));
+            let mean = self.mean(column, &good);
+            cells.push(digits(mean.map(|(mean, _)| mean)));
+            cells.push(digits(mean.and_then(|(_, half_width)| half_width).filter(|half| half.is_finite())));
         }
         cells
     }
 
+    /// The mean of a column over the runs that are `good`, and the half width of its interval.
+    fn mean(&self, column: usize, good: &[&StringRecord]) -> Option<(f64, Option<f64>)> {
+        let values: Vec<f64> = good.iter().map(|run| number(run, column)).collect::<Option<_>>()?;
+        if values.is_empty() {
+            return None;
+        }
+        let list = self.header.get(column).and_then(|name| depths_column(name));
+        if let Some(list) = list.and_then(|name| self.header.iter().position(|column| *column == name)) {
+            let depths: Option<Vec<Vec<f64>>> = good.iter().map(|run| numbers_of(run.get(list)?)).collect();
+            return depths.map(|depths| Deepest::of(&depths)).map(|found| (found.value, found.half_width_95));
+        }
+        let (mean, _, half_width) = mean_of(&values);
+        Some((mean, half_width))
+    }
+
     fn measures(&self) -> std::ops::Range<usize> {
-        self.error.saturating_add(1).min(self.header.len())..self.header.len()
+        self.error.saturating_add(1).min(self.end)..self.end
     }
 
     fn word<'a>(&self, run: &'a StringRecord) -> &'a str {
@@ -91,7 +111,7 @@ impl Fold {
         };
         let mut told: Vec<String> = groups.iter().filter_map(told).collect();
         let [mut some, mut all] = [Vec::new(), Vec::new()];
-        for (column, name) in self.header.iter().enumerate().skip(self.measures().start) {
+        for (column, name) in self.header.iter().enumerate().take(self.end).skip(self.measures().start) {
             let with = good.iter().filter(|run| number(run, column).is_some()).count();
             if with > 0 && with < good.len() {
                 some.push(name.as_str());
@@ -141,6 +161,25 @@ mod tests {
         // The table of t has 13 digits.
         assert!((row[6].parse::<f64>().unwrap() / half - 1.0).abs() < 1e-12, "{row:?}");
         assert_eq!(row[7..], ["0.5", "0.0"].map(str::to_owned));
+    }
+
+    #[test]
+    fn the_deepest_depth_is_that_of_the_means_of_all_parts() {
+        let header = ["row", "realisation", "status", "error", "depth_deepest_a_m", "work_rate_a_W", "depths_a_m"];
+        let fold = Fold::of(&header.map(str::to_owned), None);
+        let row =
+            |runs: &[[&str; 7]]| fold.row(&runs.iter().map(|run| StringRecord::from(run.to_vec())).collect::<Vec<_>>());
+        // The mean of 4 and 2 is 3; those of the parts are 2 and 1, and the jackknife's
+        // pseudo-values 4 − 2 and 4 − 4: 1, with the bias 1 beside t₁ times the mean's deviation 2.
+        let [first, second] = [["0", "1", "ok", "", "4", "1", "4.0 0.0"], ["0", "2", "ok", "", "2", "1", "0.0 2.0"]];
+        let found = row(&[first, second]);
+        assert_eq!((found[4].as_str(), found.len()), ("1.0", 8));
+        assert!((found[5].parse::<f64>().unwrap() - (2.0 * 12.706_204_736_2_f64).hypot(1.0)).abs() < 1e-9, "{found:?}");
+        assert_eq!(found[6..], ["1.0", "0.0"].map(str::to_owned));
+        // A run without the depth leaves no mean, and names its measure alone.
+        let lacking = row(&[first, ["0", "2", "ok", "", "", "1", ""]]);
+        assert_eq!(lacking[4..6], ["", ""].map(str::to_owned));
+        assert!(lacking[3].contains("of depth_deepest_a_m") && !lacking[3].contains("depths_a"), "{lacking:?}");
     }
 
     #[test]

@@ -76,6 +76,10 @@ impl Plan {
                 "rows_of_a_chain": self.chain_rows(),
             }),
         );
+        if sweep.keeps_depths() {
+            // Runs of a version that did not keep them lack a column.
+            request.insert("depths".to_owned(), json!(true));
+        }
         if sweep.layout == Layout::OneAtATime {
             request.insert(ONE_AT_A_TIME.to_owned(), json!(true));
         }

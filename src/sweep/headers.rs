@@ -36,6 +36,7 @@ impl Sweep {
         header.insert(1, REALISATION.to_owned());
         header.extend(["status", "error"].map(str::to_owned));
         header.extend(self.measures.iter().flat_map(|measure| measure.columns(&base.scene)));
+        header.extend(self.measures.iter().flat_map(|measure| measure.depths_columns(&base.scene)));
         Some(header)
     }
 
@@ -45,8 +46,11 @@ impl Sweep {
         header.extend(self.realisations.map(|_| SEEDS.to_owned()));
         header.extend(["status", "error"].map(str::to_owned));
         header.extend(self.measure_columns(&base.scene));
-        // That of realisations.csv is among them.
-        let mut seen: HashSet<&str> = self.realisations.map(|_| REALISATION).into_iter().collect();
+        // Those of realisations.csv are among them.
+        let depths: Vec<String> =
+            self.measures.iter().flat_map(|measure| measure.depths_columns(&base.scene)).collect();
+        let own = std::iter::once(REALISATION).chain(depths.iter().map(String::as_str));
+        let mut seen: HashSet<&str> = own.filter(|_| self.realisations.is_some()).collect();
         if let Some(twice) = header.iter().find(|name| !seen.insert(name.as_str())) {
             return Err(Error::invalid("[[vary]] name", twice, "a name that no other column has"));
         }

@@ -194,6 +194,12 @@ impl Measure {
         self.columns_with(HALF_WIDTH, scene)
     }
 
+    /// The columns of `realisations.csv` with the depths of all parts of each support, of which the
+    /// measure is the deepest; none of another measure.
+    pub(super) fn depths_columns(self, scene: &Scene) -> Vec<String> {
+        self.columns(scene).iter().filter_map(|column| depths_column(column)).collect()
+    }
+
     /// The columns, whose names have `word` after that of the measure.
     fn columns_with(self, word: &str, scene: &Scene) -> Vec<String> {
         let walls: Vec<&str> = scene.walls.iter().map(|wall| wall.name.as_str()).collect();
@@ -262,6 +268,12 @@ impl Measure {
     pub(super) fn needs_law(self) -> bool {
         self == Self::WornVolume || self.needs_scar()
     }
+}
+
+/// The column with the depths of all parts of the support of which `column` has the deepest; `None`
+/// of another measure.
+pub(super) fn depths_column(column: &str) -> Option<String> {
+    column.strip_prefix(Measure::DepthDeepest.name()).map(|place| format!("depths{place}"))
 }
 
 impl fmt::Display for Measure {

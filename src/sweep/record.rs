@@ -21,6 +21,8 @@ impl Plan {
         }));
         cells.extend([row.status.to_string(), flat(&row.error)]);
         cells.extend(row.measures.iter().map(|value| digits(*value)));
+        let list = |depths: &Vec<f64>| depths.iter().map(|depth| digits(Some(*depth))).collect::<Vec<_>>().join(" ");
+        cells.extend(row.depths.iter().map(list));
         line_of(&cells)
     }
 

@@ -265,6 +265,12 @@ impl Sweep {
         &self.title
     }
 
+    /// True if the depths of all parts of supports are kept of each run: the deepest is that of
+    /// their means over the realisations.
+    pub(super) fn keeps_depths(&self) -> bool {
+        self.realisations.is_some() && self.measures.contains(&Measure::DepthDeepest)
+    }
+
     /// The number of the axis that is followed.
     pub(super) fn followed(&self) -> Option<usize> {
         self.axes.iter().position(|axis| axis.follow != Follow::No)

@@ -40,6 +40,9 @@ pub struct Row {
     /// The measures, as in their columns; `None` for a measure without a value, and in a row that
     /// failed.
     pub measures: Vec<Option<f64>>,
+    /// The depths worn off the tube at each support in each sector, or at each flat, m: of a
+    /// realisation with the measure of the deepest, and empty where that has no value.
+    pub depths: Vec<Vec<f64>>,
     /// Its instants.
     pub samples: Vec<Sample>,
     /// The attractor to which its start leads; `None` if the measure is not asked for, or it was
@@ -68,6 +71,7 @@ impl Row {
 /// The results of the run of one row.
 struct Done {
     measures: Vec<Option<f64>>,
+    depths: Vec<Vec<f64>>,
     samples: Vec<Sample>,
     end: State,
     handed: usize,
@@ -99,6 +103,7 @@ impl Plan {
         match self.build(point, start).and_then(|(case, method)| self.perform(case, method, judged)) {
             Ok(done) => {
                 (row.measures, row.samples, row.end) = (done.measures, done.samples, Some(done.end));
+                row.depths = done.depths;
                 row.caution = done.caution;
                 let mut notes = done.notes;
                 if done.handed > 0 {
@@ -128,6 +133,11 @@ impl Plan {
             error: String::new(),
             caution: None,
             measures: vec![None; self.measured()],
+            depths: if self.sweep.keeps_depths() {
+                vec![Vec::new(); self.base.scene.supports.len()]
+            } else {
+                Vec::new()
+            },
             samples: Vec::new(),
             attractor: None,
             end: None,
@@ -194,15 +204,16 @@ impl Plan {
         let cautions = notes::unrecorded(scene, &method.scheme, grid.step, energy.as_ref(), &stepper.counters());
         let unstable = instability::of_row(&case, scene);
         let (open, note) = (stepper.open_contacts(), observer.note());
-        let (measures, samples) = observer.finish(&self.sweep, &case, stepper.checked(), &open);
-        let lacking = lacking::reasons(&self.sweep.measures, &measures, &case);
+        let observed = observer.finish(&self.sweep, &case, stepper.checked(), &open);
+        let lacking = lacking::reasons(&self.sweep.measures, &observed.measures, &case);
         Ok(Done {
-            measures,
-            samples,
+            measures: observed.measures,
+            depths: observed.depths,
+            samples: observed.samples,
             end: stepper.state(),
             handed: stepper.handed().len(),
             findings: judge.map_or_else(Vec::new, |judge| judge.findings()),
-            caution: cautions.into_iter().find(|caution| !unstable.contains(caution)),
+            caution: cautions.into_iter().find(|caution| !unstable.contains(caution)).or(observed.through),
             notes: unstable.into_iter().chain(note).chain(lacking).collect(),
         })
     }

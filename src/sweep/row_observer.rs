@@ -10,12 +10,23 @@ use super::strobe::Strobe;
 use crate::case::Case;
 use crate::error::Result;
 use crate::order::sort_by_number;
+use crate::output::through;
 use crate::scene::{Checked, Scene, State};
-use crate::statistics::{Forces, Statistics, WallStatistics, WearTally};
+use crate::statistics::{Forces, Statistics, WallStatistics, WearStatistics, WearTally};
 use crate::step::{Contact, Step};
 use crate::study::attractor::{self, MOST_FREEDOM};
 use crate::time::TimeOptions;
 use crate::variation::{Exponent, Exponents, NoDerivative};
+
+/// What a row has at its end.
+pub(super) struct Observed {
+    pub measures: Vec<Option<f64>>,
+    /// The depths of all parts of each support, where they are kept.
+    pub depths: Vec<Vec<f64>>,
+    /// A warning of a depth that the tube does not have.
+    pub through: Option<String>,
+    pub samples: Vec<Sample>,
+}
 
 /// Collects what the measures of a row need from its steps.
 pub(super) struct RowObserver {
@@ -91,14 +102,8 @@ impl RowObserver {
         self.growth.as_ref().and_then(|growth| growth.as_ref().err()).map(ToString::to_string)
     }
 
-    /// The measures and samples of the row of `case`, with the episodes `open` at its end.
-    pub fn finish(
-        mut self,
-        sweep: &Sweep,
-        case: &Case,
-        scene: &Checked,
-        open: &[Contact],
-    ) -> (Vec<Option<f64>>, Vec<Sample>) {
+    /// The measures, depths and samples of the row of `case`, with the episodes `open` at its end.
+    pub fn finish(mut self, sweep: &Sweep, case: &Case, scene: &Checked, open: &[Contact]) -> Observed {
         self.contacts.extend_from_slice(open);
         sort_by_number(&mut self.contacts, |contact| contact.wall as f64);
         sort_by_number(&mut self.contacts, |contact| contact.start);
@@ -117,7 +122,13 @@ impl RowObserver {
             self.push_values(measure, sweep, case, scene, (&statistics, exponent), &mut values);
         }
         let samples = sweep.samples.map_or_else(Vec::new, |samples| self.samples(samples, sweep.most_samples, scene));
-        (values, samples)
+        let supports = statistics.wear.iter().enumerate().filter(|_| sweep.keeps_depths());
+        let sound = |index, wear| case.depth_deepest(index, wear).map(|_| case.depths(index, wear));
+        let depths = supports.map(|(index, wear)| sound(index, wear).unwrap_or_default()).collect();
+        let scars = statistics.wear.iter().enumerate().filter(|_| sweep.measures.iter().any(|one| one.needs_scar()));
+        let worn = |(index, wear): (usize, &WearStatistics)| Some((index, case.archard(index)?.worn(wear.work_rate_w)));
+        let through = scars.filter_map(worn).find_map(|(index, worn)| through::beyond(case, index, &worn));
+        Observed { measures: values, depths, through, samples }
     }
 
     fn began_here(&self) -> impl Iterator<Item = &Contact> {

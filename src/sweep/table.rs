@@ -27,6 +27,12 @@ pub(super) const ONE_AT_A_TIME: &str = "one_at_a_time";
 /// What follows the name of a measure in the name of the column of the half width of its interval.
 pub(super) const HALF_WIDTH: &str = "_half_width_95";
 
+/// The numbers of a cell, with blanks between them; `None` of a cell without any.
+pub(super) fn numbers_of(cell: &str) -> Option<Vec<f64>> {
+    let numbers: Vec<f64> = cell.split_whitespace().map(str::parse).collect::<std::result::Result<_, _>>().ok()?;
+    (!numbers.is_empty()).then_some(numbers)
+}
+
 /// A CSV file with a header.
 pub(super) struct Table {
     path: PathBuf,

@@ -29,7 +29,8 @@ class Realisations:
     ``mean_force``, ``mean_force_y``, ``mean_force_z``, ``rms_force`` and ``largest_force`` (N),
     ``work_rate`` and ``friction_power`` (W), and by the law of wear of the case, within its service,
     ``worn_volume`` (m³), ``depth_deepest``, ``depth_one_scar`` and ``depth_all_round`` (m), as far
-    as a place has them. ``table`` has the columns
+    as a place has them. ``depth_deepest`` is the largest of the means of all sectors, or flats,
+    less what taking the largest adds, by the jackknife. ``table`` has the columns
     of ``realisations.csv``: a row for each realisation and place. ``accuracy`` is what was reached
     where an accuracy was asked for, as in the summary of the tool: ``step_s``, ``reached``,
     ``quantity``, ``levels``. ``print`` shows the tables of the tool.

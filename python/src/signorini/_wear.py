@@ -26,8 +26,10 @@ class LimitYears:
     ``deepest`` where it is deepest, ``scar`` if all of the wear comes off one scar, ``even`` if it
     comes off evenly all round; None where that is not within the years followed, or without limit.
     The ``histories`` of each are those of the single histories, by which the year scatters; none
-    without limit. The ``half_width`` of each is that of its 95 % interval: of the histories, where
-    each reaches the limit, or of a single one by the half widths of the work rates of its windows.
+    without limit; each has its own deepest sector, earlier than the mean. The ``half_width`` of
+    each is that of its 95 % interval: of the histories, where each reaches the limit (of the
+    deepest that of the depth over its rate), or of a single one by the half widths of the work
+    rates of its windows.
     """
 
     deepest: float | None

@@ -114,7 +114,9 @@ pub fn show(study: &RealisationStudy, answer: &mut Answer, case: &Case) {
     answer.messages(output::remarks(&study.realisations, &case.scene));
     if let Some(table) = worn_means::table(case, &study.realisations) {
         answer.table(table, "summary.json");
-        answer.messages(["worn volume and depths: within the service of the case, by Archard's law".to_owned()]);
+        answer.messages(worn_means::remarks(case, &study.realisations));
+        let warnings = worn_means::warnings(case, &study.realisations);
+        answer.messages(warnings.into_iter().map(|words| format!("note: {words}")));
     }
     show_errors(study, answer, case);
 }

@@ -158,7 +158,7 @@ fn add_study(out: &mut Value, case: &Case, study: &Realisations) {
     out["worn"] = worn_means::document(case, study);
     out["limit_m"] = json!(case.wear.limit);
     out["seeds"] = realisations::seeds(case);
-    out["notes"] = json!(study.groups_in_words());
+    out["notes"] = json!([study.groups_in_words(), worn_means::warnings(case, study)].concat());
 }
 
 /// True for a scene without supports.

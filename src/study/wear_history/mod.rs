@@ -16,8 +16,10 @@
 //! 0.5 %, or the place of a centre by more than 0.5 % of the gap, unless that is within the scatter
 //! of the windows.
 //!
-//! Histories end where the first of them is worn through the wall of the tube, as far as it is
-//! known, or with the service. A mean over those that are left would be one of the slower ones.
+//! Histories end together: where the deepest depth over all of them is the wall of the tube, or its
+//! radius where the wall is not known, or with the service. That depth is the largest of the means
+//! of all sectors, or flats, less what taking the largest adds, by the jackknife over the
+//! histories; the deepest sector of a single history is one that is the deepest by chance.
 //!
 //! Of a single history each depth has a half width by those of the work rates of its windows: the
 //! depth if all these rates were larger by theirs, at the same gaps, less the depth found. Under
@@ -28,11 +30,11 @@ mod state;
 mod support;
 mod window;
 
-pub use state::{WearHistories, WearPoint, WearState, WornThrough, mean};
+pub use state::{WearHistories, WearPoint, WearQuantity, WearState, WornThrough, mean};
 pub use support::WearingSupport;
 pub use window::WearWindow;
 
-use super::realisations::{Realisation, mean_of, realisations};
+use super::realisations::{Deepest, Realisation, mean_of, realisations};
 use crate::error::{Error, Result};
 use crate::run::Options;
 use crate::scene::Scene;
@@ -120,12 +122,14 @@ impl WearPlan<'_> {
         let (mut time, mut step) = (0.0, self.service);
         loop {
             let rates = self.rates(&work, &mut found, kept, keep)?;
-            let mut point =
-                WearPoint { time_s: time, histories: self.states(&work, &rates.found), largest: Vec::new() };
-            point.largest = self.states(&largest, &rates.largest).concat();
-            found.points.push(point);
-            if time >= self.service || found.worn_through.is_some() {
-                found.depths_at_end_m = work.iter().map(|history| self.depths(history)).collect();
+            let depths_m: Vec<Vec<Vec<f64>>> = work.iter().map(|history| self.depths(history)).collect();
+            let (histories, largest_states) = (self.states(&work, &rates.found), self.states(&largest, &rates.largest));
+            let last = time >= self.service || found.worn_through.is_some();
+            if last {
+                found.depths_at_end_m.clone_from(&depths_m);
+            }
+            found.points.push(WearPoint { time_s: time, histories, largest: largest_states.concat(), depths_m });
+            if last {
                 found.largest_depths_at_end_m = largest.iter().flat_map(|history| self.depths(history)).collect();
                 return Ok(found);
             }
@@ -149,18 +153,19 @@ impl WearPlan<'_> {
         }
     }
 
-    /// The first history that the work has worn through, at that time.
+    /// The first support at which the work has worn through the tube, at that time.
     fn worn_through(&self, time: f64, work: &Works) -> Option<WornThrough> {
-        work.iter().enumerate().find_map(|(index, history)| {
-            let all = || self.supports.iter().zip(history);
-            let (support, _) = all().find(|(support, work)| support.is_worn_through(work))?;
-            let (history, support, wall_m) = (index + 1, support.name.clone(), support.wall?);
-            Some(WornThrough { history, support, wall_m, time_s: time })
+        self.supports.iter().enumerate().find_map(|(index, support)| {
+            let depth_m = support.end()?;
+            let own = work.iter().filter_map(|history| history.get(index));
+            let depth = Deepest::of(&own.map(|work| support.depths(work)).collect::<Vec<_>>()).value;
+            let is_through = depth.is_nan() || depth >= depth_m;
+            let wall_m = support.wall;
+            is_through.then(|| WornThrough { support: support.name.clone(), wall_m, depth_m, time_s: time })
         })
     }
 
-    /// How much of a step (s) with the mean of two rates passes until the first history is worn
-    /// through, s.
+    /// How much of a step (s) with the mean of two rates passes until the tube is worn through, s.
     fn intact(&self, work: &Works, (first, second): (&Works, &Works), step: f64) -> f64 {
         let is_worn_through = |part: f64| self.worn_through(0.0, &advanced(work, first, second, part)).is_some();
         if !is_worn_through(step) {

@@ -15,7 +15,8 @@ pub struct WearingSupport {
     pub growth: Growth,
     /// The law of wear, with the coefficients of tube and support and a scar.
     pub law: Archard,
-    /// Thickness of the tube's wall, m; `None` where it is not known, or is no tube.
+    /// Thickness of the tube's wall, m; `None` where it is not known, or is no tube: then it counts
+    /// as worn through at its radius.
     pub wall: Option<f64>,
 }
 
@@ -25,6 +26,11 @@ impl WearingSupport {
         let coefficient = self.law.coefficient.or(self.law.support_coefficient);
         let sound = |gap: &f64| gap.is_finite() && *gap >= 0.0;
         coefficient.is_some() && self.law.scar.is_some() && !self.gaps.is_empty() && self.gaps.iter().all(sound)
+    }
+
+    /// The depth at which the tube is worn through, m.
+    pub(super) fn end(&self) -> Option<f64> {
+        self.wall.or(self.law.scar.map(|scar| scar.radius))
     }
 
     /// What the work `work` (J) has made of it.
@@ -51,12 +57,6 @@ impl WearingSupport {
     /// The gap of each wall after the work `work` (J), m.
     pub(super) fn gaps_after(&self, work: &WearWork) -> Vec<f64> {
         self.gaps.iter().zip(self.opening(work).recession).map(|(gap, receded)| gap + receded).collect()
-    }
-
-    /// True if the work `work` (J) has worn through the wall of the tube.
-    pub(super) fn is_worn_through(&self, work: &WearWork) -> bool {
-        let depth = self.law.deepest(self.growth, work);
-        self.wall.is_some_and(|wall| depth.is_nan() || depth >= wall)
     }
 
     /// The depth worn off the tube by the work `work` (J) in each sector, or at each flat, m.

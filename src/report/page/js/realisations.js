@@ -98,6 +98,9 @@ function realisationsSection() {
       ? "Each history at its end, a dot each, in their order from the top of a strip down; "
       : "Each realisation, a dot each, in their order from the top of a strip down; ") +
       "the line is their mean, the band its 95 % interval, by Student's t." +
+      (DATA.wear
+        ? " Of the deepest wear each dot is the deepest sector of one history, which is an upper figure, and the line the deepest of their means."
+        : "") +
       (places.length > MOST_STRIPS ? ` Of ${places.length} places the first ${MOST_STRIPS}.` : ""),
     (notes || []).length ? el("ul", { class: "notes" }, notes.map((note) => el("li", {}, note))) : null,
     el("div", { class: "bar controls" }, choose),

@@ -47,9 +47,39 @@ function partsByPlace({ columns, rows }, [, column, unit, , factor]) {
   return places;
 }
 
+/** The deepest wear at a support and its half width, m, as the table of the page has it; null where it
+ *  has none. */
+function deepestAt(place) {
+  const { wear, summary } = DATA;
+  if (!wear) {
+    const all = summary?.realisations?.worn || [];
+    const own = all.find((one) => one.place === place && one.measure === "depth_deepest");
+    return own ? [own.mean, own.half_width_95] : null;
+  }
+  const { columns, rows } = tableOf(wear.years);
+  const last = rows.filter((i) => columns.place[i] === place).pop();
+  const of = (column) => (columns[column] || [])[last];
+  return Number.isFinite(of("depth_deepest_m")) ? [of("depth_deepest_m"), of("depth_deepest_half_width_95_m")] : null;
+}
+
+/** What is told above the wedges: the part of the largest mean, and of depths first the deepest. */
+function toldOfWedges(name, highest, [, column, , unit, factor]) {
+  if (!(highest.value > 0)) return "none";
+  const mean = `largest mean: ${plusMinus(highest.value, highest.half)} ${unit}, ${highest.text}`;
+  const deepest = column === "depth" ? deepestAt(name) : null;
+  if (!deepest) return mean;
+  const [value, half] = deepest.map((x) => factor * (x ?? NaN));
+  const less = highest.value - value > 1e-9 * highest.value;
+  return (
+    `deepest: ${plusMinus(value, half || null)} ${unit}; ${mean}` +
+    (less ? `, of which ${digits(highest.value - value)} ${unit} are taken off: the largest of several means is too large` : "")
+  );
+}
+
 /** One support: wedges from its centre, with their intervals, and the limit as a circle where it is
  *  near `most`, the farthest end of any support's. */
-function wedgePlot(name, parts, [label, , , unit], most, limit) {
+function wedgePlot(name, parts, measure, most, limit) {
+  const [label, , , unit] = measure;
   const shown = limit && limit < LIMIT_NEAR * most ? limit : null;
   const reach = Math.max(most, shown || 0) || 1;
   const draw = (ctx, plot) => {
@@ -92,10 +122,7 @@ function wedgePlot(name, parts, [label, , , unit], most, limit) {
   };
   tellPart(plot, parts, unit);
   const highest = parts.reduce((best, part) => (part.value > best.value ? part : best), parts[0]);
-  const told =
-    highest.value > 0
-      ? `largest mean: ${plusMinus(highest.value, highest.half)} ${unit}, ${highest.text}`
-      : "none";
+  const told = toldOfWedges(name, highest, measure);
   const far = limit && !shown && highest.value > 0 ? `; the limit of ${digits(limit)} ${unit} lies outside` : "";
   return el("div", {}, el("p", { class: "lead" }, told + far), plot.box);
 }
