@@ -181,8 +181,7 @@ impl Judge {
             System::Structure(s) if loads.has_blows() => s.mass_factor().ok(),
             _ => None,
         };
-        let fit = |x: &[f64]| x.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect::<Vec<f64>>();
-        let (q, v) = (fit(q), fit(v));
+        let [q, v] = [q, v].map(|x| x.iter().copied().chain(std::iter::repeat(0.0)).take(n).collect::<Vec<f64>>());
         let walls = WallCheck::new(scene, &q, &v);
         let grid_load = scene.is_line().then(|| GridForcing::new(Forcing::on(0, &scene.loads), h));
         let (row_walls, weights, blows) = (RowWalls::all(scene), Weights::new(scene), loads.has_blows());

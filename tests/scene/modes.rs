@@ -631,8 +631,9 @@ fn modes_of_one_frequency_are_turned_until_damping_uncouples_them() {
 fn one_mode_has_the_displacement_of_the_place_of_its_walls() {
     let file = |wall: &str| {
         let text = format!(
-            "[system.modal]\nfrequencies = [2.0]\nshapes = {{ p = [2.0] }}\n{wall}\n[[load]]\nat = {{ point = \"p\" }}\n\
-             harmonic = {{ amplitude = 3.0, frequency = 5.0 }}\n[time]\nend = 2.0\nstep = 1e-3\n"
+            "[system.modal]\nfrequencies = [2.0]\nshapes = {{ p = [2.0] }}\n{wall}\n\
+             [[load]]\nat = {{ point = \"p\" }}\nharmonic = {{ amplitude = 3.0, frequency = 5.0 }}\n\
+             [time]\nend = 2.0\nstep = 1e-3\n"
         );
         signorini::case::Case::parse(&text, "modes.toml", ".").unwrap().scene
     };

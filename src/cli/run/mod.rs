@@ -75,20 +75,14 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     }
     let mut answer = Answer::of(results, !args.request.place.no_report, document);
     answer.messages([first].into_iter().chain(undrawn));
-    let count = study.as_ref().map_or(1, |study| study.realisations.count);
-    if count > 1 {
-        answer.prose(format!("realisation 1 of {count}:"));
-    }
+    let several = study.as_ref().map(|study| study.realisations.count).filter(|count| *count > 1);
+    several.iter().for_each(|count| answer.prose(format!("realisation 1 of {count}:")));
     show(&mut answer, &case, &run, &method)?;
     if let Some((wanted, found)) = &derivatives {
         wanted.show(&mut answer, &case, found);
     }
-    if let Some(study) = &study {
-        if count > 1 {
-            answer.prose(format!("means over {count} realisations:"));
-        }
-        seeds::show(study, &mut answer, &case);
-    }
+    several.iter().for_each(|count| answer.prose(format!("means over {count} realisations:")));
+    study.iter().for_each(|study| seeds::show(study, &mut answer, &case));
     let [refinement, truncation] =
         [checked_line("refinement", refinement.as_ref()), checked_line("truncation", truncation.as_ref())];
     let [modes, accuracy] = [checked_line("modes", modes.as_ref()), checked_line("accuracy", accuracy.as_ref())];

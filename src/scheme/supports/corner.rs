@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn a_rebound_along_another_flat_is_one_to_which_friction_adds_energy() {
-        // Along the flat at 120° into that at 0°, and back with half the speed: friction of 0.5 that
+        // Along the flat at 120° into that at 0°, and back at half the speed: friction of 0.5 that
         // opposes the way back asks for pushes of 10.03 and 9.36, and works for the motion.
         let (p, q) = (10.030_769_230_769, 9.358_974_358_974);
         let touches = [touch(0, 0.0, 0.5, [p, 0.5 * p]), touch(1, 120.0, 0.5, [q, -0.5 * q])];
