@@ -5,6 +5,7 @@ use super::places::Chosen;
 use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
+use crate::run::Cautioned;
 use crate::scene::Scene;
 use crate::statistics::ContactPlace;
 use crate::study::realisations::{Estimate, Interval, Measure, Realisations};
@@ -153,6 +154,9 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
     }
     remarks.extend(without_friction(scene));
     remarks.extend(study.groups_in_words());
+    let mut cautioned = Cautioned::default();
+    study.members.iter().for_each(|member| cautioned.add(member.number, member.caution.clone()));
+    remarks.extend(cautioned.sentence());
     remarks
 }
 

@@ -33,6 +33,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
         ));
     }
     remarks.extend(worn_through(found));
+    remarks.extend(found.cautioned.sentence());
     remarks.extend(unworn(found));
     remarks.extend(realisations::without_friction(&case.scene).map(|words| format!("{words}, and depths with them")));
     let histories = found.points.first().map_or(0, |point| point.histories.len());
@@ -217,6 +218,7 @@ const ONE_SIDED: f64 = 3.0;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Cautioned;
     use crate::study::wear_history::{WearPoint, WearState};
 
     /// Histories whose depths grow by `rates` (m a year), at 0, 10 and 20 years.
@@ -245,6 +247,7 @@ mod tests {
             worn_through: None,
             windows: 6,
             refuted: Vec::new(),
+            cautioned: Cautioned::default(),
         }
     }
 

@@ -5,8 +5,10 @@
 //! One run: the loop stepper → judge (`judging.rs`) and recorder (`recording.rs`), side by side
 //! (`observers.rs`), each of which `options.rs` can switch off; `finished.rs` is what a run leaves;
 //! `divergence.rs` states when a run has diverged, which ends it; `notes.rs` and `notes/` add
-//! the notes that a reader must know.
+//! the notes that a reader must know, and `cautioned.rs` counts the runs of several with notes
+//! that limit their use.
 
+mod cautioned;
 mod divergence;
 mod finished;
 mod judging;
@@ -15,6 +17,7 @@ mod observers;
 mod options;
 mod recording;
 
+pub use cautioned::Cautioned;
 pub(crate) use divergence::Divergence;
 pub use finished::Run;
 pub use judging::{Judged, Judging, Unjudged};

@@ -99,7 +99,7 @@ pub use axis::Axis;
 pub(crate) use effects::Effect;
 pub use estimate::Estimate;
 pub use finish::Tables;
-pub use finished::{Cautioned, Finished};
+pub use finished::Finished;
 pub(crate) use folder::write_summary;
 pub use follow::Follow;
 pub(crate) use means::means;

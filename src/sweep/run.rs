@@ -3,7 +3,7 @@
 
 use super::block::{Block, JOURNAL};
 use super::finish::write_tables;
-use super::finished::{Cautioned, Finished};
+use super::finished::Finished;
 use super::folder::{self, State, Study};
 use super::found::RowsFound;
 use super::plan::Plan;
@@ -18,6 +18,7 @@ use crate::output::format::Formats;
 use crate::output::journal::Journal;
 use crate::output::results::Results;
 use crate::parallel::cores;
+use crate::run::Cautioned;
 use crate::study::realisations::PILOTS;
 use std::path::Path;
 use std::time::{Duration, Instant};

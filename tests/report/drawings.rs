@@ -155,8 +155,8 @@ step = 5e-5
 sample = 5e-4
 "#;
 
-/// All supports are named, each with one colour on the whole page and in the figures, and the tube
-/// stays within the view along its axis.
+/// All supports are named, each with one colour on the whole page and in the figures, in the order
+/// of the case, and the tube stays within the view along its axis.
 #[test]
 fn every_support_is_shown_in_its_colour_and_the_tube_within_its_frame() {
     let Some(mut browser) = Browser::start() else { return };
@@ -164,7 +164,7 @@ fn every_support_is_shown_in_its_colour_and_the_tube_within_its_frame() {
     fs::write(dir.path().join("four.toml"), FOUR).unwrap();
     let page = results(dir.path(), &["run", "four.toml", "--no-verdict"]);
     let mut tab = opened(&mut browser, &page);
-    let names = ["antivibration-bars", "baffle-1", "baffle-2", "top-plate"];
+    let names = ["baffle-1", "baffle-2", "antivibration-bars", "top-plate"];
     let colours = ["#0072b2", "#d55e00", "#56b4e9", "#e69f00"];
     let expected: BTreeMap<String, String> = names.map(str::to_owned).into_iter().zip(colours.map(rgb)).collect();
     for place in [".stage", "#motion", "#contacts"] {

@@ -664,3 +664,24 @@ fn a_wall_without_a_radius_or_thicker_than_it_and_a_limit_without_a_wall_are_ref
         assert!(err.contains(words), "{words}: {err}");
     }
 }
+
+/// At steps of 20 ms the normal of the hole turns by radians in a step, so that forces are wrong.
+#[test]
+fn notes_that_limit_the_use_of_the_windows_are_told_with_their_number() {
+    let dir = tempfile::tempdir().unwrap();
+    let case = "[system]\nplanes = 2\n[system.oscillator]\nmass = 1.0\ndamping = 2.0\nstiffness = 1000.0\n\
+                [[support]]\nname = \"hole\"\nshape = \"round\"\ngap = 0.2e-3\nrestitution = 0.5\nfriction = 0.2\n\
+                width = 25e-3\nradius = 9.5e-3\n[[load]]\ndirection = \"both\"\n\
+                random = { rms = 3.0, from = 1.0, to = 40.0, seed = 1 }\n[wear]\ncoefficient = 1e-13\nservice = 3e8\n\
+                [time]\nend = 4.0\nstep = 2e-2\nstatistics_from = 1.0\n";
+    fs::write(dir.path().join("coarse.toml"), case).unwrap();
+    let wear = ["wear", "coarse.toml", "--years", "0.5", "--histories", "2", "--no-report"];
+    let seeds = ["run", "coarse.toml", "--seeds", "3", "--no-verdict", "--no-report"];
+    for (args, runs) in [(&wear[..], "runs have notes that limit the use"), (&seeds[..], "3 of 3 runs have notes")] {
+        let (_, err) = said(dir.path(), args, 0);
+        assert!(err.contains(runs) && err.contains("the step is too large for the speed along the hole"), "{err}");
+    }
+    let fine = ["--set", "time.step=1e-4", "--force"];
+    let (_, err) = said(dir.path(), &[&wear[..], &fine].concat(), 0);
+    assert!(!err.contains("runs have notes"), "{err}");
+}

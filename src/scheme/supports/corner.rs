@@ -67,7 +67,9 @@ fn least(touches: &[FrictionContact], here: &[usize], whole: [f64; 2]) -> Option
     let (mut best, mut found) = (f64::INFINITY, None);
     for &at in here {
         let touch = &touches[at];
-        let [p, f] = [-dot(touch.normal, whole), dot(touch.tangent, whole)];
+        // Without friction a contact has no tangent, and `whole` must be along its normal.
+        let across = [-touch.normal[1], touch.normal[0]];
+        let [p, f] = [-dot(touch.normal, whole), dot(across, whole)];
         if p < best * (1.0 - SAME) && f.abs() <= touch.friction * p {
             (best, found) = (p, Some(vec![(at, [p, f])]));
         }
@@ -100,7 +102,7 @@ mod tests {
             index,
             rows: [0, 1],
             normal,
-            tangent: [-normal[1], normal[0]],
+            tangent: if friction > 0.0 { [-normal[1], normal[0]] } else { [0.0; 2] },
             bound: 0.0,
             friction,
             compliance: 0.0,
@@ -144,6 +146,15 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn without_friction_two_contacts_have_the_impulses_of_their_normals() {
+        let both = [touch(0, 0.0, 0.0, [1.0, 0.0]), touch(1, 120.0, 0.0, [2.0, 0.0])];
+        let mut touches = both;
+        relieve(&mut touches, &[0.0; 2]);
+        let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs() < 1e-15 && a[1] == b[1];
+        assert!(touches.iter().zip(both).all(|(found, given)| near(found.impulse, given.impulse)), "{touches:?}");
     }
 
     #[test]

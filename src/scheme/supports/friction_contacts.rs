@@ -193,7 +193,7 @@ impl FrictionContacts {
         let own = 0.5 * work(y);
         // What friction may add in a corner: no more than the impact takes in all.
         let most = |rates: &[f64]| (GAIN * own).max(-(work(rates) + own));
-        if [&*before, free].iter().all(|rates| corner::gains(touches, (rates, y), most(rates))) {
+        if touches.len() > 1 && [&*before, free].iter().all(|rates| corner::gains(touches, (rates, y), most(rates))) {
             return true;
         }
         y.copy_from_slice(free);

@@ -17,6 +17,8 @@ pub struct Realisation {
     pub wear: Vec<WearStatistics>,
     /// What the judge refutes in its run.
     pub findings: Vec<Finding>,
+    /// The first note that limits the use of its results.
+    pub caution: Option<String>,
     /// Share of its steps in which opposite walls pushed in turn, so that the body stood still
     /// between them.
     pub frozen_share: f64,
@@ -31,6 +33,7 @@ impl Realisation {
             figures: measure::figures(&run.statistics),
             wear: run.statistics.wear.clone(),
             findings: run.findings.clone(),
+            caution: run.cautions.first().cloned(),
             frozen_share: run.counters.frozen_steps as f64 / run.counters.steps.max(1) as f64,
         }
     }

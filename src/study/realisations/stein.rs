@@ -101,6 +101,7 @@ mod tests {
             ],
             wear: Vec::new(),
             findings: Vec::new(),
+            caution: None,
             frozen_share: 0.0,
         };
         values.iter().enumerate().map(member).collect()

@@ -36,7 +36,7 @@ pub use window::WearWindow;
 
 use super::realisations::{Deepest, Realisation, mean_of, realisations};
 use crate::error::{Error, Result};
-use crate::run::Options;
+use crate::run::{Cautioned, Options};
 use crate::scene::Scene;
 use crate::scheme::Method;
 use crate::wear::{Opening, WearWork};
@@ -115,6 +115,7 @@ impl WearPlan<'_> {
             largest_depths_at_end_m: Vec::new(),
             windows: 0,
             refuted: Vec::new(),
+            cautioned: Cautioned::default(),
         };
         let none = |support: &WearingSupport| WearWork::none(self.options.time.sectors, support.gaps.len());
         let mut work: Works = vec![self.supports.iter().map(none).collect(); self.histories];
@@ -222,6 +223,7 @@ impl WearPlan<'_> {
         found.windows += self.histories as u64;
         let refuted = windows.iter().filter(|window| !window.findings.is_empty());
         found.refuted.extend(refuted.map(|window| (window.number, window.findings.clone())));
+        windows.iter().for_each(|window| found.cautioned.add(window.number, window.caution.clone()));
         let single = if self.histories == 1 { &windows[..] } else { &[] };
         let largest = single.iter().map(WearWindow::largest_rates).collect();
         Ok(Rates { largest, found: windows.into_iter().map(|window| window.rates).collect() })

@@ -2,6 +2,7 @@
 
 use super::super::realisations::{Deepest, mean_of};
 use crate::residual::Finding;
+use crate::run::Cautioned;
 use serde::Serialize;
 
 /// A support at one time of a history.
@@ -127,6 +128,8 @@ pub struct WearHistories {
     pub windows: u64,
     /// The windows that the judge refuted: number and findings.
     pub refuted: Vec<(u64, Vec<Finding>)>,
+    /// The windows with notes that limit the use of their results.
+    pub cautioned: Cautioned,
 }
 
 /// The mean of a quantity over the histories, and the half width of its 95 % interval: of a single

@@ -23,6 +23,9 @@ pub struct WearWindow {
     pub half_widths_95_w: Vec<Option<f64>>,
     /// What the judge refutes in its run.
     pub findings: Vec<Finding>,
+    /// The first note that limits the use of its results.
+    #[serde(default)]
+    pub caution: Option<String>,
 }
 
 impl WearWindow {
@@ -44,6 +47,7 @@ impl WearWindow {
             rates: supports.iter().map(rate).collect(),
             half_widths_95_w: supports.iter().map(half_width).collect(),
             findings: member.findings.clone(),
+            caution: member.caution.clone(),
         }
     }
 
