@@ -103,9 +103,13 @@ def test_years_are_means_over_the_histories(three: sg.WearStudy) -> None:
     for row, (year, place) in enumerate(zip(three.years["year"], three.years["place"], strict=True)):
         own = (three.history["year"] == year) & (three.history["place"] == place)
         assert own.sum() == 3
-        for name in ("gap_m", "depth_deepest_m", "depth_all_round_m", "work_rate_W"):
+        for name in ("gap_m", "depth_all_round_m", "work_rate_W"):
             # A sum of three numbers.
             assert three.years[name][row] == pytest.approx(three.history[name][own].mean(), rel=1e-14)
+        # The deepest sector of the mean is no deeper than the deepest of each in the mean, and no
+        # less deep than all sectors; nothing but rounding where the three agree.
+        deepest, each = three.years["depth_deepest_m"][row], three.history["depth_deepest_m"][own].mean()
+        assert three.years["depth_all_round_m"][row] * (1 - 1e-12) <= deepest <= each * (1 + 1e-12)
     assert len(three.to_pandas()) == len(three.years["year"])
     assert "plate-1" in str(three) and "evenly all round" in str(three)
     assert three.first is None

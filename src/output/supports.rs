@@ -194,7 +194,7 @@ pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
         if case.is_random() {
             remarks.push(
                 "the deepest of one run under random loads is an upper figure: a sector, or flat, counts that is the \
-                 deepest by chance; --seeds takes off what that adds"
+                 deepest by chance; --seeds has the largest of the means of all sectors"
                     .to_owned(),
             );
         }

@@ -41,7 +41,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
         remarks.push(format!(
             "± is the half width of the 95 % interval of the mean over {histories} histories, by Student's t; each \
              window of a history has draws of its own. The deepest depth is the largest of the means of all \
-             sectors, or flats, less what taking the largest adds, by the jackknife over the histories; that of \
+             sectors, or flats, with what taking the largest adds in its half width, by the jackknife; that of \
              one history alone is an upper figure"
         ));
     }

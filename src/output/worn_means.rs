@@ -89,8 +89,8 @@ pub fn warnings(case: &Case, study: &Realisations) -> Vec<String> {
 /// What the table tells, a sentence each.
 #[must_use]
 pub fn remarks(case: &Case, study: &Realisations) -> Vec<String> {
-    let deepest = "deepest is the largest of the means of all sectors, or flats, less what taking the largest adds, by \
-                   the jackknife over the realisations";
+    let deepest = "deepest is the largest of the means of all sectors, or flats, with what taking the largest adds \
+                   in its half width, by the jackknife over the realisations";
     let one = "deepest of one realisation is an upper figure: a sector, or flat, counts that is the deepest by chance";
     let has_depth = means(case, study).iter().any(|(_, [_, deepest, ..])| deepest.is_some());
     let deepest = has_depth.then(|| if study.count > 1 { deepest } else { one }.to_owned());

@@ -170,11 +170,11 @@ mod tests {
         let row =
             |runs: &[[&str; 7]]| fold.row(&runs.iter().map(|run| StringRecord::from(run.to_vec())).collect::<Vec<_>>());
         // The mean of 4 and 2 is 3; those of the parts are 2 and 1, and the jackknife's
-        // pseudo-values 4 − 2 and 4 − 4: 1, with the bias 1 beside t₁ times the mean's deviation 2.
+        // pseudo-values 4 − 2 and 4 − 4: the bias is 1, beside t₁ times the mean's deviation 2.
         let [first, second] = [["0", "1", "ok", "", "4", "1", "4.0 0.0"], ["0", "2", "ok", "", "2", "1", "0.0 2.0"]];
         let found = row(&[first, second]);
-        assert_eq!((found[4].as_str(), found.len()), ("1.0", 8));
-        assert!((found[5].parse::<f64>().unwrap() - (2.0 * 12.706_204_736_2_f64).hypot(1.0)).abs() < 1e-9, "{found:?}");
+        assert_eq!((found[4].as_str(), found.len()), ("2.0", 8));
+        assert!((found[5].parse::<f64>().unwrap() - (2.0 * 12.706_204_736_2 + 1.0)).abs() < 1e-9, "{found:?}");
         assert_eq!(found[6..], ["1.0", "0.0"].map(str::to_owned));
         // A run without the depth leaves no mean, and names its measure alone.
         let lacking = row(&[first, ["0", "2", "ok", "", "", "1", ""]]);

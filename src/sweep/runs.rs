@@ -9,11 +9,11 @@ use crate::study::realisations::{Deepest, mean_of};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The values of the measures of the runs that did not fail, by row and realisation; of a deepest
-/// depth those of the part that is the deepest in the mean of the row, less the bias of taking the
-/// largest, so that their mean is that of `sweep.csv`.
+/// depth those of the part that is the deepest in the mean of the row, so that their mean is that
+/// of `sweep.csv`.
 pub(super) struct Runs {
     values: BTreeMap<(u64, u64), Vec<Option<f64>>>,
-    /// That bias, by row and number of the measure.
+    /// The bias of taking the largest, by row and number of the measure.
     biases: BTreeMap<(u64, usize), f64>,
 }
 
@@ -58,13 +58,13 @@ impl Runs {
             for (k, list) in numbers.into_iter().zip(lists) {
                 let value = self.values.get_mut(&(row, k)).and_then(|values| values.get_mut(index));
                 if let (Some(value), Some(own)) = (value, list.get(deepest.part)) {
-                    *value = Some(own - deepest.bias);
+                    *value = Some(*own);
                 }
             }
         }
     }
 
-    /// The bias that is taken off measure number `index` in `row`: 0 of all but the deepest depth.
+    /// The bias of measure number `index` in `row`: 0 of all but the deepest depth.
     pub fn bias(&self, row: u64, index: usize) -> f64 {
         self.biases.get(&(row, index)).copied().unwrap_or(0.0)
     }
@@ -139,7 +139,7 @@ mod tests {
         let request = serde_json::json!({ "vary": [], "columns": ["row", "error", "depth_deepest_a_m"], "seeds": 2 });
         let source = Source::new(folder.path(), request.as_object().unwrap(), "");
         let runs = Runs::read(&source, &["depth_deepest_a_m".to_owned()]).unwrap();
-        assert_eq!((runs.bias(0, 0), runs.mean(0, 0)), (1.0, Some(1.0)));
-        assert_eq!(runs.of(0, 0).into_values().collect::<Vec<_>>(), [3.0, -1.0]);
+        assert_eq!((runs.bias(0, 0), runs.mean(0, 0)), (1.0, Some(2.0)));
+        assert_eq!(runs.of(0, 0).into_values().collect::<Vec<_>>(), [4.0, 0.0]);
     }
 }

@@ -30,7 +30,7 @@ class Realisations:
     ``work_rate`` and ``friction_power`` (W), and by the law of wear of the case, within its service,
     ``worn_volume`` (m³), ``depth_deepest``, ``depth_one_scar`` and ``depth_all_round`` (m), as far
     as a place has them. ``depth_deepest`` is the largest of the means of all sectors, or flats,
-    less what taking the largest adds, by the jackknife. ``table`` has the columns
+    with what taking the largest adds in its half width. ``table`` has the columns
     of ``realisations.csv``: a row for each realisation and place. ``accuracy`` is what was reached
     where an accuracy was asked for, as in the summary of the tool: ``step_s``, ``reached``,
     ``quantity``, ``levels``. ``print`` shows the tables of the tool.

@@ -5,7 +5,8 @@
 //! realisation's largest part is no estimate of it: a part that is the largest by chance counts, so
 //! that it exceeds what is wanted by the scatter of one realisation, however many there are. The
 //! largest of the means, M/n with M the largest of the sums, exceeds it by their scatter, which
-//! falls with √n. What is left of that the jackknife takes off (Quenouille 1956,
+//! falls with √n. It is the estimate: like the depths it never falls with time, and it errs to the
+//! safe side. What is left of that excess the jackknife tells (Quenouille 1956,
 //! doi:10.1093/biomet/43.3-4.353; Miller 1974, doi:10.1093/biomet/61.1.1): the realisations fall
 //! into G groups of m_g, six or as many as there are, with M_g the largest of the sums without
 //! group g, and
@@ -14,11 +15,13 @@
 //! s² = Σ (τ_g − θ)²/(n/m_g − 1)/G
 //!
 //! are the pseudo-values (for groups that differ in size by one as of Busing, Meijer and van der
-//! Leeden 1999, doi:10.1023/A:1008800423698), the estimate, the bias taken off, and the variance of
-//! the estimate. If the same part is the largest without any group, b = 0 and θ is its mean.
+//! Leeden 1999, doi:10.1023/A:1008800423698), the estimate less its bias, the bias, and the
+//! variance of θ. If the same part is the largest without any group, b = 0 and θ is its mean. From
+//! few realisations b is too rough to be taken off: of three histories θ was below the depth all
+//! round, and fell with time.
 //!
 //! Where all parts are alike, b is about half of the bias, and s is small, since parts take turns.
-//! So the half width is √(w² + b²), with w the larger of t s, of G − 1 degrees of freedom, and the
+//! So the half width is w + b, with w the larger of t s, of G − 1 degrees of freedom, and the
 //! half width of the mean of the largest part itself. Groups of several realisations leave out
 //! enough for another part to become the largest, which leaving out one of 24 hardly does. Of 12
 //! parts that are all alike, which is the worst case, the intervals of 2 to 60 realisations hold
@@ -41,7 +44,7 @@ pub(crate) struct Deepest {
     pub half_width_95: Option<f64>,
     /// The part of the largest mean.
     pub part: usize,
-    /// By how much the largest mean is larger than the estimate.
+    /// By how much the largest mean exceeds the expectation, as the jackknife has it.
     pub bias: f64,
 }
 
@@ -76,8 +79,8 @@ impl Deepest {
         let bias = if alone { 0.0 } else { (mean - estimate).max(0.0) };
         // Equal realisations scatter by nothing, whatever their sums round to.
         let by_groups = if alone && of_part == 0.0 { 0.0 } else { by_groups };
-        let half_width_95 = Some(of_part.max(by_groups).hypot(bias));
-        Self { value: mean - bias, deviation, half_width_95, part, bias }
+        let half_width_95 = Some(of_part.max(by_groups) + bias);
+        Self { value: mean, deviation, half_width_95, part, bias }
     }
 }
 
@@ -152,13 +155,13 @@ mod tests {
 
     /// Of 200 studies 95 % are 190, with the standard deviation 3.1; three of them below are 181,
     /// and one more for parts all alike and for values with a long tail, of which Student's own
-    /// intervals hold 93 %. More than 190 is no fault: a half width has the bias taken off in it.
+    /// intervals hold 93 %. More than 190 is no fault: a half width has the bias in it.
     #[test]
     fn intervals_of_the_deepest_hold_the_largest_expectation() {
         for realisations in [3, 6, 13, 24] {
             for expectations in cases() {
                 let (held, mean) = held(&expectations, (200, realisations), by_jackknife);
-                let few = if realisations < 6 { 1.35 } else { 1.22 };
+                let few = if realisations < 6 { 1.6 } else { 1.4 };
                 assert!(held >= 178, "{held} of 200 for {realisations} of {expectations:?}");
                 assert!((0.95..few).contains(&mean), "{mean} for {realisations} of {expectations:?}");
             }
@@ -178,8 +181,8 @@ mod tests {
         // M = 2, without the first 1, without the second 2: τ = 1, 0 and θ = 0.5, b = 0.5, s = 0.5;
         // the mean of 2 and 0 has the half width t √2/√2, t₁ = 12.7062047362.
         let found = Deepest::of(&[vec![2.0, 0.0], vec![0.0, 1.0]]);
-        assert_eq!((found.value, found.bias, found.part), (0.5, 0.5, 0));
-        assert!((found.half_width_95.unwrap() - 12.706_204_736_2_f64.hypot(0.5)).abs() < 1e-9);
+        assert_eq!((found.value, found.bias, found.part), (1.0, 0.5, 0));
+        assert!((found.half_width_95.unwrap() - 12.706_204_736_2 - 0.5).abs() < 1e-9);
         // Seven realisations, the first group of two: M = 10 by 3, 1, 1, 1, 1, 1, 2 and 7 ones
         // beside them, without which the same part is the largest.
         let values = [3.0, 1.0, 1.0, 1.0, 1.0, 1.0, 2.0].map(|x| vec![1.0, x]);

@@ -18,8 +18,8 @@
 //!
 //! Histories end together: where the deepest depth over all of them is the wall of the tube, or its
 //! radius where the wall is not known, or with the service. That depth is the largest of the means
-//! of all sectors, or flats, less what taking the largest adds, by the jackknife over the
-//! histories; the deepest sector of a single history is one that is the deepest by chance.
+//! of all sectors, or flats; the deepest sector of a single history is one that is the deepest by
+//! chance.
 //!
 //! Of a single history each depth has a half width by those of the work rates of its windows: the
 //! depth if all these rates were larger by theirs, at the same gaps, less the depth found. Under

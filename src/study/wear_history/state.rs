@@ -20,7 +20,7 @@ pub struct WearState {
     /// The depth worn off the tube where it is deepest, m: in a sector of a round support, or at
     /// one of the flats, and no deeper than `depth_one_scar_m`; NaN where that would cut the tube
     /// in two. Of one history under random loads it is an upper figure: the part that is the
-    /// deepest by chance counts. [`mean`] has no such bias.
+    /// deepest by chance counts. [`mean`] has less of that.
     pub depth_deepest_m: f64,
     /// The depth worn off the tube, evenly all round, m.
     pub depth_all_round_m: f64,
@@ -134,8 +134,8 @@ pub struct WearHistories {
 
 /// The mean of a quantity over the histories, and the half width of its 95 % interval: of a single
 /// history by the half widths of the work rates of its windows, as if these erred all alike. Of the
-/// deepest depth it is the largest of the means of all parts, less the bias of taking the largest,
-/// by the jackknife over the histories.
+/// deepest depth it is the largest of the means of all parts; its half width holds the bias of
+/// taking the largest, by the jackknife over the histories.
 #[must_use]
 pub fn mean(point: &WearPoint, support: usize, quantity: WearQuantity) -> (f64, Option<f64>) {
     let largest = point.largest(support).map(|state| quantity.of(state));

@@ -11,7 +11,7 @@ const SUPPORT_WORDS = [
 
 /** Of depths. */
 const DEPTH_WORDS = [
-  ["deepest wear", "the depth of the deepest sector, or flat; over several realisations or histories the largest of the means of all sectors, less what taking the largest adds, by the jackknife; of one run or history alone, under random loads, an upper figure"],
+  ["deepest wear", "the depth of the deepest sector, or flat; over several realisations or histories the largest of the means of all sectors, with what taking the largest adds in its half width, by the jackknife; of one run or history alone, under random loads, an upper figure"],
   ["wear all round", "the same volume taken off evenly all round: the mean depth"],
   ["one scar", "the depth if all of the volume comes off one scar, in the first gap"],
 ];

@@ -69,11 +69,7 @@ function toldOfWedges(name, highest, [, column, , unit, factor]) {
   const deepest = column === "depth" ? deepestAt(name) : null;
   if (!deepest) return mean;
   const [value, half] = deepest.map((x) => factor * (x ?? NaN));
-  const less = highest.value - value > 1e-9 * highest.value;
-  return (
-    `deepest: ${plusMinus(value, half || null)} ${unit}; ${mean}` +
-    (less ? `, of which ${digits(highest.value - value)} ${unit} are taken off: the largest of several means is too large` : "")
-  );
+  return `deepest: ${plusMinus(value, half || null)} ${unit}; ${mean}`;
 }
 
 /** One support: wedges from its centre, with their intervals, and the limit as a circle where it is
