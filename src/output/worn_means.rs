@@ -75,15 +75,18 @@ pub fn table(case: &Case, study: &Realisations) -> Option<Table> {
 /// radius of the tube: those of one realisation are its run's own.
 #[must_use]
 pub fn warnings(case: &Case, study: &Realisations) -> Vec<String> {
+    if study.count < 2 {
+        return Vec::new();
+    }
+    let all = means(case, study);
     let of = |(index, support): (usize, &Support)| {
-        let (_, [volume, _, scar, round]) = means(case, study).into_iter().find(|(name, _)| *name == support.name)?;
+        let (_, [volume, _, scar, round]) = *all.iter().find(|(name, _)| *name == support.name)?;
         let [volume_m3, depth_one_scar_m, depth_all_round_m] =
             [volume, scar, round].map(|mean| mean.map(|(mean, ..)| mean));
         let worn = Worn { volume_m3, depth_one_scar_m, depth_all_round_m, support_volume_m3: None };
         through::warning(case, index, &worn).map(|words| format!("in the mean over the realisations {words}"))
     };
-    let several = case.scene.supports.iter().enumerate().filter(|_| study.count > 1);
-    several.filter_map(of).collect()
+    case.scene.supports.iter().enumerate().filter_map(of).collect()
 }
 
 /// What the table tells, a sentence each.

@@ -68,7 +68,7 @@ impl Picture {
                     match curves.iter().position(|known| known.label == label) {
                         Some(known) => curves[known].points.push(point),
                         None if curves.len() < most => {
-                            let direction = direction.clone();
+                            let (direction, place) = (direction.clone(), source.place(name, measure));
                             curves.push(MeasureCurve { label, direction, place, points: vec![point] });
                         }
                         None => {
@@ -133,15 +133,14 @@ fn figure(
 fn coloured(curves: Vec<MeasureCurve>, source: &Source<'_>) -> Vec<(MeasureCurve, Option<(usize, usize)>)> {
     let both = ["up", "down"].iter().all(|way| curves.iter().any(|curve| curve.direction == *way));
     let [walls, supports] = [&source.walls, &source.supports].map(|names| names.iter().map(String::as_str));
-    let names: Vec<(&str, String)> =
-        walls.clone().chain(supports.clone()).map(|name| (name, name.replace('-', "_"))).collect();
     let places = Places::new(walls, supports);
     let mut seen: Vec<usize> = Vec::new();
     let mut colour = |curve: &MeasureCurve| {
         let colour = if both {
             if curve.direction == "down" { DOWN } else { UP }
         } else {
-            places.colour(names.iter().find(|(_, word)| *word == curve.place)?.0)
+            let mut names = source.walls.iter().chain(&source.supports);
+            names.find(|name| **name == curve.place).map(|name| places.colour(name))?
         };
         // Curves of one colour differ in dashes and markers.
         let look = seen.iter().filter(|other| **other == colour).count();

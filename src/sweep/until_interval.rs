@@ -75,7 +75,7 @@ impl UntilInterval {
                 Some(Figure { place, measure, value, batch_half_width_95: None, halves: None })
             };
             let figures = self.judged.iter().filter_map(figure).collect();
-            Realisation { number, figures, wear: Vec::new(), findings: Vec::new(), caution: None, frozen_share: 0.0 }
+            Realisation::of_figures(number, figures)
         };
         good.map(of).collect()
     }

@@ -5,10 +5,10 @@
 //! Sweeps (Jourdan, Alart & Jean 1998, doi:10.1016/S0045-7825(97)00137-0) start without impulses:
 //! contacts that stick and press against each other, as those on both sides of a wedge, may hold
 //! any self-stress, and what they held in the last step, which may have been an impact, is no force
-//! of this one. Where the linear system does not confirm the states, those that it suggests are
-//! tried before the sweeps go on, as in a semismooth Newton method. Where the contacts still do not
-//! settle, as where several press on few degrees of freedom from nearly opposite sides, a pivoting
-//! method answers them.
+//! of this one. (Within one step `located` goes on from the impulses of other normals.) Where the
+//! linear system does not confirm the states, those that it suggests are tried before the sweeps go
+//! on, as in a semismooth Newton method. Where the contacts still do not settle, as where several
+//! press on few degrees of freedom from nearly opposite sides, a pivoting method answers them.
 //!
 //! Without friction the problem is a convex programme, the sweeps descend in its dual and the
 //! answer is its minimiser. With friction it is no minimisation: for large μ answers may be
@@ -164,6 +164,9 @@ impl FrictionContacts {
     /// of pushes that stop it ([`corner`]).
     pub fn relieve(&mut self, places: &ContactRows) {
         let Self { touches, free, y, .. } = self;
+        if touches.len() < 2 {
+            return;
+        }
         renew(places, touches, free, y);
         corner::relieve(touches, y);
     }

@@ -21,11 +21,12 @@
 //! round, and fell with time.
 //!
 //! Where all parts are alike, b is about half of the bias, and s is small, since parts take turns.
-//! So the half width is w + b, with w the larger of t s, of G − 1 degrees of freedom, and the
-//! half width of the mean of the largest part itself. Groups of several realisations leave out
-//! enough for another part to become the largest, which leaving out one of 24 hardly does. Of 12
-//! parts that are all alike, which is the worst case, the intervals of 2 to 60 realisations hold
-//! the truth in 94 to 98 % of studies, those of 200 in 91 %; of parts that differ in 93 to 99 %.
+//! So the half width is w + b, with w the larger of t s, of G − 1 degrees of freedom, and the half
+//! width of the mean of the largest part itself. Groups of several realisations leave out enough
+//! for another part to become the largest, which leaving out one of 24 hardly does. Of 12 parts
+//! that are all alike, which is the worst case, the intervals of 2 to 60 realisations hold the
+//! truth in 94 to 98 % of 2000 studies, those of 200 in 92 %, of 36 such parts in 86 %; of parts
+//! that differ in 93 to 99 %.
 
 use super::estimate::mean_of;
 use crate::statistics::student_95;

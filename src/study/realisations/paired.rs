@@ -56,14 +56,7 @@ mod tests {
         let member = |&(number, value): &(u64, f64)| {
             let place = ContactPlace { name: "stop".to_owned(), kind: PlaceKind::Wall };
             let figure = Figure { place, measure: Measure::MeanForce, value, batch_half_width_95: None, halves: None };
-            Realisation {
-                number,
-                figures: vec![figure],
-                wear: Vec::new(),
-                findings: Vec::new(),
-                caution: None,
-                frozen_share: 0.0,
-            }
+            Realisation::of_figures(number, vec![figure])
         };
         Realisations::new(values.iter().map(member).collect())
     }

@@ -38,6 +38,11 @@ impl Realisation {
         }
     }
 
+    /// One that has nothing but these figures.
+    pub(crate) fn of_figures(number: u64, figures: Vec<Figure>) -> Self {
+        Self { number, figures, wear: Vec::new(), findings: Vec::new(), caution: None, frozen_share: 0.0 }
+    }
+
     /// The value of `measure` at `place`.
     #[must_use]
     pub fn value(&self, place: &ContactPlace, measure: Measure) -> Option<f64> {

@@ -64,14 +64,7 @@ mod tests {
     fn member(number: u64, value: f64, batch: Option<f64>) -> Realisation {
         let place = ContactPlace { name: "stop".to_owned(), kind: PlaceKind::Wall };
         let figure = Figure { place, measure: Measure::MeanForce, value, batch_half_width_95: batch, halves: None };
-        Realisation {
-            number,
-            figures: vec![figure],
-            wear: Vec::new(),
-            findings: Vec::new(),
-            caution: None,
-            frozen_share: 0.0,
-        }
+        Realisation::of_figures(number, vec![figure])
     }
 
     #[test]

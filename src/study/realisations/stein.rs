@@ -93,18 +93,12 @@ mod tests {
             let place = ContactPlace { name: name.to_owned(), kind };
             Figure { place, measure, value, batch_half_width_95: None, halves: None }
         };
-        let member = |(i, &(rate, force)): (usize, &(f64, f64))| Realisation {
-            number: i as u64 + 1,
-            figures: vec![
-                figure("plate", PlaceKind::Support, Measure::WorkRate, rate),
-                figure("stop", PlaceKind::Wall, Measure::MeanForce, force),
-            ],
-            wear: Vec::new(),
-            findings: Vec::new(),
-            caution: None,
-            frozen_share: 0.0,
+        let member = |(number, &(rate, force)): (u64, &(f64, f64))| {
+            let work_rate = figure("plate", PlaceKind::Support, Measure::WorkRate, rate);
+            let mean_force = figure("stop", PlaceKind::Wall, Measure::MeanForce, force);
+            Realisation::of_figures(number, vec![work_rate, mean_force])
         };
-        values.iter().enumerate().map(member).collect()
+        (1..).zip(values).map(member).collect()
     }
 
     #[test]

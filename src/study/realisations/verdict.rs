@@ -64,14 +64,7 @@ mod tests {
         let place = ContactPlace { name: "plate".to_owned(), kind: PlaceKind::Support };
         let (measure, halves) = (Measure::WorkRate, Some(halves));
         let figure = Figure { place, measure, value, batch_half_width_95: None, halves };
-        Realisation {
-            number,
-            figures: vec![figure],
-            wear: Vec::new(),
-            findings: Vec::new(),
-            caution: None,
-            frozen_share: 0.0,
-        }
+        Realisation::of_figures(number, vec![figure])
     }
 
     const STEP: Refined = Refined::HalfStep { step_s: 1e-3, order: 1 };
