@@ -39,6 +39,7 @@ impl Realisation {
     }
 
     /// One that has nothing but these figures.
+    #[cfg(any(test, feature = "cli"))]
     pub(crate) fn of_figures(number: u64, figures: Vec<Figure>) -> Self {
         Self { number, figures, wear: Vec::new(), findings: Vec::new(), caution: None, frozen_share: 0.0 }
     }
