@@ -70,8 +70,8 @@ pub use error::{Cause, Error, Part, Result, Subject};
 pub use interrupt::Interrupt;
 pub use residual::{Finding, Refuted};
 pub use run::{
-    Cautioned, Judged, Judging, Options, Recorded, Recording, Run, Unjudged, Unrecorded, foreseen, run,
-    run_with_progress,
+    Caution, Cautioned, Judged, Judging, NotedRuns, Options, Recorded, Recording, Run, Unjudged, Unrecorded, foreseen,
+    run, run_with_progress,
 };
 pub use scene::{
     Bar, BarEnd, Beam, BeamEnd, BeamSection, Chain, Condensation, Connors, Damping, Face, Flat, Flats, FlowMargin,

@@ -69,8 +69,8 @@ pub fn count(given: Asked, most_time: Option<f64>, case: &sg::case::Case) -> PyR
     Ok(count)
 }
 
-/// The study of `count` realisations of `case`, of which so many are `checked`, with the notes on
-/// its first run; those in `known` are not run again.
+/// The study of `count` realisations of `case`, of which so many are `checked`, with the notes that
+/// limit its use; those in `known` are not run again.
 pub fn study(
     case: &sg::case::Case,
     plan: &Plan,
@@ -86,7 +86,8 @@ pub fn study(
     let plan = RealisationPlan { scenes: case, run: &run, method, time: *time, count, checked };
     let mut make = |batch: &Batch<'_>| known.complete(batch, &mut |missing| made(missing, done));
     let study = plan.follow(&mut make, &mut |_| {})?;
-    Ok((study, run.cautions.into_iter().chain(case.instability()).collect()))
+    let notes = study.realisations.cautioned().sentences().chain(case.instability()).collect();
+    Ok((study, notes))
 }
 
 /// Runs `batch`, and counts its runs.
@@ -95,7 +96,7 @@ fn made(batch: &Batch<'_>, done: &RunsDone) -> sg::Result<Vec<Realisation>> {
 }
 
 /// The study at the step that keeps the error `share` of the means of `case`, from at most `most`
-/// realisations; with what was reached, and the notes on its first run.
+/// realisations; with what was reached, and the notes that limit its use.
 fn accurate(
     case: &sg::case::Case,
     plan: &Plan,

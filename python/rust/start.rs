@@ -64,7 +64,8 @@ impl Run {
         run.notes.extend(of_case.into_iter().flatten());
         let py = scene.py();
         let refuted = run.refuted();
-        let cautions: Vec<String> = if refuted.is_none() { run.cautions.clone() } else { Vec::new() };
+        let limits = run.cautions.iter().chain(&run.unsettled).filter(|_| refuted.is_none());
+        let cautions: Vec<String> = limits.cloned().collect();
         let made = Py::new(py, Self { run, time, scene: scene.clone().unbind(), accuracy })?;
         match refuted {
             None => {

@@ -177,7 +177,7 @@ pub fn _bifurcation<'py>(
     let rows = compute_beside(py, || sweep.plan()?.rows(threads), &mut |_| Ok(()))?;
     let (list, mut notes) = (PyList::empty(py), Vec::new());
     for row in rows {
-        notes.push(row.caution.clone());
+        notes.push(row.caution.note.clone().or_else(|| row.caution.unsettled.clone()));
         let name = |d: &Bound<'_, PyDict>| {
             let first = row.values.first();
             d.set_item("value", first.and_then(sg::case::KeyValue::number))?;

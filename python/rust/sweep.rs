@@ -252,6 +252,6 @@ pub fn _sweep(
         progress.bind(py).call1((done.load(Ordering::Relaxed), runs.load(Ordering::Relaxed))).map(drop)
     };
     let Finished { rows, tables, cautioned, .. } = compute_beside(py, work, &mut watch)?;
-    notes.extend(tables.instabilities().into_iter().chain(cautioned.sentence()));
+    notes.extend(tables.instabilities().into_iter().chain(cautioned.sentences()));
     Ok((notes, rows, tables.bad(), tables.first_error))
 }

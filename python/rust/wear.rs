@@ -106,7 +106,8 @@ fn followed(
 /// The histories as the Python half reads them.
 fn wear_told(case: &sg::case::Case, plan: &Plan, found: &WearHistories, histories: usize) -> Value {
     let notes = sg::foreseen(&case.scene, &plan.method.scheme, plan.time.step);
-    let notes: Vec<String> = notes.into_iter().chain(case.instability()).collect();
+    let limits = found.cautioned.sentences().chain(case.instability());
+    let notes: Vec<String> = notes.into_iter().chain(limits).collect();
     let remarks = [wear_remarks::remarks(case, found), case.notes()].concat();
     let refuted = found.refuted.iter();
     let refuted = refuted.filter_map(|(number, findings)| Some(format!("window {number}: {}", findings.first()?)));

@@ -175,7 +175,7 @@ impl Builder<'_> {
         let modes = if file.required_section("system").get("modes").is_some() { modes } else { all };
         let reduction = whole.cut(modes).map_err(|error| self.locate(error, &case.scene))?;
         case.scene = reduction.scene.clone();
-        case.fluid_elastic = self.flow(file, &whole, &reduction.modes)?;
+        case.fluid_elastic = self.flow(file, (&whole, &reduction.modes), &case.written.lines)?;
         case.truncated = Some(Truncated { whole, reduction });
         Ok(())
     }

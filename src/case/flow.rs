@@ -4,14 +4,21 @@ use super::Case;
 use super::builder::Builder;
 use super::model::{Body, Model, Place};
 use super::value::Section;
+use super::written::Line;
 use crate::error::{Error, Result};
 use crate::scene::{Connors, Damping, FlowMargin, FlowTube, FluidElastic, Modes, Row, System, Turbulence};
 use crate::study::truncation::Unreduced;
+use toml::Spanned;
 
 impl Builder<'_> {
     /// The margins that the table `flow` of `file` asks for, of the tubes of `whole` with the modes
-    /// `own`; `None` without that table.
-    pub fn flow(&mut self, file: &Section<'_>, whole: &Unreduced, own: &Modes) -> Result<Option<FluidElastic>> {
+    /// `own`, those of modal data along `lines`; `None` without that table.
+    pub fn flow(
+        &mut self,
+        file: &Section<'_>,
+        (whole, own): (&Unreduced, &Modes),
+        lines: &[Line],
+    ) -> Result<Option<FluidElastic>> {
         let Some(flow) = file.section("flow") else { return Ok(None) };
         let constant = self.required(("flow", "connors"), &flow, "connors");
         let tables = file.sections("turbulence");
@@ -27,13 +34,33 @@ impl Builder<'_> {
         for body in &bodies {
             let name = body.as_ref().map(|body| body.name.as_str());
             let fields: Vec<&Turbulence> = whole.turbulence.iter().filter(|field| body_of(field) == name).collect();
-            tubes.extend(self.tube(&flow, whole, body.as_ref(), &fields)?);
+            let line = lines.iter().find(|line| line.body.as_deref() == name);
+            tubes.extend(self.tube(&flow, whole, (body.as_ref(), line), &fields)?);
         }
         if tubes.is_empty() {
             return Err(self.without_flow(&flow));
         }
-        let margins = Connors { constant, tubes }.margins(&whole.scene, whole.damping.as_ref(), own);
+        self.check_mass(&flow, &bodies)?;
+        // The ratios of modal data are ratios of its modes like others.
+        let of_data = || match (&self.model, &whole.scene.system) {
+            (Model::Modal(_), System::Structure(structure)) => Some(Damping::Modal(own.ratios(&structure.damping))),
+            _ => None,
+        };
+        let damping = whole.damping.clone().or_else(of_data);
+        let margins = Connors { constant, tubes }.margins(&whole.scene, damping.as_ref(), own);
         margins.map(Some).map_err(|error| self.locate(error, &whole.scene))
+    }
+
+    /// Refuses a mass per metre where every tube is a beam, which has its own.
+    fn check_mass(&mut self, flow: &Section<'_>, bodies: &[Option<Body>]) -> Result<()> {
+        let Some(mass) = flow.number("mass_per_metre") else { return Ok(()) };
+        self.number(("flow", "mass"), &mass);
+        let mut models = bodies.iter().map(|body| body.as_ref().map_or(&self.model, |body| &body.model));
+        if models.all(|model| matches!(model, Model::Beam(_))) {
+            let help = "expected it beside modal data only: a beam has the mass of its section, and added_mass";
+            return Err(self.source.error(mass.span(), "`flow.mass_per_metre` beside a beam", help));
+        }
+        Ok(())
     }
 
     /// The tube `body`, or the whole system, in the flow of `fields`; `None` without one.
@@ -41,26 +68,33 @@ impl Builder<'_> {
         &self,
         flow: &Section<'_>,
         whole: &Unreduced,
-        body: Option<&Body>,
+        (body, line): (Option<&Body>, Option<&Line>),
         fields: &[&Turbulence],
     ) -> Result<Option<FlowTube>> {
         let (model, name) = (body.map_or(&self.model, |body| &body.model), body.map(|body| body.name.as_str()));
         let of = name.map_or(String::new(), |name| format!(" of the body {name:?}"));
         let table = if body.is_some() { "body" } else { "system" };
+        // A beam has positions of its own; modes have those of the line of the turbulence.
+        let line = line.filter(|_| matches!(model, Model::Modal(_)));
         let row = |x: f64| -> Result<Vec<Row>> {
-            let rows = self.planes.rows(&self.model, &Place::Position(x).on(name))?;
+            let place = line.map_or(Place::Position(x), |line| line.at(x));
+            let rows = self.planes.rows(&self.model, &place.on(name))?;
             Ok(if self.planes.is_two() { vec![rows.y, rows.z] } else { vec![rows.y] })
         };
-        let mass = if let Model::Beam(beam) = model { beam.mass_per_metre() } else { 0.0 };
-        let Some(tube) = FlowTube::in_flow(name.map(str::to_owned), mass, fields, row)? else { return Ok(None) };
         let refused = |title: &str, help: &str| {
             let span = flow.span_of("connors").unwrap_or(flow.span.clone());
             Err(self.source.error(span, &format!("`flow.connors` {title}{of}"), help))
         };
-        if !matches!(model, Model::Beam(_)) {
-            let help =
-                format!("expected [{table}.beam]: Connors' criterion takes the mass per metre of a tube from it");
-            return refused("beside the modes", &help);
+        let mass = match model {
+            Model::Beam(beam) => Some(beam.mass_per_metre()),
+            _ => flow.number("mass_per_metre").map(Spanned::into_inner),
+        };
+        let in_flow = FlowTube::in_flow(name.map(str::to_owned), mass.unwrap_or_default(), fields, row)?;
+        let Some(tube) = in_flow else { return Ok(None) };
+        if mass.is_none() {
+            let help = "expected mass_per_metre beside it: kg/m of the tube whose modes are given, with the fluid in \
+                        it and around it; velocities are told by it, and margins do not depend on it";
+            return refused("without the mass per metre", help);
         }
         let undamped = match (&whole.damping, &whole.scene.system) {
             (Some(Damping::Modal(_)), _) => false,
@@ -71,10 +105,12 @@ impl Builder<'_> {
             _ => true,
         };
         if undamped {
-            let help = format!(
-                "expected [{table}.damping] with ratio = that of the tube in the flow: without damping any flow makes \
-                 it unstable"
-            );
+            let key = if matches!(model, Model::Modal(_)) {
+                format!("[{table}.modal] with damping_ratios = those")
+            } else {
+                format!("[{table}.damping] with ratio = that")
+            };
+            let help = format!("expected {key} of the tube in the flow: without damping any flow makes it unstable");
             return refused("without damping", &help);
         }
         Ok(Some(tube))
@@ -82,8 +118,8 @@ impl Builder<'_> {
 
     /// The error of a table `flow` beside no flow.
     pub fn without_flow(&self, flow: &Section<'_>) -> Error {
-        let help = "expected [[turbulence]] with density, velocity and reduced along a tube, [system.beam] or \
-                    [body.beam]: connors takes the flow from it";
+        let help = "expected [[turbulence]] with density, velocity and reduced along a tube, a beam or modal data: \
+                    connors takes the flow from it";
         self.source.error(flow.span.clone(), "`flow` without the flow of a turbulence", help)
     }
 }

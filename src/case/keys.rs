@@ -335,6 +335,9 @@ pub(super) const LISTED: &[KeyEntry] = &[
         turbulence; without damping; on other systems than a tube"]),
     entry("flow.connors", Number, "", [REQUIRED, "a number above 0: Connors' constant K of the \
         bundle, about 3", UNORDINARY]),
+    entry("flow.mass_per_metre", Number, "kg_per_m", ["", "a number above 0: of a tube of modal data, \
+        with the fluid in it and around it; velocities are told by it, margins do not depend on it",
+        "beside beams alone; 0, negative, nan, inf"]),
     entry("load.gravity", Inline, "", ["", "the weight of all masses along `direction`, in one plane \
         along the positive displacements", "beside `at`"]),
     entry("load.gravity.acceleration", Number, "m_per_s2", [REQUIRED, "a number: 9.81 on Earth",

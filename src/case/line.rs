@@ -180,5 +180,14 @@ mod tests {
         assert_eq!(of(1.0, 4.0), [point("a", 0.5 / 3.0), point("b", 0.5 / 3.0 + 1.0 / 3.0), point("c", 1.0 / 3.0)]);
         assert_eq!(of(1.25, 1.75), [point("a", 0.5), point("b", 0.5)]);
         assert_eq!(of(3.0, 4.0), [point("b", 0.25), point("c", 0.75)]);
+        let at = |position: f64| match line.at(position) {
+            Place::Points(points) => points,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!((at(1.0), at(4.0)), (vec![point("a", 1.0)], vec![point("c", 1.0)]));
+        assert_eq!(
+            (at(1.75), at(3.5)),
+            (vec![point("a", 0.25), point("b", 0.75)], vec![point("b", 0.25), point("c", 0.75)])
+        );
     }
 }

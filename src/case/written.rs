@@ -204,20 +204,31 @@ impl Line {
         self.points.len().saturating_sub(1)
     }
 
+    /// The displacement at `position` (m) on the line, as a sum of points of modes.
+    pub(super) fn at(&self, position: f64) -> Place {
+        self.sum([(position, 1.0)])
+    }
+
     /// The mean displacement from one position to another (m) on the line, as a sum of points of
     /// modes.
     pub(super) fn mean(&self, from: f64, to: f64) -> Place {
+        self.sum(self.points.windows(2).filter_map(|pair| {
+            let (a, b) = (from.max(pair[0].1), to.min(pair[1].1));
+            // The mean of what is straight between two points is the value in the middle.
+            (a < b).then(|| (0.5 * (a + b), (b - a) / (to - from)))
+        }))
+    }
+
+    /// The sum of the displacements at positions (m), each with its weight.
+    fn sum(&self, positions: impl IntoIterator<Item = (f64, f64)>) -> Place {
         let mut weights = vec![0.0; self.points.len()];
-        for (index, pair) in self.points.windows(2).enumerate() {
-            let [start, end] = [pair[0].1, pair[1].1];
-            let (a, b) = (from.max(start), to.min(end));
-            if a < b {
-                // Of a function that is straight between two points the mean is the value in the
-                // middle.
-                let (share, second) = ((b - a) / (to - from), (0.5 * (a + b) - start) / (end - start));
-                weights[index] += share * (1.0 - second);
-                weights[index + 1] += share * second;
-            }
+        for (position, weight) in positions {
+            let after = self.points.partition_point(|point| point.1 <= position);
+            let first = after.clamp(1, self.stretches().max(1)) - 1;
+            let Some([start, end]) = self.points.get(first..first + 2) else { continue };
+            let second = (position - start.1) / (end.1 - start.1);
+            weights[first] += weight * (1.0 - second);
+            weights[first + 1] += weight * second;
         }
         let weighed = self.points.iter().zip(weights).filter(|(_, weight)| *weight != 0.0);
         let named = weighed.flat_map(|((place, _), weight)| {

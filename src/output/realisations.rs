@@ -5,7 +5,6 @@ use super::places::Chosen;
 use super::table::Table;
 use crate::case::Case;
 use crate::error::Result;
-use crate::run::Cautioned;
 use crate::scene::Scene;
 use crate::statistics::ContactPlace;
 use crate::study::realisations::{Estimate, Interval, Measure, Realisations};
@@ -154,9 +153,7 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
     }
     remarks.extend(without_friction(scene));
     remarks.extend(study.groups_in_words());
-    let mut cautioned = Cautioned::default();
-    study.members.iter().for_each(|member| cautioned.add(member.number, member.caution.clone()));
-    remarks.extend(cautioned.sentence());
+    remarks.extend(study.cautioned().sentences());
     remarks
 }
 
@@ -166,7 +163,7 @@ pub(crate) fn seeds(case: &Case) -> Value {
 }
 
 /// What a work rate without friction is, where `scene` has such a support.
-pub(super) fn without_friction(scene: &Scene) -> Option<String> {
+pub(crate) fn without_friction(scene: &Scene) -> Option<String> {
     let smooth = scene.supports.iter().any(|support| support.friction(&scene.walls).sliding == 0.0);
     smooth.then(|| "work rates without friction are upper figures".to_owned())
 }

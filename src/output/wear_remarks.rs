@@ -33,7 +33,7 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
         ));
     }
     remarks.extend(worn_through(found));
-    remarks.extend(found.cautioned.sentence());
+    remarks.extend(found.cautioned.sentences());
     remarks.extend(unworn(found));
     remarks.extend(realisations::without_friction(&case.scene).map(|words| format!("{words}, and depths with them")));
     let histories = found.points.first().map_or(0, |point| point.histories.len());

@@ -53,9 +53,10 @@ pub(super) fn too_large(folder: &Folder<'_>) -> Result<Option<String>> {
 
 /// What to do where the tables in `folder` are too large for a page, for this reason.
 pub(super) fn without_page(folder: &Path, reason: &str) -> String {
+    let fewer = if folder.join(SAMPLES).exists() { "points, measures or --most-samples" } else { "points or measures" };
     format!(
-        "no {FILE}: {reason}; the tables and the pictures are complete. For a page, ask for fewer points, measures or \
-         --most-samples in another --out; in Python, pandas.read_csv({:?}) reads the table",
+        "no {FILE}: {reason}; the tables and the pictures are complete. For a page, ask for fewer {fewer} in another \
+         --out; in Python, pandas.read_csv({:?}) reads the table",
         folder.join(TABLE).display().to_string()
     )
 }
@@ -130,9 +131,14 @@ mod tests {
     #[test]
     fn a_sweep_too_large_for_a_page_says_what_to_do() {
         let said = without_page(Path::new("out/s"), "its tables have 4100000 cells; a report holds 4000000 at most");
-        for words in ["4100000 cells", "fewer points, measures or --most-samples", "read_csv(\"out/s/sweep.csv\")"] {
+        for words in ["4100000 cells", "fewer points or measures in another", "read_csv(\"out/s/sweep.csv\")"] {
             assert!(said.contains(words), "{words}: {said}");
         }
+        // Where the sweep has samples, fewer of them help as well.
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::write(dir.path().join(SAMPLES), "").unwrap();
+        let said = without_page(dir.path(), "");
+        assert!(said.contains("fewer points, measures or --most-samples in another"), "{said}");
     }
 
     #[test]

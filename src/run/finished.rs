@@ -1,5 +1,6 @@
 //! A finished run.
 
+use super::cautioned::Caution;
 use super::judging::{Judged, Judging};
 use super::recording::{Recorded, Recording};
 use crate::error::{Error, Result};
@@ -51,9 +52,18 @@ pub struct Run<J: Judging = Judged, R: Recording = Recorded> {
     /// Those of the notes that limit the use of the results: a step that does not resolve a load or
     /// a mode, energy that the scheme created, a restitution that it does not realise.
     pub cautions: Vec<String>,
+    /// That of the notes on means that are others in the beginning of the window of the statistics
+    /// than in the rest of it: the window begins before the motion has settled.
+    pub unsettled: Option<String>,
 }
 
 impl<J: Judging, R: Recording> Run<J, R> {
+    /// What limits the use of its results, in short.
+    #[must_use]
+    pub fn caution(&self) -> Caution {
+        Caution { note: self.cautions.first().cloned(), unsettled: self.unsettled.clone() }
+    }
+
     /// The residuals, if the run was judged: for code that takes runs of any kind.
     #[must_use]
     pub fn judged(&self) -> Option<&Residuals> {

@@ -17,7 +17,7 @@ mod observers;
 mod options;
 mod recording;
 
-pub use cautioned::Cautioned;
+pub use cautioned::{Caution, Cautioned, NotedRuns};
 pub(crate) use divergence::Divergence;
 pub use finished::Run;
 pub use judging::{Judged, Judging, Unjudged};
@@ -127,10 +127,12 @@ pub fn run_with_progress<J: Judging, R: Recording>(
         handed: stepper.handed().to_vec(),
         notes: Vec::new(),
         cautions: Vec::new(),
+        unsettled: None,
     };
     run.cautions = notes::cautions(scene, &run);
-    let unsettled = R::statistics(&run.statistics).and_then(|statistics| notes::unsettled(scene, statistics));
-    run.notes = notes::remarks(scene, &run).into_iter().chain(run.cautions.clone()).chain(unsettled).collect();
+    run.unsettled = R::statistics(&run.statistics).and_then(|statistics| notes::unsettled(scene, statistics));
+    let limits = run.cautions.iter().chain(&run.unsettled).cloned();
+    run.notes = notes::remarks(scene, &run).into_iter().chain(limits).collect();
     Ok(run)
 }
 

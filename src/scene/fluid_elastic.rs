@@ -180,7 +180,11 @@ impl Connors {
         }
         let ratios = Ratios::new(scene, damping, own)?;
         let margin = |omega: f64, shape: &[f64]| self.margin(omega, ratios.of(omega, shape), shape);
-        let inactive = own.omega.iter().zip(&own.shapes).filter_map(|(omega, shape)| margin(*omega, shape)).collect();
+        let own_margin = |(i, (omega, shape)): (usize, (&f64, &Vec<f64>))| match ratios.known.get(i) {
+            Some((_, ratio)) => self.margin(*omega, *ratio, shape),
+            None => margin(*omega, shape),
+        };
+        let inactive = own.omega.iter().zip(&own.shapes).enumerate().filter_map(own_margin).collect();
         let mut active = Vec::new();
         if let Some(held) = scene.all_active() {
             let count = own.count().min(held.structure.mass.size());

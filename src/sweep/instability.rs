@@ -2,7 +2,9 @@
 //! which says so itself, and the table is told of them once.
 
 use super::Plan;
+use super::measure::Measure;
 use crate::case::{BEYOND_LIMIT, Case};
+use crate::output::realisations;
 use crate::run::notes::{NEGATIVE_DAMPING, unstable};
 use crate::scene::Scene;
 
@@ -13,7 +15,14 @@ impl Plan {
     pub fn notes(&self) -> Vec<String> {
         let flow = self.base.unstable_in_flow();
         let own = self.base.notes().into_iter().filter(|note| flow.as_ref() != Some(note));
-        own.chain(self.base.large_random_forces()).collect()
+        own.chain(self.base.large_random_forces()).chain(self.upper_figures()).collect()
+    }
+
+    /// That the work rates among the measures are upper figures, since a support of the case as it
+    /// stands has no friction.
+    fn upper_figures(&self) -> Option<String> {
+        let worn = |measure: &Measure| *measure == Measure::WorkRate || measure.needs_law();
+        realisations::without_friction(&self.base.scene).filter(|_| self.sweep.measures.iter().any(worn))
     }
 }
 

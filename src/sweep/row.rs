@@ -10,7 +10,7 @@ use super::status::Status;
 use crate::case::{Case, KeyValue};
 use crate::error::{Error, Result};
 use crate::residual::{Finding, Judge};
-use crate::run::{Divergence, notes};
+use crate::run::{Caution, Divergence, notes};
 use crate::scene::{Checked, State};
 use crate::scheme::{Method, Scheme, Stepper};
 use crate::study::attractor::Attractor;
@@ -34,9 +34,8 @@ pub struct Row {
     /// unstable, and why measures have no value; else empty for `ok`. Of an `unjudged` row, what
     /// another status would say if it had been judged: that stretches were handed to moreau-jean.
     pub error: String,
-    /// The first note that limits the use of its run; `None` for a row of the batch kernel, which
-    /// makes no steps.
-    pub caution: Option<String>,
+    /// What limits the use of its run; nothing for a row of the batch kernel, which makes no steps.
+    pub caution: Caution,
     /// The measures, as in their columns; `None` for a measure without a value, and in a row that
     /// failed.
     pub measures: Vec<Option<f64>>,
@@ -76,7 +75,7 @@ struct Done {
     end: State,
     handed: usize,
     findings: Vec<Finding>,
-    caution: Option<String>,
+    caution: Caution,
     /// That its motion is unstable, and why measures have no value.
     notes: Vec<String>,
 }
@@ -131,7 +130,7 @@ impl Plan {
             values: axes.flat_map(|(axis, value)| axis.cells(value)).collect(),
             status: Status::Ok,
             error: String::new(),
-            caution: None,
+            caution: Caution::default(),
             measures: vec![None; self.measured()],
             depths: if self.sweep.keeps_depths() {
                 vec![Vec::new(); self.base.scene.supports.len()]
@@ -213,7 +212,10 @@ impl Plan {
             end: stepper.state(),
             handed: stepper.handed().len(),
             findings: judge.map_or_else(Vec::new, |judge| judge.findings()),
-            caution: cautions.into_iter().find(|caution| !unstable.contains(caution)).or(observed.through),
+            caution: Caution {
+                note: cautions.into_iter().find(|caution| !unstable.contains(caution)).or(observed.through),
+                unsettled: observed.unsettled,
+            },
             notes: unstable.into_iter().chain(note).chain(lacking).collect(),
         })
     }

@@ -11,6 +11,7 @@ use crate::case::Case;
 use crate::error::Result;
 use crate::order::sort_by_number;
 use crate::output::through;
+use crate::run::notes;
 use crate::scene::{Checked, Scene, State};
 use crate::statistics::{Forces, Statistics, WallStatistics, WearStatistics, WearTally};
 use crate::step::{Contact, Step};
@@ -25,6 +26,8 @@ pub(super) struct Observed {
     pub depths: Vec<Vec<f64>>,
     /// A warning of a depth that the tube does not have.
     pub through: Option<String>,
+    /// That the window begins before the motion has settled.
+    pub unsettled: Option<String>,
     pub samples: Vec<Sample>,
 }
 
@@ -128,7 +131,8 @@ impl RowObserver {
         let scars = statistics.wear.iter().enumerate().filter(|_| sweep.measures.iter().any(|one| one.needs_scar()));
         let worn = |(index, wear): (usize, &WearStatistics)| Some((index, case.archard(index)?.worn(wear.work_rate_w)));
         let through = scars.filter_map(worn).find_map(|(index, worn)| through::beyond(case, index, &worn));
-        Observed { measures: values, depths, through, samples }
+        let unsettled = notes::unsettled(scene, &statistics);
+        Observed { measures: values, depths, through, unsettled, samples }
     }
 
     fn began_here(&self) -> impl Iterator<Item = &Contact> {

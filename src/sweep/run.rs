@@ -215,7 +215,7 @@ impl Plan {
             (shard, runs),
             threads,
             &found,
-            &|mut row| (self.run_number(&row), row.caution.take(), self.block(row)),
+            &|mut row| (self.run_number(&row), std::mem::take(&mut row.caution), self.block(row)),
             &mut |finished| {
                 if let Some((run, caution, block)) = finished {
                     cautioned.add(run, caution);

@@ -329,8 +329,15 @@ fn wrong_tubes_among_several_are_refused_by_name() {
                  diameter = 0.02\ndensity = 740.0\nvelocity = 0.5\nreduced = [[0.01, 0.05], [3.0, 8.6e-7]]\n\
                  from = 1.0\nto = 9.0\ncorrelation_length = 0.1\n[flow]\nconnors = 3.0\n\
                  [time]\nend = 2.0\nstep = 1e-3\n";
-    let told = Case::parse(&modal.replace("[system]", "[system]\nmodes = 2"), "bend.toml", "").unwrap_err().to_string();
-    assert!(told.contains("beside the modes of the body \"bend\"") && told.contains("[body.beam]"), "{told}");
+    let modal = modal.replace("[system]", "[system]\nmodes = 2");
+    let bend = |mass: &str| {
+        let text = modal.replace("connors = 3.0\n", &format!("connors = 3.0\n{mass}"));
+        Case::parse(&text, "bend.toml", "").unwrap_err().to_string()
+    };
+    let told = bend("");
+    assert!(told.contains("without the mass per metre of the body \"bend\""), "{told}");
+    let told = bend("mass_per_metre = 0.0\n");
+    assert!(told.contains("flow: mass is 0.0"), "{told}");
 }
 
 #[rustfmt::skip]
@@ -340,6 +347,7 @@ const WRONG: &[Wrong] = &[
     ("no number", "connors = 3.0", "connors = nan", "43:11", &["flow: connors", "above 0"]),
     ("a word", "connors = 3.0", "connors = \"three\"", "43:11", &["flow.connors", "a number above 0"]),
     ("another key", "connors = 3.0", "connors = 3.0\ndamping = 0.01", "44:1", &["unknown key `damping`"]),
+    ("a mass beside a beam", "connors = 3.0", "connors = 3.0\nmass_per_metre = 1.2", "44:18", &["`flow.mass_per_metre` beside a beam", "modal data only"]),
     ("no damping", "[system.damping]\nratio = 0.01\n", "", "41:11", &["without damping", "[system.damping]"]),
     ("no flow", "density = 740.0\nvelocity = 0.5\nreduced = [[0.01, 0.05], [0.2, 0.0112], [3.0, 8.6e-7]]", "spectrum = [[1.0, 0.02], [60.0, 0.02]]", "40:1", &["without the flow of a turbulence", "density, velocity and reduced"]),
     ("a ratio below 0", "ratio = 0.01", "ratios = [0.01, -0.02]", "17:10", &["system.damping.ratios is a list with -0.02", "feeds into a mode already"]),
@@ -357,7 +365,7 @@ fn what_is_no_tube_has_no_margins() {
     let chain = "[system]\nmodes = 1\n\n[system.chain]\nmasses = [1.0, 1.0]\nsprings = [1.0]\n\
                  left = { stiffness = 1.0 }\n\n[flow]\nconnors = 3.0\n\n[time]\nend = 1.0\nstep = 1e-3\n";
     let told = said(chain);
-    assert!(told.contains("wrong.toml:9:1") && told.contains("[system.beam]"), "{told}");
+    assert!(told.contains("wrong.toml:9:1") && told.contains("a beam or modal data"), "{told}");
     let from = TUBE.find("[[turbulence]]").unwrap();
     let to = TUBE.find("[flow]").unwrap();
     let still = format!("{}{}", &TUBE[..from], &TUBE[to..]);

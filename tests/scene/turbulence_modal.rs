@@ -60,39 +60,92 @@ const FLOW: &str = "density = 740.0\nvelocity = [[0.0, 0.3], [3.0, 0.6]]\n\
                     from = 1.0\nto = 40.0\ncorrelation_length = 0.2\nseed = 5\n";
 const TIME: &str = "[time]\nend = 10.0\nstep = 1e-3\n";
 
-#[test]
-fn a_beam_and_its_own_modes_have_the_same_forces_to_the_error_of_straight_shapes_between_points() {
-    let (count, elements, length) = (6, 60, 3.0);
+/// Elements of the tube.
+const ELEMENTS: u32 = 60;
+
+/// A tube of 3 m on its `count` slowest modes in a flow, and the same as modal data with a point
+/// for each node; `tails` end the files.
+fn tube_and_modes(count: usize, tails: [&str; 2]) -> [Case; 2] {
+    let length = 3.0;
+    let [own, given] = tails;
     let beam = case(&format!(
         "[system]\nmodes = {count}\n[system.beam]\nlength = {length:?}\nyoungs_modulus = 2e11\ndensity = 7850.0\n\
-         outer_diameter = 0.02\nelements = {elements}\nleft = \"pinned\"\nright = \"pinned\"\n\
-         [system.damping]\nratio = 0.02\n[[turbulence]]\n{FLOW}{TIME}"
+         outer_diameter = 0.02\nelements = {ELEMENTS}\nleft = \"pinned\"\nright = \"pinned\"\n\
+         [system.damping]\nratio = 0.02\n[[turbulence]]\n{FLOW}{own}{TIME}"
     ));
     let Model::Beam(tube) = &beam.model else { panic!("no beam") };
     let reduction = &beam.truncated.as_ref().unwrap().reduction;
     let (mut shapes, mut line) = (String::new(), String::new());
-    for node in 0..=elements {
-        let x = length * f64::from(node) / f64::from(elements);
+    for node in 0..=ELEMENTS {
+        let x = length * f64::from(node) / f64::from(ELEMENTS);
         writeln!(shapes, "n{node} = {:?}", reduction.modes.seen(&tube.at(x).unwrap())).unwrap();
         write!(line, "n{node} = {x:?}, ").unwrap();
     }
     let modal = case(&format!(
         "[system.modal]\nomega = {:?}\ndamping_ratios = 0.02\n[system.modal.shapes]\n{shapes}\
-         [[turbulence]]\ndiameter = 0.02\nline = {{ {} }}\n{FLOW}{TIME}",
+         [[turbulence]]\ndiameter = 0.02\nline = {{ {} }}\n{FLOW}{given}{TIME}",
         reduction.modes.omega,
         line.trim_end_matches(", ")
     ));
-    let [expected, found] = [&beam, &modal].map(|case| forces(case, count));
+    [beam, modal]
+}
+
+/// The mean of a sine of the wave number k of `mode`, from 0, less that of its chord over an
+/// element of the length l is (kl)²/12 of it, to the next order.
+fn short(mode: usize) -> f64 {
+    (PI * (mode as f64 + 1.0) / f64::from(ELEMENTS)).powi(2) / 12.0
+}
+
+#[test]
+fn a_beam_and_its_own_modes_have_the_same_forces_to_the_error_of_straight_shapes_between_points() {
+    let cases = tube_and_modes(6, ["", ""]);
+    let [expected, found] = cases.each_ref().map(|case| forces(case, 6));
     for ((mode, whole), (same, straight)) in expected.iter().zip(&found) {
         assert!(mode == same && whole.len() == straight.len());
-        // The mean of a sine of the wave number k less that of its chord over an element of the
-        // length l is (kl)²/12 of it, to the next order, and with it the force.
-        let short = (PI * (*mode as f64 + 1.0) / f64::from(elements)).powi(2) / 12.0;
+        let short = short(*mode);
         let ratio = rms(straight.iter().copied()) / rms(whole.iter().copied());
         assert!(((1.0 - ratio) / short - 1.0).abs() < 0.2, "mode {mode}: {ratio} instead of {}", 1.0 - short);
         let apart = rms(whole.iter().zip(straight).map(|(a, b)| a - b)) / rms(whole.iter().copied());
         assert!(apart < 1.5 * short, "mode {mode}: {apart:e} of its force, the chords leave {short:e}");
     }
+}
+
+#[test]
+fn modal_data_have_the_margins_of_their_beam() {
+    let support = |place: &str| {
+        format!("[[wall]]\nname = \"plate\"\nat = {place}\nside = \"upper\"\nposition = 1e-3\n[flow]\nconnors = 3.0\n")
+    };
+    // Margins do not depend on the mass per metre: that of the velocities is doubled here.
+    let mass = 7850.0 * 0.25 * PI * 0.02 * 0.02;
+    let own = support("{ position = 1.0 }");
+    let given = support("{ point = \"n20\" }") + &format!("mass_per_metre = {:?}\n", 2.0 * mass);
+    let cases = tube_and_modes(6, [&own, &given]);
+    let [beam, modal] = cases.each_ref().map(|case| case.fluid_elastic.as_ref().unwrap());
+    assert_eq!((beam.inactive.len(), modal.inactive.len()), (6, 6));
+    for (mode, (whole, straight)) in beam.inactive.iter().zip(&modal.inactive).enumerate() {
+        // Rounding of the eigen-solver.
+        assert!((straight.frequency_hz / whole.frequency_hz - 1.0).abs() < 1e-12);
+        assert!((straight.damping_ratio / 0.02 - 1.0).abs() < 1e-12);
+        let [margins, velocities] = [
+            whole.margin.unwrap() / straight.margin.unwrap(),
+            straight.critical_velocity_m_per_s / whole.critical_velocity_m_per_s,
+        ];
+        // V_e is short by the chords of the shape: twice in φ², once in its square root.
+        let short = short(mode);
+        assert!(((1.0 - margins) / short - 1.0).abs() < 0.2, "mode {mode}: {margins} instead of {}", 1.0 - short);
+        assert!((velocities / 2.0_f64.sqrt() - 1.0).abs() < 1e-12, "{velocities}");
+    }
+    // One constraint on six modes leaves five, each between its own free mode and the next
+    // (Rayleigh's theorem), and none below that of the whole beam; ratios that are equal stay so.
+    assert_eq!(modal.active.len(), 5);
+    for (i, (held, whole)) in modal.active.iter().zip(&beam.active).enumerate() {
+        let between = [i, i + 1].map(|i| modal.inactive[i].frequency_hz);
+        assert!(between[0] < held.frequency_hz && held.frequency_hz <= between[1] * (1.0 + 1e-12), "{held:?}");
+        assert!(held.frequency_hz > whole.frequency_hz * (1.0 - 1e-12), "{held:?} below {whole:?}");
+        assert!((held.damping_ratio / 0.02 - 1.0).abs() < 1e-12, "{held:?}");
+    }
+    // What six modes lack of the shape of a held tube: 1 % of the first frequency.
+    assert!(modal.active[0].frequency_hz < 1.01 * beam.active[0].frequency_hz);
 }
 
 #[test]
@@ -148,7 +201,7 @@ const WRONG: &[Wrong] = &[
     ("no diameter", "spectrum = [[1.0, 0.02], [40.0, 0.02]]", "density = 1.0\nvelocity = 1.0\nreduced = [[0.01, 1.0], [9.0, 1.0]]", "8:11", &["`diameter` is missing in turbulence 1"]),
     ("a diameter of 0", "spectrum = [[1.0, 0.02], [40.0, 0.02]]", "diameter = 0\ndensity = 1.0\nvelocity = 1.0\nreduced = [[0.01, 1.0], [9.0, 1.0]]", "8:12", &["turbulence 1: diameter", "above 0"]),
     ("a diameter beside a spectrum", "seed = 3\n", "seed = 3\ndiameter = 0.02\n", "13:12", &["diameter beside spectrum"]),
-    ("margins", "[time]", "[flow]\nconnors = 3.0\n[time]", "21:1", &["`flow` without the flow of a turbulence", "[system.beam]"]),
+    ("margins", "[time]", "[flow]\nconnors = 3.0\n[time]", "21:1", &["`flow` without the flow of a turbulence", "a beam or modal data"]),
 ];
 
 #[test]

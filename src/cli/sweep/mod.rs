@@ -56,7 +56,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let seeds = plan.realisations().map_or_else(String::new, |count| format!(" × {}", in_words(count)));
     answer.messages([format!("{} rows{seeds} in {}{found}", finished.rows, time_in_words(finished.seconds))]);
     answer.messages(status_messages(&finished.folder, &finished.tables, finished.rows)?);
-    answer.messages(finished.cautioned.sentence().map(|text| format!("note: {text}")));
+    answer.messages(finished.cautioned.sentences().map(|text| format!("note: {text}")));
     answer.messages(picture_messages(&pictures));
     if !whole {
         answer.close_with("; `signorini merge` joins the shards");

@@ -164,6 +164,15 @@ impl Modes {
         self.omega.iter().filter(|omega| **omega == 0.0).count()
     }
 
+    /// φᵀCφ/2ω, k entries: the damping ratios with the matrix C, of rigid-body motions 0.
+    #[must_use]
+    pub fn ratios(&self, damping: &Symmetric) -> Vec<f64> {
+        let ratio = |(omega, shape): (&f64, &Vec<f64>)| {
+            if *omega > 0.0 { damping.form(shape, shape) / (2.0 * omega) } else { 0.0 }
+        };
+        self.omega.iter().zip(&self.shapes).map(ratio).collect()
+    }
+
     /// g Φ, k entries: the row in modal coordinates.
     #[must_use]
     pub fn seen(&self, row: &Row) -> Vec<f64> {

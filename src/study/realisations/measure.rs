@@ -143,7 +143,8 @@ fn largest(force: Option<LargestForce>) -> Found {
     (force.map_or(0.0, |force| force.mean_n), None, None)
 }
 
-/// Every measure of every place in `statistics`: flat walls, then supports, in the scene's order.
+/// Every measure of every place in `statistics`: supports, then walls, those of a support's flats
+/// among them, in the scene's order.
 pub(super) fn figures(statistics: &Statistics) -> Vec<Figure> {
     let mut figures = Vec::new();
     let mut add = |name: &str, kind: PlaceKind, of: &dyn Fn(Measure) -> Option<Found>| {
@@ -154,12 +155,12 @@ pub(super) fn figures(statistics: &Statistics) -> Vec<Figure> {
             figures.extend(of(measure).map(figure));
         }
     };
-    for wall in statistics.walls.iter().filter(|wall| !wall.round) {
-        add(&wall.wall, PlaceKind::Wall, &|measure| measure.of_wall(wall));
-    }
     for support in &statistics.supports {
         let wear = statistics.wear.iter().find(|wear| wear.support == support.support);
         add(&support.support, PlaceKind::Support, &|measure| measure.of_support(support, wear));
+    }
+    for wall in statistics.walls.iter().filter(|wall| !wall.round) {
+        add(&wall.wall, PlaceKind::Wall, &|measure| measure.of_wall(wall));
     }
     figures
 }

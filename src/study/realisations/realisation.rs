@@ -2,7 +2,7 @@
 
 use super::measure::{self, Figure, Measure};
 use crate::residual::Finding;
-use crate::run::Run;
+use crate::run::{Caution, Run};
 use crate::statistics::{ContactPlace, WearStatistics};
 
 /// The figures of one realisation.
@@ -17,8 +17,8 @@ pub struct Realisation {
     pub wear: Vec<WearStatistics>,
     /// What the judge refutes in its run.
     pub findings: Vec<Finding>,
-    /// The first note that limits the use of its results.
-    pub caution: Option<String>,
+    /// What limits the use of its results.
+    pub caution: Caution,
     /// Share of its steps in which opposite walls pushed in turn, so that the body stood still
     /// between them.
     pub frozen_share: f64,
@@ -33,7 +33,7 @@ impl Realisation {
             figures: measure::figures(&run.statistics),
             wear: run.statistics.wear.clone(),
             findings: run.findings.clone(),
-            caution: run.cautions.first().cloned(),
+            caution: run.caution(),
             frozen_share: run.counters.frozen_steps as f64 / run.counters.steps.max(1) as f64,
         }
     }
@@ -41,7 +41,7 @@ impl Realisation {
     /// One that has nothing but these figures.
     #[cfg(any(test, feature = "cli"))]
     pub(crate) fn of_figures(number: u64, figures: Vec<Figure>) -> Self {
-        Self { number, figures, wear: Vec::new(), findings: Vec::new(), caution: None, frozen_share: 0.0 }
+        Self { number, figures, wear: Vec::new(), findings: Vec::new(), caution: Caution::default(), frozen_share: 0.0 }
     }
 
     /// The value of `measure` at `place`.

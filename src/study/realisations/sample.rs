@@ -4,6 +4,7 @@ use super::check::Check;
 use super::estimate::{Estimate, Interval, estimates};
 use super::groups::{PlaceGroups, groups};
 use super::realisation::Realisation;
+use crate::run::Cautioned;
 use serde::Serialize;
 
 /// Several realisations, and what follows from them.
@@ -28,6 +29,14 @@ pub struct Realisations {
 }
 
 impl Realisations {
+    /// How many realisations have notes that limit the use of their results.
+    #[must_use]
+    pub fn cautioned(&self) -> Cautioned {
+        let mut cautioned = Cautioned::default();
+        self.members.iter().for_each(|member| cautioned.add(member.number, member.caution.clone()));
+        cautioned
+    }
+
     /// The study of `members`, one or more of one scene; a single one has the intervals of its own
     /// batches.
     #[must_use]

@@ -2,6 +2,7 @@
 
 use super::support::WearingSupport;
 use crate::residual::Finding;
+use crate::run::Caution;
 use crate::statistics::WearStatistics;
 use crate::study::realisations::Realisation;
 use crate::wear::{Opening, WearWork};
@@ -23,9 +24,9 @@ pub struct WearWindow {
     pub half_widths_95_w: Vec<Option<f64>>,
     /// What the judge refutes in its run.
     pub findings: Vec<Finding>,
-    /// The first note that limits the use of its results.
+    /// What limits the use of its results.
     #[serde(default)]
-    pub caution: Option<String>,
+    pub caution: Caution,
 }
 
 impl WearWindow {
