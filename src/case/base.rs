@@ -90,7 +90,8 @@ impl Builder<'_> {
         }
         if self.is_changed_later {
             let help = "expected no modes, and so no [[turbulence]], which acts through them, and damping other than \
-                        by ratios where degrees of freedom have no mass: the forces at the base need the whole stiffness and damping";
+                        by ratios where degrees of freedom have no mass: the forces at the base need the whole \
+                        stiffness and damping";
             return refuse("the system is reduced to modes, or damped by ratios once it is condensed", help);
         }
         let [amplitude, frequency, phase] = self.sine(owner, base)?;

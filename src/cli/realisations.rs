@@ -5,7 +5,8 @@ use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::case::Case;
 use crate::error::{Error, Result, Subject};
-use crate::output::error_parts;
+use crate::output::realisations as output;
+use crate::output::{error_parts, refinements};
 use crate::parallel::cores;
 use crate::run::Run;
 use crate::scheme::Method;
@@ -135,6 +136,10 @@ pub fn show_errors(study: &RealisationStudy, answer: &mut Answer, case: &Case) {
         answer.table(table, error_parts::FILE);
     }
     answer.messages(error_parts::remarks(&study.realisations, &case.scene));
+    if let Some(table) = refinements::table(&study.realisations, &case.scene) {
+        answer.table(table, output::FILE);
+        answer.messages([refinements::REMARK.to_owned()]);
+    }
     answer.messages(
         study
             .failures

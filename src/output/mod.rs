@@ -21,7 +21,7 @@
 //! | `verification` | the page and the table of the manual |
 //! | [`document`] | a chart and a stability study as JSON |
 //! | `detail` | what `[statistics]` asks for: [`episodes`] (`episodes.csv`, `exceedances.csv`) and `spectra` |
-//! | [`realisations`] | `realisations.csv`, and its table |
+//! | [`realisations`], [`refinements`] | `realisations.csv`, and its tables |
 //! | [`through`] | depths of wear that the tube does not have |
 //! | [`worn_means`] | worn volume and depths over realisations: a table, and a part of the summary |
 //! | [`sector_means`] | `sector-means.csv`: where around each support a tube wears |
@@ -91,6 +91,7 @@ pub mod pictures;
 mod places;
 pub mod realisations;
 pub(crate) mod record;
+pub mod refinements;
 pub mod request;
 pub mod results;
 pub(crate) mod ring;

@@ -62,7 +62,10 @@ pub(super) fn write_by_method(
 
 fn header() -> Vec<String> {
     let mut header = vec!["realisation".to_owned(), "place".to_owned(), "kind".to_owned()];
-    header.extend(Measure::ALL.map(|measure| format!("{}_{}", measure.words().replace(' ', "_"), measure.unit())));
+    header.extend(Measure::ALL.map(|measure| {
+        let words = measure.words().replace(' ', "_");
+        if measure.unit().is_empty() { words } else { format!("{words}_{}", measure.unit().replace('/', "_per_")) }
+    }));
     header.push("findings".to_owned());
     header
 }

@@ -123,6 +123,27 @@ fn each_part_is_what_runs_with_the_same_seeds_differ_by() {
         assert_eq!(one["error"]["total"].as_f64(), row[6].parse().ok());
         assert!(one["error"]["modes"].is_null());
     }
+    // What need not converge has no error: it is the mean of the six that were run again, beside that
+    // with half the step. The flats have no work of sliding of their own.
+    for (measure, column_name) in
+        [("impact_share", "impact_share"), ("sliding_rate", "sliding_rate_m_per_s"), ("contacts", "contacts")]
+    {
+        let one = estimates.iter().find(|one| one["place"] == "bars" && one["measure"] == measure).unwrap();
+        assert!(one["error"].is_null());
+        let told = one["refinements"].as_array().unwrap();
+        assert_eq!((told.len(), &told[0]["refined"]["half_step"]["order"]), (1, &1.into()));
+        for (table, key) in [(&whole, "own"), (&halved, "then")] {
+            let values = column(table, "bars", column_name);
+            let mean = values.iter().take(6).sum::<f64>() / 6.0;
+            // Cells have six digits.
+            assert!((told[0][key].as_f64().unwrap() / mean - 1.0).abs() < 1e-5, "{measure} {key}: {told:?}, {mean}");
+        }
+        assert!(out.contains(&measure.replace('_', " ")), "{out}");
+    }
+    assert!(errors.iter().all(|row| row[2] != "contacts"));
+    let share = |place: &str| estimates.iter().any(|one| one["place"] == place && one["measure"] == "impact_share");
+    assert!(share("bars") && !share("bars-flat-1"));
+    assert!(err.contains("need not converge"), "{err}");
     let check = &summary["realisations"]["checks"][0];
     assert_eq!((&check["count"], &check["refined"]["half_step"]["order"]), (&6.into(), &1.into()));
     assert_eq!(parts(&out), ["start", "step", "sampling"]);

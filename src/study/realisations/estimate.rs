@@ -1,5 +1,6 @@
 //! Means over realisations and their intervals.
 
+use super::check::Refined;
 use super::error_parts::ErrorParts;
 use super::measure::{Figure, Measure};
 use super::realisation::Realisation;
@@ -39,6 +40,20 @@ pub struct Estimate {
     /// [`Realisations::with_checks`](super::Realisations::with_checks) was called, for one
     /// realisation, and unless [`Measure::is_judged`].
     pub error: Option<ErrorParts>,
+    /// Of a quantity that need not converge, what each check makes of it, and no error.
+    pub refinements: Vec<Refinement>,
+}
+
+/// The mean of some realisations, and that of the same with something refined.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Refinement {
+    /// What is refined.
+    pub refined: Refined,
+    /// The mean of the realisations that were run again, as they are in the study.
+    pub own: f64,
+    /// Their mean with the refinement.
+    pub then: f64,
 }
 
 /// Mean, standard deviation and half width of the 95 % interval of the mean: x̄, s and t s/√N.
@@ -85,6 +100,7 @@ pub(super) fn estimates(members: &[Realisation]) -> Vec<Estimate> {
             standard_deviation,
             half_width_95: half.or(alone),
             error: None,
+            refinements: Vec::new(),
         })
     };
     figures.iter().filter_map(estimate).collect()

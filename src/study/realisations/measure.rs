@@ -7,11 +7,11 @@ use serde::Serialize;
 
 /// A quantity of a wall or a support that has a mean over realisations.
 ///
-/// Only quantities that converge as steps and modes are refined are here. The number of impacts and
-/// the share of time in contact are not: each further mode and each smaller step resolves further
-/// small impacts. Impact power is not: the mass that a wall feels falls as modes are added. Nor is
-/// the root mean square of impulse/h at a rigid wall, which grows without limit as h → 0;
-/// [`Measure::RmsForce`] is that of the force averaged over
+/// Not all of them converge as steps and modes are refined ([`Measure::converges`]): each further
+/// mode and each smaller step resolves further small impacts, and the mass that a wall feels falls
+/// as modes are added. These are shown beside what refinements make of them, and not judged. The
+/// root mean square of impulse/h at a rigid wall grows without limit as h → 0: [`Measure::RmsForce`]
+/// is that of the force averaged over
 /// [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -36,6 +36,16 @@ pub enum Measure {
     /// [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging). It grows with the
     /// window.
     LargestForce,
+    /// The share of the work of wear that impacts do; of rigid supports in two planes. It need not
+    /// converge.
+    ImpactShare,
+    /// Distance slid in contact per unit time, m/s; of supports in two planes. At rigid supports it
+    /// need not converge, since impacts have none.
+    SlidingRate,
+    /// Number of contacts that begin in the window. It need not converge.
+    Contacts,
+    /// Power of the impacts at a wall, W. It need not converge.
+    ImpactPower,
 }
 
 /// One quantity of one place in one realisation.
@@ -62,7 +72,7 @@ type Found = (f64, Option<f64>, Option<[f64; 2]>);
 
 impl Measure {
     /// All of them, in the order of tables.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 11] = [
         Self::MeanForce,
         Self::MeanForceY,
         Self::MeanForceZ,
@@ -70,6 +80,10 @@ impl Measure {
         Self::WorkRate,
         Self::FrictionPower,
         Self::LargestForce,
+        Self::ImpactShare,
+        Self::SlidingRate,
+        Self::Contacts,
+        Self::ImpactPower,
     ];
 
     /// Its name in words.
@@ -83,6 +97,10 @@ impl Measure {
             Self::WorkRate => "work rate",
             Self::FrictionPower => "friction power",
             Self::LargestForce => "largest force",
+            Self::ImpactShare => "impact share",
+            Self::SlidingRate => "sliding rate",
+            Self::Contacts => "contacts",
+            Self::ImpactPower => "impact power",
         }
     }
 
@@ -91,11 +109,13 @@ impl Measure {
         format!("{} of {} {:?}", self.words(), place.kind.word(), place.name)
     }
 
-    /// Its unit.
+    /// Its unit; empty for shares and numbers.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
-            Self::WorkRate | Self::FrictionPower => "W",
+            Self::WorkRate | Self::FrictionPower | Self::ImpactPower => "W",
+            Self::SlidingRate => "m/s",
+            Self::ImpactShare | Self::Contacts => "",
             Self::MeanForce | Self::MeanForceY | Self::MeanForceZ | Self::RmsForce | Self::LargestForce => "N",
         }
     }
@@ -106,6 +126,12 @@ impl Measure {
         matches!(self, Self::WorkRate | Self::MeanForce | Self::RmsForce)
     }
 
+    /// False for those that need not converge as steps and modes are refined.
+    #[must_use]
+    pub fn converges(self) -> bool {
+        !matches!(self, Self::ImpactShare | Self::SlidingRate | Self::Contacts | Self::ImpactPower)
+    }
+
     /// The value at a wall.
     fn of_wall(self, wall: &WallStatistics) -> Option<Found> {
         let force = wall.force?;
@@ -113,12 +139,19 @@ impl Measure {
             Self::MeanForce => Some((force.mean_n, force.mean_half_width_95_n, Some(force.mean_of_halves_n))),
             Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n, Some(force.rms_of_halves_n))),
             Self::LargestForce => Some(largest(wall.largest_force)),
-            Self::MeanForceY | Self::MeanForceZ | Self::WorkRate | Self::FrictionPower => None,
+            Self::Contacts => Some((wall.contacts as f64, None, None)),
+            Self::ImpactPower => Some((wall.impact_power_w, wall.half_width_95.map(|half| half.impact_power_w), None)),
+            Self::MeanForceY
+            | Self::MeanForceZ
+            | Self::WorkRate
+            | Self::FrictionPower
+            | Self::ImpactShare
+            | Self::SlidingRate => None,
         }
     }
 
-    /// The value at a support.
-    fn of_support(self, support: &SupportStatistics, wear: Option<&WearStatistics>) -> Option<Found> {
+    /// The value at a support, over a window of so many `seconds`.
+    fn of_support(self, support: &SupportStatistics, wear: Option<&WearStatistics>, seconds: f64) -> Option<Found> {
         let force = support.force?;
         let vector =
             |axis: usize| (force.mean_vector_n[axis], force.mean_vector_half_width_95_n.map(|half| half[axis]), None);
@@ -134,6 +167,10 @@ impl Measure {
                 wear.filter(|wear| wear.friction > 0.0).map(|wear| (wear.friction_power_w, None, None))
             }
             Self::LargestForce => Some(largest(force.largest)),
+            Self::ImpactShare => wear.and_then(|wear| Some((wear.impact_share?, None, None))),
+            Self::SlidingRate => wear.map(|wear| (wear.sliding_m / seconds, None, None)),
+            Self::Contacts => Some((support.contacts as f64, None, None)),
+            Self::ImpactPower => None,
         }
     }
 }
@@ -146,6 +183,7 @@ fn largest(force: Option<LargestForce>) -> Found {
 /// Every measure of every place in `statistics`: supports, then walls, those of a support's flats
 /// among them, in the scene's order.
 pub(super) fn figures(statistics: &Statistics) -> Vec<Figure> {
+    let seconds = statistics.to_s - statistics.from_s;
     let mut figures = Vec::new();
     let mut add = |name: &str, kind: PlaceKind, of: &dyn Fn(Measure) -> Option<Found>| {
         for measure in Measure::ALL {
@@ -157,7 +195,7 @@ pub(super) fn figures(statistics: &Statistics) -> Vec<Figure> {
     };
     for support in &statistics.supports {
         let wear = statistics.wear.iter().find(|wear| wear.support == support.support);
-        add(&support.support, PlaceKind::Support, &|measure| measure.of_support(support, wear));
+        add(&support.support, PlaceKind::Support, &|measure| measure.of_support(support, wear, seconds));
     }
     for wall in statistics.walls.iter().filter(|wall| !wall.round) {
         add(&wall.wall, PlaceKind::Wall, &|measure| measure.of_wall(wall));

@@ -55,7 +55,7 @@ pub use count::{MOST_REALISATIONS, PILOTS, Pilots, RealisationCount};
 pub(crate) use deepest::Deepest;
 pub use error_parts::{ErrorPart, ErrorParts};
 pub(crate) use estimate::mean_of;
-pub use estimate::{Estimate, Interval};
+pub use estimate::{Estimate, Interval, Refinement};
 pub use found_step::FoundStep;
 pub use groups::{Groups, PlaceGroups};
 pub use known::KnownRealisations;

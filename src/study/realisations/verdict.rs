@@ -2,8 +2,9 @@
 
 use super::check::{Check, Refined};
 use super::error_parts::{ErrorPart, ErrorParts};
-use super::estimate::{Estimate, mean_of};
+use super::estimate::{Estimate, Refinement, mean_of};
 use super::paired::Difference;
+use super::realisation::Realisation;
 use super::sample::Realisations;
 
 impl Realisations {
@@ -14,9 +15,14 @@ impl Realisations {
     pub fn with_checks(mut self, checks: Vec<Check>) -> Self {
         let found: Vec<(Refined, Vec<Difference>)> =
             checks.iter().map(|check| (check.refined, differences(check, &self))).collect();
-        let errors: Vec<Option<ErrorParts>> =
-            self.estimates.iter().map(|estimate| error_parts(estimate, &self, &found)).collect();
-        self.estimates.iter_mut().zip(errors).for_each(|(estimate, error)| estimate.error = error);
+        let told = |estimate: &Estimate| {
+            let refinement = |check: &Check| refinement(estimate, &self, check);
+            (error_parts(estimate, &self, &found), checks.iter().filter_map(refinement).collect())
+        };
+        let told: Vec<(Option<ErrorParts>, Vec<Refinement>)> = self.estimates.iter().map(told).collect();
+        for (estimate, (error, refinements)) in self.estimates.iter_mut().zip(told) {
+            (estimate.error, estimate.refinements) = (error, refinements);
+        }
         self.checks = checks;
         self
     }
@@ -29,6 +35,19 @@ fn differences(check: &Check, study: &Realisations) -> Vec<Difference> {
     } else {
         Vec::new()
     }
+}
+
+/// What `check` makes of a quantity that need not converge; `None` where the check is refuted.
+fn refinement(estimate: &Estimate, study: &Realisations, check: &Check) -> Option<Refinement> {
+    let mean = |members: &[Realisation]| {
+        let values = members.iter().map(|member| member.value(&estimate.place, estimate.measure));
+        Some(mean_of(&values.collect::<Option<Vec<f64>>>()?).0)
+    };
+    if estimate.measure.converges() || !check.refuted.is_empty() {
+        return None;
+    }
+    let own = study.members.get(..check.members.len())?;
+    Some(Refinement { refined: check.refined, own: mean(own)?, then: mean(&check.members)? })
 }
 
 /// The parts of the error of `estimate`, given what the checks of `study` change.
@@ -58,7 +77,7 @@ mod tests {
     use crate::hash::{mix, unit};
     use crate::residual::{Finding, Refuted};
     use crate::statistics::{ContactPlace, PlaceKind};
-    use crate::study::realisations::{Figure, Measure, Realisation};
+    use crate::study::realisations::{Figure, Measure};
 
     fn member(number: u64, value: f64, halves: [f64; 2]) -> Realisation {
         let place = ContactPlace { name: "plate".to_owned(), kind: PlaceKind::Support };

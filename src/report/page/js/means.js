@@ -23,6 +23,17 @@ function meansSection({ count, estimates: judgeable, worn, checks }, title, runs
     },
     ...["start", "step", "modes"].filter((key) => estimates.some(({ error }) => error?.[key])).map(part),
   ];
+  /** What `check` makes of a quantity that need not converge. */
+  const refined = (check) => ({
+    name: `${check.refined.half_step ? "half the step" : `${check.refined.more_modes.modes[1]} modes`}`,
+    value: (row) => told(row, check)?.then ?? NaN,
+    show: (row) => {
+      const one = told(row, check);
+      return one ? `${digits(one.own, 3)} → ${digits(one.then, 3)}` : "–";
+    },
+  });
+  const told = (row, check) =>
+    row.refinements?.find(({ refined }) => JSON.stringify(refined) === JSON.stringify(check.refined));
   const again = checks.length ? `, step and modes from ${checks[0].count} of them run again` : "";
   section(
     "means",
@@ -30,7 +41,8 @@ function meansSection({ count, estimates: judgeable, worn, checks }, title, runs
     `Over ${runs(count)}, with 95 % intervals` +
       (judged
         ? `; the errors in per cent of the mean${again}. A part whose interval holds 0 is not seen, ` +
-          "which is no proof that there is none."
+          "which is no proof that there is none. Impact shares, sliding, contacts and impact power need " +
+          "not converge and are not judged: the means of those run again, and the same refined."
         : "."),
     sortable(
       [
@@ -43,6 +55,7 @@ function meansSection({ count, estimates: judgeable, worn, checks }, title, runs
           show: ({ mean, half_width_95: half }) => plusMinus(mean, half),
         },
         ...(judged ? errors : []),
+        ...checks.filter(({ refuted }) => !refuted.length).map(refined),
       ],
       estimates,
       { height: 60 + ROW * Math.min(estimates.length, 16) },
