@@ -123,8 +123,8 @@ fn each_part_is_what_runs_with_the_same_seeds_differ_by() {
         assert_eq!(one["error"]["total"].as_f64(), row[6].parse().ok());
         assert!(one["error"]["modes"].is_null());
     }
-    // What need not converge has no error: it is the mean of the six that were run again, beside that
-    // with half the step. The flats have no work of sliding of their own.
+    // What need not converge has no error: it is the mean of the six that were run again, beside
+    // that with half the step. The flats have no work of sliding of their own.
     for (measure, column_name) in
         [("impact_share", "impact_share"), ("sliding_rate", "sliding_rate_m_per_s"), ("contacts", "contacts")]
     {

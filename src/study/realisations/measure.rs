@@ -10,8 +10,8 @@ use serde::Serialize;
 /// Not all of them converge as steps and modes are refined ([`Measure::converges`]): each further
 /// mode and each smaller step resolves further small impacts, and the mass that a wall feels falls
 /// as modes are added. These are shown beside what refinements make of them, and not judged. The
-/// root mean square of impulse/h at a rigid wall grows without limit as h → 0: [`Measure::RmsForce`]
-/// is that of the force averaged over
+/// root mean square of impulse/h at a rigid wall grows without limit as h → 0:
+/// [`Measure::RmsForce`] is that of the force averaged over
 /// [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
