@@ -3,10 +3,13 @@
 
 use super::manifest::FINGERPRINT;
 use super::values::{VALUES, by_keys};
-use crate::case::{Case, sha256};
+use crate::case::{Case, WearOptions, sha256};
 use crate::scheme::{Method, Scheme};
 use serde_json::{Map, Value, json};
 use std::fmt::Debug;
+
+/// The part of a request that is the law of wear.
+const WEAR: &str = "wear";
 
 /// The request of `command` for `methods` on `case`: times and settings as values, the rest of the
 /// case (walls, loads and so on) as fingerprints. Titles and comments of a case file are left out.
@@ -35,12 +38,11 @@ pub fn request(command: &str, case: &Case, methods: &[Method]) -> Map<String, Va
     }
     let truncated =
         case.truncated.as_ref().map(|truncated| (&truncated.whole.damping, truncated.whole.static_correction));
-    let wear: Vec<_> = case.written.supports.iter().map(|support| support.wear).collect();
     for (part, digest) in [
         ("system", fingerprint(&(&whole.system, truncated))),
         ("walls", fingerprint(&whole.walls)),
         ("supports", fingerprint(&whole.supports)),
-        ("wear", fingerprint(&(case.wear, wear))),
+        (WEAR, wear(case, case.wear)),
         ("loads", fingerprint(&whole.loads)),
         ("initial", fingerprint(&whole.initial)),
         ("probes", fingerprint(&whole.probes)),
@@ -58,6 +60,22 @@ pub fn request(command: &str, case: &Case, methods: &[Method]) -> Map<String, Va
     }
     request.insert(VALUES.to_owned(), Value::Object(by_keys(&case.document.json().unwrap_or_default())));
     request
+}
+
+/// The request `of` a study of wear without the limit, which changes no window of it.
+#[must_use]
+pub(super) fn without_limit(mut of: Map<String, Value>, case: &Case) -> Map<String, Value> {
+    of.insert(format!("{WEAR}{FINGERPRINT}"), wear(case, WearOptions { limit: None, ..case.wear }));
+    if let Some(values) = of.get_mut(VALUES).and_then(Value::as_object_mut) {
+        values.remove("wear.limit");
+    }
+    of
+}
+
+/// The fingerprint of the law of wear of `case` with the time in service and the limit of `wear`.
+fn wear(case: &Case, wear: WearOptions) -> Value {
+    let supports: Vec<_> = case.written.supports.iter().map(|support| support.wear).collect();
+    fingerprint(&(wear, supports))
 }
 
 /// This program with its version, where results of another version are those of another request.

@@ -2,7 +2,7 @@
 //! An interrupted study goes on from its journal, and so does one of more years.
 
 use super::format::Formats;
-use super::request::{extended, program, request};
+use super::request::{extended, program, request, without_limit};
 use super::results::Results;
 use super::{error_parts, realisations, sector_means, summary, turbulence, wear_history, wear_remarks};
 use crate::case::Case;
@@ -52,11 +52,12 @@ impl WearRequest<'_> {
         settings[YEARS] = json!(self.years.map_or_else(|| Ok(self.case.service(None)? / YEAR), Ok)?);
         // Windows are kept, and those of another version may differ.
         settings["program"] = json!(program());
-        Ok(extended(request("wear", self.case, &[*self.method]), settings))
+        let own = without_limit(request("wear", self.case, &[*self.method]), self.case);
+        Ok(extended(own, settings))
     }
 
-    /// Opens `folder`, which may hold results of this study with as many years or fewer, or with
-    /// `force` anything. Files are written in `formats`.
+    /// Opens `folder`, which may hold results of this study with as many years or fewer, with
+    /// whatever limit, or with `force` anything. Files are written in `formats`.
     ///
     /// # Errors
     /// As [`Results::open`]; [`crate::Error::Invalid`] under `years` without a time in service.

@@ -36,8 +36,8 @@ pub(super) struct Seen {
 ///
 /// Within a stretch of exact motion, an extreme is a zero of the velocity. It is bracketed by
 /// instants an eighth of a period of the fastest motion apart, and then found to rounding. For a
-/// scheme on a grid the extremes are those at its instants, and integrals are taken by the
-/// trapezoidal rule.
+/// scheme on a grid the extremes are those at its instants and at the begin of the window, and integrals are taken by
+/// the trapezoidal rule.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
     from: f64,
@@ -84,10 +84,19 @@ impl Motion {
 
     fn observe_grid(&mut self, step: &Step<'_>) {
         let span = step.end - step.start.max(self.from);
+        // Where the window begins within the step, or with it, it begins with a state of its own,
+        // straight between those of the step.
+        let begins = step.start <= self.from;
+        let share = ((self.from - step.start) / (step.end - step.start)).max(0.0);
         for (probe, seen) in self.probes.iter().zip(&mut self.seen) {
-            let (before, u) = (probe.dot(&self.last.q), probe.dot(step.q));
-            seen.take(u, probe.dot(step.v));
-            seen.square += 0.5 * span * (before * before + u * u);
+            let [u, v] = [probe.dot(step.q), probe.dot(step.v)];
+            let at = |last: f64, now: f64| last + share * (now - last);
+            let first = at(probe.dot(&self.last.q), u);
+            if begins {
+                seen.take(first, at(probe.dot(&self.last.v), v));
+            }
+            seen.take(u, v);
+            seen.square += 0.5 * span * (first * first + u * u);
         }
     }
 

@@ -237,3 +237,25 @@ fn rows_of_a_sweep_with_negative_damping_are_told_once_and_say_so_themselves() {
     let said = "0,-0.02,ok,\"the mode of 10.0000 Hz (-2.000e-2) has a negative damping ratio and is unstable";
     assert!(table.contains(said) && table.contains("2,0.05,ok,,"), "{table}");
 }
+
+#[test]
+fn windows_that_begin_before_the_motion_has_settled_are_told_by_sweeps_as_by_runs() {
+    let dir = tempfile::tempdir().unwrap();
+    let fast = ["rigid-walls-sine", "--set", "initial.velocity=3", "--set", "time.step=1e-3", "--set", "time.end=4"];
+    let (_, err) = crate::command::said(
+        dir.path(),
+        &[&["run"], &fast[..], &["--set", "wall.*.restitution=0.5", "--no-verdict", "--out", "run"]].concat(),
+        0,
+    );
+    let note = err.lines().find_map(|line| line.strip_prefix("note: still settling: ")).expect("a note");
+    let sweep = |out: &str, more: &[&str]| {
+        let vary = ["--vary", "wall.*.restitution=0.5,0.6", "--measure", "force_mean", "--out", out];
+        crate::command::said(dir.path(), &[&["sweep"], &fast[..], &vary, more].concat(), 0).1
+    };
+    let words =
+        format!("note: 2 of 2 runs have not settled where their statistics begin; the first: still settling: {note}");
+    let told = sweep("early", &[]);
+    assert!(told.contains(&words), "{told}\n{words}");
+    let later = sweep("later", &["--set", "time.statistics_from=2", "--set", "time.end=8", "--force"]);
+    assert!(!later.contains("not settled"), "{later}");
+}

@@ -223,6 +223,38 @@ fn displacements_between_the_rows_of_a_run_are_exact_extremes() {
     }
 }
 
+/// A window so short that its first or last state is an extreme: both belong to it.
+#[test]
+fn extremes_of_stepped_motion_are_those_of_the_states_from_the_begin_of_the_window_on() {
+    let mut first_is_extreme = 0;
+    for scheme in ["moreau-jean", "located", "newmark"] {
+        for (from, end) in [(0.0, 0.02), (1.0, 1.02), (1.05, 1.07), (1.1, 1.12), (1.15, 1.17)] {
+            let sweep = Sweep::new(CaseFile::embedded("linear-sine").unwrap());
+            let sweep = sweep.set("time.end", end).unwrap().set("time.statistics_from", from).unwrap();
+            let sweep = sweep.set("time.step", 1e-3).unwrap();
+            let sweep = sweep.vary(Axis::list("load.1.harmonic.phase", &[0.3.into()]).unwrap()).by(scheme);
+            let plan = sweep.measure([Measure::DisplacementHighest, Measure::DisplacementLowest]).plan().unwrap();
+            let measures = plan.rows(1).unwrap().remove(0).measures;
+            let mut file = CaseFile::embedded("linear-sine").unwrap();
+            file.set(&"load.1.harmonic.phase".parse().unwrap(), &0.3.into()).unwrap();
+            let scene = signorini::Scene { duration: end, ..file.case().unwrap().scene };
+            let options = Options::with_step(1e-3).with_sample(1e-3);
+            let motion = run(&scene, &scheme.parse::<Scheme>().unwrap(), &options).unwrap().trajectory;
+            let first = motion.time().partition_point(|&t| t < from - 1e-9);
+            let u = &motion.probe("").unwrap().0[first..];
+            assert_eq!(u.len(), 21);
+            let [top, bottom] = [f64::max as fn(f64, f64) -> f64, f64::min].map(|more| u.iter().copied().reduce(more));
+            first_is_extreme += usize::from([top, bottom].contains(&u.first().copied()));
+            // A window that begins at a multiple of a decimal step begins at its state up to rounding.
+            for (found, wanted) in measures.iter().zip([top, bottom]) {
+                let (found, wanted) = (found.unwrap(), wanted.unwrap());
+                assert!((found - wanted).abs() <= 1e-12 * wanted.abs().max(1e-6), "{scheme}: {found:e}, {wanted:e}");
+            }
+        }
+    }
+    assert!(first_is_extreme >= 3, "{first_is_extreme} of 15 windows begin with an extreme");
+}
+
 /// A random force lasts as long as the row, whose end is not that of the case: it is the force of
 /// the case with that end.
 #[test]

@@ -192,6 +192,13 @@ fn a_limit_is_reached_after_years_that_are_told() {
     }
     let remarks = document["remarks"].to_string();
     assert!(remarks.contains("the tube reaches the limit of 0.165 mm at support \\\"plate-1\\\" after"), "{remarks}");
+    // Another limit changes no window: none is run again.
+    let twice = ["--set", "wear.limit=0.2", "--histories", "2", "--years", "200", "--json", "--out", "w"];
+    let (out, err) = said(path, &[&["wear"], &TUBE[..], &twice].concat(), 0);
+    assert!(err.contains("all of them there already"), "{err}");
+    let other: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert!((other["limits"][0]["limit_m"].as_f64().unwrap() - 0.33e-3).abs() < 1e-12);
+    assert_eq!(other["years"], document["years"]);
     // A run tells of its scar by itself.
     let (_, err) = said(
         path,

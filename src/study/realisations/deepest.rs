@@ -154,16 +154,15 @@ mod tests {
         [vec![1.0; 12], slowly, with(&[1.0, 1.0]), with(&[1.0])]
     }
 
-    /// Of 200 studies 95 % are 190, with the standard deviation 3.1; three of them below are 181,
-    /// and one more for parts all alike and for values with a long tail, of which Student's own
-    /// intervals hold 93 %. More than 190 is no fault: a half width has the bias in it.
+    /// Of 200 studies 95 % are 190, with the standard deviation 3.1; 91 % are 182, two and a half of
+    /// them below. More than 190 is no fault: a half width has the bias in it.
     #[test]
     fn intervals_of_the_deepest_hold_the_largest_expectation() {
         for realisations in [3, 6, 13, 24] {
             for expectations in cases() {
                 let (held, mean) = held(&expectations, (200, realisations), by_jackknife);
                 let few = if realisations < 6 { 1.6 } else { 1.4 };
-                assert!(held >= 178, "{held} of 200 for {realisations} of {expectations:?}");
+                assert!(held >= 182, "{held} of 200 for {realisations} of {expectations:?}");
                 assert!((0.95..few).contains(&mean), "{mean} for {realisations} of {expectations:?}");
             }
         }
