@@ -36,8 +36,8 @@ pub(super) struct Seen {
 ///
 /// Within a stretch of exact motion, an extreme is a zero of the velocity. It is bracketed by
 /// instants an eighth of a period of the fastest motion apart, and then found to rounding. For a
-/// scheme on a grid the extremes are those at its instants and at the begin of the window, and integrals are taken by
-/// the trapezoidal rule.
+/// scheme on a grid the extremes are those at its instants and at the begin of the window, and
+/// integrals are taken by the trapezoidal rule.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
     from: f64,

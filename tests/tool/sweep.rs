@@ -245,7 +245,7 @@ fn extremes_of_stepped_motion_are_those_of_the_states_from_the_begin_of_the_wind
             assert_eq!(u.len(), 21);
             let [top, bottom] = [f64::max as fn(f64, f64) -> f64, f64::min].map(|more| u.iter().copied().reduce(more));
             first_is_extreme += usize::from([top, bottom].contains(&u.first().copied()));
-            // A window that begins at a multiple of a decimal step begins at its state up to rounding.
+            // Multiples of a decimal step are those of its instants up to rounding.
             for (found, wanted) in measures.iter().zip([top, bottom]) {
                 let (found, wanted) = (found.unwrap(), wanted.unwrap());
                 assert!((found - wanted).abs() <= 1e-12 * wanted.abs().max(1e-6), "{scheme}: {found:e}, {wanted:e}");

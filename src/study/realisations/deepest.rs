@@ -154,8 +154,8 @@ mod tests {
         [vec![1.0; 12], slowly, with(&[1.0, 1.0]), with(&[1.0])]
     }
 
-    /// Of 200 studies 95 % are 190, with the standard deviation 3.1; 91 % are 182, two and a half of
-    /// them below. More than 190 is no fault: a half width has the bias in it.
+    /// Of 200 studies 95 % are 190, with the standard deviation 3.1; 91 % are 182, two and a half
+    /// of them below. More than 190 is no fault: a half width has the bias in it.
     #[test]
     fn intervals_of_the_deepest_hold_the_largest_expectation() {
         for realisations in [3, 6, 13, 24] {
