@@ -13,7 +13,7 @@ use signorini::output::{error_parts, realisations as output, worn_means};
 use signorini::study::accuracy::Accuracy;
 use signorini::study::realisations::{
     Batch, KnownRealisations, MOST_REALISATIONS, Realisation, RealisationCount, RealisationPlan, RealisationStudy,
-    TimeLimit, checked,
+    Realisations, TimeLimit, checked,
 };
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -74,19 +74,30 @@ pub fn count(given: Asked, most_time: Option<f64>, case: &sg::case::Case) -> PyR
 pub fn study(
     case: &sg::case::Case,
     plan: &Plan,
+    asked: (RealisationCount, u64),
+    known: KnownRealisations,
+    done: &RunsDone,
+) -> sg::Result<(RealisationStudy, Vec<String>)> {
+    let mut first = done.begin(1);
+    let end = case.scene.duration;
+    let options = sg::Options::new(plan.time);
+    let run = sg::run_with_progress(&case.scene, &plan.method, &options, &mut |time| first(time / end))?;
+    let study = study_from(&run, (case, plan), asked, known, done)?;
+    Ok((study, run.cautions.into_iter().chain(case.instability()).collect()))
+}
+
+/// The same from its first `run`.
+pub fn study_from(
+    run: &sg::Run,
+    (case, plan): (&sg::case::Case, &Plan),
     (count, checked): (RealisationCount, u64),
     mut known: KnownRealisations,
     done: &RunsDone,
-) -> sg::Result<(RealisationStudy, Vec<String>)> {
+) -> sg::Result<RealisationStudy> {
     let Plan { method, time } = plan;
-    let mut first = done.begin(1);
-    let end = case.scene.duration;
-    let options = sg::Options::new(*time);
-    let run = sg::run_with_progress(&case.scene, method, &options, &mut |time| first(time / end))?;
-    let plan = RealisationPlan { scenes: case, run: &run, method, time: *time, count, checked };
+    let plan = RealisationPlan { scenes: case, run, method, time: *time, count, checked };
     let mut make = |batch: &Batch<'_>| known.complete(batch, &mut |missing| made(missing, done));
-    let study = plan.follow(&mut make, &mut |_| {})?;
-    Ok((study, run.cautions.into_iter().chain(case.instability()).collect()))
+    plan.follow(&mut make, &mut |_| {})
 }
 
 /// Runs `batch`, and counts its runs.
@@ -113,27 +124,33 @@ fn accurate(
 /// A study as the Python half reads it: `document` and `table` hold its numbers, `text` its tables
 /// for people, `refuted` what makes its means wrong, `unknown` which parts of errors are not known.
 pub fn told(study: &RealisationStudy, notes: &[String], case: &sg::case::Case) -> Value {
-    let found = &study.realisations;
-    let worn = worn_means::table(case, found);
-    let tables = [output::table(found, &case.scene), worn, error_parts::table(found, &case.scene)];
+    let mut told = means_told(&study.realisations, case);
     // One finding of a run is enough, and one run of a check.
     let finding = |member: &Realisation| member.findings.first().map(ToString::to_string).unwrap_or_default();
     let members = study.refuted().filter(|(refined, _)| refined.is_none()).map(|(_, member)| member);
     let failed = study.failures.iter().map(|failed| (failed.refined, failed.error.to_string()));
-    let refuted = found.checks.iter().filter_map(|check| {
+    let refuted = study.realisations.checks.iter().filter_map(|check| {
         let (_, member) = study.refuted().find(|(refined, _)| *refined == Some(check.refined))?;
         Some((check.refined, format!("realisation {} is refuted: {}", member.number, finding(member))))
     });
     let unknown = failed.chain(refuted).map(|(refined, why)| format!("the check with {refined} failed: {why}"));
+    told["refuted"] =
+        members.map(|one| format!("realisation {}: {}", one.number, finding(one))).collect::<Vec<_>>().into();
+    told["unknown"] = unknown.collect::<Vec<_>>().into();
+    told["shortfall"] = json!(study.shortfall.as_ref().map(ToString::to_string));
+    told["notes"] = json!(notes);
+    told
+}
+
+/// The numbers and the tables of a study.
+pub fn means_told(found: &Realisations, case: &sg::case::Case) -> Value {
+    let worn = worn_means::table(case, found);
+    let tables = [output::table(found, &case.scene), worn, error_parts::table(found, &case.scene)];
     json!({
         "document": found,
         "worn": worn_means::document(case, found),
         "table": output::cells(found),
         "text": texts(tables),
-        "refuted": members.map(|one| format!("realisation {}: {}", one.number, finding(one))).collect::<Vec<_>>(),
-        "unknown": unknown.collect::<Vec<_>>(),
-        "shortfall": study.shortfall.as_ref().map(ToString::to_string),
-        "notes": notes,
     })
 }
 

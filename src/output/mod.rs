@@ -16,7 +16,8 @@
 //! | `turbulence` | `turbulence.csv`, `turbulence-pairs.csv`: forces on modes, asked and applied |
 //! | [`summary`], `json` | `summary.json`, and how JSON is written |
 //! | [`run`] | all files of one run, and its table |
-//! | [`compare`], `compare_table`, `method_realisations` | all files of a comparison, its tables and its JSON |
+//! | [`compare`], `compare_table` | all files of a comparison, its tables and its JSON |
+//! | [`method_realisations`] | the methods of a comparison under several realisations: files, tables, JSON |
 //! | `agreement` | the conclusion of a comparison in one sentence |
 //! | `verification` | the page and the table of the manual |
 //! | [`document`] | a chart and a stability study as JSON |
@@ -80,7 +81,7 @@ mod labelled;
 pub mod loci;
 mod lock;
 pub(crate) mod manifest;
-pub(crate) mod method_realisations;
+pub mod method_realisations;
 mod motion;
 mod orbit;
 pub mod orbits;

@@ -396,7 +396,10 @@ def _compare(
     step: float | None,
     sample: float | None,
     statistics_from: float | None,
-) -> tuple[list[dict[str, Any]], list[str], float]: ...
+    seeds: int | None,
+    verdict: bool,
+    progress: Callable[[int, int], None],
+) -> tuple[list[dict[str, Any]], list[str], float, dict[str, Any] | None]: ...
 def _chart(
     scene: Scene | Case,
     methods: Sequence[str] | None,

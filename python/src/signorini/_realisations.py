@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -88,8 +88,8 @@ def _error(known: dict[str, Any]) -> ErrorParts:
 def _estimate(known: dict[str, Any], seeds: bool) -> Estimate:
     half = known["half_width_95"]
     kind: Literal["seeds", "batches"] | None = None if half is None else "seeds" if seeds else "batches"
-    error = None if known["error"] is None else _error(known["error"])
-    return Estimate(known["mean"], half, kind, known["standard_deviation"], error)
+    error = None if known.get("error") is None else _error(known["error"])
+    return Estimate(known["mean"], half, kind, known.get("standard_deviation"), error)
 
 
 def _row(known: dict[str, Any]) -> dict[str, Any]:
@@ -105,17 +105,20 @@ def _row(known: dict[str, Any]) -> dict[str, Any]:
     return row
 
 
+def by_place(estimates: Iterable[dict[str, Any]], seeds: bool) -> tuple[Means, Means]:
+    """The estimates at supports, and those at walls."""
+    places: dict[str, dict[str, dict[str, Estimate]]] = {"support": {}, "wall": {}}
+    for one in estimates:
+        places[one["kind"]].setdefault(one["place"], {})[one["measure"]] = _estimate(one, seeds)
+    supports, walls = (ReadOnly({name: ReadOnly(own) for name, own in of.items()}) for of in places.values())
+    return supports, walls
+
+
 def made(known: dict[str, Any]) -> Realisations:
     """The study that the compiled half told."""
     document = known["document"]
-    places: dict[str, dict[str, dict[str, Estimate]]] = {"support": {}, "wall": {}}
     estimates = [*document["estimates"], *known["worn"]]
-    for one in estimates:
-        own = places[one["kind"]].setdefault(one["place"], {})
-        own[one["measure"]] = _estimate(one, seeds=document["count"] > 1)
-    supports, walls = (
-        ReadOnly({name: ReadOnly(own) for name, own in of.items()}) for of in places.values()
-    )
+    supports, walls = by_place(estimates, seeds=document["count"] > 1)
     table, rows = ReadOnly(columns(*known["table"])), tuple(map(_row, estimates))
     accuracy = known.get("accuracy")
     accuracy = None if accuracy is None else ReadOnly(accuracy)
