@@ -16,6 +16,7 @@
 //! | `turbulence` | `turbulence.csv`, `turbulence-pairs.csv`: forces on modes, asked and applied |
 //! | [`summary`], `json` | `summary.json`, and how JSON is written |
 //! | [`run`] | all files of one run, and its table |
+//! | [`run_folder`] | the folder of a run of a case, with its checks and its realisations |
 //! | [`compare`], `compare_table` | all files of a comparison, its tables and its JSON |
 //! | [`method_realisations`] | the methods of a comparison under several realisations: files, tables, JSON |
 //! | `agreement` | the conclusion of a comparison in one sentence |
@@ -97,6 +98,7 @@ pub mod results;
 pub(crate) mod ring;
 mod rubbed;
 pub mod run;
+pub mod run_folder;
 pub mod scene_family;
 pub mod sector_means;
 pub mod shape;

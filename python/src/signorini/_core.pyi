@@ -265,6 +265,8 @@ class Case:
         step: float | None = None,
         accuracy: float | None = None,
         of: Literal["motion", "means"] | None = None,
+        folder: str | PathLike[str] | None = None,
+        verdict: bool = True,
     ) -> Run: ...
     @staticmethod
     def _restore(version: str, bytes: bytes) -> Case: ...
@@ -447,6 +449,7 @@ def _realisations(
     most_time: float | None,
     accuracy: float | None,
     verdict: bool,
+    folder: str | PathLike[str] | None,
     progress: Callable[[int, int], None],
 ) -> dict[str, Any]: ...
 def _wear(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -158,6 +159,7 @@ def realisations(
     most_time: float | None = None,
     step: float | None = None,
     verdict: bool = True,
+    folder: str | os.PathLike[str] | None = None,
     progress: bool = True,
 ) -> Realisations:
     """Run a case under several realisations of its random loads, on all cores.
@@ -193,6 +195,9 @@ def realisations(
     verdict : bool
         Whether up to six realisations are run again with half the step, and with twice the modes
         where modes are left out, for the `Estimate.error` of each mean.
+    folder : path, optional
+        The files of ``signorini run`` with ``--seeds`` are written there, with its page,
+        ``report.html``. A folder with results of another request is refused.
     progress : bool
         Whether a terminal shows the progress, after a second.
 
@@ -206,9 +211,11 @@ def realisations(
         For a wrong request, such as a case without random loads.
     TypeError
         For something else than a case.
+    OSError
+        For a ``folder`` that cannot be written, and one with other results.
     RunError
         For a realisation that failed; `RefutedError` where the judge refutes one, whose ``study``
-        holds the study.
+        holds the study; its files are written all the same.
 
     Warns
     -----
@@ -230,7 +237,7 @@ def realisations(
     with Progress(0, progress) as shown:
         asked = (seeds, until_interval, most_seeds)
         case = of_case(case, "realisations")
-        known = _core._realisations(case, scheme, step, asked, most_time, accuracy, verdict, shown.reach)
+        known = _core._realisations(case, scheme, step, asked, most_time, accuracy, verdict, folder, shown.reach)
     study = made(known)
     if known["refuted"]:
         raise refuted(known["refuted"], study)
