@@ -7,6 +7,7 @@ use crate::pickle::{Reduced, State, pickled, unpickled};
 use crate::place::Model;
 use crate::plan::Plan;
 use crate::run::Run;
+use crate::run_folder::{reason, stepped};
 use crate::scene::Scene;
 use crate::work::{compute, compute_apart};
 use pyo3::exceptions::PyUserWarning;
@@ -196,6 +197,12 @@ impl Case {
     /// of : {"motion", "means"}, optional
     ///     What the accuracy is one of. A run has that of its motion; that of means over
     ///     realisations is refused here: `realisations` has it, of a chaotic motion too.
+    /// folder : path, optional
+    ///     The files of ``signorini run`` are written there, with its page, ``report.html``. A
+    ///     folder with results of another request is refused.
+    /// verdict : bool
+    ///     With ``folder``: whether the run is repeated with half the step, and with twice the
+    ///     modes where modes are left out, for the verdicts on the page.
     ///
     /// Returns
     /// -------
@@ -204,20 +211,24 @@ impl Case {
     /// Raises
     /// ------
     /// ValueError, RunError
-    ///     As `Scene.run`.
+    ///     As `Scene.run`; of a run that the judge refutes the files are written all the same.
+    /// OSError
+    ///     For a ``folder`` that cannot be written, and one with other results.
     ///
     /// Warns
     /// -----
     /// AccuracyWarning, ResultWarning
-    ///     As `Scene.run`; and a ResultWarning where the flow of the case makes the tube unstable
-    ///     with all supports active.
+    ///     As `Scene.run`; an AccuracyWarning where a check for the page failed; and a
+    ///     ResultWarning where the flow of the case makes the tube unstable with all supports
+    ///     active.
     ///
     /// Examples
     /// --------
     /// >>> import signorini as sg
     /// >>> sg.load("rigid-walls-sine", set={"time.end": 2.0}).run()
     /// <Run: located, 2001 rows to 2.0 s, 20 contacts>
-    #[pyo3(signature = (scheme=None, *, step=None, accuracy=None, of=None))]
+    #[pyo3(signature = (scheme=None, *, step=None, accuracy=None, of=None, folder=None, verdict=true))]
+    #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
     fn run(
         &self,
         py: Python<'_>,
@@ -225,6 +236,8 @@ impl Case {
         step: Option<f64>,
         accuracy: Option<f64>,
         of: Option<&str>,
+        folder: Option<PathBuf>,
+        verdict: bool,
     ) -> PyResult<Py<Run>> {
         let (scene, time) = (self.scene.bind(py), &self.case.time);
         let one_motion = one_motion(of, accuracy)?;
@@ -235,10 +248,22 @@ impl Case {
                                 draw";
                 return Err(wrong("accuracy", format!("{tolerance:?}"), expected));
             }
+            if let Some(folder) = folder {
+                let expected = "none beside accuracy; a second run with the step that was found has files: \
+                                case.run(run.scheme, step=run.step, folder=...)";
+                return Err(wrong("folder", format!("{folder:?}"), expected));
+            }
             let rows = (time.sample, time.statistics_from);
             return Run::to_accuracy(scene, (scheme, step), tolerance, rows, Some(&self.case));
         }
-        let run = Run::make(scene, self.plan(scheme, step)?, Some(&self.case))?;
+        let plan = self.plan(scheme, step)?;
+        let run = match folder {
+            None => Run::make(scene, plan, Some(&self.case))?,
+            Some(folder) => {
+                let case = stepped(&self.case, step).map_err(raise)?;
+                Run::into_folder(scene, (&case, plan, reason(&case, scheme)), &folder, verdict)?
+            }
+        };
         if let Some(instability) = self.case.instability() {
             // Written here, without NUL.
             let text = std::ffi::CString::new(instability).unwrap_or_default();

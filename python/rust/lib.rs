@@ -18,6 +18,7 @@ mod place;
 mod plan;
 mod realisations;
 mod run;
+mod run_folder;
 mod scene;
 mod start;
 mod stepper;

@@ -4,17 +4,20 @@ use crate::case::Case;
 use crate::error::{raise, wrong};
 use crate::json::loads;
 use crate::plan::Plan;
+use crate::run_folder::{RunFolder, reason, stepped};
 use crate::work::compute_beside;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use signorini as sg;
+use signorini::output::run_folder::{RunGoal, RunRequest};
 use signorini::output::table::Table;
 use signorini::output::{error_parts, realisations as output, worn_means};
 use signorini::study::accuracy::Accuracy;
 use signorini::study::realisations::{
     Batch, KnownRealisations, MOST_REALISATIONS, Realisation, RealisationCount, RealisationPlan, RealisationStudy,
-    TimeLimit, checked,
+    Realisations, TimeLimit, checked,
 };
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How many realisations are asked for: a number, or the share of an interval with the most that
@@ -74,20 +77,48 @@ pub fn count(given: Asked, most_time: Option<f64>, case: &sg::case::Case) -> PyR
 pub fn study(
     case: &sg::case::Case,
     plan: &Plan,
+    asked: (RealisationCount, u64),
+    known: KnownRealisations,
+    done: &RunsDone,
+) -> sg::Result<(RealisationStudy, Vec<String>)> {
+    let run = first_run((case, plan), None, done)?;
+    let study = study_from(&run, (case, plan), asked, known, done)?;
+    let notes = cautions(&study, case);
+    Ok((study, notes))
+}
+
+/// The first run of a study, with what a drawing of it needs in `folder` where there is one.
+fn first_run(
+    (case, plan): (&sg::case::Case, &Plan),
+    folder: Option<&mut RunFolder>,
+    done: &RunsDone,
+) -> sg::Result<sg::Run> {
+    let mut first = done.begin(1);
+    let end = case.scene.duration;
+    let mut progress = |time| first(time / end);
+    match folder {
+        Some(folder) => folder.run(case, &plan.method, &mut progress),
+        None => sg::run_with_progress(&case.scene, &plan.method, &sg::Options::new(plan.time), &mut progress),
+    }
+}
+
+/// What limits the use of `study`.
+fn cautions(study: &RealisationStudy, case: &sg::case::Case) -> Vec<String> {
+    study.realisations.cautioned().sentences().chain(case.instability()).collect()
+}
+
+/// The same from its first `run`.
+pub fn study_from(
+    run: &sg::Run,
+    (case, plan): (&sg::case::Case, &Plan),
     (count, checked): (RealisationCount, u64),
     mut known: KnownRealisations,
     done: &RunsDone,
-) -> sg::Result<(RealisationStudy, Vec<String>)> {
+) -> sg::Result<RealisationStudy> {
     let Plan { method, time } = plan;
-    let mut first = done.begin(1);
-    let end = case.scene.duration;
-    let options = sg::Options::new(*time);
-    let run = sg::run_with_progress(&case.scene, method, &options, &mut |time| first(time / end))?;
-    let plan = RealisationPlan { scenes: case, run: &run, method, time: *time, count, checked };
+    let plan = RealisationPlan { scenes: case, run, method, time: *time, count, checked };
     let mut make = |batch: &Batch<'_>| known.complete(batch, &mut |missing| made(missing, done));
-    let study = plan.follow(&mut make, &mut |_| {})?;
-    let notes = study.realisations.cautioned().sentences().chain(case.instability()).collect();
-    Ok((study, notes))
+    plan.follow(&mut make, &mut |_| {})
 }
 
 /// Runs `batch`, and counts its runs.
@@ -95,46 +126,119 @@ fn made(batch: &Batch<'_>, done: &RunsDone) -> sg::Result<Vec<Realisation>> {
     batch.run(&mut done.begin(batch.count()))
 }
 
-/// The study at the step that keeps the error `share` of the means of `case`, from at most `most`
-/// realisations; with what was reached, and the notes that limit its use.
-fn accurate(
-    case: &sg::case::Case,
-    plan: &Plan,
-    (share, most): (f64, u64),
-    done: &RunsDone,
-) -> sg::Result<(RealisationStudy, Vec<String>, Accuracy)> {
-    let found = case.step_search(&plan.method, share, most).find(&mut |batch| made(batch, done), &mut |_| {})?;
-    let plan = Plan { time: found.time, ..*plan };
-    let (mut study, notes) = study(case, &plan, (found.count, found.pairs), found.known.clone(), done)?;
-    let (accuracy, shortfall) = found.judge(&study);
-    study.shortfall = shortfall;
-    Ok((study, notes, accuracy))
+/// What a study of a case is asked for.
+struct Study<'a> {
+    case: &'a sg::case::Case,
+    plan: Plan,
+    /// Why this method.
+    reason: String,
+    folder: Option<PathBuf>,
+}
+
+/// A study, what was reached where an accuracy was asked for, and what is to be warned of.
+struct Found {
+    study: RealisationStudy,
+    notes: Vec<String>,
+    accuracy: Option<Accuracy>,
+    /// What is not known of its first run.
+    unknown: Vec<String>,
+}
+
+impl Study<'_> {
+    /// The folder of the results, where one is asked for.
+    fn open(&self, goal: RunGoal, count: Option<RealisationCount>) -> sg::Result<Option<RunFolder>> {
+        let asked = RunRequest { case: self.case, method: Some(&self.plan.method), goal, count };
+        self.folder.as_deref().map(|path| RunFolder::open(path, &asked)).transpose()
+    }
+
+    /// So many realisations, with `verdict` also the errors of their means.
+    fn counted(self, count: RealisationCount, verdict: bool, done: &RunsDone) -> sg::Result<Found> {
+        let mut folder = self.open(RunGoal::Step { verdict }, Some(count))?;
+        let of = (self.case, &self.plan);
+        let run = first_run(of, folder.as_mut(), done)?;
+        let study = study_from(&run, of, (count, checked(verdict)), KnownRealisations::default(), done)?;
+        self.found(&run, study, None, folder.map(|folder| (folder, verdict)))
+    }
+
+    /// The study at the step that keeps the error `share` of the means, from at most `most`
+    /// realisations; `start_scatter` is recorded with what was reached.
+    fn accurate(mut self, (share, most): (f64, u64), start_scatter: Option<f64>, done: &RunsDone) -> sg::Result<Found> {
+        let mut folder = self.open(RunGoal::Means { accuracy: share, most_seeds: most }, None)?;
+        let search = self.case.step_search(&self.plan.method, share, most);
+        let found = search.find(&mut |batch| made(batch, done), &mut |_| {})?;
+        self.plan.time = found.time;
+        let case = &sg::case::Case { time: found.time, ..self.case.clone() };
+        let own = Study { case, ..self };
+        let of = (own.case, &own.plan);
+        let run = first_run(of, folder.as_mut(), done)?;
+        let mut study = study_from(&run, of, (found.count, found.pairs), found.known.clone(), done)?;
+        let (mut accuracy, shortfall) = found.judge(&study);
+        accuracy.start_scatter = start_scatter;
+        study.shortfall = shortfall;
+        own.found(&run, study, Some(accuracy), folder.map(|folder| (folder, false)))
+    }
+
+    /// What was found, with its files in the folder, whose run has a `verdict`.
+    fn found(
+        self,
+        run: &sg::Run,
+        study: RealisationStudy,
+        accuracy: Option<Accuracy>,
+        folder: Option<(RunFolder, bool)>,
+    ) -> sg::Result<Found> {
+        let (notes, made) = (cautions(&study, self.case), (run, &self.plan, self.reason));
+        let write = |(folder, verdict): (RunFolder, bool)| {
+            folder.write(self.case, made, (Some(&study), accuracy.as_ref()), verdict)
+        };
+        let unknown = folder.map(write).transpose()?.unwrap_or_default();
+        Ok(Found { study, notes, accuracy, unknown })
+    }
+}
+
+impl Found {
+    /// The same as the Python half reads it.
+    fn told(&self, case: &sg::case::Case) -> Value {
+        let mut told = told(&self.study, &self.notes, case);
+        if let Some(unknown) = told["unknown"].as_array_mut() {
+            unknown.extend(self.unknown.iter().map(|text| json!(text)));
+        }
+        if let Some(accuracy) = &self.accuracy {
+            told["accuracy"] = json!(accuracy);
+        }
+        told
+    }
 }
 
 /// A study as the Python half reads it: `document` and `table` hold its numbers, `text` its tables
 /// for people, `refuted` what makes its means wrong, `unknown` which parts of errors are not known.
 pub fn told(study: &RealisationStudy, notes: &[String], case: &sg::case::Case) -> Value {
-    let found = &study.realisations;
-    let worn = worn_means::table(case, found);
-    let tables = [output::table(found, &case.scene), worn, error_parts::table(found, &case.scene)];
+    let mut told = means_told(&study.realisations, case);
     // One finding of a run is enough, and one run of a check.
     let finding = |member: &Realisation| member.findings.first().map(ToString::to_string).unwrap_or_default();
     let members = study.refuted().filter(|(refined, _)| refined.is_none()).map(|(_, member)| member);
     let failed = study.failures.iter().map(|failed| (failed.refined, failed.error.to_string()));
-    let refuted = found.checks.iter().filter_map(|check| {
+    let refuted = study.realisations.checks.iter().filter_map(|check| {
         let (_, member) = study.refuted().find(|(refined, _)| *refined == Some(check.refined))?;
         Some((check.refined, format!("realisation {} is refuted: {}", member.number, finding(member))))
     });
     let unknown = failed.chain(refuted).map(|(refined, why)| format!("the check with {refined} failed: {why}"));
+    told["refuted"] =
+        members.map(|one| format!("realisation {}: {}", one.number, finding(one))).collect::<Vec<_>>().into();
+    told["unknown"] = unknown.collect::<Vec<_>>().into();
+    told["shortfall"] = json!(study.shortfall.as_ref().map(ToString::to_string));
+    told["notes"] = json!(notes);
+    told
+}
+
+/// The numbers and the tables of a study.
+pub fn means_told(found: &Realisations, case: &sg::case::Case) -> Value {
+    let worn = worn_means::table(case, found);
+    let tables = [output::table(found, &case.scene), worn, error_parts::table(found, &case.scene)];
     json!({
         "document": found,
         "worn": worn_means::document(case, found),
         "table": output::cells(found),
         "text": texts(tables),
-        "refuted": members.map(|one| format!("realisation {}: {}", one.number, finding(one))).collect::<Vec<_>>(),
-        "unknown": unknown.collect::<Vec<_>>(),
-        "shortfall": study.shortfall.as_ref().map(ToString::to_string),
-        "notes": notes,
     })
 }
 
@@ -154,38 +258,43 @@ pub fn _realisations<'py>(
     most_time: Option<f64>,
     accuracy: Option<f64>,
     verdict: bool,
+    folder: Option<PathBuf>,
     progress: Py<PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = case.py();
     let plan = case.get().plan(scheme, step)?;
-    let case = &case.get().case;
+    // The files have the step as the case's own.
+    let stepped = stepped(&case.get().case, step.filter(|_| folder.is_some())).map_err(raise)?;
+    let (case, reason) = (&*stepped, reason(&stepped, scheme));
     let done = RunsDone::default();
     let mut watch = |py: Python<'_>| done.tell(progress.bind(py));
-    if let Some(share) = accuracy {
-        let most = most_beside_accuracy(asked, step, verdict)?;
-        if let Some(seconds) = most_time {
-            return Err(wrong("most_time", format!("{seconds:?}"), "none beside accuracy, which most_seeds limits"));
+    let found = match accuracy {
+        Some(share) => {
+            let most = most_beside_accuracy(asked, step, verdict)?;
+            if let Some(seconds) = most_time {
+                let expected = "none beside accuracy, which most_seeds limits";
+                return Err(wrong("most_time", format!("{seconds:?}"), expected));
+            }
+            let start_scatter = (!case.is_random()).then(|| case.start_scatter());
+            let case = &case.with_scattered_start().map_err(|error| match case.scene.walls.is_empty() {
+                true => wrong("accuracy", format!("{share:?}"), "a case with a wall or support: its forces have means"),
+                false => raise(error),
+            })?;
+            case.realisation(most.max(1)).map_err(raise)?;
+            case.step_search(&plan.method, share, most).validate().map_err(raise)?;
+            let study = Study { case, plan, reason, folder };
+            let found = compute_beside(py, || study.accurate((share, most), start_scatter, &done), &mut watch)?;
+            found.told(case)
         }
-        let start_scatter = (!case.is_random()).then(|| case.start_scatter());
-        let case = &case.with_scattered_start().map_err(|error| match case.scene.walls.is_empty() {
-            true => wrong("accuracy", format!("{share:?}"), "a case with a wall or support: its forces have means"),
-            false => raise(error),
-        })?;
-        case.realisation(most.max(1)).map_err(raise)?;
-        case.step_search(&plan.method, share, most).validate().map_err(raise)?;
-        let found = compute_beside(py, || accurate(case, &plan, (share, most), &done), &mut watch)?;
-        let (study, notes, mut accuracy) = found;
-        accuracy.start_scatter = start_scatter;
-        let mut told = told(&study, &notes, case);
-        told["accuracy"] = json!(accuracy);
-        return loads(py, &told.to_string());
-    }
-    let Some(count) = count(asked, most_time, case)? else {
-        return Err(wrong("seeds", "missing", "the number of realisations, until_interval or accuracy"));
+        None => {
+            let Some(count) = count(asked, most_time, case)? else {
+                return Err(wrong("seeds", "missing", "the number of realisations, until_interval or accuracy"));
+            };
+            let study = Study { case, plan, reason, folder };
+            compute_beside(py, || study.counted(count, verdict, &done), &mut watch)?.told(case)
+        }
     };
-    let work = || study(case, &plan, (count, checked(verdict)), KnownRealisations::default(), &done);
-    let (study, notes) = compute_beside(py, work, &mut watch)?;
-    loads(py, &told(&study, &notes, case).to_string())
+    loads(py, &found.to_string())
 }
 
 /// The most realisations that an accuracy may take, unless something stands beside it

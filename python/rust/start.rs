@@ -3,12 +3,15 @@
 use crate::error::{AccuracyWarning, DivergedError, RefutedError, ResultWarning, raise, wrong};
 use crate::plan::Plan;
 use crate::run::Run;
+use crate::run_folder::RunFolder;
 use crate::scene::Scene;
 use crate::work::{LARGE, compute, compute_apart, compute_beside};
 use pyo3::prelude::*;
 use signorini as sg;
+use signorini::output::run_folder::{RunGoal, RunRequest};
 use signorini::output::supports;
 use signorini::study::accuracy::{Target, reach};
+use std::path::Path;
 
 impl Run {
     /// Runs `scene`; the run has the notes of its `case` too, where it has one.
@@ -22,6 +25,32 @@ impl Run {
             compute_apart(scene.py(), move || sg::run(&inner, &plan.method, &options))?
         };
         Self::judged(scene, run, plan.time, None, case)
+    }
+
+    /// Runs the scene of a `case`, whose `step` is that asked for, for the `reason`, and writes its
+    /// files into `folder`; with `verdict` it is checked for them.
+    pub fn into_folder(
+        scene: &Bound<'_, Scene>,
+        (case, plan, reason): (&sg::case::Case, Plan, String),
+        folder: &Path,
+        verdict: bool,
+    ) -> PyResult<Py<Self>> {
+        let py = scene.py();
+        let asked = RunRequest { case, method: Some(&plan.method), goal: RunGoal::Step { verdict }, count: None };
+        let work = || {
+            let mut open = RunFolder::open(folder, &asked)?;
+            let run = open.run(case, &plan.method, &mut |_| {})?;
+            let unknown = open.write(case, (&run, &plan, reason), (None, None), verdict)?;
+            Ok((run, unknown))
+        };
+        let (run, unknown) = compute_beside(py, work, &mut |_| Ok(()))?;
+        let made = Self::judged(scene, run, plan.time, None, Some(case))?;
+        for text in unknown {
+            // Names are without NUL.
+            let text = std::ffi::CString::new(text).unwrap_or_default();
+            PyErr::warn(py, &py.get_type::<AccuracyWarning>(), &text, 1)?;
+        }
+        Ok(made)
     }
 
     /// Runs it to an accuracy.

@@ -3,14 +3,19 @@
 
 use crate::case::{Case, value};
 use crate::error::raise;
-use crate::json::list;
+use crate::json::{list, loads};
+use crate::plan::Plan;
+use crate::realisations::{RunsDone, count, means_told, study_from, texts};
 use crate::run::Run;
 use crate::subject::Subject;
 use crate::work::compute_beside;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use serde_json::{Value, json};
 use signorini as sg;
-use signorini::study::compare::compare;
+use signorini::output::method_realisations as output;
+use signorini::study::compare::{MethodStudies, MethodStudy, compare};
+use signorini::study::realisations::{KnownRealisations, checked};
 use signorini::study::stability::family::MapRequest;
 use signorini::study::stability::plan::{Grid, Plan as Maps};
 use signorini::study::work_precision::{self, Effort, Outcome, Quantity, Steps};
@@ -22,10 +27,13 @@ fn dict<'py>(py: Python<'py>, items: impl FnOnce(&Bound<'py, PyDict>) -> PyResul
     Ok(dict)
 }
 
-/// Rows, findings, and the time up to which errors are taken.
-type Compared<'py> = (Bound<'py, PyList>, Vec<String>, f64);
+/// Rows, findings, the time up to which errors are taken, and the methods under all realisations.
+type Compared<'py> = (Bound<'py, PyList>, Vec<String>, f64, Bound<'py, PyAny>);
 
+/// Compares the methods; with `seeds` also under so many realisations, with `verdict` with the
+/// errors of their means.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
 pub fn _compare<'py>(
     py: Python<'py>,
     scene: Subject<'py>,
@@ -33,11 +41,28 @@ pub fn _compare<'py>(
     step: Option<f64>,
     sample: Option<f64>,
     statistics_from: Option<f64>,
+    seeds: Option<i64>,
+    verdict: bool,
+    progress: Py<PyAny>,
 ) -> PyResult<Compared<'py>> {
     let methods = scene.methods(&methods)?;
     let inner = scene.inner();
     let time = scene.time(step, sample, statistics_from)?;
-    let comparison = compute_beside(py, || compare(inner, &methods, &time, &|_| {}), &mut |_| Ok(()))?;
+    let case = scene.case();
+    let count = case.map(|case| count((seeds, None, None), None, case)).transpose()?.flatten();
+    let done = RunsDone::default();
+    let work = || {
+        let comparison = compare(inner, &methods, &time, &|_| {})?;
+        let studies = case.zip(count).map(|(case, count)| {
+            MethodStudies::of(&comparison, count.most(), &mut |run, method| {
+                let plan = Plan { method: *method, time };
+                study_from(run, (case, &plan), (count, checked(verdict)), KnownRealisations::default(), &done)
+            })
+        });
+        Ok((comparison, studies.transpose()?))
+    };
+    let (comparison, studies) = compute_beside(py, work, &mut |py| done.tell(progress.bind(py)))?;
+    let told = case.zip(studies).map(|(case, studies)| methods_told(&studies, case));
     let rows = comparison.rows.into_iter().map(|row| {
         dict(py, |d| {
             d.set_item("method", row.method.to_string())?;
@@ -52,7 +77,30 @@ pub fn _compare<'py>(
         })
     });
     let rows = list(py, rows.collect::<PyResult<Vec<_>>>()?)?;
-    Ok((rows, comparison.findings, comparison.horizon))
+    Ok((rows, comparison.findings, comparison.horizon, loads(py, &json!(told).to_string())?))
+}
+
+/// The methods under all realisations, as the Python half reads them.
+fn methods_told(studies: &MethodStudies, case: &sg::case::Case) -> Value {
+    let one = |one: &MethodStudy| {
+        let study = means_told(&one.study, case);
+        json!({ "method": one.method, "study": study, "differences": one.differences })
+    };
+    let tables = [output::table(studies, &case.scene), output::error_table(studies, &case.scene)];
+    let failures = |of_check: bool| {
+        let failures = studies.failures.iter().filter(move |failure| failure.refined.is_some() == of_check);
+        failures.map(ToString::to_string)
+    };
+    json!({
+        "count": studies.count,
+        "reference": studies.reference,
+        "methods": studies.methods.iter().map(one).collect::<Vec<_>>(),
+        "table": output::cells(studies),
+        "text": texts(tables),
+        "remarks": output::remarks(studies),
+        "warnings": output::warnings(studies).into_iter().chain(failures(false)).collect::<Vec<_>>(),
+        "unknown": failures(true).collect::<Vec<_>>(),
+    })
 }
 
 #[pyfunction]

@@ -29,7 +29,7 @@ def scene() -> sg.Scene:
 
 @pytest.fixture
 def tool(tmp_path: Path) -> Callable[..., Path]:
-    """Runs the command-line tool, and gives the folder of its results.
+    """Runs the command-line tool, and gives the folder of its results, with ``page=True`` with its page.
 
     It is that of the environment's ``SIGNORINI_TOOL``, or what cargo has built for release.
     """
@@ -37,8 +37,9 @@ def tool(tmp_path: Path) -> Callable[..., Path]:
     if not Path(name).exists():
         pytest.skip(f"no tool at {name}: cargo build --release, or SIGNORINI_TOOL")
 
-    def run(*arguments: str) -> Path:
-        subprocess.run([name, *arguments, "--no-report", "--out", tmp_path / "out"], check=True, capture_output=True)
+    def run(*arguments: str, page: bool = False) -> Path:
+        without = [] if page else ["--no-report"]
+        subprocess.run([name, *arguments, *without, "--out", tmp_path / "out"], check=True, capture_output=True)
         return tmp_path / "out"
 
     return run

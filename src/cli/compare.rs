@@ -1,6 +1,6 @@
 //! `signorini compare`: methods side by side, the main command.
 
-use super::compare_seeds::Studies;
+use super::compare_seeds;
 use super::drawing::PlotSpan;
 use super::estimate::DurationEstimate;
 use super::pipeline::Answer;
@@ -15,6 +15,7 @@ use crate::output::agreement::{conclusion, half_the_step};
 use crate::output::compare as output;
 use crate::output::compare_table::{all_quantities, force_remark, length_word, overview, remark};
 use crate::output::document::under_head;
+use crate::output::method_realisations;
 use crate::output::request::{extended, request};
 use crate::output::results::Results;
 use crate::output::shape::{self, Shape};
@@ -79,9 +80,10 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let (comparison, (verdicts, failures)) = compared(args, &case, &methods, count, ui)?;
     refute(&comparison, &verdicts, ui);
     any_succeeded(&comparison)?;
-    let studies = count.map(|count| Studies::of(&case, &comparison, count, !args.no_verdict, ui)).transpose()?;
+    let studies =
+        count.map(|count| compare_seeds::studies(&case, &comparison, count, !args.no_verdict, ui)).transpose()?;
     if let Some(studies) = &studies {
-        studies.write(&mut results)?;
+        method_realisations::write(&mut results, studies)?;
     }
     let common = args.span.within(&case, comparison.horizon)?;
     let report = !args.request.place.no_report;
@@ -98,7 +100,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     results.add_to_manifest("remarks", json!(findings.clone().chain(&notes).collect::<Vec<_>>()));
     let mut document = document(&case, &comparison, rows, &conclusion, &notes);
     if let Some(studies) = &studies {
-        document["realisations"] = studies.document();
+        document["realisations"] = method_realisations::document(studies);
     }
     let mut answer = Answer::of(results, report, document);
     if args.verbose {
@@ -111,14 +113,14 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     answer.prose(conclusion);
     answer.remarks(half_the_step(&case, &comparison, &verdicts));
     if let Some(studies) = &studies {
-        studies.show(&mut answer, &case);
+        compare_seeds::show(studies, &mut answer, &case);
     }
     add_messages(&mut answer, args, &case, &comparison, &verdicts, &notes);
     let failed = failures.iter();
     answer
         .messages(failed.map(|(method, error)| format!("- the check of {method} with half the step failed: {error}")));
     let unchecked = failures.iter().map(|(method, _)| format!("half the step of {method}"));
-    answer.fall_short(not_checked(unchecked.chain(studies.iter().flat_map(Studies::unchecked))));
+    answer.fall_short(not_checked(unchecked.chain(studies.iter().flat_map(compare_seeds::unchecked))));
     Ok(answer)
 }
 

@@ -9,7 +9,7 @@ use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::results::Results;
 use crate::output::table::Table;
-use crate::report;
+use crate::report::{self, Finished};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
@@ -151,24 +151,9 @@ impl Answer {
         let Some(results) = &mut self.results else { return Ok(self.last_line.take()) };
         let said = ui.with_bar("tables.xlsx", |bar| results.write_workbooks(&mut |share| bar.set_share(share)))?;
         said.iter().for_each(|said| ui.message(said));
-        // The report is made from the files in their places.
-        let replaced = results.finish()?;
-        let mut open = String::new();
-        if self.report {
-            let (folder, manifest) = (results.folder().to_owned(), results.manifest());
-            match report::too_large(&folder, &manifest)? {
-                Some(reason) => ui.message(&reason),
-                None => {
-                    let page = report::page(&folder, &manifest)?;
-                    results.write(report::FILE, page)?;
-                    results.finish()?;
-                    open = format!("; open {}", folder.join(report::FILE).display());
-                }
-            }
-        }
-        if let Some(replaced) = replaced {
-            ui.message(&replaced);
-        }
+        let Finished { page, said } = report::finish(results, self.report)?;
+        let open = page.map_or_else(String::new, |page| format!("; open {}", page.display()));
+        said.iter().for_each(|said| ui.message(said));
         if let Some(map) = self.document.as_object_mut() {
             map.insert("results".to_owned(), json!(results.folder()));
             map.insert("files_written".to_owned(), json!(results.files()));

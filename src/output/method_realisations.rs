@@ -1,13 +1,15 @@
 //! Several methods under the same realisations of random loads: their means, and their differences.
 
 use super::csv::{self, digits};
-use super::realisations::{find, shown, with_interval};
+use super::error_parts;
+use super::realisations::{self, find, shown, with_interval};
+use super::results::Results;
 use super::table::Table;
 use crate::error::Result;
 use crate::scene::Scene;
+use crate::study::compare::{MethodStudies, MethodStudy};
 use crate::study::realisations::{Difference, Estimate, Measure, Realisations};
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// Name of the file of the means.
 pub const FILE: &str = "compare-realisations.csv";
@@ -15,56 +17,59 @@ pub const FILE: &str = "compare-realisations.csv";
 /// Most places of the table in the terminal.
 const MOST_PLACES: usize = 6;
 
-/// One method under all realisations.
-#[derive(Debug)]
-pub struct MethodStudy {
-    /// The method.
-    pub method: String,
-    /// Its realisations.
-    pub study: Realisations,
-    /// What it differs by from the reference; empty for the reference itself.
-    pub differences: Vec<Difference>,
-}
-
-impl MethodStudy {
-    /// What its mean differs by from that of the reference.
-    fn less(&self, mean: &Estimate) -> Option<&Difference> {
-        self.differences.iter().find(|less| less.place == mean.place && less.measure == mean.measure)
+/// Writes `realisations.csv`, the means, and `errors.csv` where errors are known, of all methods.
+pub fn write(results: &mut Results, studies: &MethodStudies) -> Result<()> {
+    let own = named(studies);
+    realisations::write_methods(&results.place(realisations::FILE)?, &own)?;
+    if has_errors(studies) {
+        error_parts::write_methods(&results.place(error_parts::FILE)?, &own)?;
     }
+    let (header, rows) = cells(studies);
+    csv::table(&results.place(FILE)?, &header, rows.into_iter())
 }
 
-/// Writes one row for each method, place and measure: the mean, the deviation of one realisation
-/// and the half width of the interval of the mean, the same of the difference from `reference`, and
-/// how many realisations the judge refutes.
-pub fn write(path: &Path, studies: &[MethodStudy], reference: &str) -> Result<()> {
-    let columns: [csv::Column<'_, (&MethodStudy, &Estimate)>; 12] = [
-        ("method", &|(one, _)| one.method.clone()),
-        ("place", &|(_, mean)| mean.place.name.clone()),
-        ("kind", &|(_, mean)| mean.place.kind.word().to_owned()),
-        ("measure", &|(_, mean)| mean.measure.words().replace(' ', "_")),
-        ("unit", &|(_, mean)| mean.unit.to_owned()),
-        ("mean", &|(_, mean)| digits(Some(mean.mean))),
-        ("standard_deviation", &|(_, mean)| digits(mean.standard_deviation)),
-        ("half_width_95", &|(_, mean)| digits(mean.half_width_95)),
-        ("less", &|(one, mean)| one.less(mean).map_or("", |_| reference).to_owned()),
-        ("difference", &|(one, mean)| digits(one.less(mean).map(|less| less.mean))),
-        ("difference_half_width_95", &|(one, mean)| digits(one.less(mean).and_then(|less| less.half_width_95))),
-        ("refuted", &|(one, _)| one.study.refuted.len().to_string()),
-    ];
-    csv::records(path, &columns, studies.iter().flat_map(|one| one.study.estimates.iter().map(move |mean| (one, mean))))
+fn named(studies: &MethodStudies) -> Vec<(String, &Realisations)> {
+    studies.methods.iter().map(|one| (one.method.clone(), &one.study)).collect()
+}
+
+fn has_errors(studies: &MethodStudies) -> bool {
+    studies.methods.iter().any(|one| error_parts::has_any(&one.study))
+}
+
+/// The header and the rows of the means, one for each method, place and measure: the mean, the
+/// deviation of one realisation and the half width of the interval of the mean, the same of the
+/// difference from the reference, and how many realisations the judge refutes.
+#[must_use]
+pub fn cells(studies: &MethodStudies) -> (Vec<String>, Vec<Vec<String>>) {
+    let of_mean = ["place", "kind", "measure", "unit", "mean", "standard_deviation", "half_width_95"];
+    let of_difference = ["less", "difference", "difference_half_width_95", "refuted"];
+    let header = ["method"].into_iter().chain(of_mean).chain(of_difference).map(str::to_owned).collect();
+    let row = |one: &MethodStudy, mean: &Estimate| {
+        let less = one.less(mean);
+        let mut row = vec![one.method.clone(), mean.place.name.clone(), mean.place.kind.word().to_owned()];
+        row.extend([mean.measure.words().replace(' ', "_"), mean.unit.to_owned()]);
+        row.extend([Some(mean.mean), mean.standard_deviation, mean.half_width_95].map(digits));
+        row.push(less.map_or("", |_| studies.reference.as_str()).to_owned());
+        row.extend([less.map(|less| less.mean), less.and_then(|less| less.half_width_95)].map(digits));
+        row.push(one.study.refuted.len().to_string());
+        row
+    };
+    let rows = studies.methods.iter().flat_map(|one| one.study.estimates.iter().map(move |mean| row(one, mean)));
+    (header, rows.collect())
 }
 
 /// The studies as JSON, with the method that the differences are taken from.
 #[must_use]
-pub fn document(studies: &[MethodStudy], reference: &str) -> Value {
+pub fn document(studies: &MethodStudies) -> Value {
     let one = |one: &MethodStudy| json!({ "method": one.method, "study": one.study, "differences": one.differences });
-    json!({ "reference": reference, "methods": studies.iter().map(one).collect::<Vec<_>>() })
+    json!({ "reference": studies.reference, "methods": studies.methods.iter().map(one).collect::<Vec<_>>() })
 }
 
 /// The table for the terminal: by place and quantity, the mean of each method and its difference
 /// from the reference; `None` without walls.
 #[must_use]
-pub fn table(studies: &[MethodStudy], reference: &str, scene: &Scene) -> Option<Table> {
+pub fn table(studies: &MethodStudies, scene: &Scene) -> Option<Table> {
+    let MethodStudies { methods: studies, reference, .. } = studies;
     let first = &studies.first()?.study;
     let mut rows = Vec::new();
     for place in shown(first, scene, MOST_PLACES) {
@@ -87,12 +92,39 @@ pub fn table(studies: &[MethodStudy], reference: &str, scene: &Scene) -> Option<
     (!rows.is_empty()).then(|| Table::new(header, rows))
 }
 
-/// The remark below the table.
+/// The table of the errors for the terminal; `None` where none is known.
 #[must_use]
-pub fn remark(count: u64) -> String {
-    format!(
+pub fn error_table(studies: &MethodStudies, scene: &Scene) -> Option<Table> {
+    error_parts::table_of_methods(&named(studies), scene)
+}
+
+/// The remarks below the tables, a sentence each.
+#[must_use]
+pub fn remarks(studies: &MethodStudies) -> Vec<String> {
+    let count = studies.count;
+    let mut remarks = vec![format!(
         "± is the half width of the 95 % interval of the mean over {count} realisations, by \
          Student's t; differences are between runs with the same seeds, and one within its ± is not distinguished \
          from none"
-    )
+    )];
+    remarks.extend(has_errors(studies).then(|| error_parts::REMARK_OF_METHODS.to_owned()));
+    remarks.extend((count > 1).then(|| "all but the means and their errors is of realisation 1 alone".to_owned()));
+    remarks.extend(warnings(studies));
+    remarks.extend(studies.failures.iter().map(ToString::to_string));
+    remarks
+}
+
+/// What makes means wrong, or leaves a part of their errors unknown, since the judge refutes runs.
+#[must_use]
+pub fn warnings(studies: &MethodStudies) -> Vec<String> {
+    let MethodStudies { count, methods, .. } = studies;
+    let refuted = methods.iter().filter(|one| !one.study.refuted.is_empty()).map(|one| {
+        let refuted = one.study.refuted.len();
+        format!("{}: {refuted} of {count} realisations are refuted: its means are wrong", one.method)
+    });
+    let unknown = methods.iter().flat_map(|one| {
+        let checks = one.study.checks.iter().filter_map(error_parts::refuted);
+        checks.map(|text| format!("{}: {text}", one.method))
+    });
+    refuted.chain(unknown).collect()
 }

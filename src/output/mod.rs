@@ -16,7 +16,9 @@
 //! | `turbulence` | `turbulence.csv`, `turbulence-pairs.csv`: forces on modes, asked and applied |
 //! | [`summary`], `json` | `summary.json`, and how JSON is written |
 //! | [`run`] | all files of one run, and its table |
-//! | [`compare`], `compare_table`, `method_realisations` | all files of a comparison, its tables and its JSON |
+//! | [`run_folder`] | the folder of a run of a case, with its checks and its realisations |
+//! | [`compare`], `compare_table` | all files of a comparison, its tables and its JSON |
+//! | [`method_realisations`] | the methods of a comparison under several realisations: files, tables, JSON |
 //! | `agreement` | the conclusion of a comparison in one sentence |
 //! | `verification` | the page and the table of the manual |
 //! | [`document`] | a chart and a stability study as JSON |
@@ -80,7 +82,7 @@ mod labelled;
 pub mod loci;
 mod lock;
 pub(crate) mod manifest;
-pub(crate) mod method_realisations;
+pub mod method_realisations;
 mod motion;
 mod orbit;
 pub mod orbits;
@@ -97,6 +99,7 @@ pub mod results;
 pub(crate) mod ring;
 mod rubbed;
 pub mod run;
+pub mod run_folder;
 pub mod scene_family;
 pub mod sector_means;
 pub mod shape;

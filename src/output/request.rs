@@ -5,6 +5,7 @@ use super::manifest::FINGERPRINT;
 use super::values::{VALUES, by_keys};
 use crate::case::{Case, WearOptions, sha256};
 use crate::scheme::{Method, Scheme};
+use crate::study::realisations::RealisationCount;
 use serde_json::{Map, Value, json};
 use std::fmt::Debug;
 
@@ -88,6 +89,16 @@ pub(crate) fn program() -> String {
 pub fn extended(mut request: Map<String, Value>, more: Value) -> Map<String, Value> {
     request.extend(object(more));
     request
+}
+
+/// What is recorded of as many realisations as an interval takes.
+pub(crate) fn interval(count: RealisationCount) -> Value {
+    let RealisationCount::Within { share, most, most_time } = count else { return json!({}) };
+    let mut settings = json!({ "until_interval": share, "most_seeds": most });
+    if let Some(limit) = most_time {
+        settings["most_time_s"] = json!(limit.seconds());
+    }
+    settings
 }
 
 fn object(value: Value) -> Map<String, Value> {

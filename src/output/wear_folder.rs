@@ -2,7 +2,7 @@
 //! An interrupted study goes on from its journal, and so does one of more years.
 
 use super::format::Formats;
-use super::request::{extended, program, request, without_limit};
+use super::request::{extended, interval, program, request, without_limit};
 use super::results::Results;
 use super::{error_parts, realisations, sector_means, summary, turbulence, wear_history, wear_remarks};
 use crate::case::Case;
@@ -40,11 +40,9 @@ impl WearRequest<'_> {
     fn recorded(&self) -> Result<Map<String, Value>> {
         let mut settings = match self.count {
             RealisationCount::Exactly(count) => json!({ "histories": count }),
-            RealisationCount::Within { share, most, most_time } => {
-                let mut settings = json!({ "until_interval": share, "most_seeds": most, "verdict": self.verdict });
-                if let Some(limit) = most_time {
-                    settings["most_time_s"] = json!(limit.seconds());
-                }
+            within => {
+                let mut settings = interval(within);
+                settings["verdict"] = json!(self.verdict);
                 settings
             }
         };

@@ -62,6 +62,7 @@ use crate::error::{Error, Result};
 use crate::output::atomic::write_whole;
 use crate::output::manifest::{self, MANIFEST};
 use crate::output::record::TABLES;
+use crate::output::results::Results;
 use folder::Folder;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -98,6 +99,38 @@ pub fn write(folder: &Path, over: Option<&Path>, out: Option<&Path>) -> Result<W
         None => manifest::add(folder, manifest, FILE, page.as_bytes())?,
     }
     Ok(Written { path, verified })
+}
+
+/// Results whose files are in their places.
+#[derive(Debug)]
+pub struct Finished {
+    /// The page, where there is one.
+    pub page: Option<PathBuf>,
+    /// What is to be said: why there is no page, and what was replaced.
+    pub said: Vec<String>,
+}
+
+/// Finishes `results`, with the page on them beside them where one is `wanted`.
+///
+/// # Errors
+/// As [`Results::finish`], and as [`page`].
+pub fn finish(results: &mut Results, wanted: bool) -> Result<Finished> {
+    // The page is made from the files in their places.
+    let replaced = results.finish()?;
+    let mut finished = Finished { page: None, said: Vec::new() };
+    if wanted {
+        let (folder, manifest) = (results.folder().to_owned(), results.manifest());
+        match too_large(&folder, &manifest)? {
+            Some(reason) => finished.said.push(reason),
+            None => {
+                results.write(FILE, page(&folder, &manifest)?)?;
+                results.finish()?;
+                finished.page = Some(folder.join(FILE));
+            }
+        }
+    }
+    finished.said.extend(replaced);
+    Ok(finished)
 }
 
 /// What was asked for the results in `folder`.

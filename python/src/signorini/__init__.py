@@ -20,6 +20,7 @@ from ._bifurcation import Bifurcation, bifurcation
 from ._branches import Branches, branches
 from ._builders import SceneOptions, bar, beam, chain, matrices, modal, oscillator, support
 from ._case_sweep import SweepResult, one_at_a_time
+from ._compare import Comparison, Differences, MethodRealisations, compare
 from ._core import (
     AccuracyWarning,
     Case,
@@ -45,7 +46,7 @@ from ._flow import FlowMargin, FluidElastic
 from ._orbit import Orbit, orbit
 from ._realisations import Realisations, realisations
 from ._report import report
-from ._studies import Chart, Comparison, Stability, chart, compare, stability
+from ._studies import Chart, Stability, chart, stability
 from ._supports import ErrorPart, ErrorParts, Estimate, SupportStatistics, Wear
 from ._sweep import Table, grid, run_many, sweep
 from ._tube import Archard, Support, flats, hole, slider, tube
@@ -61,6 +62,7 @@ __all__ = [
     "Chart",
     "Comparison",
     "Derivative",
+    "Differences",
     "DivergedError",
     "ErrorPart",
     "ErrorParts",
@@ -70,6 +72,7 @@ __all__ = [
     "FluidElastic",
     "LimitYears",
     "Load",
+    "MethodRealisations",
     "NotSolvedError",
     "Orbit",
     "Rayleigh",

@@ -265,6 +265,8 @@ class Case:
         step: float | None = None,
         accuracy: float | None = None,
         of: Literal["motion", "means"] | None = None,
+        folder: str | PathLike[str] | None = None,
+        verdict: bool = True,
     ) -> Run: ...
     @staticmethod
     def _restore(version: str, bytes: bytes) -> Case: ...
@@ -396,7 +398,10 @@ def _compare(
     step: float | None,
     sample: float | None,
     statistics_from: float | None,
-) -> tuple[list[dict[str, Any]], list[str], float]: ...
+    seeds: int | None,
+    verdict: bool,
+    progress: Callable[[int, int], None],
+) -> tuple[list[dict[str, Any]], list[str], float, dict[str, Any] | None]: ...
 def _chart(
     scene: Scene | Case,
     methods: Sequence[str] | None,
@@ -444,6 +449,7 @@ def _realisations(
     most_time: float | None,
     accuracy: float | None,
     verdict: bool,
+    folder: str | PathLike[str] | None,
     progress: Callable[[int, int], None],
 ) -> dict[str, Any]: ...
 def _wear(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -88,8 +89,8 @@ def _error(known: dict[str, Any]) -> ErrorParts:
 def _estimate(known: dict[str, Any], seeds: bool) -> Estimate:
     half = known["half_width_95"]
     kind: Literal["seeds", "batches"] | None = None if half is None else "seeds" if seeds else "batches"
-    error = None if known["error"] is None else _error(known["error"])
-    return Estimate(known["mean"], half, kind, known["standard_deviation"], error)
+    error = None if known.get("error") is None else _error(known["error"])
+    return Estimate(known["mean"], half, kind, known.get("standard_deviation"), error)
 
 
 def _row(known: dict[str, Any]) -> dict[str, Any]:
@@ -105,17 +106,20 @@ def _row(known: dict[str, Any]) -> dict[str, Any]:
     return row
 
 
+def by_place(estimates: Iterable[dict[str, Any]], seeds: bool) -> tuple[Means, Means]:
+    """The estimates at supports, and those at walls."""
+    places: dict[str, dict[str, dict[str, Estimate]]] = {"support": {}, "wall": {}}
+    for one in estimates:
+        places[one["kind"]].setdefault(one["place"], {})[one["measure"]] = _estimate(one, seeds)
+    supports, walls = (ReadOnly({name: ReadOnly(own) for name, own in of.items()}) for of in places.values())
+    return supports, walls
+
+
 def made(known: dict[str, Any]) -> Realisations:
     """The study that the compiled half told."""
     document = known["document"]
-    places: dict[str, dict[str, dict[str, Estimate]]] = {"support": {}, "wall": {}}
     estimates = [*document["estimates"], *known["worn"]]
-    for one in estimates:
-        own = places[one["kind"]].setdefault(one["place"], {})
-        own[one["measure"]] = _estimate(one, seeds=document["count"] > 1)
-    supports, walls = (
-        ReadOnly({name: ReadOnly(own) for name, own in of.items()}) for of in places.values()
-    )
+    supports, walls = by_place(estimates, seeds=document["count"] > 1)
     table, rows = ReadOnly(columns(*known["table"])), tuple(map(_row, estimates))
     accuracy = known.get("accuracy")
     accuracy = None if accuracy is None else ReadOnly(accuracy)
@@ -155,6 +159,7 @@ def realisations(
     most_time: float | None = None,
     step: float | None = None,
     verdict: bool = True,
+    folder: str | os.PathLike[str] | None = None,
     progress: bool = True,
 ) -> Realisations:
     """Run a case under several realisations of its random loads, on all cores.
@@ -190,6 +195,9 @@ def realisations(
     verdict : bool
         Whether up to six realisations are run again with half the step, and with twice the modes
         where modes are left out, for the `Estimate.error` of each mean.
+    folder : path, optional
+        The files of ``signorini run`` with ``--seeds`` are written there, with its page,
+        ``report.html``. A folder with results of another request is refused.
     progress : bool
         Whether a terminal shows the progress, after a second.
 
@@ -203,9 +211,11 @@ def realisations(
         For a wrong request, such as a case without random loads.
     TypeError
         For something else than a case.
+    OSError
+        For a ``folder`` that cannot be written, and one with other results.
     RunError
         For a realisation that failed; `RefutedError` where the judge refutes one, whose ``study``
-        holds the study.
+        holds the study; its files are written all the same.
 
     Warns
     -----
@@ -227,7 +237,7 @@ def realisations(
     with Progress(0, progress) as shown:
         asked = (seeds, until_interval, most_seeds)
         case = of_case(case, "realisations")
-        known = _core._realisations(case, scheme, step, asked, most_time, accuracy, verdict, shown.reach)
+        known = _core._realisations(case, scheme, step, asked, most_time, accuracy, verdict, folder, shown.reach)
     study = made(known)
     if known["refuted"]:
         raise refuted(known["refuted"], study)

@@ -18,7 +18,8 @@ def report(
     """Write the report on a folder of results: one HTML file that needs no network.
 
     It is that of ``signorini report``. Folders of results are written by the tool, and here by
-    `sweep` of a case, `one_at_a_time`, `branches` and `wear`, as their argument ``folder``.
+    `Case.run`, `realisations`, `sweep` of a case, `one_at_a_time`, `branches` and `wear`, as their
+    argument ``folder``.
 
     Parameters
     ----------

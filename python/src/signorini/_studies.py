@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from . import _core, _plot
-from ._core import Case, Run, Scene
-from ._sweep import Table, warn_of_notes
+from ._core import Case, Scene
+from ._sweep import Table
 from ._types import Array, names, positive, whole
 
 
@@ -22,79 +22,6 @@ def columns_of(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> Table
     return {
         name: np.array(column, object if name in strings else np.float64) for name, column in columns.items()
     }
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Methods side by side: see `compare`."""
-
-    table: Table
-    """One row per method: ``method``, ``error`` (share of the gap, up to the horizon), ``agrees_until_s``,
-    ``restitution`` (median over the impacts), ``step_ns``, ``failure`` and ``refuted`` (words)."""
-    runs: list[Run | None]
-    """The runs, as the rows; None where one failed."""
-    findings: list[str]
-    """Findings of the comparison, in sentences."""
-    horizon: float
-    """Time up to which errors are meaningful, s."""
-
-    def __repr__(self) -> str:
-        lines = ["method                             error   agrees until (s)   ns a step"]
-        for i, method in enumerate(self.table["method"]):
-            error, until, cost = (self.table[name][i] for name in ("error", "agrees_until_s", "step_ns"))
-            lines.append(f"{method:<32}{error:>8.1e}{until:>19.4g}{cost:>12.3g}")
-        return "\n".join(lines + self.findings)
-
-
-def compare(
-    scene: Scene | Case,
-    methods: Sequence[str],
-    *,
-    step: float | None = None,
-    sample: float | None = None,
-    statistics_from: float | None = None,
-) -> Comparison:
-    """Run a scene by several methods, and compare them with its exact motion.
-
-    Parameters
-    ----------
-    scene : Scene or Case
-        What is run; the settings that the names of methods leave open are those of a case.
-    methods : sequence of str
-        Schemes, as in `Scene.run`.
-    step, sample, statistics_from : float, optional
-        s, as in `Scene.run`; those of a case unless given. Of a scene the step is required.
-
-    Returns
-    -------
-    Comparison
-
-    Raises
-    ------
-    ValueError
-        For a wrong request.
-    TypeError
-        For something else than a scene or a case.
-
-    Warns
-    -----
-    ResultWarning
-        Once, with their number, where runs have notes that limit the use of their results, such as
-        those of a method that does not realise the walls' restitution.
-
-    Examples
-    --------
-    >>> import signorini as sg
-    >>> case = sg.load("rigid-walls-sine")
-    >>> comparison = sg.compare(case, ["moreau-jean", "located"])
-    >>> list(comparison.table["method"])
-    ['moreau-jean', 'located', 'event']
-    """
-    methods = names("methods", methods, "moreau-jean")
-    rows, findings, horizon = _core._compare(scene, methods, step, sample, statistics_from)
-    runs = [row.pop("run") for row in rows]
-    warn_of_notes([row.pop("note") for row in rows])
-    return Comparison(columns_of(rows, ("method", "failure", "refuted")), runs, findings, horizon)
 
 
 @dataclass(frozen=True, repr=False)

@@ -6,11 +6,11 @@ use crate::case::Case;
 use crate::cli::estimate::DurationEstimate;
 use crate::cli::ui::Ui;
 use crate::error::Result;
+use crate::output::run_folder::RunGoal;
 use crate::scheme::Method;
 use crate::study::accuracy::{Outcome, Target, foresee, most_steps, reach};
 use crate::study::choice;
 use crate::study::truncation::{ChosenModes, choose_modes};
-use serde_json::json;
 
 /// What a search for an accuracy came to.
 pub(super) enum Searched {
@@ -26,9 +26,8 @@ pub(super) enum Searched {
 /// with that.
 pub(super) fn search(args: &Args, case: Case, tolerance: f64, ui: &Ui) -> Result<Searched> {
     let method = args.scheme.as_ref().map(|name| args.request.method(name, &case)).transpose()?;
-    let methods: Vec<Method> = method.into_iter().collect();
-    if !methods.is_empty() {
-        args.request.check_use(&methods)?;
+    if let Some(method) = method {
+        args.request.check_use(&[method])?;
     }
     let target = Target { method, ..Target::new(tolerance, case.time) };
     target.validate()?;
@@ -41,7 +40,7 @@ pub(super) fn search(args: &Args, case: Case, tolerance: f64, ui: &Ui) -> Result
         }
         // A limit of realisations, where there are none.
         args.seeds.check(&case)?;
-        let results = args.open(&case, &methods, json!({ "step_s": null, "accuracy": tolerance, "of": "motion" }))?;
+        let results = args.open(&case, method.as_ref(), RunGoal::Motion { accuracy: tolerance })?;
         let (case, modes) = enough_modes(case, &target, foreseen, ui)?;
         let target = Target { most_steps: most_steps(&case.scene, target.most_steps), ..target };
         let end = case.scene.duration;

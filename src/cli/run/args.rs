@@ -8,10 +8,10 @@ use crate::cli::realisations::share;
 use crate::cli::request::Request;
 use crate::cli::values;
 use crate::error::{Error, Result};
-use crate::output::request::{extended, request};
 use crate::output::results::Results;
+use crate::output::run_folder::{RunGoal, RunRequest};
 use crate::scheme::Method;
-use serde_json::{Value, json};
+use serde_json::json;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -102,17 +102,11 @@ impl Args {
         }
     }
 
-    /// Opens the folder of the results of `case` by `methods`, with these further settings.
-    pub(super) fn open(&self, case: &Case, methods: &[Method], settings: Value) -> Result<Results> {
-        let mut asked = extended(request("run", case, methods), settings);
-        if let Some(count) = self.seeds.count {
-            asked.insert("seeds".to_owned(), json!(count));
-        }
-        if let Some(share) = &self.seeds.until_interval {
-            asked.insert("until_interval".to_owned(), json!(share));
-            asked.insert("most_seeds".to_owned(), json!(self.seeds.most_seeds));
-            asked.insert("most_time".to_owned(), json!(self.seeds.most_time));
-        }
+    /// Opens the folder of the results of `case` by `method`, or by one that the `goal` chooses.
+    pub(super) fn open(&self, case: &Case, method: Option<&Method>, goal: RunGoal) -> Result<Results> {
+        let several = self.seeds.count.is_some() || self.seeds.until_interval.is_some();
+        let count = if several { self.seeds.check(case)? } else { None };
+        let mut asked = RunRequest { case, method, goal, count }.recorded();
         if let Some(keys) = self.derivatives.asked() {
             asked.insert("derivative".to_owned(), json!(keys));
         }

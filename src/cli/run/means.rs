@@ -6,8 +6,8 @@ use crate::case::Case;
 use crate::cli::realisations::{self, StudyRequest, batch_with_bar, of_argument};
 use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
+use crate::output::run_folder::RunGoal;
 use crate::study::realisations::{Batch, FoundStep, RealisationStudy};
-use serde_json::json;
 
 /// The first run at the step that keeps the error `share` of the means, with what was reached, and
 /// the study at that step. Of a case in which nothing is random the start scatters.
@@ -53,8 +53,8 @@ fn search(args: &Args, mut case: Case, share: f64, ui: &Ui) -> Result<(CheckedRu
     let most = args.seeds.most_beside_accuracy(&case)?;
     let search = case.step_search(&method, share, most);
     search.validate().map_err(of_argument)?;
-    let asked = json!({ "step_s": null, "accuracy": share, "of": "means", "most_seeds": most });
-    let results = args.open(&case, &[method], asked)?;
+    let goal = RunGoal::Means { accuracy: share, most_seeds: most };
+    let results = args.open(&case, Some(&method), goal)?;
     let mut make = |batch: &Batch<'_>| batch_with_bar(&case, &method, batch, ui);
     let found = search.find(&mut make, &mut |text| ui.message(text))?;
     case.time = found.time;

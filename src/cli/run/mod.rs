@@ -17,15 +17,12 @@ use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::output::animation;
 use crate::output::episodes::Episodes;
-use crate::output::error_parts;
-use crate::output::results::Results;
-use crate::output::run::{self as output, Picture};
-use crate::output::sector_means;
-use crate::output::summary::{Checks, Reasons};
+use crate::output::run as output;
+use crate::output::run_folder;
+use crate::output::summary::Checks;
 use crate::output::supports;
 use crate::run::Run;
 use crate::scheme::Method;
-use crate::study::choice;
 use crate::study::realisations::RealisationStudy;
 use accurate::Searched;
 use args::Of;
@@ -42,7 +39,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let CheckedRun { case, mut results, method, reason, run, refinement, truncation, modes, accuracy, shortfall } =
         checked;
     if let Some(study) = &study {
-        write_study(&mut results, &case, study)?;
+        run_folder::write_study(&mut results, &case, study)?;
     }
     let unchecked = [failed("half the step", refinement.as_ref()), failed("more modes", truncation.as_ref())];
     let shortfall = first_shortfall(shortfall, study.as_ref(), unchecked);
@@ -51,7 +48,6 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         None => None,
     };
     let first = format!("{method}: {reason}");
-    let reasons = Reasons { scheme: reason, qp: choice::qp_reason(&method, &case.scene) };
     let checks = Checks {
         refinement: succeeded(refinement.as_ref()),
         truncation: succeeded(truncation.as_ref()),
@@ -61,8 +57,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         ..Checks::default()
     };
     // Last, since the summary records the tables beside it.
-    let mut document =
-        output::write(&mut results, "", &case, &run, &method, (&reasons, checks), Picture { span, look: 0 })?;
+    let mut document = run_folder::write(&mut results, &case, (&run, &method, reason), checks, span)?;
     if let Some((wanted, found)) = &derivatives {
         document["derivatives"] = wanted.document(&case, found);
     }
@@ -92,15 +87,6 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     }
     answer.fall_short(shortfall);
     Ok(answer)
-}
-
-/// Writes the files of a study of realisations.
-fn write_study(results: &mut Results, case: &Case, study: &RealisationStudy) -> Result<()> {
-    error_parts::write_study(results, study)?;
-    if case.scene.supports.is_empty() {
-        return Ok(());
-    }
-    sector_means::write(&results.place(sector_means::FILE)?, case, &study.realisations)
 }
 
 /// The run, and the study of realisations where one is wanted.

@@ -1,10 +1,13 @@
 //! Several methods on one scene, compared with the exact motion; what explains their differences is
-//! told by `findings.rs`; `comparison.rs` has what a comparison holds.
+//! told by `findings.rs`; `comparison.rs` has what a comparison holds, `method_studies.rs` its
+//! methods under several realisations.
 
 mod comparison;
 mod findings;
+mod method_studies;
 
 pub use comparison::{AGREEMENT, Comparison, Restitution, Row, is_aperiodic};
+pub use method_studies::{MethodFailure, MethodStudies, MethodStudy};
 
 use super::choice::stepping_for_error;
 use super::difference;
