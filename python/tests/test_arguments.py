@@ -135,4 +135,4 @@ def test_a_hole_has_the_radius_of_what_wears_in_it() -> None:
         "wear": sg.Archard(1e-14, years=1.0),
         "time": {"end": 0.2, "step": 1e-4},
     })  # fmt: skip
-    assert case.run().wear["h"].depth_scar is not None
+    assert case.run().wear["h"].depth_one_scar is not None
