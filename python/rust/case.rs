@@ -125,8 +125,11 @@ fn built(py: Python<'_>, file: CaseFile) -> PyResult<Case> {
     });
     let slides = || Origin { sliders: case.sliders.clone(), ..Origin::of(case.without_sliders().into_owned()) };
     let origin = origin.or_else(|| (!case.sliders.is_empty()).then(slides)).map(Box::new);
-    let supports = case.scene.supports.iter().enumerate();
-    let laws = supports.filter_map(|(index, support)| Some((support.name.clone(), case.archard(index)?))).collect();
+    let supports = case.scene.supports.iter().zip(&case.written.supports).enumerate();
+    let law = |(index, (support, written)): (usize, (&sg::Support, &sg::case::Support))| {
+        Some((support.name.clone(), case.archard(index)?, written.growth))
+    };
+    let laws = supports.filter_map(law).collect();
     let scene = Py::new(py, Scene { scene: case.scene.clone(), model, origin, laws })?;
     Ok(Case { file, case, scene })
 }

@@ -556,8 +556,12 @@ impl Run {
     fn _supports<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (statistics, laws) = (&self.run.statistics, &self.scene.get().laws);
         let known = statistics.wear.iter().zip(&statistics.supports).map(|(wear, contact)| {
-            let law = laws.iter().find(|(name, _)| *name == wear.support);
-            let worn = law.map(|(_, law)| law.worn(wear.work_rate_w));
+            let law = laws.iter().find(|(name, ..)| *name == wear.support);
+            let worn = law.map(|(_, law, growth)| {
+                let mut worn = serde_json::json!(law.worn(wear.work_rate_w));
+                worn["depth_deepest_m"] = serde_json::json!(law.deepest_in_service(*growth, &wear.rates()));
+                worn
+            });
             let window = statistics.to_s - statistics.from_s;
             let periodic = statistics.periods_per_batch.is_some();
             serde_json::json!({

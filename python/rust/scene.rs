@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde::{Deserialize, Serialize};
 use signorini as sg;
-use signorini::wear::Archard;
+use signorini::wear::{Archard, Growth};
 use std::mem;
 
 /// M q̈ + C q̇ + K q = f(t) + Gᵀ r(t), bounded by walls, over a duration. Scenes are made by
@@ -29,8 +29,8 @@ pub struct Scene {
     pub model: Model,
     /// The scene from which it was made, where that differs.
     pub origin: Option<Box<Origin>>,
-    /// The laws of wear of its supports, by their names.
-    pub laws: Vec<(String, Archard)>,
+    /// The laws of wear of its supports, by their names, and what becomes of their gaps.
+    pub laws: Vec<(String, Archard, Growth)>,
 }
 
 impl Scene {

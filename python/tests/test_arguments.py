@@ -135,4 +135,33 @@ def test_a_hole_has_the_radius_of_what_wears_in_it() -> None:
         "wear": sg.Archard(1e-14, years=1.0),
         "time": {"end": 0.2, "step": 1e-4},
     })  # fmt: skip
-    assert case.run().wear["h"].depth_scar is not None
+    assert case.run().wear["h"].depth_one_scar is not None
+
+
+STEEL: dict[str, Any] = {"youngs_modulus": 2e11, "density": 7850.0, "outer_diameter": 0.02}
+
+MISSPELT: list[tuple[Callable[[], object], str]] = [
+    (lambda: sg.oscillator(1.0, 0.2, 100.0, planes=2), "^oscillator has no argument planes; expected mass, damping, "),  # type: ignore[call-arg]
+    (lambda: sg.oscillator(1.0, 0.2, 100.0, wall=[]), "^oscillator has no argument wall; did you mean walls"),  # type: ignore[call-arg]
+    (lambda: pair(ground=(1.0, 0.0)), "^chain has no argument ground; did you mean grounds"),
+    (lambda: beam(inner_diametre=0.005), "^beam has no argument inner_diametre; did you mean inner_diameter"),
+    (lambda: sg.matrices([[1.0]], None, [[1.0]], modus=1), "^matrices has no argument modus; did you mean modes"),  # type: ignore[call-arg]
+    (lambda: sg.modal([1.0], {"tip": [1.0]}, ratio=0.01), "^modal has no argument ratio; did you mean ratios"),  # type: ignore[call-arg]
+    (lambda: sg.support("stop", 1e-3, restituton=0.5), "^support has no argument restituton; did you mean restitution"),  # type: ignore[call-arg]
+    (lambda: sg.hole("plate", 1e-4, frction=0.2), "^hole has no argument frction; did you mean friction"),  # type: ignore[call-arg]
+    (lambda: sg.slider("pad", normalforce=1.0), "^slider has no argument normalforce; did you mean normal_force"),  # type: ignore[call-arg]
+    (lambda: sg.turbulence(densty=740.0), "^turbulence has no argument densty; did you mean density"),  # type: ignore[call-arg]
+    (lambda: sg.tube(**STEEL, duraton=1.0), "^tube has no argument duraton; did you mean duration"),  # type: ignore[call-arg]
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("wrong, message", MISSPELT)
+def test_a_misspelt_keyword_is_refused_by_the_name_of_the_builder(wrong: Callable[[], object], message: str) -> None:
+    with pytest.raises(TypeError, match=message):
+        wrong()
+
+
+def test_every_keyword_of_a_scene_is_known_to_its_builder() -> None:
+    options: dict[str, Any] = {"walls": [], "loads": [], "probes": {}, "displacement": 0.0, "velocity": 0.0}
+    assert sg.oscillator(mass=1.0, damping=0.2, stiffness=100.0, duration=2.0, **options).duration == 2.0
+    assert sg.chain([1.0, 1.0], springs=[1e4], damping=0.01, modes=1, static_correction=False).degrees_of_freedom == 1

@@ -201,10 +201,10 @@ def test_wear_follows_work() -> None:
         # V = k W T, and the depth all round V / (2π R w) of that tube and plate.
         volume = coefficient * run.supports[name].work_rate.value * 3.156e8
         wear = run.wear[name]
-        assert wear.volume is not None and wear.depth_even is not None and wear.depth_scar is not None
+        assert wear.volume is not None and wear.depth_all_round is not None and wear.depth_one_scar is not None
         assert abs(wear.volume / volume - 1.0) < 1e-12
-        assert abs(wear.depth_even / (volume / (2 * np.pi * 9.525e-3 * 25e-3)) - 1.0) < 1e-12
-        assert wear.depth_scar > wear.depth_even
+        assert abs(wear.depth_all_round / (volume / (2 * np.pi * 9.525e-3 * 25e-3)) - 1.0) < 1e-12
+        assert wear.depth_one_scar > wear.depth_all_round
     # Another scene of the case keeps its laws of wear.
     shorter = case.scene.replace(duration=0.5).run(step=5e-5)
     assert set(shorter.wear) == set(run.wear)
@@ -306,7 +306,7 @@ def test_a_random_motion_of_the_base_has_realisations() -> None:
 
     means = sg.realisations(shaken(3), seeds=2)
     forces = [shaken(seed).run().supports["plate-1"].force_mean for seed in (3, 4)]
-    found = means.supports["plate-1"]["mean_force"].value
+    found = means.supports["plate-1"]["force_mean"].value
     # A mean of two numbers.
     assert found > 0 and found == pytest.approx(sum(force.value for force in forces if force) / 2, rel=1e-14)
 

@@ -130,7 +130,7 @@ def test_a_row_has_as_many_realisations_as_its_interval_takes() -> None:
         # Those of a study of this row alone.
         study = sg.realisations(stop(position), until_interval=0.2, verdict=False)
         assert study.count == len(own)
-        np.testing.assert_array_equal(study.table["mean_force_N"], own["force_mean_stop_N"])
+        np.testing.assert_array_equal(study.table["force_mean_N"], own["force_mean_stop_N"])
 
 
 def test_datasets_of_rows_of_different_numbers_are_padded() -> None:

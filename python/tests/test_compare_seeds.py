@@ -69,10 +69,10 @@ def test_files_of_the_tool_have_the_same_numbers(
             assert_same(column, [row[name] for row in own])
         judged = study.to_pandas()
         judged = judged[judged["error"].notna()]
-        for name in set(errors[0]) - {"method", "measure"}:
+        for name in set(errors[0]) - {"method"}:
             assert_same(judged[name], [row[name] for row in errors if row["method"] == method])
     for row in means:
-        measure = row["measure"].lower()
+        measure = row["measure"]
         mine = found.studies[row["method"]].walls[row["place"]][measure]
         assert (mine.value, mine.half_width) == (float(row["mean"]), float(row["half_width_95"]))
         if row["less"]:
@@ -87,18 +87,18 @@ def test_files_of_the_tool_have_the_same_numbers(
 def test_differences_are_between_runs_with_the_same_seeds(compared: sg.Comparison) -> None:
     found = of(compared)
     assert found.count == 4 and list(found.studies) == [*METHODS, "event"]
-    forces = {method: study.table["mean_force_N"] for method, study in found.studies.items()}
+    forces = {method: study.table["force_mean_N"] for method, study in found.studies.items()}
     alone = sg.realisations(before_a_stop(), "moreau-jean", seeds=4, verdict=False)
-    assert (alone.table["mean_force_N"] == forces["moreau-jean"]).all()
+    assert (alone.table["force_mean_N"] == forces["moreau-jean"]).all()
     for method in METHODS:
         pairs = forces[method] - forces["event"]
-        less = found.differences[method].walls["stop"]["mean_force"]
+        less = found.differences[method].walls["stop"]["force_mean"]
         # Sums of four numbers, and a quantile that the library computes by itself.
         assert less.value == pytest.approx(pairs.mean(), rel=1e-14)
         half = student.ppf(0.975, 3) * pairs.std(ddof=1) / 2.0
         assert less.half_width == pytest.approx(half, rel=1e-6)
         # Pairs scatter less than the means of independent draws.
-        mean = found.studies[method].walls["stop"]["mean_force"]
+        mean = found.studies[method].walls["stop"]["force_mean"]
         assert less.half_width is not None and mean.half_width is not None and less.half_width < mean.half_width
     assert "less event" in str(found) and "over 4 realisations" in repr(compared)
     assert repr(found) == "<MethodRealisations: 4 by moreau-jean, penalty:stiffness=1e6, event>"
@@ -110,13 +110,13 @@ def test_times_that_are_given_are_those_of_all_realisations() -> None:
     same = sg.compare(before_a_stop(step=5e-4, statistics_from=1.0), ["moreau-jean"], seeds=2, verdict=False)
     for name, column in of(made).table.items():
         np.testing.assert_array_equal(column, of(same).table[name])
-    assert of(made).studies["moreau-jean"].walls["stop"]["mean_force"].error is None
+    assert of(made).studies["moreau-jean"].walls["stop"]["force_mean"].error is None
 
 
 def test_one_realisation_has_intervals_of_its_batches_and_differences_without() -> None:
     found = of(sg.compare(before_a_stop(), ["moreau-jean"], seeds=1))
-    assert found.studies["moreau-jean"].walls["stop"]["mean_force"].kind in ("batches", None)
-    less = found.differences["moreau-jean"].walls["stop"]["mean_force"]
+    assert found.studies["moreau-jean"].walls["stop"]["force_mean"].kind in ("batches", None)
+    less = found.differences["moreau-jean"].walls["stop"]["force_mean"]
     assert less.half_width is None and less.kind is None
 
 

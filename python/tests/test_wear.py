@@ -120,17 +120,17 @@ def test_the_year_of_the_limit_lies_on_the_curve_of_the_depth(three: sg.WearStud
     assert three.limit == pytest.approx(1.65e-6, rel=1e-12)
     for place, limit in three.limit_years.items():
         own = three.years["place"] == place
-        for found, name in [(limit.deepest, "deepest"), (limit.scar, "one_scar"), (limit.even, "all_round")]:
+        for found, name in [(limit.deepest, "deepest"), (limit.one_scar, "one_scar"), (limit.all_round, "all_round")]:
             depth = three.years[f"depth_{name}_m"][own]
             assert (found is None) == bool(depth[-1] < three.limit)
             if found is not None:
                 # Straight between the points, on either side.
                 assert np.interp(found, three.years["year"][own], depth) == pytest.approx(three.limit, rel=1e-12)
-        if all(year is not None for year in limit.scar_histories):
+        if all(year is not None for year in limit.one_scar_histories):
             # Student's t of two degrees of freedom.
-            deviation = np.std(np.array(limit.scar_histories, dtype=float), ddof=1)
-            assert limit.scar_half_width == pytest.approx(4.302652729911275 * deviation / 3**0.5, rel=1e-9)
-    assert three.limit_years["plate-1"].scar is not None
+            deviation = np.std(np.array(limit.one_scar_histories, dtype=float), ddof=1)
+            assert limit.one_scar_half_width == pytest.approx(4.302652729911275 * deviation / 3**0.5, rel=1e-9)
+    assert three.limit_years["plate-1"].one_scar is not None
 
 
 def test_an_interval_begins_with_the_study_of_the_first_windows(tool: Callable[..., Path]) -> None:

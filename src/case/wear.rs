@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::statistics::WearStatistics;
 use crate::study::wear_history::{HISTORIES, WearingSupport, YEAR};
-use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar, WearWork};
+use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -143,7 +143,11 @@ impl Case {
     /// rates of `wear`, as [`Archard::depths`]; none without a law of its wear.
     #[must_use]
     pub fn depths(&self, index: usize, wear: &WearStatistics) -> Vec<f64> {
-        self.by_service(index, wear, |law, growth, work| law.depths(growth, work)).unwrap_or_default()
+        let depths = || {
+            let (law, growth) = (self.archard(index)?, self.written.supports.get(index)?.growth);
+            Some(law.depths(growth, &law.work_in_service(&wear.rates())?))
+        };
+        depths().unwrap_or_default()
     }
 
     /// The depth worn off the tube within the service at support number `index` where it is
@@ -151,21 +155,7 @@ impl Case {
     /// would cut the tube in two.
     #[must_use]
     pub fn depth_deepest(&self, index: usize, wear: &WearStatistics) -> Option<f64> {
-        self.by_service(index, wear, |law, growth, work| law.deepest(growth, work)).filter(|depth| !depth.is_nan())
-    }
-
-    /// What the law of wear of support number `index` makes of the work within the service.
-    fn by_service<T>(
-        &self,
-        index: usize,
-        wear: &WearStatistics,
-        of: impl Fn(&Archard, Growth, &WearWork) -> T,
-    ) -> Option<T> {
-        let law = self.archard(index)?;
-        law.coefficient.and(law.scar)?;
-        let (growth, rates) = (self.written.supports.get(index)?.growth, wear.rates());
-        let none = WearWork::none(rates.sectors.len(), rates.walls.len());
-        Some(of(&law, growth, &none.advanced(&rates, &rates, law.service)))
+        self.archard(index)?.deepest_in_service(self.written.supports.get(index)?.growth, &wear.rates())
     }
 }
 

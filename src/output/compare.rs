@@ -73,7 +73,7 @@ fn with_findings(mut document: Value, case: &Case, comparison: &Comparison, row:
         "agrees_until_s": row.agrees_until,
         "largest_displacement_m": run.map(|run| largest(run.trajectory.displacements())),
         "penetration_m": run.map(|run| run.residuals.penetration_m),
-        "largest_force_n": run.and_then(largest_force),
+        "force_largest_n": run.and_then(largest_force),
         "peak_force_n": run.and_then(|run| peak(case, run)),
         "seconds_per_step": row.step_ns.map(|ns| 1e-9 * ns),
         "failure": row.outcome.as_ref().err().map(ToString::to_string),
@@ -148,7 +148,7 @@ fn methods(results: &mut Results, case: &Case, comparison: &Comparison) -> Resul
         ("agrees_until_s", &|row| digits(row.agrees_until)),
         ("largest_displacement_m", &|row| digits(ran(row).map(|run| largest(run.trajectory.displacements())))),
         ("penetration_m", &|row| digits(ran(row).map(|run| run.residuals.penetration_m))),
-        ("largest_force_N", &|row| digits(ran(row).and_then(largest_force))),
+        ("force_largest_N", &|row| digits(ran(row).and_then(largest_force))),
         ("peak_force_N", &|row| digits(ran(row).and_then(|run| peak(case, run)))),
         ("energy_residual", &|row| digits(ran(row).map(|run| run.residuals.energy.residual))),
         ("complementarity_residual", &|row| digits(ran(row).map(|run| run.residuals.complementarity))),
@@ -184,7 +184,7 @@ fn walls(results: &mut Results, case: &Case, comparison: &Comparison) -> Result<
 /// Largest force of all walls and round supports in the window, N: of elastic ones at an instant,
 /// of rigid ones the largest mean over a stretch, as in the tables of a run.
 pub(super) fn largest_force(run: &Run) -> Option<f64> {
-    let walls = run.statistics.walls.iter().filter_map(|wall| wall.largest_force);
+    let walls = run.statistics.walls.iter().filter_map(|wall| wall.force_largest);
     let supports = run.statistics.supports.iter().filter_map(|support| support.force.as_ref()?.largest);
     walls.chain(supports).map(|largest| largest.mean_n).reduce(f64::max)
 }

@@ -207,9 +207,9 @@ fn means_document(scene: &Scene, means: &MeanDerivative) -> Value {
     let probes = || scene.probes.iter().map(|probe| &*probe.name).collect();
     let walls = (0..scene.walls.len()).map(|wall| scene.wall_name(wall).unwrap_or_default()).collect();
     json!({
-        "mean_displacement": rows("m", probes(), &means.displacement, &means.displacement_by),
-        "rms_displacement": rows("m", probes(), &means.rms, &means.rms_by),
-        "mean_force": rows("N", walls, &means.force, &means.force_by),
+        "displacement_mean": rows("m", probes(), &means.displacement, &means.displacement_by),
+        "displacement_rms": rows("m", probes(), &means.rms, &means.rms_by),
+        "force_mean": rows("N", walls, &means.force, &means.force_by),
     })
 }
 

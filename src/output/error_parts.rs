@@ -51,7 +51,7 @@ fn cells(study: &Realisations) -> Vec<Vec<String>> {
     let row = |one: &Estimate| {
         let error = one.error?;
         let mut row = vec![one.place.name.clone(), one.place.kind.word().to_owned()];
-        row.extend([one.measure.words().replace(' ', "_"), one.unit.to_owned()]);
+        row.extend([one.measure.name(), one.unit].map(str::to_owned));
         row.extend([Some(one.mean), one.half_width_95, Some(error.total)].map(digits));
         for (_, part) in PARTS {
             let part = part(&error);
@@ -95,7 +95,7 @@ fn table_of(studies: &[(Option<&str>, &Realisations)], scene: &Scene) -> Option<
     let first = studies.first()?.1;
     let mut judged: Vec<(Option<&str>, &Estimate, ErrorParts)> = Vec::new();
     for place in shown(first, scene, MOST_ROWS / 3) {
-        for what in [Measure::WorkRate, Measure::MeanForce, Measure::RmsForce] {
+        for what in [Measure::WorkRate, Measure::ForceMean, Measure::ForceRms] {
             judged.extend(studies.iter().filter_map(|(method, study)| {
                 find(study, place, what).and_then(|one| Some((*method, one, one.error?)))
             }));
@@ -149,7 +149,7 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
             first.refined, first.count, study.count
         )),
     });
-    let main = [Measure::WorkRate, Measure::MeanForce];
+    let main = [Measure::WorkRate, Measure::ForceMean];
     let verdict = |place| main.into_iter().find_map(|what| verdict(find(study, place, what)?));
     remarks.extend(shown(study, scene, MOST_LINES).into_iter().filter_map(verdict));
     remarks

@@ -47,7 +47,7 @@ pub fn cells(studies: &MethodStudies) -> (Vec<String>, Vec<Vec<String>>) {
     let row = |one: &MethodStudy, mean: &Estimate| {
         let less = one.less(mean);
         let mut row = vec![one.method.clone(), mean.place.name.clone(), mean.place.kind.word().to_owned()];
-        row.extend([mean.measure.words().replace(' ', "_"), mean.unit.to_owned()]);
+        row.extend([mean.measure.name(), mean.unit].map(str::to_owned));
         row.extend([Some(mean.mean), mean.standard_deviation, mean.half_width_95].map(digits));
         row.push(less.map_or("", |_| studies.reference.as_str()).to_owned());
         row.extend([less.map(|less| less.mean), less.and_then(|less| less.half_width_95)].map(digits));
@@ -73,7 +73,7 @@ pub fn table(studies: &MethodStudies, scene: &Scene) -> Option<Table> {
     let first = &studies.first()?.study;
     let mut rows = Vec::new();
     for place in shown(first, scene, MOST_PLACES) {
-        for measure in [Measure::MeanForce, Measure::RmsForce, Measure::WorkRate] {
+        for measure in [Measure::ForceMean, Measure::ForceRms, Measure::WorkRate] {
             for one in studies {
                 let Some(mean) = find(&one.study, place, measure) else { continue };
                 let quantity = format!("{} ({})", measure.words(), mean.unit);

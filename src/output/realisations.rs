@@ -63,8 +63,8 @@ pub(super) fn write_by_method(
 fn header() -> Vec<String> {
     let mut header = vec!["realisation".to_owned(), "place".to_owned(), "kind".to_owned()];
     header.extend(Measure::ALL.map(|measure| {
-        let words = measure.words().replace(' ', "_");
-        if measure.unit().is_empty() { words } else { format!("{words}_{}", measure.unit().replace('/', "_per_")) }
+        let (name, unit) = (measure.name(), measure.unit().replace('/', "_per_"));
+        if unit.is_empty() { name.to_owned() } else { format!("{name}_{unit}") }
     }));
     header.push("findings".to_owned());
     header
@@ -98,7 +98,7 @@ fn places(study: &Realisations) -> Vec<&ContactPlace> {
 /// are many, those of the largest mean forces.
 pub(super) fn shown<'a>(study: &'a Realisations, scene: &Scene, most: usize) -> Vec<&'a ContactPlace> {
     let own = places(study).into_iter().filter(|place| place.stands_alone(scene));
-    let force = |place: &&ContactPlace| find(study, place, Measure::MeanForce).map_or(0.0, |one| one.mean);
+    let force = |place: &&ContactPlace| find(study, place, Measure::ForceMean).map_or(0.0, |one| one.mean);
     Chosen::heaviest(own, most, force).shown
 }
 
@@ -110,7 +110,7 @@ pub(super) fn find<'a>(study: &'a Realisations, place: &ContactPlace, measure: M
 /// only.
 #[must_use]
 pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
-    let columns = [Measure::MeanForce, Measure::RmsForce, Measure::LargestForce, Measure::WorkRate];
+    let columns = [Measure::ForceMean, Measure::ForceRms, Measure::ForceLargest, Measure::WorkRate];
     let known = |measure: &Measure| study.estimates.iter().any(|one| one.measure == *measure);
     let columns: Vec<Measure> = columns.into_iter().filter(known).collect();
     let mut header = vec!["place".to_owned()];
@@ -147,7 +147,7 @@ pub fn remarks(study: &Realisations, scene: &Scene) -> Vec<String> {
             .to_owned(),
     }];
     let averaged = !scene.supports.is_empty() || scene.walls.iter().any(|wall| wall.law.is_rigid());
-    if averaged && study.estimates.iter().any(|one| one.measure == Measure::LargestForce) {
+    if averaged && study.estimates.iter().any(|one| one.measure == Measure::ForceLargest) {
         remarks.push(
             "the largest force at rigid walls and supports is the largest mean over any stretch of --force-averaging; \
              it grows with the time of a run"

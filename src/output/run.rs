@@ -99,7 +99,7 @@ pub fn table(run: &Run) -> Option<Table> {
             wall.force.as_ref().map_or_else(|| "-".to_owned(), |force| with_decimals(part(force), digits))
         };
         let largest = |part: fn(&LargestForce) -> f64| {
-            wall.largest_force.as_ref().map_or_else(|| "-".to_owned(), |largest| with_decimals(part(largest), 4))
+            wall.force_largest.as_ref().map_or_else(|| "-".to_owned(), |largest| with_decimals(part(largest), 4))
         };
         rows.push(vec![
             wall.wall.clone(),

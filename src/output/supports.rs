@@ -55,22 +55,20 @@ pub fn write(mut place: impl FnMut(&str) -> Result<PathBuf>, case: &Case, run: &
         ("friction_power_W", &|one| digits(Some(one.wear.friction_power_w))),
         ("sliding_m", &|one| digits(Some(one.wear.sliding_m))),
         ("sliding_speed_m_per_s", &|one| digits(one.wear.sliding_speed_m_per_s)),
-        ("mean_force_y_N", &|one| digits(one.contact.force.map(|force| force.mean_vector_n[0]))),
-        ("mean_force_z_N", &|one| digits(one.contact.force.map(|force| force.mean_vector_n[1]))),
-        ("mean_normal_force_N", &|one| digits(one.contact.force.map(|force| force.mean_n))),
-        ("mean_normal_force_half_width_95_N", &|one| {
-            digits(one.contact.force.and_then(|force| force.mean_half_width_95_n))
-        }),
+        ("force_mean_y_N", &|one| digits(one.contact.force.map(|force| force.mean_vector_n[0]))),
+        ("force_mean_z_N", &|one| digits(one.contact.force.map(|force| force.mean_vector_n[1]))),
+        ("force_mean_N", &|one| digits(one.contact.force.map(|force| force.mean_n))),
+        ("force_mean_half_width_95_N", &|one| digits(one.contact.force.and_then(|force| force.mean_half_width_95_n))),
         ("contact_time_ratio", &|one| digits(Some(one.wear.contact_time_ratio))),
         ("peak_force_N", &|one| digits(one.contact.episode_peak_force_n.max)),
-        ("largest_mean_force_N", &|one| digits(largest(one).map(|largest| largest.mean_n))),
-        ("largest_mean_force_at_s", &|one| digits(largest(one).map(|largest| largest.at_s))),
-        ("largest_mean_force_over_s", &|one| digits(largest(one).map(|largest| largest.averaged_over_s))),
-        ("wear_volume_m3", &|one| digits(one.worn.and_then(|worn| worn.volume_m3))),
+        ("force_largest_N", &|one| digits(largest(one).map(|largest| largest.mean_n))),
+        ("force_largest_at_s", &|one| digits(largest(one).map(|largest| largest.at_s))),
+        ("force_largest_over_s", &|one| digits(largest(one).map(|largest| largest.averaged_over_s))),
+        ("worn_volume_m3", &|one| digits(one.worn.and_then(|worn| worn.volume_m3))),
         ("depth_deepest_m", &|one| digits(one.deepest)),
         ("depth_one_scar_m", &|one| digits(one.worn.and_then(|worn| worn.depth_one_scar_m))),
         ("depth_all_round_m", &|one| digits(one.worn.and_then(|worn| worn.depth_all_round_m))),
-        ("support_wear_volume_m3", &|one| digits(one.worn.and_then(|worn| worn.support_volume_m3))),
+        ("support_worn_volume_m3", &|one| digits(one.worn.and_then(|worn| worn.support_volume_m3))),
     ];
     csv::records(&place("supports.csv")?, &columns, all(case, run))?;
     let columns: [csv::Column<'_, (&WearStatistics, &SectorStatistics)>; 6] = [

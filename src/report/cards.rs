@@ -143,9 +143,9 @@ fn realisations(summary: &Value) -> Option<Value> {
         let own = all.filter(|one| one["measure"] == *measure && number(&one["mean"]) >= least);
         own.max_by(|a, b| number(&a["mean"]).total_cmp(&number(&b["mean"])))
     };
-    let most = largest("work_rate", f64::MIN_POSITIVE).or_else(|| largest("mean_force", 0.0))?;
+    let most = largest("work_rate", f64::MIN_POSITIVE).or_else(|| largest("force_mean", 0.0))?;
     let mean = number(&most["mean"]);
-    let what = most["measure"].as_str().unwrap_or_default().replace('_', " ");
+    let what = if most["measure"] == "work_rate" { "work rate" } else { "mean force" };
     let half = most["half_width_95"].as_f64().map_or_else(String::new, |half| format!(" ± {}", short(half)));
     let part = |name: &str| {
         let part = &most["error"][name];

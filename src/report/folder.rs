@@ -2,7 +2,7 @@
 //! it was written, and a file that is not what it should be, give an error that names the file, and
 //! where it can line and column.
 
-use super::column;
+use super::{column, older};
 use crate::case::{MOST_TABLE_BYTES, open_regular, read_text};
 use crate::error::{Error, Result};
 use crate::output::record::{MOST_BYTES, Record};
@@ -64,7 +64,10 @@ impl Folder<'_> {
             record.verify(&path)?;
         }
         let text = read_text(&path, MOST_TABLE_BYTES).map_err(|reason| wrong(&path, reason))?;
-        serde_json::from_str(&text).map_err(|error| wrong(&path, format!("not valid JSON: {error}")).caused_by(error))
+        let mut document = serde_json::from_str(&text)
+            .map_err(|error| wrong(&path, format!("not valid JSON: {error}")).caused_by(error))?;
+        older::rename(&mut document);
+        Ok(document)
     }
 
     /// The bytes of the table in the file `name`, which is the one that was recorded when it was
@@ -101,7 +104,7 @@ impl Folder<'_> {
         let failed = |error: csv::Error| wrong(&file, error.to_string()).caused_by(error);
         let bytes = self.table(name)?;
         let mut reader = csv::Reader::from_reader(bytes.as_slice());
-        let header = reader.headers().map_err(failed)?.iter().map(str::to_owned).collect();
+        let header = reader.headers().map_err(failed)?.iter().map(|name| older::renamed(name).to_owned()).collect();
         let rows = reader.records().collect::<std::result::Result<_, _>>().map_err(failed)?;
         Ok(Cells { file, header, rows })
     }
@@ -160,7 +163,8 @@ impl Cells {
         let shown = |name: &str| wanted.is_none_or(|wanted| wanted.contains(&name));
         let mut columns = Vec::new();
         for (index, name) in self.header.iter().enumerate().filter(|(_, name)| shown(name)) {
-            let cells = || self.rows.iter().map(|row| row.get(index).unwrap_or_default());
+            let named = |cell| if name == "measure" { older::renamed(cell) } else { cell };
+            let cells = || self.rows.iter().map(|row| named(row.get(index).unwrap_or_default()));
             let numbers: Option<Vec<f64>> =
                 cells().map(|cell| if cell.is_empty() { Some(f64::NAN) } else { cell.parse().ok() }).collect();
             let values = match numbers {

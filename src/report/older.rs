@@ -7,7 +7,46 @@ use serde_json::{Value, json};
 pub(super) const WITHOUT_STABLE_STEPS: &str = "the largest stable step of each scheme is missing: an \
      older version wrote this folder. The same study again has it";
 
-/// Gives the walls of a run's `summary` their `largest_force` where an older version left that out:
+/// Names that columns, keys and measures had before, and what they are now.
+const RENAMED: [(&str, &str); 13] = [
+    ("mean_force", "force_mean"),
+    ("mean_force_y", "force_mean_y"),
+    ("mean_force_z", "force_mean_z"),
+    ("mean_force_along_y", "force_mean_y"),
+    ("mean_force_along_z", "force_mean_z"),
+    ("rms_force", "force_rms"),
+    ("RMS_force", "force_rms"),
+    ("largest_force", "force_largest"),
+    ("mean_force_N", "force_mean_N"),
+    ("mean_force_along_y_N", "force_mean_y_N"),
+    ("mean_force_along_z_N", "force_mean_z_N"),
+    ("RMS_force_N", "force_rms_N"),
+    ("largest_force_N", "force_largest_N"),
+];
+
+/// The name of today of a column, a key or a measure.
+pub(super) fn renamed(name: &str) -> &str {
+    RENAMED.iter().find(|(before, _)| *before == name).map_or(name, |(_, now)| now)
+}
+
+/// Gives what a document tells of forces the names of today.
+pub(super) fn rename(document: &mut Value) {
+    match document {
+        Value::Array(items) => items.iter_mut().for_each(rename),
+        Value::Object(map) => {
+            if let Some(Value::String(measure)) = map.get_mut("measure") {
+                *measure = renamed(measure).to_owned();
+            }
+            if let Some(largest) = map.remove("largest_force") {
+                map.insert("force_largest".to_owned(), largest);
+            }
+            map.values_mut().for_each(rename);
+        }
+        _ => {}
+    }
+}
+
+/// Gives the walls of a run's `summary` their `force_largest` where an older version left that out:
 /// of an elastic wall the largest force of its contacts, of a rigid one the largest mean over a
 /// stretch. Returns a sentence that names the walls and supports of which the summary has neither.
 pub(super) fn complete_forces(summary: &mut Value) -> Option<String> {
@@ -15,14 +54,14 @@ pub(super) fn complete_forces(summary: &mut Value) -> Option<String> {
     let walls = summary.pointer_mut("/statistics/walls").and_then(Value::as_array_mut);
     for wall in walls.into_iter().flatten() {
         let force = &wall["force"];
-        if wall.get("largest_force").is_some() || force.is_null() {
+        if wall.get("force_largest").is_some() || force.is_null() {
             continue;
         }
         let is_elastic = force["rms_averaged_over_s"].is_null();
         let peak = wall["episode_peak_force_n"]["max"].as_f64().filter(|_| is_elastic);
         let at_once = peak.map(|peak| json!({ "mean_n": peak, "averaged_over_s": 0.0 }));
         match at_once.or_else(|| force.get("largest").cloned()) {
-            Some(largest) => wall["largest_force"] = largest,
+            Some(largest) => wall["force_largest"] = largest,
             None => lacking.push(wall["wall"].to_string()),
         }
     }

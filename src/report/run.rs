@@ -124,7 +124,7 @@ fn notes(summary: &Value, lacking: Option<String>) -> Value {
 
 /// The largest force of a wall, and its unit with the stretch over which it is a mean.
 fn largest_force(wall: &Value) -> Option<(f64, String)> {
-    let largest = &wall["largest_force"];
+    let largest = &wall["force_largest"];
     let unit = match largest["averaged_over_s"].as_f64()? {
         0.0 => "N".to_owned(),
         over => format!("N over {} ms", short(1e3 * over)),

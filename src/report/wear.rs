@@ -19,6 +19,8 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let mut notes = folder.manifest["remarks"].as_array().cloned().unwrap_or_default();
     let lacking = older::without_columns("years.csv", &years.header, &wear_history::columns());
     notes.extend(lacking.map(Value::String));
+    let mut first = folder.manifest["realisations"].clone();
+    older::rename(&mut first);
     let written = json!({ "case_file": folder.manifest["case_file"], "scene": folder.manifest["scene"] });
     let mut page = json!({
         "scene": if written["scene"].is_object() { scene(&written) } else { Value::Null },
@@ -29,7 +31,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "answers": folder.manifest["answers"],
             "supports": names(&folder.manifest["supports"]),
             "seeds": older::histories(folder.manifest),
-            "first": folder.manifest["realisations"],
+            "first": first,
         },
         "margins": folder.manifest["fluid_elastic"],
         "turbulence": turbulence_tables(folder)?,

@@ -98,7 +98,7 @@ pub struct WallStatistics {
     /// stretch. `None` where nothing pushed. Where only the contacts are known, the largest force
     /// of those in which it is finite.
     #[serde(default)]
-    pub largest_force: Option<LargestForce>,
+    pub force_largest: Option<LargestForce>,
     /// Largest |force| of each episode that overlaps the window and whose force is finite, N: at an
     /// elastic wall, or in a lasting contact on a rigid one. The mean is over episodes.
     pub episode_peak_force_n: Summary,
@@ -194,11 +194,11 @@ impl Statistics {
         for (index, wall) in self.walls.iter_mut().enumerate() {
             wall.force = forces.statistics(index, wall.contacts);
             if let Some(force) = wall.force {
-                let instant = wall.largest_force.filter(|_| force.rms_averaged_over_s.is_none());
+                let instant = wall.force_largest.filter(|_| force.rms_averaged_over_s.is_none());
                 // Where the largest mean is nearly the largest force, that acts in its stretch.
                 let near = instant.zip(force.largest).filter(|(peak, mean)| mean.mean_n >= NEARLY * peak.mean_n);
                 let at = near.map(|(peak, mean)| LargestForce { at_s: mean.at_s, ..peak });
-                wall.largest_force = at.or(instant).or(force.largest);
+                wall.force_largest = at.or(instant).or(force.largest);
             }
         }
         let contacts = |index: usize| self.supports.get(index).map_or(0, |support| support.contacts);
@@ -300,7 +300,7 @@ fn of_wall(wall: &Wall, all: &[&Contact], mass: f64, window: &Window) -> WallSta
         contact_rate_per_s: per_time(contacts as f64),
         contact_time_ratio: per_time(touching([from, to])),
         force: None,
-        largest_force: largest_of(middles),
+        force_largest: largest_of(middles),
         episode_peak_force_n: Summary::of(peaks.map(|(_, force)| force)),
         episode_impulse_n_s: Summary::of(here.clone().map(|c| c.impulse.abs())),
         impact_power_w: per_time(arrived),

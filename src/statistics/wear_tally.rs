@@ -51,7 +51,8 @@ pub struct WearStatistics {
 
 impl WearStatistics {
     /// Its work rates, W: all, by sector and by wall.
-    pub(crate) fn rates(&self) -> WearWork {
+    #[must_use]
+    pub fn rates(&self) -> WearWork {
         let sectors = self.sectors.iter().map(|sector| sector.work_rate_w).collect();
         WearWork { total: self.work_rate_w, sectors, walls: self.wall_work_rates_w.clone() }
     }

@@ -20,8 +20,8 @@ use csv::StringRecord;
 /// The measures whose intervals decide, and what they are called in studies of realisations.
 const JUDGED: [(Measure, Judged); 3] = [
     (Measure::WorkRate, Judged::WorkRate),
-    (Measure::SupportForceMean, Judged::MeanForce),
-    (Measure::ForceMean, Judged::MeanForce),
+    (Measure::SupportForceMean, Judged::ForceMean),
+    (Measure::ForceMean, Judged::ForceMean),
 ];
 
 /// How many realisations the rows have whose own intervals decide.

@@ -206,6 +206,21 @@ impl Archard {
         let larger = |most: f64, depth: f64| if depth.is_nan() || depth > most { depth } else { most };
         self.depths(growth, work).into_iter().fold(0.0, larger)
     }
+
+    /// The work within the service at constant `rates` (W), J; `None` where it takes no depth off
+    /// the tube, without a coefficient of it or a scar.
+    #[must_use]
+    pub fn work_in_service(&self, rates: &WearWork) -> Option<WearWork> {
+        self.coefficient.and(self.scar)?;
+        Some(WearWork::none(rates.sectors.len(), rates.walls.len()).advanced(rates, rates, self.service))
+    }
+
+    /// Depth worn off the tube within the service where it is deepest, m, at constant `rates` (W);
+    /// `None` where there is no such work, and where it would cut the tube in two.
+    #[must_use]
+    pub fn deepest_in_service(&self, growth: Growth, rates: &WearWork) -> Option<f64> {
+        Some(self.deepest(growth, &self.work_in_service(rates)?)).filter(|depth| !depth.is_nan())
+    }
 }
 
 #[cfg(test)]

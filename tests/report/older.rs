@@ -34,11 +34,11 @@ fn the_largest_force_of_an_older_run_is_that_of_its_statistics_or_named_as_absen
         forget_records(&folder);
         let own = page(&folder);
         change(&folder, "summary.json", |summary| {
-            walls(summary).for_each(|wall| drop(wall.as_object_mut().unwrap().remove("largest_force").unwrap()));
+            walls(summary).for_each(|wall| drop(wall.as_object_mut().unwrap().remove("force_largest").unwrap()));
         });
         let older = page(&folder);
         assert_eq!((&older["facts"], &older["notes"]), (&own["facts"], &own["notes"]), "{case}");
-        let largest = |page: &Value| page["summary"]["statistics"]["walls"][0]["largest_force"]["mean_n"].clone();
+        let largest = |page: &Value| page["summary"]["statistics"]["walls"][0]["force_largest"]["mean_n"].clone();
         assert!(largest(&own).is_number() && largest(&own) == largest(&older));
         change(&folder, "summary.json", |summary| {
             for wall in walls(summary) {
@@ -74,4 +74,52 @@ fn histories_of_wear_of_an_older_version_keep_their_bands_and_absent_columns_are
     assert_eq!(older["wear"]["seeds"], 2, "without it the page has no bands");
     let told = older["notes"].to_string();
     assert!(told.contains("years.csv has no depth_deepest_m: an older version wrote it"), "{told}");
+}
+
+#[test]
+fn means_of_an_older_version_are_shown_under_the_names_of_today() {
+    let dir = tempfile::tempdir().unwrap();
+    let short = ["--set", "time.end=0.2", "--set", "time.statistics_from=0.1", "--set", "system.modes=6"];
+    let own = ["run", "tube-round-supports", "--seeds", "2", "--no-verdict", "--out", "w"];
+    said(dir.path(), &[&own[..], &short[..]].concat(), 0);
+    let folder = dir.path().join("w");
+    forget_records(&folder);
+    let own = page(&folder);
+    let names = |page: &Value| {
+        let columns = page["draws"]["table"]["columns"].as_array().unwrap().iter();
+        columns.map(|column| column["name"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert!(["force_mean_N", "force_mean_y_N", "force_rms_N"].iter().all(|name| names(&own).contains(&(*name).into())));
+    change(&folder, "summary.json", |summary| {
+        walls(summary).for_each(|wall| {
+            let wall = wall.as_object_mut().unwrap();
+            let largest = wall.remove("force_largest").unwrap();
+            wall.insert("largest_force".to_owned(), largest);
+        });
+        for one in summary["realisations"]["estimates"].as_array_mut().unwrap() {
+            let older = match one["measure"].as_str().unwrap() {
+                "force_mean" => "mean_force",
+                "force_rms" => "rms_force",
+                "force_largest" => "largest_force",
+                other => other,
+            };
+            one["measure"] = older.into();
+        }
+    });
+    let table = fs::read_to_string(folder.join("realisations.csv")).unwrap();
+    let older = table
+        .replace("force_mean_N", "mean_force_N")
+        .replace("force_mean_y_N", "mean_force_along_y_N")
+        .replace("force_mean_z_N", "mean_force_along_z_N")
+        .replace("force_rms_N", "RMS_force_N")
+        .replace("force_largest_N", "largest_force_N");
+    assert_ne!(older, table);
+    fs::write(folder.join("realisations.csv"), older).unwrap();
+    let older = page(&folder);
+    assert_eq!(names(&older), names(&own));
+    for key in ["facts", "cards", "notes"] {
+        assert_eq!(older[key], own[key], "{key}");
+    }
+    let measures = |page: &Value| page["summary"]["realisations"]["estimates"].clone();
+    assert_eq!(measures(&older), measures(&own));
 }

@@ -176,8 +176,8 @@ fn the_files_of_a_run_tell_of_its_supports() {
     let work = number("work_rate_W");
     assert!(work > 0.0 && number("friction_power_W") == 0.0);
     // Archard: volume = coefficient x work rate x service.
-    assert!((number("wear_volume_m3") / (1e-14 * work * 3e8) - 1.0).abs() < 1e-14);
-    assert!((number("support_wear_volume_m3") / (2e-14 * work * 3e8) - 1.0).abs() < 1e-14);
+    assert!((number("worn_volume_m3") / (1e-14 * work * 3e8) - 1.0).abs() < 1e-14);
+    assert!((number("support_worn_volume_m3") / (2e-14 * work * 3e8) - 1.0).abs() < 1e-14);
     let [scar, deepest, even] = ["one_scar", "deepest", "all_round"].map(|name| number(&format!("depth_{name}_m")));
     assert!(scar >= deepest && deepest > even, "{scar} {deepest} {even}");
     let sectors = read("sectors.csv");

@@ -33,7 +33,7 @@ fn nineteen_of_twenty_intervals_hold_the_expectation() {
         let study = Realisations::new(members);
         assert_eq!((study.count, study.interval), (5, Interval::StudentOfRealisations));
         assert!(study.refuted.is_empty());
-        let force = study.estimates.iter().find(|one| one.measure == Measure::MeanForce).unwrap();
+        let force = study.estimates.iter().find(|one| one.measure == Measure::ForceMean).unwrap();
         assert!(force.standard_deviation.unwrap() > 0.0);
         holding += usize::from((force.mean - 10.0 / 1.1).abs() <= force.half_width_95.unwrap());
     }

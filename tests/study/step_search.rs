@@ -137,7 +137,7 @@ fn the_step_found_is_the_coarsest_whose_error_by_the_answer_to_each_line_is_with
     let share = (parts[0] * parts[1]).sqrt();
     let (found, study, told) = found(&search(&Pressed, 1.0, share, 6));
     assert!((found.time.step / step(1) - 1.0).abs() < 1e-12, "{told:?}");
-    let rms = study.realisations.estimates.iter().find(|one| one.measure == Measure::RmsForce).unwrap();
+    let rms = study.realisations.estimates.iter().find(|one| one.measure == Measure::ForceRms).unwrap();
     let of_step = rms.error.unwrap().step.unwrap();
     // The window is not the period of the force, so that its lines are not quite kept apart: 15 %.
     let measured = of_step.mean / rms.mean;
@@ -150,7 +150,7 @@ fn the_step_found_is_the_coarsest_whose_error_by_the_answer_to_each_line_is_with
     let scene = |number| Pressed.realisation(number);
     let exact = realisations(1..=6, &scene, &Scheme::Event.into(), &options, &mut |_| {}).unwrap();
     let exact = Realisations::new(exact);
-    let other = exact.estimates.iter().find(|one| one.measure == Measure::RmsForce).unwrap();
+    let other = exact.estimates.iter().find(|one| one.measure == Measure::ForceRms).unwrap();
     let wrong = (other.mean / rms.mean - 1.0).abs();
     assert!(wrong <= share && wrong > 0.2 * share, "{wrong:e} of {share:e}");
 }

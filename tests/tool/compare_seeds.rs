@@ -44,7 +44,7 @@ fn means_are_those_of_run_and_differences_are_paired_by_seed() {
     }
     let means = lines(&path.join("compared/compare-realisations.csv"));
     let cells = |method: &str| -> Vec<String> {
-        let start = format!("{method},stop,wall,mean_force,N,");
+        let start = format!("{method},stop,wall,force_mean,N,");
         let line = means.iter().find(|line| line.starts_with(&start)).unwrap_or_else(|| panic!("{means:?}"));
         line.split(',').skip(5).map(str::to_owned).collect()
     };

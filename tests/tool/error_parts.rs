@@ -101,7 +101,7 @@ fn each_part_is_what_runs_with_the_same_seeds_differ_by() {
     assert_eq!(errors.len(), 1 + 3 + 4 * 2);
     let summary = summary(&path.join("seven"));
     let estimates = summary["realisations"]["estimates"].as_array().unwrap();
-    for (measure, unit) in [("work_rate", "W"), ("mean_force", "N")] {
+    for (measure, unit) in [("work_rate", "W"), ("force_mean", "N")] {
         let of = |table: &[Vec<String>]| column(table, "bars", &format!("{measure}_{unit}"));
         let (whole, halved, second) = (of(&whole), of(&halved), of(&second));
         // t of five and of six degrees of freedom. The first half is twice the whole less the
@@ -164,7 +164,7 @@ fn modes_are_a_part_where_some_are_left_out_and_the_step_where_the_scheme_has_on
     assert!(err.contains("step: 4/3 of the change by half the step"), "{err}");
     // The part of the modes is what the same seeds with 8 modes change.
     said(path, &["run", "tube.toml", "--modes", "8", "--seeds", "2", "--no-verdict", "--out", "eight"], 0);
-    let of = |out: &str| column(&cells(&path.join(out).join("realisations.csv")), "stop", "mean_force_N");
+    let of = |out: &str| column(&cells(&path.join(out).join("realisations.csv")), "stop", "force_mean_N");
     let changes: Vec<f64> = of("eight").iter().zip(of("located")).map(|(eight, four)| eight - four).collect();
     let errors = cells(&path.join("located/errors.csv"));
     let modes = column(&errors, "stop", "modes")[0];

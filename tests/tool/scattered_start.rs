@@ -55,7 +55,7 @@ fn means_over_starts_that_scatter_are_those_of_a_long_exact_motion() {
     let (starts, long) = (summary(&path.join("starts")), summary(&path.join("long")));
     let mut compared = 0;
     for one in starts["realisations"]["estimates"].as_array().unwrap() {
-        if one["measure"] != "mean_force" {
+        if one["measure"] != "force_mean" {
             continue;
         }
         let walls = long["statistics"]["walls"].as_array().unwrap();
@@ -112,7 +112,7 @@ fn means_are_judged_where_they_are_asked_for_and_refused_where_there_are_none() 
     let found = summary(&path.join("orbit"));
     for one in found["realisations"]["estimates"].as_array().unwrap() {
         let number = |name: &str| one[name].as_f64().unwrap();
-        if one["measure"] != "largest_force" {
+        if one["measure"] != "force_largest" {
             assert!(number("half_width_95") <= 1e-4 * number("mean"), "{one}");
         }
     }
@@ -123,7 +123,7 @@ fn means_are_judged_where_they_are_asked_for_and_refused_where_there_are_none() 
     let walls = summary(&path.join("exact"))["statistics"]["walls"].clone();
     for wall in walls.as_array().unwrap() {
         let all = found["realisations"]["estimates"].as_array().unwrap();
-        let own = all.iter().find(|one| one["place"] == wall["wall"] && one["measure"] == "mean_force").unwrap();
+        let own = all.iter().find(|one| one["place"] == wall["wall"] && one["measure"] == "force_mean").unwrap();
         let (mean, exact) = (own["mean"].as_f64().unwrap(), wall["force"]["mean_n"].as_f64().unwrap());
         assert!((mean / exact - 1.0).abs() <= 0.01, "{mean} {exact}");
     }

@@ -46,8 +46,8 @@ fn the_first_is_the_plain_run_and_any_other_can_be_repeated() {
     assert_eq!(four["statistics"], plain["statistics"]);
     assert_eq!(four["case_file"], plain["case_file"]);
 
-    let header = "realisation,place,kind,mean_force_N,mean_force_along_y_N,mean_force_along_z_N,RMS_force_N,\
-                  work_rate_W,friction_power_W,largest_force_N,findings";
+    let header = "realisation,place,kind,force_mean_N,force_mean_y_N,force_mean_z_N,force_rms_N,\
+                  work_rate_W,friction_power_W,force_largest_N,findings";
     let rows = rows(&path.join("four"));
     assert_eq!(rows[0].join(","), header);
     // Four flats, the stop and the support.
@@ -78,9 +78,9 @@ fn the_first_is_the_plain_run_and_any_other_can_be_repeated() {
         let rigid = all.iter().find(|wall| wall["wall"] == "bars-flat-1").unwrap();
         let largest = rigid["force"]["largest"]["mean_n"].as_f64();
         assert_eq!(number(&flat[9]), largest.unwrap_or(0.0), "a flat is a rigid wall");
-        assert_eq!(rigid["largest_force"], rigid["force"]["largest"]);
-        let (at, over) = (&wall["largest_force"]["at_s"], &wall["largest_force"]["averaged_over_s"]);
-        assert_eq!((wall["largest_force"]["mean_n"].as_f64(), over.as_f64()), (Some(number(&stop[9])), Some(0.0)));
+        assert_eq!(rigid["force_largest"], rigid["force"]["largest"]);
+        let (at, over) = (&wall["force_largest"]["at_s"], &wall["force_largest"]["averaged_over_s"]);
+        assert_eq!((wall["force_largest"]["mean_n"].as_f64(), over.as_f64()), (Some(number(&stop[9])), Some(0.0)));
         let contacts =
             fs::read_to_string(path.join(if realisation == "1" { "plain" } else { "third" }).join("contacts.csv"));
         let at_it = contacts.unwrap().lines().any(|line| {
@@ -98,7 +98,7 @@ fn the_first_is_the_plain_run_and_any_other_can_be_repeated() {
     let mean = values.iter().sum::<f64>() / 4.0;
     let deviation = (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 3.0).sqrt();
     let all = four["realisations"]["estimates"].as_array().unwrap();
-    let one = all.iter().find(|one| one["place"] == "bars" && one["measure"] == "mean_force").unwrap();
+    let one = all.iter().find(|one| one["place"] == "bars" && one["measure"] == "force_mean").unwrap();
     let close = |key: &str, x: f64| assert!((one[key].as_f64().unwrap() / x - 1.0).abs() < 1e-9, "{key}: {one}");
     close("mean", mean);
     close("standard_deviation", deviation);
@@ -117,7 +117,7 @@ fn one_realisation_says_that_its_interval_is_of_batches() {
     let summary = summary(&dir.path().join("one"));
     assert_eq!(summary["realisations"]["interval"], "batches_of_one_realisation");
     let estimates = summary["realisations"]["estimates"].as_array().unwrap();
-    let one = estimates.iter().find(|one| one["place"] == "bars" && one["measure"] == "mean_force").unwrap();
+    let one = estimates.iter().find(|one| one["place"] == "bars" && one["measure"] == "force_mean").unwrap();
     let own = &summary["statistics"]["supports"][0]["force"];
     assert_eq!((&one["mean"], &one["half_width_95"]), (&own["mean_n"], &own["mean_half_width_95_n"]));
     assert!(one["standard_deviation"].is_null() && one["error"].is_null() && !one["half_width_95"].is_null());

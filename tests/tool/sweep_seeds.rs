@@ -101,8 +101,8 @@ fn a_row_is_run_with_seeds_bit_for_bit() {
         for (support, word) in [("plate-1", "plate_1"), ("plate-2", "plate_2")] {
             for (name, measure, unit, column) in [
                 ("work_rate", "work_rate", "W", "work_rate_W"),
-                ("support_force_mean", "mean_force", "N", "mean_force_N"),
-                ("support_force_rms", "rms_force", "N", "RMS_force_N"),
+                ("support_force_mean", "force_mean", "N", "force_mean_N"),
+                ("support_force_rms", "force_rms", "N", "force_rms_N"),
             ] {
                 for (k, realisation) in of_row.iter().enumerate() {
                     let number = (k + 1).to_string();

@@ -44,7 +44,7 @@ fn a_row_is_run_until_its_interval_bit_for_bit() {
         assert_eq!((mean["seeds"].clone(), mean["status"].as_str()), (study["count"].to_string(), "ok"), "{gap}");
         let own = realisations.iter().filter(|run| run["row"] == row.to_string());
         assert_eq!(own.count().to_string(), mean["seeds"]);
-        for (measure, name, unit) in [("work_rate", "work_rate", "W"), ("mean_force", "support_force_mean", "N")] {
+        for (measure, name, unit) in [("work_rate", "work_rate", "W"), ("force_mean", "support_force_mean", "N")] {
             let all = study["estimates"].as_array().unwrap().iter();
             let one = all.into_iter().find(|one| one["place"] == "bars" && one["measure"] == measure).unwrap();
             let cell = |column: String| mean[&column].parse::<f64>().unwrap();

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._core import Load, Rayleigh, Scene, Wall
+from ._keywords import keywords
 from ._matrix import Entries, lower
 from ._types import End, Place, whole
 
@@ -38,6 +39,7 @@ class StructureOptions(ReducedOptions, total=False):
     damping: float | Sequence[float] | Rayleigh
 
 
+@keywords(SceneOptions)
 def oscillator(mass: float, damping: float, stiffness: float, **scene: Unpack[SceneOptions]) -> Scene:
     """One degree of freedom, m q̈ + c q̇ + k q = f, at rest at 0 for one second unless told otherwise.
 
@@ -66,6 +68,7 @@ def oscillator(mass: float, damping: float, stiffness: float, **scene: Unpack[Sc
     return _core._oscillator(mass, damping, stiffness).replace(**scene)
 
 
+@keywords(StructureOptions)
 def chain(
     masses: Sequence[float] | npt.NDArray[np.float64],
     springs: Sequence[float] | npt.NDArray[np.float64],
@@ -105,6 +108,7 @@ def chain(
     return _core._chain(masses, springs, grounds).replace(**scene)
 
 
+@keywords(StructureOptions)
 def bar(
     *,
     length: float,
@@ -153,6 +157,7 @@ def bar(
     return made.replace(**scene)
 
 
+@keywords(StructureOptions)
 def beam(
     *,
     length: float,
@@ -212,6 +217,7 @@ def beam(
     return made.replace(**scene)
 
 
+@keywords(ReducedOptions)
 def matrices(
     mass: Any, damping: Any | None, stiffness: Any, **scene: Unpack[ReducedOptions]
 ) -> Scene:
@@ -258,6 +264,7 @@ def matrices(
     return _core._matrices(n, m, c, k).replace(damping=damping, **scene)
 
 
+@keywords(SceneOptions)
 def modal(
     frequencies: Sequence[float] | npt.NDArray[np.float64],
     shapes: Mapping[str, Sequence[float] | npt.NDArray[np.float64]],
@@ -303,6 +310,7 @@ def modal(
     return _core._modal(omega, np.ones(k) if masses is None else masses, each, points).replace(**scene)
 
 
+@keywords()
 def support(
     name: str,
     gap: float,

@@ -27,7 +27,7 @@ class Realisations:
 
     ``supports`` and ``walls`` map a name to the `Estimate` of each measure there:
     ``study.supports["plate-1"]["work_rate"]`` is a mean work rate, W. The measures are
-    ``mean_force``, ``mean_force_y``, ``mean_force_z``, ``rms_force`` and ``largest_force`` (N),
+    ``force_mean``, ``force_mean_y``, ``force_mean_z``, ``force_rms`` and ``force_largest`` (N),
     ``work_rate`` and ``friction_power`` (W), and by the law of wear of the case, within its service,
     ``worn_volume`` (m³), ``depth_deepest``, ``depth_one_scar`` and ``depth_all_round`` (m), as far
     as a place has them. ``depth_deepest`` is the largest of the means of all sectors, or flats,

@@ -104,7 +104,7 @@ def html(run: Run) -> str:
     lines = []
     for name, wall in statistics(run).items():
         cells = [escape(name), str(wall["contacts"]), number(run.impulse(name))]
-        largest = wall["largest_force"]
+        largest = wall["force_largest"]
         cells += [number(wall["episode_impulse_n_s"]["max"]), number(largest and largest["mean_n"])]
         cells.append(number(wall["impact_power_w"]))
         lines.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")

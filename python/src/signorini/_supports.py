@@ -68,10 +68,9 @@ class SupportStatistics:
     ``work_rate`` is the work of wear ∫ F_n |v_t| dt per time, W, an upper figure where
     ``upper_figure`` is True (without friction); ``impact_share`` the share of it that impacts did.
     ``force_mean`` and ``force_rms`` are of the normal force and of the force vector, N,
-    ``force_largest`` the largest normal force, N, None where an impact on a rigid support has no
-    finite one, and ``force_largest_mean``
-    the largest mean of the normal force over a stretch of `force_averaging`, N, around the time
-    ``force_largest_mean_at``, s, of any support. ``sliding_rate`` is the
+    ``force_largest`` the largest mean of the normal force over a stretch of ``force_averaging``, N,
+    around the time ``force_largest_at``, s, and ``peak_force`` its largest value at an instant, N,
+    None where an impact on a rigid support has no finite one. ``sliding_rate`` is the
     distance slid in contact per time, m/s, ``sliding_speed`` the mean speed while in contact, m/s,
     ``friction_power`` what friction takes out of the motion, W, and ``contact_time_ratio`` the share
     of the time in all steps in which it pushes (a wall's is that of its contacts, up to half a step
@@ -88,8 +87,8 @@ class SupportStatistics:
     force_mean: Estimate | None
     force_rms: Estimate | None
     force_largest: float | None
-    force_largest_mean: float | None
-    force_largest_mean_at: float | None
+    force_largest_at: float | None
+    peak_force: float | None
     sliding_rate: float
     sliding_speed: float | None
     friction_power: float
@@ -102,15 +101,19 @@ class Wear:
     """The wear in service at one support, by Archard's law; None where there is no value.
 
     Volumes are in m³: ``volume`` worn off the tube, ``support_volume`` off the support. Depths on
-    the tube are in m: ``depth_scar`` where all of it comes off one scar, ``depth_even`` where it
-    comes off evenly all round.
+    the tube are in m, as the measures of sweeps of these names: ``depth_deepest`` where it is
+    deepest, in a sector or at a flat, ``depth_one_scar`` if all of it comes off one scar,
+    ``depth_all_round`` if it comes off evenly all round. Of one run under random loads the deepest
+    is an upper figure: a sector counts that is the deepest by chance; `realisations` has the
+    largest of the means of all sectors.
     """
 
     name: str
     volume: float | None
     support_volume: float | None
-    depth_scar: float | None
-    depth_even: float | None
+    depth_deepest: float | None
+    depth_one_scar: float | None
+    depth_all_round: float | None
 
 
 def _statistics(known: dict[str, Any]) -> SupportStatistics:
@@ -135,9 +138,9 @@ def _statistics(known: dict[str, Any]) -> SupportStatistics:
         impact_share=wear["impact_share"],
         force_mean=force and estimate(force, "mean", "n"),
         force_rms=force and estimate(force, "rms", "n"),
-        force_largest=contact["episode_peak_force_n"]["max"],
-        force_largest_mean=largest and largest["mean_n"],
-        force_largest_mean_at=largest and largest["at_s"],
+        force_largest=largest and largest["mean_n"],
+        force_largest_at=largest and largest["at_s"],
+        peak_force=contact["episode_peak_force_n"]["max"],
         sliding_rate=wear["sliding_m"] / known["window_s"],
         sliding_speed=wear["sliding_speed_m_per_s"],
         friction_power=wear["friction_power_w"],
@@ -155,11 +158,5 @@ def supports(run: Run) -> Mapping[str, SupportStatistics]:
 def wear(run: Run) -> Mapping[str, Wear]:
     """The wear in service at each support, as `Run.wear` says."""
     worn = {one["wear"]["support"]: one["worn"] for one in run._supports() if one["worn"] is not None}
-    return ReadOnly(
-        {
-            name: Wear(
-                name, w["volume_m3"], w["support_volume_m3"], w["depth_one_scar_m"], w["depth_all_round_m"]
-            )
-            for name, w in worn.items()
-        }
-    )
+    names = ("volume_m3", "support_volume_m3", "depth_deepest_m", "depth_one_scar_m", "depth_all_round_m")
+    return ReadOnly({name: Wear(name, *(known[key] for key in names)) for name, known in worn.items()})

@@ -8,6 +8,7 @@ from typing import Any
 
 from ._core import Case, Load
 from ._document import case
+from ._keywords import keywords
 from ._types import Place
 from ._turbulence import Turbulence, shown
 from ._types import End
@@ -38,6 +39,7 @@ def _at(at: Place | CasePlace) -> Any:
     return {"position": at} if isinstance(at, (int, float)) else at
 
 
+@keywords()
 def hole(
     name: str,
     gap: float,
@@ -109,6 +111,7 @@ def hole(
     return Support(name, values)
 
 
+@keywords()
 def flats(
     name: str,
     gap: float | Sequence[float],
@@ -172,6 +175,7 @@ def flats(
     return Support(name, {**same.values, **own})
 
 
+@keywords()
 def slider(
     name: str,
     normal_force: float,
@@ -264,6 +268,7 @@ def _end(end: End) -> Any:
     return end
 
 
+@keywords()
 def tube(
     *,
     length: float | None = None,

@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ._keywords import keywords
+
 
 def shown(values: Mapping[str, Any]) -> str:
     """The values that are given, as arguments."""
@@ -25,6 +27,7 @@ class Turbulence:
         return dict(self.values)
 
 
+@keywords()
 def turbulence(
     *,
     band: tuple[float, float],

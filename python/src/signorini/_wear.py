@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 class LimitYears:
     """The years after which the mean depth at a support reaches the limit of the tube.
 
-    ``deepest`` where it is deepest, ``scar`` if all of the wear comes off one scar, ``even`` if it
-    comes off evenly all round; None where that is not within the years followed, or without limit.
+    ``deepest`` where it is deepest, ``one_scar`` if all of the wear comes off one scar,
+    ``all_round`` if it comes off evenly all round; None where that is not within the years followed, or without limit.
     The ``histories`` of each are those of the single histories, by which the year scatters; none
     without limit; each has its own deepest sector, earlier than the mean. The ``half_width`` of
     each is that of its 95 % interval: of the histories, where each reaches the limit (of the
@@ -33,14 +33,14 @@ class LimitYears:
     """
 
     deepest: float | None
-    scar: float | None
-    even: float | None
+    one_scar: float | None
+    all_round: float | None
     deepest_histories: tuple[float | None, ...] = ()
-    scar_histories: tuple[float | None, ...] = ()
-    even_histories: tuple[float | None, ...] = ()
+    one_scar_histories: tuple[float | None, ...] = ()
+    all_round_histories: tuple[float | None, ...] = ()
     deepest_half_width: float | None = None
-    scar_half_width: float | None = None
-    even_half_width: float | None = None
+    one_scar_half_width: float | None = None
+    all_round_half_width: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

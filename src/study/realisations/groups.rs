@@ -126,7 +126,7 @@ impl fmt::Display for PlaceGroups {
 pub(super) fn groups(members: &[Realisation]) -> Vec<PlaceGroups> {
     let figures = members.first().map_or(&[][..], |member| &member.figures);
     let supports = figures.iter().any(|figure| figure.place.kind == PlaceKind::Support);
-    let measure = if supports { Measure::WorkRate } else { Measure::MeanForce };
+    let measure = if supports { Measure::WorkRate } else { Measure::ForceMean };
     let groups = |(figure, values): (&Figure, Vec<f64>)| {
         Some(PlaceGroups { place: figure.place.clone(), measure, groups: Groups::of(&values)? })
     };

@@ -11,21 +11,21 @@ use serde::Serialize;
 /// mode and each smaller step resolves further small impacts, and the mass that a wall feels falls
 /// as modes are added. These are shown beside what refinements make of them, and not judged. The
 /// root mean square of impulse/h at a rigid wall grows without limit as h → 0:
-/// [`Measure::RmsForce`] is that of the force averaged over
+/// [`Measure::ForceRms`] is that of the force averaged over
 /// [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Measure {
     /// Mean over time of |force|, Σ|p|/T; at a support that of all its flats together. N.
-    MeanForce,
+    ForceMean,
     /// Mean over time of a support's force on the structure along y, N.
-    MeanForceY,
+    ForceMeanY,
     /// The same along z, N.
-    MeanForceZ,
+    ForceMeanZ,
     /// Root mean square of the force: at an elastic wall of the force itself, else averaged over
     /// intervals. N.
-    RmsForce,
+    ForceRms,
     /// Work of wear per unit time, W; of supports in two planes. Without friction it is an upper
     /// figure.
     WorkRate,
@@ -35,7 +35,7 @@ pub enum Measure {
     /// support the largest mean over a stretch of
     /// [`TimeOptions::force_averaging`](crate::TimeOptions::force_averaging). It grows with the
     /// window.
-    LargestForce,
+    ForceLargest,
     /// The share of the work of wear that impacts do; of rigid supports in two planes. It need not
     /// converge.
     ImpactShare,
@@ -73,30 +73,48 @@ type Found = (f64, Option<f64>, Option<[f64; 2]>);
 impl Measure {
     /// All of them, in the order of tables.
     pub const ALL: [Self; 11] = [
-        Self::MeanForce,
-        Self::MeanForceY,
-        Self::MeanForceZ,
-        Self::RmsForce,
+        Self::ForceMean,
+        Self::ForceMeanY,
+        Self::ForceMeanZ,
+        Self::ForceRms,
         Self::WorkRate,
         Self::FrictionPower,
-        Self::LargestForce,
+        Self::ForceLargest,
         Self::ImpactShare,
         Self::SlidingRate,
         Self::Contacts,
         Self::ImpactPower,
     ];
 
+    /// Its name in tables and documents, that of the same measure of sweeps where there is one.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ForceMean => "force_mean",
+            Self::ForceMeanY => "force_mean_y",
+            Self::ForceMeanZ => "force_mean_z",
+            Self::ForceRms => "force_rms",
+            Self::WorkRate => "work_rate",
+            Self::FrictionPower => "friction_power",
+            Self::ForceLargest => "force_largest",
+            Self::ImpactShare => "impact_share",
+            Self::SlidingRate => "sliding_rate",
+            Self::Contacts => "contacts",
+            Self::ImpactPower => "impact_power",
+        }
+    }
+
     /// Its name in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
-            Self::MeanForce => "mean force",
-            Self::MeanForceY => "mean force along y",
-            Self::MeanForceZ => "mean force along z",
-            Self::RmsForce => "RMS force",
+            Self::ForceMean => "mean force",
+            Self::ForceMeanY => "mean force along y",
+            Self::ForceMeanZ => "mean force along z",
+            Self::ForceRms => "RMS force",
             Self::WorkRate => "work rate",
             Self::FrictionPower => "friction power",
-            Self::LargestForce => "largest force",
+            Self::ForceLargest => "largest force",
             Self::ImpactShare => "impact share",
             Self::SlidingRate => "sliding rate",
             Self::Contacts => "contacts",
@@ -116,14 +134,14 @@ impl Measure {
             Self::WorkRate | Self::FrictionPower | Self::ImpactPower => "W",
             Self::SlidingRate => "m/s",
             Self::ImpactShare | Self::Contacts => "",
-            Self::MeanForce | Self::MeanForceY | Self::MeanForceZ | Self::RmsForce | Self::LargestForce => "N",
+            Self::ForceMean | Self::ForceMeanY | Self::ForceMeanZ | Self::ForceRms | Self::ForceLargest => "N",
         }
     }
 
     /// True for those whose error is given in parts: work rate, mean force and RMS force.
     #[must_use]
     pub fn is_judged(self) -> bool {
-        matches!(self, Self::WorkRate | Self::MeanForce | Self::RmsForce)
+        matches!(self, Self::WorkRate | Self::ForceMean | Self::ForceRms)
     }
 
     /// False for those that need not converge as steps and modes are refined.
@@ -136,13 +154,13 @@ impl Measure {
     fn of_wall(self, wall: &WallStatistics) -> Option<Found> {
         let force = wall.force?;
         match self {
-            Self::MeanForce => Some((force.mean_n, force.mean_half_width_95_n, Some(force.mean_of_halves_n))),
-            Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n, Some(force.rms_of_halves_n))),
-            Self::LargestForce => Some(largest(wall.largest_force)),
+            Self::ForceMean => Some((force.mean_n, force.mean_half_width_95_n, Some(force.mean_of_halves_n))),
+            Self::ForceRms => Some((force.rms_n, force.rms_half_width_95_n, Some(force.rms_of_halves_n))),
+            Self::ForceLargest => Some(largest(wall.force_largest)),
             Self::Contacts => Some((wall.contacts as f64, None, None)),
             Self::ImpactPower => Some((wall.impact_power_w, wall.half_width_95.map(|half| half.impact_power_w), None)),
-            Self::MeanForceY
-            | Self::MeanForceZ
+            Self::ForceMeanY
+            | Self::ForceMeanZ
             | Self::WorkRate
             | Self::FrictionPower
             | Self::ImpactShare
@@ -156,17 +174,17 @@ impl Measure {
         let vector =
             |axis: usize| (force.mean_vector_n[axis], force.mean_vector_half_width_95_n.map(|half| half[axis]), None);
         match self {
-            Self::MeanForce => Some((force.mean_n, force.mean_half_width_95_n, Some(force.mean_of_halves_n))),
-            Self::MeanForceY => Some(vector(0)),
-            Self::MeanForceZ => Some(vector(1)),
-            Self::RmsForce => Some((force.rms_n, force.rms_half_width_95_n, Some(force.rms_of_halves_n))),
+            Self::ForceMean => Some((force.mean_n, force.mean_half_width_95_n, Some(force.mean_of_halves_n))),
+            Self::ForceMeanY => Some(vector(0)),
+            Self::ForceMeanZ => Some(vector(1)),
+            Self::ForceRms => Some((force.rms_n, force.rms_half_width_95_n, Some(force.rms_of_halves_n))),
             Self::WorkRate => {
                 wear.map(|wear| (wear.work_rate_w, wear.work_rate_half_width_95_w, Some(wear.work_rate_of_halves_w)))
             }
             Self::FrictionPower => {
                 wear.filter(|wear| wear.friction > 0.0).map(|wear| (wear.friction_power_w, None, None))
             }
-            Self::LargestForce => Some(largest(force.largest)),
+            Self::ForceLargest => Some(largest(force.largest)),
             Self::ImpactShare => wear.and_then(|wear| Some((wear.impact_share?, None, None))),
             Self::SlidingRate => wear.map(|wear| (wear.sliding_m / seconds, None, None)),
             Self::Contacts => Some((support.contacts as f64, None, None)),

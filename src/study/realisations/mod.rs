@@ -23,7 +23,7 @@
 //! let method = Scheme::MoreauJean { theta: 0.5 }.into();
 //! let members = realisations(1..=4, &scene, &method, &Options::with_step(1e-3), &mut |_| {})?;
 //! let study = Realisations::new(members);
-//! let force = study.estimates.iter().find(|one| one.measure == Measure::MeanForce).expect("there is a wall");
+//! let force = study.estimates.iter().find(|one| one.measure == Measure::ForceMean).expect("there is a wall");
 //! println!("{:.3} ± {:.3} N", force.mean, force.half_width_95.expect("four realisations"));
 //! # Ok::<(), signorini::Error>(())
 //! ```

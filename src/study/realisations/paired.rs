@@ -55,7 +55,7 @@ mod tests {
     fn study(values: &[(u64, f64)]) -> Realisations {
         let member = |&(number, value): &(u64, f64)| {
             let place = ContactPlace { name: "stop".to_owned(), kind: PlaceKind::Wall };
-            let figure = Figure { place, measure: Measure::MeanForce, value, batch_half_width_95: None, halves: None };
+            let figure = Figure { place, measure: Measure::ForceMean, value, batch_half_width_95: None, halves: None };
             Realisation::of_figures(number, vec![figure])
         };
         Realisations::new(values.iter().map(member).collect())

@@ -72,7 +72,7 @@ mod tests {
 
     fn member(number: u64, value: f64, batch: Option<f64>) -> Realisation {
         let place = ContactPlace { name: "stop".to_owned(), kind: PlaceKind::Wall };
-        let figure = Figure { place, measure: Measure::MeanForce, value, batch_half_width_95: batch, halves: None };
+        let figure = Figure { place, measure: Measure::ForceMean, value, batch_half_width_95: batch, halves: None };
         Realisation::of_figures(number, vec![figure])
     }
 

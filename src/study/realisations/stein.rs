@@ -41,7 +41,7 @@ fn means(members: &[Realisation]) -> Vec<(ContactPlace, Measure, f64, f64)> {
         judged(members, wanted).filter_map(mean).collect()
     };
     let rates = of(Measure::WorkRate);
-    if rates.is_empty() { of(Measure::MeanForce) } else { rates }
+    if rates.is_empty() { of(Measure::ForceMean) } else { rates }
 }
 
 impl NeededRealisations {
@@ -95,7 +95,7 @@ mod tests {
         };
         let member = |(number, &(rate, force)): (u64, &(f64, f64))| {
             let work_rate = figure("plate", PlaceKind::Support, Measure::WorkRate, rate);
-            let mean_force = figure("stop", PlaceKind::Wall, Measure::MeanForce, force);
+            let mean_force = figure("stop", PlaceKind::Wall, Measure::ForceMean, force);
             Realisation::of_figures(number, vec![work_rate, mean_force])
         };
         (1..).zip(values).map(member).collect()
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn without_work_forces_are_judged_and_without_contact_nothing() {
         let pilots = members(&[(0.0, 5.0), (0.0, 5.5), (0.0, 4.5)]);
-        assert_eq!(widest(&pilots).unwrap().measure, Measure::MeanForce);
+        assert_eq!(widest(&pilots).unwrap().measure, Measure::ForceMean);
         assert_eq!(NeededRealisations::from_pilots(&members(&[(0.0, 0.0), (0.0, 0.0)]), 0.1), None);
         assert_eq!(NeededRealisations::from_pilots(&members(&[(1.0, 1.0)]), 0.1), None);
     }

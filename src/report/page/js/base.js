@@ -102,6 +102,11 @@ function digits(x, n = 4) {
   return minus(mantissa.replace(/\.?0+$/, "")) + "·10" + raised(+exponent);
 }
 
+/** A measure of realisations in words. */
+const measureInWords = (name) =>
+  ({ force_mean: "mean force", force_rms: "RMS force", force_largest: "largest force" })[name] ||
+  name.replace(/_/g, " ").replace(/^force mean ([yz])$/, "mean force along $1");
+
 /** A number with the half width of its interval, where it has one; of such a number n digits. */
 const plusMinus = (x, half, n = 4) =>
   Number.isFinite(half) ? `${digits(x, n)} ± ${digits(half, 2)}` : digits(x);

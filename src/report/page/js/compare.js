@@ -6,7 +6,7 @@ const compared = (length) => [
   ["method", "method"],
   ["error_over_gap", `error / ${length}`],
   ["agrees_until_s", "agrees until (s)"],
-  ["largest_force_N", "largest force (N)"],
+  ["force_largest_N", "largest force (N)"],
   ["peak_force_N", "peak force (N)"],
   ["restitution", "restitution"],
   ["penetration_m", "penetration (m)"],
@@ -68,7 +68,7 @@ function methodMeansSection() {
       [
         text("place", "place"),
         text("kind", "kind"),
-        { ...text("measure", "mean of"), show: (i) => columns.measure[i].replace(/_/g, " ") },
+        { ...text("measure", "mean of"), show: (i) => measureInWords(columns.measure[i]) },
         text("unit", "unit"),
         text("method", "method"),
         number("mean", "mean", "half_width_95"),

@@ -198,8 +198,8 @@ function statisticsSection() {
       (w) => w.force && w.force.rms_n,
       (w) => w.force && w.force.rms_half_width_95_n,
     ),
-    column("largest force (N)", (w) => w.largest_force?.mean_n),
-    column("at (s)", (w) => w.largest_force?.at_s),
+    column("largest force (N)", (w) => w.force_largest?.mean_n),
+    column("at (s)", (w) => w.force_largest?.at_s),
     column(
       "impulse of a contact (N s)",
       (w) => w.episode_impulse_n_s.mean,

@@ -10,9 +10,9 @@ const STRIP = [44, 0.56];
 /** What the strips of a run show, of realisations.csv: column, label, and the measure of its mean. */
 const RUN_STRIPS = [
   ["work_rate_W", "Work rate (W)", "work_rate"],
-  ["mean_force_N", "Mean force (N)", "mean_force"],
-  ["RMS_force_N", "RMS force (N)", "rms_force"],
-  ["largest_force_N", "Largest force (N)", "largest_force"],
+  ["force_mean_N", "Mean force (N)", "force_mean"],
+  ["force_rms_N", "RMS force (N)", "force_rms"],
+  ["force_largest_N", "Largest force (N)", "force_largest"],
 ];
 
 /** The same of histories, of history.csv: column, label, and how many of its unit are one in SI. */

@@ -8,12 +8,12 @@ const WHERE_MEASURES = [
     ({ worn }) => [worn.work_rate_w, worn.work_rate_half_width_95_w],
   ],
   [
-    "mean_force",
+    "force_mean",
     "Mean force (N)",
     ({ contact: { force } }) => [force?.mean_n, force?.mean_half_width_95_n],
   ],
   [
-    "rms_force",
+    "force_rms",
     "RMS force (N)",
     ({ contact: { force } }) => [force?.rms_n, force?.rms_half_width_95_n],
   ],
