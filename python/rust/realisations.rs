@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use signorini as sg;
 use signorini::output::run_folder::{RunGoal, RunRequest};
 use signorini::output::table::Table;
-use signorini::output::{error_parts, realisations as output, worn_means};
+use signorini::output::{error_parts, realisations as output, sector_means, worn_means};
 use signorini::study::accuracy::Accuracy;
 use signorini::study::realisations::{
     Batch, KnownRealisations, MOST_REALISATIONS, Realisation, RealisationCount, RealisationPlan, RealisationStudy,
@@ -238,6 +238,7 @@ pub fn means_told(found: &Realisations, case: &sg::case::Case) -> Value {
         "document": found,
         "worn": worn_means::document(case, found),
         "table": output::cells(found),
+        "sectors": sector_means::cells(case, found),
         "text": texts(tables),
     })
 }

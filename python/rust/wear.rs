@@ -13,7 +13,7 @@ use signorini::output::format::{Format, Formats};
 use signorini::output::results::Results;
 use signorini::output::wear_folder::{self, WearRequest};
 use signorini::output::wear_journal::WindowJournal;
-use signorini::output::{wear_history as output, wear_remarks};
+use signorini::output::{sector_means, wear_history as output, wear_remarks};
 use signorini::study::realisations::{KnownRealisations, RealisationCount, RealisationStudy, checked};
 use signorini::study::wear_history::{USUAL_WINDOWS, WearHistories, WearPlan, WearWindow, WearingSupport};
 use signorini::wear::Opening;
@@ -118,6 +118,7 @@ fn wear_told(case: &sg::case::Case, plan: &Plan, found: &WearHistories, historie
         "limit": case.wear.limit,
         "years": output::years(found),
         "history": output::history(found),
+        "sectors": sector_means::cells_of_histories(case, found),
         "limits": output::limits(case, found),
         "text": texts([Some(output::table(found))]),
         "remarks": remarks,

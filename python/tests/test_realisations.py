@@ -58,6 +58,10 @@ def test_numbers_are_those_of_the_tool(three: sg.Realisations, tool: Callable[..
     assert list(three.table) == list(table[0])
     for name, column in three.table.items():
         assert_same(column, [row[name] for row in table])
+    sectors = rows(folder / "sector-means.csv")
+    assert list(three.sectors) == list(sectors[0]) and len(sectors) == 24
+    for name, column in three.sectors.items():
+        assert_same(column, [row[name] for row in sectors])
     frame = three.to_pandas()
     judged = frame[frame["error"].notna()]
     errors = rows(folder / "errors.csv")

@@ -44,6 +44,7 @@ def test_years_and_histories_are_those_of_the_tool(three: sg.WearStudy, tool: Ca
     folder = tool("wear", "tube-in-cross-flow", *SET, "--years", "20", "--histories", "3")
     assert_same(three.years, folder / "years.csv")
     assert_same(three.history, folder / "history.csv")
+    assert_same(three.sectors, folder / "sector-means.csv")
 
 
 FILES = ("history.csv", "years.csv", "wear.svg")

@@ -56,6 +56,13 @@ fn means(lists: &[Vec<f64>]) -> Vec<Mean> {
 /// also of each flat, and the depth worn off the tube there within the service of the case, where
 /// it has a law of wear.
 pub fn write(path: &Path, case: &Case, study: &Realisations) -> Result<()> {
+    let (header, rows) = cells(case, study);
+    csv::table(path, &header, rows.into_iter())
+}
+
+/// The header and the rows of [`write`].
+#[must_use]
+pub fn cells(case: &Case, study: &Realisations) -> (Vec<String>, Vec<Vec<String>>) {
     let mut rows = Vec::new();
     for (index, support) in case.scene.supports.iter().enumerate() {
         let wear: Vec<_> = study.members.iter().filter_map(|member| member.wear.get(index)).collect();
@@ -73,12 +80,19 @@ pub fn write(path: &Path, case: &Case, study: &Realisations) -> Result<()> {
         }
     }
     let rate = ["work_rate_W", "work_rate_half_width_95_W"].map(str::to_owned);
-    csv::table(path, &[header(), rate.to_vec()].concat(), rows.into_iter())
+    ([header(), rate.to_vec()].concat(), rows)
 }
 
 /// Writes the means over histories of wear at their end: the depth worn off the tube in each sector
 /// of a round support, and at each flat.
 pub fn write_histories(path: &Path, case: &Case, found: &WearHistories) -> Result<()> {
+    let (header, rows) = cells_of_histories(case, found);
+    csv::table(path, &header, rows.into_iter())
+}
+
+/// The header and the rows of [`write_histories`].
+#[must_use]
+pub fn cells_of_histories(case: &Case, found: &WearHistories) -> (Vec<String>, Vec<Vec<String>>) {
     let mut rows = Vec::new();
     for (index, name) in found.supports.iter().enumerate() {
         let Some(support) = case.scene.supports.iter().find(|support| support.name == *name) else { continue };
@@ -89,7 +103,7 @@ pub fn write_histories(path: &Path, case: &Case, found: &WearHistories) -> Resul
             rows.push(row(name, part, &[(Some(mean).filter(|x| x.is_finite()), half.filter(|x| x.is_finite()))]));
         }
     }
-    csv::table(path, &header(), rows.into_iter())
+    (header(), rows)
 }
 
 fn header() -> Vec<String> {

@@ -50,7 +50,7 @@ class TableResult(ReadOnly[str, Column]):
 
 
 _OF_WORDS = {
-    *("error", "place", "kind", "less", "wall", "signature", "label", "leads_to", "not_followed_because"),
+    *("error", "place", "part", "kind", "less", "wall", "signature", "label", "leads_to", "not_followed_because"),
     *("phases_cycles", "approach_speeds_m_per_s", "multipliers", "displacements_m", "velocities_m_per_s"),
 }
 

@@ -32,7 +32,11 @@ class Realisations:
     ``worn_volume`` (m³), ``depth_deepest``, ``depth_one_scar`` and ``depth_all_round`` (m), as far
     as a place has them. ``depth_deepest`` is the largest of the means of all sectors, or flats,
     with what taking the largest adds in its half width. ``table`` has the columns
-    of ``realisations.csv``: a row for each realisation and place. ``accuracy`` is what was reached
+    of ``realisations.csv``: a row for each realisation and place. ``sectors`` has those of
+    ``sector-means.csv``, where around each support the tube wears in the mean: ``place``, ``part``
+    (``sector``, or ``flat``), ``from_deg``, ``to_deg``, ``depth_m`` within the service, by the law
+    of wear of the case, ``work_rate_W``, and the same with ``half_width_95`` in the name; nan where
+    there is no value. ``accuracy`` is what was reached
     where an accuracy was asked for, as in the summary of the tool: ``step_s``, ``reached``,
     ``quantity``, ``levels``. ``print`` shows the tables of the tool.
     """
@@ -41,6 +45,7 @@ class Realisations:
     supports: Means
     walls: Means
     table: Mapping[str, Column]
+    sectors: Mapping[str, Column]
     accuracy: Mapping[str, Any] | None
     _rows: tuple[dict[str, Any], ...]
     _text: str
@@ -120,10 +125,11 @@ def made(known: dict[str, Any]) -> Realisations:
     document = known["document"]
     estimates = [*document["estimates"], *known["worn"]]
     supports, walls = by_place(estimates, seeds=document["count"] > 1)
-    table, rows = ReadOnly(columns(*known["table"])), tuple(map(_row, estimates))
+    rows = tuple(map(_row, estimates))
+    table, sectors = (ReadOnly(columns(*known[name])) for name in ("table", "sectors"))
     accuracy = known.get("accuracy")
     accuracy = None if accuracy is None else ReadOnly(accuracy)
-    return Realisations(document["count"], supports, walls, table, accuracy, rows, known["text"])
+    return Realisations(document["count"], supports, walls, table, sectors, accuracy, rows, known["text"])
 
 
 def warn(known: dict[str, Any], stacklevel: int) -> None:

@@ -51,7 +51,9 @@ class WearStudy:
     their 95 % intervals (``gap_m``, of flats the least; ``depth_deepest_m``,
     ``depth_all_round_m``, ``depth_one_scar_m``, ``work_rate_W`` and the same with
     ``half_width_95`` in the name), a row for each ``year`` and ``place``. ``history`` has those of
-    ``history.csv``, a row for each history as well. ``limit`` is the depth up to which the tube may wear, m, or None, and
+    ``history.csv``, a row for each history as well, ``sectors`` those of ``sector-means.csv``: the
+    depth at the end in each sector of a hole, and at each flat (``place``, ``part``, ``from_deg``,
+    ``to_deg``, ``depth_m``, ``depth_half_width_95_m``). ``limit`` is the depth up to which the tube may wear, m, or None, and
     ``limit_years`` says when each support reaches it. ``histories`` is their number and
     ``windows`` how many runs they took. ``first`` is the study of the first windows, with its
     errors, where the number of histories follows from an interval. ``remarks`` say what the
@@ -63,6 +65,7 @@ class WearStudy:
     windows: int
     years: Mapping[str, Column]
     history: Mapping[str, Column]
+    sectors: Mapping[str, Column]
     limit: float | None
     limit_years: Mapping[str, LimitYears]
     first: Realisations | None
@@ -236,6 +239,7 @@ def wear(
         known["windows"],
         ReadOnly(columns(*known["years"])),
         ReadOnly(columns(*known["history"])),
+        ReadOnly(columns(*known["sectors"])),
         known["limit"],
         ReadOnly({one["place"]: _limit_years(one) for one in known["limits"]}),
         first,
