@@ -54,7 +54,7 @@ impl RunsDone {
     }
 
     /// Begins a batch of `count` runs; what is returned is called with the share of them done.
-    fn begin(&self, count: u64) -> impl FnMut(f64) {
+    pub fn begin(&self, count: u64) -> impl FnMut(f64) {
         let before = 1000 * self.runs.fetch_add(count, Ordering::Relaxed);
         move |share| self.thousandths.store(before + (1000.0 * share * count as f64) as u64, Ordering::Relaxed)
     }
@@ -103,7 +103,7 @@ fn first_run(
 }
 
 /// What limits the use of `study`.
-fn cautions(study: &RealisationStudy, case: &sg::case::Case) -> Vec<String> {
+pub fn cautions(study: &RealisationStudy, case: &sg::case::Case) -> Vec<String> {
     study.realisations.cautioned().sentences().chain(case.instability()).collect()
 }
 

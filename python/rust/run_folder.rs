@@ -31,7 +31,7 @@ impl RunFolder {
         method: &sg::Method,
         progress: &mut dyn FnMut(f64),
     ) -> sg::Result<sg::Run> {
-        DrawnRun::of(case, method, true, progress)?.write(&mut self.0, case)
+        DrawnRun::of(case, method, true, progress)?.write(&mut self.0, "", case)
     }
 
     /// Writes the other files of `run`, the first of those of the `study` where there is one, and
@@ -58,7 +58,7 @@ impl RunFolder {
             ..Checks::default()
         };
         let span = Span { from: 0.0, to: case.scene.duration };
-        run_folder::write(results, case, (run, &plan.method, reason), checks, span)?;
+        run_folder::write(results, "", case, (run, &plan.method, reason), checks, span)?;
         report::finish(results, true)?;
         let half = unknown("half the step", refinement.as_ref(), |found| &found.findings);
         let more = unknown("more modes", truncation.as_ref(), |found| &found.findings);

@@ -4,7 +4,8 @@ use crate::case::Case;
 use crate::error::raise;
 use crate::json::loads;
 use crate::plan::Plan;
-use crate::realisations::{RunsDone, count, study, texts, told};
+use crate::realisations::{RunsDone, cautions, count, study, study_from, texts, told};
+use crate::run_folder::reason;
 use crate::work::compute_beside;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -14,7 +15,8 @@ use signorini::output::results::Results;
 use signorini::output::wear_folder::{self, WearRequest};
 use signorini::output::wear_journal::WindowJournal;
 use signorini::output::{sector_means, wear_history as output, wear_remarks};
-use signorini::study::realisations::{KnownRealisations, RealisationCount, RealisationStudy, checked};
+use signorini::report;
+use signorini::study::realisations::{KnownRealisations, Realisation, RealisationCount, RealisationStudy, checked};
 use signorini::study::wear_history::{USUAL_WINDOWS, WearHistories, WearPlan, WearWindow, WearingSupport};
 use signorini::wear::Opening;
 use std::path::PathBuf;
@@ -54,34 +56,59 @@ pub fn _wear<'py>(
     let open = |folder: PathBuf| request.open(&folder, false, formats).map_err(raise);
     let mut results = folder.map(open).transpose()?;
     let done = RunsDone::default();
-    let first = within.map(|count| {
-        compute_beside(
-            py,
-            || study(case, &plan, (count, checked(verdict)), KnownRealisations::default(), &done),
-            &mut |py| done.tell(counted.bind(py)),
-        )
-    });
-    let first = first.transpose()?;
+    let work = || begun(case, (&plan, reason(case, scheme)), results.as_mut(), (within, verdict), &done);
+    let (first, window) = compute_beside(py, work, &mut |py| done.tell(counted.bind(py)))?;
     let study = first.as_ref().map(|(study, _)| study);
     let histories = study.map_or(asked, |study| study.realisations.members.len());
-    let found = followed(py, case, &plan, (&supports, histories, service), (study, results.as_mut()), &progress)?;
+    let members = study.map_or(window.as_slice(), |study| &study.realisations.members);
+    let found = followed(py, case, &plan, (&supports, histories, service), (members, results.as_mut()), &progress)?;
     if let Some(results) = &mut results {
         let written = wear_folder::write(results, case, (&found, histories), study);
-        written.and_then(|()| results.finish()).map_err(raise)?;
+        written.and_then(|()| report::finish(results, true)).map_err(raise)?;
     }
     let mut known = wear_told(case, &plan, &found, histories);
     known["first"] = json!(first.as_ref().map(|(study, notes)| told(study, notes, case)));
     loads(py, &known.to_string())
 }
 
-/// So many histories over `service` seconds, whose first windows are those of the study `first`,
+/// A study, and the notes that limit its use.
+type Noted = (RealisationStudy, Vec<String>);
+
+/// The study of the first windows, where one is asked for `within` an interval, with the notes that
+/// limit its use; and the first window, whose files are written into `results`. Without results
+/// nothing is known of it before the histories are followed.
+fn begun(
+    case: &sg::case::Case,
+    (plan, reason): (&Plan, String),
+    results: Option<&mut Results>,
+    (within, verdict): (Option<RealisationCount>, bool),
+    done: &RunsDone,
+) -> sg::Result<(Option<Noted>, Vec<Realisation>)> {
+    let (asked, known) = (within.map(|count| (count, checked(verdict))), KnownRealisations::default());
+    let Some(results) = results else {
+        let study = asked.map(|asked| study(case, plan, asked, known, done)).transpose()?;
+        return Ok((study, Vec::new()));
+    };
+    let mut first = done.begin(1);
+    let end = case.scene.duration;
+    let method = (&plan.method, reason);
+    let run = wear_folder::first_window(results, case, method, true, &mut |time| first(time / end))?;
+    let study = asked.map(|asked| study_from(&run, (case, plan), asked, known, done)).transpose()?;
+    let study = study.map(|study| {
+        let notes = cautions(&study, case);
+        (study, notes)
+    });
+    Ok((study, vec![Realisation::of(1, &run)]))
+}
+
+/// So many histories over `service` seconds, whose first windows begin with those of `members`,
 /// beside the journal in `results` where there are any.
 fn followed(
     py: Python<'_>,
     case: &sg::case::Case,
     plan: &Plan,
     (supports, histories, service): (&[WearingSupport], usize, f64),
-    (first, results): (Option<&RealisationStudy>, Option<&mut Results>),
+    (members, results): (&[Realisation], Option<&mut Results>),
     progress: &Py<PyAny>,
 ) -> PyResult<WearHistories> {
     let options = sg::Options::new(plan.time);
@@ -90,7 +117,6 @@ fn followed(
     let done = AtomicU64::new(0);
     let mut tell = |share: f64| done.store((100.0 * share) as u64, Ordering::Relaxed);
     let mut watch = |py: Python<'_>| progress.bind(py).call1((done.load(Ordering::Relaxed),)).map(drop);
-    let members = first.map_or(&[][..], |study| &study.realisations.members);
     let follow = || match results {
         Some(results) => {
             WindowJournal::open(results, histories, false)?.follow(&wear, members, &mut tell).map(|(found, _)| found)

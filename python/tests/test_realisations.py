@@ -78,6 +78,14 @@ def test_numbers_are_those_of_the_tool(three: sg.Realisations, tool: Callable[..
         if mine.error is not None:
             assert mine.error.total == one["error"]["total"]
             assert mine.error.modes is not None and mine.error.modes.half_width == one["error"]["modes"]["half_width_95"]
+        assert [(told.own, told.then) for told in mine.refinements] == [
+            (told["own"], told["then"]) for told in one["refinements"]
+        ]
+    contacts = three.supports["plate-1"]["contacts"]
+    assert contacts.error is None
+    assert [told.refined for told in contacts.refinements] == ["half the step", "24 modes"]
+    # All three were run again, so that the mean of those is that of the study.
+    assert {told.own for told in contacts.refinements} == {contacts.value}
 
 
 def test_an_interval_takes_as_many_as_it_takes_the_tool(tool: Callable[..., Path]) -> None:

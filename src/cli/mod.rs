@@ -4,7 +4,7 @@
 //! # Files
 //!
 //! Parses, calls, prints: one file per command (`run/`, `compare.rs` with `compare_seeds.rs` and
-//! `verdicts.rs`, `chart.rs`, `stability.rs`, `wear.rs` with `first_window.rs`, `sweep/`,
+//! `verdicts.rs`, `chart.rs`, `stability.rs`, `wear.rs`, `sweep/`,
 //! `merge.rs`, `orbit/`, `continuation/`, `report.rs`, `explain/`, `new/`, `figures.rs`,
 //! `verify.rs`, `completions.rs`), `case_args.rs`, `request.rs`, `formats.rs` and `drawing.rs` for
 //! arguments that several have, `command_line.rs` for lines as a shell takes them, `pipeline.rs`
@@ -25,7 +25,6 @@ mod drawing;
 mod estimate;
 mod explain;
 mod figures;
-mod first_window;
 mod formats;
 mod merge;
 mod new;

@@ -2,7 +2,6 @@
 
 use super::command_line::command_line;
 use super::estimate::DurationEstimate;
-use super::first_window::first_window;
 use super::pipeline::Answer;
 use super::realisations::{self, StudyRequest, failed_checks, not_checked, of_argument};
 use super::request::Request;
@@ -92,7 +91,11 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let asked = WearRequest { case: &case, method: &method, years: args.years, count, verdict };
     let mut results = asked.open(&place.folder(&case.name, "wear"), place.force, place.formats.usable()?)?;
     results.add_to_manifest("command_line", json!(command_line()));
-    let run = first_window(&case, (&method, reason), &mut results, !place.no_report, ui)?;
+    let estimate = DurationEstimate::of_run(&case.scene, &method, case.time.step);
+    let run = ui.with_estimate("first window", estimate, |bar| {
+        let mut progress = |time| bar.set_share(time / case.scene.duration);
+        wear_folder::first_window(&mut results, &case, (&method, reason), !place.no_report, &mut progress)
+    })?;
     let study = |count| realisations::study(&case, (&run, &method), StudyRequest::new(count, verdict), "", ui);
     let first = within.map(study).transpose()?;
     let histories = first.as_ref().map_or(histories, |study| study.realisations.count);

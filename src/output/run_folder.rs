@@ -110,16 +110,18 @@ impl DrawnRun {
         Ok(Self { run, shape, moved })
     }
 
-    /// Writes `shape.csv` and, of a structure with a line, `animation.svg`; nothing where there is
-    /// nothing to draw. Returns the run.
-    pub fn write(self, results: &mut Results, case: &Case) -> Result<Run> {
+    /// Writes into the folder `within` of the results, their own where it is empty, `shape.csv`
+    /// and, of a structure with a line, `animation.svg`; nothing where there is nothing to draw.
+    /// Returns the run.
+    pub fn write(self, results: &mut Results, within: &str, case: &Case) -> Result<Run> {
         let Self { run, shape, moved } = self;
         if !shape.is_empty() {
             let time = run.trajectory.time();
-            shape.write(&results.place(shape::FILE)?, time, &moved)?;
+            let file = |name: &str| if within.is_empty() { name.to_owned() } else { format!("{within}/{name}") };
+            shape.write(&results.place(&file(shape::FILE))?, time, &moved)?;
             let picture = shape.stations().and_then(|stations| animation(case, &stations, time, &moved));
             if let Some(svg) = picture {
-                results.write(animation::FILE, svg)?;
+                results.write(&file(animation::FILE), svg)?;
             }
         }
         Ok(run)
@@ -152,16 +154,17 @@ pub fn write_study(results: &mut Results, case: &Case, study: &RealisationStudy)
     sector_means::write(&results.place(sector_means::FILE)?, case, &study.realisations)
 }
 
-/// Writes the files of `run` of `case` by `method`, for the `reason`, with the `checks` made of it:
-/// the last files, since the summary records the tables beside it. Pictures show the stretch
-/// `span`. Returns the summary.
+/// Writes the files of `run` of `case` by `method`, for the `reason`, with the `checks` made of it,
+/// into the folder `within` of the results, their own where it is empty: the last files, since the
+/// summary records the tables beside it. Pictures show the stretch `span`. Returns the summary.
 pub fn write(
     results: &mut Results,
+    within: &str,
     case: &Case,
     (run, method, reason): (&Run, &Method, String),
     checks: Checks<'_>,
     span: Span,
 ) -> Result<Value> {
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(method, &case.scene) };
-    run::write(results, "", case, run, method, (&reasons, checks), Picture { span, look: 0 })
+    run::write(results, within, case, run, method, (&reasons, checks), Picture { span, look: 0 })
 }

@@ -4,9 +4,12 @@
 use super::format::Formats;
 use super::request::{extended, interval, program, request, without_limit};
 use super::results::Results;
-use super::{error_parts, realisations, sector_means, summary, turbulence, wear_history, wear_remarks};
+use super::run_folder::{self, DrawnRun};
+use super::summary::Checks;
+use super::{Span, error_parts, realisations, sector_means, summary, turbulence, wear_history, wear_remarks};
 use crate::case::Case;
 use crate::error::Result;
+use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::realisations::{RealisationCount, RealisationStudy};
 use crate::study::wear_history::{WearHistories, YEAR};
@@ -62,6 +65,25 @@ impl WearRequest<'_> {
     pub fn open(&self, folder: &Path, force: bool, formats: Formats) -> Result<Results> {
         Results::open_growing(folder, self.recorded()?, Some(YEARS), force, formats)
     }
+}
+
+/// Runs the first window of the first history of wear, `case` in its own gaps, by `method`, for the
+/// `reason`, and writes its files into a folder of their own in `results`; where it is `drawn` also
+/// the shape of the structure over time. `progress` is called with the time (s) that is reached.
+///
+/// # Errors
+/// As [`crate::run_with_progress`]; [`crate::Error::Io`].
+pub fn first_window(
+    results: &mut Results,
+    case: &Case,
+    (method, reason): (&Method, String),
+    drawn: bool,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Run> {
+    let run = DrawnRun::of(case, method, drawn, progress)?.write(results, FIRST_WINDOW, case)?;
+    let span = Span { from: 0.0, to: case.scene.duration };
+    run_folder::write(results, FIRST_WINDOW, case, (&run, method, reason), Checks::default(), span)?;
+    Ok(run)
 }
 
 /// Writes the files of `histories` histories of wear at the supports of `case`: `history.csv`,

@@ -12,7 +12,7 @@ from . import _core
 from ._columns import Column, ReadOnly, columns, frame
 from ._core import AccuracyWarning, Case, RefutedError, ResultWarning
 from ._progress import Progress
-from ._supports import ErrorPart, ErrorParts, Estimate
+from ._supports import ErrorPart, ErrorParts, Estimate, Refinement
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -95,7 +95,14 @@ def _estimate(known: dict[str, Any], seeds: bool) -> Estimate:
     half = known["half_width_95"]
     kind: Literal["seeds", "batches"] | None = None if half is None else "seeds" if seeds else "batches"
     error = None if known.get("error") is None else _error(known["error"])
-    return Estimate(known["mean"], half, kind, known.get("standard_deviation"), error)
+    refinements = tuple(map(_refinement, known.get("refinements", [])))
+    return Estimate(known["mean"], half, kind, known.get("standard_deviation"), error, refinements)
+
+
+def _refinement(known: dict[str, Any]) -> Refinement:
+    modes = known["refined"].get("more_modes")
+    refined = "half the step" if modes is None else f"{modes['modes'][1]} modes"
+    return Refinement(refined, known["own"], known["then"])
 
 
 def _row(known: dict[str, Any]) -> dict[str, Any]:

@@ -41,6 +41,19 @@ class ErrorParts:
 
 
 @dataclass(frozen=True)
+class Refinement:
+    """What a refinement makes of a mean that need not converge.
+
+    ``refined`` is "half the step" or a number of modes; ``own`` the mean of the realisations that
+    were run again, ``then`` that of the same with the refinement.
+    """
+
+    refined: str
+    own: float
+    then: float
+
+
+@dataclass(frozen=True)
 class Estimate:
     """A mean with its 95 % interval.
 
@@ -48,7 +61,8 @@ class Estimate:
     made of: ``"batches"`` are equal parts of the window of a run, ``"periodic"`` such parts of
     whole periods of the loads, ``"seeds"`` independent realisations of the random loads. Of the
     latter ``deviation`` is the standard deviation of one realisation, and ``error`` the error in
-    parts, where it is known.
+    parts, where it is known. What need not converge (impact share, sliding, contacts, impact power)
+    has ``refinements`` in its place.
     """
 
     value: float
@@ -56,6 +70,7 @@ class Estimate:
     kind: Literal["batches", "periodic", "seeds"] | None
     deviation: float | None = None
     error: ErrorParts | None = None
+    refinements: tuple[Refinement, ...] = ()
 
     def __str__(self) -> str:
         return f"{self.value:.4g}" if self.half_width is None else f"{self.value:.4g} ± {self.half_width:.2g}"

@@ -185,10 +185,10 @@ def wear(
     verdict : bool
         With ``until_interval``: whether the errors of the work rates in the first gaps are found.
     folder : path, optional
-        The files of ``signorini wear`` are kept there, without its page, which ``signorini report``
-        writes. The same call goes on after an interruption, and one with more ``years`` from those
-        that are there, with the results of so many years at once. The tool and Python go on from
-        each other.
+        The files of ``signorini wear`` are kept there, with its page ``report.html`` and the first
+        window of the first history in ``first-window``. The same call goes on after an
+        interruption, and one with more ``years`` from those that are there, with the results of so
+        many years at once. The tool and Python go on from each other.
     progress : bool
         Whether a terminal shows the progress, after a second.
 

@@ -56,7 +56,7 @@ pub(super) fn made(
             move |time: f64| bar.set_share((before + cost * time / end) / runs)
         };
         let drawn = DrawnRun::of(&case, &method, !args.request.place.no_report, &mut from(0.0, 1.0))?;
-        let run = drawn.write(&mut results, &case)?;
+        let run = drawn.write(&mut results, "", &case)?;
         if !verdict {
             return Ok((run, None, None));
         }

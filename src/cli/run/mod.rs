@@ -57,7 +57,7 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         ..Checks::default()
     };
     // Last, since the summary records the tables beside it.
-    let mut document = run_folder::write(&mut results, &case, (&run, &method, reason), checks, span)?;
+    let mut document = run_folder::write(&mut results, "", &case, (&run, &method, reason), checks, span)?;
     if let Some((wanted, found)) = &derivatives {
         document["derivatives"] = wanted.document(&case, found);
     }
