@@ -4,7 +4,6 @@
 function meansSection({ count, estimates: judgeable, worn, checks }, title, runs) {
   const estimates = [...judgeable, ...(worn || [])];
   const judged = estimates.some(({ error }) => error);
-  const words = (measure) => measure.replace(/_/g, " ");
   /** A share of the mean, in per cent. */
   const share = (row, x) => digits((100 * x) / Math.abs(row.mean), 2);
   const part = (key) => ({
@@ -25,7 +24,7 @@ function meansSection({ count, estimates: judgeable, worn, checks }, title, runs
   ];
   /** What `check` makes of a quantity that need not converge. */
   const refined = (check) => ({
-    name: `${check.refined.half_step ? "half the step" : `${check.refined.more_modes.modes[1]} modes`}`,
+    name: check.refined.half_step ? "half the step" : `${check.refined.more_modes.modes[1]} modes`,
     value: (row) => told(row, check)?.then ?? NaN,
     show: (row) => {
       const one = told(row, check);
@@ -47,7 +46,7 @@ function meansSection({ count, estimates: judgeable, worn, checks }, title, runs
     sortable(
       [
         wordColumn("place", (row) => row.place),
-        wordColumn("mean of", (row) => words(row.measure)),
+        wordColumn("mean of", (row) => measureInWords(row.measure)),
         wordColumn("unit", (row) => row.unit),
         {
           name: "mean",
