@@ -15,6 +15,11 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
     let end = found.points.last().map_or(0.0, |point| point.time_s / YEAR);
     for (support, name) in found.supports.iter().enumerate() {
         let Some(limit) = case.wear.limit else { break };
+        let place = format!("the tube reaches the limit of {} mm at support {name:?}", amount(1e3 * limit, 3));
+        if let Some(later) = all_later(found, support, limit) {
+            remarks.push(format!("{place} not within {} years; {later}", rounded(end)));
+            continue;
+        }
         let after = |value: WearQuantity| {
             let among = among(&found.reaches_by_history(support, limit, value), value);
             let Some(time) = found.reaches(support, limit, value) else {
@@ -24,9 +29,8 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
             format!("after {} years{among}", in_years(time, found.half_width_of_time(support, limit, value)))
         };
         remarks.push(format!(
-            "the tube reaches the limit of {} mm at support {name:?} {} where it is deepest, {} if all of its wear \
-             comes off one scar, {} if it comes off evenly all round",
-            amount(1e3 * limit, 3),
+            "{place} {} where it is deepest, {} if all of its wear comes off one scar, {} if it comes off evenly all \
+             round",
             after(WearQuantity::DepthDeepest),
             after(WearQuantity::DepthOneScar),
             after(WearQuantity::DepthAllRound)
@@ -66,6 +70,23 @@ pub fn remarks(case: &Case, found: &WearHistories) -> Vec<String> {
 /// A time, s, in years, with the half width of its 95 % interval, s.
 fn in_years(time: f64, half_width: Option<f64>) -> String {
     half_width.map_or_else(|| amount(time / YEAR, 3), |half| with_interval(time / YEAR, Some(half / YEAR)))
+}
+
+/// When the limit (m) is reached at the last rates, in words; `None` where a mean or a history
+/// reaches it before.
+fn all_later(found: &WearHistories, support: usize, limit: f64) -> Option<String> {
+    let years = |value: WearQuantity| {
+        let before = found.reaches_by_history(support, limit, value).into_iter().flatten().next();
+        let (time, half_width) = found.reaches_at_last_rate(support, limit, value)?;
+        before.is_none().then(|| in_years(time, half_width))
+    };
+    Some(format!(
+        "at the last rates after {} years where it is deepest, after {} if all of its wear comes off one scar, after \
+         {} if it comes off evenly all round",
+        years(WearQuantity::DepthDeepest)?,
+        years(WearQuantity::DepthOneScar)?,
+        years(WearQuantity::DepthAllRound)?
+    ))
 }
 
 /// When a limit is reached after the end, s, in words that follow that it is not before.
@@ -275,6 +296,10 @@ mod tests {
         let wanted = 12.706_204_736 * 0.2 / 0.015;
         assert!((time / YEAR - 40.0).abs() < 1e-9 && (half_width.unwrap() / YEAR - wanted).abs() < 1e-6);
         assert_eq!(later(found.reaches_at_last_rate(0, 6e-4, deepest)), ", after 40 ± 169 at the last rate");
+        let all = all_later(&found, 0, 6e-4).unwrap();
+        assert!(all.starts_with("at the last rates after 40 ± 169 years where it is deepest, after "), "{all}");
+        assert!(all.ends_with("after 45 ± 191 if it comes off evenly all round"), "{all}");
+        assert_eq!(all_later(&found, 0, 1.2e-4), None, "histories reach it before");
         // Of one history whose windows leave 10 % open: after 12 years, and at 1.1 times the rate
         // after 12/1.1.
         let one = histories(&[1e-5]);
