@@ -153,7 +153,15 @@ fn the_page_of_a_comparison_under_seeds_has_the_means_and_names_its_reference() 
     let mut compared = 0;
     for row in (1..rows.len()).step_by(2) {
         let shown = cell(row, 6).split(" ± ").next().unwrap().replace('−', "-");
-        let begins = format!("located,{},{},{},", cell(row, 0), cell(row, 1), cell(row, 2).replace(' ', "_"));
+        let measure = match cell(row, 2) {
+            "mean force" => "force_mean".to_owned(),
+            "mean force along y" => "force_mean_y".to_owned(),
+            "mean force along z" => "force_mean_z".to_owned(),
+            "RMS force" => "force_rms".to_owned(),
+            "largest force" => "force_largest".to_owned(),
+            other => other.replace(' ', "_"),
+        };
+        let begins = format!("located,{},{},{measure},", cell(row, 0), cell(row, 1));
         let line = file.lines().find(|line| line.starts_with(&begins)).unwrap_or_else(|| panic!("{begins}: {file}"));
         let less: f64 = line.split(',').nth(9).unwrap().parse().unwrap();
         if let Ok(shown) = shown.parse::<f64>() {
