@@ -102,14 +102,26 @@ fn the_page_of_a_run_under_several_seeds_has_the_means_and_their_errors() {
     let heads = tab.evaluate("[...document.querySelectorAll('#means th')].map((th) => th.textContent.trim())");
     let heads = heads.to_string();
     assert!(["error (%)", "start (%)", "step (%)", "modes (%)"].iter().all(|head| heads.contains(head)), "{heads}");
-    // The work rate of the first support: its place, what, unit, mean, error and three parts.
-    let cells = format!(
-        "{rows}.map((tr) => [...tr.children].map((td) => td.textContent)).find((row) => row[1] === 'work rate')"
-    );
-    let cells = tab.evaluate(&cells);
-    let cells: Vec<&str> = cells.as_array().unwrap().iter().map(|cell| cell.as_str().unwrap()).collect();
-    assert_eq!((cells.len(), cells[0], cells[2]), (8, "plate-1", "W"));
-    assert!(cells[3].contains(" ± ") && cells[5..].iter().all(|cell| cell.contains(" ± ")), "{cells:?}");
+    // The work rate of the first support: its place, what, unit, mean, error and three parts; and
+    // what two refinements make of the number of contacts, which has no error.
+    let mut row = |what: &str| -> Vec<String> {
+        let texts = format!("{rows}.map((tr) => [...tr.children].map((td) => td.textContent))");
+        let cells = tab.evaluate(&format!("{texts}.find((row) => row[1] === '{what}')"));
+        cells.as_array().unwrap().iter().map(|cell| cell.as_str().unwrap().to_owned()).collect()
+    };
+    let cells = row("work rate");
+    assert_eq!((cells.len(), cells[0].as_str(), cells[2].as_str()), (10, "plate-1", "W"));
+    assert!(cells[3].contains(" ± ") && cells[5..8].iter().all(|cell| cell.contains(" ± ")), "{cells:?}");
+    assert_eq!(cells[8..], ["–", "–"]);
+    let contacts = row("contacts");
+    let one = estimates.iter().find(|one| one["measure"] == "contacts").unwrap();
+    for (told, shown) in one["refinements"].as_array().unwrap().iter().zip(&contacts[8..]) {
+        let told = ["own", "then"].map(|key| told[key].as_f64().unwrap());
+        let shown: Vec<f64> = shown.split(" → ").map(|number| number.parse().unwrap()).collect();
+        // Three digits.
+        assert!(told.iter().zip(&shown).all(|(x, y)| (x - y).abs() <= 5e-3 * x), "{told:?}, {shown:?}");
+    }
+    assert_eq!((contacts[4].as_str(), &heads.contains("half the step")), ("–", &true));
     let one = estimates.iter().find(|one| one["measure"] == "work_rate").unwrap();
     let share = 100.0 * one["error"]["total"].as_f64().unwrap() / one["mean"].as_f64().unwrap();
     let shown: f64 = cells[4].parse().unwrap();
