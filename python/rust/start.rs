@@ -93,8 +93,7 @@ impl Run {
         run.notes.extend(of_case.into_iter().flatten());
         let py = scene.py();
         let refuted = run.refuted();
-        let limits = run.cautions.iter().chain(&run.unsettled).filter(|_| refuted.is_none());
-        let cautions: Vec<String> = limits.cloned().collect();
+        let cautions: Vec<String> = if refuted.is_none() { run.cautions.clone() } else { Vec::new() };
         let made = Py::new(py, Self { run, time, scene: scene.clone().unbind(), accuracy })?;
         match refuted {
             None => {

@@ -47,7 +47,8 @@ fn the_first_is_the_plain_run_and_any_other_can_be_repeated() {
     assert_eq!(four["case_file"], plain["case_file"]);
 
     let header = "realisation,place,kind,force_mean_N,force_mean_y_N,force_mean_z_N,force_rms_N,\
-                  work_rate_W,friction_power_W,force_largest_N,findings";
+                  work_rate_W,friction_power_W,force_largest_N,impact_share,sliding_rate_m_per_s,contacts,\
+                  impact_power_W,findings";
     let rows = rows(&path.join("four"));
     assert_eq!(rows[0].join(","), header);
     // Four flats, the stop and the support.
