@@ -52,6 +52,12 @@ impl NotedRuns {
             self.first = Some((run, note));
         }
     }
+
+    /// That so many of `runs` runs are `what`, with the note of the first; `None` where none is.
+    fn sentence(&self, runs: u64, what: &str) -> Option<String> {
+        let (_, first) = self.first.as_ref()?;
+        Some(format!("{} of {runs} runs {what}; the first: {first}", self.count))
+    }
 }
 
 impl Cautioned {
@@ -66,18 +72,12 @@ impl Cautioned {
     /// among runs that have: no more than the mean of the binomial distribution, and what one study
     /// in twenty exceeds.
     pub fn sentences(&self) -> impl Iterator<Item = String> {
-        let Self { runs, noted, unsettled } = self;
-        let mean = UNSETTLED_BY_CHANCE * *runs as f64;
+        let mean = UNSETTLED_BY_CHANCE * self.runs as f64;
         let by_chance = mean + BY_CHANCE * (mean * (1.0 - UNSETTLED_BY_CHANCE)).sqrt() + 0.5;
-        let unsettled = unsettled.first.as_ref().filter(|_| unsettled.count as f64 > by_chance).map(|(_, first)| {
-            let count = unsettled.count;
-            format!("{count} of {runs} runs have not settled where their statistics begin; the first: {first}")
-        });
-        let noted = noted.first.as_ref().map(|(_, first)| {
-            let count = noted.count;
-            format!("{count} of {runs} runs have notes that limit the use of their results; the first: {first}")
-        });
-        noted.into_iter().chain(unsettled)
+        let beyond_chance = self.unsettled.count as f64 > by_chance;
+        let noted = self.noted.sentence(self.runs, "have notes that limit the use of their results");
+        let unsettled = self.unsettled.sentence(self.runs, "have not settled where their statistics begin");
+        noted.into_iter().chain(unsettled.filter(|_| beyond_chance))
     }
 }
 
