@@ -5,7 +5,7 @@ use signorini as sg;
 use signorini::output::Span;
 use signorini::output::format::{Format, Formats};
 use signorini::output::results::Results;
-use signorini::output::run_folder::{self, DrawnRun, RunRequest};
+use signorini::output::run_folder::{self, RunRequest};
 use signorini::output::summary::Checks;
 use signorini::report;
 use signorini::study::accuracy::Accuracy;
@@ -31,7 +31,7 @@ impl RunFolder {
         method: &sg::Method,
         progress: &mut dyn FnMut(f64),
     ) -> sg::Result<sg::Run> {
-        DrawnRun::of(case, method, true, progress)?.write(&mut self.0, "", case)
+        run_folder::drawn_run(&mut self.0, "", case, method, true, progress)
     }
 
     /// Writes the other files of `run`, the first of those of the `study` where there is one, and

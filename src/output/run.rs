@@ -47,7 +47,7 @@ pub fn write(
     (reasons, checks): (&Reasons, Checks<'_>),
     picture: Picture,
 ) -> Result<Value> {
-    let named = |name: &str| if prefix.is_empty() { name.to_owned() } else { format!("{prefix}/{name}") };
+    let named = |name: &str| named(prefix, name);
     csv::trajectory(&results.place(&named("trajectory.csv"))?, &run.trajectory)?;
     csv::contacts(&results.place(&named("contacts.csv"))?, &run.trajectory)?;
     if !run.trajectory.output().time.is_empty() {
@@ -75,6 +75,11 @@ pub fn write(
     document[TABLES] = results.tables(prefix)?;
     results.write(&named("summary.json"), json::text(&document))?;
     Ok(document)
+}
+
+/// The file `name` in the folder `prefix` of results, their own where it is empty.
+pub(super) fn named(prefix: &str, name: &str) -> String {
+    if prefix.is_empty() { name.to_owned() } else { format!("{prefix}/{name}") }
 }
 
 /// The table of walls for the terminal; where there are many, the walls of the largest impulses.

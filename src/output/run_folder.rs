@@ -88,44 +88,33 @@ impl RunRequest<'_> {
     }
 }
 
-/// A run, with the motion of the whole structure for a drawing.
-#[derive(Debug)]
-pub struct DrawnRun {
-    /// The run.
-    pub run: Run,
-    shape: Shape,
-    moved: Vec<Vec<f64>>,
-}
-
-impl DrawnRun {
-    /// The run of `case` by `method`; without what a drawing needs unless it is `drawn`. `progress`
-    /// is called with the time (s) that it has reached.
-    ///
-    /// # Errors
-    /// As [`run_with_progress`].
-    pub fn of(case: &Case, method: &Method, drawn: bool, progress: &mut dyn FnMut(f64)) -> Result<Self> {
-        let shape = if drawn { Shape::of(case) } else { Shape::default() };
-        let mut run = run_with_progress(&shape.watched(case), method, &Options::new(case.time), progress)?;
-        let moved = shape.take(&mut run);
-        Ok(Self { run, shape, moved })
-    }
-
-    /// Writes into the folder `within` of the results, their own where it is empty, `shape.csv`
-    /// and, of a structure with a line, `animation.svg`; nothing where there is nothing to draw.
-    /// Returns the run.
-    pub fn write(self, results: &mut Results, within: &str, case: &Case) -> Result<Run> {
-        let Self { run, shape, moved } = self;
-        if !shape.is_empty() {
-            let time = run.trajectory.time();
-            let file = |name: &str| if within.is_empty() { name.to_owned() } else { format!("{within}/{name}") };
-            shape.write(&results.place(&file(shape::FILE))?, time, &moved)?;
-            let picture = shape.stations().and_then(|stations| animation(case, &stations, time, &moved));
-            if let Some(svg) = picture {
-                results.write(&file(animation::FILE), svg)?;
-            }
+/// The run of `case` by `method`. Where it is `drawn`, writes into the folder `prefix` of the
+/// results, their own where it is empty, the motion of the whole structure, `shape.csv`, and of a
+/// structure with a line `animation.svg`. `progress` is called with the time (s) that it has
+/// reached.
+///
+/// # Errors
+/// As [`run_with_progress`]; [`crate::Error::Io`].
+pub fn drawn_run(
+    results: &mut Results,
+    prefix: &str,
+    case: &Case,
+    method: &Method,
+    drawn: bool,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Run> {
+    let shape = if drawn { Shape::of(case) } else { Shape::default() };
+    let mut run = run_with_progress(&shape.watched(case), method, &Options::new(case.time), progress)?;
+    let moved = shape.take(&mut run);
+    if !shape.is_empty() {
+        let time = run.trajectory.time();
+        shape.write(&results.place(&run::named(prefix, shape::FILE))?, time, &moved)?;
+        let picture = shape.stations().and_then(|stations| animation(case, &stations, time, &moved));
+        if let Some(svg) = picture {
+            results.write(&run::named(prefix, animation::FILE), svg)?;
         }
-        Ok(run)
     }
+    Ok(run)
 }
 
 /// What half the step changes in `run` of `case` by `method`, and what more modes change, where
@@ -155,16 +144,16 @@ pub fn write_study(results: &mut Results, case: &Case, study: &RealisationStudy)
 }
 
 /// Writes the files of `run` of `case` by `method`, for the `reason`, with the `checks` made of it,
-/// into the folder `within` of the results, their own where it is empty: the last files, since the
+/// into the folder `prefix` of the results, their own where it is empty: the last files, since the
 /// summary records the tables beside it. Pictures show the stretch `span`. Returns the summary.
 pub fn write(
     results: &mut Results,
-    within: &str,
+    prefix: &str,
     case: &Case,
     (run, method, reason): (&Run, &Method, String),
     checks: Checks<'_>,
     span: Span,
 ) -> Result<Value> {
     let reasons = Reasons { scheme: reason, qp: choice::qp_reason(method, &case.scene) };
-    run::write(results, within, case, run, method, (&reasons, checks), Picture { span, look: 0 })
+    run::write(results, prefix, case, run, method, (&reasons, checks), Picture { span, look: 0 })
 }

@@ -4,7 +4,7 @@
 use super::format::Formats;
 use super::request::{extended, interval, program, request, without_limit};
 use super::results::Results;
-use super::run_folder::{self, DrawnRun};
+use super::run_folder;
 use super::summary::Checks;
 use super::{Span, error_parts, realisations, sector_means, summary, turbulence, wear_history, wear_remarks};
 use crate::case::Case;
@@ -80,7 +80,7 @@ pub fn first_window(
     drawn: bool,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Run> {
-    let run = DrawnRun::of(case, method, drawn, progress)?.write(results, FIRST_WINDOW, case)?;
+    let run = run_folder::drawn_run(results, FIRST_WINDOW, case, method, drawn, progress)?;
     let span = Span { from: 0.0, to: case.scene.duration };
     run_folder::write(results, FIRST_WINDOW, case, (&run, method, reason), Checks::default(), span)?;
     Ok(run)

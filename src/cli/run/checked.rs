@@ -6,7 +6,7 @@ use crate::cli::estimate::DurationEstimate;
 use crate::cli::ui::Ui;
 use crate::error::{Error, Result};
 use crate::output::results::Results;
-use crate::output::run_folder::{self, DrawnRun, RunGoal};
+use crate::output::run_folder::{self, RunGoal};
 use crate::run::Run;
 use crate::scheme::Method;
 use crate::study::accuracy::Accuracy;
@@ -55,8 +55,8 @@ pub(super) fn made(
             let end = case.scene.duration;
             move |time: f64| bar.set_share((before + cost * time / end) / runs)
         };
-        let drawn = DrawnRun::of(&case, &method, !args.request.place.no_report, &mut from(0.0, 1.0))?;
-        let run = drawn.write(&mut results, "", &case)?;
+        let drawn = !args.request.place.no_report;
+        let run = run_folder::drawn_run(&mut results, "", &case, &method, drawn, &mut from(0.0, 1.0))?;
         if !verdict {
             return Ok((run, None, None));
         }
