@@ -72,23 +72,8 @@ pub fn count(given: Asked, most_time: Option<f64>, case: &sg::case::Case) -> PyR
     Ok(count)
 }
 
-/// The study of `count` realisations of `case`, of which so many are `checked`, with the notes that
-/// limit its use; those in `known` are not run again.
-pub fn study(
-    case: &sg::case::Case,
-    plan: &Plan,
-    asked: (RealisationCount, u64),
-    known: KnownRealisations,
-    done: &RunsDone,
-) -> sg::Result<(RealisationStudy, Vec<String>)> {
-    let run = first_run((case, plan), None, done)?;
-    let study = study_from(&run, (case, plan), asked, known, done)?;
-    let notes = cautions(&study, case);
-    Ok((study, notes))
-}
-
 /// The first run of a study, with what a drawing of it needs in `folder` where there is one.
-fn first_run(
+pub fn first_run(
     (case, plan): (&sg::case::Case, &Plan),
     folder: Option<&mut RunFolder>,
     done: &RunsDone,
@@ -107,7 +92,8 @@ pub fn cautions(study: &RealisationStudy, case: &sg::case::Case) -> Vec<String> 
     study.realisations.cautioned().sentences().chain(case.instability()).collect()
 }
 
-/// The same from its first `run`.
+/// The study of `count` realisations of `case` from its first `run`, of which so many are
+/// `checked`; those in `known` are not run again.
 pub fn study_from(
     run: &sg::Run,
     (case, plan): (&sg::case::Case, &Plan),

@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::error::raise;
 use crate::json::loads;
 use crate::plan::Plan;
-use crate::realisations::{RunsDone, cautions, count, study, study_from, texts, told};
+use crate::realisations::{RunsDone, cautions, count, first_run, study_from, texts, told};
 use crate::run_folder::reason;
 use crate::work::compute_beside;
 use pyo3::prelude::*;
@@ -84,21 +84,22 @@ fn begun(
     (within, verdict): (Option<RealisationCount>, bool),
     done: &RunsDone,
 ) -> sg::Result<(Option<Noted>, Vec<Realisation>)> {
-    let (asked, known) = (within.map(|count| (count, checked(verdict))), KnownRealisations::default());
-    let Some(results) = results else {
-        let study = asked.map(|asked| study(case, plan, asked, known, done)).transpose()?;
-        return Ok((study, Vec::new()));
+    let run = match results {
+        Some(results) => {
+            let mut first = done.begin(1);
+            let mut progress = |time| first(time / case.scene.duration);
+            wear_folder::first_window(results, case, (&plan.method, reason), true, &mut progress)?
+        }
+        None if within.is_none() => return Ok((None, Vec::new())),
+        None => first_run((case, plan), None, done)?,
     };
-    let mut first = done.begin(1);
-    let end = case.scene.duration;
-    let method = (&plan.method, reason);
-    let run = wear_folder::first_window(results, case, method, true, &mut |time| first(time / end))?;
-    let study = asked.map(|asked| study_from(&run, (case, plan), asked, known, done)).transpose()?;
-    let study = study.map(|study| {
+    let study = |count| {
+        let asked = (count, checked(verdict));
+        let study = study_from(&run, (case, plan), asked, KnownRealisations::default(), done)?;
         let notes = cautions(&study, case);
-        (study, notes)
-    });
-    Ok((study, vec![Realisation::of(1, &run)]))
+        Ok((study, notes))
+    };
+    Ok((within.map(study).transpose()?, vec![Realisation::of(1, &run)]))
 }
 
 /// So many histories over `service` seconds, whose first windows begin with those of `members`,

@@ -43,3 +43,18 @@ def tool(tmp_path: Path) -> Callable[..., Path]:
         return tmp_path / "out"
 
     return run
+
+
+@pytest.fixture
+def shaken() -> sg.Case:
+    """A mass that a random force shakes against a stop, with steps too long for an explicit penalty.
+
+    That is stable at the wall up to 2/√(1e5 N/m / 1 kg), 6.3 ms.
+    """
+    return sg.case({
+        "system": {"oscillator": {"mass": 1.0, "damping": 0.0, "stiffness": 400.0}},
+        "wall": [{"name": "stop", "side": "upper", "position": 2e-3}],
+        "load": [{"random": {"rms": 3.0, "from": 1.0, "to": 2.0, "seed": 1}}],
+        "penalty": {"stiffness": [1e5]},
+        "time": {"end": 20.0, "step": 0.02},
+    })  # fmt: skip

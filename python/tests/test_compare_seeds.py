@@ -136,15 +136,9 @@ def test_what_has_no_seeds_is_refused(scene: sg.Scene) -> None:
         sg.compare(scene, ["moreau-jean"], step=1e-3, seeds=3)
 
 
-def test_a_method_with_refuted_realisations_is_told(tool: Callable[..., Path], tmp_path: Path) -> None:
-    shaken = sg.case({
-        "system": {"oscillator": {"mass": 1.0, "damping": 0.0, "stiffness": 400.0}},
-        "wall": [{"name": "stop", "side": "upper", "position": 2e-3}],
-        "load": [{"random": {"rms": 3.0, "from": 1.0, "to": 2.0, "seed": 1}}],
-        "penalty": {"stiffness": [1e5]},
-        "time": {"end": 20.0, "step": 0.02},
-    })  # fmt: skip
-    # Explicit: stable at the wall up to 2/√(1e5 N/m / 1 kg), 6.3 ms.
+def test_a_method_with_refuted_realisations_is_told(
+    shaken: sg.Case, tool: Callable[..., Path], tmp_path: Path
+) -> None:
     central = "penalty:stiffness=1e5,integrator=central-difference"
     with pytest.warns(sg.ResultWarning) as told:
         found = of(sg.compare(shaken, [central], seeds=2, verdict=False))

@@ -140,15 +140,7 @@ def test_an_interval_that_is_out_of_reach_is_a_warning() -> None:
         assert sg.realisations(tube(), until_interval=0.01, most_time=1e-9, verdict=False).count == 6
 
 
-def test_a_refuted_realisation_is_an_error_with_the_study() -> None:
-    shaken = sg.case({
-        "system": {"oscillator": {"mass": 1.0, "damping": 0.0, "stiffness": 400.0}},
-        "wall": [{"name": "stop", "side": "upper", "position": 2e-3}],
-        "load": [{"random": {"rms": 3.0, "from": 1.0, "to": 2.0, "seed": 1}}],
-        "penalty": {"stiffness": [1e5]},
-        "time": {"end": 20.0, "step": 0.02},
-    })  # fmt: skip
-    # Explicit: stable at the wall up to 2/√(1e5 N/m / 1 kg), 6.3 ms.
+def test_a_refuted_realisation_is_an_error_with_the_study(shaken: sg.Case) -> None:
     with pytest.raises(sg.RefutedError, match="realisation 2: ") as caught:
         sg.realisations(shaken, "penalty:integrator=central-difference", seeds=2)
     assert isinstance(caught.value.study, sg.Realisations)
