@@ -62,7 +62,7 @@ mod _core {
     #[pymodule_export]
     use super::study::{_bifurcation, _chart, _compare, _stability};
     #[pymodule_export]
-    use super::sweep::{_columns, _run_many, _sweep, _unit};
+    use super::sweep::{_cautioned, _columns, _placed_columns, _run_many, _sweep, _unit};
     #[pymodule_export]
     use super::values::Rayleigh;
     #[pymodule_export]

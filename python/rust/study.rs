@@ -8,6 +8,7 @@ use crate::plan::Plan;
 use crate::realisations::{RunsDone, count, means_told, study_from, texts};
 use crate::run::Run;
 use crate::subject::Subject;
+use crate::sweep::{Caution, pair};
 use crate::work::compute_beside;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -198,7 +199,7 @@ pub fn _stability<'py>(
     Ok((cells, stable))
 }
 
-/// Rows of samples, and the first note on each run that limits its use.
+/// Rows of samples, and what limits the use of each run.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are Python's keywords")]
 pub fn _bifurcation<'py>(
@@ -211,7 +212,7 @@ pub fn _bifurcation<'py>(
     follow: &str,
     samples: &str,
     threads: usize,
-) -> PyResult<(Bound<'py, PyList>, Vec<Option<String>>)> {
+) -> PyResult<(Bound<'py, PyList>, Vec<Caution>)> {
     let py = case.py();
     let values = values.iter().map(|x| value(key, x)).collect::<PyResult<Vec<_>>>()?;
     let axis = Axis::list(key, &values).map_err(raise)?.followed(follow.parse().map_err(raise)?);
@@ -223,9 +224,9 @@ pub fn _bifurcation<'py>(
         .measure([Measure::Contacts])
         .sample(samples, usize::MAX);
     let rows = compute_beside(py, || sweep.plan()?.rows(threads), &mut |_| Ok(()))?;
-    let (list, mut notes) = (PyList::empty(py), Vec::new());
+    let (list, mut cautions) = (PyList::empty(py), Vec::new());
     for row in rows {
-        notes.push(row.caution.note.clone().or_else(|| row.caution.unsettled.clone()));
+        cautions.push(pair(row.caution.clone()));
         let name = |d: &Bound<'_, PyDict>| {
             let first = row.values.first();
             d.set_item("value", first.and_then(sg::case::KeyValue::number))?;
@@ -258,5 +259,5 @@ pub fn _bifurcation<'py>(
             })?)?;
         }
     }
-    Ok((list, notes))
+    Ok((list, cautions))
 }

@@ -14,7 +14,7 @@ use signorini::WallStatistics;
 use signorini::case::KeyValue;
 use signorini::parallel::{Take, on_threads};
 use signorini::study::realisations::RealisationCount;
-use signorini::sweep::{Axis, Finished, Random, Shard, Sweep, SweepOptions, Values, Window};
+use signorini::sweep::{Axis, Finished, Measure, Random, Shard, Sweep, SweepOptions, Values, Window};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
@@ -44,15 +44,49 @@ pub fn _columns(walls: Vec<String>) -> Vec<String> {
     walls.iter().flat_map(|wall| COLUMNS.map(|(name, _)| name.replace("{}", wall))).collect()
 }
 
+/// A column, its name without the place, what the place is, and the place.
+type Placed = (String, String, Option<&'static str>, String);
+
+/// The columns of these measures in the tables of a sweep over the case, those that have a place.
+#[pyfunction]
+pub fn _placed_columns(case: &Case, measures: Vec<String>) -> PyResult<Vec<Placed>> {
+    let mut placed = Vec::new();
+    for name in measures {
+        let measure: Measure = name.parse().map_err(raise)?;
+        let columns = measure.placed_columns(&case.case.scene).into_iter();
+        placed.extend(columns.map(|one| (one.column, one.quantity, measure.scope().word(), one.place)));
+    }
+    Ok(placed)
+}
+
 /// The unit of the values of a key of the case format, as column names write it.
 #[pyfunction]
 pub fn _unit(key: &str) -> Option<&'static str> {
     key.parse::<sg::case::Key>().ok().and_then(|key| key.unit())
 }
 
-/// A row of numbers for each scene, the reason where there is none, and the first note that limits
-/// its use.
-type Rows<'py> = (Bound<'py, PyArray2<f64>>, Vec<Option<String>>, Vec<Option<String>>);
+/// What limits the use of a run: a note, and that it has not settled.
+pub type Caution = (Option<String>, Option<String>);
+
+/// The same as Python has it.
+pub fn pair(caution: sg::Caution) -> Caution {
+    (caution.note, caution.unsettled)
+}
+
+/// What limits the use of several runs, in sentences.
+#[pyfunction]
+pub fn _cautioned(cautions: Vec<Caution>) -> Vec<String> {
+    let mut found = sg::Cautioned::default();
+    for (number, (note, unsettled)) in (1..).zip(cautions) {
+        let mut caution = sg::Caution::default();
+        (caution.note, caution.unsettled) = (note, unsettled);
+        found.add(number, caution);
+    }
+    found.sentences().collect()
+}
+
+/// A row of numbers for each scene, the reason where there is none, and what limits its use.
+type Rows<'py> = (Bound<'py, PyArray2<f64>>, Vec<Option<String>>, Vec<Caution>);
 
 /// The number of walls of each scene, which must have the names of those of the first.
 fn common_walls(scenes: &[Scene]) -> PyResult<usize> {
@@ -95,7 +129,7 @@ pub fn _run_many<'py>(
         })
         .collect::<PyResult<Vec<_>>>()?;
     let mut table = vec![f64::NAN; width * scenes.len()];
-    let (mut errors, mut notes) = (vec![None; scenes.len()], vec![None; scenes.len()]);
+    let (mut errors, mut cautions) = (vec![None; scenes.len()], vec![(None, None); scenes.len()]);
     let finished = AtomicUsize::new(0);
     let work = |index: u64, send: &mut Take<'_, (usize, Numbers)>| {
         let index = index as usize;
@@ -113,9 +147,9 @@ pub fn _run_many<'py>(
     let mut receive = |row: Option<(usize, Numbers)>| {
         if let Some((index, outcome)) = row {
             match outcome {
-                Ok((row, note)) => {
+                Ok((row, caution)) => {
                     table[width * index..width * (index + 1)].copy_from_slice(&row);
-                    notes[index] = note;
+                    cautions[index] = caution;
                 }
                 Err(reason) => errors[index] = Some(reason),
             }
@@ -128,27 +162,24 @@ pub fn _run_many<'py>(
         None => Ok(()),
     };
     compute_beside(py, || on_threads(scenes.len() as u64, threads, &work, &mut receive), &mut watch)?;
-    Ok((PyArray1::from_vec(py, table).reshape([scenes.len(), width])?, errors, notes))
+    Ok((PyArray1::from_vec(py, table).reshape([scenes.len(), width])?, errors, cautions))
 }
 
-/// The numbers of a run and its first note, or the reason why there are none.
-type Numbers = Result<Noted, String>;
-
-/// The numbers of a run, and the first note that limits their use.
-type Noted = (Vec<f64>, Option<String>);
+/// The numbers of a run and what limits their use, or the reason why there are none.
+type Numbers = Result<(Vec<f64>, Caution), String>;
 
 /// The numbers of one run.
-fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<Noted> {
+fn numbers(scene: &sg::Scene, plan: &Plan, judge: bool) -> sg::Result<(Vec<f64>, Caution)> {
     let options = sg::Options::new(plan.time);
-    let (statistics, cautions) = if judge {
+    let (caution, statistics) = if judge {
         let run = sg::run(scene, &plan.method, &options)?.unrefuted()?;
-        (run.statistics, run.cautions)
+        (run.caution(), run.statistics)
     } else {
         let run = sg::run(scene, &plan.method, &options.unjudged())?;
-        (run.statistics, run.cautions)
+        (run.caution(), run.statistics)
     };
     let numbers = statistics.walls.iter().flat_map(|wall| COLUMNS.map(|(_, number)| number(wall))).collect();
-    Ok((numbers, cautions.into_iter().next()))
+    Ok((numbers, pair(caution)))
 }
 
 /// Notes that limit the use of the table, the number of rows, how many failed, and the first of

@@ -78,10 +78,15 @@ def test_frames_are_the_tables_on_disk(swept: tuple[sg.SweepResult, Path]) -> No
 def test_datasets_have_the_keys_as_dimensions(swept: tuple[sg.SweepResult, Path]) -> None:
     table, _ = swept
     data = table.to_xarray()
-    assert dict(data.sizes) == {"gap_m": 2, "friction": 2, "realisation": SEEDS}
+    places = ["plate-1", "plate-2"]
+    assert dict(data.sizes) == {"gap_m": 2, "friction": 2, "support": 2, "realisation": SEEDS}
+    assert list(data["support"].to_numpy()) == places
     at = data.sel(gap_m=2e-4, friction=0.1)
-    assert float(at["work_rate_plate_1_W"]) == table["work_rate_plate_1_W"][2]
-    seen = at["realisations_work_rate_plate_1_W"].to_numpy()
+    for place, word in zip(places, ["plate_1", "plate_2"], strict=True):
+        assert float(at["work_rate_W"].sel(support=place)) == table[f"work_rate_{word}_W"][2]
+        half = float(at["work_rate_half_width_95_W"].sel(support=place))
+        assert half == table[f"work_rate_half_width_95_{word}_W"][2]
+    seen = at["realisations_work_rate_W"].sel(support="plate-1").to_numpy()
     np.testing.assert_array_equal(seen, table.realisations["work_rate_plate_1_W"][2 * SEEDS : 3 * SEEDS])
 
 
@@ -139,10 +144,22 @@ def test_datasets_of_rows_of_different_numbers_are_padded() -> None:
     most = int(table["seeds"].max())
     assert data.sizes["realisation"] == most and list(data["realisation"]) == list(range(1, most + 1))
     np.testing.assert_array_equal(data["seeds"], table["seeds"])
-    padded = data["realisations_force_mean_stop_N"]
+    padded = data["realisations_force_mean_N"].sel(wall="stop")
     np.testing.assert_array_equal(padded.count("realisation"), data["seeds"])
     # Their mean leaves out what is not there; sums in another order.
     np.testing.assert_allclose(padded.mean("realisation"), table["force_mean_stop_N"], rtol=1e-13)
+
+
+def test_datasets_have_the_depths_of_all_sectors() -> None:
+    law = {"support.*.width": 0.02, "wear.coefficient": 1e-14, "wear.service": 3e7}
+    worn = sg.load("tube-round-supports", set={**SHORT, **law})
+    table = sg.sweep(worn, {"support.*.gap": [1e-4, 2e-4]}, measures=["depth_deepest", "contacts"], seeds=2)
+    data = table.to_xarray()
+    depths = data["realisations_depths_m"]
+    assert depths.dims == ("gap_m", "realisation", "support", "part") and depths.sizes["part"] == 12
+    # The largest of its sectors is the deepest of a realisation: the same numbers, digit by digit.
+    np.testing.assert_array_equal(depths.max("part"), data["realisations_depth_deepest_m"])
+    assert set(data["contacts"].dims) == {"gap_m", "wall"} and float(depths.max()) > 0.0
 
 
 def test_keys_drawn_at_random_have_their_shares() -> None:

@@ -11,7 +11,7 @@ use super::report::Source;
 use super::schema::CASE;
 use super::value::Section;
 use super::walls::NewWall;
-use super::{Case, FileRead, PenaltyOptions, Place, StatisticsOptions, TimeOptions, Truncated, Written};
+use super::{Case, FileRead, PenaltyOptions, Place, StatisticsOptions, Truncated, Written};
 use crate::error::{Error, Result, Subject, escaped};
 use crate::scene::{Condensation, Damping, Row, Scene, Slider, State, Structure, System, Turbulence};
 use crate::scheme::{Integrator, PenaltyLaw, equilibrium};
@@ -35,6 +35,7 @@ pub(super) fn case(document: &CaseFile, start: Option<&State>) -> Result<Case> {
         owner: "system",
         model: Model::Oscillator,
         planes: Planes::One,
+        modes: None,
         joints: Vec::new(),
         body: None,
         n: 1,
@@ -48,27 +49,27 @@ pub(super) fn case(document: &CaseFile, start: Option<&State>) -> Result<Case> {
 impl Builder<'_> {
     fn case(&mut self, file: &Section<'_>, start: Option<&State>) -> Result<Case> {
         let (system, time) = (file.required_section("system"), file.required_section("time"));
-        let modes = self.modes(&system)?;
-        let built = self.system(file, modes.is_some())?;
+        self.modes = self.modes(&system)?;
+        let built = self.system(file)?;
         let total = built.system.degrees_of_freedom();
         self.describe(file, (built.model, built.planes), total)?;
-        let modes = self.modes_of_planes(modes)?.or(self.modes_of_data(file, total));
+        let modes = self.modes_of_planes()?.or(self.modes_of_data(file, total));
         self.is_changed_later = modes.is_some_and(|modes| modes < total) || built.pending.is_some();
         let duration = self.required("duration", &time, "end");
         let (scene, places, sliders) = self.scene(file, built.system, duration)?;
         let (wear, sectors) = self.wear(file.section("wear").as_ref())?;
         let turbulence = self.fields(file, scene.duration, modes.is_some())?;
-        let time = self.time(&time, sectors);
+        let (is_step_given, time) = (time.get("step").is_some(), self.time(&time, duration, sectors));
         let statistics = file.section("statistics").map(|section| self.statistics(&section));
-        let penalty = file.section("penalty").map(|penalty| self.penalty(&penalty)).transpose()?.unwrap_or_default();
-        let penalty = penalty.of(&scene);
+        let penalty = file.section("penalty").map(|penalty| self.penalty(&penalty)).transpose()?;
+        let penalty = penalty.unwrap_or_default().of(&scene);
         let (mut scene, condensation) = self
             .condensed(scene, built.pending.as_ref().filter(|d| modes.is_none() || !matches!(d, Damping::Modal(_))))?;
         let sliders = self.sliders_with_mass(sliders, condensation.as_ref())?;
         if self.written.start == Start::Equilibrium {
             scene.initial.q = equilibrium(&scene).map_err(|error| self.locate(error, &scene))?;
         }
-        let text = |key: &str| file.word(key).map(|text| escaped(text.get_ref()).into_owned());
+        let text = |key| file.word(key).map(|text| escaped(text.get_ref()).into_owned());
         let mut case = Case {
             name: self.document.name().to_owned(),
             document: self.document.clone(),
@@ -89,7 +90,7 @@ impl Builder<'_> {
             written: std::mem::take(&mut self.written),
         };
         let set_start = |case: &mut Case| start.into_iter().for_each(|start| start_from(&mut case.scene, start));
-        let built_already = modes.is_none() && case.sliders.is_empty();
+        let built_already = modes.is_none() && case.sliders.is_empty() && is_step_given;
         if built_already {
             set_start(&mut case);
         }
@@ -101,6 +102,7 @@ impl Builder<'_> {
         }
         if !built_already {
             set_start(&mut case);
+            self.choose_step(file, &mut case)?;
             case.check().map_err(|error| self.locate(error, &case.scene))?;
         }
         case.scatter_start();
@@ -140,13 +142,6 @@ impl Builder<'_> {
         scene.walls = all;
         places.extend(sliders.iter().map(|new| new.site.place.clone()));
         Ok((scene, places, sliders.into_iter().map(|new| new.slider).collect()))
-    }
-
-    /// The times at which the states of the probes are asked for.
-    fn output_times(&mut self, time: &Section<'_>) -> Vec<f64> {
-        let times = time.numbers("output_times").map(Spanned::into_inner).unwrap_or_default();
-        let value = |index| Subject::of("output times").value(index);
-        times.iter().enumerate().map(|(index, time)| self.number(value(index), time)).collect()
     }
 
     /// Reduces the case to its slowest `modes`, under the fields of `turbulence`, with the
@@ -239,13 +234,13 @@ impl Builder<'_> {
         Ok(modes)
     }
 
-    /// The number of modes in all planes, where the file asks for `modes` in each.
-    fn modes_of_planes(&self, modes: Option<usize>) -> Result<Option<usize>> {
-        if let (Some(more), Planes::Two(n)) = (modes.filter(|modes| *modes > self.n), self.planes) {
+    /// The number of modes in all planes, where the file asks for some in each.
+    fn modes_of_planes(&self) -> Result<Option<usize>> {
+        if let (Some(more), Planes::Two(n)) = (self.modes.filter(|modes| *modes > self.n), self.planes) {
             let expected = format!("from 1 to {n}, the degrees of freedom of one plane");
             return Err(self.at_key(Error::invalid("modes", more, expected)));
         }
-        Ok(modes.map(|modes| modes * self.planes.modes()))
+        Ok(self.modes.map(|modes| modes * self.planes.modes()))
     }
 
     /// All of the `total` modes where every turbulence acts on modal data, which are modes already.
@@ -259,18 +254,6 @@ impl Builder<'_> {
             model => matches!(model, Model::Modal(_)),
         };
         (!tables.is_empty() && tables.iter().all(modal)).then_some(total)
-    }
-
-    fn time(&mut self, time: &Section<'_>, sectors: usize) -> TimeOptions {
-        TimeOptions {
-            step: self.required("step", time, "step"),
-            sample: self.optional("sample", time, "sample"),
-            statistics_from: self.optional("statistics_from", time, "statistics_from").unwrap_or(0.0),
-            force_averaging: self
-                .optional("force_averaging", time, "force_averaging")
-                .unwrap_or(TimeOptions::FORCE_AVERAGING),
-            sectors,
-        }
     }
 
     fn statistics(&mut self, statistics: &Section<'_>) -> StatisticsOptions {

@@ -27,6 +27,8 @@ pub(super) struct Builder<'a> {
     pub owner: &'static str,
     pub model: Model,
     pub planes: Planes,
+    /// The modes of each plane to which the system is reduced, where the file says how many.
+    pub modes: Option<usize>,
     /// Where the spans of a beam end, m, in order.
     pub joints: Vec<f64>,
     /// The body whose places are read, where there are several.

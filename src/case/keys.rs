@@ -91,8 +91,9 @@ pub(super) const LISTED: &[KeyEntry] = &[
         `width`"]),
     entry("system.beam.added_mass", Number, "kg_per_m", ["0", "a number, 0 or more: fluid inside, \
         fluid moved outside, pellets", "negative"]),
-    entry("system.beam.elements", Number, "", [REQUIRED, "a whole number from 1 to 1e5", "two \
-        clamped ends with one element between"]),
+    entry("system.beam.elements", Number, "", ["20 of each span, at least two and a half for each \
+        of `modes`", "a whole number from 1 to 1e5: of the whole beam, of equal length", "two clamped \
+        ends with one element between"]),
     entry("system.beam.left", Any, "", [REQUIRED, BEAM_ENDS, OTHER_WORDS]),
     entry("system.beam.right", Any, "", [REQUIRED, BEAM_ENDS, OTHER_WORDS]),
     entry("system.matrices", Table, "", ["", "M q̈ + C q̇ + K q = f from files, in kg, N s/m and \
@@ -367,8 +368,10 @@ pub(super) const LISTED: &[KeyEntry] = &[
         TOWARDS, IN_ONE_PLANE]),
     entry("time", Table, "", [REQUIRED, "", ""]),
     entry("time.end", Number, "s", [REQUIRED, ABOVE_0, UNORDINARY]),
-    entry("time.step", Number, "s", [REQUIRED, "a number above 0 and below end: shortened to \
-        divide it", "more than 1e10 steps"]),
+    entry("time.step", Number, "s", ["one degree of freedom, or a structure in modes: the largest of \
+        one digit that is at most 5e-5 and a tenth of the period of the fastest mode; else required", "a \
+        number above 0 and below end: shortened to divide it", "left out where M or K couples degrees \
+        of freedom; more than 1e10 steps"]),
     entry("time.sample", Number, "s", ["every step is recorded (`event`: end/1000)", "a number \
         above 0 and at most end: shortened to divide it, and said so; below step records every \
         step", "more than 1e7 rows, or 2e8 values in the table, also where it is left out"]),

@@ -21,8 +21,8 @@
 //! `bodies.rs`, `model.rs`, `place.rs`, `points.rs`, `line.rs`, `planes.rs` and `direction.rs` read
 //! the structure, the locations on it and their directions, `walls.rs`, `supports.rs`, `flats.rs`
 //! and `sliders.rs` what it touches, `initial.rs` the state at the start, `penalty.rs`,
-//! `statistics.rs`, `flow.rs` and `method.rs` their tables and settings, `loads.rs`, `random.rs`,
-//! `turbulence.rs` and `base.rs` (with `rigid_motion.rs`) the loads, `table.rs` those
+//! `statistics.rs`, `time.rs`, `flow.rs` and `method.rs` their tables and settings, `loads.rs`,
+//! `random.rs`, `turbulence.rs` and `base.rs` (with `rigid_motion.rs`) the loads, `table.rs` those
 //! of other files (`columns.rs`, `text.rs`, with their `digest.rs`), `truncated.rs` keeps the full
 //! scene of a case reduced to modes, `realisations.rs` and `wear.rs` give the scenes of
 //! realisations and of worn supports, `wording.rs` finds the key of each value of the scene,
@@ -78,6 +78,7 @@ mod table;
 mod tangent;
 mod template;
 mod text;
+mod time;
 mod truncated;
 mod turbulence;
 mod value;

@@ -40,8 +40,8 @@ impl Built {
 }
 
 impl Builder<'_> {
-    /// The system of the file and its model; `cut` if it will be reduced to modes.
-    pub fn system(&mut self, file: &Section<'_>, cut: bool) -> Result<Built> {
+    /// The system of the file and its model.
+    pub fn system(&mut self, file: &Section<'_>) -> Result<Built> {
         let system = file.required_section("system");
         let bodies = file.sections("body");
         if bodies.is_empty() {
@@ -49,7 +49,7 @@ impl Builder<'_> {
                 let help = format!("{}, or several [[body]]", self.kinds_expected());
                 return Err(self.source.error(file.span.clone(), "`system` is missing in the case file", &help));
             }
-            return self.one_system(&system, cut);
+            return self.one_system(&system);
         }
         if let Some((kind, table)) = Self::kinds(&system).next() {
             let title = format!("`system.{kind}` beside [[body]]");
@@ -60,7 +60,7 @@ impl Builder<'_> {
         let (model, structure) = self.bodies(&bodies, two)?;
         self.positions.push(("system".into(), bodies.first().map_or(system.span.clone(), |body| body.span.clone())));
         let own = structure.damping.entries().any(|entry| entry.2 != 0.0);
-        let (structure, pending) = self.damped(&system, structure, own, cut)?;
+        let (structure, pending) = self.damped(&system, structure, own, self.modes.is_some())?;
         Ok(Built::of(model, structure, pending, two))
     }
 
@@ -97,14 +97,15 @@ impl Builder<'_> {
         Ok((kind, table))
     }
 
-    fn one_system(&mut self, system: &Section<'_>, cut: bool) -> Result<Built> {
+    fn one_system(&mut self, system: &Section<'_>) -> Result<Built> {
         let (kind, table) = self.kind_of(system)?;
         let two = self.two_planes(system.number("planes"), kind)?;
         if kind == "oscillator" {
             return self.oscillator(system, &table, two);
         }
         let (model, structure) = self.structure(system, kind, &table, two)?;
-        let (structure, pending) = self.damped(system, structure, has_damping(kind, &table), cut)?;
+        let own = has_damping(kind, &table);
+        let (structure, pending) = self.damped(system, structure, own, self.modes.is_some())?;
         Ok(Built::of(model, structure, pending, two))
     }
 

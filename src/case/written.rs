@@ -22,6 +22,8 @@ pub struct Written {
     pub probes: Vec<Place>,
     /// Each `[[support]]` and `[[slider]]`.
     pub supports: Vec<Support>,
+    /// The step, s, where the file gives none and it follows from the modes.
+    pub chosen_step: Option<f64>,
     /// The start: given, or a static equilibrium.
     pub start: Start,
     /// The scatter of its velocities; `None` for none.

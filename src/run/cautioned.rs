@@ -62,7 +62,7 @@ impl NotedRuns {
 
 impl Cautioned {
     /// Counts run number `run` and its `caution`, in whatever order runs end.
-    pub(crate) fn add(&mut self, run: u64, caution: Caution) {
+    pub fn add(&mut self, run: u64, caution: Caution) {
         self.runs += 1;
         self.noted.add(run, caution.note);
         self.unsettled.add(run, caution.unsettled);

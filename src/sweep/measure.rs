@@ -2,6 +2,7 @@
 
 use super::table::HALF_WIDTH;
 use crate::error::{Error, Result, named};
+use crate::output::csv;
 use crate::scene::Scene;
 use std::fmt;
 use std::str::FromStr;
@@ -17,6 +18,42 @@ pub enum Scope {
     Probe,
     /// The whole row.
     Row,
+}
+
+impl Scope {
+    /// What it refers to, in a word; `None` for the whole row.
+    #[must_use]
+    pub fn word(self) -> Option<&'static str> {
+        match self {
+            Self::Wall => Some("wall"),
+            Self::Support => Some("support"),
+            Self::Probe => Some("probe"),
+            Self::Row => None,
+        }
+    }
+
+    /// The names of the places of `scene` that it refers to; none for the whole row.
+    #[must_use]
+    pub fn places(self, scene: &Scene) -> Vec<&str> {
+        match self {
+            Self::Wall => scene.walls.iter().map(|wall| wall.name.as_str()).collect(),
+            Self::Support => scene.supports.iter().map(|support| support.name.as_str()).collect(),
+            Self::Probe => scene.probes.iter().map(|probe| probe.name.as_str()).collect(),
+            Self::Row => Vec::new(),
+        }
+    }
+}
+
+/// A column of a measure at a wall, a support or a probe.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct PlacedColumn {
+    /// Its name, `work_rate_plate_1_W`.
+    pub column: String,
+    /// That name without the place, `work_rate_W`.
+    pub quantity: String,
+    /// The place, `plate-1`.
+    pub place: String,
 }
 
 /// One measure of a row: one column per wall, per support, per probe, or per row.
@@ -202,21 +239,34 @@ impl Measure {
 
     /// The columns, whose names have `word` after that of the measure.
     fn columns_with(self, word: &str, scene: &Scene) -> Vec<String> {
-        let walls: Vec<&str> = scene.walls.iter().map(|wall| wall.name.as_str()).collect();
-        let supports: Vec<&str> = scene.supports.iter().map(|support| support.name.as_str()).collect();
-        let probes: Vec<&str> = scene.probes.iter().map(|probe| probe.name.as_str()).collect();
-        let names = match self.scope() {
-            Scope::Wall => crate::output::csv::words(&walls),
-            Scope::Support => crate::output::csv::words(&supports),
-            Scope::Probe => crate::output::csv::words(&probes),
+        let of: Vec<String> = match self.scope() {
             Scope::Row => vec![String::new()],
+            scope => csv::words(&scope.places(scene)).iter().map(|name| format!("_{name}")).collect(),
         };
+        of.iter().map(|of| self.column_of(word, of)).collect()
+    }
+
+    /// The column whose name has `word` and then `of` after that of the measure.
+    fn column_of(self, word: &str, of: &str) -> String {
         let unit = self.unit().map_or_else(String::new, |unit| format!("_{unit}"));
-        let column = |name: &String| {
-            let of = if name.is_empty() { String::new() } else { format!("_{name}") };
-            format!("{}{word}{of}{unit}", self.name())
-        };
-        names.iter().map(column).collect()
+        format!("{}{word}{of}{unit}", self.name())
+    }
+
+    /// Its columns in all tables of a sweep over `scene` that belong to a place: those of the
+    /// measure, of half widths, and of the depths of all parts of each support. None of a measure
+    /// of the whole row.
+    #[must_use]
+    pub fn placed_columns(self, scene: &Scene) -> Vec<PlacedColumn> {
+        let own = ["", HALF_WIDTH].map(|word| (self.columns_with(word, scene), Some(self.column_of(word, ""))));
+        let depths = (self.depths_columns(scene), depths_column(&self.column_of("", "")));
+        let mut placed = Vec::new();
+        for (columns, quantity) in own.into_iter().chain([depths]) {
+            for (column, place) in columns.into_iter().zip(self.scope().places(scene)) {
+                let quantity = quantity.clone().unwrap_or_default();
+                placed.push(PlacedColumn { column, quantity, place: place.to_owned() });
+            }
+        }
+        placed
     }
 
     /// True for a measure of the motion between contacts.

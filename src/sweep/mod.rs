@@ -103,7 +103,7 @@ pub use finished::Finished;
 pub(crate) use folder::write_summary;
 pub use follow::Follow;
 pub(crate) use means::means;
-pub use measure::{Measure, Scope};
+pub use measure::{Measure, PlacedColumn, Scope};
 pub(crate) use merge::merge_in;
 pub use merge::{Merged, merge};
 pub(crate) use picture::Pictures;

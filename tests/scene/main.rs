@@ -17,6 +17,8 @@ mod case_errors_planes;
 mod case_files;
 #[cfg(feature = "cli")]
 mod case_mutations;
+#[cfg(feature = "cli")]
+mod chosen_step;
 mod error_subjects;
 mod fluid_elastic;
 #[cfg(feature = "cli")]

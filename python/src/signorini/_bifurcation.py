@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _core, _plot
 from ._core import Case
 from ._studies import columns_of
-from ._sweep import Table, warn_of_notes
+from ._sweep import Table, warn_of_runs
 from ._types import whole
 
 
@@ -129,8 +129,8 @@ def bifurcation(
     """
     count = (os.cpu_count() or 1) if threads is None else whole("threads", threads, 1)
     settle, keep = whole("settle", settle), whole("keep", keep, 1)
-    rows, notes = _core._bifurcation(case, key, list(values), scheme, settle, keep, follow, samples, count)
-    warn_of_notes(notes)
+    rows, cautions = _core._bifurcation(case, key, list(values), scheme, settle, keep, follow, samples, count)
+    warn_of_runs(cautions)
     failed = [row for row in rows if row["error"] is not None]
     if failed:
         first = f"{failed[0]['value']!r}: {failed[0]['error']}"

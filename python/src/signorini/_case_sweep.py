@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import tempfile
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
@@ -41,7 +41,9 @@ class SweepResult(TableResult):
     ``attractor`` was asked for: a line for each, with its number, its ``rows`` and their ``share``
     (the size of its basin), ``signature``, ``period`` in periods of the load and multipliers.
     Tables that a sweep does not have are empty. ``keys_varied`` names the columns of the keys, and
-    ``design`` says how their values lie: ``"grid"``, ``"one-at-a-time"`` or ``"random"``.
+    ``design`` says how their values lie: ``"grid"``, ``"one-at-a-time"`` or ``"random"``. ``places``
+    has, for each column of a measure at a place, its name without the place, ``"wall"``,
+    ``"support"`` or ``"probe"``, and the name of the place.
     """
 
     realisations: Mapping[str, Column]
@@ -50,6 +52,7 @@ class SweepResult(TableResult):
     attractors: Mapping[str, Column]
     keys_varied: tuple[str, ...]
     design: Design
+    places: Mapping[str, tuple[str, str, str]]
 
     def __repr__(self) -> str:
         return f"<SweepResult: {len(self['row'])} rows over {', '.join(self.keys_varied)}>"
@@ -92,13 +95,15 @@ class SweepResult(TableResult):
         return frame(dict(own[table]))
 
     def to_xarray(self) -> xr.Dataset:
-        """The numbers as an xarray Dataset over the varied keys.
+        """The numbers as an xarray Dataset over the varied keys and the places of each measure.
 
-        Variables of ``realisations`` have the name of their column with ``realisations_`` before
-        it, and the further dimension ``realisation``, as long as the row with the most has them.
-        Where a row has fewer, since ``until_interval`` took fewer or some failed, the others are
-        NaN, which means and other sums of xarray leave out; the variable ``seeds`` says how many
-        there are. Only of a grid.
+        A measure is one variable, ``work_rate_W``, with the dimension ``wall``, ``support`` or
+        ``probe`` after those of the keys. Variables of ``realisations`` have ``realisations_``
+        before their name, and the further dimension ``realisation``, as long as the row with the
+        most has them. Where a row has fewer, since ``until_interval`` took fewer or some failed,
+        the others are NaN, which means and other sums of xarray leave out; the variable ``seeds``
+        says how many there are. ``realisations_depths_m`` has the dimension ``part`` besides: the
+        sectors of a hole, or the flats of a support. Only of a grid.
 
         Returns
         -------
@@ -116,8 +121,8 @@ class SweepResult(TableResult):
         >>> import signorini as sg
         >>> case = sg.load("rigid-walls-sine", set={"time.end": 1.0})
         >>> table = sg.sweep(case, {"wall.*.restitution": [0.5, 0.8]}, measures=["contacts"])
-        >>> table.to_xarray()["contacts_upper"].dims
-        ('restitution',)
+        >>> table.to_xarray()["contacts"].dims
+        ('restitution', 'wall')
         """
         try:
             import xarray as xr
@@ -129,22 +134,56 @@ class SweepResult(TableResult):
         # The rows are in the order of the grid, the last key fastest.
         axes = {key: list(dict.fromkeys(self[key].tolist())) for key in self.keys_varied}
         shape = [len(values) for values in axes.values()]
-        skipped = {*axes, "row", "realisation", "status", "error"}
-        variables = {
-            name: (list(axes), column.reshape(shape)) for name, column in self.columns.items() if name not in skipped
-        }
-        coordinates: dict[str, Any] = dict(axes)
-        if self.realisations:
-            row, number = self.realisations["row"], self.realisations["realisation"]
-            most = int(number.max())
-            coordinates["realisation"] = np.arange(1, most + 1)
-            for name, column in self.realisations.items():
-                if name not in skipped:
-                    # What is not there is NaN.
-                    padded = np.full((len(self["row"]), most), np.nan)
-                    padded[row, number - 1] = column
-                    variables[f"realisations_{name}"] = ([*axes, "realisation"], padded.reshape([*shape, most]))
-        return xr.Dataset(variables, coordinates)
+        data = xr.Dataset(coords=axes)
+        for name, dimensions, values, coordinates in self._placed(self.columns):
+            own = values.reshape([*shape, *values.shape[1:]])
+            data = data.assign_coords(coordinates).assign({name: ([*axes, *dimensions], own)})
+        if not self.realisations:
+            return data
+        row, number = self.realisations["row"], self.realisations["realisation"]
+        most = int(number.max())
+        data = data.assign_coords(realisation=np.arange(1, most + 1))
+        for name, dimensions, values, coordinates in self._placed(self.realisations):
+            # What is not there is NaN.
+            padded = np.full((len(self["row"]), most, *values.shape[1:]), np.nan)
+            padded[row, number - 1] = values
+            own = padded.reshape([*shape, most, *values.shape[1:]])
+            variable = ([*axes, "realisation", *dimensions], own)
+            data = data.assign_coords(coordinates).assign({f"realisations_{name}": variable})
+        return data
+
+    def _placed(self, columns: Mapping[str, Column]) -> Iterator[Placed]:
+        """The columns of numbers, those of a measure beside one another by their places."""
+        skipped = {*self.keys_varied, "row", "realisation", "status", "error"}
+        groups: dict[str, list[str]] = {}
+        for column in columns:
+            if column not in skipped:
+                groups.setdefault(self.places.get(column, (column,))[0], []).append(column)
+        for name, group in groups.items():
+            if group[0] not in self.places:
+                yield name, (), columns[name], {}
+                continue
+            dimension = self.places[group[0]][1]
+            coordinates = {dimension: [self.places[column][2] for column in group]}
+            parts = [_depths(columns[column]) for column in group] if name == "depths_m" else []
+            if not parts:
+                yield name, (dimension,), np.stack([columns[column] for column in group], axis=-1), coordinates
+                continue
+            values = np.full((len(columns[group[0]]), len(group), max(part.shape[1] for part in parts)), np.nan)
+            for index, part in enumerate(parts):
+                values[:, index, : part.shape[1]] = part
+            yield name, (dimension, "part"), values, coordinates
+
+
+Placed = tuple[str, tuple[str, ...], Column, dict[str, list[str]]]
+"""A variable of a dataset: name, dimensions after that of the rows, values, coordinates."""
+
+
+def _depths(cells: Column) -> Column:
+    """The depths of the parts of a support, in a row for each cell; NaN where a cell has fewer."""
+    lists = [[float(word) for word in str(cell or "").split()] for cell in cells]
+    most = max((len(own) for own in lists), default=0)
+    return np.array([own + [np.nan] * (most - len(own)) for own in lists]).reshape(len(lists), most)
 
 
 Drawn = tuple[str, int | None, int | None]
@@ -205,6 +244,7 @@ def sweep_case(
     return SweepResult(
         ReadOnly(rows), ReadOnly(realisations), ReadOnly(effects), ReadOnly(shares), ReadOnly(attractors),
         tuple(header[1 : min(ends)]), design,
+        {one: (name, kind, place) for one, name, kind, place in _core._placed_columns(case, list(measures))},
     )  # fmt: skip
 
 

@@ -13,7 +13,7 @@ from ._core import AccuracyWarning, Case, ResultWarning, Run, Scene
 from ._progress import Progress
 from ._realisations import Means, Realisations, by_place, made, of_case
 from ._studies import columns_of
-from ._sweep import Table, warn_of_notes
+from ._sweep import Table, warn_of_runs
 from ._types import names
 
 if TYPE_CHECKING:
@@ -197,7 +197,9 @@ def compare(
             scene, methods, step, sample, statistics_from, seeds, verdict, shown.reach
         )
     runs = [row.pop("run") for row in rows]
-    warn_of_notes([row.pop("note") for row in rows])
+    # One motion by several methods, whose window is asked for: that it has not settled is among the
+    # notes of its runs.
+    warn_of_runs([(row.pop("note"), None) for row in rows])
     if known is not None:
         for kind, texts in ((ResultWarning, known["warnings"]), (AccuracyWarning, known["unknown"])):
             for text in texts:

@@ -36,6 +36,7 @@ __all__ = [
     "_case",
     "_case_scene_at",
     "_case_value_at",
+    "_cautioned",
     "_chain",
     "_chart",
     "_columns",
@@ -45,6 +46,7 @@ __all__ = [
     "_modal",
     "_orbit",
     "_oscillator",
+    "_placed_columns",
     "_realisations",
     "_report",
     "_run_many",
@@ -428,7 +430,7 @@ def _bifurcation(
     follow: str,
     samples: str,
     threads: int,
-) -> tuple[list[dict[str, Any]], list[str | None]]: ...
+) -> tuple[list[dict[str, Any]], list[tuple[str | None, str | None]]]: ...
 def _orbit(scene: Scene | Case, settle: int, rows: int) -> dict[str, Any]: ...
 def _branches(
     case: Case,
@@ -464,8 +466,10 @@ def _wear(
     counted: Callable[[int, int], None],
     progress: Callable[[int], None],
 ) -> dict[str, Any]: ...
+def _cautioned(cautions: Sequence[tuple[str | None, str | None]]) -> list[str]: ...
 def _columns(walls: Sequence[str]) -> list[str]: ...
 def _unit(key: str) -> str | None: ...
+def _placed_columns(case: Case, measures: Sequence[str]) -> list[tuple[str, str, str, str]]: ...
 def _run_many(
     scenes: Sequence[Scene],
     scheme: str | None,
@@ -474,7 +478,7 @@ def _run_many(
     judge: bool,
     threads: int,
     progress: Callable[[int], None] | None,
-) -> tuple[Array, list[str | None], list[str | None]]: ...
+) -> tuple[Array, list[str | None], list[tuple[str | None, str | None]]]: ...
 def _sweep(
     case: Case,
     axes: Sequence[tuple[str, Sequence[Any]]],

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._case_sweep import SweepResult, sweep_case
-from ._core import Case, ResultWarning, Scene, _columns, _run_many
+from ._core import Case, ResultWarning, Scene, _cautioned, _columns, _run_many
 from ._progress import Progress
 from ._store import Store
 from ._types import whole
@@ -25,7 +25,10 @@ Table = dict[str, npt.NDArray[Any]]
 """Columns of equal length, by name."""
 
 # Numbers, the reasons where there are none, and the first note of each row that limits its use.
-_Rows = tuple[npt.NDArray[np.float64], list[str | None], list[str | None]]
+Caution = tuple[str | None, str | None]
+"""What limits the use of a run: a note, and that it has not settled."""
+
+_Rows = tuple[npt.NDArray[np.float64], list[str | None], list[Caution]]
 
 # For a task of two seconds the overhead of a scheduler is a thousandth, and a lost machine loses
 # only so much work. Where this would make few tasks, they are shorter, but still long compared with
@@ -102,7 +105,8 @@ def run_many(
     Warns
     -----
     ResultWarning
-        Once, with their number, where runs have notes that limit the use of their results.
+        Once, with their number, where runs have notes that limit the use of their results, and once
+        where more have not settled when their statistics begin than chance finds.
 
     Examples
     --------
@@ -119,7 +123,7 @@ def run_many(
     names = scenes[0]._wall_names if scenes else ()
     with Progress(len(scenes), progress) as shown:
         rows = _run_many(scenes, *options, shown.tell)
-    warn_of_notes(rows[2])
+    warn_of_runs(rows[2])
     return _table(names, rows, judge)
 
 
@@ -299,14 +303,14 @@ def sweep(
     walls = _first_walls(make, points)
     width = len(_columns(walls))
     values, errors = np.full((len(points), width), np.nan), list[str | None]([None] * len(points))
-    notes: list[str | None] = []
+    cautions: list[Caution] = []
     store = Store(folder, make, points, options, width)
     missing = store.missing(values, errors)
 
     def take(indices: Sequence[int], rows: _Rows) -> None:
         for row, index in enumerate(indices):
             values[index], errors[index] = rows[0][row], rows[1][row]
-        notes.extend(rows[2])
+        cautions.extend(rows[2])
         store.add(indices, rows[:2])
 
     with Progress(len(points), progress, len(points) - len(missing)) as shown:
@@ -322,20 +326,18 @@ def sweep(
             size = chunk or _size(make, points, missing, walls, options)
             _send(executor, make, points, _pieces(missing, size), walls, options, take, shown)
     table: Table = {name: np.array([point[name] for point in points]) for name in names}
-    table |= _table(walls, (values, errors, notes), judge)
+    table |= _table(walls, (values, errors, cautions), judge)
     failed = [text for text in errors if text is not None]
     if failed:
         text = f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}"
         warnings.warn(text, RuntimeWarning, stacklevel=2)
-    warn_of_notes(notes)
+    warn_of_runs(cautions)
     return table
 
 
-def warn_of_notes(notes: Sequence[str | None]) -> None:
-    """One warning of a study for the notes of its runs."""
-    found = [note for note in notes if note is not None]
-    if found:
-        text = f"{len(found)} of {len(notes)} runs have notes that limit the use of their results; the first: {found[0]}"
+def warn_of_runs(cautions: Sequence[Caution]) -> None:
+    """A warning of a study for the notes of its runs, and one for those that have not settled."""
+    for text in _cautioned(cautions):
         warnings.warn(text, ResultWarning, stacklevel=3)
 
 
@@ -388,7 +390,7 @@ def _task(
     """The rows of some points; executors run this function."""
     values = np.full((len(points), len(_columns(list(walls)))), np.nan)
     errors: list[str | None] = [None] * len(points)
-    notes: list[str | None] = [None] * len(points)
+    cautions: list[Caution] = [(None, None)] * len(points)
     scenes, rows = [], []
     for row, point in enumerate(points):
         try:
@@ -403,12 +405,12 @@ def _task(
         else:
             errors[row] = f"walls are {', '.join(names)}; expected {', '.join(walls)}, as at the first point"
     if not scenes:
-        return values, errors, notes
-    made, failed, noted = _run_many(scenes, *options, tell)
+        return values, errors, cautions
+    made, failed, found = _run_many(scenes, *options, tell)
     values[rows] = made
-    for row, text, note in zip(rows, failed, noted, strict=True):
-        errors[row], notes[row] = text, note
-    return values, errors, notes
+    for row, text, caution in zip(rows, failed, found, strict=True):
+        errors[row], cautions[row] = text, caution
+    return values, errors, cautions
 
 
 def _pieces(indices: Sequence[int], size: int) -> list[Sequence[int]]:

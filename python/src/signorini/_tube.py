@@ -278,7 +278,7 @@ def tube(
     outer_diameter: float,
     inner_diameter: float | None = None,
     added_mass: float | None = None,
-    elements: int,
+    elements: int | None = None,
     left: End = "pinned",
     right: End = "pinned",
     modes: int | None = None,
@@ -288,7 +288,7 @@ def tube(
     wear: Archard | None = None,
     connors: float | None = None,
     duration: float,
-    step: float,
+    step: float | None = None,
     sample: float | None = None,
     statistics_from: float | None = None,
     name: str = "tube",
@@ -310,8 +310,9 @@ def tube(
         m; a rod has no inner one.
     added_mass : float, optional
         Mass of the fluid that moves with it, kg/m.
-    elements : int
-        Of the whole tube.
+    elements : int, optional
+        Of the whole tube, of equal length; 20 of each span unless given, and two and a half for
+        each mode at least.
     left, right : str or pair of float
         ``"free"``, ``"pinned"``, ``"clamped"``, or the stiffnesses of springs, N/m and N m/rad.
     modes : int, optional
@@ -327,8 +328,11 @@ def tube(
     connors : float, optional
         Connors' constant of the bundle, about 3: `Case.fluid_elastic` are the margins in the flow
         of the turbulence among the loads.
-    duration, step : float
+    duration : float
         s.
+    step : float, optional
+        s; with ``modes`` unless given the largest of one digit that is at most 5e-5 and a tenth of
+        the period of the fastest mode.
     sample : float, optional
         Time between two recorded rows, s; every step unless given.
     statistics_from : float, optional

@@ -192,6 +192,11 @@ fn step(case: &Case) -> Vec<String> {
     let h = case.time.step;
     let resolved = if omega > 0.0 { format!(", h ω = {:.2e}", h * omega) } else { String::new() };
     let mut lines = vec![format!("{h:e} s, {:.0} steps{resolved}", case.scene.duration / h)];
+    lines.extend(case.written.chosen_step.map(|_| {
+        "the case gives no step: this is the largest of one digit that is at most 50 µs and a tenth of the period of \
+         the fastest mode"
+            .to_owned()
+    }));
     let flats = case.scene.walls.iter().zip(case.scene.wall_masses()).filter(|(wall, _)| !wall.is_round());
     for (wall, mass) in flats.take(MOST_WALLS) {
         if let Some(WallSpring { stiffness, .. }) = wall.law.spring() {

@@ -3,15 +3,10 @@
 use crate::case::CaseFile;
 use crate::error::{Error, Result};
 use crate::scene::MOST_MODES;
-use std::f64::consts::TAU;
 
 /// Modes of each plane for a span, and the least number of all.
 const MODES_OF_A_SPAN: u32 = 8;
 const LEAST_MODES: u32 = 16;
-
-/// The frequencies of a pinned beam grow with the squares of 1, 2, .. With two and a half elements
-/// in half a wave its elements make it stiffer by a few thousandths: by less than this factor.
-const STIFFER: f64 = 1.01;
 
 /// Most supports: the modes of both planes, and the one beyond them, are modes that can be found.
 const MOST_SUPPORTS: u32 = (MOST_MODES as u32 - 1) / (2 * MODES_OF_A_SPAN) - 1;
@@ -90,28 +85,12 @@ impl Tube {
             ("%SUPPORTS%", (1..=supports).map(support).collect::<Vec<_>>().join("\n")),
         ];
         let text = values.iter().fold(TEXT.to_owned(), |text, (mark, value)| text.replace(mark, value));
-        let filled = |modes: u32, elements: u32, flow: &str| {
-            let marks = [("%MODES%", modes.to_string()), ("%ELEMENTS%", elements.to_string())];
-            marks.iter().fold(text.replace("%FLOW%", flow), |text, (mark, value)| text.replace(mark, value))
-        };
-        // The slowest mode alone, without the flow: many modes, and the coherence of the flow over
-        // all pairs of nodes, take a minute where supports are many.
-        let still = filled(1, 2 * spans, "").replace("%STEP%", "5e-5");
-        let case = CaseFile::from_text(&still, name, "").case()?;
-        let [slowest, _] = case.scene.system.frequencies();
-        let fastest = slowest * f64::from(modes).powi(2) * STIFFER;
-        Ok(filled(modes, 20 * spans, &flow).replace("%STEP%", &step_for(fastest)))
+        let filled = |modes: u32, flow: &str| text.replace("%MODES%", &modes.to_string()).replace("%FLOW%", flow);
+        // The slowest mode alone, without the flow, whose coherence over all pairs of nodes takes a
+        // minute where supports are many.
+        CaseFile::from_text(&filled(1, ""), name, "").case()?;
+        Ok(filled(modes, &flow))
     }
-}
-
-/// The largest step of one digit, s, that is at most 50 µs and a tenth of the period of the fastest
-/// mode, whose circular frequency is `fastest` (rad/s).
-fn step_for(fastest: f64) -> String {
-    let most = (TAU / (10.0 * fastest)).min(5e-5);
-    let exponent = most.log10().floor();
-    // A quotient just below a whole number is that number.
-    let digit = (most / 10f64.powf(exponent) * (1.0 + 1e-9)).floor();
-    format!("{digit}e{exponent}")
 }
 
 /// The file, with marks for values.
@@ -133,7 +112,6 @@ density = 7850.0            # kg/m^3, steel
 outer_diameter = %OUTER%   # m
 inner_diameter = %INNER%   # m
 added_mass = 0.0            # kg/m: the fluid inside, and what the tube moves outside
-elements = %ELEMENTS%               # of the whole tube
 left = "pinned"             # or "clamped", "free", { stiffness = .. }
 right = "pinned"
 
@@ -143,7 +121,7 @@ ratio = 0.01                # of every mode, in the fluid; assumed
 %SUPPORTS%
 %FLOW%[time]
 end = 5.0                   # s
-step = %STEP%                 # s: ten or more in a period of the fastest mode
+# step: from the modes unless given, ten or more in the period of the fastest
 sample = 5e-4               # s
 statistics_from = 1.0       # s, after the initial transient
 "#;
