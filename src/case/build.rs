@@ -66,9 +66,7 @@ impl Builder<'_> {
         let (mut scene, condensation) = self
             .condensed(scene, built.pending.as_ref().filter(|d| modes.is_none() || !matches!(d, Damping::Modal(_))))?;
         let sliders = self.sliders_with_mass(sliders, condensation.as_ref())?;
-        if self.written.start == Start::Equilibrium {
-            scene.initial.q = equilibrium(&scene).map_err(|error| self.locate(error, &scene))?;
-        }
+        self.start_in_equilibrium(&mut scene)?;
         let text = |key| file.word(key).map(|text| escaped(text.get_ref()).into_owned());
         let mut case = Case {
             name: self.document.name().to_owned(),
@@ -107,6 +105,14 @@ impl Builder<'_> {
         }
         case.scatter_start();
         Ok(case)
+    }
+
+    /// Starts the `scene` in static equilibrium, where the file asks for that.
+    fn start_in_equilibrium(&self, scene: &mut Scene) -> Result<()> {
+        if self.written.start == Start::Equilibrium {
+            scene.initial.q = equilibrium(scene).map_err(|error| self.locate(error, scene))?;
+        }
+        Ok(())
     }
 
     /// Notes what the system of `total` degrees of freedom is, and where its points lie.
