@@ -95,6 +95,13 @@ impl Answer {
         self.parts.push(Part::Table(table, file));
     }
 
+    /// Adds `value` under `key` to what is printed with `--json`.
+    pub fn add(&mut self, key: &str, value: Value) {
+        if let Some(document) = self.document.as_object_mut() {
+            document.insert(key.to_owned(), value);
+        }
+    }
+
     /// Adds sentences on stdout.
     pub fn prose(&mut self, text: String) {
         self.parts.push(Part::Prose(text));

@@ -10,7 +10,7 @@ use super::picture::Picture;
 use super::plan::Plan;
 use super::request::Window;
 use super::shard::Shard;
-use super::table::{MOST_SEEDS, ONE_AT_A_TIME, REALISATIONS, SAMPLES, SEEDS, TABLE, UNTIL_INTERVAL};
+use super::table::{MOST_SEEDS, ONE_AT_A_TIME, REALISATIONS, SAMPLES, SEEDS, TABLE, Table, UNTIL_INTERVAL};
 use crate::batch::Width;
 use crate::case::{open_regular, sha256};
 use crate::error::{Error, Result};
@@ -236,6 +236,17 @@ pub(crate) fn write_summary(results: &mut Results, mut document: Value) -> Resul
     document[TABLES] = results.tables("")?;
     results.write("summary.json", json::text(&document))?;
     Ok(document)
+}
+
+/// Most rows in the document of `--json`.
+const MOST_OBJECTS: usize = 10_000;
+
+/// The first ten thousand rows of the sweep in `folder`, as objects.
+///
+/// # Errors
+/// [`Error::Io`] for a table that cannot be read.
+pub(crate) fn first_rows(folder: &Path) -> Result<Vec<Value>> {
+    Table::open(&folder.join(TABLE))?.objects(MOST_OBJECTS)
 }
 
 /// An error of a wrong request that concerns `folder`.

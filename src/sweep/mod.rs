@@ -100,7 +100,7 @@ pub(crate) use effects::Effect;
 pub use estimate::Estimate;
 pub use finish::Tables;
 pub use finished::Finished;
-pub(crate) use folder::write_summary;
+pub(crate) use folder::{first_rows, write_summary};
 pub use follow::Follow;
 pub(crate) use means::means;
 pub use measure::{Measure, PlacedColumn, Scope};

@@ -5,6 +5,7 @@
 use super::columns::Source;
 use super::effects::{self, Effect, effects};
 use super::shares::{self, Shares, shares};
+use super::table::object;
 use crate::error::Result;
 use crate::output::csv;
 use crate::output::results::Results;
@@ -47,15 +48,27 @@ impl Sensitivity {
     /// # Errors
     /// [`Error::Io`](crate::Error::Io) where it cannot be written.
     pub fn write(&self, results: &mut Results) -> Result<bool> {
-        let (file, header, lines): (_, &[&str], Vec<_>) = match self {
-            Self::Effects(all) => (EFFECTS, &effects::HEADER, all.iter().map(Effect::cells).collect()),
-            Self::Shares(all) => (SHARES, &shares::HEADER, all.iter().flat_map(Shares::lines).collect()),
-        };
+        let (file, header, lines) = self.table();
         if lines.is_empty() {
             return Ok(false);
         }
-        let header: Vec<String> = header.iter().map(|&name| name.to_owned()).collect();
-        csv::table(&results.place(file)?, &header, lines.into_iter())?;
+        csv::table(&results.place(file)?, header, lines.into_iter())?;
         Ok(true)
+    }
+
+    /// The key of its table in a document, and its lines as objects.
+    pub fn objects(&self) -> (&'static str, Vec<Value>) {
+        let (file, header, lines) = self.table();
+        let key = SENSITIVITY_TABLES.iter().find(|(_, of)| *of == file).map_or(file, |(key, _)| key);
+        let own = |line: &Vec<String>| object(header.iter().copied(), line.iter().map(String::as_str));
+        (key, lines.iter().map(own).collect())
+    }
+
+    /// The name of the file of its table, the columns, and the lines.
+    fn table(&self) -> (&'static str, &'static [&'static str], Vec<Vec<String>>) {
+        match self {
+            Self::Effects(all) => (EFFECTS, &effects::HEADER, all.iter().map(Effect::cells).collect()),
+            Self::Shares(all) => (SHARES, &shares::HEADER, all.iter().flat_map(Shares::lines).collect()),
+        }
     }
 }

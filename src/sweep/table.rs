@@ -2,6 +2,7 @@
 
 use crate::case::open_regular;
 use crate::error::{Error, Result};
+use serde_json::Value;
 use std::fs::File;
 use std::io::Take;
 use std::path::{Path, PathBuf};
@@ -80,11 +81,31 @@ impl Table {
         Ok(())
     }
 
+    /// The first lines, at most `most`, as objects.
+    ///
+    /// # Errors
+    /// [`Error::Io`] for a line that cannot be read.
+    pub fn objects(mut self, most: usize) -> Result<Vec<Value>> {
+        let lines = self.reader.records().take(most);
+        lines.map(|line| Ok(object(&self.header, &line.map_err(|error| failed(&self.path, &error))?))).collect()
+    }
+
     /// The value of `of` for the first line; `None` for an empty table.
     pub fn first<T>(mut self, of: impl Fn(CsvRow<'_>) -> T) -> Option<T> {
         let mut record = csv::StringRecord::new();
         matches!(self.reader.read_record(&mut record), Ok(true)).then(|| of(CsvRow(&record)))
     }
+}
+
+/// The cells of a line by the columns of its `header`: numbers, words, and null for an empty cell.
+pub(super) fn object<'a>(header: impl IntoIterator<Item = &'a str>, cells: impl IntoIterator<Item = &'a str>) -> Value {
+    let value = |cell: &str| match (cell.parse::<i64>(), cell.parse::<f64>()) {
+        _ if cell.is_empty() => Value::Null,
+        (Ok(number), _) => Value::from(number),
+        (_, Ok(number)) if number.is_finite() => Value::from(number),
+        _ => Value::from(cell),
+    };
+    header.into_iter().zip(cells).map(|(name, cell)| (name.to_owned(), value(cell))).collect()
 }
 
 fn failed(path: &Path, error: &csv::Error) -> Error {

@@ -1,5 +1,6 @@
 //! `sweep --random`: the shares of keys in the variance of measures.
 use crate::command::said;
+use serde_json::Value;
 use signorini::case::CaseFile;
 use signorini::sweep::{Axis, Design, Measure, Random, Shard, Sweep, SweepOptions, Values};
 use std::fs;
@@ -99,5 +100,32 @@ fn a_call_of_the_library_leaves_the_files_of_the_tool() {
         let other = dir.path().join(points);
         plan.run_into(&other, options, &|_| {}).unwrap();
         assert_eq!(fs::read(other.join("shares.csv")).ok(), fs::read(own.join("shares.csv")).ok());
+    }
+}
+
+/// The document has what the tables have.
+#[test]
+fn the_document_has_the_rows_and_the_shares() {
+    let dir = tempfile::tempdir().unwrap();
+    let document: Value = serde_json::from_str(&sweep(dir.path(), "20", &["--json"]).0).unwrap();
+    let shares = shares(dir.path());
+    assert_eq!(document["shares"].as_array().unwrap().len(), shares.len());
+    for (one, (key, measure, share)) in document["shares"].as_array().unwrap().iter().zip(shares) {
+        assert_eq!((one["key"].as_str(), one["measure"].as_str()), (Some(&*key), Some(&*measure)));
+        assert_eq!(one["share"].as_f64(), Some(share));
+    }
+    let mut table = csv::Reader::from_path(dir.path().join("out/linear/sweep/sweep.csv")).unwrap();
+    let header = table.headers().unwrap().clone();
+    let values = document["values"].as_array().unwrap();
+    assert_eq!((values.len(), document["rows"].as_u64()), (20, Some(20)));
+    for (one, row) in values.iter().zip(table.records().map(Result::unwrap)) {
+        for (name, cell) in header.iter().zip(&row) {
+            let number = cell.parse().ok();
+            assert!(
+                one[name].as_f64() == number && one[name].as_str().is_none_or(|word| word == cell),
+                "{name}: {one}"
+            );
+        }
+        assert!(one["error"].is_null() && one["row"].is_u64(), "{one}");
     }
 }

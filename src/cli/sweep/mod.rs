@@ -15,8 +15,8 @@ use crate::output::request::program;
 use crate::output::results::Results;
 use crate::study::realisations::RealisationCount;
 use crate::sweep::{
-    Finished, Pictures, Plan, Progress, Sensitivity, Shard, Status, SweepOptions, Tables, asked, in_words, means,
-    write_summary,
+    Finished, Pictures, Plan, Progress, Sensitivity, Shard, Status, SweepOptions, Tables, asked, first_rows, in_words,
+    means, write_summary,
 };
 use effects::show_effects;
 use serde_json::{Map, Value, json};
@@ -96,7 +96,7 @@ pub(super) fn write_sensitivity(results: &mut Results, request: &Map<String, Val
 }
 
 /// Shows what the keys change in the sweep in `folder`, and the means over realisations of its
-/// rows, where they have several.
+/// rows, where they have several; with `--json` its first rows.
 pub(super) fn show_tables(
     answer: &mut Answer,
     folder: &Path,
@@ -107,6 +107,10 @@ pub(super) fn show_tables(
         Some(Sensitivity::Effects(effects)) => show_effects(answer, effects, asked(request)),
         Some(Sensitivity::Shares(shares)) => show_shares(answer, shares),
         None => {}
+    }
+    answer.add("values", first_rows(folder)?.into());
+    if let Some((key, lines)) = found.map(Sensitivity::objects) {
+        answer.add(key, lines.into());
     }
     if let Some((table, remark)) = means(folder, request)? {
         answer.table(table, "sweep.csv");
