@@ -33,6 +33,9 @@ const TRIAL: Duration = Duration::from_millis(300);
 const MOST_TRIED: usize = 2000;
 const UNKNOWN: f64 = 10.0;
 
+/// What the same command does after an interruption, where parts of the work are kept.
+pub(super) const GOES_ON: &str = "the same command goes on from what is done";
+
 /// What the duration of the work depends on.
 #[derive(Debug, Clone)]
 pub struct DurationEstimate {
@@ -97,6 +100,12 @@ impl DurationEstimate {
     #[must_use]
     pub fn at_most(self) -> Self {
         Self { about: "at most about", ..self }
+    }
+
+    /// The same for work whose parts are kept as they end.
+    #[must_use]
+    pub fn resumable(self) -> Self {
+        Self { cause: format!("{}; after an interruption {GOES_ON}", self.cause), ..self }
     }
 
     /// The same for `count` such runs that share all cores.

@@ -166,7 +166,7 @@ impl Followed<'_> {
         let options = Options::new(case.time);
         let plan = WearPlan { supports, scene: &scene, method, options: &options, histories, service };
         let estimate = DurationEstimate::of_run(&case.scene, method, case.time.step).times(USUAL_WINDOWS);
-        let estimate = estimate.on_all_cores(histories as f64).at_most();
+        let estimate = estimate.on_all_cores(histories as f64).at_most().resumable();
         // Windows lengthen as gaps grow.
         let (found, there) =
             ui.with_estimate("wear", estimate, |bar| journal.follow(&plan, known, &mut |share| bar.set_share(share)))?;

@@ -113,10 +113,13 @@ pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
     let columns = [Measure::ForceMean, Measure::ForceRms, Measure::ForceLargest, Measure::WorkRate];
     let known = |measure: &Measure| study.estimates.iter().any(|one| one.measure == *measure);
     let columns: Vec<Measure> = columns.into_iter().filter(known).collect();
-    let mut header = vec!["place".to_owned()];
+    let (mut header, mut deviations) = (vec!["place".to_owned()], Vec::new());
     for measure in &columns {
         header.push(format!("{} ({})", measure.words(), measure.unit()));
-        header.extend((study.count > 1).then(|| format!("deviation ({})", measure.unit())));
+        if study.count > 1 {
+            deviations.push(header.len());
+            header.push(format!("deviation ({})", measure.unit()));
+        }
     }
     let row = |place: &ContactPlace| {
         let mut row = vec![place.name.clone()];
@@ -130,7 +133,7 @@ pub fn table(study: &Realisations, scene: &Scene) -> Option<Table> {
         row
     };
     let rows: Vec<Vec<String>> = shown(study, scene, MOST_ROWS).into_iter().map(row).collect();
-    (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH))
+    (!rows.is_empty()).then(|| Table::new(&header, rows).within(WIDTH).attached(deviations))
 }
 
 /// The remarks below the table, a sentence each.

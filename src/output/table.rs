@@ -17,6 +17,8 @@ pub struct Table {
     widest: Option<usize>,
     /// The first of the columns that stand together.
     together: Option<usize>,
+    /// The columns that stand beside the one before them.
+    attached: Vec<usize>,
 }
 
 /// A table laid out for a width.
@@ -38,6 +40,7 @@ impl Table {
             rows,
             widest: None,
             together: None,
+            attached: Vec::new(),
         }
     }
 
@@ -53,6 +56,13 @@ impl Table {
     #[must_use]
     pub fn together_from(mut self, first: usize) -> Self {
         self.together = Some(first);
+        self
+    }
+
+    /// The same table, whose `columns` each stand in the block of the column before it.
+    #[must_use]
+    pub fn attached(mut self, columns: impl IntoIterator<Item = usize>) -> Self {
+        self.attached = columns.into_iter().collect();
         self
     }
 
@@ -86,6 +96,8 @@ impl Table {
             let count = rest.iter().take_while(fits).count().max(1).min(rest.len());
             let begins = rest.iter().position(|column| Some(*column) == self.together).filter(|at| *at > 0);
             let count = begins.filter(|at| *at < count && count < rest.len()).unwrap_or(count);
+            let is_torn = |count: &usize| rest.get(*count).is_some_and(|column| self.attached.contains(column));
+            let count = (1..=count).rev().find(|count| !is_torn(count)).unwrap_or(count);
             let shown: Vec<usize> = std::iter::once(0).chain(rest.drain(..count)).collect();
             text.push(self.block(&shown, &widths));
         }
@@ -198,6 +210,10 @@ mod tests {
         // What belongs together begins a block, unless all fits in one.
         let first = |width: usize| table().together_from(2).fit(Some(width)).text.lines().next().unwrap().to_owned();
         assert!(first(30).ends_with("contacts") && first(80).contains("impulse"), "{} {}", first(30), first(80));
+        // What is attached stands in the block of the column before it.
+        let attached = table().attached([3]).fit(Some(40)).text;
+        let blocks: Vec<&str> = attached.split("\n\n").collect();
+        assert!(blocks.len() == 2 && !blocks[0].contains("0.123456") && blocks[1].contains("1.5e-12"), "{attached}");
     }
 
     #[test]

@@ -130,7 +130,8 @@ fn single(case: &Case, found: &WearHistories) -> Option<String> {
     let interval = match (known, lacking) {
         (false, false) => return None,
         (true, _) => {
-            "± is what the 95 % intervals of the work rates of its windows make of it, as if these erred all alike"
+            "± is what the 95 % intervals of the work rates of its windows make of it, as if these erred all alike, \
+             and the estimated errors of its steps over the years"
         }
         (false, true) => "it has no interval: its windows are too short for one of their work rates",
     };

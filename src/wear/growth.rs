@@ -57,15 +57,23 @@ impl WearWork {
     /// The work after `time` (s) at the mean of two rates.
     #[must_use]
     pub fn advanced(&self, first: &Self, second: &Self, time: f64) -> Self {
-        let after = |work: f64, first: f64, second: f64| work + time * (0.5 * (first + second));
+        self.with(first, second, |work, first, second| work + time * (0.5 * (first + second)))
+    }
+
+    /// The work and, everywhere, what `time` (s) makes of the difference of two rates.
+    #[must_use]
+    pub(crate) fn plus_difference(&self, first: &Self, second: &Self, time: f64) -> Self {
+        self.with(first, second, |work, first, second| work + time * (second - first).abs())
+    }
+
+    /// What `of` makes of the work and two rates, of all and of each part.
+    fn with(&self, first: &Self, second: &Self, of: impl Fn(f64, f64, f64) -> f64) -> Self {
         let all = |work: &[f64], first: &[f64], second: &[f64]| {
-            work.iter()
-                .zip(first.iter().zip(second))
-                .map(|(work, (first, second))| after(*work, *first, *second))
-                .collect()
+            let each = work.iter().zip(first.iter().zip(second));
+            each.map(|(work, (first, second))| of(*work, *first, *second)).collect()
         };
         Self {
-            total: after(self.total, first.total, second.total),
+            total: of(self.total, first.total, second.total),
             sectors: all(&self.sectors, &first.sectors, &second.sectors),
             walls: all(&self.walls, &first.walls, &second.walls),
         }

@@ -23,3 +23,5 @@ mod step_search;
 mod studies_many;
 #[cfg(feature = "cli")]
 mod truncation;
+#[cfg(feature = "case")]
+mod wear_history;

@@ -7,7 +7,7 @@ mod shares;
 pub use args::Args;
 
 use super::command_line::command_line;
-use super::estimate::time_in_words;
+use super::estimate::{GOES_ON, time_in_words};
 use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::Result;
@@ -72,7 +72,7 @@ fn run(args: &Args, plan: &Plan, title: &str, ui: &Ui) -> Result<(Finished, Resu
     let options = SweepOptions { threads, shard, force: args.place.force };
     let formats = args.place.formats.usable()?;
     ui.with_bar("sweep", |bar| {
-        let said = Cell::new(Instant::now());
+        let (said, said_once) = (Cell::new(Instant::now()), Cell::new(false));
         let progress = |Progress { done, runs, rate }| {
             bar.set_share(done as f64 / runs.max(1) as f64);
             if said.get().elapsed() > REPORT_INTERVAL {
@@ -80,7 +80,9 @@ fn run(args: &Args, plan: &Plan, title: &str, ui: &Ui) -> Result<(Finished, Resu
                 let left = if rate > 0.0 { (runs - done) as f64 / rate } else { f64::INFINITY };
                 let what = if plan.realisations().is_some() { "realisations" } else { "rows" };
                 let left = time_in_words(left);
-                bar.message(&format!("{done} of {runs} {what}, {rate:.3} {what}/s, {left} left"));
+                let goes_on =
+                    if said_once.replace(true) { String::new() } else { format!("; after an interruption {GOES_ON}") };
+                bar.message(&format!("{done} of {runs} {what}, {rate:.3} {what}/s, {left} left{goes_on}"));
             }
         };
         let damaged = |what: &str| bar.message(&format!("the rows are computed again: {what}"));

@@ -21,10 +21,13 @@
 //! of all sectors, or flats; the deepest sector of a single history is one that is the deepest by
 //! chance.
 //!
-//! Of a single history each depth has a half width by those of the work rates of its windows: the
-//! depth if all these rates were larger by theirs, at the same gaps, less the depth found. Under
-//! random loads several histories are followed side by side, each window with seeds of its
-//! own, so that the scatter of depths between histories is that of what was not averaged out.
+//! Of a single history each depth has a half width by those of the work rates of its windows, and
+//! by the errors of its steps: the depth if all these rates were larger by theirs, at the same
+//! gaps, and each step erred as estimated, less the depth found. For a rate like a power p of the
+//! gap a step in which the gap grows by x of itself errs by x (p + 1)/6 of what Heun's step differs
+//! from Euler's; x of it is taken, twice that of p = 2, since what early steps err grows with the
+//! gap. Under random loads several histories are followed side by side, each window with seeds of
+//! its own, so that the scatter of depths between histories is that of what was not averaged out.
 
 mod state;
 mod support;
@@ -59,8 +62,13 @@ const TOLERANCE: f64 = 0.005;
 /// The time at which a wall is worn through is known to the step over two to this power.
 const HALVINGS: usize = 50;
 
-/// The shortest step, as a share of the time in service.
+/// The shortest step that halving leaves, as a share of the longest; of gaps that are closed, whose
+/// growth is no share of them, as a share of the time in service.
 const SHORTEST: f64 = 1.0 / 1024.0;
+
+/// Most steps: as many as a gap has that becomes half as large again in each of them, until it is
+/// 1e35 times its first.
+const MOST_STEPS: usize = 200;
 
 /// What histories of wear are followed, and how.
 pub struct WearPlan<'a> {
@@ -95,7 +103,8 @@ impl WearPlan<'_> {
     /// order, are not run again where these histories have the same supports in them: all of those
     /// of the same call, and those of a call for a shorter service up to its last step, which ends
     /// with that service. So what is found does not depend on what was kept. `keep` is called with
-    /// each window that is run, and `progress` with the share of the service that is done.
+    /// each window that is run, and `progress` with the share of the steps that are done, as far as
+    /// their number is known.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a service that is not above 0, for no history, and for a support
@@ -120,7 +129,7 @@ impl WearPlan<'_> {
         let none = |support: &WearingSupport| WearWork::none(self.options.time.sectors, support.gaps.len());
         let mut work: Works = vec![self.supports.iter().map(none).collect(); self.histories];
         let mut largest = if self.histories == 1 { work.clone() } else { Works::new() };
-        let (mut time, mut step) = (0.0, self.service);
+        let (mut time, mut step, mut first) = (0.0, self.service, None);
         loop {
             let rates = self.rates(&work, &mut found, kept, keep)?;
             let depths_m: Vec<Vec<Vec<f64>>> = work.iter().map(|history| self.depths(history)).collect();
@@ -134,15 +143,21 @@ impl WearPlan<'_> {
                 found.largest_depths_at_end_m = largest.iter().flat_map(|history| self.depths(history)).collect();
                 return Ok(found);
             }
+            if found.points.len() > MOST_STEPS {
+                return Err(self.too_long(time));
+            }
             step = self.longest_step(&work, &rates.found).min(step).min(self.service - time);
+            let shortest = SHORTEST * step;
             loop {
                 let ahead = advanced(&work, &rates.found, &rates.found, step);
                 let then = self.rates(&ahead, &mut found, kept, keep)?;
                 let corrected = advanced(&work, &rates.found, &then.found, step);
-                if step <= SHORTEST * self.service || self.agree(&ahead, &corrected) {
+                if step <= shortest || self.agree(&ahead, &corrected) {
                     step = self.intact(&work, (&rates.found, &then.found), step);
-                    work = advanced(&work, &rates.found, &then.found, step);
+                    let after = advanced(&work, &rates.found, &then.found, step);
                     largest = advanced(&largest, &rates.largest, &then.largest, step);
+                    self.add_step_error(&mut largest, [&work, &after], (&rates.found, &then.found), step);
+                    work = after;
                     break;
                 }
                 step *= 0.5;
@@ -150,7 +165,7 @@ impl WearPlan<'_> {
             time = if self.service - time <= step { self.service } else { time + step };
             found.worn_through = self.worn_through(time, &work);
             step *= 2.0;
-            progress(time / self.service);
+            progress(share(time, self.service, *first.get_or_insert(time)));
         }
     }
 
@@ -178,6 +193,15 @@ impl WearPlan<'_> {
             *(if is_worn_through(middle) { &mut after } else { &mut before }) = middle;
         }
         after
+    }
+
+    /// The error of a service of which so many seconds take all steps.
+    fn too_long(&self, time: f64) -> Error {
+        let expected = format!(
+            "at most {time:.2e} s: until then the work rates grow with the gaps, of which one became half as large \
+             again in each of {MOST_STEPS} steps"
+        );
+        Error::invalid("service", format_args!("{:?}", self.service), expected)
     }
 
     fn check(&self) -> Result<()> {
@@ -249,13 +273,38 @@ impl WearPlan<'_> {
         work.iter().zip(rates).map(states).collect()
     }
 
+    /// Adds to the work of a single history, `largest`, the estimated error of a step of `step` (s)
+    /// with the mean of two rates, which made of the work `before` that `after`.
+    fn add_step_error(
+        &self,
+        largest: &mut Works,
+        [before, after]: [&Works; 2],
+        (first, second): (&Works, &Works),
+        step: f64,
+    ) {
+        let works = before.iter().zip(after).zip(first.iter().zip(second));
+        for (largest, ((before, after), (first, second))) in largest.iter_mut().zip(works) {
+            let rates = first.iter().zip(second);
+            let all = self.supports.iter().zip(largest).zip(before.iter().zip(after)).zip(rates);
+            for (((support, largest), (before, after)), (first, second)) in all {
+                let [before, after] = [before, after].map(|work| support.gaps_after(work));
+                let growth = before.iter().zip(&after).filter(|(before, _)| **before > 0.0);
+                let growth = growth.map(|(before, after)| after / before - 1.0).fold(0.0, f64::max);
+                // Heun's step differs from Euler's by half of the difference of the rates.
+                let time = growth * 0.5 * step;
+                *largest = largest.plus_difference(first, second, time);
+            }
+        }
+    }
+
     /// The longest step in which no gap grows by more than [`MOST_GROWTH`] of itself, s.
     fn longest_step(&self, work: &Works, rates: &Works) -> f64 {
         let all = work.iter().zip(rates).flat_map(|(work, rates)| self.supports.iter().zip(work.iter().zip(rates)));
         let longest = |(support, (work, rate)): (&WearingSupport, (&WearWork, &WearWork))| {
             support.growth.time_to_open(&support.law, &support.gaps, work, rate, MOST_GROWTH)
         };
-        all.map(longest).fold(f64::INFINITY, f64::min).max(SHORTEST * self.service)
+        let closed = self.supports.iter().flat_map(|support| &support.gaps).any(|gap| *gap == 0.0);
+        all.map(longest).fold(f64::INFINITY, f64::min).max(if closed { SHORTEST * self.service } else { 0.0 })
     }
 
     /// True if gaps and centres after the work of Euler's and of Heun's step agree, or differ by no
@@ -280,6 +329,13 @@ impl WearPlan<'_> {
             })
         })
     }
+}
+
+/// The share of the steps until `service` (s) that are done at `time`, where the first step ended
+/// at the time `first` and each is twice as long as the one before it, as far as steps may
+/// lengthen.
+fn share(time: f64, service: f64, first: f64) -> f64 {
+    (time / first).ln_1p() / (service / first).ln_1p()
 }
 
 /// The work after a step of `step` seconds with the mean of the two rates.

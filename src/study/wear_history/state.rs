@@ -67,9 +67,10 @@ pub struct WearPoint {
     pub time_s: f64,
     /// Each history, with a state for each support.
     pub histories: Vec<Vec<WearState>>,
-    /// Of a single history each support as it would be if the work rate of every window were larger
-    /// by the half width of its 95 % interval, with a work of NaN where a window has none. None of
-    /// several histories, whose scatter tells more.
+    /// Of a single history each support as it would be if the work rate of every window were
+    /// larger by the half width of its 95 % interval, and every step erred as estimated, with a
+    /// work of NaN where a window has no interval. None of several histories, whose scatter tells
+    /// more.
     pub largest: Vec<WearState>,
     /// Of each history, at each support: the depth worn off the tube in each sector of a round
     /// support, or at each flat, m; none of a tube that does not wear.
@@ -133,9 +134,9 @@ pub struct WearHistories {
 }
 
 /// The mean of a quantity over the histories, and the half width of its 95 % interval: of a single
-/// history by the half widths of the work rates of its windows, as if these erred all alike. Of the
-/// deepest depth it is the largest of the means of all parts; its half width holds the bias of
-/// taking the largest, by the jackknife over the histories.
+/// history by the half widths of the work rates of its windows, as if these erred all alike, and
+/// the estimated errors of its steps. Of the deepest depth it is the largest of the means of all
+/// parts; its half width holds the bias of taking the largest, by the jackknife over the histories.
 #[must_use]
 pub fn mean(point: &WearPoint, support: usize, quantity: WearQuantity) -> (f64, Option<f64>) {
     let largest = point.largest(support).map(|state| quantity.of(state));

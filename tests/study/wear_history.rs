@@ -1,0 +1,65 @@
+//! Histories of wear: the steps over the years.
+
+use signorini::case::{Case, CaseFile};
+use signorini::study::wear_history::{WearHistories, WearPlan};
+use signorini::{Error, Method, Options, Result, Scene, Scheme};
+
+const MOREAU: Scheme = Scheme::MoreauJean { theta: 0.5 };
+
+/// A mass that slides round a hole by its own speed, with the law of wear of the hole.
+fn sliding() -> Case {
+    let mut file = CaseFile::embedded("whirl-in-a-hole").unwrap();
+    let values: [(&str, f64); 6] = [
+        ("support.hole.width", 25e-3),
+        ("support.hole.radius", 9.525e-3),
+        ("wear.support_coefficient", 1e-12),
+        ("wear.service", 1.0),
+        ("time.end", 0.02),
+        ("system.oscillator.stiffness", 0.0),
+    ];
+    for (key, value) in values {
+        file.set(&key.parse().unwrap(), &value.into()).unwrap();
+    }
+    file.case().unwrap()
+}
+
+/// Histories in which each window begins at the hole, with a speed of its gap to the power `power`
+/// times 20/s, and without loads.
+fn follow(power: i32, service: f64) -> Result<WearHistories> {
+    let (case, supports) = (sliding(), sliding().wearing_supports().unwrap());
+    let scene = |number: u64, openings: &[_]| {
+        let scene = case.worn(number, &supports, openings)?;
+        let gap = scene.holes().next().map_or(0.0, |hole| hole.gap);
+        let mut scene = Scene { loads: Vec::new(), ..scene };
+        (scene.initial.q, scene.initial.v) = (vec![gap, 0.0], vec![0.0, 20.0 * 5e-3 * (gap / 5e-3).powi(power)]);
+        Ok(scene)
+    };
+    let (method, options) = (Method::from(MOREAU), Options::with_step(1e-3));
+    let plan =
+        WearPlan { supports: &supports, scene: &scene, method: &method, options: &options, histories: 1, service };
+    plan.follow(&[], &mut |_| Ok(()), &mut |_| {})
+}
+
+/// N = m v²/γ and W = N v fall with the gap where the speed does not grow with it: the gap
+/// grows less than in proportion to the time, in steps that lengthen with it. Over years that are
+/// 1e4 times as long as the gap takes to grow by half, none of them is longer.
+#[test]
+fn no_step_makes_a_gap_more_than_half_as_large_again_however_long_the_service() {
+    let first = follow(0, 1.0).unwrap().points[0].histories[0][0].work_rate_w;
+    // dγ/dt = k W/(2π R w).
+    let half = 0.5 * 5e-3 / (1e-12 * first / (std::f64::consts::TAU * 9.525e-3 * 25e-3));
+    let gaps: Vec<f64> =
+        follow(0, 1e4 * half).unwrap().points.iter().map(|point| point.histories[0][0].gap_m).collect();
+    assert!(gaps.len() > 8 && *gaps.last().unwrap() > 0.05, "{gaps:?}");
+    // The second rate of a step is the smaller one.
+    assert!(gaps.windows(2).all(|pair| pair[0] < pair[1] && pair[1] <= 1.5 * pair[0]), "{gaps:?}");
+}
+
+/// W grows like γ² where the speed grows like the gap: it is infinite after a time, which no
+/// service passes.
+#[test]
+fn gaps_without_bound_are_an_error_that_says_how_far_they_can_be_followed() {
+    let Err(Error::Invalid { subject, expected, .. }) = follow(1, 1e15) else { panic!("an error") };
+    assert_eq!(subject.to_string(), "service");
+    assert!(expected.starts_with("at most ") && expected.contains("half as large again"), "{expected}");
+}
