@@ -193,7 +193,7 @@ impl Plan {
         let lacks = |scope: Scope| match scope {
             Scope::Probe => "no probe",
             Scope::Support => "no support in two planes",
-            Scope::Wall | Scope::Row => "no wall",
+            Scope::Wall | Scope::Place | Scope::Row => "no wall",
         };
         if let Some(measure) = self.sweep.measures.iter().find(|measure| !has(measure)) {
             let known = Measure::all().filter(has).map(Measure::name).collect::<Vec<_>>().join(", ");

@@ -34,6 +34,7 @@ pub(super) struct Source<'a> {
     /// The names of the walls, of the supports and of the probes.
     pub walls: Vec<String>,
     pub supports: Vec<String>,
+    pub places: Vec<String>,
     probes: Vec<String>,
 }
 
@@ -69,6 +70,7 @@ impl<'a> Source<'a> {
             sample_columns: list("sample_columns"),
             walls: list("wall_names"),
             supports: list("support_names"),
+            places: list("place_names"),
             probes: list("probe_names"),
         }
     }
@@ -87,6 +89,7 @@ impl Source<'_> {
         let names = match measure.parse::<Measure>().map(Measure::scope) {
             Ok(Scope::Wall) => &self.walls,
             Ok(Scope::Support) => &self.supports,
+            Ok(Scope::Place) => &self.places,
             Ok(Scope::Probe) => &self.probes,
             Ok(Scope::Row) | Err(_) => return word,
         };

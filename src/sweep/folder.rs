@@ -6,6 +6,7 @@ use super::axis::Axis;
 use super::block::JOURNAL;
 use super::finish::Tables;
 use super::layout::Layout;
+use super::measure::Scope;
 use super::picture::Picture;
 use super::plan::Plan;
 use super::request::Window;
@@ -70,6 +71,7 @@ impl Plan {
                 "most_samples": sweep.samples.map(|_| sweep.most_samples),
                 "judged": sweep.rows_judged().min(self.count()),
                 "wall_names": self.base.scene.walls.iter().map(|wall| wall.name.as_str()).collect::<Vec<_>>(),
+                "place_names": Scope::Place.places(&self.base.scene),
                 "support_names": self.base.scene.supports.iter().map(|one| one.name.as_str()).collect::<Vec<_>>(),
                 "probe_names": self.base.scene.probes.iter().map(|probe| probe.name.as_str()).collect::<Vec<_>>(),
                 "rows": self.count(),

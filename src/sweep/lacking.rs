@@ -11,7 +11,9 @@ pub(super) fn reasons(measures: &[Measure], values: &[Option<f64>], case: &Case)
     for &measure in measures {
         let columns = measure.columns(&case.scene);
         for (index, (column, value)) in columns.into_iter().zip(values.by_ref()).enumerate() {
-            if value.is_none() && measure.scope() == Scope::Support {
+            let of_support =
+                matches!(measure.scope(), Scope::Support | Scope::Place) && index < case.scene.supports.len();
+            if value.is_none() && of_support {
                 told.push(format!("no {column}: {}", reason(measure, index, case)));
             }
         }

@@ -14,6 +14,8 @@ pub enum Scope {
     Wall,
     /// Each support in two planes: a round hole, or flats around one place.
     Support,
+    /// Each support, and each wall that is no flat of one: where forces add up.
+    Place,
     /// Each probe.
     Probe,
     /// The whole row.
@@ -27,6 +29,7 @@ impl Scope {
         match self {
             Self::Wall => Some("wall"),
             Self::Support => Some("support"),
+            Self::Place => Some("place"),
             Self::Probe => Some("probe"),
             Self::Row => None,
         }
@@ -38,6 +41,10 @@ impl Scope {
         match self {
             Self::Wall => scene.walls.iter().map(|wall| wall.name.as_str()).collect(),
             Self::Support => scene.supports.iter().map(|support| support.name.as_str()).collect(),
+            Self::Place => {
+                let alone = scene.walls.iter().enumerate().filter(|(wall, _)| scene.support_of(*wall).is_none());
+                Self::Support.places(scene).into_iter().chain(alone.map(|(_, wall)| wall.name.as_str())).collect()
+            }
             Self::Probe => scene.probes.iter().map(|probe| probe.name.as_str()).collect(),
             Self::Row => Vec::new(),
         }
@@ -79,11 +86,13 @@ pub enum Measure {
     ImpulseMax,
     /// Root mean square of the impulse over episodes, N s.
     ImpulseRms,
-    /// Mean of |force| over time, N.
+    /// Mean of |force| over time, N: at a support of the normal force of all its walls.
     ForceMean,
-    /// Root mean square of the force over time, N; see [`ForceStatistics`](crate::ForceStatistics).
+    /// Root mean square of the force over time, N: at a support with its friction
+    /// ([`SupportForce`](crate::SupportForce)), at a wall by
+    /// [`ForceStatistics`](crate::ForceStatistics).
     ForceRms,
-    /// The largest mean of |force| over any stretch of `force_averaging`, N; see
+    /// The largest mean of that |force| over any stretch of `force_averaging`, N; see
     /// [`LargestForce`](crate::LargestForce).
     ForceLargest,
     /// Mean over episodes of the largest |force|, N, over those whose force is finite.
@@ -108,13 +117,6 @@ pub enum Measure {
     SlidingRate,
     /// What friction takes out of the motion per time, W.
     FrictionPower,
-    /// Mean of the normal force of the support over time, N.
-    SupportForceMean,
-    /// Root mean square of the support's force over time, N; see
-    /// [`SupportForce`](crate::SupportForce).
-    SupportForceRms,
-    /// The largest mean of the support's normal force over any stretch of `force_averaging`, N.
-    SupportForceLargest,
     /// Volume worn off the tube within the service of the case, m³, by Archard's law.
     WornVolume,
     /// Depth on the tube where it is deepest, in a sector or at a flat, m.
@@ -149,7 +151,7 @@ pub enum Measure {
 }
 
 /// Name, scope, and unit as column names write it.
-const MEASURES: [(Measure, &str, Scope, Option<&str>); 39] = [
+const MEASURES: [(Measure, &str, Scope, Option<&str>); 36] = [
     (Measure::Contacts, "contacts", Scope::Wall, None),
     (Measure::Impacts, "impacts", Scope::Wall, None),
     (Measure::ContactRate, "contact_rate", Scope::Wall, Some("per_s")),
@@ -158,9 +160,9 @@ const MEASURES: [(Measure, &str, Scope, Option<&str>); 39] = [
     (Measure::ImpulseMean, "impulse_mean", Scope::Wall, Some("N_s")),
     (Measure::ImpulseMax, "impulse_max", Scope::Wall, Some("N_s")),
     (Measure::ImpulseRms, "impulse_rms", Scope::Wall, Some("N_s")),
-    (Measure::ForceMean, "force_mean", Scope::Wall, Some("N")),
-    (Measure::ForceRms, "force_rms", Scope::Wall, Some("N")),
-    (Measure::ForceLargest, "force_largest", Scope::Wall, Some("N")),
+    (Measure::ForceMean, "force_mean", Scope::Place, Some("N")),
+    (Measure::ForceRms, "force_rms", Scope::Place, Some("N")),
+    (Measure::ForceLargest, "force_largest", Scope::Place, Some("N")),
     (Measure::PeakForceMean, "peak_force_mean", Scope::Wall, Some("N")),
     (Measure::PeakForceMax, "peak_force_max", Scope::Wall, Some("N")),
     (Measure::ImpactPower, "impact_power", Scope::Wall, Some("W")),
@@ -172,9 +174,6 @@ const MEASURES: [(Measure, &str, Scope, Option<&str>); 39] = [
     (Measure::ImpactShare, "impact_share", Scope::Support, None),
     (Measure::SlidingRate, "sliding_rate", Scope::Support, Some("m_per_s")),
     (Measure::FrictionPower, "friction_power", Scope::Support, Some("W")),
-    (Measure::SupportForceMean, "support_force_mean", Scope::Support, Some("N")),
-    (Measure::SupportForceRms, "support_force_rms", Scope::Support, Some("N")),
-    (Measure::SupportForceLargest, "support_force_largest", Scope::Support, Some("N")),
     (Measure::WornVolume, "worn_volume", Scope::Support, Some("m3")),
     (Measure::DepthDeepest, "depth_deepest", Scope::Support, Some("m")),
     (Measure::DepthOneScar, "depth_one_scar", Scope::Support, Some("m")),
@@ -292,16 +291,7 @@ impl Measure {
 
     /// True for a measure of the force over time.
     pub(super) fn sees_force(self) -> bool {
-        matches!(
-            self,
-            Self::Impulse
-                | Self::ForceMean
-                | Self::ForceRms
-                | Self::ForceLargest
-                | Self::SupportForceMean
-                | Self::SupportForceRms
-                | Self::SupportForceLargest
-        )
+        matches!(self, Self::Impulse | Self::ForceMean | Self::ForceRms | Self::ForceLargest)
     }
 
     /// True for a measure of what slides at a support.

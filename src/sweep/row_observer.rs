@@ -156,6 +156,12 @@ impl RowObserver {
                 let supports = 0..statistics.supports.len();
                 values.extend(supports.map(|index| at_support(measure, statistics, index, case)));
             }
+            Scope::Place => {
+                let supports = 0..statistics.supports.len();
+                values.extend(supports.map(|index| at_support(measure, statistics, index, case)));
+                let alone = statistics.walls.iter().enumerate().filter(|(wall, _)| scene.support_of(*wall).is_none());
+                values.extend(alone.map(|(wall, of_wall)| self.at_wall(measure, wall, of_wall)));
+            }
             Scope::Probe => {
                 let length = scene.duration - self.from;
                 let seen = self.motion.iter().flat_map(|motion| &motion.seen);
@@ -275,9 +281,9 @@ fn at_support(measure: Measure, statistics: &Statistics, index: usize, case: &Ca
             (length > 0.0).then_some(wear()?.sliding_m / length)
         }
         Measure::FrictionPower => Some(wear()?.friction_power_w),
-        Measure::SupportForceMean => Some(support.force.as_ref()?.mean_n),
-        Measure::SupportForceRms => Some(support.force.as_ref()?.rms_n),
-        Measure::SupportForceLargest => Some(support.force.as_ref()?.largest?.mean_n),
+        Measure::ForceMean => Some(support.force.as_ref()?.mean_n),
+        Measure::ForceRms => Some(support.force.as_ref()?.rms_n),
+        Measure::ForceLargest => Some(support.force.as_ref()?.largest?.mean_n),
         Measure::WornVolume => worn()?.volume_m3,
         Measure::DepthDeepest => case.depth_deepest(index, wear()?),
         Measure::DepthOneScar => worn()?.depth_one_scar_m,

@@ -18,11 +18,7 @@ use crate::study::realisations::{
 use csv::StringRecord;
 
 /// The measures whose intervals decide, and what they are called in studies of realisations.
-const JUDGED: [(Measure, Judged); 3] = [
-    (Measure::WorkRate, Judged::WorkRate),
-    (Measure::SupportForceMean, Judged::ForceMean),
-    (Measure::ForceMean, Judged::ForceMean),
-];
+const JUDGED: [(Measure, Judged); 2] = [(Measure::WorkRate, Judged::WorkRate), (Measure::ForceMean, Judged::ForceMean)];
 
 /// How many realisations the rows have whose own intervals decide.
 #[derive(Debug, Clone)]
@@ -43,13 +39,13 @@ impl UntilInterval {
         let find = |name: &str| header.iter().position(|column| column == name);
         let mut judged = Vec::new();
         for (measure, figure) in JUDGED.into_iter().filter(|(measure, _)| sweep.measures.contains(measure)) {
-            let names: Vec<(&String, PlaceKind)> = if measure == Measure::ForceMean {
-                scene.walls.iter().map(|wall| (&wall.name, PlaceKind::Wall)).collect()
-            } else {
-                scene.supports.iter().map(|support| (&support.name, PlaceKind::Support)).collect()
-            };
-            for (column, (name, kind)) in measure.columns(scene).iter().zip(names) {
-                judged.extend(find(column).map(|at| (at, ContactPlace { name: name.clone(), kind }, figure)));
+            // Supports are before walls.
+            let places = measure.scope().places(scene).into_iter().enumerate().map(|(index, name)| ContactPlace {
+                name: name.to_owned(),
+                kind: if index < scene.supports.len() { PlaceKind::Support } else { PlaceKind::Wall },
+            });
+            for (column, place) in measure.columns(scene).iter().zip(places) {
+                judged.extend(find(column).map(|at| (at, place, figure)));
             }
         }
         Some(Self { share, most, status: find("status")?, judged })

@@ -18,7 +18,7 @@ fn frequency(from: f64, to: f64, points: u64) -> Axis {
 }
 
 fn every_wall_measure() -> Vec<Measure> {
-    Measure::all().filter(|measure| matches!(measure.scope(), Scope::Wall | Scope::Probe)).collect()
+    Measure::all().filter(|measure| matches!(measure.scope(), Scope::Wall | Scope::Place | Scope::Probe)).collect()
 }
 
 /// The value of a column of a row.
@@ -28,14 +28,14 @@ fn cell(plan: &Plan, row: &signorini::sweep::Row, column: &str) -> Option<f64> {
     row.measures[index - first]
 }
 
-/// Supports of flats with random forces, and round ones with friction: work rates, forces and worn
-/// volumes over the gap are those of the runs with that gap.
+/// Supports of flats with random forces, and round ones with friction: work rates, forces of all
+/// flats together and worn volumes over the gap are those of the runs with that gap.
 #[test]
 fn the_measures_of_supports_are_those_of_the_runs() {
     for name in ["tube-lattice-bars", "tube-round-supports"] {
         let ends = [("time.end", 0.4), ("time.statistics_from", 0.1)];
         let file = CaseFile::embedded(name).unwrap();
-        let of_supports = Measure::all().filter(|measure| measure.scope() == Scope::Support);
+        let of_supports = Measure::all().filter(|measure| matches!(measure.scope(), Scope::Support | Scope::Place));
         // The lattice bars have no coefficient of wear.
         let has_law = file.case().unwrap().archard(0).is_some();
         let asked: Vec<Measure> = of_supports
@@ -69,9 +69,9 @@ fn the_measures_of_supports_are_those_of_the_runs() {
                     (format!("impact_share_{word}"), wear.impact_share),
                     (format!("sliding_rate_{word}_m_per_s"), Some(wear.sliding_m / (0.4 - 0.1))),
                     (format!("friction_power_{word}_W"), Some(wear.friction_power_w)),
-                    (format!("support_force_mean_{word}_N"), Some(force.mean_n)),
-                    (format!("support_force_rms_{word}_N"), Some(force.rms_n)),
-                    (format!("support_force_largest_{word}_N"), force.largest.map(|largest| largest.mean_n)),
+                    (format!("force_mean_{word}_N"), Some(force.mean_n)),
+                    (format!("force_rms_{word}_N"), Some(force.rms_n)),
+                    (format!("force_largest_{word}_N"), force.largest.map(|largest| largest.mean_n)),
                 ];
                 assert!(force.largest.is_some(), "{name}: rigid supports have one as well");
                 if let Some(law) = case.archard(index) {

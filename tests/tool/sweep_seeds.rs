@@ -26,7 +26,7 @@ values = [1e-4, 2e-4, 4e-4]
 [run]
 seeds = 3
 [measure]
-columns = ["work_rate", "support_force_mean", "support_force_rms"]
+columns = ["work_rate", "force_mean", "force_rms"]
 samples = "impacts"
 most_samples = 5
 [figure]
@@ -101,8 +101,8 @@ fn a_row_is_run_with_seeds_bit_for_bit() {
         for (support, word) in [("plate-1", "plate_1"), ("plate-2", "plate_2")] {
             for (name, measure, unit, column) in [
                 ("work_rate", "work_rate", "W", "work_rate_W"),
-                ("support_force_mean", "force_mean", "N", "force_mean_N"),
-                ("support_force_rms", "force_rms", "N", "force_rms_N"),
+                ("force_mean", "force_mean", "N", "force_mean_N"),
+                ("force_rms", "force_rms", "N", "force_rms_N"),
             ] {
                 for (k, realisation) in of_row.iter().enumerate() {
                     let number = (k + 1).to_string();

@@ -15,7 +15,7 @@ fn square() -> String {
 
 const GAPS: [&str; 3] = ["1e-3", "2e-3", "1e-2"];
 const SWEEP: [&str; 6] =
-    ["sweep", "square.toml", "--vary", "support.bars.gap=1e-3,2e-3,1e-2", "--measure", "work_rate,support_force_mean"];
+    ["sweep", "square.toml", "--vary", "support.bars.gap=1e-3,2e-3,1e-2", "--measure", "work_rate,force_mean"];
 
 fn folder() -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
@@ -44,7 +44,7 @@ fn a_row_is_run_until_its_interval_bit_for_bit() {
         assert_eq!((mean["seeds"].clone(), mean["status"].as_str()), (study["count"].to_string(), "ok"), "{gap}");
         let own = realisations.iter().filter(|run| run["row"] == row.to_string());
         assert_eq!(own.count().to_string(), mean["seeds"]);
-        for (measure, name, unit) in [("work_rate", "work_rate", "W"), ("force_mean", "support_force_mean", "N")] {
+        for (measure, name, unit) in [("work_rate", "work_rate", "W"), ("force_mean", "force_mean", "N")] {
             let all = study["estimates"].as_array().unwrap().iter();
             let one = all.into_iter().find(|one| one["place"] == "bars" && one["measure"] == measure).unwrap();
             let cell = |column: String| mean[&column].parse::<f64>().unwrap();
@@ -153,7 +153,7 @@ fn intervals_that_cannot_decide_are_refused_by_name() {
             "--until-interval",
             "5%",
         ],
-        &["--until-interval", "work_rate, support_force_mean, force_mean"],
+        &["--until-interval", "work_rate, force_mean"],
     );
     refused(
         &[
