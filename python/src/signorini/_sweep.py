@@ -272,7 +272,7 @@ def sweep(
     >>> def make(gap):
     ...     walls = sg.support("stop", gap, restitution=0.8)
     ...     return sg.oscillator(1.0, 0.2, 100.0, walls=walls, loads=[sg.Load.harmonic(3.0, 5.0)], duration=4.0)
-    >>> table = sg.sweep(make, sg.grid(gap=[2e-3, 4e-3, 6e-3]), "event")
+    >>> table = sg.sweep(make, sg.grid(gap=[2e-3, 4e-3, 6e-3]), "event", statistics_from=2.0)
     >>> table["gap"], table["contacts_stop-upper"] > 0
     (array([0.002, 0.004, 0.006]), array([ True,  True,  True]))
     """
