@@ -17,7 +17,7 @@ from . import _core
 from ._columns import Column, ReadOnly, TableResult, Variables, dataset, frame, read
 from ._core import Case, ResultWarning
 from ._progress import Progress
-from ._types import names, whole
+from ._types import check_given, names, whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -210,6 +210,8 @@ def sweep_case(
     for argument, value, least in zip(("settle", "keep"), periods, (0, 1), strict=True):
         if value is not None:
             whole(argument, value, least)
+    seeds, until_interval, most_seeds = asked
+    check_given({"until_interval": until_interval}, {"seeds": seeds, "most_seeds": most_seeds})
     if measures:
         names("measures", measures, "work_rate")
     axes = [(key, list(values)) for key, values in keys.items()]

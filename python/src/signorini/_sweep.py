@@ -19,7 +19,7 @@ from ._case_sweep import SweepResult, sweep_case
 from ._core import Case, ResultWarning, Scene, _cautioned, _columns, _run_many
 from ._progress import Progress
 from ._store import Store
-from ._types import whole
+from ._types import check_given, whole
 
 Table = dict[str, npt.NDArray[Any]]
 """Columns of equal length, by name."""
@@ -355,6 +355,7 @@ def _options(
 ) -> _Options:
     if threads is not None:
         whole("threads", threads, 1)
+    check_given({"step": step, "statistics_from": statistics_from}, {})
     return scheme, step, statistics_from, judge, threads or os.cpu_count() or 1
 
 

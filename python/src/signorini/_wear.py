@@ -13,7 +13,7 @@ from ._columns import Column, ReadOnly, Variables, columns, dataset, frame
 from ._core import Case, ResultWarning
 from ._progress import Progress
 from ._realisations import Realisations, made, of_case, refuted, warn
-from ._types import whole
+from ._types import check_given, whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -263,6 +263,8 @@ def wear(
     0.0002
     """
     case, within = of_case(case, "wear"), (until_interval, most_seeds, most_time)
+    numbers = {"years": years, "until_interval": until_interval, "most_time": most_time, "step": step}
+    check_given(numbers, {"most_seeds": most_seeds})
     if histories is not None:
         whole("histories", histories, 1)
     with Progress(0, progress) as runs, Progress(100, progress, of="per cent of the years") as shown:
