@@ -11,6 +11,7 @@ import signorini as sg
 
 CASE = sg.load("rigid-walls-sine", set={"time.end": 0.5})
 SCENE = CASE.scene
+TUBE = sg.load("tube-in-cross-flow")
 AMPLITUDE = ["load.1.harmonic.amplitude"]
 HARMONIC = "load.1.harmonic.frequency"
 
@@ -91,6 +92,17 @@ TYPES: list[tuple[Callable[[], object], str]] = [
     (lambda: sg.sweep(CASE, {HARMONIC: [5.0]}, measures="contacts"), "measures is 'contacts'; expected a sequence"),
     (lambda: beam(elements=2.5), "elements is 2.5; expected a whole number"),
     (lambda: sg.run_many(SCENE), "scenes is <Scene"),  # type: ignore[arg-type]
+    (lambda: sg.wear(TUBE, years="40"), "^years is '40'; expected a number$"),  # type: ignore[arg-type]
+    (lambda: sg.wear(TUBE, until_interval="5%"), "^until_interval is '5%'; expected a number"),  # type: ignore[arg-type]
+    (lambda: sg.wear(TUBE, most_time="9"), "^most_time is '9'; expected a number"),  # type: ignore[arg-type]
+    (lambda: sg.wear(TUBE, step="1e-4"), "^step is '1e-4'; expected a number"),  # type: ignore[arg-type]
+    (lambda: sg.wear(TUBE, most_seeds=9.5), "^most_seeds is 9.5; expected a whole number"),  # type: ignore[arg-type]
+    (lambda: sg.realisations(TUBE, seeds="4"), "^seeds is '4'; expected a whole number, 1 or more"),  # type: ignore[arg-type]
+    (lambda: sg.realisations(TUBE, accuracy="5%"), "^accuracy is '5%'; expected a number"),  # type: ignore[arg-type]
+    (lambda: sg.sweep(CASE, {HARMONIC: [5.0]}, measures=["contacts"], seeds="4"), "^seeds is '4'"),  # type: ignore[call-overload]
+    (lambda: sg.sweep(starting, [], "event", step="1"), "^step is '1'; expected a number"),  # type: ignore[call-overload]
+    (lambda: sg.run_many([SCENE], step="1e-3"), "^step is '1e-3'; expected a number"),  # type: ignore[arg-type]
+    (lambda: sg.compare(CASE, ["event"], sample="1e-3"), "^sample is '1e-3'; expected a number"),  # type: ignore[arg-type]
     (lambda: sg.grid(gap=3.0), "gap is 3.0; expected a sequence"),  # type: ignore[arg-type]
 ]
 
@@ -141,7 +153,12 @@ def test_a_hole_has_the_radius_of_what_wears_in_it() -> None:
 STEEL: dict[str, Any] = {"youngs_modulus": 2e11, "density": 7850.0, "outer_diameter": 0.02}
 
 MISSPELT: list[tuple[Callable[[], object], str]] = [
-    (lambda: sg.oscillator(1.0, 0.2, 100.0, planes=2), "^oscillator has no argument planes; expected mass, damping, "),  # type: ignore[call-arg]
+    (lambda: sg.oscillator(1.0, 0.2, 100.0, plane=2), "^oscillator has no argument plane; expected mass, damping, "),  # type: ignore[call-arg]
+    (lambda: sg.oscillator(1.0, 0.2, 100.0, planes=2), "^oscillator has no argument planes; expected sg.tube, or sg.case"),  # type: ignore[call-arg]
+    (lambda: pair(planes=2), "^chain has no argument planes; expected sg.tube, or sg.case"),
+    (lambda: beam(planes=2), "^beam has no argument planes; expected sg.tube, or sg.case"),
+    (lambda: sg.matrices([[1.0]], None, [[1.0]], planes=2), "^matrices has no argument planes; expected sg.tube"),  # type: ignore[call-arg]
+    (lambda: sg.modal([1.0], {"tip": [1.0]}, planes=2), "^modal has no argument planes; expected sg.tube"),  # type: ignore[call-arg]
     (lambda: sg.oscillator(1.0, 0.2, 100.0, wall=[]), "^oscillator has no argument wall; did you mean walls"),  # type: ignore[call-arg]
     (lambda: pair(ground=(1.0, 0.0)), "^chain has no argument ground; did you mean grounds"),
     (lambda: beam(inner_diametre=0.005), "^beam has no argument inner_diametre; did you mean inner_diameter"),

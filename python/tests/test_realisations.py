@@ -1,8 +1,10 @@
 """Means over realisations: those of the tool, and of runs with raised seeds."""
 
+import copy
 import csv
 import json
 import math
+import pickle
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -86,6 +88,48 @@ def test_numbers_are_those_of_the_tool(three: sg.Realisations, tool: Callable[..
     assert [told.refined for told in contacts.refinements] == ["half the step", "24 modes"]
     # All three were run again, so that the mean of those is that of the study.
     assert {told.own for told in contacts.refinements} == {contacts.value}
+
+
+def test_the_measures_of_a_place_are_attributes_as_well(three: sg.Realisations) -> None:
+    means = three.supports["plate-1"]
+    assert isinstance(means, sg.PlaceMeans) and means.work_rate is means["work_rate"]
+    # Every measure of the engine is known to type checkers and editors.
+    assert set(means) <= set(sg.PlaceMeans.__annotations__) and set(means) <= set(dir(means))
+    with pytest.raises(AttributeError, match="no measure work; there are force_mean, .*work_rate.*worn_volume"):
+        means.work  # type: ignore[attr-defined]  # noqa: B018
+    with pytest.raises(KeyError, match="no measure work; there are force_mean, "):
+        means["work"]
+    with pytest.raises(TypeError, match="this PlaceMeans cannot be changed"):
+        means.work_rate = means.force_mean
+    assert not hasattr(means, "__array__") and means.get("work") is None
+    for other in (pickle.loads(pickle.dumps(means)), copy.copy(means), copy.deepcopy(means)):
+        assert type(other) is sg.PlaceMeans and other == means and other.work_rate == means.work_rate
+    assert repr(means) == repr(dict(means))
+    stop = sg.case({
+        "system": {"oscillator": {"mass": 1.0, "damping": 2.0, "stiffness": 400.0}},
+        "wall": [{"name": "stop", "side": "upper", "position": 2e-3, "restitution": 0.5}],
+        "load": [{"random": {"rms": 3.0, "from": 1.0, "to": 20.0}}],
+        "time": {"end": 2.0, "step": 1e-3},
+    })  # fmt: skip
+    study = sg.realisations(stop, seeds=2, verdict=False)
+    assert study.walls["stop"].impact_power is study.walls["stop"]["impact_power"]
+    assert set(study.walls["stop"]) <= set(sg.PlaceMeans.__annotations__) and study.wear == {}
+
+
+def test_wear_is_that_of_runs_with_means_in_place_of_numbers() -> None:
+    wearing: dict[str, Any] = {"wear.support_coefficient": 3e-14}
+    study = sg.realisations(tube(**wearing), seeds=2, verdict=False)
+    runs = [tube(**wearing, **{f"load.{i}.random.seed": 1 + k for i in (1, 2)}).run() for k in range(2)]
+    assert list(study.wear) == list(runs[0].wear) == ["plate-1", "plate-2"]
+    for name, worn in study.wear.items():
+        assert worn.name == name and worn.volume is study.supports[name].worn_volume
+        for quantity in ("volume", "support_volume", "depth_one_scar", "depth_all_round"):
+            mean = getattr(worn, quantity)
+            # A sum of two numbers.
+            assert mean.value == pytest.approx(np.mean([getattr(run.wear[name], quantity) for run in runs]), rel=1e-14)
+            assert mean.kind == "seeds"
+        assert worn.depth_deepest is study.supports[name].depth_deepest
+    assert pickle.loads(pickle.dumps(study)).wear == study.wear
 
 
 def test_an_interval_takes_as_many_as_it_takes_the_tool(tool: Callable[..., Path]) -> None:

@@ -162,6 +162,40 @@ def test_curves_have_their_band_and_the_limit(three: sg.WearStudy) -> None:
         three.plot("depth")
 
 
+def test_a_dataset_has_years_supports_and_histories_as_dimensions(three: sg.WearStudy) -> None:
+    data = three.to_xarray()
+    assert data["gap_m"].dims == ("year", "support")
+    assert data["history_gap_m"].dims == ("year", "history", "support")
+    assert data["support"].values.tolist() == ["plate-1", "plate-2"] and data["history"].values.tolist() == [1, 2, 3]
+    of_tables = {*three.years, *(f"history_{name}" for name in three.history)}
+    assert set(data) == {name for name in of_tables if name.split("_")[-1] not in ("year", "place", "history")}
+    for name in set(three.years) - {"year", "place"}:
+        for year, place, value in zip(three.years["year"], three.years["place"], three.years[name], strict=True):
+            np.testing.assert_equal(float(data[name].sel(year=year, support=place)), value)
+    for row in range(len(three.history["year"])):
+        at = {key: three.history[column][row] for key, column in (("year", "year"), ("support", "place"))}
+        for name in ("gap_m", "work_J", "shift_y_m"):
+            own = data[f"history_{name}"].sel(history=three.history["history"][row], **at)
+            assert float(own) == three.history[name][row]
+
+
+def test_years_take_the_place_of_a_service() -> None:
+    tables: dict[str, Any] = {
+        "system": {"planes": 2, "oscillator": {"mass": 1.0, "damping": 6.0, "stiffness": 1000.0}},
+        "support": [sg.hole("hole", 2e-4, restitution=0.5, friction=0.2, width=25e-3, radius=9.5e-3)],
+        "load": [sg.Load.random(rms=3.0, band=(1.0, 40.0), seed=1, direction="both")],
+        "time": {"end": 0.5, "step": 1e-4, "statistics_from": 0.1},
+    }
+    case = sg.case({**tables, "wear": sg.Archard(1e-12)})
+    study = sg.wear(case, years=0.01, histories=2)
+    served = sg.wear(sg.case({**tables, "wear": sg.Archard(1e-12, years=0.01)}), histories=2)
+    for name, column in served.years.items():
+        np.testing.assert_array_equal(study.years[name], column)
+    assert case.run().wear == {} and sg.realisations(case, seeds=2, verdict=False).wear == {}
+    with pytest.raises(ValueError, match=r"years is left out; expected a number above 0, or service = .* in \[wear\]"):
+        sg.wear(case, histories=2)
+
+
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
@@ -181,7 +215,7 @@ def test_what_makes_no_sense_is_refused(asked: dict[str, Any], words: str) -> No
 
 
 def test_what_does_not_wear_is_refused(scene: sg.Scene) -> None:
-    with pytest.raises(ValueError, match="expected a case with supports, and coefficient and service"):
+    with pytest.raises(ValueError, match="expected a case with supports, and a coefficient in"):
         sg.wear(sg.load("rigid-walls-sine"))
     with pytest.raises(TypeError, match="expected a Case"):
         sg.wear(scene)  # type: ignore[arg-type]

@@ -204,9 +204,9 @@ pub(super) const LISTED: &[KeyEntry] = &[
         above 0, at most `radius`: the thickness of the tube's wall, of which `limit` in `[wear]` is a \
         share, and which wear goes through", "on a beam; without `radius`"]),
     entry("support.coefficient", Number, "per_Pa", ["that of `[wear]`", "a number above 0: that of \
-        [wear] for this support", "without `service` in `[wear]`"]),
+        [wear] for this support", ""]),
     entry("support.support_coefficient", Number, "per_Pa", ["that of `[wear]`", "a number above 0: \
-        that of [wear] for this support", "without `service` in `[wear]`"]),
+        that of [wear] for this support", ""]),
     entry("support.growth", Word, "", ["`\"even\"` of a hole; gaps of flats stay", "\"even\" or \
         \"shifted\" of a hole, \"flats\" of flats: what `signorini wear` does to the gaps",
         OTHER_WORDS]),
@@ -223,14 +223,15 @@ pub(super) const LISTED: &[KeyEntry] = &[
     entry("wear", Table, "", ["no worn volumes", "see below", "without `[[support]]` and \
         `[[slider]]`"]),
     entry("wear.coefficient", Number, "per_Pa", ["no volume of the tube", "a number above 0: the \
-        wear coefficient of the tube, 1/Pa = m^2/N", "without `service`"]),
+        wear coefficient of the tube, 1/Pa = m^2/N", ""]),
     entry("wear.support_coefficient", Number, "per_Pa", ["no volume of supports", "a number above \
-        0: that of the supports", "without `service`"]),
-    entry("wear.service", Number, "s", ["required beside a coefficient", "a number above 0: the \
+        0: that of the supports", ""]),
+    entry("wear.service", Number, "s", ["no worn volumes; `wear` needs `--years`", "a number above 0: the \
         time for which worn volumes and depths are told", "without a coefficient"]),
     entry("wear.limit", Number, "", ["no limit", "a number above 0 and at most 1: the depth up to \
         which the tube may wear, as a share of its wall", "where no wall is known: on other systems than \
-        a beam without `wall` of each support with a radius; without `service`"]),
+        a beam without `wall` of each support with a radius; without a support that has a `width`; \
+        without a coefficient"]),
     entry("wear.sectors", Number, "", ["12", "a whole number from 1 to 3600: equal parts of the \
         circle around each support", ""]),
     entry("load", Tables, "", ["no loads", "any number of them, which add up; exactly one kind in \

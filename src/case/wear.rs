@@ -10,7 +10,6 @@ use crate::scene::Scene;
 use crate::statistics::WearStatistics;
 use crate::study::wear_history::{HISTORIES, WearingSupport, YEAR};
 use crate::wear::{Archard, Bearing, Growth, Opening, SCAR, Scar};
-use std::ops::Range;
 use toml::Spanned;
 
 /// The table `[wear]`.
@@ -31,21 +30,7 @@ pub struct WearOptions {
 impl Builder<'_> {
     /// The table `[wear]` and its number of sectors; all supports have been read.
     pub fn wear(&mut self, wear: Option<&Section<'_>>) -> Result<(WearOptions, usize)> {
-        let own = self
-            .written
-            .supports
-            .iter()
-            .find(|support| support.wear.coefficient.is_some() || support.wear.support_coefficient.is_some());
-        let own = own.map(|support| support.name.clone());
-        let Some(wear) = wear else {
-            return match own.and_then(|name| self.coefficient_of(&name).map(|at| (name, at))) {
-                Some((name, at)) => {
-                    let title = format!("support {name:?} has a wear coefficient, and there is no service");
-                    Err(self.source.error(at, &title, SERVICE))
-                }
-                None => Ok((WearOptions::default(), TimeOptions::SECTORS)),
-            };
-        };
+        let Some(wear) = wear else { return Ok((WearOptions::default(), TimeOptions::SECTORS)) };
         if self.written.supports.is_empty() {
             let help = "expected one [[support]] or [[slider]], or more, beside it: only at these something slides";
             return Err(self.source.error(wear.span.clone(), "`wear` without a support", help));
@@ -56,20 +41,20 @@ impl Builder<'_> {
             service: self.above_0("wear", "service", "s", wear)?,
             limit: self.limit(wear)?,
         };
-        let coefficient = wear.span_of("coefficient").or(wear.span_of("support_coefficient"));
-        match (coefficient, wear.span_of("service")) {
-            (Some(at), None) => Err(self.source.error(at, "`wear` has a coefficient and no service", SERVICE)),
-            (None, Some(at)) if own.is_none() => {
-                let help = "expected coefficient beside it, in 1/Pa: volume = coefficient x work rate x service";
-                Err(self.source.error(at, "`wear` has a service and no coefficient", help))
+        let sectors = self.sectors(wear.number("sectors"))?;
+        let own = self.written.supports.iter().any(|support| support.wear.has_coefficient());
+        if !own && options.coefficient.or(options.support_coefficient).is_none() {
+            for (key, title) in [
+                ("service", "`wear` has a service and no coefficient"),
+                ("limit", "`wear` has a limit and no coefficient"),
+            ] {
+                if let Some(at) = wear.span_of(key) {
+                    let help = "expected coefficient beside it, in 1/Pa: volume = coefficient x work rate x service";
+                    return Err(self.source.error(at, title, help));
+                }
             }
-            _ if own.is_some() && options.service.is_none() => Err(self.source.error(
-                wear.span.clone(),
-                "`wear` has no service, and a support has a coefficient",
-                SERVICE,
-            )),
-            _ => Ok((options, self.sectors(wear.number("sectors"))?)),
         }
+        Ok((options, sectors))
     }
 
     /// The depth up to which the tube may wear, m.
@@ -99,8 +84,9 @@ impl Builder<'_> {
             let help = "expected wall beside its radius, in m: the limit is a share of it";
             return Err(self.source.error(limit.span(), &title, help));
         }
-        if wear.get("service").is_none() {
-            return Err(self.source.error(limit.span(), "`wear` has a limit and no service", SERVICE));
+        if self.written.supports.iter().all(|support| support.wear.scar.is_none()) {
+            let title = "`wear.limit` without a support that has a width";
+            return Err(self.source.error(limit.span(), title, &format!("expected {SCAR}")));
         }
         match *limit.get_ref() {
             share if share > 0.0 && share <= 1.0 => Ok(Some(share * wall)),
@@ -112,23 +98,22 @@ impl Builder<'_> {
         let Some(value) = sectors else { return Ok(TimeOptions::SECTORS) };
         self.whole_number("sectors", &value, TimeOptions::MOST_SECTORS)
     }
-
-    /// The position of the coefficient of the support `name`, if it has one.
-    fn coefficient_of(&self, name: &str) -> Option<Range<usize>> {
-        let subject = crate::error::Subject::support(name).part("coefficient");
-        self.positions.iter().find(|(known, _)| *known == subject).map(|(_, at)| at.clone())
-    }
 }
 
-/// Help for a missing service.
-const SERVICE: &str =
-    "expected service = a number above 0, in s, in [wear]: volume = coefficient x work rate x service";
+/// What takes the place of years that are left out.
+const SERVICE: &str = "a number above 0, or service = a number above 0, in s, in [wear]";
 
 impl Case {
     /// The law of wear of support number `index` of the scene; `None` where the case has no
-    /// coefficient for it.
+    /// coefficient for it, or no service.
     #[must_use]
     pub fn archard(&self, index: usize) -> Option<Archard> {
+        self.archard_within(self.wear.service?, index)
+    }
+
+    /// The law of wear of support number `index` within `service` seconds; `None` where the case
+    /// has no coefficient for it.
+    fn archard_within(&self, service: f64, index: usize) -> Option<Archard> {
         let wear = self.written.supports.get(index)?.wear;
         let coefficient = wear.coefficient.or(self.wear.coefficient);
         let support_coefficient = wear.support_coefficient.or(self.wear.support_coefficient);
@@ -136,7 +121,7 @@ impl Case {
         let hole = self.scene.supports.get(index)?.hole(&self.scene.walls);
         let bearing = hole.map_or(Bearing::Flat, |hole| Bearing::Hole { gap: hole.gap });
         let scar = wear.scar.map(|(width, radius)| Scar { width, radius, bearing });
-        Some(Archard { coefficient, support_coefficient, service: self.wear.service?, scar })
+        Some(Archard { coefficient, support_coefficient, service, scar })
     }
 
     /// The depths worn off the tube within the service at support number `index`, m, at the work
@@ -172,7 +157,8 @@ impl Case {
             let written = self.written.supports.get(index);
             // A slider has no gap that could grow.
             let slides = written.is_some_and(|written| written.shape == SupportShape::Slider);
-            let Some(law) = self.archard(index) else { continue };
+            // Work done takes the place of a rate times a service.
+            let Some(law) = self.archard_within(1.0, index) else { continue };
             if slides {
                 sliders = true;
                 continue;
@@ -190,7 +176,7 @@ impl Case {
             if sliders {
                 return Err(Error::invalid(case, "one in which only sliders wear", SCAR));
             }
-            let expected = "a case with supports, and coefficient and service in [wear]: depths follow from these";
+            let expected = "a case with supports, and a coefficient in [wear]: depths follow from these";
             return Err(Error::invalid(case, "one in which nothing wears", expected));
         }
         Ok(wearing)
@@ -228,6 +214,13 @@ impl Case {
         }
     }
 
+    /// True if a support has a wear coefficient and the case no service: no run tells a worn
+    /// volume.
+    pub(crate) fn lacks_service(&self) -> bool {
+        let law = |index| self.archard_within(1.0, index).is_some();
+        self.wear.service.is_none() && (0..self.scene.supports.len()).any(law)
+    }
+
     /// The time in service, s: `years`, or that of the case.
     ///
     /// # Errors
@@ -236,7 +229,7 @@ impl Case {
         match (years, self.wear.service) {
             (Some(years), _) if years.is_finite() && years > 0.0 => Ok(years * YEAR),
             (Some(years), _) => Err(Error::invalid("years", years, "a number above 0")),
-            (None, service) => service.ok_or_else(|| Error::invalid("years", "left out", "a number above 0")),
+            (None, service) => service.ok_or_else(|| Error::invalid("years", "left out", SERVICE)),
         }
     }
 }

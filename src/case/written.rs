@@ -181,6 +181,13 @@ pub struct WearData {
     pub support_coefficient: Option<f64>,
 }
 
+impl WearData {
+    /// True if the support has a wear coefficient of its own, of tube or support.
+    pub(super) fn has_coefficient(&self) -> bool {
+        self.coefficient.or(self.support_coefficient).is_some()
+    }
+}
+
 /// A file that a case read.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]

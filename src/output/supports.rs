@@ -159,6 +159,10 @@ pub(super) fn figures(x: f64) -> String {
     }
 }
 
+/// Said of a case with a wear coefficient whose time in service is given to studies of wear alone.
+pub const NO_SERVICE: &str = "without service in [wear] there are no worn volumes and depths; `signorini wear --years` \
+                              follows them over so many years";
+
 /// The remarks below the table of supports, a sentence each.
 #[must_use]
 pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
@@ -197,6 +201,7 @@ pub fn remarks(case: &Case, run: &Run) -> Vec<String> {
             );
         }
     }
+    remarks.extend(case.lacks_service().then(|| NO_SERVICE.to_owned()));
     remarks
 }
 

@@ -13,11 +13,12 @@ use serde_json::{Value, json};
 
 /// A quantity: its name, its unit, its heading in the table, and the number of its units in one
 /// unit of the table.
-const QUANTITIES: [(&str, &str, &str, f64); 4] = [
+const QUANTITIES: [(&str, &str, &str, f64); 5] = [
     ("worn_volume", "m³", "worn (mm³)", 1e9),
     ("depth_deepest", "m", "deepest (mm)", 1e3),
     ("depth_one_scar", "m", "one scar (mm)", 1e3),
     ("depth_all_round", "m", "all round (mm)", 1e3),
+    ("support_worn_volume", "m³", "support worn (mm³)", 1e9),
 ];
 
 /// Mean, standard deviation and half width; `None` where a realisation has no value.
@@ -40,6 +41,7 @@ fn means_at(case: &Case, index: usize, wear: &[&WearStatistics]) -> Option<[Mean
         deepest.map(|found| (found.value, found.deviation, found.half_width_95)),
         mean(|worn| worn.depth_one_scar_m),
         mean(|worn| worn.depth_all_round_m),
+        mean(|worn| worn.support_volume_m3),
     ])
 }
 
@@ -80,7 +82,7 @@ pub fn warnings(case: &Case, study: &Realisations) -> Vec<String> {
     }
     let all = means(case, study);
     let of = |(index, support): (usize, &Support)| {
-        let (_, [volume, _, scar, round]) = *all.iter().find(|(name, _)| *name == support.name)?;
+        let (_, [volume, _, scar, round, _]) = *all.iter().find(|(name, _)| *name == support.name)?;
         let [volume_m3, depth_one_scar_m, depth_all_round_m] =
             [volume, scar, round].map(|mean| mean.map(|(mean, ..)| mean));
         let worn = Worn { volume_m3, depth_one_scar_m, depth_all_round_m, support_volume_m3: None };

@@ -677,6 +677,37 @@ fn a_wall_without_a_radius_or_thicker_than_it_and_a_limit_without_a_wall_are_ref
     }
 }
 
+#[test]
+fn years_take_the_place_of_a_service() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    fs::write(path.join("with.toml"), HOLE.replace("service = 3e10", "service = 1e7")).unwrap();
+    fs::write(path.join("without.toml"), HOLE.replace("service = 3e10\n", "")).unwrap();
+    for name in ["with", "without"] {
+        let file = format!("{name}.toml");
+        said(path, &["wear", &file, "--years", "0.01", "--histories", "2", "--no-report", "--out", name], 0);
+    }
+    for file in ["history.csv", "years.csv", "sector-means.csv"] {
+        let [with, without] = ["with", "without"].map(|folder| fs::read(path.join(folder).join(file)).unwrap());
+        assert!(with == without, "{file}");
+    }
+    said(path, &["report", "without"], 0);
+    said(path, &["wear", "without.toml", "--years", "0.02", "--histories", "2", "--out", "without"], 0);
+    let (_, err) = said(path, &["wear", "without.toml", "--histories", "2"], 2);
+    assert!(err.contains("--years is left out; expected a number above 0, or service = "), "{err}");
+    // A run says what it has not, and so does explain.
+    let words = "without service in [wear] there are no worn volumes and depths";
+    let (_, err) = said(path, &["run", "without.toml", "--out", "r"], 0);
+    assert!(err.contains(words) && err.contains("wear --years"), "{err}");
+    let (out, _) = said(path, &["explain", "without.toml"], 0);
+    assert!(out.contains(words), "{out}");
+    // The support has a coefficient of its own, and there is no table [wear].
+    let own = HOLE.replace("[wear]\ncoefficient = 1e-10\nservice = 3e10\n", "");
+    fs::write(path.join("own.toml"), own.replace("radius = 9.5e-3", "radius = 9.5e-3\ncoefficient = 1e-10")).unwrap();
+    said(path, &["wear", "own.toml", "--years", "0.01", "--histories", "2", "--no-report", "--out", "own"], 0);
+    assert!(fs::read(path.join("own/years.csv")).unwrap() == fs::read(path.join("with/years.csv")).unwrap());
+}
+
 /// At steps of 20 ms the normal of the hole turns by radians in a step, so that forces are wrong.
 #[test]
 fn notes_that_limit_the_use_of_the_windows_are_told_with_their_number() {

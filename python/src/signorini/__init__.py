@@ -47,7 +47,7 @@ from ._orbit import Orbit, orbit
 from ._realisations import Realisations, realisations
 from ._report import report
 from ._studies import Chart, Stability, chart, stability
-from ._supports import ErrorPart, ErrorParts, Estimate, Refinement, SupportStatistics, Wear
+from ._supports import ErrorPart, ErrorParts, Estimate, PlaceMeans, Refinement, SupportStatistics, Wear
 from ._sweep import Table, grid, run_many, sweep
 from ._tube import Archard, Support, flats, hole, slider, tube
 from ._turbulence import Turbulence, turbulence
@@ -75,6 +75,7 @@ __all__ = [
     "MethodRealisations",
     "NotSolvedError",
     "Orbit",
+    "PlaceMeans",
     "Rayleigh",
     "Realisations",
     "Refinement",

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
-from ._columns import Column, ReadOnly, TableResult, frame, read
+from ._columns import Column, ReadOnly, TableResult, Variables, dataset, frame, read
 from ._core import Case, ResultWarning
 from ._progress import Progress
-from ._types import names, whole
+from ._types import check_given, names, whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -124,33 +124,30 @@ class SweepResult(TableResult):
         >>> table.to_xarray()["contacts"].dims
         ('restitution', 'wall')
         """
-        try:
-            import xarray as xr
-        except ImportError:
-            raise ImportError("to_xarray needs xarray: pip install xarray") from None
         if self.design != "grid":
             how = {"one-at-a-time": "varied one at a time", "random": "drawn at random"}[self.design]
             raise ValueError(f"to_xarray of keys {how}; expected a sweep over a grid, or to_pandas")
         # The rows are in the order of the grid, the last key fastest.
         axes = {key: list(dict.fromkeys(self[key].tolist())) for key in self.keys_varied}
         shape = [len(values) for values in axes.values()]
-        data = xr.Dataset(coords=axes)
-        for name, dimensions, values, coordinates in self._placed(self.columns):
-            own = values.reshape([*shape, *values.shape[1:]])
-            data = data.assign_coords(coordinates).assign({name: ([*axes, *dimensions], own)})
+        coordinates: dict[str, Any] = dict(axes)
+        variables: Variables = {}
+        for name, dimensions, values, own in self._placed(self.columns):
+            coordinates |= own
+            variables[name] = [*axes, *dimensions], values.reshape([*shape, *values.shape[1:]])
         if not self.realisations:
-            return data
+            return dataset(coordinates, variables)
         row, number = self.realisations["row"], self.realisations["realisation"]
         most = int(number.max())
-        data = data.assign_coords(realisation=np.arange(1, most + 1))
-        for name, dimensions, values, coordinates in self._placed(self.realisations):
+        coordinates["realisation"] = np.arange(1, most + 1)
+        for name, dimensions, values, own in self._placed(self.realisations):
+            coordinates |= own
             # What is not there is NaN.
             padded = np.full((len(self["row"]), most, *values.shape[1:]), np.nan)
             padded[row, number - 1] = values
-            own = padded.reshape([*shape, most, *values.shape[1:]])
-            variable = ([*axes, "realisation", *dimensions], own)
-            data = data.assign_coords(coordinates).assign({f"realisations_{name}": variable})
-        return data
+            of_row = padded.reshape([*shape, most, *values.shape[1:]])
+            variables[f"realisations_{name}"] = [*axes, "realisation", *dimensions], of_row
+        return dataset(coordinates, variables)
 
     def _placed(self, columns: Mapping[str, Column]) -> Iterator[Placed]:
         """The columns of numbers, those of a measure beside one another by their places."""
@@ -213,6 +210,8 @@ def sweep_case(
     for argument, value, least in zip(("settle", "keep"), periods, (0, 1), strict=True):
         if value is not None:
             whole(argument, value, least)
+    seeds, until_interval, most_seeds = asked
+    check_given({"until_interval": until_interval}, {"seeds": seeds, "most_seeds": most_seeds})
     if measures:
         names("measures", measures, "work_rate")
     axes = [(key, list(values)) for key, values in keys.items()]

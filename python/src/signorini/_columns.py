@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
 
 Column = npt.NDArray[Any]
 
@@ -82,6 +83,19 @@ def read(path: Path) -> dict[str, Column]:
     with path.open(encoding="utf-8", newline="") as file:
         header, *rows = csv.reader(file)
     return columns(header, rows)
+
+
+Variables = dict[str, tuple[Sequence[str], Column]]
+"""The variables of a dataset: the dimensions and the values of each."""
+
+
+def dataset(coordinates: Mapping[str, Sequence[Any] | Column], variables: Variables) -> xr.Dataset:
+    """An xarray Dataset; an `ImportError` without xarray."""
+    try:
+        import xarray as xr
+    except ImportError:
+        raise ImportError("to_xarray needs xarray: pip install xarray") from None
+    return xr.Dataset(variables, coordinates)
 
 
 def frame(table: Mapping[str, Column] | Sequence[Mapping[str, Any]]) -> pd.DataFrame:

@@ -14,7 +14,7 @@ from ._progress import Progress
 from ._realisations import Means, Realisations, by_place, made, of_case
 from ._studies import columns_of
 from ._sweep import Table, warn_of_runs
-from ._types import names
+from ._types import check_given, names
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 class Differences:
     """What the means of a method differ by from those of another, over the same realisations.
 
-    ``supports`` and ``walls`` map a name to the `Estimate` of the difference of each measure there,
-    in its unit; a difference within its half width is not distinguished from none.
+    ``supports`` and ``walls`` map a name to the `PlaceMeans` there, of differences of the measures
+    in their units; a difference within its half width is not distinguished from none.
     """
 
     supports: Means
@@ -190,6 +190,7 @@ def compare(
     ['moreau-jean', 'located', 'event']
     """
     methods = names("methods", methods, "moreau-jean")
+    check_given({"step": step, "sample": sample, "statistics_from": statistics_from}, {"seeds": seeds})
     if seeds is not None:
         scene = of_case(scene, "compare with seeds")
     with Progress(0, progress) as shown:

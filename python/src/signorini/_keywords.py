@@ -15,7 +15,8 @@ R = TypeVar("R")
 def keywords(options: type | None = None) -> Callable[[Callable[P, R]], Callable[P, R]]:
     """Names the function in the refusal of a keyword that it does not have, and the one that was meant.
 
-    ``options`` is the TypedDict of its further keywords.
+    ``options`` is the TypedDict of its further keywords, of a function that makes a scene in one
+    plane.
     """
 
     def decorate(function: Callable[P, R]) -> Callable[P, R]:
@@ -26,6 +27,9 @@ def keywords(options: type | None = None) -> Callable[[Callable[P, R]], Callable
         @functools.wraps(function)
         def checked(*args: P.args, **kwargs: P.kwargs) -> R:
             for name in kwargs:
+                if name == "planes" and options is not None:
+                    expected = "sg.tube, or sg.case of the tables of a case file, for a structure in two planes"
+                    raise TypeError(f"{function.__name__} has no argument planes; expected {expected}")
                 if name not in known:
                     near = difflib.get_close_matches(name, known, 1)
                     meant = f"; did you mean {near[0]}?" if near else ""

@@ -12,26 +12,25 @@ from . import _core
 from ._columns import Column, ReadOnly, columns, frame
 from ._core import AccuracyWarning, Case, RefutedError, ResultWarning
 from ._progress import Progress
-from ._supports import ErrorPart, ErrorParts, Estimate, Refinement
+from ._supports import ErrorPart, ErrorParts, Estimate, PlaceMeans, Refinement, Wear
+from ._types import check_given
 
 if TYPE_CHECKING:
     import pandas as pd
 
 
-Means = Mapping[str, Mapping[str, Estimate]]
+Means = Mapping[str, PlaceMeans]
 
 
 @dataclass(frozen=True, eq=False)
 class Realisations:
     """Means over ``count`` realisations of the random loads.
 
-    ``supports`` and ``walls`` map a name to the `Estimate` of each measure there:
-    ``study.supports["plate-1"]["work_rate"]`` is a mean work rate, W. The measures are
-    ``force_mean``, ``force_mean_y``, ``force_mean_z``, ``force_rms`` and ``force_largest`` (N),
-    ``work_rate`` and ``friction_power`` (W), and by the law of wear of the case, within its service,
-    ``worn_volume`` (m³), ``depth_deepest``, ``depth_one_scar`` and ``depth_all_round`` (m), as far
-    as a place has them. ``depth_deepest`` is the largest of the means of all sectors, or flats,
-    with what taking the largest adds in its half width. ``table`` has the columns
+    ``supports`` and ``walls`` map a name to the `PlaceMeans` there, an `Estimate` of each measure:
+    ``study.supports["plate-1"].work_rate`` is a mean work rate, W. ``wear`` maps the name of each
+    support for which the case has a law of wear to the `Wear` there in service, of the same
+    estimates. ``depth_deepest`` is the largest of the means of all sectors, or flats, with what
+    taking the largest adds in its half width. ``table`` has the columns
     of ``realisations.csv``: a row for each realisation and place. ``sectors`` has those of
     ``sector-means.csv``, where around each support the tube wears in the mean: ``place``, ``part``
     (``sector``, or ``flat``), ``from_deg``, ``to_deg``, ``depth_m`` within the service, by the law
@@ -44,6 +43,7 @@ class Realisations:
     count: int
     supports: Means
     walls: Means
+    wear: Mapping[str, Wear[Estimate]]
     table: Mapping[str, Column]
     sectors: Mapping[str, Column]
     accuracy: Mapping[str, Any] | None
@@ -123,8 +123,15 @@ def by_place(estimates: Iterable[dict[str, Any]], seeds: bool) -> tuple[Means, M
     places: dict[str, dict[str, dict[str, Estimate]]] = {"support": {}, "wall": {}}
     for one in estimates:
         places[one["kind"]].setdefault(one["place"], {})[one["measure"]] = _estimate(one, seeds)
-    supports, walls = (ReadOnly({name: ReadOnly(own) for name, own in of.items()}) for of in places.values())
+    supports, walls = (ReadOnly({name: PlaceMeans(own) for name, own in of.items()}) for of in places.values())
     return supports, walls
+
+
+def _wear(supports: Means) -> Mapping[str, Wear[Estimate]]:
+    """The wear at each support that has any."""
+    names = ("worn_volume", "support_worn_volume", "depth_deepest", "depth_one_scar", "depth_all_round")
+    worn = {place: Wear(place, *map(means.get, names)) for place, means in supports.items()}
+    return ReadOnly({place: one for place, one in worn.items() if not (one.volume is one.support_volume is None)})
 
 
 def made(known: dict[str, Any]) -> Realisations:
@@ -136,7 +143,9 @@ def made(known: dict[str, Any]) -> Realisations:
     table, sectors = (ReadOnly(columns(*known[name])) for name in ("table", "sectors"))
     accuracy = known.get("accuracy")
     accuracy = None if accuracy is None else ReadOnly(accuracy)
-    return Realisations(document["count"], supports, walls, table, sectors, accuracy, rows, known["text"])
+    return Realisations(
+        document["count"], supports, walls, _wear(supports), table, sectors, accuracy, rows, known["text"]
+    )
 
 
 def warn(known: dict[str, Any], stacklevel: int) -> None:
@@ -243,13 +252,14 @@ def realisations(
     >>> import signorini as sg
     >>> case = sg.load("tube-round-supports", set={"time.end": 0.2, "time.statistics_from": 0.1})
     >>> study = sg.realisations(case, seeds=3)
-    >>> rate = study.supports["plate-1"]["work_rate"]
+    >>> rate = study.supports["plate-1"].work_rate
     >>> rate.kind, rate.error.total > rate.half_width
     ('seeds', True)
     """
+    case, asked = of_case(case, "realisations"), (seeds, until_interval, most_seeds)
+    numbers = {"until_interval": until_interval, "accuracy": accuracy, "most_time": most_time, "step": step}
+    check_given(numbers, {"seeds": seeds, "most_seeds": most_seeds})
     with Progress(0, progress) as shown:
-        asked = (seeds, until_interval, most_seeds)
-        case = of_case(case, "realisations")
         known = _core._realisations(case, scheme, step, asked, most_time, accuracy, verdict, folder, shown.reach)
     study = made(known)
     if known["refuted"]:

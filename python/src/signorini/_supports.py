@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,8 @@ from ._columns import ReadOnly
 
 if TYPE_CHECKING:
     from ._core import Run
+
+V = TypeVar("V")
 
 
 @dataclass(frozen=True)
@@ -76,6 +78,52 @@ class Estimate:
         return f"{self.value:.4g}" if self.half_width is None else f"{self.value:.4g} ± {self.half_width:.2g}"
 
 
+class PlaceMeans(ReadOnly[str, Estimate]):
+    """The means of the measures at one support or wall, each under its name.
+
+    A mapping, ``means["work_rate"]``, whose measures are attributes as well: ``means.work_rate``.
+    ``force_mean``, ``force_mean_y``, ``force_mean_z``, ``force_rms`` and ``force_largest`` are in
+    N, ``work_rate``, ``friction_power`` and ``impact_power`` in W, ``sliding_rate`` in m/s,
+    ``impact_share`` is a share of the work rate and ``contacts`` a number. By the law of wear of
+    the case, within its service, ``worn_volume`` and ``support_worn_volume`` (m³),
+    ``depth_deepest``, ``depth_one_scar`` and ``depth_all_round`` (m) follow. ``list(means)`` are
+    those that the place has; another is an `AttributeError`, or a `KeyError`.
+    """
+
+    force_mean: Estimate
+    force_mean_y: Estimate
+    force_mean_z: Estimate
+    force_rms: Estimate
+    force_largest: Estimate
+    work_rate: Estimate
+    friction_power: Estimate
+    impact_share: Estimate
+    sliding_rate: Estimate
+    contacts: Estimate
+    impact_power: Estimate
+    worn_volume: Estimate
+    support_worn_volume: Estimate
+    depth_deepest: Estimate
+    depth_one_scar: Estimate
+    depth_all_round: Estimate
+
+    def __missing__(self, name: str) -> Estimate:
+        raise KeyError(f"no measure {name}; there are {', '.join(self)}")
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Estimate:
+            if name in self:
+                return self[name]
+            raise AttributeError(f"no measure {name}; there are {', '.join(self)}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        self._refuse()
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self]
+
+
 @dataclass(frozen=True, eq=False)
 class SupportStatistics:
     """What one support did over the window of the statistics.
@@ -112,23 +160,24 @@ class SupportStatistics:
 
 
 @dataclass(frozen=True)
-class Wear:
+class Wear(Generic[V]):
     """The wear in service at one support, by Archard's law; None where there is no value.
 
-    Volumes are in m³: ``volume`` worn off the tube, ``support_volume`` off the support. Depths on
-    the tube are in m, as the measures of sweeps of these names: ``depth_deepest`` where it is
-    deepest, in a sector or at a flat, ``depth_one_scar`` if all of it comes off one scar,
-    ``depth_all_round`` if it comes off evenly all round. Of one run under random loads the deepest
-    is an upper figure: a sector counts that is the deepest by chance; `realisations` has the
-    largest of the means of all sectors.
+    Its values are numbers for a run, ``Wear[float]``, and means over realisations for a study,
+    ``Wear[Estimate]``. Volumes are in m³: ``volume`` worn off the tube, ``support_volume`` off the
+    support. Depths on the tube are in m, as the measures of sweeps of these names:
+    ``depth_deepest`` where it is deepest, in a sector or at a flat, ``depth_one_scar`` if all of it
+    comes off one scar, ``depth_all_round`` if it comes off evenly all round. Of one run under
+    random loads the deepest is an upper figure: a sector counts that is the deepest by chance; that
+    of `realisations` is the largest of the means of all sectors.
     """
 
     name: str
-    volume: float | None
-    support_volume: float | None
-    depth_deepest: float | None
-    depth_one_scar: float | None
-    depth_all_round: float | None
+    volume: V | None
+    support_volume: V | None
+    depth_deepest: V | None
+    depth_one_scar: V | None
+    depth_all_round: V | None
 
 
 def _statistics(known: dict[str, Any]) -> SupportStatistics:
@@ -170,7 +219,7 @@ def supports(run: Run) -> Mapping[str, SupportStatistics]:
     return ReadOnly({one["wear"]["support"]: _statistics(one) for one in known})
 
 
-def wear(run: Run) -> Mapping[str, Wear]:
+def wear(run: Run) -> Mapping[str, Wear[float]]:
     """The wear in service at each support, as `Run.wear` says."""
     worn = {one["wear"]["support"]: one["worn"] for one in run._supports() if one["worn"] is not None}
     names = ("volume_m3", "support_volume_m3", "depth_deepest_m", "depth_one_scar_m", "depth_all_round_m")

@@ -19,7 +19,7 @@ from ._case_sweep import SweepResult, sweep_case
 from ._core import Case, ResultWarning, Scene, _cautioned, _columns, _run_many
 from ._progress import Progress
 from ._store import Store
-from ._types import whole
+from ._types import check_given, whole
 
 Table = dict[str, npt.NDArray[Any]]
 """Columns of equal length, by name."""
@@ -272,7 +272,7 @@ def sweep(
     >>> def make(gap):
     ...     walls = sg.support("stop", gap, restitution=0.8)
     ...     return sg.oscillator(1.0, 0.2, 100.0, walls=walls, loads=[sg.Load.harmonic(3.0, 5.0)], duration=4.0)
-    >>> table = sg.sweep(make, sg.grid(gap=[2e-3, 4e-3, 6e-3]), "event")
+    >>> table = sg.sweep(make, sg.grid(gap=[2e-3, 4e-3, 6e-3]), "event", statistics_from=2.0)
     >>> table["gap"], table["contacts_stop-upper"] > 0
     (array([0.002, 0.004, 0.006]), array([ True,  True,  True]))
     """
@@ -355,6 +355,7 @@ def _options(
 ) -> _Options:
     if threads is not None:
         whole("threads", threads, 1)
+    check_given({"step": step, "statistics_from": statistics_from}, {})
     return scheme, step, statistics_from, judge, threads or os.cpu_count() or 1
 
 

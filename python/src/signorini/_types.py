@@ -30,11 +30,31 @@ End = str | float | tuple[float, float]
 _MOST = 2**32 - 1
 
 
+def check_whole(name: str, value: Any, least: int = 0) -> None:
+    """Refuses what is no whole number; which of them are accepted is judged elsewhere."""
+    if not isinstance(value, (int, np.integer)) or isinstance(value, bool):
+        raise TypeError(f"{name} is {value!r}; expected a whole number, {least} or more")
+
+
+def check_number(name: str, value: Any) -> None:
+    """Refuses what is no number; which of them are accepted is judged elsewhere."""
+    if not isinstance(value, (int, float, np.integer, np.floating)) or isinstance(value, bool):
+        raise TypeError(f"{name} is {value!r}; expected a number")
+
+
+def check_given(numbers: Mapping[str, Any], whole_numbers: Mapping[str, Any]) -> None:
+    """Refuses the first of the arguments that are given, and not None, which is no such number."""
+    for name, value in numbers.items():
+        if value is not None:
+            check_number(name, value)
+    for name, value in whole_numbers.items():
+        if value is not None:
+            check_whole(name, value, 1)
+
+
 def whole(name: str, value: Any, least: int = 0, most: int = _MOST) -> int:
     """``value``, unless it is no whole number from ``least`` to ``most``."""
-    expected = f"expected a whole number, {least} or more"
-    if not isinstance(value, (int, np.integer)) or isinstance(value, bool):
-        raise TypeError(f"{name} is {value!r}; {expected}")
+    check_whole(name, value, least)
     if not least <= value:
         raise ValueError(f"{name} is {value!r}; expected {least} or more")
     if value > most:
@@ -44,8 +64,7 @@ def whole(name: str, value: Any, least: int = 0, most: int = _MOST) -> int:
 
 def positive(name: str, value: Any) -> float:
     """``value``, unless it is no number above 0."""
-    if not isinstance(value, (int, float, np.integer, np.floating)):
-        raise TypeError(f"{name} is {value!r}; expected a number")
+    check_number(name, value)
     if not value > 0.0:
         raise ValueError(f"{name} is {value!r}; expected a number above 0")
     return float(value)

@@ -9,14 +9,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._columns import Column, ReadOnly, columns, frame
+from ._columns import Column, ReadOnly, Variables, columns, dataset, frame
 from ._core import Case, ResultWarning
 from ._progress import Progress
 from ._realisations import Realisations, made, of_case, refuted, warn
-from ._types import whole
+from ._types import check_given, whole
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -100,6 +101,40 @@ class WearStudy:
         'plate-1'
         """
         return frame(dict(self.years))
+
+    def to_xarray(self) -> xr.Dataset:
+        """The means over the years and the histories as an xarray Dataset.
+
+        The columns of ``years`` are variables with the dimensions ``year`` and ``support``. Those
+        of ``history`` have ``history_`` before their name, and the dimension ``history`` between.
+
+        Returns
+        -------
+        xarray.Dataset
+
+        Raises
+        ------
+        ImportError
+            Without xarray.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> short = {"time.end": 0.2, "time.statistics_from": 0.1, "system.modes": 6}
+        >>> study = sg.wear(sg.load("tube-in-cross-flow", set=short), years=5, histories=2)
+        >>> study.to_xarray()["history_gap_m"].dims
+        ('year', 'history', 'support')
+        """
+        # Rows are in the order of years, histories and supports, the supports fastest.
+        years = self.years["year"][:: len(self.supports)]
+        shape = {"year": len(years), "support": len(self.supports)}
+        of_histories = {"year": len(years), "history": self.histories, "support": len(self.supports)}
+        variables: Variables = {}
+        for before, table, sizes in (("", self.years, shape), ("history_", self.history, of_histories)):
+            for name in (name for name in table if name not in ("history", "year", "place")):
+                variables[before + name] = tuple(sizes), table[name].reshape(tuple(sizes.values()))
+        numbers = range(1, self.histories + 1)
+        return dataset({"year": years, "history": numbers, "support": list(self.supports)}, variables)
 
     def plot(self, quantity: str = "depth_deepest", ax: Any = None) -> Any:
         """Draw a quantity over the years with matplotlib, a curve with its 95 % band per support.
@@ -228,6 +263,8 @@ def wear(
     0.0002
     """
     case, within = of_case(case, "wear"), (until_interval, most_seeds, most_time)
+    numbers = {"years": years, "until_interval": until_interval, "most_time": most_time, "step": step}
+    check_given(numbers, {"most_seeds": most_seeds})
     if histories is not None:
         whole("histories", histories, 1)
     with Progress(0, progress) as runs, Progress(100, progress, of="per cent of the years") as shown:

@@ -1,6 +1,7 @@
 //! The model of a case in words: structure, supports, walls and loads.
 
 use crate::case::{Case, Model, Origin, ScatteredStart, Support, SupportShape, WallsOverBase};
+use crate::output::supports::NO_SERVICE;
 use crate::scene::{self, Density, Flats, LoadKind, Modes, Slider, System, Turbulence, WallSpring};
 use crate::study::choice;
 use crate::study::truncation::Start;
@@ -216,6 +217,7 @@ pub(super) fn supports(case: &Case) -> Vec<String> {
     if let Some(service) = case.wear.service {
         lines.push(format!("wear: volume = coefficient x work rate x {service:e} s"));
     }
+    lines.extend(case.lacks_service().then(|| format!("wear: {NO_SERVICE}")));
     lines
 }
 

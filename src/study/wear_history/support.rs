@@ -13,7 +13,8 @@ pub struct WearingSupport {
     pub gaps: Vec<f64>,
     /// What wear does to these gaps.
     pub growth: Growth,
-    /// The law of wear, with the coefficients of tube and support and a scar.
+    /// The law of wear, with the coefficients of tube and support and a scar. Its service counts
+    /// for nothing: depths follow from the work done.
     pub law: Archard,
     /// Thickness of the tube's wall, m; `None` where it is not known, or is no tube: then it counts
     /// as worn through at its radius.
