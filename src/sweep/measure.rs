@@ -238,9 +238,11 @@ impl Measure {
 
     /// The columns, whose names have `word` after that of the measure.
     fn columns_with(self, word: &str, scene: &Scene) -> Vec<String> {
+        // The probe of one degree of freedom has no name.
+        let of = |name: &String| if name.is_empty() { String::new() } else { format!("_{name}") };
         let of: Vec<String> = match self.scope() {
             Scope::Row => vec![String::new()],
-            scope => csv::words(&scope.places(scene)).iter().map(|name| format!("_{name}")).collect(),
+            scope => csv::words(&scope.places(scene)).iter().map(of).collect(),
         };
         of.iter().map(|of| self.column_of(word, of)).collect()
     }
