@@ -1,6 +1,6 @@
 //! Notes that the reader of any run of a case must know.
 
-use super::{Case, Origin, SupportShape, Truncated, WallsOverBase};
+use super::{Case, Model, Origin, SupportShape, Truncated, WallsOverBase};
 use crate::scene::{LoadKind, WallTruncation};
 use crate::study::truncation::Start;
 
@@ -95,6 +95,19 @@ impl Case {
         notes
     }
 
+    /// That the elements of a beam are long for the fastest of `modes` modes.
+    fn coarse_mesh(&self, modes: usize) -> Option<String> {
+        let Model::Beam(beam) = &self.model else { return None };
+        let needed = (5 * (modes / self.planes.modes())).div_ceil(2);
+        (beam.elements < needed).then(|| {
+            format!(
+                "{} elements are fewer than two and a half in a half wave of the fastest modes, whose frequencies are \
+                 too high by more than a few thousandths: elements = {needed}, or left out, resolves them",
+                beam.elements
+            )
+        })
+    }
+
     /// The errors of the reduction to modes.
     fn cut_notes(&self) -> Vec<String> {
         let Some(Truncated { whole, reduction }) = &self.truncated else { return Vec::new() };
@@ -103,6 +116,7 @@ impl Case {
         if k == n {
             return notes;
         }
+        notes.extend(self.coarse_mesh(k));
         let rigid = whole.scene.walls.iter().zip(&reduction.walls).filter(|(wall, _)| wall.law.is_rigid());
         if whole.static_correction {
             if rigid.clone().count() > 0 {

@@ -6,7 +6,7 @@ use super::planes::Planes;
 use super::points::listed;
 use super::value::{Entry, Name, Section, Value};
 use crate::error::{Error, Part, Result, Subject};
-use crate::scene::Row;
+use crate::scene::{BeamEnd, Row};
 use toml::Spanned;
 
 /// A location, its row, and the suffix of the names there: empty, or `-` and a number where `at` is
@@ -61,8 +61,11 @@ impl Builder<'_> {
             }
             _ => format!("{{ dof = 0 to {last} }}, {{ row = [[0, 1.0], [1, -1.0]] }}"),
         };
-        let joint = match self.joints.len() {
+        // The last joint is the right end, where nothing can touch what is held.
+        let held = matches!(&self.model, Model::Beam(beam) if matches!(beam.right, BeamEnd::Pinned | BeamEnd::Clamped));
+        let joint = match self.joints.len().saturating_sub(usize::from(held)) {
             0 => String::new(),
+            1 => ", { joint = 1 }".to_owned(),
             count => format!(", {{ joint = 1 to {count} }}"),
         };
         let dof = format!("{dof}{joint}");

@@ -53,7 +53,7 @@ pub struct Args {
     /// with their 95 % intervals, and what each method differs by from the exact one, or else from
     /// the first, and the errors of its means in the parts of `run --seeds`. Realisation k has the
     /// seeds of the case plus k - 1, as with `run --seeds`
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = values::whole, allow_negative_numbers = true)]
     seeds: Option<u64>,
     /// Do not repeat the methods with half the step, nor with --seeds with more modes
     #[arg(long)]

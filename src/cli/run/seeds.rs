@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::cli::pipeline::Answer;
 use crate::cli::realisations::{of_argument, seconds, share, show_errors};
+use crate::cli::values;
 use crate::error::{Error, Result};
 use crate::output::{realisations as output, worn_means};
 use crate::study::realisations::{MOST_REALISATIONS, RealisationCount, RealisationStudy, TimeLimit};
@@ -13,7 +14,7 @@ pub struct Seeds {
     /// Repeat the run with N realisations of its random loads, on all cores: means with their 95 %
     /// intervals, and their errors of start, step, modes and sampling. Realisation k has the seeds
     /// of the case plus k - 1
-    #[arg(long = "seeds", value_name = "N", allow_negative_numbers = true)]
+    #[arg(long = "seeds", value_name = "N", value_parser = values::whole, allow_negative_numbers = true)]
     pub(in crate::cli) count: Option<u64>,
     /// Repeat the run until the 95 % intervals of the work rates of supports (without supports, of
     /// the mean forces) are within this share of them, 5% or 0.05: six realisations say how many

@@ -90,7 +90,7 @@ pub struct Args {
     /// Run every row with N realisations of the case's random loads, the same in every row:
     /// sweep.csv has the means and the half widths of their 95 % intervals, realisations.csv each
     /// of them. Realisation k has the seeds of the case plus k - 1, as with `run --seeds`
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = values::whole, allow_negative_numbers = true)]
     seeds: Option<u64>,
     /// In place of --seeds: run every row under as many realisations as bring the 95 % intervals of
     /// its work rates (without work, of its mean forces) within this share of them, 5% or 0.05: six

@@ -77,7 +77,7 @@ function whereSection() {
     many
       ? "The means over the realisations at each support along the structure, with their 95 % intervals." +
           (around ? " Around each support: the means of each sector, with theirs" : "") +
-          (around && many.worn.length ? "; depths are those within the service." : around ? "." : "")
+          (around && many.worn?.length ? "; depths are those within the service." : around ? "." : "")
       : "Each support along the structure, with the 95 % interval of its mean over time where it has one.",
     alongParts(supports, measures),
     around,
