@@ -37,6 +37,7 @@ pub(super) fn case(document: &CaseFile, start: Option<&State>) -> Result<Case> {
         planes: Planes::One,
         modes: None,
         joints: Vec::new(),
+        materials: Vec::new(),
         body: None,
         n: 1,
         static_correction: false,
@@ -138,6 +139,7 @@ impl Builder<'_> {
         if let Some(initial) = file.section("initial") {
             scene.initial = self.initial(&initial)?;
         }
+        self.materials = self.materials(file)?;
         let walls = self.walls_and_supports(file, &mut scene.supports)?;
         let sliders = self.sliders(&file.sections("slider"), &walls)?;
         self.loads(&file.sections("load"), &mut scene)?;

@@ -2,6 +2,7 @@
 
 use super::Written;
 use super::case_file::CaseFile;
+use super::materials::Material;
 use super::model::Model;
 use super::planes::Planes;
 use super::report::Source;
@@ -31,6 +32,8 @@ pub(super) struct Builder<'a> {
     pub modes: Option<usize>,
     /// Where the spans of a beam end, m, in order.
     pub joints: Vec<f64>,
+    /// Wear coefficients that supports name.
+    pub materials: Vec<Material>,
     /// The body whose places are read, where there are several.
     pub body: Option<String>,
     /// Degrees of freedom of the structure, or of that body, in one plane; of matrices, of both.

@@ -207,6 +207,9 @@ pub(super) const LISTED: &[KeyEntry] = &[
         [wear] for this support", ""]),
     entry("support.support_coefficient", Number, "per_Pa", ["that of `[wear]`", "a number above 0: \
         that of [wear] for this support", ""]),
+    entry("support.material", Word, "", ["coefficients of the support, or of `[wear]`", "the name of a \
+        `[[material]]`, whose coefficients hold for this support", "beside `coefficient`, \
+        `support_coefficient`"]),
     entry("support.growth", Word, "", ["`\"even\"` of a hole; gaps of flats stay", "\"even\" or \
         \"shifted\" of a hole, \"flats\" of flats: what `signorini wear` does to the gaps",
         OTHER_WORDS]),
@@ -220,6 +223,13 @@ pub(super) const LISTED: &[KeyEntry] = &[
     entry("slider.friction", Any, "", [REQUIRED, "a number from 0 to 10, or { static = .., kinetic = .. } \
         of both: what sticks holds static times normal_force, what slides feels kinetic times it", "as \
         of a support"]),
+    entry("material", Tables, "", ["no materials", "any number of them: wear coefficients of tube and \
+        support, by the name of their pair of materials", ""]),
+    entry("material.name", Word, "", [REQUIRED, NAME, "anything else; the name of another material"]),
+    entry("material.coefficient", Number, "per_Pa", ["that of `[wear]`", "a number above 0: of the tube, \
+        1/Pa = m^2/N", "neither of both"]),
+    entry("material.support_coefficient", Number, "per_Pa", ["that of `[wear]`", "a number above 0: of \
+        the support", "neither of both"]),
     entry("wear", Table, "", ["no worn volumes", "see below", "without `[[support]]` and \
         `[[slider]]`"]),
     entry("wear.coefficient", Number, "per_Pa", ["no volume of the tube", "a number above 0: the \

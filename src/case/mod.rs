@@ -20,17 +20,17 @@
 //! table by table from what `builder.rs` holds, `system.rs`, `damping.rs`, `modal.rs`, `beam.rs`,
 //! `bodies.rs`, `model.rs`, `place.rs`, `points.rs`, `line.rs`, `planes.rs` and `direction.rs` read
 //! the structure, the locations on it and their directions, `walls.rs`, `supports.rs`, `flats.rs`
-//! and `sliders.rs` what it touches, `initial.rs` the state at the start, `penalty.rs`,
-//! `statistics.rs`, `time.rs`, `flow.rs` and `method.rs` their tables and settings, `loads.rs`,
-//! `random.rs`, `turbulence.rs` and `base.rs` (with `rigid_motion.rs`) the loads, `table.rs` those
-//! of other files (`columns.rs`, `text.rs`, with their `digest.rs`), `truncated.rs` keeps the full
-//! scene of a case reduced to modes, `realisations.rs` and `wear.rs` give the scenes of
-//! realisations and of worn supports, `wording.rs` finds the key of each value of the scene,
-//! `written.rs` keeps what the scene itself no longer shows, `notes.rs` says what readers of a run
-//! must know; `case_file.rs` is the document that a case keeps, `key.rs` the path of a value, by
-//! which it is changed to a `key_value.rs` before it is built (`changes.rs`, many times by
-//! `template.rs`), `tangent.rs` differentiates the scene by a key, `summary.rs` reads the case of a
-//! finished run (feature `case`).
+//! and `sliders.rs` what it touches, `materials.rs` their wear, `initial.rs` the state at the
+//! start, `penalty.rs`, `statistics.rs`, `time.rs`, `flow.rs` and `method.rs` their tables and
+//! settings, `loads.rs`, `random.rs`, `turbulence.rs` and `base.rs` (with `rigid_motion.rs`) the
+//! loads, `table.rs` those of other files (`columns.rs`, `text.rs`, with their `digest.rs`),
+//! `truncated.rs` keeps the full scene of a case reduced to modes, `realisations.rs` and `wear.rs`
+//! give the scenes of realisations and of worn supports, `wording.rs` finds the key of each value
+//! of the scene, `written.rs` keeps what the scene itself no longer shows, `notes.rs` says what
+//! readers of a run must know; `case_file.rs` is the document that a case keeps, `key.rs` the path
+//! of a value, by which it is changed to a `key_value.rs` before it is built (`changes.rs`, many
+//! times by `template.rs`), `tangent.rs` differentiates the scene by a key, `summary.rs` reads the
+//! case of a finished run (feature `case`).
 #![doc = include_str!("../../cases/README.md")]
 
 mod base;
@@ -55,6 +55,7 @@ mod key_value;
 mod keys;
 mod line;
 mod loads;
+mod materials;
 mod method;
 mod modal;
 mod model;

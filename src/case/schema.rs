@@ -102,7 +102,9 @@ pub(super) fn accepted(path: &str) -> Option<String> {
 
 /// The name of a list of tables, such as those of walls.
 pub(super) fn list(name: &str) -> Option<&'static str> {
-    ["body", "wall", "support", "slider", "load", "turbulence", "probe"].into_iter().find(|list| *list == name)
+    ["body", "material", "wall", "support", "slider", "load", "turbulence", "probe"]
+        .into_iter()
+        .find(|list| *list == name)
 }
 
 /// True for the name of a list of tables.

@@ -223,6 +223,7 @@ impl Builder<'_> {
         let number = |key, unit| self.above_0(&owner.name, key, unit, support);
         let (width, radius) = (number("width", "m")?, number("radius", "m")?);
         let [coefficient, support_coefficient] = ["coefficient", "support_coefficient"].map(|key| number(key, "1/Pa"));
+        let material = self.material(&owner.name, support)?.cloned();
         let missing = |at, what: &str, help: &str| -> Error {
             self.source.error(at, &format!("{} has {what}", owner.name), help)
         };
@@ -257,10 +258,10 @@ impl Builder<'_> {
         let wear = WearData {
             scar: width.zip(radius.or(tube)),
             wall: self.wall_of(owner, support, radius)?,
-            coefficient: coefficient?,
-            support_coefficient: support_coefficient?,
+            coefficient: coefficient?.or(material.as_ref().and_then(|own| own.coefficient)),
+            support_coefficient: support_coefficient?.or(material.and_then(|own| own.support_coefficient)),
         };
-        let first = support.span_of("coefficient").or(support.span_of("support_coefficient"));
+        let first = ["coefficient", "support_coefficient", "material"].iter().find_map(|key| support.span_of(key));
         self.note(owner.subject.clone().part("coefficient"), first);
         Ok(wear)
     }

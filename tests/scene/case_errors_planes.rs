@@ -130,6 +130,13 @@ const WRONG: &[Wrong] = &[
     ("a width in mm", "restitution = 0.5", "restitution = 0.5\nwidth = 25.0", "32:9", &["support \"bars\": width", "at most the beam's length"]),
     ("wear that adds", "restitution = 0.5", "restitution = 0.5\ncoefficient = -1e-14", "32:15", &["support \"bars\": coefficient", "above 0, in 1/Pa"]),
     ("wear of the support that adds", "restitution = 0.5", "restitution = 0.5\nsupport_coefficient = nan", "32:23", &["support \"bars\": support_coefficient", "above 0, in 1/Pa"]),
+    ("a material of none", "restitution = 0.5", "restitution = 0.5\nmaterial = \"690-410\"", "32:12", &["support \"bars\": no material is named \"690-410\"", "of which there is none"]),
+    ("a material of another name", "[[support]]", "[[material]]\nname = \"690-410\"\ncoefficient = 1e-14\n\n[[support]]\nmaterial = \"690\"", "29:12", &["support \"bars\": no material is named \"690\"", "expected the name of a [[material]]: \"690-410\""]),
+    ("a material and a coefficient", "[[support]]", "[[material]]\nname = \"690-410\"\ncoefficient = 1e-14\n\n[[support]]\nmaterial = \"690-410\"\ncoefficient = 1e-14", "30:15", &["support \"bars\" has a material and a coefficient", "expected one of both"]),
+    ("a material without coefficients", "[[support]]", "[[material]]\nname = \"690-410\"\n\n[[support]]", "24:1", &["material \"690-410\" has no wear coefficient", "coefficient of the tube, support_coefficient or both"]),
+    ("a material that adds", "[[support]]", "[[material]]\nname = \"690-410\"\ncoefficient = -1e-14\n\n[[support]]", "26:15", &["material \"690-410\": coefficient", "above 0, in 1/Pa"]),
+    ("two materials of a name", "[[support]]", "[[material]]\nname = \"690\"\ncoefficient = 1e-14\n\n[[material]]\nname = \"690\"\ncoefficient = 1e-14\n\n[[support]]", "29:8", &["two materials are named \"690\"", "a name of its own"]),
+    ("a material of two words", "[[support]]", "[[material]]\nname = \"690 410\"\ncoefficient = 1e-14\n\n[[support]]", "25:8", &["material: name", "letters, digits, - and _"]),
     ("no wear", "[time]", "[wear]\ncoefficient = 0.0\nservice = 1.0\n\n[time]", "46:15", &["wear: coefficient", "above 0, in 1/Pa"]),
     ("wear of infinity", "[time]", "[wear]\nsupport_coefficient = inf\nservice = 1.0\n\n[time]", "46:23", &["wear: support_coefficient", "above 0, in 1/Pa"]),
     ("a limit of no depth", "[system.beam]", "[wear]\ncoefficient = 1e-14\nlimit = 0.4\n\n[system.beam]\ninner_diameter = 0.016", "7:9", &["`wear.limit` without a support that has a width", "expected a support with width"]),
@@ -250,6 +257,32 @@ fn wear_without_a_support_or_a_radius_is_refused() {
         let said = Case::parse(&format!("{oscillator}{wrong}{rest}"), "wrong.toml", "").unwrap_err().to_string();
         assert!(said.contains(words) && said.contains("expected"), "{said}");
     }
+}
+
+/// Supports that name a material have its coefficients, which a key of it changes in all of them;
+/// what a material does not say is that of `[wear]`.
+#[test]
+fn a_material_gives_the_coefficients_of_the_supports_that_name_it() {
+    let materials = "[[material]]\nname = \"690-410\"\ncoefficient = 2e-14\n\n\
+                     [[material]]\nname = \"soft\"\ncoefficient = 1e-13\nsupport_coefficient = 3e-13\n\n";
+    let plate = "[[support]]\nname = \"plate\"\nmaterial = \"690-410\"\nat = { position = 2.5 }\n\
+                 shape = \"round\"\ngap = 1e-3\n\n";
+    let bars = format!("{materials}{plate}[[support]]\nmaterial = \"690-410\"");
+    let text = RIGHT.replacen("[[support]]", &bars, 1).replacen(
+        "[time]",
+        "[wear]\ncoefficient = 1e-15\nsupport_coefficient = 5e-15\nservice = 1.0\n\n[time]",
+        1,
+    );
+    let case = Case::parse(&text, "right.toml", "").unwrap_or_else(|error| panic!("{error}"));
+    let coefficients = |case: &Case| {
+        [0, 1].map(|index| case.archard(index).map(|law| (law.coefficient, law.support_coefficient)).unwrap())
+    };
+    assert_eq!(coefficients(&case), [(Some(2e-14), Some(5e-15)); 2]);
+    let harder = case.with("material.690-410.coefficient", 1e-16).unwrap();
+    assert_eq!(coefficients(&harder), [(Some(1e-16), Some(5e-15)); 2]);
+    let soft = case.with("support.bars.material", "soft").unwrap();
+    let index = soft.scene.supports.iter().position(|support| support.name == "bars").unwrap();
+    assert_eq!(coefficients(&soft)[index], (Some(1e-13), Some(3e-13)));
 }
 
 #[test]
