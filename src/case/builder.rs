@@ -2,7 +2,6 @@
 
 use super::Written;
 use super::case_file::CaseFile;
-use super::materials::Material;
 use super::model::Model;
 use super::planes::Planes;
 use super::report::Source;
@@ -43,6 +42,14 @@ pub(super) struct Builder<'a> {
     /// is condensed.
     pub is_changed_later: bool,
     pub written: Written,
+}
+
+/// The wear coefficients of a pair of materials, 1/Pa: of the tube and of the support.
+#[derive(Debug, Clone)]
+pub(super) struct Material {
+    pub name: String,
+    pub coefficient: Option<f64>,
+    pub support_coefficient: Option<f64>,
 }
 
 impl Builder<'_> {

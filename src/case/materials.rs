@@ -1,16 +1,8 @@
 //! Reads the tables `[[material]]`: wear coefficients of pairs of materials, which supports name.
 
-use super::builder::Builder;
+use super::builder::{Builder, Material};
 use super::value::Section;
 use crate::error::Result;
-
-/// The wear coefficients of a pair of materials, 1/Pa: of the tube and of the support.
-#[derive(Debug, Clone)]
-pub(super) struct Material {
-    name: String,
-    pub coefficient: Option<f64>,
-    pub support_coefficient: Option<f64>,
-}
 
 impl Builder<'_> {
     /// The materials of the file.
