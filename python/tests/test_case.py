@@ -139,7 +139,6 @@ HOLE: dict[str, Any] = {"name": "plate", "gap": 2e-4, "at": 1.0}
         ({"loads": [sg.Load.random(rms=3.0, band=(1, 9), psd=[(1, 1), (2, 1)], at=0.5, direction=0)]}, "psd"),
         ({"loads": [sg.Load.table([0.0, 1.0], [0.0, 1.0], at=0.5)]}, "expected a load that a case file describes"),
         ({"loads": [sg.Load.base("nowhere.csv", direction=0.0)]}, "no such file"),
-        ({"supports": [sg.hole(**HOLE)], "wear": sg.Archard(1e-14)}, "expected service"),
         ({"supports": [sg.hole(**HOLE)], "wear": sg.Archard(1e-14, years=1, service=1.0)}, "expected one of the two"),
         ({"wear": sg.Archard(1e-14, years=1)}, "without a support"),
         ({"spans": [1.0, 2.0]}, "spans"),

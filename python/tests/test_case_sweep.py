@@ -144,7 +144,7 @@ def test_datasets_of_rows_of_different_numbers_are_padded() -> None:
     most = int(table["seeds"].max())
     assert data.sizes["realisation"] == most and list(data["realisation"]) == list(range(1, most + 1))
     np.testing.assert_array_equal(data["seeds"], table["seeds"])
-    padded = data["realisations_force_mean_N"].sel(wall="stop")
+    padded = data["realisations_force_mean_N"].sel(place="stop")
     np.testing.assert_array_equal(padded.count("realisation"), data["seeds"])
     # Their mean leaves out what is not there; sums in another order.
     np.testing.assert_allclose(padded.mean("realisation"), table["force_mean_stop_N"], rtol=1e-13)
