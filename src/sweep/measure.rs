@@ -51,7 +51,7 @@ impl Scope {
     }
 }
 
-/// A column of a measure at a wall, a support or a probe.
+/// A column of a measure at a wall, a support, either of them or a probe.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PlacedColumn {

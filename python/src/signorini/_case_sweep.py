@@ -43,7 +43,8 @@ class SweepResult(TableResult):
     Tables that a sweep does not have are empty. ``keys_varied`` names the columns of the keys, and
     ``design`` says how their values lie: ``"grid"``, ``"one-at-a-time"`` or ``"random"``. ``places``
     has, for each column of a measure at a place, its name without the place, ``"wall"``,
-    ``"support"`` or ``"probe"``, and the name of the place.
+    ``"support"``, ``"place"`` (a support, or a wall that is no flat of one) or ``"probe"``, and
+    the name of the place.
     """
 
     realisations: Mapping[str, Column]
@@ -97,8 +98,8 @@ class SweepResult(TableResult):
     def to_xarray(self) -> xr.Dataset:
         """The numbers as an xarray Dataset over the varied keys and the places of each measure.
 
-        A measure is one variable, ``work_rate_W``, with the dimension ``wall``, ``support`` or
-        ``probe`` after those of the keys. Variables of ``realisations`` have ``realisations_``
+        A measure is one variable, ``work_rate_W``, with the dimension ``wall``,
+        ``support``, ``place`` or ``probe`` after those of the keys. Variables of ``realisations`` have ``realisations_``
         before their name, and the further dimension ``realisation``, as long as the row with the
         most has them. Where a row has fewer, since ``until_interval`` took fewer or some failed,
         the others are NaN, which means and other sums of xarray leave out; the variable ``seeds``
