@@ -98,7 +98,7 @@ fn the_page_of_a_run_under_several_seeds_has_the_means_and_their_errors() {
     let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
     let estimates = summary["realisations"]["estimates"].as_array().unwrap();
     let worn = summary["realisations"]["worn"].as_array().unwrap();
-    assert_eq!((worn.len(), count), (8, json!(estimates.len() + 8)), "volume and three depths of two supports");
+    assert_eq!((worn.len(), count), (10, json!(estimates.len() + 10)), "two volumes and three depths of two supports");
     let heads = tab.evaluate("[...document.querySelectorAll('#means th')].map((th) => th.textContent.trim())");
     let heads = heads.to_string();
     assert!(["error (%)", "start (%)", "step (%)", "modes (%)"].iter().all(|head| heads.contains(head)), "{heads}");
