@@ -34,6 +34,7 @@ fn reason(measure: Measure, index: usize, case: &Case) -> &'static str {
         Measure::ImpactShare => "an elastic support has no impacts, only forces",
         _ if measure.needs_law() => match law {
             None => "the support has no wear coefficient",
+            Some(_) if measure == Measure::SupportWornVolume => "the support itself has no wear coefficient",
             Some(law) if law.coefficient.is_none() => "the tube has no wear coefficient there",
             Some(law) if law.scar.is_none() => "a depth takes width and radius of the support",
             Some(_) => "one scar of that volume would cut the tube in two",

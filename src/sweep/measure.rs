@@ -119,6 +119,8 @@ pub enum Measure {
     FrictionPower,
     /// Volume worn off the tube within the service of the case, m³, by Archard's law.
     WornVolume,
+    /// Volume worn off the support within the service of the case, m³, by the same law.
+    SupportWornVolume,
     /// Depth on the tube where it is deepest, in a sector or at a flat, m.
     DepthDeepest,
     /// Depth on the tube if all of it comes off one scar, m.
@@ -151,7 +153,7 @@ pub enum Measure {
 }
 
 /// Name, scope, and unit as column names write it.
-const MEASURES: [(Measure, &str, Scope, Option<&str>); 36] = [
+const MEASURES: [(Measure, &str, Scope, Option<&str>); 37] = [
     (Measure::Contacts, "contacts", Scope::Wall, None),
     (Measure::Impacts, "impacts", Scope::Wall, None),
     (Measure::ContactRate, "contact_rate", Scope::Wall, Some("per_s")),
@@ -175,6 +177,7 @@ const MEASURES: [(Measure, &str, Scope, Option<&str>); 36] = [
     (Measure::SlidingRate, "sliding_rate", Scope::Support, Some("m_per_s")),
     (Measure::FrictionPower, "friction_power", Scope::Support, Some("W")),
     (Measure::WornVolume, "worn_volume", Scope::Support, Some("m3")),
+    (Measure::SupportWornVolume, "support_worn_volume", Scope::Support, Some("m3")),
     (Measure::DepthDeepest, "depth_deepest", Scope::Support, Some("m")),
     (Measure::DepthOneScar, "depth_one_scar", Scope::Support, Some("m")),
     (Measure::DepthAllRound, "depth_all_round", Scope::Support, Some("m")),
@@ -308,7 +311,7 @@ impl Measure {
 
     /// True for a measure that takes the law of wear of the case.
     pub(super) fn needs_law(self) -> bool {
-        self == Self::WornVolume || self.needs_scar()
+        matches!(self, Self::WornVolume | Self::SupportWornVolume) || self.needs_scar()
     }
 }
 

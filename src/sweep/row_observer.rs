@@ -285,6 +285,7 @@ fn at_support(measure: Measure, statistics: &Statistics, index: usize, case: &Ca
         Measure::ForceRms => Some(support.force.as_ref()?.rms_n),
         Measure::ForceLargest => Some(support.force.as_ref()?.largest?.mean_n),
         Measure::WornVolume => worn()?.volume_m3,
+        Measure::SupportWornVolume => worn()?.support_volume_m3,
         Measure::DepthDeepest => case.depth_deepest(index, wear()?),
         Measure::DepthOneScar => worn()?.depth_one_scar_m,
         Measure::DepthAllRound => worn()?.depth_all_round_m,
