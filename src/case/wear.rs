@@ -216,6 +216,7 @@ impl Case {
 
     /// True if a support has a wear coefficient and the case no service: no run tells a worn
     /// volume.
+    #[cfg(feature = "cli")]
     pub(crate) fn lacks_service(&self) -> bool {
         let law = |index| self.archard_within(1.0, index).is_some();
         self.wear.service.is_none() && (0..self.scene.supports.len()).any(law)
