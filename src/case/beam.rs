@@ -168,11 +168,16 @@ impl Builder<'_> {
     }
 }
 
-/// The elements of a beam with as many `joints` that is reduced to `modes`: 20 of each span, and
-/// two and a half of each half wave of its fastest mode, which so is too fast by less than 1 %.
+/// The elements of a beam with as many `joints` that is reduced to `modes`: 20 of each span, and as
+/// many as the modes need.
 fn elements_for(joints: usize, modes: Option<usize>) -> usize {
-    let of_waves = (5 * modes.unwrap_or(0)).div_ceil(2);
-    (20 * joints.max(1)).max(of_waves).min(MOST_ELEMENTS)
+    (20 * joints.max(1)).max(elements_of_modes(modes.unwrap_or(0))).min(MOST_ELEMENTS)
+}
+
+/// The elements that so many modes of a beam need: two and a half in each half wave of the fastest,
+/// which so is too fast by less than 1 %.
+pub(super) fn elements_of_modes(modes: usize) -> usize {
+    (5 * modes).div_ceil(2)
 }
 
 /// `x` to 12 digits: the sum of two numbers of few decimals as a person writes it, 1.7 for 0.8 +

@@ -45,7 +45,7 @@ pub(super) struct Builder<'a> {
 }
 
 /// The wear coefficients of a pair of materials, 1/Pa: of the tube and of the support.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Material {
     pub name: String,
     pub coefficient: Option<f64>,

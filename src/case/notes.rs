@@ -1,5 +1,6 @@
 //! Notes that the reader of any run of a case must know.
 
+use super::beam::elements_of_modes;
 use super::{Case, Model, Origin, SupportShape, Truncated, WallsOverBase};
 use crate::scene::{LoadKind, WallTruncation};
 use crate::study::truncation::Start;
@@ -98,7 +99,7 @@ impl Case {
     /// That the elements of a beam are long for the fastest of `modes` modes.
     fn coarse_mesh(&self, modes: usize) -> Option<String> {
         let Model::Beam(beam) = &self.model else { return None };
-        let needed = (5 * (modes / self.planes.modes())).div_ceil(2);
+        let needed = elements_of_modes(modes / self.planes.modes());
         (beam.elements < needed).then(|| {
             format!(
                 "{} elements are fewer than two and a half in a half wave of the fastest modes, whose frequencies are \

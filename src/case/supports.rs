@@ -219,11 +219,11 @@ impl Builder<'_> {
     }
 
     /// The values on which the depth of a scar depends.
-    fn wear_data(&mut self, owner: &Owner, place: &Place, support: &Section<'_>) -> Result<WearData> {
+    fn wear_data(&self, owner: &Owner, place: &Place, support: &Section<'_>) -> Result<WearData> {
         let number = |key, unit| self.above_0(&owner.name, key, unit, support);
         let (width, radius) = (number("width", "m")?, number("radius", "m")?);
         let [coefficient, support_coefficient] = ["coefficient", "support_coefficient"].map(|key| number(key, "1/Pa"));
-        let material = self.material(&owner.name, support)?.cloned();
+        let material = self.material(&owner.name, support)?;
         let missing = |at, what: &str, help: &str| -> Error {
             self.source.error(at, &format!("{} has {what}", owner.name), help)
         };
@@ -255,15 +255,12 @@ impl Builder<'_> {
             }
             _ => {}
         }
-        let wear = WearData {
+        Ok(WearData {
             scar: width.zip(radius.or(tube)),
             wall: self.wall_of(owner, support, radius)?,
-            coefficient: coefficient?.or(material.as_ref().and_then(|own| own.coefficient)),
+            coefficient: coefficient?.or(material.and_then(|own| own.coefficient)),
             support_coefficient: support_coefficient?.or(material.and_then(|own| own.support_coefficient)),
-        };
-        let first = ["coefficient", "support_coefficient", "material"].iter().find_map(|key| support.span_of(key));
-        self.note(owner.subject.clone().part("coefficient"), first);
-        Ok(wear)
+        })
     }
 
     /// The thickness of the wall of a tube of the radius `radius`, which no beam has.

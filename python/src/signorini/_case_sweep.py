@@ -98,13 +98,13 @@ class SweepResult(TableResult):
     def to_xarray(self) -> xr.Dataset:
         """The numbers as an xarray Dataset over the varied keys and the places of each measure.
 
-        A measure is one variable, ``work_rate_W``, with the dimension ``wall``,
-        ``support``, ``place`` or ``probe`` after those of the keys. Variables of ``realisations`` have ``realisations_``
-        before their name, and the further dimension ``realisation``, as long as the row with the
-        most has them. Where a row has fewer, since ``until_interval`` took fewer or some failed,
-        the others are NaN, which means and other sums of xarray leave out; the variable ``seeds``
-        says how many there are. ``realisations_depths_m`` has the dimension ``part`` besides: the
-        sectors of a hole, or the flats of a support. Only of a grid.
+        A measure is one variable, ``work_rate_W``, with the dimension ``wall``, ``support``,
+        ``place`` or ``probe`` after those of the keys. Variables of ``realisations`` have
+        ``realisations_`` before their name, and the further dimension ``realisation``, as long as
+        the row with the most has them. Where a row has fewer, since ``until_interval`` took fewer
+        or some failed, the others are NaN, which means and other sums of xarray leave out; the
+        variable ``seeds`` says how many there are. ``realisations_depths_m`` has the dimension
+        ``part`` besides: the sectors of a hole, or the flats of a support. Only of a grid.
 
         Returns
         -------

@@ -24,10 +24,10 @@ from ._types import check_given, whole
 Table = dict[str, npt.NDArray[Any]]
 """Columns of equal length, by name."""
 
-# Numbers, the reasons where there are none, and the first note of each row that limits its use.
 Caution = tuple[str | None, str | None]
 """What limits the use of a run: a note, and that it has not settled."""
 
+# Numbers, the reasons where there are none, and what limits the use of each row.
 _Rows = tuple[npt.NDArray[np.float64], list[str | None], list[Caution]]
 
 # For a task of two seconds the overhead of a scheduler is a thousandth, and a lost machine loses
