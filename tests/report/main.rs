@@ -24,6 +24,8 @@ mod older;
 #[cfg(all(feature = "cli", unix))]
 mod realisations;
 #[cfg(all(feature = "cli", unix))]
+mod shown;
+#[cfg(all(feature = "cli", unix))]
 mod tables;
 #[cfg(feature = "cli")]
 mod text;

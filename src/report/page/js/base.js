@@ -107,9 +107,16 @@ const measureInWords = (name) =>
   ({ force_mean: "mean force", force_rms: "RMS force", force_largest: "largest force" })[name] ||
   name.replace(/_/g, " ").replace(/^force mean ([yz])$/, "mean force along $1");
 
-/** A number with the half width of its interval, where it has one; of such a number n digits. */
-const plusMinus = (x, half, n = 4) =>
-  Number.isFinite(half) ? `${digits(x, n)} ± ${digits(half, 2)}` : digits(x);
+/** A number with the half width of its interval, where it has one: both end where two digits of the half width end. */
+function plusMinus(x, half) {
+  if (!(half > 1e-12 * Math.abs(x))) return digits(x);
+  const size = Math.floor(Math.log10(Math.max(Math.abs(x), half)));
+  const power = size < -3 || size > 4 ? size : 0;
+  const decimals = clamp(power + 1 - Math.floor(Math.log10(half)), 0, 20);
+  const shown = (value) => minus((value / 10 ** power).toFixed(decimals).replace(/^-(?=[0.]*$)/, ""));
+  const both = `${shown(x)} ± ${shown(half)}`;
+  return power ? `(${both})·10${raised(power)}` : both;
+}
 
 /** A number with a prefixed unit: 0.0031 s becomes 3.1 ms. */
 function prefixed(x, unit, n = 3) {

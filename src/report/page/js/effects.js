@@ -112,7 +112,7 @@ function effectsSection(effects, seeds) {
   const effect = {
     name: "effect",
     value: (i) => columns.effect[i],
-    show: (i) => plusMinus(columns.effect[i], half[i], 3),
+    show: (i) => plusMinus(columns.effect[i], half[i]),
   };
   const seen = wordColumn("distinguished from none", (i) => (isSeen(columns, i) ? "yes" : "no"));
   section(

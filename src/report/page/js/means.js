@@ -11,7 +11,7 @@ function meansSection({ count, estimates: judgeable, worn, checks }, title, runs
     value: (row) => (row.error?.[key] ? Math.abs(row.error[key].mean / row.mean) : NaN),
     show: (row) => {
       const found = row.error?.[key];
-      return found ? `${share(row, found.mean)} ± ${share(row, found.half_width_95)}` : "–";
+      return found ? plusMinus(...[found.mean, found.half_width_95].map((x) => (100 * x) / Math.abs(row.mean))) : "–";
     },
   });
   const errors = [
