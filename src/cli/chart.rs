@@ -15,9 +15,10 @@ use crate::output::results::Results;
 use crate::output::{document, work_precision as output};
 use crate::study::choice::refused_in_words;
 use crate::study::work_precision::{
-    Effort, MethodPoints, Outcome, Peer, Steps, WorkPrecision, default_methods, read, study,
+    Effort, MethodPoints, Outcome, Peer, Quantity, Steps, WorkPrecision, default_methods, read, study,
 };
 use serde_json::json;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -97,13 +98,14 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     refute(&chart, ui);
     any_ran(&chart)?;
     let best = cheapest(&chart, &peers);
-    let conclusion = conclusion(&case.scene, &best);
+    let conclusions = Quantity::ALL.map(|quantity| (output::column(quantity), conclusion(&case.scene, &best, quantity)));
+    let [(_, conclusion), ..] = conclusions.clone();
     write(&mut results, &case, &chart, &peers, &conclusion)?;
     let mut document = document::chart(&case, &chart);
     results.add_to_manifest("case_file", case.document.json()?);
     let remarks: Vec<String> = case.notes().into_iter().chain(refused_in_words(&refused)).collect();
     results.add_to_manifest("remarks", json!(remarks));
-    results.add_to_manifest("conclusion", json!(conclusion));
+    results.add_to_manifest("conclusions", json!(BTreeMap::from(conclusions)));
     results.add_to_manifest("cheapest", rows(&best));
     results.add_to_manifest("floors", floors::rows(&chart));
     results.add_to_manifest("orders", document::orders(&chart));

@@ -1,17 +1,19 @@
 //! What a comparison shows, in one sentence: how far the best method agrees with the reference, and
 //! what becomes of the worst one.
 
+use super::compare::largest_force;
+use super::compare_table::{contacts, force};
 use super::work_precision::law_label;
 use crate::case::Case;
 use crate::run::Run;
 use crate::scheme::{Method, PenaltyLaw, Scheme};
-use crate::study::compare::{Comparison, FINER, is_aperiodic};
+use crate::study::compare::{AGREEMENT, Comparison, FINER, is_aperiodic};
 use crate::study::difference::error_length;
 use crate::study::verdict::Verdict;
 use std::cmp::Ordering;
 
-/// A motion whose error is more than this share of the length is another one.
-const ASTRAY: f64 = 0.5;
+/// Numbers of contacts and largest forces that differ by more than this share are told.
+const ALIKE: f64 = 0.1;
 
 /// A penalty that passes a rigid wall by this share of the gap does not see it.
 const TOO_SOFT: f64 = 1.0;
@@ -23,6 +25,8 @@ struct Judged {
     error: f64,
     agrees_until: f64,
     fate: Fate,
+    /// Its contacts and its largest force beside those of the reference, where they differ.
+    contacts: Option<String>,
 }
 
 /// From good to bad.
@@ -55,16 +59,20 @@ pub fn conclusion(case: &Case, comparison: &Comparison) -> String {
     };
     let others = || judged.iter().filter(|one| !std::ptr::eq(*one, best));
     let worst = others().filter(|one| one.penalty).max_by(by_error).or_else(|| others().max_by(by_error));
-    let (limit, distance) = (limit(case, comparison), |x| distance(case, comparison, x));
-    let first = match best.fate {
-        Fate::Agrees => format!("{} agrees with {reference} to {} {limit}", best.name, distance(best.error)),
+    let (end, distance) = (end_of_prediction(case, comparison), |x| distance(case, comparison, x));
+    let first = match (best.fate, end) {
+        (Fate::Agrees, end) => {
+            let until = end.map_or_else(|| "to the end".to_owned(), |end| format!("until {end}"));
+            format!("{} agrees with {reference} to {} {until}", best.name, distance(best.error))
+        }
+        (Fate::Departs, Some(end)) => format!("{}, before {end}", best.becomes(&reference, &distance)),
         _ => best.becomes(&reference, &distance),
     };
     let second = worst.map(|worst| match best.fate {
         Fate::Refuted | Fate::Unseen => worst.becomes(&reference, &distance),
         Fate::Agrees | Fate::Departs => worst.becomes("it", &distance),
     });
-    std::iter::once(first).chain(second).collect::<Vec<_>>().join("; ")
+    std::iter::once(first).chain(best.contacts.clone()).chain(second).collect::<Vec<_>>().join("; ")
 }
 
 /// What half the step changes, by the first method that was checked.
@@ -89,8 +97,9 @@ fn judged(case: &Case, comparison: &Comparison) -> Vec<Judged> {
         schemes.push(row.method.scheme);
         let penalty = matches!(row.method.scheme, Scheme::Penalty { .. });
         let passes = penalty && run.residuals.penetration_m / length > TOO_SOFT;
-        let fate = fate(run, passes, error.is_nan() || error > ASTRAY);
-        judged.push(Judged { name: name(&row.method), penalty, error, agrees_until: until, fate });
+        let fate = fate(run, passes, error.is_nan() || error > AGREEMENT);
+        let contacts = comparison.reference_run().and_then(|reference| other_contacts(case, run, reference));
+        judged.push(Judged { name: name(&row.method), penalty, error, agrees_until: until, fate, contacts });
     }
     judged
 }
@@ -113,13 +122,28 @@ fn name(method: &Method) -> String {
     format!("the penalty{springs}{by}")
 }
 
-/// Up to when the methods are compared, in words.
-fn limit(case: &Case, comparison: &Comparison) -> String {
-    if comparison.horizon >= case.scene.duration {
-        return "to the end".to_owned();
-    }
+/// What ends the time over which the methods are compared before the run does, in words.
+fn end_of_prediction(case: &Case, comparison: &Comparison) -> Option<String> {
     let what = if is_aperiodic(&case.scene) { "small differences have grown" } else { "chaos takes over" };
-    format!("until {what} at {} s", two_digits(comparison.horizon))
+    let ended = comparison.horizon < case.scene.duration;
+    ended.then(|| format!("{what} at {} s", two_digits(comparison.horizon)))
+}
+
+/// The contacts and the largest force of a run over its whole duration beside those of the
+/// reference, in words: a motion that is followed no further may still have the same of both.
+fn other_contacts(case: &Case, run: &Run, reference: &Run) -> Option<String> {
+    let differ = |a: f64, b: f64| (a - b).abs() > ALIKE * a.max(b);
+    let [own, wanted] = [run, reference].map(|run| contacts(case, run));
+    let [strongest, asked] = [run, reference].map(largest_force);
+    let alike = own.abs_diff(wanted) <= 1 || !differ(own as f64, wanted as f64);
+    let as_strong = strongest.zip(asked).is_none_or(|(own, wanted)| !differ(own, wanted));
+    (!alike || !as_strong).then(|| {
+        format!(
+            "over the whole run it has {own} contacts and {} N at most, for {wanted} and {} N",
+            force(strongest),
+            force(asked)
+        )
+    })
 }
 
 /// The length of which errors are shares, m.

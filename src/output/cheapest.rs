@@ -20,7 +20,7 @@ const TOLERANCES: [(f64, &str); 8] = [
     (1e-8, "1e-8"),
 ];
 
-/// The error of the displacement that the conclusion is about: what an engineer asks for.
+/// The error that the conclusions are about: what an engineer asks for.
 const ASKED: f64 = 1e-2;
 
 /// What the methods of other programs are called.
@@ -86,8 +86,8 @@ pub fn cheapest(chart: &WorkPrecision, peers: &[Peer]) -> Vec<Best> {
     rows
 }
 
-/// How near a kind of methods comes to an error that it does not reach. Springs have a floor, which
-/// no step passes; other methods stay above an error with the steps that were tried.
+/// How near a kind of methods comes to an error that it does not reach. Springs have a floor, to
+/// which ever finer steps lead; other methods stay above an error with the steps that were tried.
 fn missed(chart: &WorkPrecision, kind: SchemeKind, quantity: Quantity) -> String {
     let of_kind = || chart.series.iter().filter(|series| series.method.scheme.entry().kind == kind);
     // With the finest steps; what a coarse run has by chance does not count, as in the table.
@@ -95,8 +95,8 @@ fn missed(chart: &WorkPrecision, kind: SchemeKind, quantity: Quantity) -> String
     let finest = finest.filter(|error| error.is_finite()).reduce(f64::min);
     let floor = |scheme| quantity.of(chart.floor(scheme)?.errors.as_ref()?).filter(|error| error.is_finite());
     let floors: Option<Vec<f64>> = of_kind().map(|series| floor(&series.method.scheme)).collect();
-    match floors.and_then(|floors| floors.into_iter().chain(finest).reduce(f64::min)) {
-        Some(least) => format!("never below {}", percent(least)),
+    match floors.and_then(|floors| floors.into_iter().reduce(f64::min)) {
+        Some(least) => format!("tends to {} at best", percent(least)),
         None => above(finest),
     }
 }
@@ -129,19 +129,31 @@ pub fn tables(best: &[Best]) -> Vec<Table> {
     sorted.chunk_by(|a, b| a.quantity == b.quantity).map(of).collect()
 }
 
-/// What the chart says, in one sentence: what a displacement known to 1 % of the gap costs with
-/// each kind of method, or how near a kind comes that does not reach it.
+/// What the chart says of an error, in one sentence: what 1 % costs with each kind of method, or
+/// how near a kind comes that does not reach it.
 #[must_use]
-pub fn conclusion(scene: &Scene, best: &[Best]) -> String {
-    let asked = best.iter().filter(|row| row.quantity == Quantity::Displacement && row.tolerance == ASKED);
+pub fn conclusion(scene: &Scene, best: &[Best], quantity: Quantity) -> String {
+    let asked = best.iter().filter(|row| row.quantity == quantity && row.tolerance == ASKED);
     let parts: Vec<String> = asked
         .map(|row| match &row.method {
             Some(method) => format!("{} {}", method.short, time(method.seconds)),
             None => format!("{} {}", row.kind, row.missed),
         })
         .collect();
-    let of = if scene.walls.is_empty() && scene.supports.is_empty() { "reference length" } else { "gap" };
+    let of = match quantity {
+        Quantity::Displacement if scene.walls.is_empty() && scene.supports.is_empty() => "reference length",
+        _ => whole(quantity),
+    };
     format!("for 1 % of the {of}: {}", parts.join(", "))
+}
+
+/// What an error is a share of.
+pub(super) const fn whole(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Displacement => "gap",
+        Quantity::Impulse => "impulse",
+        Quantity::ContactTime => "duration",
+    }
 }
 
 /// A share of two digits, rounded down: what has this share is not below it. As a percentage,

@@ -31,9 +31,8 @@ pub fn overview(case: &Case, comparison: &Comparison) -> Table {
             return vec![row.method.to_string(), "failed".into()];
         };
         let taken = row.step_ns.map(|ns| time(1e-9 * ns * run.counters.steps as f64));
-        let contacts: usize = Site::all(case).filter_map(|site| site.contacts(run)).sum();
         let error = if row.method.scheme.is_exact() { "exact".into() } else { error(row) };
-        let mut line = vec![row.method.to_string(), error, contacts.to_string()];
+        let mut line = vec![row.method.to_string(), error, contacts(case, run).to_string()];
         line.extend([force(largest_force(run)), taken.unwrap_or_else(|| "-".into())]);
         if refuted {
             line.push(if is_refuted(row) { "REFUTED" } else { "kept" }.into());
@@ -63,7 +62,13 @@ fn error(row: &Row) -> String {
     row.error.map_or_else(|| none().to_owned(), short)
 }
 
-fn force(newtons: Option<f64>) -> String {
+/// The contacts of a run at all walls and supports.
+pub(super) fn contacts(case: &Case, run: &Run) -> usize {
+    Site::all(case).filter_map(|site| site.contacts(run)).sum()
+}
+
+/// A force in words, N.
+pub(super) fn force(newtons: Option<f64>) -> String {
     newtons.map_or_else(|| "-".to_owned(), |newtons| format!("{newtons:.2}"))
 }
 
@@ -105,8 +110,7 @@ pub fn all_quantities(case: &Case, comparison: &Comparison) -> Table {
         quantity("Σ|impulse| (N s)", &|_, run| {
             format!("{:.3}", all.iter().filter_map(|site| site.impulse(run)).map(f64::abs).sum::<f64>())
         });
-        let count = |run: &Run| all.iter().filter_map(|site| site.contacts(run)).sum::<usize>();
-        quantity("contacts", &|_, run| count(run).to_string());
+        quantity("contacts", &|_, run| contacts(case, run).to_string());
     } else {
         for site in &all {
             let (name, told): (String, fn(f64) -> String) = match site {

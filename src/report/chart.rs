@@ -33,6 +33,15 @@ pub(super) fn short(method: &str) -> String {
     method.parse::<Method>().map_or_else(|_| method.to_owned(), |method| label(&method))
 }
 
+/// What the chart says of each error, by its column; folders of older versions say it of the
+/// displacement alone.
+fn conclusions(manifest: &Value) -> Value {
+    match &manifest["conclusions"] {
+        Value::Null => json!({ column(Quantity::Displacement): manifest["conclusion"] }),
+        said => said.clone(),
+    }
+}
+
 /// What the page of a chart shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let table = folder.cells("work-precision.csv")?;
@@ -46,7 +55,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "chart": {
             "table": table.for_page(Some(&SHOWN)),
             "labels": (0..table.rows.len()).map(|row| short(table.text(row, "method"))).collect::<Vec<_>>(),
-            "conclusion": told("conclusion"),
+            "conclusions": conclusions(&folder.manifest),
             "cheapest": told("cheapest"),
             "names": BTreeMap::from(Quantity::ALL.map(|quantity| (column(quantity), quantity.name()))),
             "floors": told("floors"),

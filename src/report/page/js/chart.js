@@ -136,7 +136,7 @@ class ChartData {
 
 /** Accuracy against speed, with a choice of error: what follows from it, then the picture. */
 function chartSection() {
-  const { conclusion, cheapest, compared } = DATA.chart;
+  const { conclusions, cheapest, compared } = DATA.chart;
   const data = new ChartData();
   const frontLook = { colour: () => ink.reference, width: 8, dash: [], behind: true };
   const plot = new Plot({
@@ -164,7 +164,7 @@ function chartSection() {
     if (key.hidden) drawEndNames(ctx, plot, named, [data.front]);
     else key.replaceChildren(...namesBeside(plot, named));
   };
-  const told = el("div");
+  const [headline, told] = [el("div"), el("div")];
   const reasons = el("ul", { class: "notes floors" });
   const fill = () => {
     plot.x = data.kinds.find(([column]) => column === data.error)[2];
@@ -186,7 +186,10 @@ function chartSection() {
       dash: [5, 3],
       colour: curve.look.colour,
     }));
-    reasons.replaceChildren(...floors.map(({ floor }) => el("li", {}, `${floor.reason}.`)));
+    reasons.replaceChildren(
+      ...floors.map((curve) => el("li", {}, `${data.floorOf(curve).reason || curve.floor.reason}.`)),
+    );
+    headline.replaceChildren(...[conclusionOf(conclusions[data.error])].filter((text) => text));
     told.replaceChildren(...[cheapestTable(cheapest, data.error)].filter((table) => table));
     plot.redraw();
   };
@@ -204,7 +207,7 @@ function chartSection() {
     "work",
     "Accuracy against speed",
     null,
-    conclusionOf(conclusion),
+    headline,
     el("div", { class: "bar controls" }, tabs),
     told,
     plot.box,
