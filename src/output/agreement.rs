@@ -98,7 +98,9 @@ fn judged(case: &Case, comparison: &Comparison) -> Vec<Judged> {
         let penalty = matches!(row.method.scheme, Scheme::Penalty { .. });
         let passes = penalty && run.residuals.penetration_m / length > TOO_SOFT;
         let fate = fate(run, passes, error.is_nan() || error > AGREEMENT);
-        let contacts = comparison.reference_run().and_then(|reference| other_contacts(case, run, reference));
+        // The largest force of springs is that of an instant, at rigid walls it is a mean.
+        let reference = comparison.reference_run().filter(|_| !penalty);
+        let contacts = reference.and_then(|reference| other_contacts(case, run, reference));
         judged.push(Judged { name: name(&row.method), penalty, error, agrees_until: until, fate, contacts });
     }
     judged

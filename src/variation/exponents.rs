@@ -51,7 +51,7 @@ pub struct Exponents {
     count: usize,
     omega: f64,
     window: [f64; 2],
-    /// True once a step of the window has been seen.
+    /// True once a step has reached into the window.
     begun: bool,
     blocks: Vec<Block>,
     /// Factors of the last step.
@@ -100,8 +100,9 @@ impl Exponents {
         })
     }
 
-    /// Propagates the changes over `step`. Steps that begin before the window only turn the
-    /// changes; those that begin after its end are left out.
+    /// Propagates the changes over `step`. Steps before the window only turn the changes; those after
+    /// it are left out. A step of the exact scheme may be longer than the window: one that reaches
+    /// into it counts with the part inside, over which its changes are taken to grow evenly.
     ///
     /// # Errors
     /// [`NoDerivative`]; the exponents are meaningless from then on.
@@ -111,7 +112,8 @@ impl Exponents {
             return Ok(());
         }
         let (size, omega) = (2 * self.variation.degrees_of_freedom(), self.omega);
-        if step.start >= from && !self.begun {
+        let inside = step.end.min(to) - step.start.max(from);
+        if inside > 0.0 && !self.begun {
             self.begun = true;
             self.renew(size);
         }
@@ -124,12 +126,13 @@ impl Exponents {
         self.variation.propagate(step, &mut self.changes)?;
         scale(&mut self.changes, 1.0 / omega);
         orthogonalise(&mut self.changes, size, &mut self.factors);
-        if step.start >= from {
-            let share = (step.start - from) / (to - from);
+        if inside > 0.0 {
+            let share = (step.start.max(from) - from) / (to - from);
+            let part = inside / (step.end - step.start);
             let block = ((share * BLOCKS as f64) as usize).min(BLOCKS - 1);
             if let Some(block) = self.blocks.get_mut(block) {
-                block.length += step.end - step.start;
-                block.logs.iter_mut().zip(&self.factors).for_each(|(sum, factor)| *sum += factor.ln());
+                block.length += inside;
+                block.logs.iter_mut().zip(&self.factors).for_each(|(sum, factor)| *sum += part * factor.ln());
             }
         }
         Ok(())

@@ -418,6 +418,27 @@ fn a_run_that_rests_has_an_exponent_of_minus_infinity() {
     assert_eq!((largest.per_s, largest.error_per_s), (f64::NEG_INFINITY, None));
 }
 
+/// A stretch of exact motion may begin before the window or end after it.
+#[test]
+fn a_window_has_the_exponent_of_the_parts_of_steps_in_it() {
+    let largest = |scene: &Scene| {
+        let mut exponents = Exponents::new(scene, 1, [3.0, 13.0]).unwrap();
+        let mut stepper = Stepper::new(scene, &Scheme::Event, 20.0).unwrap();
+        let mut steps = 0;
+        while stepper.time() < 20.0 {
+            exponents.observe(&stepper.step().unwrap()).unwrap();
+            steps += 1;
+        }
+        (steps, exponents.largest().per_s)
+    };
+    let free = Scene::oscillator(1.0, 0.2, 100.0);
+    // A change decays by c/2m, and its size swings by at most c/2mω = 0.01 in two stretches of 10 s.
+    let (steps, exponent) = largest(&free);
+    assert!(steps == 2 && (exponent + 0.1).abs() < 0.01 / 20.0, "{steps} {exponent}");
+    let resting = free.with_wall(Wall::upper("stop", 5e-3)).with_initial(&[5e-3], &[0.0]).with_load(Load::constant(4.0));
+    assert_eq!(largest(&resting).1, f64::NEG_INFINITY);
+}
+
 #[test]
 fn exponents_without_walls_are_those_of_the_modes() {
     // C = 0.3 M + 0.002 K: each mode decays by half of 0.3 + 0.002 ω², twice.
