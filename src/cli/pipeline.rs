@@ -6,7 +6,7 @@ use super::command_line::command_line;
 use super::formats::FileFormats;
 use super::ui::Ui;
 use crate::case::Case;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, escaped};
 use crate::output::results::Results;
 use crate::output::table::Table;
 use crate::report::{self, Finished};
@@ -146,7 +146,8 @@ impl Answer {
         let last_line = self.finish(ui)?;
         let printed = self.print(ui);
         if let Some(line) = last_line {
-            ui.message(&line);
+            // Folders may have any name.
+            ui.message(&escaped(&line));
         }
         printed?;
         ui.verdict()?;
