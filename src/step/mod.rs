@@ -5,16 +5,19 @@
 //! `Step` and `Contact`, and what a scheme promises of every step, as data: its `Contract`
 //! (`contract.rs`), with the conditions at the walls (`promise.rs`); all that the recorder and the
 //! judge know of schemes; `between.rs` is the motion between the ends of a step; `load_jumps.rs` is
-//! the force that makes up for a jump of a load within a step; `quiet_steps.rs` keeps steps of one
-//! degree of freedom between two contacts, which both look at together.
+//! the force that makes up for a jump of a load within a step; `last_impacts.rs` tells where impacts
+//! at a wall accumulate; `quiet_steps.rs` keeps steps of one degree of freedom between two contacts,
+//! which both look at together.
 
 mod between;
 mod contract;
+mod last_impacts;
 mod load_jumps;
 mod promise;
 mod quiet_steps;
 
 pub use contract::{Balance, Conserves, Contract, Tolerance, Tolerances};
+pub(crate) use last_impacts::LastImpacts;
 pub(crate) use load_jumps::LoadJumps;
 pub use promise::{Bound, Circle, Elastic, Friction, Law, Normal, Promise, PromisedForce, Reached, Rigid, Turning};
 pub(crate) use quiet_steps::QuietSteps;
@@ -240,7 +243,9 @@ pub struct Step<'a> {
     pub wedged: &'a [usize],
     /// Walls whose rebounds end within the step: their ε is 0 (where there is friction by
     /// [`Friction`]; in a [`Path::Part`] where the acceleration a before the impact presses the
-    /// body on the wall and 2e|ẇ| ≤ (1 − e) h a).
+    /// body on the wall and 2e|ẇ| ≤ (1 − e) h a, or where it is struck in turn with others ever
+    /// faster and weaker, so that the impacts left come within the step; with those at one wall end
+    /// those at all that are approached no faster).
     pub resting: &'a [usize],
     /// Extra force given by the caller, and what a load that jumps within the step lacks of its
     /// impulse, N, as they enter the momentum balance: constant over the step, or for a staggered

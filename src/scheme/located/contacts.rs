@@ -99,6 +99,9 @@ pub(super) trait Contacts<S: Space>: Debug + Send {
     /// How far the end of that path is from an event.
     fn ahead(&self, body: &Body<S>, frame: &Frame<S>, event: Event, motion: (&S::Vector, f64)) -> Ahead;
 
+    /// Forgets earlier impacts: the state is a new one.
+    fn restart(&mut self) {}
+
     /// Notes a part of no length.
     fn stay(&mut self) {}
 

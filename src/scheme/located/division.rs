@@ -89,6 +89,7 @@ impl<S: Space, C: Contacts<S>> Division<S, C> {
     /// Restarts `body` at `time` (s). Within a step its rest is to be made, in parts.
     pub fn restart(&mut self, body: &mut Body<S>, time: f64) {
         body.restart(time);
+        self.contacts.restart();
         self.progress = None;
         if let (index, true) = step_at(time, body.h) {
             let end = (index + 1) as f64 * body.h;

@@ -28,7 +28,10 @@
 //! the body rests at once (Studer 2009, doi:10.1007/978-3-642-01100-9, discusses such ends of
 //! accumulations), which moves it by O(h²). What that impulse drives the body into, no faster than
 //! it arrived, has e = 0 too: impacts that accumulate between several walls leave a velocity along
-//! all of them.
+//! all of them. They do so without a force that presses the body on one of them, too: three
+//! impacts at a wall within a step, ever faster and weaker, of which all that are left would come
+//! within a step ([`LastImpacts`](crate::step::LastImpacts)). This is asked of walls without
+//! friction.
 //!
 //! Loads of no duration and jumps of tables divide a step too, also a jump that is written as two
 //! rows within a step. Elastic walls act as in moreau-jean;

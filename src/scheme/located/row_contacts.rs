@@ -13,6 +13,7 @@ use super::part::{Part, THETA, VelocityBound};
 use crate::error::Result;
 use crate::qp::Backend;
 use crate::scene::{Scene, Wall, WallLaw};
+use crate::step::LastImpacts;
 
 /// The rigid walls that the body touches, and the law of their impacts.
 #[derive(Debug)]
@@ -33,6 +34,8 @@ pub(super) struct RowContacts<S: Space> {
     length: f64,
     /// The largest speed at which rebounds ended at the current instant, m/s.
     ended: f64,
+    /// The last impacts at each wall.
+    last: Vec<LastImpacts>,
     /// No momentum but that of the walls.
     none: S::Vector,
     impulse: Vec<f64>,
@@ -59,6 +62,7 @@ impl<S: Space> RowContacts<S> {
             changes: vec![0.0; walls],
             length: 0.0,
             ended: 0.0,
+            last: vec![LastImpacts::NONE; walls],
             none: zero::<S>(body.n),
             impulse: vec![0.0; walls],
             pushing: Vec::with_capacity(walls),
@@ -76,13 +80,13 @@ impl<S: Space> RowContacts<S> {
         self.opposite[wall].iter().any(|&other| self.rests(other))
     }
 
-    /// True if the rebounds of a body that strikes a wall at `speed` (m/s) end within a step of `h`
-    /// seconds, under the acceleration of the last part, or with those at another wall, whose
-    /// impulse drove the body into this one.
-    fn rebounds_end(&self, wall: usize, e: f64, speed: f64, h: f64) -> bool {
+    /// True if the rebounds of a body that strikes a wall at `time` (s) with `speed` (m/s) end
+    /// within a step of `h` seconds, under the acceleration of the last part, in turn with impacts
+    /// at other walls, or with those at another wall, whose impulse drove the body into this one.
+    fn rebounds_end(&self, wall: usize, e: f64, (time, speed): (f64, f64), h: f64) -> bool {
         let pressed = -self.changes[wall];
         let ends = self.length > 0.0 && 2.0 * e * speed * self.length <= (1.0 - e) * h * pressed;
-        e < 1.0 && (ends || speed <= self.ended)
+        e < 1.0 && (ends || speed <= self.ended || self.last[wall].accumulate((time, speed), h, 1.0))
     }
 
     /// Sets the bounds of the walls at which the body rests, no speed into them but out of them by
@@ -198,6 +202,10 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
         Ahead { left: path.end(), rate: path.rate + path.change, met: body.touch }
     }
 
+    fn restart(&mut self) {
+        self.last.fill(LastImpacts::NONE);
+    }
+
     fn stay(&mut self) {
         self.length = 0.0;
     }
@@ -220,7 +228,7 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
         for (wall, face) in body.walls.iter().enumerate() {
             let e = face.law.restitution().unwrap_or(0.0);
             let (place, rate) = (self.places[wall], self.seen[wall].1);
-            if place == Place::Struck && e > 0.0 && self.rebounds_end(wall, e, rate.abs(), body.h) {
+            if place == Place::Struck && e > 0.0 && self.rebounds_end(wall, e, (frame.end, rate.abs()), body.h) {
                 frame.resting.push(wall);
             }
         }
@@ -240,7 +248,7 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
                 self.law.bind(row, number, bound);
             }
         }
-        let Self { law, none, impulse, pushing, ended, seen, .. } = self;
+        let Self { law, none, impulse, pushing, ended, last, seen, .. } = self;
         law.solve(none, (frame.end, step), impulse, pushing)?;
         for (v, d) in frame.v.as_mut().iter_mut().zip(law.x().as_ref()) {
             *v += d;
@@ -249,6 +257,7 @@ impl<S: Space> Contacts<S> for RowContacts<S> {
             if frame.resting.contains(&wall) {
                 *ended = ended.max(seen[wall].1.abs());
             }
+            last[wall].observe(frame.end, seen[wall].1.abs());
             frame.push_at_end(wall, std::mem::take(&mut impulse[wall]));
         }
         Ok(true)
