@@ -98,7 +98,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     refute(&chart, ui);
     any_ran(&chart)?;
     let best = cheapest(&chart, &peers);
-    let conclusions = Quantity::ALL.map(|quantity| (output::column(quantity), conclusion(&case.scene, &best, quantity)));
+    let conclusions =
+        Quantity::ALL.map(|quantity| (output::column(quantity), conclusion(&case.scene, &best, quantity)));
     let [(_, conclusion), ..] = conclusions.clone();
     write(&mut results, &case, &chart, &peers, &conclusion)?;
     let mut document = document::chart(&case, &chart);

@@ -183,8 +183,8 @@ mod tests {
     fn counted(case: &str) -> (usize, Vec<usize>) {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("out").display().to_string();
-        let words = ["signorini", "run", case, "--scheme", "moreau-jean", "--no-verdict", "--end", "0.01", "--quiet", "--out", &out];
-        let cli = Cli::try_parse_from(words).unwrap();
+        let line = format!("signorini run {case} --scheme moreau-jean --no-verdict --end 0.01 --quiet --out {out}");
+        let cli = Cli::try_parse_from(line.split(' ')).unwrap();
         checked::take();
         factored::take();
         execute(&cli.command, &Ui::new(true, false, Stdout::Open)).unwrap();

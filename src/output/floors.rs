@@ -51,7 +51,8 @@ pub(crate) fn sentences(chart: &WorkPrecision) -> Vec<String> {
 /// column in `work-precision.csv`.
 pub(crate) fn rows(chart: &WorkPrecision) -> Value {
     let row = |floor: &Floor| {
-        let shown = |at: f64, share: &str| json!({ "at": at, "label": mark(floor, at), "reason": reason(floor, share) });
+        let shown =
+            |at: f64, share: &str| json!({ "at": at, "label": mark(floor, at), "reason": reason(floor, share) });
         // One without a displacement of its own has no floor.
         let errors: &Errors = floor.errors.as_ref().filter(|errors| errors.displacement > 0.0)?;
         let mut row = json!({

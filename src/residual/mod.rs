@@ -71,7 +71,7 @@ pub(crate) use residuals::penetration;
 
 use crate::linear::{Factor, running_max};
 use crate::scene::{Forcing, GridForcing, LastPieces, Loads, Scene, System};
-use crate::step::{Contract, LastImpacts, Path, Step};
+use crate::step::{Contract, Path, Step};
 use balance::BalanceCheck;
 use blows::Blows;
 use extent::Extent;
@@ -129,8 +129,6 @@ pub struct Judge {
     rubbed: Vec<f64>,
     /// The largest speed at which rebounds ended at the instant of the last part, m/s.
     ended: f64,
-    /// The last impacts at each wall.
-    last_impacts: Vec<LastImpacts>,
     /// The vector instructions of the machine.
     arch: pulp::Arch,
     /// Work space for several steps at once; `None` where each is to be seen alone.
@@ -215,7 +213,6 @@ impl Judge {
             series: SeriesScratch::new(n),
             over: vec![0.0; scene.walls.len()],
             ended: 0.0,
-            last_impacts: vec![LastImpacts::NONE; scene.walls.len()],
             rubbed: Vec::new(),
             arch: pulp::Arch::new(),
             quiet_scratch: QuietScratch::new(scene, contract, &weights, blows),

@@ -193,12 +193,12 @@ impl Judge {
                 None => (change(row.dot(step.velocity_before), before), length),
             };
             struck.abs() <= SAME * (self.ended + noise)
-                || e < 1.0 && self.last_impacts[index].accumulate((step.end, struck.abs()), self.h, SAME)
+                || e < 1.0 && self.walls.last_impacts[index].accumulate((step.end, struck.abs()), self.h, SAME)
                 || 2.0 * e * struck.abs() * length <= SAME * (1.0 - e) * self.h * (pressed + noise)
         };
         let ended = if rests && p != 0.0 { struck.abs() } else { 0.0 };
         if p != 0.0 {
-            self.last_impacts[index].observe(step.end, struck.abs());
+            self.walls.last_impacts[index].observe(step.end, struck.abs());
         }
         let e = if rests || step.wedged.contains(&index) { 0.0 } else { e };
         // A wall that the body leaves need not push: what drives the body back strikes it next.

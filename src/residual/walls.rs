@@ -4,6 +4,7 @@ use super::front::ComplementarityFront;
 use super::largest_residual::Residual;
 use super::noise::NoiseModel;
 use crate::scene::Scene;
+use crate::step::LastImpacts;
 
 /// What a run has shown of its walls; vectors have one entry per wall.
 #[derive(Debug, Default)]
@@ -21,6 +22,8 @@ pub(super) struct WallCheck {
     pub force_scale: f64,
     /// Force of each elastic wall at the end of the last step, N.
     pub last_force: Vec<f64>,
+    /// The last impacts at each wall, at the ends of parts of steps.
+    pub last_impacts: Vec<LastImpacts>,
     /// Distance within which a wall counts as touched, m.
     pub touch: f64,
 }
@@ -31,6 +34,7 @@ impl WallCheck {
         Self {
             depth: vec![0.0; scene.walls.len()],
             last_force: scene.walls.iter().map(|wall| wall.law_force(wall.row().dot(q), wall.row().dot(v))).collect(),
+            last_impacts: vec![LastImpacts::NONE; scene.walls.len()],
             touch: scene.touching_distance(),
             ..Self::default()
         }

@@ -5,9 +5,9 @@
 //! `Step` and `Contact`, and what a scheme promises of every step, as data: its `Contract`
 //! (`contract.rs`), with the conditions at the walls (`promise.rs`); all that the recorder and the
 //! judge know of schemes; `between.rs` is the motion between the ends of a step; `load_jumps.rs` is
-//! the force that makes up for a jump of a load within a step; `last_impacts.rs` tells where impacts
-//! at a wall accumulate; `quiet_steps.rs` keeps steps of one degree of freedom between two contacts,
-//! which both look at together.
+//! the force that makes up for a jump of a load within a step; `last_impacts.rs` tells where
+//! impacts at a wall accumulate; `quiet_steps.rs` keeps steps of one degree of freedom between two
+//! contacts, which both look at together.
 
 mod between;
 mod contract;

@@ -100,9 +100,10 @@ impl Exponents {
         })
     }
 
-    /// Propagates the changes over `step`. Steps before the window only turn the changes; those after
-    /// it are left out. A step of the exact scheme may be longer than the window: one that reaches
-    /// into it counts with the part inside, over which its changes are taken to grow evenly.
+    /// Propagates the changes over `step`. Steps before the window only turn the changes; those
+    /// after it are left out. A step of the exact scheme may be longer than the window: one that
+    /// reaches into it counts with the part inside, over which its changes are taken to grow
+    /// evenly.
     ///
     /// # Errors
     /// [`NoDerivative`]; the exponents are meaningless from then on.

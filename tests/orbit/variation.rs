@@ -432,10 +432,12 @@ fn a_window_has_the_exponent_of_the_parts_of_steps_in_it() {
         (steps, exponents.largest().per_s)
     };
     let free = Scene::oscillator(1.0, 0.2, 100.0);
-    // A change decays by c/2m, and its size swings by at most c/2mω = 0.01 in two stretches of 10 s.
+    // A change decays by c/2m, and its size swings by at most c/2mω = 0.01 in two stretches of 10
+    // s.
     let (steps, exponent) = largest(&free);
     assert!(steps == 2 && (exponent + 0.1).abs() < 0.01 / 20.0, "{steps} {exponent}");
-    let resting = free.with_wall(Wall::upper("stop", 5e-3)).with_initial(&[5e-3], &[0.0]).with_load(Load::constant(4.0));
+    let resting =
+        free.with_wall(Wall::upper("stop", 5e-3)).with_initial(&[5e-3], &[0.0]).with_load(Load::constant(4.0));
     assert_eq!(largest(&resting).1, f64::NEG_INFINITY);
 }
 
