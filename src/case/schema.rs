@@ -197,8 +197,9 @@ mod tests {
 
     #[test]
     fn what_holds_where_a_key_is_left_out_is_what_its_entry_says() {
-        // Set to its default, a key makes the case that it makes where it is left out.
-        let mut tried = std::collections::HashSet::new();
+        // Set to its default, a key makes the case that it makes where it is left out. Each key is
+        // tried in the first few cases that may have it: some take long to read.
+        let mut tried = HashMap::new();
         for embedded in Embedded::all() {
             let file = CaseFile::of_embedded(*embedded);
             let (case, text): (_, toml::Table) = (file.case().unwrap(), toml::from_str(embedded.text).unwrap());
@@ -207,6 +208,9 @@ mod tests {
                 Some(name.unwrap_or("1").to_owned())
             };
             for entry in KEYS.iter().filter(|entry| !entry.is_inner() && !entry.is_table()) {
+                if tried.get(entry.key) == Some(&4) {
+                    continue;
+                }
                 let Ok(value) = entry.default.trim_matches('`').parse::<KeyValue>() else { continue };
                 let written = value.0.as_str().is_none() || entry.default.starts_with("`\"");
                 let table = entry.key.rsplit_once('.').map_or("", |(table, _)| table);
@@ -226,7 +230,7 @@ mod tests {
                 // Some make no sense beside other keys, such as the damping of a rigid wall.
                 let Ok(set) = set.case() else { continue };
                 assert_eq!(Case { document: case.document.clone(), ..set }, case, "{}: {}", embedded.name, entry.key);
-                tried.insert(entry.key);
+                *tried.entry(entry.key).or_insert(0) += 1;
             }
         }
         assert!(tried.len() > 12, "{tried:?}");

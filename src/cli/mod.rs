@@ -183,7 +183,7 @@ mod tests {
     fn counted(case: &str) -> (usize, Vec<usize>) {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("out").display().to_string();
-        let words = ["signorini", "run", case, "--scheme", "moreau-jean", "--no-verdict", "--quiet", "--out", &out];
+        let words = ["signorini", "run", case, "--scheme", "moreau-jean", "--no-verdict", "--end", "0.01", "--quiet", "--out", &out];
         let cli = Cli::try_parse_from(words).unwrap();
         checked::take();
         factored::take();

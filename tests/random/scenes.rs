@@ -27,8 +27,11 @@ const REFUTED_ONCE: [u64; 42] = [
     101_985, 100_994, 101_164, 100_484, 100_983, 101_259, 101_646, 102_514, 102_380, 201_374, 102_495, 203_652,
     200_640, 300_057, 1162, 101_612, 2_054_920, 4164, 13_484, 2_054_790, 2_062_259, 2_055_952, 2_006_971, 2_051_409,
     2_078_924, 2_084_975, 2_002_784, 2_061_769, 20_951, 49_648, 62_489, 6_111_596, 6_026_013, 6_128_295, 5_001_416,
-    7_000_740, 7_044_102, 7_200_839, 9_527_373, 9_528_694, 9_045_151, 9_547_435,
+    7_000_740, 7_044_102, 7_200_839, 9_527_373, LONG_BY_EVENT, 9_045_151, 9_547_435,
 ];
+
+/// A scene that `generalized-alpha` got wrong, and whose exact motion takes 45 s: it is left out.
+const LONG_BY_EVENT: u64 = 9_528_694;
 
 /// What became of a run.
 enum Outcome {
@@ -129,6 +132,7 @@ fn judge(seeds: &[u64], units: Units, mut show: impl FnMut(Judged)) {
     let only = std::env::var("SIGNORINI_SCHEMES");
     let judged = |seed: u64| {
         let mut drawn = random_scene(seed, units);
+        drawn.schemes.retain(|scheme| seed != LONG_BY_EVENT || *scheme != Scheme::Event);
         if let Ok(names) = &only {
             drawn.schemes.retain(|scheme| names.split(',').any(|name| name == scheme.entry().name));
         }
