@@ -408,3 +408,29 @@ fn walls_of_modes_are_drawn_where_no_probe_watches() {
     assert!(!texts.iter().any(|text| text.contains("not drawn")), "{texts:?}");
     tab.close();
 }
+
+/// The first view of branches: about their special points, or most of them where some lie far off,
+/// and from 0 on only where the speeds come near it.
+#[test]
+fn branches_begin_where_their_special_points_are() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let follow = ["continue", "rigid-walls-sine", "--key", "load.1.harmonic.frequency", "--range"];
+    let mut ticks = |range| {
+        let page = results(dir.path(), &[&follow[..], &[range], &SOFT[..]].concat());
+        let mut tab = opened(&mut browser, &page);
+        let first = texts(&mut tab);
+        tab.press_button("Whole range");
+        let whole = texts(&mut tab);
+        tab.close();
+        (first, whole)
+    };
+    // Speeds of 0.165 to 0.168 m/s about the symmetry breaking at 4.5708 Hz.
+    let (first, _) = ticks("4.5:5.5");
+    assert!(first.iter().any(|text| text.starts_with("0.167")), "{first:?}");
+    // Nine of twelve special points lie between 3.36 and 4.57 Hz, one at 14.6 Hz.
+    let (first, whole) = ticks("1:16");
+    let has = |texts: &[String], tick: &str| texts.iter().any(|text| text == tick);
+    assert!(has(&first, "4.6") && !has(&first, "14"), "{first:?}");
+    assert!(has(&whole, "14"), "{whole:?}");
+}
