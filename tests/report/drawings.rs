@@ -434,3 +434,27 @@ fn branches_begin_where_their_special_points_are() {
     assert!(has(&first, "4.6") && !has(&first, "14"), "{first:?}");
     assert!(has(&whole, "14"), "{whole:?}");
 }
+
+/// What print leaves out, the controls, has no key; the squares of keys print with their colours,
+/// and a map says what it shows.
+#[test]
+fn keys_are_on_paper_too() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let sweep = ["sweep", "rigid-walls-sine", "--scheme", "event", "--settle", "20", "--keep", "5"];
+    let vary = ["--vary", "load.1.harmonic.frequency=4:5:3"];
+    let (instants, other) = (["--follow", "both", "--samples", "periods"], ["--vary", "system.oscillator.mass=1:2:2"]);
+    let pages = [[&instants[..], &SOFT[..]].concat(), [&other[..], &["--measure", "contacts"]].concat()];
+    let [instants, map] = pages.map(|more| results(dir.path(), &[&sweep[..], &vary[..], &more[..]].concat()));
+    let mut tab = opened(&mut browser, &instants);
+    let keys = "[document.querySelectorAll('#sweep .swatch').length, document.querySelectorAll('.controls \
+        .swatch').length, getComputedStyle(document.querySelector('.swatch')).printColorAdjust]";
+    assert_eq!(tab.evaluate(keys), json!([3, 0, "exact"]));
+    tab.close();
+    let mut tab = opened(&mut browser, &map);
+    let texts = texts(&mut tab);
+    assert!(texts.iter().any(|text| text == "Contacts upper"), "{texts:?}");
+    // Every cell has its number.
+    assert_eq!(tab.evaluate("document.querySelector('#sweep .swatch').closest('.bar').hidden"), true);
+    tab.close();
+}

@@ -106,12 +106,13 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
   return el(
     "div",
     {},
-    directions.length > 1 ? el("div", { class: "bar" }, directionKeys()) : null,
+    directions.length > 1 || over
+      ? el("div", { class: "bar" }, directions.length > 1 ? directionKeys() : null, over ? overKey(over) : null)
+      : null,
     el(
       "div",
       { class: "bar controls" },
       button("All values", () => view.set(...view.full), "Whole range"),
-      over ? overKey(over) : null,
       el(
         "span",
         { class: "right help" },
