@@ -458,3 +458,28 @@ fn keys_are_on_paper_too() {
     assert_eq!(tab.evaluate("document.querySelector('#sweep .swatch').closest('.bar').hidden"), true);
     tab.close();
 }
+
+/// The first view has curves alone; readings come with an instant that the reader chooses, and lie
+/// within the plot on a phone.
+#[test]
+fn readings_wait_for_an_instant_to_be_chosen() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let page = results(dir.path(), &["compare", "rigid-walls-sine", "--end", "1", "--no-verdict"]);
+    let mut tab = opened(&mut browser, &page);
+    tab.width(390);
+    tab.frame();
+    let reading = |text: &String| text.starts_with("located  ");
+    let first = texts(&mut tab);
+    assert!(!first.iter().any(reading), "{first:?}");
+    let plot = "#motion .plot canvas + canvas";
+    tab.evaluate(&format!("document.querySelector('{plot}').scrollIntoView({{ block: 'center' }})"));
+    let [x, y, w, h] = tab.place(plot);
+    tab.click(x + 0.5 * w, y + 0.5 * h);
+    tab.frame();
+    let left = "Math.min(...drawn.filter((one) => String(one[4]).startsWith('located  ')).map((one) => one[2]))";
+    // The axis of a narrow plot is at 52 pixels or more.
+    let left = tab.evaluate(left).as_f64();
+    assert!(left.is_some_and(|left| left > 52.0), "{left:?}");
+    tab.close();
+}
