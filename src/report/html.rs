@@ -18,12 +18,13 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 48] = [
+const SCRIPT: [&str; 49] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
     include_str!("page/js/plot.js"),
     include_str!("page/js/curves.js"),
+    include_str!("page/js/marks.js"),
     include_str!("page/js/pointer.js"),
     include_str!("page/js/motion.js"),
     include_str!("page/js/controls.js"),

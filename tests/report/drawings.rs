@@ -10,7 +10,9 @@ use std::process::Command;
 const RECORD: &str = "(() => { const pen = CanvasRenderingContext2D.prototype; globalThis.drawn = []; \
     const record = (name, style) => { const own = pen[name]; pen[name] = function (...args) { \
     const [text, x, y] = name === 'fillText' ? args : [this.lineWidth, ...args]; \
-    drawn.push([name, String(this[style]), x, y, text, args]); return own.apply(this, args); }; }; \
+    const width = name === 'fillText' ? this.measureText(text).width : 0; \
+    drawn.push([name, String(this[style]), x, y, text, args, this.textAlign, width]); \
+    return own.apply(this, args); }; }; \
     record('fillText', 'fillStyle'); record('lineTo', 'strokeStyle'); record('rect', 'strokeStyle'); })()";
 
 /// Draws everything anew in the other theme, and gives the texts.
@@ -481,5 +483,35 @@ fn readings_wait_for_an_instant_to_be_chosen() {
     // The axis of a narrow plot is at 52 pixels or more.
     let left = tab.evaluate(left).as_f64();
     assert!(left.is_some_and(|left| left > 52.0), "{left:?}");
+    tab.close();
+}
+
+/// The text drawn last that is `text`: [left, right, height] in pixels of its drawing.
+fn box_of(tab: &mut Tab<'_>, text: &str) -> [f64; 3] {
+    let one = format!(
+        "(() => {{ const [kind, , x, y, text, , align, width] = drawn.filter((one) => one[0] === 'fillText' && \
+         one[4] === '{text}').at(-1); const left = align === 'right' ? x - width : align === 'center' ? x - width / 2 \
+         : x; return [left, left + width, y]; }})()"
+    );
+    serde_json::from_value(tab.evaluate(&one)).unwrap()
+}
+
+/// Names of walls and of the horizon, and the numbers and the name of an axis, on a phone.
+#[test]
+fn labels_do_not_lie_on_one_another() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let compare = ["compare", "rigid-walls-sine", "--end", "4"];
+    let page = results(dir.path(), &[&compare[..], &["--schemes", "located,penalty:epsilon=1e-12"]].concat());
+    let mut tab = opened(&mut browser, &page);
+    tab.width(390);
+    tab.frame();
+    texts(&mut tab);
+    let [horizon, wall] = ["horizon of prediction", "lower"].map(|text| box_of(&mut tab, text));
+    let apart = (horizon[2] - wall[2]).abs() >= 14.0 || horizon[1] < wall[0] || wall[1] < horizon[0];
+    assert!(apart, "{horizon:?} {wall:?}");
+    // Names of axes stand at 8 pixels, upright, and are 12 pixels high.
+    let number = box_of(&mut tab, "−2000");
+    assert!(number[0] > 15.0, "{number:?}");
     tab.close();
 }

@@ -85,7 +85,9 @@ const drawings = [];
 let scheduled = false;
 
 function drawNow() {
-  for (const drawing of drawings) if (drawing.dirty) drawing.draw();
+  // The room that one plot needs for its numbers moves those that share its axis.
+  for (let pass = 0; pass < 3; pass++)
+    for (const drawing of drawings) if (drawing.dirty) drawing.draw();
   for (const drawing of drawings) drawing.drawOver();
 }
 
