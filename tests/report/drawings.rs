@@ -515,3 +515,24 @@ fn labels_do_not_lie_on_one_another() {
     assert!(number[0] > 15.0, "{number:?}");
     tab.close();
 }
+
+/// Between their own springs all integrators are drawn, and each name of a curve has its own place.
+#[test]
+fn the_curves_of_own_springs_have_names_apart() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let page = results(dir.path(), &["chart", "rigid-walls-sine", "--end", "0.3", "--levels", "3"]);
+    let mut tab = opened(&mut browser, &page);
+    let note = "document.querySelector('#work p.lead').textContent";
+    assert!(tab.evaluate(note).as_str().unwrap().contains("the first is drawn"));
+    tab.press_button("Own springs");
+    let names: Vec<String> = texts(&mut tab).into_iter().filter(|text| text.contains("ε = ")).collect();
+    assert!(tab.evaluate(note).as_str().unwrap().contains("Every integrator of every penalty is drawn"));
+    assert!(names.len() > 6, "{names:?}");
+    let boxes: Vec<_> = names.iter().map(|name| box_of(&mut tab, name)).collect();
+    for (i, a) in boxes.iter().enumerate() {
+        let on = |b: &[f64; 3]| (a[2] - b[2]).abs() < 14.0 && a[0] < b[1] && b[0] < a[1];
+        assert!(!boxes[..i].iter().any(on), "{names:?} {boxes:?}");
+    }
+    tab.close();
+}
