@@ -536,3 +536,28 @@ fn the_curves_of_own_springs_have_names_apart() {
     }
     tab.close();
 }
+
+/// The page of a sweep says what was varied, and what was found.
+#[test]
+fn a_sweep_is_headed_by_what_it_found() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let sweep = ["sweep", "rigid-walls-sine", "--scheme", "event", "--settle", "200", "--keep", "20"];
+    let vary = ["--vary", "load.1.harmonic.frequency=4.3:5.2:4"];
+    let measured = results(dir.path(), &[&sweep[..], &vary, &["--measure", "contacts"], &SOFT].concat());
+    let both = ["--follow", "both", "--samples", "impacts"];
+    let instants = results(dir.path(), &[&sweep[..], &vary, &both, &SOFT].concat());
+    let heading = "document.querySelector('#sweep p.conclusion').textContent";
+    let mut tab = opened(&mut browser, &measured);
+    let said = tab.evaluate(heading).to_string();
+    assert!(said.contains("Frequency from 4.3 to 5.2 Hz, 4 values: contacts upper "), "{said}");
+    // One axis for both walls, named by what their measures have in common.
+    let drawn = texts(&mut tab);
+    assert!(drawn.iter().any(|text| text == "Contacts"), "{drawn:?}");
+    tab.close();
+    // Below the symmetry breaking at 4.5708 Hz each direction stays with one of two mirrored motions.
+    let mut tab = opened(&mut browser, &instants);
+    let said = tab.evaluate(heading).to_string();
+    assert!(said.contains("4 values: up and down lead to "), "{said}");
+    tab.close();
+}

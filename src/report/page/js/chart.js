@@ -204,7 +204,7 @@ function chartSection() {
     reasons.replaceChildren(...floors.map(({ floor }) => el("li", {}, `${floor.reason}.`)));
     told.replaceChildren(...[cheapestTable(cheapest, data.error)].filter((table) => table));
     const sentences = [CHART_NOTE, data.integrators, ...(compared || []).map(capital)];
-    note.textContent = sentences.join(" ");
+    note.replaceChildren(...worded(sentences.join(" ")));
     plot.redraw();
   };
   tellNearest(

@@ -68,9 +68,7 @@ function sweepSection() {
   if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns[0], pick, { over, view }));
   if (effects) effectsSection(tableOf(effects), seeds);
   if (shares) sharesSection(tableOf(shares), seeds, DATA.sweep.caution);
-  section(
-    "sweep",
-    "Sweep",
+  const lead =
     unstable.map((text) => `${text}. `).join("") +
     (effects
       ? "Click a row for the command that runs it alone"
@@ -79,7 +77,13 @@ function sweepSection() {
         ? `, or for its own report (there ${kept.size === 1 ? "is" : "are"} ${kept.size}).`
         : ".") +
       (seeds ? seedsText(seeds, bands) : "") +
-      (unjudged ? ` ${unjudged} of ${table.count} rows are unjudged: nothing checked their steps.` : ""),
+      (unjudged ? ` ${unjudged} of ${table.count} rows are unjudged: nothing checked their steps.` : "");
+  section(
+    "sweep",
+    "Sweep",
+    null,
+    conclusionOf(sweptInWords(table, measures, attractors, samples && tableOf(samples), axisColumns)),
+    el("p", { class: "lead" }, lead),
     ...content,
     command,
   );
@@ -123,12 +127,20 @@ const directionKeys = () =>
     ["up", "down"].map((one) => swatch(one, () => directionColour(one))),
   );
 
-/** Instants of every row over the axis: a bifurcation diagram. */
-function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
-  const names = samples.names.filter(
+/** The columns of numbers of instants, and the one that is shown first. */
+const sampledColumns = (samples) =>
+  samples.names.filter(
     (name) => !["row", "realisation"].includes(name) && !Array.isArray(samples.columns[name]),
   );
-  const wanted = names.find((name) => name.startsWith("displacement")) || names[names.length - 1];
+const sampledColumn = (samples) => {
+  const names = sampledColumns(samples);
+  return names.find((name) => name.startsWith("displacement")) || names[names.length - 1];
+};
+
+/** Instants of every row over the axis: a bifurcation diagram. */
+function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
+  const names = sampledColumns(samples);
+  const wanted = sampledColumn(samples);
   const axis = table.columns[axisColumn];
   const rowAt = new Map(Array.from(table.columns.row, (row, i) => [row, i]));
   const at = Array.from(samples.columns.row, (row) => rowAt.get(row));
