@@ -21,7 +21,7 @@ const ARROW_HEIGHT: f64 = 7.0;
 pub(super) struct Beyond {
     /// Heights of the names of curves.
     names: Vec<f64>,
-    /// Of each arrow the direction inwards of its edge, its place counted from there, and its height.
+    /// Of each arrow the direction inwards of its edge, its place counted from there, its height.
     arrows: Vec<(f64, f64, f64)>,
 }
 
@@ -149,9 +149,9 @@ impl PlotArea<'_> {
         }
     }
 
-    /// For points of a marked curve that lie beside the frame: draws an arrow for each, beside those
-    /// that are there already, and the value of the farthest point of each curve where there is
-    /// room.
+    /// For points of a marked curve that lie beside the frame: draws an arrow for each, beside
+    /// those that are there already, and the value of the farthest point of each curve where there
+    /// is room.
     pub(super) fn draw_beyond(&self, canvas: &mut Canvas, curve: &Curve, look: Look, taken: &mut Beyond) {
         let outside = |side: fn(f64) -> bool| {
             let shares = curve.points.iter().filter_map(|p| Some((self.x_axis.share(p.0)?, p)));

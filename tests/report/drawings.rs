@@ -555,7 +555,8 @@ fn a_sweep_is_headed_by_what_it_found() {
     let drawn = texts(&mut tab);
     assert!(drawn.iter().any(|text| text == "Contacts"), "{drawn:?}");
     tab.close();
-    // Below the symmetry breaking at 4.5708 Hz each direction stays with one of two mirrored motions.
+    // Below the symmetry breaking at 4.5708 Hz each direction stays with one of two mirrored
+    // motions.
     let mut tab = opened(&mut browser, &instants);
     let said = tab.evaluate(heading).to_string();
     assert!(said.contains("4 values: up and down lead to "), "{said}");
