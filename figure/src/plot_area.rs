@@ -11,6 +11,37 @@ use super::thin::{Spot, never_goes_back, thin};
 /// Opacity of the band about a curve: bands that overlap remain visible.
 const BAND: f64 = 0.18;
 
+/// Width of an arrow towards a point beside the frame, with the space after it, and the height that
+/// it needs.
+const ARROW: f64 = 8.0;
+const ARROW_HEIGHT: f64 = 7.0;
+
+/// What stands at the edges of a frame for points beside it.
+#[derive(Debug, Default)]
+pub(super) struct Beyond {
+    /// Heights of the names of curves.
+    names: Vec<f64>,
+    /// Of each arrow the direction inwards of its edge, its place counted from there, its height.
+    arrows: Vec<(f64, f64, f64)>,
+}
+
+impl Beyond {
+    /// How many places from the edge are taken at that height, by arrows.
+    fn columns(&self, inwards: f64, y: f64) -> f64 {
+        let near = self.arrows.iter().filter(|a| a.0 == inwards && (a.2 - y).abs() < ARROW_HEIGHT);
+        near.map(|arrow| arrow.1 + 1.0).fold(0.0, f64::max)
+    }
+
+    /// Takes the place nearest to the edge for an arrow at that height.
+    fn column(&mut self, inwards: f64, y: f64) -> f64 {
+        let near = self.arrows.iter().filter(|a| a.0 == inwards && (a.2 - y).abs() < ARROW_HEIGHT);
+        let used: Vec<f64> = near.map(|arrow| arrow.1).collect();
+        let column = (0..=used.len()).map(|n| n as f64).find(|n| !used.contains(n)).unwrap_or(0.0);
+        self.arrows.push((inwards, column, y));
+        column
+    }
+}
+
 /// The rectangle of a panel on the page, with both axes.
 #[derive(Debug)]
 pub(super) struct PlotArea<'a> {
@@ -118,9 +149,10 @@ impl PlotArea<'_> {
         }
     }
 
-    /// For points of a marked curve that lie beside the frame: draws an arrow for each, and the
-    /// value of the farthest point of each curve where there is room.
-    pub(super) fn draw_beyond(&self, canvas: &mut Canvas, curve: &Curve, look: Look, taken: &mut Vec<f64>) {
+    /// For points of a marked curve that lie beside the frame: draws an arrow for each, beside
+    /// those that are there already, and the value of the farthest point of each curve where there
+    /// is room.
+    pub(super) fn draw_beyond(&self, canvas: &mut Canvas, curve: &Curve, look: Look, taken: &mut Beyond) {
         let outside = |side: fn(f64) -> bool| {
             let shares = curve.points.iter().filter_map(|p| Some((self.x_axis.share(p.0)?, p)));
             let beyond = shares.filter(move |(share, _)| side(*share));
@@ -131,8 +163,8 @@ impl PlotArea<'_> {
         for (edge, inwards, side) in sides {
             let points = outside(side);
             for (_, _, y) in &points {
-                let back = edge + inwards * 8.0;
-                let tip = edge + inwards * 1.5;
+                let tip = edge + inwards * (1.5 + ARROW * taken.column(inwards, *y));
+                let back = tip + inwards * (ARROW - 1.5);
                 canvas.shape(
                     &[(tip, *y), (back, y - 3.2), (back, y + 3.2)],
                     look.stroke.colour,
@@ -142,13 +174,14 @@ impl PlotArea<'_> {
             let far = |share: f64| (share - 0.5).abs();
             let farthest = points.iter().max_by(|a, b| far(a.0).total_cmp(&far(b.0)));
             let Some((_, value, y)) =
-                farthest.filter(|p| inwards > 0.0 && taken.iter().all(|t| (t - p.2).abs() > 12.0))
+                farthest.filter(|p| inwards > 0.0 && taken.names.iter().all(|t| (t - p.2).abs() > 12.0))
             else {
                 continue;
             };
-            taken.push(*y);
+            taken.names.push(*y);
             let text = format!("{} {value:.0e}", curve.label);
-            canvas.text(Text::new(edge + 12.0, y + 3.5, text.trim(), SMALL, Anchor::Start));
+            let x = edge + 4.0 + ARROW * taken.columns(inwards, *y);
+            canvas.text(Text::new(x, y + 3.5, text.trim(), SMALL, Anchor::Start));
         }
     }
 
@@ -258,4 +291,18 @@ pub(super) fn draw_upwards(canvas: &mut Canvas, lines: &[String], x: f64, middle
 
 fn evens(axis: &Axis) -> Vec<f64> {
     axis.ticks.iter().map(|tick| tick.even).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Beyond;
+
+    #[test]
+    fn arrows_that_would_lie_on_one_another_stand_side_by_side() {
+        let mut beyond = Beyond::default();
+        let places = [10.0, 12.0, 10.0, 19.0, 40.0].map(|y| beyond.column(-1.0, y));
+        // That at 19 is too near to the one at 12 alone, which is second.
+        assert_eq!(places, [0.0, 1.0, 2.0, 0.0, 0.0]);
+        assert_eq!((beyond.column(1.0, 10.0), beyond.columns(-1.0, 40.0), beyond.columns(-1.0, 80.0)), (0.0, 1.0, 0.0));
+    }
 }

@@ -6,7 +6,7 @@ use super::layout::Layout;
 use super::legend::Legend;
 use super::look::{LABEL, Look, Role, SMALL, TITLE, WIDTH, colour, look};
 use super::panel::{Entry, Panel};
-use super::plot_area::{PlotArea, draw_axes, draw_grid, draw_upwards};
+use super::plot_area::{Beyond, PlotArea, draw_axes, draw_grid, draw_upwards};
 use super::svg::{Anchor, Canvas, Stroke, Text};
 use super::text;
 
@@ -242,7 +242,7 @@ impl Figure {
             }
         }
         if self.x_range.is_some() {
-            let mut taken = Vec::new();
+            let mut taken = Beyond::default();
             for curve in panel.curves.iter().filter(|c| c.role == Role::Ordinary && c.marked) {
                 if let Some(found) = found(&curve.label) {
                     frame.draw_beyond(canvas, curve, found, &mut taken);

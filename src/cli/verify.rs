@@ -31,7 +31,8 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     let mut results = Results::open(&args.out, request, args.force, args.tables.usable()?)?;
     let (lines, failures) = ui.with_bar("verifying", |bar| verify(&|share| bar.set_share(share)));
     write(&results.place(TABLE)?, &lines)?;
-    results.write(FILE, page(&lines))?;
+    let manifest = results.manifest();
+    results.write(FILE, page(&lines, manifest["made"].as_str().unwrap_or_default()))?;
     let conclusion = conclusion(&lines);
     let page_to_open = format!("; open {}", args.out.join(FILE).display());
     let mut answer =

@@ -117,7 +117,7 @@ fn refinement(summary: &Value) -> Option<Value> {
         Some(share) if change == 0.0 || (share > SMALL && share > change) => {
             format!("{how} changes the displacement by {}", by(share))
         }
-        _ => format!("{how} changes {what}: {changed}"),
+        _ => format!("{how} changes {what}{} {changed}", if change > 1.0 { ":" } else { "" }),
     };
     let settled = change <= SMALL && displacement.is_some_and(|share| share <= SMALL);
     let (state, text) = match note(summary, UNRESOLVED_LOAD) {

@@ -18,12 +18,13 @@ const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
 
 /// The script in the order in which it runs; one strict scope, so the parts share their names.
-const SCRIPT: [&str; 48] = [
+const SCRIPT: [&str; 50] = [
     include_str!("page/js/base.js"),
     include_str!("page/js/look.js"),
     include_str!("page/js/axes.js"),
     include_str!("page/js/plot.js"),
     include_str!("page/js/curves.js"),
+    include_str!("page/js/marks.js"),
     include_str!("page/js/pointer.js"),
     include_str!("page/js/motion.js"),
     include_str!("page/js/controls.js"),
@@ -53,6 +54,7 @@ const SCRIPT: [&str; 48] = [
     include_str!("page/js/effects.js"),
     include_str!("page/js/shares.js"),
     include_str!("page/js/measures.js"),
+    include_str!("page/js/swept.js"),
     include_str!("page/js/sweep.js"),
     include_str!("page/js/wear.js"),
     include_str!("page/js/margins.js"),

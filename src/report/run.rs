@@ -63,12 +63,13 @@ pub(super) fn draws(folder: &Folder<'_>, file: &str, told: &Value) -> Result<Val
     }))
 }
 
-/// Says in title and subtitle of the page which of `count` realisations it shows, where there are
-/// several.
+/// Says in the title of the page how many realisations it is of, in its subtitle which of them its
+/// drawings show, where there are several.
 pub(super) fn tell_draw(page: &mut Value, folder: &Folder<'_>, count: u64) {
     let title = page["title"].as_str().or(folder.manifest["request"]["case"].as_str());
     if let Some(title) = title.filter(|_| count > 1) {
-        page["title"] = json!(realisations::titled(title, count));
+        page["title"] = json!(format!("{title}: {count} draws"));
+        page["draw_count"] = json!(count);
         let subtitle = page["subtitle"].as_str().unwrap_or_default();
         let means = format!("means over {count} stand first; all drawings and other numbers are of draw 1");
         page["subtitle"] = json!(if subtitle.is_empty() { means } else { format!("{subtitle} · {means}") });

@@ -1,6 +1,7 @@
 //! `verification.html`: the verification manual as a page to file with a report. It has no script.
 
 use super::html::{hash, in_text};
+use crate::output::request::program;
 use crate::output::verification::conclusion;
 use crate::verification::Verified;
 use std::fmt::Write;
@@ -33,9 +34,15 @@ fn number(x: f64) -> String {
     if rounded == 0.0 || (1e-4..1e6).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
-/// The page of these lines.
+/// The text with a capital letter at its begin.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// The page of these lines, made at that time (RFC 3339) on this machine.
 #[must_use]
-pub(crate) fn page(lines: &[Verified]) -> String {
+pub(crate) fn page(lines: &[Verified], made: &str) -> String {
     let mut rows = String::new();
     for line in lines {
         let (class, verdict) = if line.holds() { ("holds", "holds") } else { ("fails", "FAILS") };
@@ -66,13 +73,18 @@ pub(crate) fn page(lines: &[Verified]) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>Verification of signorini {version}</title>\n<style>{STYLE}</style></head>\n<body>\n\
          <h1>Verification of signorini {version}</h1>\n<p class=\"answer\">{}.</p>\n\
+         <p>Made {} by {} on {}, {}.</p>\n\
          <p>Values that others published or that have a closed form, and what this program found on this machine. \
          None of the expected values was computed by it.</p>\n\
          <div><table><thead><tr><th>case and scheme</th><th>quantity</th><th>expected</th><th>found</th>\
          <th>deviation</th><th>tolerance</th><th></th><th>why this tolerance</th><th>source</th></tr></thead>\
          <tbody>\n{rows}</tbody></table></div>\n</body></html>\n",
         hash(STYLE),
-        conclusion(lines),
+        capital(&conclusion(lines)),
+        in_text(&made.replace('T', " ").replace('Z', " UTC")),
+        program(),
+        std::env::consts::OS,
+        std::env::consts::ARCH,
         version = env!("CARGO_PKG_VERSION"),
     )
 }

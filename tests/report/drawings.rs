@@ -10,7 +10,9 @@ use std::process::Command;
 const RECORD: &str = "(() => { const pen = CanvasRenderingContext2D.prototype; globalThis.drawn = []; \
     const record = (name, style) => { const own = pen[name]; pen[name] = function (...args) { \
     const [text, x, y] = name === 'fillText' ? args : [this.lineWidth, ...args]; \
-    drawn.push([name, String(this[style]), x, y, text, args]); return own.apply(this, args); }; }; \
+    const width = name === 'fillText' ? this.measureText(text).width : 0; \
+    drawn.push([name, String(this[style]), x, y, text, args, this.textAlign, width]); \
+    return own.apply(this, args); }; }; \
     record('fillText', 'fillStyle'); record('lineTo', 'strokeStyle'); record('rect', 'strokeStyle'); })()";
 
 /// Draws everything anew in the other theme, and gives the texts.
@@ -406,5 +408,157 @@ fn walls_of_modes_are_drawn_where_no_probe_watches() {
         assert!(texts.iter().any(|text| text == name), "{name}: {texts:?}");
     }
     assert!(!texts.iter().any(|text| text.contains("not drawn")), "{texts:?}");
+    tab.close();
+}
+
+/// The first view of branches: about their special points, or most of them where some lie far off,
+/// and from 0 on only where the speeds come near it.
+#[test]
+fn branches_begin_where_their_special_points_are() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let follow = ["continue", "rigid-walls-sine", "--key", "load.1.harmonic.frequency", "--range"];
+    let mut ticks = |range| {
+        let page = results(dir.path(), &[&follow[..], &[range], &SOFT[..]].concat());
+        let mut tab = opened(&mut browser, &page);
+        let first = texts(&mut tab);
+        tab.press_button("Whole range");
+        let whole = texts(&mut tab);
+        tab.close();
+        (first, whole)
+    };
+    // Speeds of 0.165 to 0.168 m/s about the symmetry breaking at 4.5708 Hz.
+    let (first, _) = ticks("4.5:5.5");
+    assert!(first.iter().any(|text| text.starts_with("0.167")), "{first:?}");
+    // Nine of twelve special points lie between 3.36 and 4.57 Hz, one at 14.6 Hz.
+    let (first, whole) = ticks("1:16");
+    let has = |texts: &[String], tick: &str| texts.iter().any(|text| text == tick);
+    assert!(has(&first, "4.6") && !has(&first, "14"), "{first:?}");
+    assert!(has(&whole, "14"), "{whole:?}");
+}
+
+/// What print leaves out, the controls, has no key; the squares of keys print with their colours,
+/// and a map says what it shows.
+#[test]
+fn keys_are_on_paper_too() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let sweep = ["sweep", "rigid-walls-sine", "--scheme", "event", "--settle", "20", "--keep", "5"];
+    let vary = ["--vary", "load.1.harmonic.frequency=4:5:3"];
+    let (instants, other) = (["--follow", "both", "--samples", "periods"], ["--vary", "system.oscillator.mass=1:2:2"]);
+    let pages = [[&instants[..], &SOFT[..]].concat(), [&other[..], &["--measure", "contacts"]].concat()];
+    let [instants, map] = pages.map(|more| results(dir.path(), &[&sweep[..], &vary[..], &more[..]].concat()));
+    let mut tab = opened(&mut browser, &instants);
+    let keys = "[document.querySelectorAll('#sweep .swatch').length, document.querySelectorAll('.controls \
+        .swatch').length, getComputedStyle(document.querySelector('.swatch')).printColorAdjust]";
+    assert_eq!(tab.evaluate(keys), json!([3, 0, "exact"]));
+    tab.close();
+    let mut tab = opened(&mut browser, &map);
+    let texts = texts(&mut tab);
+    assert!(texts.iter().any(|text| text == "Contacts upper"), "{texts:?}");
+    // Every cell has its number.
+    assert_eq!(tab.evaluate("document.querySelector('#sweep .swatch').closest('.bar').hidden"), true);
+    tab.close();
+}
+
+/// The first view has curves alone; readings come with an instant that the reader chooses, and lie
+/// within the plot on a phone.
+#[test]
+fn readings_wait_for_an_instant_to_be_chosen() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let page = results(dir.path(), &["compare", "rigid-walls-sine", "--end", "1", "--no-verdict"]);
+    let mut tab = opened(&mut browser, &page);
+    tab.width(390);
+    tab.frame();
+    let reading = |text: &String| text.starts_with("located  ");
+    let first = texts(&mut tab);
+    assert!(!first.iter().any(reading), "{first:?}");
+    let plot = "#motion .plot canvas + canvas";
+    tab.evaluate(&format!("document.querySelector('{plot}').scrollIntoView({{ block: 'center' }})"));
+    let [x, y, w, h] = tab.place(plot);
+    tab.click(x + 0.5 * w, y + 0.5 * h);
+    tab.frame();
+    let left = "Math.min(...drawn.filter((one) => String(one[4]).startsWith('located  ')).map((one) => one[2]))";
+    // The axis of a narrow plot is at 52 pixels or more.
+    let left = tab.evaluate(left).as_f64();
+    assert!(left.is_some_and(|left| left > 52.0), "{left:?}");
+    tab.close();
+}
+
+/// The text drawn last that is `text`: [left, right, height] in pixels of its drawing.
+fn box_of(tab: &mut Tab<'_>, text: &str) -> [f64; 3] {
+    let one = format!(
+        "(() => {{ const [kind, , x, y, text, , align, width] = drawn.filter((one) => one[0] === 'fillText' && \
+         one[4] === '{text}').at(-1); const left = align === 'right' ? x - width : align === 'center' ? x - width / 2 \
+         : x; return [left, left + width, y]; }})()"
+    );
+    serde_json::from_value(tab.evaluate(&one)).unwrap()
+}
+
+/// Names of walls and of the horizon, and the numbers and the name of an axis, on a phone.
+#[test]
+fn labels_do_not_lie_on_one_another() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let compare = ["compare", "rigid-walls-sine", "--end", "4"];
+    let page = results(dir.path(), &[&compare[..], &["--schemes", "located,penalty:epsilon=1e-12"]].concat());
+    let mut tab = opened(&mut browser, &page);
+    tab.width(390);
+    tab.frame();
+    texts(&mut tab);
+    let [horizon, wall] = ["horizon of prediction", "lower"].map(|text| box_of(&mut tab, text));
+    let apart = (horizon[2] - wall[2]).abs() >= 14.0 || horizon[1] < wall[0] || wall[1] < horizon[0];
+    assert!(apart, "{horizon:?} {wall:?}");
+    // Names of axes stand at 8 pixels, upright, and are 12 pixels high.
+    let number = box_of(&mut tab, "−2000");
+    assert!(number[0] > 15.0, "{number:?}");
+    tab.close();
+}
+
+/// Between their own springs all integrators are drawn, and each name of a curve has its own place.
+#[test]
+fn the_curves_of_own_springs_have_names_apart() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let page = results(dir.path(), &["chart", "rigid-walls-sine", "--end", "0.3", "--levels", "3"]);
+    let mut tab = opened(&mut browser, &page);
+    let note = "document.querySelector('#work p.lead').textContent";
+    assert!(tab.evaluate(note).as_str().unwrap().contains("the first is drawn"));
+    tab.press_button("Own springs");
+    let names: Vec<String> = texts(&mut tab).into_iter().filter(|text| text.contains("ε = ")).collect();
+    assert!(tab.evaluate(note).as_str().unwrap().contains("Every integrator of every penalty is drawn"));
+    assert!(names.len() > 6, "{names:?}");
+    let boxes: Vec<_> = names.iter().map(|name| box_of(&mut tab, name)).collect();
+    for (i, a) in boxes.iter().enumerate() {
+        let on = |b: &[f64; 3]| (a[2] - b[2]).abs() < 14.0 && a[0] < b[1] && b[0] < a[1];
+        assert!(!boxes[..i].iter().any(on), "{names:?} {boxes:?}");
+    }
+    tab.close();
+}
+
+/// The page of a sweep says what was varied, and what was found.
+#[test]
+fn a_sweep_is_headed_by_what_it_found() {
+    let Some(mut browser) = Browser::start() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let sweep = ["sweep", "rigid-walls-sine", "--scheme", "event", "--settle", "200", "--keep", "20"];
+    let vary = ["--vary", "load.1.harmonic.frequency=4.3:5.2:4"];
+    let measured = results(dir.path(), &[&sweep[..], &vary, &["--measure", "contacts"], &SOFT].concat());
+    let both = ["--follow", "both", "--samples", "impacts"];
+    let instants = results(dir.path(), &[&sweep[..], &vary, &both, &SOFT].concat());
+    let heading = "document.querySelector('#sweep p.conclusion').textContent";
+    let mut tab = opened(&mut browser, &measured);
+    let said = tab.evaluate(heading).to_string();
+    assert!(said.contains("Frequency from 4.3 to 5.2 Hz, 4 values: contacts upper "), "{said}");
+    // One axis for both walls, named by what their measures have in common.
+    let drawn = texts(&mut tab);
+    assert!(drawn.iter().any(|text| text == "Contacts"), "{drawn:?}");
+    tab.close();
+    // Below the symmetry breaking at 4.5708 Hz each direction stays with one of two mirrored
+    // motions.
+    let mut tab = opened(&mut browser, &instants);
+    let said = tab.evaluate(heading).to_string();
+    assert!(said.contains("4 values: up and down lead to "), "{said}");
     tab.close();
 }

@@ -2,6 +2,7 @@
 use crate::browser::{opened, results};
 use crate::chromium::{Browser, Tab};
 use serde_json::json;
+use std::env::consts::{ARCH, OS};
 
 /// By how many pixels the part of the page at `selector` is wider than what is seen of it.
 fn excess(tab: &mut Tab<'_>, selector: &str) -> f64 {
@@ -78,6 +79,10 @@ fn the_verification_manual_is_read_on_a_phone() {
     tab.width(390);
     tab.frame();
     assert_eq!(excess(&mut tab, "html"), 0.0);
+    // To be filed: when, by what and on what it was made.
+    let made = tab.evaluate("document.body.textContent").to_string();
+    let by = format!(" UTC by signorini {} on {}, {}.", env!("CARGO_PKG_VERSION"), OS, ARCH);
+    assert!(made.contains("All ") && made.contains("Made 2") && made.contains(&by), "{made:.400}");
     // Value, deviation and verdict of every line are within the window.
     let seen = "[...document.querySelectorAll('td')].every((td) => { const box = td.getBoundingClientRect(); \
         return box.width > 0 && box.left >= 0 && box.right <= innerWidth; })";

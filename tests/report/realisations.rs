@@ -143,7 +143,8 @@ fn the_page_of_a_comparison_under_seeds_has_the_means_and_names_its_reference() 
     let text = tab.evaluate("document.body.textContent").to_string();
     // Friction at the tubes: the exact scheme refuses them, and the errors are against finer steps.
     for words in [
-        "cross flow: draw 1 of 2",
+        "cross flow: 2 draws",
+        "Draw 1 of 2The drawings and the numbers from here on are of this draw alone.",
         "all drawings and other numbers are of draw 1",
         "against located with steps of 2.50e-5 s: draw 1 of 2.",
         "Distance from located with steps of 2.50e-5 s",

@@ -637,7 +637,7 @@ fn one_of_several_realisations_is_called_so() {
     for (seeds, called) in [("1", false), ("2", true)] {
         said(dir.path(), &[&run[..], &["--seeds", seeds, "--out", seeds]].concat(), 0);
         let page = data(&fs::read_to_string(dir.path().join(seeds).join("report.html")).unwrap());
-        assert_eq!(page["title"].as_str().unwrap().ends_with(": draw 1 of 2"), called, "{}", page["title"]);
+        assert_eq!(page["title"].as_str().unwrap().ends_with(": 2 draws"), called, "{}", page["title"]);
         assert_eq!(page["subtitle"].as_str().unwrap().contains("means over 2"), called, "{}", page["subtitle"]);
         let svg = fs::read_to_string(dir.path().join(seeds).join("displacement.svg")).unwrap();
         assert_eq!(svg.contains("draw 1 of 2"), called);

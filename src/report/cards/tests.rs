@@ -59,7 +59,7 @@ fn the_headline_of_a_refinement_has_the_number_that_decides() {
     let (state, verdict) = told(&checked([1.0, 1.001], 1e-4));
     assert_eq!(
         (state.as_str(), verdict.as_str()),
-        ("good", "Half the step changes impulses: by up to 0.1 % of the largest")
+        ("good", "Half the step changes impulses by up to 0.1 % of the largest")
     );
     let (state, verdict) = told(&checked([1.0, 1.001], 0.025));
     assert_eq!(state, "mind");

@@ -54,15 +54,23 @@ class View {
   }
 
   /**
-   * Begins on the stretch about these values, where it is much shorter than the whole; true if it is.
+   * Begins on the stretch about these values, where it is much shorter than the whole: "all". With a
+   * share, else on the shortest stretch that holds this share of them: "most". Else undefined.
    */
-  beginAbout(values) {
-    const [lo, hi] = extent(values) || this.full;
+  beginAbout(values, share = 1) {
+    const sorted = Array.from(values).sort((a, b) => a - b);
     const whole = this.full[1] - this.full[0];
-    const width = Math.max(1.3 * (hi - lo), 0.1 * whole);
-    if (!(width < MOST_OF_ALL * whole)) return false;
-    this.set((lo + hi - width) / 2, (lo + hi + width) / 2);
-    return true;
+    const about = ([lo, hi]) => {
+      const width = Math.max(1.3 * (hi - lo), 0.1 * whole);
+      if (!(width < MOST_OF_ALL * whole)) return false;
+      this.set((lo + hi - width) / 2, (lo + hi + width) / 2);
+      return true;
+    };
+    if (about(extent(sorted) || this.full)) return "all";
+    const few = Math.ceil(share * sorted.length);
+    const stretches = sorted.slice(few - 1).map((hi, i) => [sorted[i], hi]);
+    stretches.sort((a, b) => a[1] - a[0] - (b[1] - b[0]));
+    return share < 1 && few > 1 && about(stretches[0]) ? "most" : undefined;
   }
 
   zoom(about, factor) {
@@ -77,7 +85,9 @@ const drawings = [];
 let scheduled = false;
 
 function drawNow() {
-  for (const drawing of drawings) if (drawing.dirty) drawing.draw();
+  // The room that one plot needs for its numbers moves those that share its axis.
+  for (let pass = 0; pass < 3; pass++)
+    for (const drawing of drawings) if (drawing.dirty) drawing.draw();
   for (const drawing of drawings) drawing.drawOver();
 }
 

@@ -32,6 +32,9 @@ function el(tag, attributes = {}, ...children) {
   return node;
 }
 
+/** A text of the tool with the names in it, between backticks, set as such. */
+const worded = (text) => text.split("`").map((part, k) => (k % 2 ? el("code", {}, part) : part));
+
 /** A column of the data as an array: typed, or of words. */
 function decode(column) {
   if (column === null || column === undefined || Array.isArray(column)) return column;

@@ -111,8 +111,10 @@ function branchMeasures(points) {
 function branchCurves(points, measure) {
   const [lines, all] = [[], []];
   const open = new Map();
+  const goesOn = (i) => points.columns.branch[i + 1] === points.columns.branch[i];
   for (let i = 0; i < points.count; i++) {
-    const state = points.state(i);
+    // At a special point orbits change: it is where those after it begin.
+    const state = points.state(points.label(i) && goesOn(i) ? i + 1 : i);
     const values = measure.of(i);
     const fresh = !i || points.columns.branch[i] !== points.columns.branch[i - 1];
     if (fresh) open.clear();

@@ -16,6 +16,11 @@ const CHARTED = [
 /** Errors below this are negligible; from this on a result is useless, however cheap. */
 const [NEGLIGIBLE, NO_ANSWER] = [1e-9, 1];
 
+const CHART_NOTE =
+  "Further down is cheaper, further left is more accurate; the pale band is the least time for each error. Times are the best of several.";
+
+const capital = (sentence) => `${sentence[0].toUpperCase()}${sentence.slice(1)}.`;
+
 /** Width of a plot, in pixels, from which on curves are named at their ends. */
 const ROOM_FOR_NAMES = 560;
 
@@ -61,6 +66,13 @@ class ChartData {
     const own = this.curves.filter((one) => one.springs === springs && one.points.length);
     // Other programs tell the error of the displacement only.
     return this.error === this.kinds[0][0] ? [...own, ...this.programs] : own;
+  }
+
+  /** Which integrators of a penalty are drawn. */
+  get integrators() {
+    return this.error.startsWith("own")
+      ? "Every integrator of every penalty is drawn."
+      : "Of the integrators of a penalty the first is drawn.";
   }
 
   /** The floor of a curve in the error that is chosen. */
@@ -156,16 +168,19 @@ function chartSection() {
     plot.yTicks = logTicks(...plot.Y, 12).map(([y]) => [y, prefixed(y, "s", 2)]);
   };
   const name = (curve) => (data.floorOf(curve) || { label: curve.short }).label;
+  // At the edge there is no room for a floor beyond it, which is told below.
+  const shortName = (curve) => (data.floorOf(curve)?.at > NO_ANSWER ? curve.short : name(curve));
   const key = el("ul", { class: "curves", hidden: true });
   // In a narrow window names among the curves would lie on them: they stand below.
   const drawNames = (ctx) => {
-    const named = plot.curves.map((curve) => ({ ...curve, name: name(curve) }));
+    const named = (of) => plot.curves.map((curve) => ({ ...curve, name: of(curve) }));
     key.hidden = plot.w >= ROOM_FOR_NAMES;
-    if (key.hidden) drawEndNames(ctx, plot, named, [data.front]);
-    else key.replaceChildren(...namesBeside(plot, named));
+    if (key.hidden) drawEndNames(ctx, plot, named(shortName), [data.front]);
+    else key.replaceChildren(...namesBeside(plot, named(name)));
   };
   const [headline, told] = [el("div"), el("div")];
   const reasons = el("ul", { class: "notes floors" });
+  const note = el("p", { class: "lead" });
   const fill = () => {
     plot.x = data.kinds.find(([column]) => column === data.error)[2];
     plot.curves = data.shown.map((curve) => ({
@@ -191,6 +206,8 @@ function chartSection() {
     );
     headline.replaceChildren(...[conclusionOf(conclusions[data.error])].filter((text) => text));
     told.replaceChildren(...[cheapestTable(cheapest, data.error)].filter((table) => table));
+    const sentences = [CHART_NOTE, data.integrators, ...(compared || []).map(capital)];
+    note.replaceChildren(...worded(sentences.join(" ")));
     plot.redraw();
   };
   tellNearest(
@@ -213,12 +230,7 @@ function chartSection() {
     plot.box,
     key,
     reasons,
-    el(
-      "p",
-      { class: "lead" },
-      "Further down is cheaper, further left is more accurate; the pale band is the least time for each error. Times are the best of several. Of the integrators of a penalty the first is drawn.",
-      ...(compared || []).map((sentence) => ` ${sentence[0].toUpperCase()}${sentence.slice(1)}.`),
-    ),
+    note,
   );
   pointsSection(data.table);
 }

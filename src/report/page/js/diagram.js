@@ -1,5 +1,38 @@
 // The picture of branches over the key.
 
+/** Where all special points span the picture, it begins on the shortest stretch with this share. */
+const MOST_OF_SPECIALS = 0.75;
+
+/** An axis that does not begin at 0 leaves out at least this share of the largest value. */
+const FAR_FROM_FLOOR = 0.5;
+
+/** The values between lo and hi, those of lines where they leave this stretch too. */
+function valuesWithin([lo, hi], lines, marks) {
+  const seen = marks.filter(({ x }) => x >= lo && x <= hi).map(({ y }) => y);
+  for (const { x, y } of lines) {
+    for (let k = 0; k < x.length; k++) {
+      if (x[k] >= lo && x[k] <= hi) seen.push(y[k]);
+      for (const edge of k ? [lo, hi] : [])
+        if ((x[k - 1] - edge) * (x[k] - edge) < 0)
+          seen.push(y[k - 1] + ((y[k] - y[k - 1]) * (edge - x[k - 1])) / (x[k] - x[k - 1]));
+    }
+  }
+  return seen;
+}
+
+/** The range of a measure about what is seen of it between the ends of `view`. */
+function rangeInView(view, { lines, marks, dots, measure }) {
+  const seen = valuesWithin(view, lines, marks);
+  for (let k = 0; k < dots.x.length; k++)
+    if (dots.x[k] >= view[0] && dots.x[k] <= view[1]) seen.push(dots.y[k]);
+  const span = extent(measure.log ? seen.filter((y) => y > 0) : seen) || [0, 1];
+  // Towards a graze a multiplier grows without bound.
+  if (measure.log) return [clamp(span[0], 1e-4, 0.5) / 1.5, clamp(span[1], 2, 1e3) * 1.5];
+  if (measure.floor === undefined || span[0] > FAR_FROM_FLOOR * span[1]) return padded(span, 0.08);
+  const most = span[1] + 0.06 * (span[1] - Math.min(0, span[0]));
+  return [Math.min(-0.03 * most, span[0]), most];
+}
+
 /** The picture of `points`; `choice` has the measure and the row chosen, select(row) chooses one. */
 function branchPlot(points, choice, select) {
   const measures = branchMeasures(points);
@@ -60,20 +93,14 @@ function branchPlot(points, choice, select) {
     series: [own(drawBeneath), own(drawLines), own(drawSpecials)],
   });
   // Orbits change their kind at the special points: the first view is about them.
-  const part = plot.view.beginAbout(specials.map((i) => points.value[i]));
+  const part = plot.view.beginAbout(
+    specials.map((i) => points.value[i]),
+    MOST_OF_SPECIALS,
+  );
   plot.range = () => {
-    const [lo, hi] = plot.X;
-    const seen = curves.all.filter(({ x }) => x >= lo && x <= hi).map(({ y }) => y);
-    if (beneath && choice.measure.name === "speed")
-      for (let k = 0; k < beneath.x.length; k++)
-        if (beneath.x[k] >= lo && beneath.x[k] <= hi) seen.push(beneath.y[k]);
-    const span = extent(choice.measure.log ? seen.filter((y) => y > 0) : seen) || [0, 1];
-    // Towards a graze a multiplier grows without bound.
-    if (choice.measure.log) return [clamp(span[0], 1e-4, 0.5) / 1.5, clamp(span[1], 2, 1e3) * 1.5];
-    const [least, most] = padded(span, 0.06);
-    return choice.measure.floor === undefined
-      ? [least, most]
-      : [Math.min(-0.03 * most, least), most];
+    const dots = beneath && choice.measure.name === "speed" ? beneath : { x: [], y: [] };
+    const grazes = specials.filter((i) => heightOf(i) === 0).map((i) => ({ x: points.value[i], y: 0 }));
+    return rangeInView(plot.X, { ...curves, marks: grazes, dots, measure: choice.measure });
   };
   tellNearest(
     plot,
@@ -130,7 +157,7 @@ function branchPlot(points, choice, select) {
     el(
       "span",
       { class: "right help" },
-      `${part ? "shown: about the special points · " : ""}drag to zoom · double click for all · click an orbit to see it`,
+      `${part ? `shown: about ${part === "all" ? "the" : "most"} special points · ` : ""}drag to zoom · double click for all · click an orbit to see it`,
     ),
   );
   return { plot, box: el("div", {}, bar, plot.box, keys) };

@@ -64,7 +64,7 @@ function drawEndNames(ctx, plot, curves, others) {
     ]),
   ];
   const taken = lines.flatMap(covered);
-  const names = [];
+  const [names, put] = [[], []];
   const inFrame = ([x, y, w, h]) =>
     x >= plot.x0 + 2 && x + w <= plot.x1 - 2 && y >= plot.y0 + 2 && y + h <= plot.y1 - 2;
   const apart = (parts) => (place) => !parts.some((part) => overlap(place, part));
@@ -79,27 +79,46 @@ function drawEndNames(ctx, plot, curves, others) {
     const ends = own.length ? [own[0], own[own.length - 1]] : [[edge, plot.sy(Math.max(...s.y))]];
     const text = { "": s.name, left: `◂ ${s.name} (${digits(most, 1)})`, right: `${s.name} ▸` }[beyond];
     const [w, h] = [ctx.measureText(text).width, NAME_HEIGHT];
-    const around = ([x, y]) => [
-      [x + ASIDE, y - h / 2, w, h],
-      [x - ASIDE - w, y - h / 2, w, h],
-      [x - w / 2, y - ASIDE - h, w, h],
-      [x - w / 2, y + ASIDE, w, h],
+    const around = ([x, y], shift) => [
+      [x + ASIDE, y - h / 2 + shift, w, h],
+      [x - ASIDE - w, y - h / 2 + shift, w, h],
+      [x - w / 2, y - ASIDE - h + shift, w, h],
+      [x - w / 2, y + ASIDE + shift, w, h],
     ];
     // Farther and farther along the frame, where the ends are crowded.
-    const places = Array.from({ length: 40 }, (_, k) => k).flatMap((k) =>
-      ends.flatMap(([x, y]) => [...around([x, y + 10 * k]), ...around([x, y - 10 * k])]),
-    );
+    const places = Array.from({ length: 40 }, (_, k) => [10 * k, -10 * k])
+      .flat()
+      .flatMap((shift) => ends.flatMap((end) => around(end, shift).map((box) => ({ box, end, shift }))));
     // Over as little of lines as can be where there is no room beside all of them, over no name.
-    const within = places.filter(inFrame).filter(apart(names));
-    const hidden = (place) => taken.filter((part) => overlap(place, part)).length;
-    const place = within.find(apart(taken)) || leastBy(within, hidden);
+    const within = places.filter(({ box }) => inFrame(box)).filter(({ box }) => apart(names)(box));
+    const hidden = ({ box }) => taken.filter((part) => overlap(box, part)).length;
+    const place = within.find(({ box }) => apart(taken)(box)) || leastBy(within, hidden);
     if (!place) continue;
-    names.push(place);
-    const [x, y] = [place[0], place[1] + h / 2];
-    ctx.strokeStyle = ink.paper;
-    ctx.lineWidth = 4;
-    ctx.strokeText(text, x, y);
-    ctx.fillStyle = s.look.colour();
-    ctx.fillText(text, x, y);
+    names.push(place.box);
+    put.push({ ...place, text, colour: s.look.colour(), apart: !beyond && Math.abs(place.shift) >= NAME_HEIGHT });
   }
+  put.filter((name) => name.apart).forEach((name) => drawLeader(ctx, name));
+  put.forEach((name) => drawName(ctx, name));
+}
+
+/** A thin line from a name that stands apart from its curve to the end that it names. */
+function drawLeader(ctx, { box: [x, y, w, h], end, colour }) {
+  ctx.save();
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = 0.8;
+  ctx.setLineDash([]);
+  ctx.beginPath();
+  ctx.moveTo(clamp(end[0], x, x + w), clamp(end[1], y + 1, y + h - 1));
+  ctx.lineTo(...end);
+  ctx.stroke();
+  ctx.restore();
+}
+
+function drawName(ctx, { box, text, colour }) {
+  const [x, y] = [box[0], box[1] + box[3] / 2];
+  ctx.strokeStyle = ink.paper;
+  ctx.lineWidth = 4;
+  ctx.strokeText(text, x, y);
+  ctx.fillStyle = colour;
+  ctx.fillText(text, x, y);
 }

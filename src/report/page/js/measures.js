@@ -43,6 +43,13 @@ function firstView(columns, axis, measures, over = null) {
   return view;
 }
 
+/** The words with which all these names begin: of measures at several places what is measured. */
+function sharedWords(names) {
+  const all = names.map((name) => name.split(" "));
+  const differs = all[0].findIndex((word, k) => all.some((words) => words[k] !== word));
+  return all[0].slice(0, differs < 0 ? all[0].length : differs).join(" ");
+}
+
 /** Measures over one axis, those of one unit in one plot; all plots show one stretch of it. */
 function measureCurves(columns, axis, measures, tell, pick, options = {}) {
   const { over = null, view = firstView(columns, axis, measures) } = options;
@@ -86,7 +93,7 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
     const shared = items.filter(({ name }) => over && over.columns[name] && !Array.isArray(over.columns[name]));
     const series = items.flatMap((item) => directions.map((direction) => curve(item, direction)));
     const bands = series.map((s) => bandOf(s, halfWidthsOf(columns, s.name))).filter((band) => band);
-    const y = items.length > 1 ? unit || "Number" : items[0].label;
+    const y = items.length > 1 ? unit || sharedWords(items.map(({ label }) => label)) || "Number" : items[0].label;
     const plot = new Plot({
       x: columnLabel(axis),
       y,
@@ -106,12 +113,13 @@ function measureCurves(columns, axis, measures, tell, pick, options = {}) {
   return el(
     "div",
     {},
-    directions.length > 1 ? el("div", { class: "bar" }, directionKeys()) : null,
+    directions.length > 1 || over
+      ? el("div", { class: "bar" }, directions.length > 1 ? directionKeys() : null, over ? overKey(over) : null)
+      : null,
     el(
       "div",
       { class: "bar controls" },
       button("All values", () => view.set(...view.full), "Whole range"),
-      over ? overKey(over) : null,
       el(
         "span",
         { class: "right help" },

@@ -144,8 +144,11 @@ const period = DATA.period;
 const duration = DATA.duration;
 const view = lead ? new View(0, duration) : null;
 
-/** The instant shown, and the instant under the pointer, which takes its place while it is there. */
-const state = { time: 0, hover: null, playing: false, speed: 1 };
+/**
+ * The instant shown, and the instant under the pointer, which takes its place while it is there;
+ * whether the reader has chosen the former.
+ */
+const state = { time: 0, hover: null, chosen: false, playing: false, speed: 1 };
 const now = () => (state.hover !== null && !state.playing ? state.hover : state.time);
 
 /** Called when the instant or what is shown of the runs changes. */
@@ -155,6 +158,7 @@ const toggled = [];
 /** Shows the instant t, and brings it into view. */
 function seek(t) {
   state.time = clamp(t, 0, duration);
+  state.chosen = true;
   const width = view.hi - view.lo;
   if (state.time < view.lo || state.time > view.hi)
     view.set(state.time - 0.25 * width, state.time + 0.75 * width);

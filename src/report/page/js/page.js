@@ -28,7 +28,7 @@ function headSection() {
 /** Notes, the command that repeats this, case and summary. */
 function textSection() {
   const notes = (DATA.notes || []).map((note) =>
-    el("li", {}, note.charAt(0).toUpperCase() + note.slice(1)),
+    el("li", {}, worded(note.charAt(0).toUpperCase() + note.slice(1))),
   );
   const folded = (title, text) =>
     text ? el("details", {}, el("summary", {}, title), el("pre", { tabindex: 0 }, text)) : null;
@@ -147,6 +147,12 @@ if (DATA.kind === "run" && DATA.summary.realisations) {
 if (DATA.compare && DATA.compare.means) methodMeansSection();
 if (lead && !DATA.wear && lead.probes.length && duration > 0) {
   if (DATA.compare && DATA.horizon) view.set(0, DATA.horizon);
+  if (DATA.draw_count)
+    section(
+      "one-draw",
+      `Draw 1 of ${DATA.draw_count}`,
+      "The drawings and the numbers from here on are of this draw alone.",
+    );
   firstInstant();
   heroSection();
 }

@@ -29,13 +29,18 @@ function timed(plot, read, show) {
   return plot;
 }
 
-/** The values of the curves at the cursor, as dots and in a box beside it. */
+/**
+ * The values of the curves at the cursor, as dots and in a box beside it. At the instant that the
+ * page begins with there is no box: it would hide curves that nobody asked to read.
+ */
 function drawReadings(ctx, plot, x, readings, show) {
   for (const [run, y] of readings) drawDot(ctx, x, plot.sy(y), 3.4, run.look.colour(), 1.2);
+  if (state.hover === null && !state.chosen) return;
   const lines = readings.map(([run, y]) => (readings.length > 1 ? `${run.label}  ` : "") + show(y));
   if (!lines.length) return;
   const width = Math.max(...lines.map((line) => ctx.measureText(line).width)) + 16;
-  const left = x + 12 + width > plot.x1 ? x - 12 - width : x + 12;
+  const beside = x + 12 + width > plot.x1 ? x - 12 - width : x + 12;
+  const left = clamp(beside, plot.x0 + 2, Math.max(plot.x0 + 2, plot.x1 - width - 2));
   const under = plot.heading && left < plot.x0 + 20 + 8 * plot.heading.length;
   const top = plot.y0 + (under ? 27 : 6);
   ctx.fillStyle = clear(ink.paper, 0.9);
@@ -185,6 +190,7 @@ function overview(probe) {
     bottom: 6,
     bare: true,
     view: new View(0, duration),
+    group: view,
     range: () => padded(probe.extents.Q, 0.1),
     series,
     alt: "The whole run",

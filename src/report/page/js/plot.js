@@ -97,10 +97,34 @@ class Plot {
     return this.log[1] ? a * (b / a) ** share : a + share * (b - a);
   }
 
+  /** The plots that have one axis with this one, and it itself: their frames begin at one x. */
+  get beneath() {
+    const group = this.group || this.view;
+    const shares = (one) => group && (one.group || one.view) === group && !one.box.hidden;
+    return drawings.filter((one) => one === this || shares(one));
+  }
+
+  ticksOf(range, log, room) {
+    return (log ? logTicks : linearTicks)(range[0], range[1], room);
+  }
+
+  /** Makes room for the numbers of y beside its label; where that takes more, other plots follow. */
+  makeRoom(ctx) {
+    this.yMarks = this.yTicks || this.ticksOf(this.Y, this.log[1], (this.y1 - this.y0) / 34);
+    const widest = Math.max(0, ...this.yMarks.map(([, text]) => ctx.measureText(text).width));
+    const needed = Math.ceil((widest + 8 + (this.y ? 24 : 4)) / 6) * 6;
+    if (needed === this.numbers) return;
+    this.numbers = needed;
+    for (const plot of this.beneath) plot.dirty = plot.dirty || plot !== this;
+    this.frame();
+    this.limits();
+  }
+
   frame() {
     this.w = widthOf(this.box);
     this.h = Math.round(this.height * (printing ? 0.8 : 1));
-    const left = this.w < 480 ? Math.min(this.left, this.narrow) : this.left;
+    const least = this.w < 480 ? Math.min(this.left, this.narrow) : this.left;
+    const left = Math.max(least, ...this.beneath.map((plot) => plot.numbers || 0));
     [this.x0, this.x1, this.y0, this.y1] = [
       left,
       this.w - this.right,
@@ -114,6 +138,7 @@ class Plot {
     this.frame();
     this.limits();
     const ctx = fit(this.under, this.w, this.h);
+    if (!this.bare) this.makeRoom(ctx);
     const { x0, x1, y0, y1 } = this;
     if (!this.bare) this.drawGrid(ctx);
     ctx.save();
@@ -123,7 +148,7 @@ class Plot {
     for (const mark of this.marks) this.drawMark(ctx, mark);
     const behind = (s) => (s.look && s.look.behind ? 0 : 1);
     for (const s of [...this.shown].sort((a, b) => behind(a) - behind(b))) this.drawSeries(ctx, s);
-    for (const mark of this.marks) this.drawMarkLabel(ctx, mark);
+    drawMarkLabels(ctx, this);
     ctx.restore();
     ctx.strokeStyle = ink.faint;
     ctx.lineWidth = 1;
@@ -134,7 +159,6 @@ class Plot {
 
   drawGrid(ctx) {
     const { x0, x1, y0, y1 } = this;
-    const ticks = (range, log, room) => (log ? logTicks : linearTicks)(range[0], range[1], room);
     ctx.lineWidth = 1;
     ctx.textBaseline = "middle";
     ctx.strokeStyle = ink.grid;
@@ -146,16 +170,18 @@ class Plot {
       ctx.stroke();
     };
     ctx.textAlign = "right";
-    for (const [value, text] of this.yTicks || ticks(this.Y, this.log[1], (y1 - y0) / 34)) {
+    for (const [value, text] of this.yMarks) {
       const y = Math.round(this.sy(value)) + 0.5;
       line(x0, y, x1, y);
       ctx.fillText(text, x0 - 8, y, x0 - 16);
     }
     ctx.textAlign = "center";
-    for (const [value, text] of ticks(this.X, this.log[0], (x1 - x0) / 88)) {
+    for (const [value, text] of this.ticksOf(this.X, this.log[0], (x1 - x0) / 88)) {
       const x = Math.round(this.sx(value)) + 0.5;
       line(x, y0, x, y1);
-      if (this.x) ctx.fillText(text, x, y1 + 13);
+      // The last number ends where the drawing does.
+      const most = this.w - ctx.measureText(text).width / 2 - 1;
+      if (this.x) ctx.fillText(text, Math.min(x, most), y1 + 13);
     }
     ctx.fillStyle = ink.ink;
     if (this.x) ctx.fillText(this.x, (x0 + x1) / 2, y1 + 31, x1 - x0);
@@ -208,20 +234,6 @@ class Plot {
     }
     ctx.stroke();
     ctx.restore();
-  }
-
-  drawMarkLabel(ctx, mark) {
-    if (!mark.label) return;
-    const { x0, x1, y0, y1 } = this;
-    if (mark.x !== undefined) {
-      const x = this.sx(mark.x);
-      const left = x > x1 - 150;
-      if (x >= x0 && x <= x1)
-        drawLabel(ctx, mark.label, x + (left ? -8 : 8), y1 - 11, left ? "right" : "left");
-      return;
-    }
-    const y = this.sy(mark.y) + (mark.side === "lower" ? 9 : -9);
-    drawLabel(ctx, mark.label, x1 - 9, clamp(y, y0 + 8, y1 - 8), "right");
   }
 
   drawSeries(ctx, s) {

@@ -84,8 +84,11 @@ function stabilitySection() {
       toneOf: (k) => classTone(maps.columns.class[rows[k]]),
       tell: (k) => row(rows[k]),
     });
+    // A map of one tone would be taken for an empty one.
+    const classes = new Set(rows.map((i) => maps.columns.class[i]));
+    const everywhere = classes.size === 1 ? `: ${[...classes][0]} everywhere asked` : "";
     // Above the map: over it, the name would hide its cells.
-    return el("div", {}, el("h3", {}, scheme[rows[0]].replace(":integrator=", ", ")), plot.box);
+    return el("div", {}, el("h3", {}, scheme[rows[0]].replace(":integrator=", ", ") + everywhere), plot.box);
   });
   const legend = el("div", { class: "bar" }, DATA.stability.classes.map(classSwatch));
   section(

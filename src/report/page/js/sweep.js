@@ -68,9 +68,7 @@ function sweepSection() {
   if (samples) content.push(samplesPlot(table, tableOf(samples), axisColumns[0], pick, { over, view }));
   if (effects) effectsSection(tableOf(effects), seeds);
   if (shares) sharesSection(tableOf(shares), seeds, DATA.sweep.caution);
-  section(
-    "sweep",
-    "Sweep",
+  const lead =
     unstable.map((text) => `${text}. `).join("") +
     (effects
       ? "Click a row for the command that runs it alone"
@@ -79,7 +77,13 @@ function sweepSection() {
         ? `, or for its own report (there ${kept.size === 1 ? "is" : "are"} ${kept.size}).`
         : ".") +
       (seeds ? seedsText(seeds, bands) : "") +
-      (unjudged ? ` ${unjudged} of ${table.count} rows are unjudged: nothing checked their steps.` : ""),
+      (unjudged ? ` ${unjudged} of ${table.count} rows are unjudged: nothing checked their steps.` : "");
+  section(
+    "sweep",
+    "Sweep",
+    null,
+    conclusionOf(sweptInWords(table, measures, attractors, samples && tableOf(samples), axisColumns)),
+    el("p", { class: "lead" }, lead),
     ...content,
     command,
   );
@@ -123,12 +127,20 @@ const directionKeys = () =>
     ["up", "down"].map((one) => swatch(one, () => directionColour(one))),
   );
 
-/** Instants of every row over the axis: a bifurcation diagram. */
-function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
-  const names = samples.names.filter(
+/** The columns of numbers of instants, and the one that is shown first. */
+const sampledColumns = (samples) =>
+  samples.names.filter(
     (name) => !["row", "realisation"].includes(name) && !Array.isArray(samples.columns[name]),
   );
-  const wanted = names.find((name) => name.startsWith("displacement")) || names[names.length - 1];
+const sampledColumn = (samples) => {
+  const names = sampledColumns(samples);
+  return names.find((name) => name.startsWith("displacement")) || names[names.length - 1];
+};
+
+/** Instants of every row over the axis: a bifurcation diagram. */
+function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
+  const names = sampledColumns(samples);
+  const wanted = sampledColumn(samples);
   const axis = table.columns[axisColumn];
   const rowAt = new Map(Array.from(table.columns.row, (row, i) => [row, i]));
   const at = Array.from(samples.columns.row, (row) => rowAt.get(row));
@@ -186,6 +198,11 @@ function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
   };
   fill();
   plot.click = (x) => pick(nearestTo(axis, x));
+  const keys = [
+    bothDirections(directions) ? directionKeys() : null,
+    bothDirections(directions) ? swatch("up and down", () => ink.ink) : null,
+    others ? overKey(over) : null,
+  ];
   return el(
     "div",
     {},
@@ -194,11 +211,9 @@ function samplesPlot(table, samples, axisColumn, pick, { over, view }) {
       { class: "bar controls" },
       columnChoice("Quantity", names, choice, fill),
       button("All values", () => view.set(...view.full), "Whole range"),
-      bothDirections(directions) ? directionKeys() : null,
-      bothDirections(directions) ? swatch("up and down", () => ink.ink) : null,
-      others ? overKey(over) : null,
       el("span", { class: "right help" }, "drag to zoom · double click for all"),
     ),
+    keys.some((key) => key) ? el("div", { class: "bar" }, keys) : null,
     plot.box,
   );
 }
@@ -212,12 +227,39 @@ function columnChoice(label, names, choice, fill) {
   });
 }
 
+/** The tones of the numbers of `range` beside a map, with the name of what it shows. */
+function drawColourBar(ctx, plot, range, name) {
+  const { y0, y1 } = plot;
+  const left = plot.x1 + 22;
+  const height = y1 - y0;
+  for (let k = 0; k < 120; k++) {
+    ctx.fillStyle = `rgb(${rampTone((k + 0.5) / 120)})`;
+    ctx.fillRect(left, y1 - ((k + 1) * height) / 120, 14, height / 120 + 0.6);
+  }
+  ctx.strokeStyle = ink.faint;
+  ctx.strokeRect(left, y0, 14, height);
+  ctx.fillStyle = ink.soft;
+  ctx.textAlign = "left";
+  const most = range[1] > range[0] ? range[1] : range[0] + 1;
+  for (const [value, text] of linearTicks(range[0], most, height / 50))
+    ctx.fillText(text, left + 20, y1 - (height * (value - range[0])) / (range[1] - range[0] || 1));
+  ctx.save();
+  ctx.translate(plot.w - 8, (y0 + y1) / 2);
+  ctx.rotate(-Math.PI / 2);
+  ctx.textAlign = "center";
+  ctx.fillStyle = ink.ink;
+  ctx.fillText(name, 0, 0, plot.h - 8);
+  ctx.restore();
+}
+
 /** A measure over two axes. */
 function measureMap(columns, [first, second], measures, tell, pick) {
   const choice = { name: measures[0] };
   let range = [0, 1];
+  const unknown = el("div", { class: "bar" }, swatch("no number", () => "rgb(128 128 128)"));
   const fill = () => {
     const span = extent(columns[choice.name]) || [0, 1];
+    unknown.hidden = !Array.from(columns[choice.name]).some(Number.isNaN);
     range = span[0] > 0 && span[0] < 0.5 * span[1] ? [0, span[1]] : span;
     plot.redraw();
   };
@@ -228,29 +270,7 @@ function measureMap(columns, [first, second], measures, tell, pick) {
       ? rampTone((value - range[0]) / (range[1] - range[0] || 1))
       : [128, 128, 128];
   };
-  const beside = (ctx, p) => {
-    const left = p.x1 + 22;
-    const height = p.y1 - p.y0;
-    for (let k = 0; k < 120; k++) {
-      ctx.fillStyle = `rgb(${rampTone((k + 0.5) / 120)})`;
-      ctx.fillRect(left, p.y1 - ((k + 1) * height) / 120, 14, height / 120 + 0.6);
-    }
-    ctx.strokeStyle = ink.faint;
-    ctx.strokeRect(left, p.y0, 14, height);
-    ctx.fillStyle = ink.soft;
-    ctx.textAlign = "left";
-    for (const [value, text] of linearTicks(
-      range[0],
-      range[1] > range[0] ? range[1] : range[0] + 1,
-      height / 50,
-    )) {
-      ctx.fillText(
-        text,
-        left + 20,
-        p.y1 - (height * (value - range[0])) / (range[1] - range[0] || 1),
-      );
-    }
-  };
+  const beside = (ctx, p) => drawColourBar(ctx, p, range, columnLabel(choice.name));
   const plot = cellMap({
     x: columnLabel(first),
     y: columnLabel(second),
@@ -260,7 +280,7 @@ function measureMap(columns, [first, second], measures, tell, pick) {
     tell,
     pick,
     beside,
-    right: 96,
+    right: 108,
     height: 470,
     alt: "Map of the sweep",
   });
@@ -272,8 +292,8 @@ function measureMap(columns, [first, second], measures, tell, pick) {
       "div",
       { class: "bar controls" },
       columnChoice("Measure", measures, choice, fill),
-      swatch("no number", () => "rgb(128 128 128)"),
     ),
+    unknown,
     plot.box,
   );
 }
