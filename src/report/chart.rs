@@ -55,7 +55,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "chart": {
             "table": table.for_page(Some(&SHOWN)),
             "labels": (0..table.rows.len()).map(|row| short(table.text(row, "method"))).collect::<Vec<_>>(),
-            "conclusions": conclusions(&folder.manifest),
+            "conclusions": conclusions(folder.manifest),
             "cheapest": told("cheapest"),
             "names": BTreeMap::from(Quantity::ALL.map(|quantity| (column(quantity), quantity.name()))),
             "floors": told("floors"),
