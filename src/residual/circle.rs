@@ -66,6 +66,7 @@ impl Judge {
     pub(super) fn strike_holes(&mut self, step: &Step<'_>) {
         let Some(mut supports) = self.supports.take() else { return };
         let scene = std::sync::Arc::clone(&self.scene);
+        supports.turned.fill(0.0);
         let alone = step.jump.iter().filter(|p| **p != 0.0).count() == 1;
         for hole in scene.holes() {
             let (place, gap, e) = (hole.index, hole.gap, hole.restitution);

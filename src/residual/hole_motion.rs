@@ -23,6 +23,14 @@ pub(super) struct HoleMotion {
     pub size: f64,
 }
 
+impl HoleMotion {
+    /// The velocity to which the law of the hole applies, m/s.
+    pub fn rate(&self) -> [f64; 2] {
+        let (before, struck) = (self.before.value, self.struck.value);
+        [before[0] + struck[0], before[1] + struck[1]]
+    }
+}
+
 impl Judge {
     /// The `place` of `hole` in `step`.
     pub(super) fn hole_motion(&self, step: &Step<'_>, hole: &Hole<'_>, place: &Place) -> HoleMotion {

@@ -10,7 +10,7 @@
 //! | `wall_step.rs`, `complementarity.rs` | each wall in a step, and what contact laws demand of it |
 //! | `row_walls.rs`, `view.rs` | walls by their rows, and rows prepared for products |
 //! | `blow_check.rs`, `blows.rs` | loads of no duration |
-//! | `round.rs`, `disk.rs`, `ring.rs`, `hole_motion.rs`, `place.rs` | round holes |
+//! | `round.rs`, `brim.rs`, `disk.rs`, `ring.rs`, `hole_motion.rs`, `place.rs` | round holes |
 //! | `friction.rs`, `pushes.rs`, `supports.rs` | friction, impulses in two planes, and what a run keeps of both |
 //! | `arc.rs`, `series.rs`, `series_scratch.rs`, `circle.rs`, `quadrature.rs` | exact motion, of structures, in round holes; its integrals |
 //! | `energy/` | the energy ledger |
@@ -24,6 +24,7 @@ mod arc;
 mod balance;
 mod blow_check;
 mod blows;
+mod brim;
 mod circle;
 mod complementarity;
 mod corrected;

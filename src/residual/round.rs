@@ -3,6 +3,7 @@
 //! the velocity at the end keeps the bound.
 
 use super::Judge;
+use super::brim::Brim;
 use super::friction::FrictionImpulse;
 use super::hole_motion::HoleMotion;
 use super::largest_residual::Residual;
@@ -20,7 +21,7 @@ impl Judge {
     pub(super) fn supports_on_grid<S: Simd>(&mut self, simd: S, step: &Step<'_>, beyond: bool) {
         let (Some(mut supports), Some(places)) = (self.supports.take(), self.places.take()) else { return };
         for (hole, place) in places.scene.holes().zip(&places.holes) {
-            if self.is_out_of_reach(simd, step, &hole, place) {
+            if supports.turned[hole.index] == 0.0 && self.is_out_of_reach(simd, step, &hole, place) {
                 supports.slid[hole.index] = f64::INFINITY;
             } else {
                 self.check_hole(step, (&hole, place), beyond, &mut supports);
@@ -70,7 +71,15 @@ impl Judge {
         supports.rates[hole.index] = [before.value, after.value];
         self.walls.observe_depth(hole.index, motion.end[0].hypot(motion.end[1]) - hole.gap);
         self.extent.speed = self.extent.speed.max(after.terms);
-        self.hold_hole(step, (hole, &motion, &did), beyond, &mut supports.askew);
+        let turned = &mut supports.turned[hole.index];
+        self.hold_hole(step, (hole, &motion, &did), (beyond, *turned), &mut supports.askew);
+        let lasts = matches!(self.contract.promise.round, Some(Turning { normal: Normal::Ahead(_), .. }));
+        *turned = if lasts && hole.law.is_rigid() && did.impulse != 0.0 {
+            let ([y, z], [vy, vz]) = (did.normal, motion.rate());
+            turned.max(self.h * (y * vz - z * vy).abs() / hole.gap)
+        } else {
+            0.0
+        };
         let rub = FrictionImpulse {
             place: hole.index,
             friction: hole.friction,
@@ -82,12 +91,13 @@ impl Judge {
     }
 
     /// Checks one hole, and notes the part of its force that is not along the normal in `askew`
-    /// (N).
+    /// (N). `turned` is the largest angle by which its normal turned in a step of its contact so
+    /// far, rad, 0 if it did not push in the step before.
     fn hold_hole(
         &mut self,
         step: &Step<'_>,
         (hole, motion, did): (&Hole<'_>, &HoleMotion, &HolePush),
-        beyond: bool,
+        (beyond, turned): (bool, f64),
         askew: &mut Residual,
     ) {
         // In one piece: which bound holds depends on where the hole is in reach.
@@ -107,9 +117,7 @@ impl Judge {
         let Some(turning) = self.contract.promise.round else {
             return self.along_end(hole, motion, did, askew);
         };
-        let (start, end, before, after) = (motion.start, motion.end, motion.before.value, motion.after.value);
-        let struck = motion.struck.value;
-        let rate = [before[0] + struck[0], before[1] + struck[1]];
+        let (start, end, after, rate) = (motion.start, motion.end, motion.after.value, motion.rate());
         let ahead = [0, 1].map(|i: usize| match turning.normal {
             Normal::Ahead(part) => start[i] + part * self.h * rate[i],
             Normal::Middle(_) => start[i] + end[i],
@@ -122,7 +130,11 @@ impl Judge {
         let way = far - gap * (1.0 - turning.touching);
         // Of a bound on the displacement, rounding is as large as the solver's tolerance.
         let closes = middle && did.impulse != 0.0;
-        let (reached, edge) = (way >= 0.0 || closes, way.abs() <= place_noise + turning.touching * gap);
+        let (brim, distance) = (Brim::new(&turning, gap, (rate, self.h), turned), start[0].hypot(start[1]));
+        // In the units of rounding.
+        let (way, keeps) = (way / (place_noise + turning.touching * gap), brim.keeps(distance, reach) / place_noise);
+        let furthest = way.max(keeps);
+        let (reached, edge) = (furthest >= 0.0 || closes, furthest.abs() <= 1.0);
         if !reached && !edge {
             return self.walls.observe_law(&self.noise, place, force, 0.0);
         }
@@ -138,8 +150,7 @@ impl Judge {
             let bound = bound(hole.restitution, (start, rate, normal), touches);
             bound.max(if wedged { 0.0 } else { f64::MIN }) - (normal[0] * after[0] + normal[1] * after[1])
         };
-        let inside = gap * (1.0 - sagitta(&turning, gap, rate, self.h));
-        let brim = if crosses { -inside } else { start[0].hypot(start[1]) - inside };
+        let brim = brim.passed(if crosses { 0.0 } else { distance });
         let mut slack = left(brim >= 0.0);
         // Rounding may decide whether the body touched at the start.
         if brim.abs() <= place_noise {
@@ -187,12 +198,6 @@ impl HolePush {
             (step.normal.get(place)?, step.impulse.get(place)?, step.friction.get(place)?);
         Some(Self { normal: *normal, impulse: *impulse, friction: *friction })
     }
-}
-
-/// τ.
-fn sagitta(turning: &Turning, gap: f64, rate: [f64; 2], h: f64) -> f64 {
-    let arc = (h * rate[0].hypot(rate[1]) / gap).powi(2) / 8.0;
-    arc.max(turning.sagitta).min(turning.deepest)
 }
 
 /// The bound on n·ẇ⁺ of a body that `touches` the hole at the start of the step, or comes from

@@ -23,6 +23,9 @@ pub(super) struct Supports {
     /// The mass that each wall feels, kg, and its impulse in the step before, N s.
     pub mass: Vec<f64>,
     pub pushed: Vec<f64>,
+    /// The largest angle by which the normal turned in a step of the contact of each hole that
+    /// pushed in the step before, rad, where the promise tells; else 0.
+    pub turned: Vec<f64>,
     /// How fast the body slid along each wall at the end of the step or part before, along t and
     /// less rounding, m/s; infinite where the wall did not push.
     pub slid: Vec<f64>,
@@ -54,6 +57,7 @@ impl Supports {
         Some(Box::new(Self {
             mass: masses.iter().copied().take(scene.walls.len()).collect(),
             pushed: vec![0.0; scene.walls.len()],
+            turned: vec![0.0; scene.walls.len()],
             slid: slid.collect(),
             impulse: vec![[0.0; 2]; scene.walls.len()],
             size: vec![0.0; scene.walls.len()],

@@ -65,6 +65,11 @@ pub struct Circle {
 /// `sagitta` and at most `deepest`: the body comes from inside. Else the body touches, and a_r is
 /// w·ẇ/|w|, its approach along the normal at the step's start, but at least 0 and at most a.
 ///
+/// A body that slides falls by h²(v₀² − v²)/8γ inside of the circle while it slows down from v₀ to
+/// v. So, under [`Normal::Ahead`], the contact with a hole that pushed in the step before may last
+/// with |w| from γ(1 − α²/2), but at least γ/2, on: the body then touches as well. α is the largest
+/// angle h|n × ẇ|/γ by which n turned in a step since the contact began.
+///
 /// a > 0: 0 ≤ −(e a_r + a_c) − n·ẇ⁺ ⟂ p ≥ 0;    a ≤ 0: 0 ≤ −a − n·ẇ⁺ ⟂ p ≥ 0.
 ///
 /// So ẇ⁺ = −ε ẇ along every normal that pushes, with ε between e and 1: a step changes the energy
@@ -89,7 +94,8 @@ pub struct Turning {
 #[non_exhaustive]
 pub enum Normal {
     /// n = ŵ/|ŵ| with ŵ = w + φ h ẇ, where the body is about to be at this fraction φ of the step;
-    /// in play are the holes with |ŵ| ≥ γ(1 − `touching`).
+    /// in play are the holes with |ŵ| ≥ γ(1 − `touching`), and those whose contact may last with
+    /// |w| and with |ŵ|.
     Ahead(f64),
     /// n along w + w⁺, in the middle of the step; in play are the holes with |w⁺| ≥ γ(1 −
     /// `touching`), under a bound on the displacement. Where that middle (w + w⁺)/2 is nearer to

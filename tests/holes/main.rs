@@ -24,6 +24,7 @@ mod position;
 mod recorded;
 #[cfg(feature = "cli")]
 mod sliders;
+mod slides;
 mod start;
 mod static_friction;
 mod steps;

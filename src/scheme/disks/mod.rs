@@ -145,8 +145,10 @@ impl Motion for Disks {
     fn restart(&mut self, _: &Scene, time: f64, q: &[f64], v: &[f64]) -> Result<()> {
         self.held.frame.restart(time, q, v);
         self.held.body.restart(time);
-        if let DiskRule::Alpha(rule) = &mut self.rule {
-            rule.restart(&self.held);
+        match &mut self.rule {
+            DiskRule::Alpha(rule) => rule.restart(&self.held),
+            DiskRule::Velocity(rule) => rule.restart(),
+            _ => {}
         }
         self.held.frame.normal.fill([0.0; 2]);
         self.episodes.forget();

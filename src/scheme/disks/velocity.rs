@@ -17,14 +17,24 @@ pub(super) struct Velocity {
     theta: f64,
     pub bounds: DiskProgramme,
     b: Vec<f64>,
+    /// The largest angle by which the normal of each hole in play turned since its contact began,
+    /// and the same at the end of the step before, 0 if it did not push there.
+    turned: Vec<f64>,
+    lasted: Vec<f64>,
 }
 
 impl Velocity {
     pub fn new(scene: &Scene, theta: f64, held: &HoleBody) -> Result<Self> {
         let ht = held.body.h * theta;
         let (a, scale) = (held.body.theta_matrix(theta), scene.gap_scale() / held.body.h);
+        let zero = || vec![0.0; held.rounds.len()];
         let bounds = DiskProgramme::new(scene, a, scale, |spring| spring.compliance(ht))?;
-        Ok(Self { theta, bounds, b: vec![0.0; held.body.n] })
+        Ok(Self { theta, bounds, b: vec![0.0; held.body.n], turned: zero(), lasted: zero() })
+    }
+
+    /// Forgets the last step.
+    pub fn restart(&mut self) {
+        self.lasted.fill(0.0);
     }
 
     /// Makes a step.
@@ -39,6 +49,9 @@ impl Velocity {
         held.frame.add_change((h, theta), self.bounds.x());
         if carried {
             held.body.shift(&mut held.frame.q);
+        }
+        for (hole, lasted) in self.lasted.iter_mut().enumerate() {
+            *lasted = if held.frame.impulse[held.index(hole)] > 0.0 { self.turned[hole] } else { 0.0 };
         }
         Ok(())
     }
@@ -77,9 +90,10 @@ impl Velocity {
                 None => {
                     let struck = held.seen(hole, held.frame.struck());
                     let e = round.law.restitution().unwrap_or(0.0);
-                    match hole_state((round.gap, e), now, struck, h) {
+                    match hole_state((round.gap, e), [now, struck], h, self.lasted[hole]) {
                         None => DiskBound::OPEN,
                         Some(met) => {
+                            self.turned[hole] = met.turned;
                             let [y, z] = met.normal;
                             let hi = met.bound - (y * rate[0] + z * rate[1]);
                             DiskBound::Strip { normal: met.normal, lo: f64::NEG_INFINITY, hi }

@@ -131,7 +131,7 @@ impl Supports {
                 sweeps.touches.extend(reach.wall(index, (body, frame), places, last));
                 continue;
             }
-            let found = reach.hole(index, (frame, body.h), places, did);
+            let found = reach.hole(index, (frame, body.h), places, (memory.turns[index], did));
             met[index] = found.map(|(_, met)| met);
             let Some((touch, met)) = found else { continue };
             frame.normal[index] = met.normal;
@@ -250,7 +250,7 @@ impl Supports {
         }
         self.frame.check(step)?;
         let met = &self.met;
-        self.memory.keep(&self.sweeps.touches, |index| met[index].map_or(0.0, |met| met.turn));
+        self.memory.keep(&self.sweeps.touches, |index| met[index].map_or([0.0; 2], |met| [met.turn, met.turned]));
         if !(self.frame.pushing.is_empty() && self.episodes.idle()) {
             self.record_episodes();
         }

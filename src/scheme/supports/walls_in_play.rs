@@ -2,7 +2,8 @@
 //!
 //! Rigid ones are in play if q + ½h v reaches them, with v after the step's blows. The bound on
 //! n·ẇ⁺ is −ε n·ẇ at a flat, whose normal stays, and that of [`Turning`](crate::step::Turning) at a
-//! hole, whose normal turns. Elastic walls are always in play and yield as in moreau-jean.
+//! hole, whose normal turns. A hole that pushed in the step before stays in play while the body
+//! touches it. Elastic walls are always in play and yield as in moreau-jean.
 
 use super::super::body::Body;
 use super::super::frame::Frame;
@@ -123,22 +124,23 @@ impl WallsInPlay {
         self.points[wall].friction.acts() && push > 0.0 && rebounds <= (1.0 - restitution) * push
     }
 
-    /// A round wall, if it is in play; in the last step it `did` that.
+    /// A round wall, if it is in play; in the last step it `did` that, and `turned` is that of
+    /// [`HoleState`] if it pushed there, else 0.
     #[inline(always)]
     pub fn hole(
         &self,
         index: usize,
         (frame, h): (&Frame<Matrices>, f64),
         places: &ContactRows,
-        did: State,
+        (turned, did): (f64, State),
     ) -> Option<(FrictionContact, HoleState)> {
         let (round, point) = (self.rounds[index]?, self.points[index]);
         let ahead = round.offset(places.pair(point.rows, &self.ahead));
-        if dot(ahead, ahead) < round.clear {
+        if turned == 0.0 && dot(ahead, ahead) < round.clear {
             return None;
         }
         let (at, rate) = (places.pair(point.rows, &frame.q), places.pair(point.rows, frame.struck()));
-        let met = hole_state((round.gap, round.restitution), round.offset(at), rate, h)?;
+        let met = hole_state((round.gap, round.restitution), [round.offset(at), rate], h, turned)?;
         Some((self.touch(index, &met, places, did), met))
     }
 
