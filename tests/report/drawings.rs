@@ -244,7 +244,7 @@ fn a_chart_has_its_conclusion_above_its_named_curves() {
     let peers = dir.path().join("peers.csv");
     fs::write(&peers, "program,method,error_over_gap,seconds\nOther,RK,1e-3,2e-3\nOther,RK,2e-4,5e-3\n").unwrap();
     let schemes = ["--schemes", "event,moreau-jean,generalized-alpha,penalty:epsilon=1e-9"];
-    let few = ["--end", "1", "--levels", "6", "--repeats", "1", "--with", "peers.csv"];
+    let few = ["--end", "1", "--levels", "6", "--repeats", "1", "--longest", "100", "--with", "peers.csv"];
     let page = results(dir.path(), &[&["chart", "rigid-walls-sine"], &schemes[..], &few[..]].concat());
     let mut tab = opened(&mut browser, &page);
     let conclusion = tab.evaluate("document.querySelector('#work .conclusion').textContent");
@@ -521,7 +521,8 @@ fn labels_do_not_lie_on_one_another() {
 fn the_curves_of_own_springs_have_names_apart() {
     let Some(mut browser) = Browser::start() else { return };
     let dir = tempfile::tempdir().unwrap();
-    let page = results(dir.path(), &["chart", "rigid-walls-sine", "--end", "0.3", "--levels", "3"]);
+    let few = ["--end", "0.3", "--levels", "3", "--longest", "100"];
+    let page = results(dir.path(), &[&["chart", "rigid-walls-sine"], &few[..]].concat());
     let mut tab = opened(&mut browser, &page);
     let note = "document.querySelector('#work p.lead').textContent";
     assert!(tab.evaluate(note).as_str().unwrap().contains("the first is drawn"));
