@@ -26,16 +26,20 @@ pub(super) struct Beyond {
 }
 
 impl Beyond {
+    /// The places from that edge that arrows take at that height.
+    fn taken(&self, inwards: f64, y: f64) -> impl Iterator<Item = f64> {
+        let near = move |arrow: &&(f64, f64, f64)| arrow.0 == inwards && (arrow.2 - y).abs() < ARROW_HEIGHT;
+        self.arrows.iter().filter(near).map(|arrow| arrow.1)
+    }
+
     /// How many places from the edge are taken at that height, by arrows.
     fn columns(&self, inwards: f64, y: f64) -> f64 {
-        let near = self.arrows.iter().filter(|a| a.0 == inwards && (a.2 - y).abs() < ARROW_HEIGHT);
-        near.map(|arrow| arrow.1 + 1.0).fold(0.0, f64::max)
+        self.taken(inwards, y).map(|place| place + 1.0).fold(0.0, f64::max)
     }
 
     /// Takes the place nearest to the edge for an arrow at that height.
     fn column(&mut self, inwards: f64, y: f64) -> f64 {
-        let near = self.arrows.iter().filter(|a| a.0 == inwards && (a.2 - y).abs() < ARROW_HEIGHT);
-        let used: Vec<f64> = near.map(|arrow| arrow.1).collect();
+        let used: Vec<f64> = self.taken(inwards, y).collect();
         let column = (0..=used.len()).map(|n| n as f64).find(|n| !used.contains(n)).unwrap_or(0.0);
         self.arrows.push((inwards, column, y));
         column

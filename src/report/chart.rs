@@ -1,6 +1,7 @@
 //! The page of a chart: accuracy against speed.
 
 use super::folder::Folder;
+use super::older;
 use super::run::case_text;
 use crate::error::Result;
 use crate::output::work_precision::{column, label};
@@ -33,15 +34,6 @@ pub(super) fn short(method: &str) -> String {
     method.parse::<Method>().map_or_else(|_| method.to_owned(), |method| label(&method))
 }
 
-/// What the chart says of each error, by its column; folders of older versions say it of the
-/// displacement alone.
-fn conclusions(manifest: &Value) -> Value {
-    match &manifest["conclusions"] {
-        Value::Null => json!({ column(Quantity::Displacement): manifest["conclusion"] }),
-        said => said.clone(),
-    }
-}
-
 /// What the page of a chart shows.
 pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
     let table = folder.cells("work-precision.csv")?;
@@ -55,7 +47,7 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "chart": {
             "table": table.for_page(Some(&SHOWN)),
             "labels": (0..table.rows.len()).map(|row| short(table.text(row, "method"))).collect::<Vec<_>>(),
-            "conclusions": conclusions(folder.manifest),
+            "conclusions": older::conclusions(folder.manifest),
             "cheapest": told("cheapest"),
             "names": BTreeMap::from(Quantity::ALL.map(|quantity| (column(quantity), quantity.name()))),
             "floors": told("floors"),

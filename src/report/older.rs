@@ -1,6 +1,8 @@
 //! Folders that an older version wrote: what their files allow of what pages show today, and what
 //! they lack, by name.
 
+use crate::output::work_precision::column;
+use crate::study::work_precision::Quantity;
 use serde_json::{Value, json};
 
 /// What is said of a stability study without the list of largest stable steps.
@@ -43,6 +45,15 @@ pub(super) fn rename(document: &mut Value) {
             map.values_mut().for_each(rename);
         }
         _ => {}
+    }
+}
+
+/// What the `manifest` of a chart says of each error, by its column; that of an older version says
+/// it of the displacement alone.
+pub(super) fn conclusions(manifest: &Value) -> Value {
+    match &manifest["conclusions"] {
+        Value::Null => json!({ column(Quantity::Displacement): manifest["conclusion"] }),
+        said => said.clone(),
     }
 }
 

@@ -17,24 +17,23 @@ pub(super) struct Velocity {
     theta: f64,
     pub bounds: DiskProgramme,
     b: Vec<f64>,
-    /// The largest angle by which the normal of each hole in play turned since its contact began,
-    /// and the same at the end of the step before, 0 if it did not push there.
+    /// The largest angle by which the normal of each hole turned in a step since its contact began,
+    /// 0 between steps if it did not push in the last one.
     turned: Vec<f64>,
-    lasted: Vec<f64>,
 }
 
 impl Velocity {
     pub fn new(scene: &Scene, theta: f64, held: &HoleBody) -> Result<Self> {
         let ht = held.body.h * theta;
         let (a, scale) = (held.body.theta_matrix(theta), scene.gap_scale() / held.body.h);
-        let zero = || vec![0.0; held.rounds.len()];
+        let turned = vec![0.0; held.rounds.len()];
         let bounds = DiskProgramme::new(scene, a, scale, |spring| spring.compliance(ht))?;
-        Ok(Self { theta, bounds, b: vec![0.0; held.body.n], turned: zero(), lasted: zero() })
+        Ok(Self { theta, bounds, b: vec![0.0; held.body.n], turned })
     }
 
     /// Forgets the last step.
     pub fn restart(&mut self) {
-        self.lasted.fill(0.0);
+        self.turned.fill(0.0);
     }
 
     /// Makes a step.
@@ -50,8 +49,10 @@ impl Velocity {
         if carried {
             held.body.shift(&mut held.frame.q);
         }
-        for (hole, lasted) in self.lasted.iter_mut().enumerate() {
-            *lasted = if held.frame.impulse[held.index(hole)] > 0.0 { self.turned[hole] } else { 0.0 };
+        for (hole, turned) in self.turned.iter_mut().enumerate() {
+            if held.frame.impulse[held.index(hole)] <= 0.0 {
+                *turned = 0.0;
+            }
         }
         Ok(())
     }
@@ -90,7 +91,7 @@ impl Velocity {
                 None => {
                     let struck = held.seen(hole, held.frame.struck());
                     let e = round.law.restitution().unwrap_or(0.0);
-                    match hole_state((round.gap, e), [now, struck], h, self.lasted[hole]) {
+                    match hole_state((round.gap, e), [now, struck], h, self.turned[hole]) {
                         None => DiskBound::OPEN,
                         Some(met) => {
                             self.turned[hole] = met.turned;

@@ -62,21 +62,21 @@ impl LastStep {
         self.did.fill(State::Open);
     }
 
-    /// Keeps what the next step needs of the contacts in play, and counts; `turns` gives the angle
-    /// by which the normal of each turns in the step, rad, and the largest of its contact.
-    pub fn keep(&mut self, touches: &[FrictionContact], turns: impl Fn(usize) -> [f64; 2]) {
+    /// Keeps what the next step needs of the contacts in play, and counts; `turned` gives the
+    /// largest angle by which the normal of each turned in a step since its contact began, rad.
+    pub fn keep(&mut self, touches: &[FrictionContact], turned: impl Fn(usize) -> f64) {
         let mut frozen = false;
         for touch in touches.iter().filter(|touch| touch.impulse[0] > 0.0) {
             if let Some(last) = self.last[touch.rows[0]] {
                 frozen |= dot(last, touch.normal) < if self.round[touch.index] { 0.0 } else { OPPOSITE };
             }
-            self.turned = self.turned.max(turns(touch.index)[0]);
+            self.turned = self.turned.max(turned(touch.index));
         }
         self.frozen += u64::from(frozen);
         self.forget();
         for touch in touches.iter().filter(|touch| touch.impulse[0] > 0.0) {
             self.pushes[touch.index] = touch.impulse[0];
-            self.turns[touch.index] = turns(touch.index)[1];
+            self.turns[touch.index] = turned(touch.index);
             self.did[touch.index] = touch.state;
             if touch.compliance == 0.0 && !self.snug[touch.index] {
                 self.last[touch.rows[0]] = Some(touch.normal);
@@ -122,13 +122,13 @@ mod tests {
             [(0, 180.0, 1), (0, 179.0, 0), (1, -180.0, 1), (2, 180.0, 1), (2, 91.0, 1), (2, 89.0, 0), (3, -120.0, 1)]
         {
             let mut memory = memory();
-            memory.keep(&[touch(index, 0.0, [1.0, 0.0])], |_| [0.0; 2]);
+            memory.keep(&[touch(index, 0.0, [1.0, 0.0])], |_| 0.0);
             assert_eq!(memory.frozen, 0);
-            memory.keep(&[touch(index, degrees, [1.0, 0.0])], |_| [0.0; 2]);
+            memory.keep(&[touch(index, degrees, [1.0, 0.0])], |_| 0.0);
             assert_eq!(memory.frozen, frozen, "{index}, {degrees}");
             // Only the last step counts, not the one before, nor a place of another contact.
-            memory.keep(&[touch((index + 1) % 4, degrees + 180.0, [1.0, 0.0])], |_| [0.0; 2]);
-            memory.keep(&[touch(index, 0.0, [1.0, 0.0])], |_| [0.0; 2]);
+            memory.keep(&[touch((index + 1) % 4, degrees + 180.0, [1.0, 0.0])], |_| 0.0);
+            memory.keep(&[touch(index, 0.0, [1.0, 0.0])], |_| 0.0);
             assert_eq!(memory.frozen, frozen, "{index}, {degrees}");
         }
     }
@@ -140,27 +140,27 @@ mod tests {
         let opposite = touch(0, 180.0, [1.0, 0.0]);
         for (first, second) in [(open, opposite), (elastic, opposite), (opposite, open)] {
             let mut memory = memory();
-            memory.keep(&[first], |_| [0.0; 2]);
-            memory.keep(&[second], |_| [0.0; 2]);
+            memory.keep(&[first], |_| 0.0);
+            memory.keep(&[second], |_| 0.0);
             assert_eq!(memory.frozen, 0, "{first:?}, {second:?}");
         }
         let mut memory = memory();
-        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [1.0, 0.0])], |_| [0.0; 2]);
+        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [1.0, 0.0])], |_| 0.0);
         memory.forget();
-        memory.keep(&[opposite, touch(2, 180.0, [1.0, 0.0])], |_| [0.0; 2]);
+        memory.keep(&[opposite, touch(2, 180.0, [1.0, 0.0])], |_| 0.0);
         assert_eq!(memory.frozen, 0);
         // Two of them in a step freeze it once.
-        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [1.0, 0.0])], |_| [0.0; 2]);
+        memory.keep(&[touch(0, 0.0, [1.0, 0.0]), touch(2, 0.0, [1.0, 0.0])], |_| 0.0);
         assert_eq!(memory.frozen, 1);
     }
 
     #[test]
     fn the_pushes_of_a_step_are_kept_for_the_next_one_only() {
         let mut memory = memory();
-        memory.keep(&[touch(1, 0.0, [2.0, -0.5]), touch(3, 0.0, [3.0, 0.7]), touch(2, 0.0, [0.0; 2])], |_| [0.0; 2]);
+        memory.keep(&[touch(1, 0.0, [2.0, -0.5]), touch(3, 0.0, [3.0, 0.7]), touch(2, 0.0, [0.0; 2])], |_| 0.0);
         assert_eq!(memory.pushes, [0.0, 2.0, 0.0, 3.0]);
         assert_eq!(memory.did, [State::Open, State::Ahead, State::Open, State::Ahead]);
-        memory.keep(&[touch(0, 0.0, [1.0, 0.0])], |_| [0.0; 2]);
+        memory.keep(&[touch(0, 0.0, [1.0, 0.0])], |_| 0.0);
         assert_eq!(memory.pushes, [1.0, 0.0, 0.0, 0.0]);
         memory.forget();
         assert_eq!((&memory.pushes, &memory.did), (&vec![0.0; 4], &vec![State::Open; 4]));
@@ -169,10 +169,10 @@ mod tests {
     #[test]
     fn the_largest_turn_is_that_of_a_hole_that_pushes() {
         let mut memory = memory();
-        memory.keep(&[touch(2, 0.0, [0.0; 2])], |_| [0.6, 0.0]);
+        memory.keep(&[touch(2, 0.0, [0.0; 2])], |_| 0.6);
         assert!(memory.turned == 0.0);
         for (turns, largest) in [([0.1, 0.9], 0.1), ([0.3, 0.9], 0.3), ([0.2, 0.9], 0.3)] {
-            memory.keep(&[touch(2, 0.0, [1.0, 0.0])], |index| [turns[index - 2], 0.0]);
+            memory.keep(&[touch(2, 0.0, [1.0, 0.0])], |index| turns[index - 2]);
             assert!(memory.turned == largest, "{turns:?}: {}", memory.turned);
         }
     }

@@ -250,7 +250,7 @@ impl Supports {
         }
         self.frame.check(step)?;
         let met = &self.met;
-        self.memory.keep(&self.sweeps.touches, |index| met[index].map_or([0.0; 2], |met| [met.turn, met.turned]));
+        self.memory.keep(&self.sweeps.touches, |index| met[index].map_or(0.0, |met| met.turned));
         if !(self.frame.pushing.is_empty() && self.episodes.idle()) {
             self.record_episodes();
         }

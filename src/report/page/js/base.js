@@ -32,6 +32,9 @@ function el(tag, attributes = {}, ...children) {
   return node;
 }
 
+/** A text of the tool as a sentence. */
+const sentence = (text) => `${text[0].toUpperCase()}${text.slice(1)}.`;
+
 /** A text of the tool with the names in it, between backticks, set as such. */
 const worded = (text) => text.split("`").map((part, k) => (k % 2 ? el("code", {}, part) : part));
 

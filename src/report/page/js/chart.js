@@ -19,8 +19,6 @@ const [NEGLIGIBLE, NO_ANSWER] = [1e-9, 1];
 const CHART_NOTE =
   "Further down is cheaper, further left is more accurate; the pale band is the least time for each error. Times are the best of several.";
 
-const capital = (sentence) => `${sentence[0].toUpperCase()}${sentence.slice(1)}.`;
-
 /** Width of a plot, in pixels, from which on curves are named at their ends. */
 const ROOM_FOR_NAMES = 560;
 
@@ -206,7 +204,7 @@ function chartSection() {
     );
     headline.replaceChildren(...[conclusionOf(conclusions[data.error])].filter((text) => text));
     told.replaceChildren(...[cheapestTable(cheapest, data.error)].filter((table) => table));
-    const sentences = [CHART_NOTE, data.integrators, ...(compared || []).map(capital)];
+    const sentences = [CHART_NOTE, data.integrators, ...(compared || []).map(sentence)];
     note.replaceChildren(...worded(sentences.join(" ")));
     plot.redraw();
   };

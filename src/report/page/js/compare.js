@@ -85,7 +85,7 @@ function conclusionOf(text) {
   if (!text) return null;
   // A number and its unit stand on one line.
   const whole = text.replace(/(\d) (?=([mµn]?s|%)(\W|$))/g, "$1\u00a0");
-  return el("p", { class: "conclusion" }, `${whole[0].toUpperCase()}${whole.slice(1)}.`);
+  return el("p", { class: "conclusion" }, sentence(whole));
 }
 
 /** The distance of each method from the reference: the largest of each stretch, since |Δu| itself passes through 0. */

@@ -49,7 +49,7 @@ function sharesSection(shares, seeds, caution) {
     "The share of each key in the variance of the measure over the rows, by an additive fit of polynomials of the " +
       "third degree; interactions: what no sum of such polynomials gives" +
       (seeds ? "; realisations: what the means scatter by chance" : "") +
-      `. ± is the half width of the 95 % interval, from shares without each thirteenth part of the rows.${caution ? ` ${caution[0].toUpperCase()}${caution.slice(1)}.` : ""}`,
+      `. ± is the half width of the 95 % interval, from shares without each thirteenth part of the rows.${caution ? ` ${sentence(caution)}` : ""}`,
     ...linesByMeasure(shares).map(([name, lines]) => shareBars(columns, lines, name)),
     sortable(
       [...namedColumns(columns), share, half, rows],

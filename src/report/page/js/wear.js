@@ -20,7 +20,7 @@ function wearColumns(table) {
 function wearSection() {
   const { answers, seeds, supports } = DATA.wear;
   // A name stays as it is.
-  const sentence = (answer) =>
+  const capitalised = (answer) =>
     supports.some(({ name }) => answer.startsWith(name)) ? answer : answer.charAt(0).toUpperCase() + answer.slice(1);
   const table = tableOf(DATA.wear.years);
   const columns = wearColumns(table);
@@ -36,7 +36,7 @@ function wearSection() {
     seeds > 1
       ? `Means over ${seeds} histories, and as bands their 95 % intervals, by Student's t.`
       : "One history: without random loads and a start that scatters all are the same.",
-    el("ul", {}, answers.map((answer) => el("li", {}, sentence(answer)))),
+    el("ul", {}, answers.map((answer) => el("li", {}, capitalised(answer)))),
     measureCurves(columns, "year", measures, tell, () => {}),
   );
   const rows = Array.from({ length: columns.year.length }, (_, i) => i);
