@@ -5,23 +5,59 @@ use std::path::Path;
 
 /// Takes the folders out of a page's data: in every `command` absolute paths become relative to the
 /// folder of the case, or their last part where they lie elsewhere; of the `files` that a run has
-/// read the path is left out, since `file` is the one relative to the case.
+/// read the path is left out, since `file` is the one relative to the case. Where a case itself names
+/// a file by an absolute path, the last part of it stands everywhere.
 pub(super) fn shorten(data: &mut Value) {
+    let mut named = Vec::new();
+    files_by_absolute_paths(data, &mut named);
+    shorten_with(data, &named);
+}
+
+/// Adds the absolute paths of files that a run has read by them.
+fn files_by_absolute_paths(data: &Value, named: &mut Vec<String>) {
+    match data {
+        Value::Object(map) => {
+            let files = map.get("files").and_then(Value::as_array).into_iter().flatten();
+            let paths = files.filter_map(|file| file.get("file")?.as_str());
+            named.extend(paths.filter(|path| absolute(path).is_some()).map(str::to_owned));
+            map.values().for_each(|value| files_by_absolute_paths(value, named));
+        }
+        Value::Array(list) => list.iter().for_each(|value| files_by_absolute_paths(value, named)),
+        _ => {}
+    }
+}
+
+fn shorten_with(data: &mut Value, named: &[String]) {
     match data {
         Value::Object(map) => {
             for (key, value) in map.iter_mut() {
                 match (key.as_str(), value) {
                     ("command" | "command_line", Value::String(text)) => *text = command(text),
                     ("files", Value::Array(files)) => {
-                        files.iter_mut().filter_map(Value::as_object_mut).for_each(|file| drop(file.remove("path")));
+                        for file in files.iter_mut() {
+                            file.as_object_mut().map(|file| file.remove("path"));
+                            shorten_with(file, named);
+                        }
                     }
-                    (_, value) => shorten(value),
+                    (_, value) => shorten_with(value, named),
                 }
             }
         }
-        Value::Array(list) => list.iter_mut().for_each(shorten),
+        Value::Array(list) => list.iter_mut().for_each(|value| shorten_with(value, named)),
+        Value::String(text) => {
+            for path in named {
+                if text.contains(path.as_str()) {
+                    *text = text.replace(path.as_str(), last_part(path));
+                }
+            }
+        }
         _ => {}
     }
+}
+
+/// The name of a file or folder without the folders that it is in.
+fn last_part(path: &str) -> &str {
+    path.trim_end_matches(['/', '\\']).rsplit(['/', '\\']).next().unwrap_or_default()
 }
 
 /// A command line without absolute paths. Its third word is the case.
@@ -32,8 +68,7 @@ fn command(text: &str) -> String {
     let shown = words.iter().map(|word| {
         let Some((before, path)) = absolute(word) else { return (*word).to_owned() };
         let within = folder.and_then(|folder| path.strip_prefix(folder)?.strip_prefix(['/', '\\']));
-        let last = || path.trim_end_matches(['/', '\\']).rsplit(['/', '\\']).next().unwrap_or_default();
-        format!("{before}{}", within.unwrap_or_else(last))
+        format!("{before}{}", within.unwrap_or_else(|| last_part(path)))
     });
     shown.collect::<Vec<_>>().join(" ")
 }
@@ -90,6 +125,20 @@ mod tests {
         let expected = json!({ "methods": [{ "summary": {
             "files": [{ "file": "f.csv", "bytes": 3 }], "unit": "N s/m",
         } }] });
+        assert_eq!(data, expected);
+    }
+
+    #[test]
+    fn a_file_that_the_case_names_by_an_absolute_path_stands_by_its_name() {
+        let mut data = json!({ "methods": [{ "summary": {
+            "files": [{ "file": "/home/jane/m.csv", "path": "/home/jane/m.csv" }, { "file": "k.csv" }],
+            "case_file": { "system": { "matrices": { "mass": "/home/jane/m.csv", "stiffness": "k.csv" } } },
+        } }], "case": "mass = \"/home/jane/m.csv\"\nstiffness = \"k.csv\"" });
+        shorten(&mut data);
+        let expected = json!({ "methods": [{ "summary": {
+            "files": [{ "file": "m.csv" }, { "file": "k.csv" }],
+            "case_file": { "system": { "matrices": { "mass": "m.csv", "stiffness": "k.csv" } } },
+        } }], "case": "mass = \"m.csv\"\nstiffness = \"k.csv\"" });
         assert_eq!(data, expected);
     }
 }
