@@ -66,6 +66,8 @@ pub(crate) struct Coulomb {
     response: Vec<f64>,
     /// 1/√W_kk, 0 where W_kk is.
     scale: Vec<f64>,
+    /// Rounding of the rates without impulses, m/s.
+    rounding: f64,
 }
 
 /// What a contact does.
@@ -88,12 +90,13 @@ enum Unknown {
 
 impl Coulomb {
     /// The problem of these contacts with the responses W, 2 × 2 numbers for each pair of contacts,
-    /// row by row. Rows of the tangents of contacts without friction are not used.
-    pub fn new(contacts: Vec<CoulombContact>, response: Vec<f64>) -> Self {
+    /// row by row. Rows of the tangents of contacts without friction are not used. The rates of the
+    /// contacts without impulses are known to `rounding` (m/s).
+    pub fn new(contacts: Vec<CoulombContact>, response: Vec<f64>, rounding: f64) -> Self {
         let n = 2 * contacts.len();
         let own = |k: usize| response[k * n + k];
         let scale = (0..n).map(|k| if own(k) > 0.0 { 1.0 / own(k).sqrt() } else { 0.0 }).collect();
-        Self { contacts, response, scale }
+        Self { contacts, response, scale, rounding }
     }
 
     /// Solves for p and f of each contact, and lists the contacts that gave up their rebound.
@@ -232,7 +235,8 @@ impl Coulomb {
     }
 
     /// By how much impulses miss the law, each rate relative to the terms of its row: impulses that
-    /// change velocities by 1e-9 of those with which other contacts slide obey it as well.
+    /// change velocities by 1e-9 of those with which other contacts slide obey it as well. Rates
+    /// that are 0 but for the rounding of those without impulses are 0.
     fn residual(&self, impulses: &[[f64; 2]]) -> f64 {
         let n = self.scale.len();
         let free = self.contacts.iter().flat_map(|contact| contact.free);
@@ -246,13 +250,13 @@ impl Coulomb {
         let of = |(index, (contact, &[p, f])): (usize, (&CoulombContact, &[f64; 2]))| {
             let [k, l] = [2 * index, 2 * index + 1];
             let pressing = self.rate(k, impulses).min(self.response[k * n + k] * p).abs();
-            let missed = share(pressing, contact.free[0].abs() + moved(k));
+            let missed = share(pressing - self.rounding, contact.free[0].abs() + moved(k));
             if contact.friction == 0.0 {
                 return missed;
             }
             let (along, most, c) = (self.rate(l, impulses), contact.friction * p, self.response[l * n + l]);
             let beyond = share(c * (f.abs() - most), moved(l));
-            let sticks = share(along.abs(), contact.free[1].abs() + moved(l));
+            let sticks = share(along.abs() - self.rounding, contact.free[1].abs() + moved(l));
             let slips = share(c * (f + most * along.signum()).abs(), moved(l));
             missed.max(beyond).max(sticks.min(slips))
         };

@@ -303,7 +303,8 @@ impl FrictionContacts {
             }
         }
         let contacts = touches.iter().map(contact).collect();
-        let (impulses, gave_up) = Coulomb::new(contacts, responses).solve()?;
+        let rounding = ROUNDING * largest_of(free);
+        let (impulses, gave_up) = Coulomb::new(contacts, responses, rounding).solve()?;
         for (touch, impulse) in touches.iter_mut().zip(impulses) {
             touch.impulse = impulse;
         }
