@@ -108,7 +108,7 @@ fn my_own_paper_figure_in_ten_minutes() {
 fn my_own_matrices_in_ten_minutes() {
     let dir = tempfile::tempdir().unwrap();
     let (files, commands, said) = follow("docs/own-matrices.md", dir.path());
-    assert_eq!((files, commands), (7, 6));
+    assert_eq!((files, commands), (8, 6));
     // 2 √1000 sin(π/14) / 2π and 2 √1000 sin(5π/14) / 2π.
     assert!(said.contains("natural frequencies from 2.239861 to about 9.069011 Hz"), "{said}");
     assert!(said.contains("natural frequencies, all: 2.239861, 6.275950, 9.069011 Hz"), "{said}");
@@ -121,11 +121,21 @@ fn my_own_matrices_in_ten_minutes() {
     // Four digits of the shapes are left out: a share of 1e-3 of the time to the first contact.
     let (full, modal) = (first("my-structure"), first("my-modes"));
     assert!((full - modal).abs() < 1e-3 * full, "{full} {modal}");
-    // The U-bend slides in its plate.
-    let supports = fs::read_to_string(dir.path().join("out/u-bend/run/supports.csv")).unwrap();
-    let mut table = csv::Reader::from_reader(supports.as_bytes());
-    let rate = table.headers().unwrap().iter().position(|name| name == "work_rate_W").unwrap();
-    assert!(table.records().next().unwrap().unwrap()[rate].parse::<f64>().unwrap() > 0.0, "{supports}");
+    // The U-bend slides in its plate, with and without the turbulence of a flow.
+    let work_rate = |case: &str| {
+        let supports = fs::read_to_string(dir.path().join("out").join(case).join("run/supports.csv")).unwrap();
+        let mut table = csv::Reader::from_reader(supports.as_bytes());
+        let rate = table.headers().unwrap().iter().position(|name| name == "work_rate_W").unwrap();
+        table.records().next().unwrap().unwrap()[rate].parse::<f64>().unwrap()
+    };
+    let own = fs::read_to_string(dir.path().join("u-bend.toml")).unwrap();
+    let is_turbulence = |text: &&String| text.starts_with("[[turbulence]]");
+    let blocks = blocks("docs/own-matrices.md");
+    let turbulence = blocks.iter().map(|(_, _, text)| text).find(is_turbulence).unwrap();
+    fs::write(dir.path().join("in-flow.toml"), format!("{own}\n{turbulence}")).unwrap();
+    done("docs/own-matrices.md", "signorini run in-flow.toml", &[], dir.path());
+    let (alone, in_flow) = (work_rate("u-bend"), work_rate("in-flow"));
+    assert!(alone > 0.0 && in_flow > 0.0 && in_flow != alone, "{alone} {in_flow}");
 }
 
 /// Whole sweeps of these pages take minutes: they are planned, which checks all but the runs.
