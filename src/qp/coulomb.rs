@@ -111,7 +111,7 @@ impl Coulomb {
                 Ok(impulses) => return Some((impulses, wedged)),
                 Err(ray) => ray,
             };
-            ray.retain(|&contact| self.contacts[contact].rebound > 0.0);
+            ray.retain(|&contact| self.contacts[contact].rebound > self.rounding);
             if ray.is_empty() {
                 return None;
             }

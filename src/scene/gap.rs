@@ -20,7 +20,8 @@ impl Scene {
     /// The reference length γ₀ of the scene, m: the smallest of half the distances between an upper
     /// and a lower wall on one row and of the gaps of round supports; else the largest distance of
     /// a wall from the initial position; else the largest |position| of a wall; else the initial
-    /// displacement; else 1 m. Residuals and solvers are made dimensionless by it. Zero gaps are
+    /// displacement; else the length over which the initial velocity and the loads move the
+    /// structure; else 1 m. Residuals and solvers are made dimensionless by it. Zero gaps are
     /// ignored, and walls more than 100 times as far from the start and from zero as the nearest.
     #[must_use]
     pub fn gap_scale(&self) -> f64 {
@@ -28,6 +29,7 @@ impl Scene {
         gap_of(&near)
             .or_else(|| largest(near.iter().map(|(wall, _)| wall.position().abs())))
             .or_else(|| largest(self.initial.q.iter().map(|q| q.abs())))
+            .or_else(|| Some(self.length_of_motion()).filter(positive))
             .unwrap_or(1.0)
     }
 

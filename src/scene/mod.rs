@@ -14,12 +14,12 @@
 //! all loads), `random/` (random forces as tables), `turbulence/` (random forces along a line, on
 //! modes), `fluid_elastic.rs` (the stability of a tube in that flow), `held.rs` (a structure held
 //! at places), `clear.rs` (a start moved out of walls), `gap.rs` (the length that residuals are
-//! told in), `function.rs`, `scales.rs` (frequencies, and the mass that a wall feels),
-//! `scene_key.rs` (the path of a number of a scene), `row.rs` (a location on a structure, as
-//! weights of degrees of freedom), `builders/` (chains, bars, tubes, modal data), `matrices/` (read
-//! from text), `condensation/` (degrees of freedom without mass), `damping.rs`, `modal/` (modes,
-//! and scenes reduced to them); `validate.rs` is the only place that decides which values are
-//! valid.
+//! told in), `motion_length.rs` (that of scenes whose walls stand where they start), `function.rs`,
+//! `scales.rs` (frequencies, and the mass that a wall feels), `scene_key.rs` (the path of a number
+//! of a scene), `row.rs` (a location on a structure, as weights of degrees of freedom), `builders/`
+//! (chains, bars, tubes, modal data), `matrices/` (read from text), `condensation/` (degrees of
+//! freedom without mass), `damping.rs`, `modal/` (modes, and scenes reduced to them); `validate.rs`
+//! is the only place that decides which values are valid.
 
 mod builders;
 mod checked;
@@ -40,6 +40,7 @@ mod load;
 mod loads;
 pub mod matrices;
 mod modal;
+mod motion_length;
 mod planes;
 mod random;
 mod row;

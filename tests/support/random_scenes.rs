@@ -28,6 +28,9 @@ pub enum Units {
     Wild,
 }
 
+/// Of every 32 scenes the one whose flat walls leave no gap.
+const SNUG: u64 = 3;
+
 /// The scene of this seed.
 pub fn random_scene(seed: u64, units: Units) -> Drawn {
     let draws = &mut Draws::new(seed);
@@ -51,6 +54,9 @@ pub fn random_scene(seed: u64, units: Units) -> Drawn {
     // Draws of their own, of seeds that never were refuted, leave the rest of the scene as it is.
     if seed % 16 == 5 && scene.supports.is_empty() {
         bend(&mut Draws::new(!seed.rotate_left(16)), &mut scene);
+    }
+    if seed % 32 == SNUG {
+        close(&mut Draws::new(!seed.rotate_left(48)), &mut scene);
     }
     let fastest = fastest(&scene.system);
     // 3 to 300 steps in a period of the fastest vibration; a free body takes that of 10 Hz.
@@ -118,6 +124,16 @@ fn bend(draws: &mut Draws, scene: &mut Scene) {
             let stiffness = mass * contact * contact * gap.powf(1.0 - exponent);
             let dissipation = [0.0, draws.between(0.0, 2.0) / (gap * omega)][draws.below(2)];
             *wall = wall.clone().with_hunt_crossley(stiffness, exponent, dissipation);
+        }
+    }
+}
+
+/// Puts the flat walls to 0, where bodies start: most of them, or all.
+fn close(draws: &mut Draws, scene: &mut Scene) {
+    let share = [0.7, 1.0, 1.0][draws.below(3)];
+    for wall in scene.walls.iter_mut().filter(|wall| !wall.is_round()) {
+        if draws.chance(share) {
+            *wall = wall.clone().with_position(0.0);
         }
     }
 }
