@@ -5,8 +5,8 @@ use std::path::Path;
 
 /// Takes the folders out of a page's data: in every `command` absolute paths become relative to the
 /// folder of the case, or their last part where they lie elsewhere; of the `files` that a run has
-/// read the path is left out, since `file` is the one relative to the case. Where a case itself names
-/// a file by an absolute path, the last part of it stands everywhere.
+/// read the path is left out, since `file` is the one relative to the case. Where a case itself
+/// names a file by an absolute path, the last part of it stands everywhere.
 pub(super) fn shorten(data: &mut Value) {
     let mut named = Vec::new();
     files_by_absolute_paths(data, &mut named);
