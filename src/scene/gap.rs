@@ -33,6 +33,20 @@ impl Scene {
             .unwrap_or(1.0)
     }
 
+    /// The scene with a start from which its gap scale is `length` (m), where that follows from the
+    /// motion: for a part of a run, whose loads and duration are others.
+    pub(crate) fn with_gap_scale(mut self, length: f64) -> Self {
+        if self.gap_scale() == length {
+            return self;
+        }
+        let entries = || self.walls.iter().flat_map(|wall| wall.row().entries());
+        let Some(&(dof, _)) = entries().next() else { return self };
+        let weights = entries().filter(|(i, _)| *i == dof).map(|(_, weight)| weight.abs());
+        let weight = largest(weights).unwrap_or(1.0);
+        self.initial.q.iter_mut().enumerate().for_each(|(i, q)| *q = if i == dof { length / weight } else { 0.0 });
+        self
+    }
+
     /// The gap of the scene, m: the smallest of half the distances between an upper and a lower
     /// wall on one row and of the gaps of round supports; else the largest distance of a wall from
     /// the initial position, unless the start is on it. `None` where there is none above 0. Walls
@@ -112,6 +126,17 @@ mod tests {
         }
         // 50 times as far is near: half the distance of the pair.
         assert_eq!(scene([near, Wall::lower("lower", -2.5e-2)]).gap(), Some(0.5 * (5e-4 + 2.5e-2)));
+    }
+
+    #[test]
+    fn a_part_of_a_run_has_the_gap_scale_of_the_run() {
+        let snug = scene([Wall::upper("upper", 0.0), Wall::lower("lower", 0.0).at(Row::new(vec![(0, -0.5)]))]);
+        let run = snug.with_initial(&[0.0], &[0.3]).with_duration(7.0);
+        let part = run.clone().with_duration(1e-3).with_gap_scale(run.gap_scale());
+        assert_eq!((run.gap_scale(), part.gap_scale()), (0.03, 0.03));
+        // Walls with a gap give it themselves.
+        let gap = scene([Wall::upper("upper", 5e-3)]);
+        assert_eq!(gap.clone().with_gap_scale(5e-3), gap);
     }
 
     #[test]

@@ -102,7 +102,7 @@ impl StructureEvent {
             };
             Some(Load { kind, at: load.at.clone() })
         };
-        Scene {
+        let scene = Scene {
             system: self.scene.system.clone(),
             walls: self.scene.walls.clone(),
             supports: self.scene.supports.clone(),
@@ -111,7 +111,8 @@ impl StructureEvent {
             output_times: Vec::new(),
             initial: self.scene.initial.clone(),
             duration,
-        }
+        };
+        scene.with_gap_scale(self.scene.gap_scale())
     }
 
     /// Takes one step of the current stretch.
