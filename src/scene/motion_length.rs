@@ -7,6 +7,10 @@ use super::{Face, Loads, Scene, Wall};
 /// Instants at which a function of time is asked for its force.
 const INSTANTS: u32 = 64;
 
+/// A throw is no shorter than this share of the way that the force which ends it moves a free body:
+/// a start of 1e-20 m/s says nothing of lengths.
+const SHORTEST: f64 = 1e-9;
+
 /// What moves a degree of freedom by itself.
 #[derive(Debug, Clone, Copy, Default)]
 struct Motion {
@@ -32,11 +36,12 @@ impl Scene {
         let held = |i: usize, motion: &Motion| self.walls.iter().any(|wall| holds(wall, i, motion.constant));
         let length = |(i, motion): (usize, &Motion)| {
             let Motion { speed, constant, varying, time } = *motion;
-            let pull = constant.abs();
-            if pull > 0.0 && held(i, motion) {
-                varying.max(speed * time.min(speed / pull))
-            } else {
-                varying.max(speed * time).max(pull * time * time)
+            let (pull, way) = (constant.abs(), constant.abs() * time * time);
+            let throw = (speed * time.min(speed / pull)).max(SHORTEST * way);
+            match (pull > 0.0 && held(i, motion), speed > 0.0) {
+                (true, true) => varying.max(throw),
+                (true, false) => varying,
+                (false, _) => varying.max(speed * time).max(way),
             }
         };
         let moved = motions.iter().enumerate().map(length).fold(0.0, f64::max);
@@ -136,6 +141,7 @@ mod tests {
         assert_scale(&thrown.clone().with_load(weight.clone()), 8e-10);
         // Away from the wall a slow start counts for nothing.
         assert_scale(&thrown.with_load(Load::constant(4e-2)), 18e-2);
+        assert_scale(&ball.clone().with_initial(&[0.0], &[1e-20]).with_load(weight.clone()), 18e-17);
         // Nothing but its weight: it lies there.
         assert_scale(&ball.with_load(weight), 18e-8);
     }
