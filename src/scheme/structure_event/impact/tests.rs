@@ -119,8 +119,10 @@ impl Body {
     /// True if the body stays on the floor after an impact that makes it leave with this speed,
     /// m/s.
     fn stays_after(&self, rebound: f64) -> bool {
+        // The ceiling makes the gap scale 1 m.
         let scene = masses(&[2.0], &[], &[])
             .with_wall(rigid(Wall::lower("floor", self.floor), self.e, &[(0, 1.0)]))
+            .with_wall(rigid(Wall::upper("ceiling", self.floor + 2.0), self.e, &[(0, 1.0)]))
             .with_load(self.load.clone())
             .with_initial(&[self.floor], &[0.0]);
         let mut event = started(&scene, self.stride);
@@ -194,6 +196,8 @@ fn a_rebound_that_only_another_wall_presses_may_be_the_last() {
         masses(&[1.0, 1.0], &[], &[])
             .with_wall(rigid(Wall::lower("lever", 0.0), e, &[(0, -1.0), (1, weight)]))
             .with_wall(rigid(Wall::lower("floor", 0.0), 0.5, &[(0, 1.0)]))
+            // It makes the gap scale 1 m.
+            .with_wall(rigid(Wall::upper("ceiling", 2.0), 0.5, &[(0, 1.0)]))
             .with_load(on(Load::constant(-force), 1))
     };
     let last = f64::sqrt(2.0 * press * 1e-12);
