@@ -18,8 +18,8 @@ thread_local! {
 }
 
 /// The most runs within one another, where the load of a scene is a function that runs a scene.
-/// Each takes some 60 kB of the stack, of which a thread may have no more than 256 kB.
-const MOST_NESTED: usize = 2;
+/// Each takes some 60 kB of the stack, of which a thread may have no more than 512 kB.
+const MOST_NESTED: usize = 5;
 
 /// Calls a function of Python's that is a load. What it runs itself counts as nested within the
 /// computation around it, on whatever thread.
