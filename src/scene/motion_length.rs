@@ -1,8 +1,9 @@
 //! The length over which the initial velocity and the loads move a structure: the scale of a scene
 //! whose walls stand where it starts.
 
-use super::forcing::Forcing;
-use super::{Face, Loads, Scene, Wall};
+use super::load::LoadKind;
+use super::{Face, Scene, Wall};
+use std::f64::consts::TAU;
 
 /// A throw is no shorter than this share of the way that the force which ends it moves a free body:
 /// a start of 1e-20 m/s says nothing of lengths.
@@ -57,17 +58,23 @@ impl Scene {
         };
         let stiffness = structure.stiffness.diagonal_entries();
         let mut motions: Vec<Motion> = self.initial.v.iter().zip(&mass).zip(stiffness).map(start).collect();
-        for (row, forcing) in Loads::new(&self.loads).parts() {
-            let blows: f64 = forcing.impulses.iter().map(|(_, impulse)| impulse.abs()).sum();
-            let irregular = largest_of_tables(forcing);
-            for &(i, weight) in row.entries() {
+        for load in &self.loads {
+            let table = match &load.kind {
+                LoadKind::Table(table) => table.force().iter().fold(0.0, |most: f64, force| most.max(force.abs())),
+                _ => 0.0,
+            };
+            for &(i, weight) in load.at.entries() {
                 let (Some(motion), Some(m)) = (motions.get_mut(i), mass.get(i)) else { continue };
-                let waves =
-                    forcing.harmonics.iter().map(|h| h.amplitude.abs() * motion.time.min(1.0 / h.omega).powi(2));
-                let moved = waves.sum::<f64>() + irregular * motion.time * motion.time;
-                motion.constant += weight * forcing.constant / m;
-                motion.speed += weight.abs() * blows / m;
-                motion.varying += weight.abs() * moved / m;
+                let (by, time) = (weight / m, motion.time);
+                match load.kind {
+                    LoadKind::Constant { force } => motion.constant += by * force,
+                    LoadKind::Harmonic { amplitude, frequency, .. } => {
+                        motion.varying += (by * amplitude).abs() * time.min(1.0 / (TAU * frequency)).powi(2);
+                    }
+                    LoadKind::Impulse { impulse, .. } => motion.speed += (by * impulse).abs(),
+                    LoadKind::Table(_) => motion.varying += by.abs() * table * time * time,
+                    LoadKind::Function(_) => {}
+                }
             }
         }
         motions
@@ -81,11 +88,6 @@ fn holds(wall: &Wall, i: usize, force: f64) -> bool {
         Face::Round { .. } => true,
     };
     wall.row().entries().iter().any(|&(at, weight)| at == i && feels(weight))
-}
-
-/// The largest |force| of the tables, N.
-fn largest_of_tables(forcing: &Forcing) -> f64 {
-    forcing.tables.iter().flat_map(|table| table.force()).fold(0.0, |most: f64, force| most.max(force.abs()))
 }
 
 #[cfg(test)]
