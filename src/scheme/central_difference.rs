@@ -71,10 +71,9 @@ impl<S: Space> CentralDifference<S> {
             let solved = dashpots.solve(law);
             solved.map_err(|residual| Error::Newton { time: frame.start, step, residual })?;
             // The forces that make the velocities: a stiff dashpot turns the rounding of those into
-            // a far larger one of its law. Where the law has no force, there is none.
-            for (force, (own, law)) in frame.force.iter_mut().zip(dashpots.guess.iter().zip(&dashpots.force)) {
-                *force = if *law == 0.0 { 0.0 } else { *own };
-            }
+            // a far larger one of its law.
+            dashpots.refine_pulls();
+            frame.force.copy_from_slice(&dashpots.guess);
         } else {
             for (wall, face) in body.walls.iter().enumerate() {
                 frame.force[wall] = face.sign * face.law.pressure(depth(wall), 0.0);

@@ -224,17 +224,39 @@ impl ForceLawSolver {
     }
 
     /// Corrects the forces `guess` where they make the `made` y in place of y₀ + S · guess: until
-    /// they are the forces of the laws there, which to first order are `force` − D (`made` − y). A
-    /// wall that would pull, which is rounding error, has no force.
+    /// they are the forces of the laws there, which to first order are `force` − D (`made` − y).
     pub fn refine(&mut self, made: &[f64]) {
+        self.approach_laws(made);
+        self.end_pulls();
+    }
+
+    /// Ends forces that pull in what `solve` found, which are rounding errors: two walls on one row
+    /// whose laws are stiff share a force only as far as the rounding of y tells. Such forces may be
+    /// far larger than those that are left, which are nearer to their laws without their rounding.
+    pub fn refine_pulls(&mut self) {
+        if self.end_pulls() {
+            let of_laws = self.y.clone();
+            self.place();
+            let made = std::mem::replace(&mut self.y, of_laws);
+            self.refine(&made);
+        }
+    }
+
+    /// One step of Newton's method from the forces `guess`, which make the `made` y.
+    fn approach_laws(&mut self, made: &[f64]) {
         for (i, step) in self.step.iter_mut().enumerate() {
             *step = self.force[i] - self.slope[i] * (made[i] - self.y[i]) - self.guess[i];
         }
+        self.correct_guess();
+    }
+
+    /// A wall that would pull, which is rounding error, has no force, and the others take over what
+    /// it had. True if there was any.
+    fn end_pulls(&mut self) -> bool {
+        let mut ended = false;
         for _ in 0..=self.m {
-            self.correct();
             let mut pulls = false;
             for i in 0..self.m {
-                self.guess[i] += self.step[i];
                 let pull = self.guess[i] != 0.0 && self.guess[i] * self.force[i] <= 0.0;
                 self.step[i] = if pull { -self.guess[i] } else { 0.0 };
                 if pull {
@@ -245,7 +267,16 @@ impl ForceLawSolver {
             if !pulls {
                 break;
             }
+            ended = true;
+            self.correct_guess();
         }
+        ended
+    }
+
+    /// Adds what `step` becomes by `correct`.
+    fn correct_guess(&mut self) {
+        self.correct();
+        self.guess.iter_mut().zip(&self.step).for_each(|(guess, step)| *guess += step);
     }
 }
 

@@ -169,6 +169,39 @@ fn a_correction_makes_no_wall_pull_and_the_others_carry_what_it_carried() {
 }
 
 #[test]
+fn stiff_walls_on_one_row_share_a_force_that_rounding_divides_without_pulling() {
+    // A body of 1.45 kg, deep in two damped springs at once: at the velocity y, of 1e6 m/s, the
+    // second alone can give 2e7 N, and y is known to 1e-10 m/s, 1e-10 · 6e24 N of the first.
+    let s = 0.0583;
+    let mut pulled = 0;
+    for stream in 0..400 {
+        let of_row = || ForceLawSolver { s: vec![s; 4], ..problem(stream, (2, 1), 1.0).0 };
+        let before = -1.3e6 + 1e5 * draw(stream, 1);
+        let force = 2e7 * (1.5 + draw(stream, 2));
+        let (elastic, dashpot) = ([5e24, 9.3e11], [5.4e24, 6.4e11]);
+        let law = |i: usize, y: f64| {
+            let pressure = elastic[i] - dashpot[i] * 0.5 * (before + y);
+            if pressure > 0.0 {
+                LawResponse { force: pressure, slope: 0.5 * dashpot[i], noise: 0.0 }
+            } else {
+                LawResponse { force: 0.0, slope: 0.0, noise: 0.0 }
+            }
+        };
+        // The second wall pushes with `force` at this y, where the first would pull.
+        let y = 2.0 * (elastic[1] - force) / dashpot[1] - before;
+        let mut walls = of_row();
+        walls.free.fill(y - s * force);
+        walls.solve(law).unwrap();
+        pulled += u32::from(walls.guess.iter().any(|guess| *guess < 0.0));
+        walls.refine_pulls();
+        // The dashpot turns the rounding of y into 6.4e11 · 1e6 · 2⁻⁵³ N and some more.
+        assert_eq!(walls.guess[0], 0.0);
+        assert!((walls.guess[1] - force).abs() < 1e-4 * force, "{:?} for {force}", walls.guess);
+    }
+    assert!(pulled > 100, "{pulled} of 400 pulled");
+}
+
+#[test]
 fn a_line_search_ends_near_the_minimum_or_takes_the_whole_step() {
     let mut shortened = 0;
     for stream in 0..400 {
