@@ -169,12 +169,13 @@ impl NoiseModel {
     }
 
     /// Adds the rounding error of as many `steps` of this length and of `bodies` degrees of
-    /// freedom to that of the energy ledger. A velocity has the rounding error of the momentum that
-    /// the load gives in a step, even of a body that a wall holds at rest.
+    /// freedom to that of the energy ledger. A velocity has the rounding error of the momenta that
+    /// the load and the walls give in a step, even of a body that walls hold at rest, which in a
+    /// narrow corner push far more than the load; the load works at that velocity.
     #[inline(always)]
     pub fn book(&mut self, bodies: f64, steps: f64) {
         let given = self.load * self.span;
-        let states = self.speed.powi(2) + self.strain.powi(2) + given.powi(2);
+        let states = self.speed.powi(2) + self.strain.powi(2) + given * (given + self.push * self.span);
         let flows = bodies * states + self.load * self.reach;
         self.energy += steps * (self.unit * flows);
     }

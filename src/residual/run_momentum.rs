@@ -162,14 +162,16 @@ impl Judge {
     fn unrecorded(&self, impulses: &[f64]) -> LargestResidual {
         let sums = &self.sums;
         let mut worst = LargestResidual::default();
+        // A motion that decays without end leaves denormal impulses, whose last place is a share of
+        // them.
+        let rounding = |size: f64| (sums.steps as f64 * f64::EPSILON * size).max(f64::MIN_POSITIVE);
         for (wall, ((p, seen), size)) in impulses.iter().zip(&sums.seen).zip(&sums.sizes).enumerate() {
-            let rounding = sums.steps as f64 * f64::EPSILON * size;
-            worst.observe(over((p - seen).abs() - rounding, *size), self.noise.end, Some(wall));
+            worst.observe(over((p - seen).abs() - rounding(*size), *size), self.noise.end, Some(wall));
         }
         if let Some(supports) = &self.supports {
             for (hole, told) in self.scene.holes().zip(supports.recorded.iter().flatten()) {
                 let ([y, z], size) = (supports.impulse[hole.index], supports.size[hole.index]);
-                let apart = (told[0] - y).hypot(told[1] - z) - sums.steps as f64 * f64::EPSILON * size;
+                let apart = (told[0] - y).hypot(told[1] - z) - rounding(size);
                 worst.observe(over(apart, size), self.noise.end, Some(hole.index));
             }
         }

@@ -57,13 +57,14 @@ fn sizes_of_a_step_make_the_rounding_errors_of_its_balances() {
     noise.load(-5.5);
     assert_eq!(force(&mut noise, 1.0, 1.0), unit * (6.0 + spring + damper + 5.5 + 5.0));
     assert_eq!((noise.of(3.0), noise.place(3.0)), (unit * 3.0, unit * 3.0 + 0.5 * MET));
-    // Two steps of 2 s, in which the load gives 11 √J.
+    // Two steps of 2 s, in which the load gives 11 √J and the walls 10 √J.
     noise.span = 2.0;
     noise.book(1.0, 2.0);
-    let one = unit * (36.0 + 10.5 * 10.5 + 121.0 + 5.5 * 7.0);
+    let states = 36.0 + 10.5 * 10.5 + 11.0 * (11.0 + 10.0);
+    let one = unit * (states + 5.5 * 7.0);
     assert_eq!(noise.energy, 2.0 * one);
     noise.book(3.0, 1.0);
-    assert_eq!(noise.energy, 2.0 * one + unit * (3.0 * (36.0 + 10.5 * 10.5 + 121.0) + 5.5 * 7.0));
+    assert_eq!(noise.energy, 2.0 * one + unit * (3.0 * states + 5.5 * 7.0));
     // A state notes the same sizes as a step with one velocity, and a blow those of its force.
     let mut state = NoiseModel::new(&weights, &[], 0.5);
     state.state(&[-2.0], &[-3.0], 0.5, &weights);

@@ -88,6 +88,12 @@ fn recorded_impulses_that_are_not_those_seen_are_found_in_any_unit() {
         assert!((worst.value - (0.125 - 3.0 * f64::EPSILON)).abs() < 1e-16, "{unit}: {worst:?}");
         assert_eq!(worst.wall, Some(0));
     }
+    // The last place of a denormal impulse is a share of it, and no finding.
+    let mut denormal = judge(&under(Wall::upper("stop", 1.0)), rigid(None, None), 0.0, 0.0);
+    let sums = &mut denormal.sums;
+    (sums.steps, sums.whole, sums.seen, sums.sizes) = (3, false, vec![-4e-321], vec![8e-321]);
+    denormal.hear(&[-5e-321]);
+    assert_eq!(denormal.open_momentum().value, 0.0);
     // The same of a hole, along both axes.
     let scene = in_hole(two([[1.0; 2], [0.0; 2], [0.0; 2]]));
     let open = |told: [f64; 2]| {
