@@ -13,7 +13,8 @@ Examples:
   signorini report out/rigid-walls-sine/run
   signorini report out/rigid-walls-sine/compare --out comparison.html
   signorini report soft --over hard --out both.html
-      two runs, comparisons or charts, or two sweeps over one key, in the same figures
+      two runs or comparisons, or two results of chart, orbit, wear or a sweep over one key, in
+      the same figures
 
 run, compare, chart, stability, sweep, orbit, continue and wear write report.html beside their
 results already, unless --no-report is given.")]
@@ -22,7 +23,7 @@ pub struct Args {
     #[arg(value_hint = clap::ValueHint::DirPath)]
     folder: PathBuf,
     /// Other results to draw in the same figures: runs and comparisons over each other, a sweep
-    /// over a sweep, a chart over a chart
+    /// over a sweep, and so for chart, orbit and wear
     #[arg(long, value_name = "FOLDER", value_hint = clap::ValueHint::DirPath)]
     over: Option<PathBuf>,
     /// The file to write [default: report.html in that folder]

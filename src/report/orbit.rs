@@ -30,8 +30,8 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
             "v": document["velocity_m_per_s"],
         },
     });
-    if folder.has("orbit.csv") {
-        orbit["motion"] = motion(&folder.numbers("orbit.csv")?, document["walls"].as_array().map_or(0, Vec::len))?;
+    orbit["motion"] = read_motion(folder, &document)?;
+    if !orbit["motion"].is_null() {
         let contacts = folder.cells("contacts.csv")?;
         for name in ["start_s", "impulse_N_s", "approach_speed_m_per_s", "departure_speed_m_per_s", "peak_force_N"] {
             contacts.column(name)?;
@@ -46,6 +46,14 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         "case": case_text(&folder.manifest["case_file"]),
         "summary": document,
     }))
+}
+
+/// The motion of the orbit in a folder; null where none was written.
+pub(super) fn read_motion(folder: &Folder<'_>, document: &Value) -> Result<Value> {
+    if !folder.has("orbit.csv") {
+        return Ok(Value::Null);
+    }
+    motion(&folder.numbers("orbit.csv")?, document["walls"].as_array().map_or(0, Vec::len))
 }
 
 /// The motion: phase, displacement, velocity, and the force of each wall that pushes for a while.

@@ -1,12 +1,12 @@
-//! Other results in the figures of a page: runs and comparisons over each other, a sweep over a
-//! sweep, a chart over a chart.
+//! Other results in the figures of a page: runs and comparisons over each other, and a sweep, a
+//! chart, an orbit or histories of wear over results of the same kind.
 
 use super::chart::{NUMBERS, short};
-use super::compare;
 use super::folder::Folder;
 use super::motion::{add_left_out, motion};
 use super::scene::scene;
-use super::sweep::{SAMPLES, TABLE};
+use super::sweep::{SAMPLES, TABLE, names};
+use super::{compare, orbit};
 use crate::error::{Error, Result};
 use crate::scheme::{Method, PenaltyLaw, Scheme};
 use serde_json::{Value, json};
@@ -22,12 +22,12 @@ pub(super) fn add(page: &mut Value, command: &str, other: &Folder<'_>, name: &st
     let theirs = other.manifest["request"]["command"].as_str().unwrap_or_default();
     let expected = match command {
         "run" | "compare" => "run or compare",
-        "sweep" | "chart" => command,
+        "sweep" | "chart" | "orbit" | "wear" => command,
         "continue" => {
             return Err(wrong("branches are drawn over others by `signorini continue … --over FOLDER`".to_owned()));
         }
         _ => {
-            let reason = "has no figure for two results; those of run, compare, sweep and chart have";
+            let reason = "has no figure for two results; those of run, compare, sweep, chart, orbit and wear have";
             return Err(wrong(format!("the page of {command:?} {reason}")));
         }
     };
@@ -36,6 +36,8 @@ pub(super) fn add(page: &mut Value, command: &str, other: &Folder<'_>, name: &st
         ("run" | "compare", "compare") => methods(page, other, name),
         ("sweep", "sweep") => sweep(page, other, name),
         ("chart", "chart") => chart(page, other, name),
+        ("orbit", "orbit") => orbit(page, other, name),
+        ("wear", "wear") => wear(page, other, name),
         _ => {
             Err(wrong(format!("holds results of {theirs:?}; expected those of {expected}, as the page's figures show")))
         }
@@ -128,5 +130,30 @@ fn sweep(page: &mut Value, other: &Folder<'_>, name: &str) -> Result<()> {
         "table": table.for_page(None),
         "samples": samples.map(|samples| samples.for_page(None)),
     });
+    Ok(())
+}
+
+/// The motion of another orbit; a structure's has none.
+fn orbit(page: &mut Value, other: &Folder<'_>, name: &str) -> Result<()> {
+    let theirs = orbit::read_motion(other, &other.json("orbit.json")?)?;
+    if theirs.is_null() || page["orbit"]["motion"].is_null() {
+        let reason = "an orbit is drawn over another where both have their motion in orbit.csv: those of one \
+                      degree of freedom have";
+        return Err(Error::io(other.path.display(), reason, true));
+    }
+    page["orbit"]["over"] = json!({ "name": name, "motion": theirs });
+    Ok(())
+}
+
+/// The years of another study of wear at supports of the same names.
+fn wear(page: &mut Value, other: &Folder<'_>, name: &str) -> Result<()> {
+    let own = page["wear"]["supports"].as_array().map_or(&[][..], Vec::as_slice);
+    if !names(&other.manifest["supports"]).iter().any(|name| own.contains(name)) {
+        let reason = "its study has no support of a name that the page's supports have".to_owned();
+        return Err(Error::io(other.path.display(), reason, true));
+    }
+    let years = other.cells("years.csv")?;
+    years.column("year")?;
+    page["wear"]["over"] = json!({ "name": name, "years": years.for_page(None) });
     Ok(())
 }

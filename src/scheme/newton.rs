@@ -231,8 +231,9 @@ impl ForceLawSolver {
     }
 
     /// Ends forces that pull in what `solve` found, which are rounding errors: two walls on one row
-    /// whose laws are stiff share a force only as far as the rounding of y tells. Such forces may be
-    /// far larger than those that are left, which are nearer to their laws without their rounding.
+    /// whose laws are stiff share a force only as far as the rounding of y tells. Such forces may
+    /// be far larger than those that are left, which are nearer to their laws without their
+    /// rounding.
     pub fn refine_pulls(&mut self) {
         if self.end_pulls() {
             let of_laws = self.y.clone();

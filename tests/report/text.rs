@@ -616,12 +616,30 @@ fn other_results_are_drawn_in_the_same_figures() {
     let names: Vec<&str> = programs.as_array().unwrap().iter().map(|one| one[0].as_str().unwrap()).collect();
     assert_eq!(names, ["located, 1e-4", "ε = 1e-9, discrete-gradient, 1e-4"]);
     assert!(programs[0][1].as_array().unwrap().len() >= 2, "{programs}");
+    // An orbit over an orbit, and a study of wear over one that lasts longer.
+    for e in ["0.6", "0.8"] {
+        said(folder, &["orbit", CASE, "--set", &format!("wall.*.restitution={e}"), "--out", &format!("o{e}")], 0);
+    }
+    said(folder, &["report", "o0.8", "--over", "o0.6", "--out", "o.html"], 0);
+    let orbit = page("o.html")["orbit"].clone();
+    assert_eq!(orbit["over"]["motion"], page("o0.6/report.html")["orbit"]["motion"]);
+    assert_ne!(orbit["over"]["motion"], orbit["motion"]);
+    for years in ["1e-3", "2e-3"] {
+        let wear = ["wear", "tube-round-supports", "--years", years, "--end", "0.1", "--histories", "1"];
+        said(folder, &[&wear[..], &["--set", "time.statistics_from=0", "--out", &format!("y{years}")]].concat(), 0);
+    }
+    said(folder, &["report", "y1e-3", "--over", "y2e-3", "--out", "y.html"], 0);
+    let over = page("y.html")["wear"]["over"].clone();
+    assert_eq!((&over["name"], &over["years"]), (&"y2e-3".into(), &page("y2e-3/report.html")["wear"]["years"]));
+    said(folder, &["orbit", "two-masses", "--out", "structure"], 0);
     said(folder, &["run", "bouncing-ball", "--end", "0.5", "--no-verdict", "--out", "ball"], 0);
     for (own, other, words) in [
         ("r0.7", "s0.8", "holds results of \"sweep\"; expected those of run or compare"),
         ("1e-3", "c", "holds results of \"compare\"; expected those of chart"),
         ("r0.7", "ball", "its run has other walls than that of the page"),
         ("r0.7", "none", "none: holds no request.json"),
+        ("o0.8", "structure", "both have their motion in orbit.csv"),
+        ("o0.8", "y1e-3", "holds results of \"wear\"; expected those of orbit"),
     ] {
         let told = said(folder, &["report", own, "--over", other, "--out", "x.html"], 2).1;
         assert!(told.contains(words), "{words}: {told}");

@@ -67,13 +67,20 @@ function orbitPlots(shown) {
   let [length, fast] = [1, 1];
   let at = null;
   /** In the phase plane x goes to and fro. */
-  const trace = (ctx, plot) => {
-    ctx.beginPath();
-    curve.x.forEach((x, i) => ctx.lineTo(plot.sx(x), plot.sy(curve.y[i])));
-    ctx.stroke();
+  const closedCurve = (look) => {
+    const curve = { kind: "own", look, x: [], y: [], alpha: look.alpha };
+    curve.draw = (ctx, plot) => {
+      ctx.beginPath();
+      curve.x.forEach((x, i) => ctx.lineTo(plot.sx(x), plot.sy(curve.y[i])));
+      ctx.stroke();
+    };
+    return curve;
   };
-  const curve = { kind: "own", look, x: [], y: [], draw: trace };
+  const curve = closedCurve(look);
   const line = { kind: "line", look, x: [], y: [] };
+  // Another orbit, `shown.over`: thick and pale, beneath.
+  const pale = { ...look, width: 3, alpha: 0.4, behind: true };
+  const [otherCurve, otherLine] = [closedCurve(pale), { ...line, look: pale, alpha: pale.alpha }];
   const met = {
     kind: "own",
     look,
@@ -86,7 +93,7 @@ function orbitPlots(shown) {
     y: "Velocity",
     height: 400,
     alt: "The orbit in the phase plane",
-    series: [curve],
+    series: [otherCurve, curve],
   });
   const over = new Plot({
     x: "Phase of the load (cycles)",
@@ -94,7 +101,7 @@ function orbitPlots(shown) {
     height: 400,
     alt: "Displacement over one period of the orbit",
     view: new View(0, 1),
-    series: [line, met],
+    series: [otherLine, line, met],
   });
   const plots = [portrait, over];
   const span = (values, axis) => {
@@ -107,11 +114,14 @@ function orbitPlots(shown) {
     return padded(extent(axis === "q" ? [lo, hi, ...near] : [lo, hi]), 0.08);
   };
   portrait.limits = () => {
-    [portrait.X, portrait.Y] = [span(curve.x, "q"), span(curve.y, "v")];
+    [portrait.X, portrait.Y] = [
+      span([...curve.x, ...otherCurve.x], "q"),
+      span([...curve.y, ...otherCurve.y], "v"),
+    ];
     if (!(portrait.Y[1] > portrait.Y[0])) portrait.Y = [-1, 1];
     if (!(portrait.X[1] > portrait.X[0])) portrait.X = [-1, 1];
   };
-  over.range = () => span(line.y, "q");
+  over.range = () => span([...line.y, ...otherLine.y], "q");
   const index = (t) => clamp(before(line.x, t), 0, line.x.length - 1);
   const dot = (ctx, plot, x, y) => drawDot(ctx, plot.sx(x), plot.sy(y), 5, ink.c2);
   const tip = el("div", { class: "tip", hidden: true });
@@ -147,15 +157,20 @@ function orbitPlots(shown) {
     [over.unit, portrait.unit] = [unit, `${speed}/s`];
     const closed = (values, by) =>
       Array.from(values, (x) => x * by).concat(values.length ? [values[0] * by] : []);
-    curve.x = closed(orbit.Q, length);
-    curve.y = closed(orbit.V, fast);
-    [line.x, line.y] = [Array.from(orbit.T), Array.from(orbit.Q, (q) => q * length)];
+    const other = shown.over || { T: [], Q: [], V: [] };
+    for (const [of, traced, along] of [
+      [orbit, curve, line],
+      [other, otherCurve, otherLine],
+    ]) {
+      [traced.x, traced.y] = [closed(of.Q, length), closed(of.V, fast)];
+      [along.x, along.y] = [Array.from(of.T), Array.from(of.Q, (q) => q * length)];
+    }
     const mark = (axis) => wallMark(axis, length, ({ rigid }) => !rigid);
     const known = orbit.walls.filter((wall) => wall.position !== null);
     portrait.marks = known.map(mark("x"));
     over.marks = known.map(mark("y"));
     if (line.x.length) {
-      over.view.full = padded([line.x[0], line.x[line.x.length - 1]], 0.03);
+      over.view.full = padded(extent([...line.x, ...otherLine.x]), 0.03);
       [over.view.lo, over.view.hi] = over.view.full;
     }
     for (const plot of plots) plot.redraw();

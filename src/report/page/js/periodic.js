@@ -1,5 +1,8 @@
 // The page of one periodic orbit.
 
+/** The instants of a motion as orbit.js draws them. */
+const readMotion = ({ phase, q, v }) => ({ T: decode(phase), Q: decode(q), V: decode(v) });
+
 /** The orbit of the data as orbit.js draws it. */
 function readOrbit() {
   const data = DATA.orbit;
@@ -17,11 +20,7 @@ function readOrbit() {
   };
   Object.assign(orbit, { events: [], T: [], Q: [], V: [] });
   if (!data.motion) return orbit;
-  Object.assign(orbit, {
-    T: decode(data.motion.phase),
-    Q: decode(data.motion.q),
-    V: decode(data.motion.v),
-  });
+  Object.assign(orbit, readMotion(data.motion));
   // Marked in the drawing are the contacts of the free run: those of a mirror half are among them.
   const { columns, count } = tableOf(data.contacts);
   for (let i = 0; i < count; i++)
@@ -33,7 +32,10 @@ function readOrbit() {
   return orbit;
 }
 
-const ORBIT = DATA.orbit && { orbit: readOrbit() };
+const ORBIT = DATA.orbit && {
+  orbit: readOrbit(),
+  over: DATA.orbit.over && readMotion(DATA.orbit.over.motion),
+};
 
 /** The phase plane, or else the multipliers, beside what the program found of the orbit. */
 function orbitHead() {
@@ -55,6 +57,7 @@ function orbitSections() {
       "motion",
       "Over one period",
       "Marks are contacts with a wall: discs impacts, squares contacts that last.",
+      DATA.orbit.over ? el("div", { class: "bar" }, overKey(DATA.orbit.over)) : null,
       plots.over.box,
       orbitForces(plots.over.view),
     );

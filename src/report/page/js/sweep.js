@@ -112,7 +112,7 @@ function readOver() {
   return { name: over.name, columns: table.columns, samples: over.samples && tableOf(over.samples) };
 }
 
-/** What tells the curves of the other sweep. */
+/** What tells the curves of other results. */
 const overKey = (over) => swatch(`pale: ${over.name}`, () => ink.faint);
 
 /** True where rows of both directions are among those of a sweep. */

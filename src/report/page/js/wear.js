@@ -5,20 +5,27 @@ function wearColumns(table) {
   const { rows } = table;
   const { place, year } = table.columns;
   const names = [...new Set(place)];
-  const columns = { year: rows.filter((i) => place[i] === names[0]).map((i) => year[i]) };
-  for (const column of table.names.filter((name) => !["year", "place"].includes(name))) {
-    const [, quantity, unit] = /^(.*)_(\w+)$/.exec(column);
+  // Numbers, as decoded columns are.
+  const column = (name, value) => Float64Array.from(rows.filter((i) => place[i] === name).map(value));
+  const columns = { year: column(names[0], (i) => year[i]) };
+  for (const header of table.names.filter((name) => !["year", "place"].includes(name))) {
+    const [, quantity, unit] = /^(.*)_(\w+)$/.exec(header);
     const [shown, factor] = unit === "m" ? ["mm", 1e3] : [unit, 1];
     for (const name of names)
-      columns[`${quantity}_${name.replace(/-/g, "_")}_${shown}`] = rows
-        .filter((i) => place[i] === name)
-        .map((i) => factor * table.columns[column][i]);
+      columns[`${quantity}_${name.replace(/-/g, "_")}_${shown}`] = column(
+        name,
+        (i) => factor * table.columns[header][i],
+      );
   }
   return columns;
 }
 
 function wearSection() {
   const { answers, seeds, supports } = DATA.wear;
+  const over = DATA.wear.over && {
+    name: DATA.wear.over.name,
+    columns: wearColumns(tableOf(DATA.wear.over.years)),
+  };
   // A name stays as it is.
   const capitalised = (answer) =>
     supports.some(({ name }) => answer.startsWith(name)) ? answer : answer.charAt(0).toUpperCase() + answer.slice(1);
@@ -37,7 +44,7 @@ function wearSection() {
       ? `Means over ${seeds} histories, and as bands their 95 % intervals, by Student's t.`
       : "One history: without random loads and a start that scatters all are the same.",
     el("ul", {}, answers.map((answer) => el("li", {}, capitalised(answer)))),
-    measureCurves(columns, "year", measures, tell, () => {}),
+    measureCurves(columns, "year", measures, tell, () => {}, { over }),
   );
   const rows = Array.from({ length: columns.year.length }, (_, i) => i);
   const cell = (name) => ({
