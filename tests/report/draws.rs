@@ -130,7 +130,7 @@ fn the_page_of_wear_has_the_sectors_and_the_histories() {
     let menu = tab.evaluate("[...document.querySelectorAll('nav a')].map((a) => a.textContent).join(' ')");
     assert_eq!(
         menu,
-        "Wear over the years Years Where Histories Flow One motion Motion Phase Supports Contacts Definitions"
+        "Wear over the years Years Where Histories Flow One motion Motion Phase Supports Contacts Definitions Notes"
     );
     let text = tab.evaluate("document.querySelector('#one-motion').textContent").to_string();
     assert!(text.contains("History 1 of 3, its first window"), "{text}");

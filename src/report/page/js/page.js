@@ -25,11 +25,16 @@ function headSection() {
   return menu;
 }
 
-/** Notes, the command that repeats this, case and summary. */
-function textSection() {
+/** What the program has to say of the results. */
+function noteSection() {
   const notes = (DATA.notes || []).map((note) =>
     el("li", {}, worded(note.charAt(0).toUpperCase() + note.slice(1))),
   );
+  if (notes.length) section("notes", "Notes", null, el("ul", { class: "notes" }, notes));
+}
+
+/** The command that repeats this, case and summary. */
+function textSection() {
   const folded = (title, text) =>
     text ? el("details", {}, el("summary", {}, title), el("pre", { tabindex: 0 }, text)) : null;
   const buttons = [
@@ -59,7 +64,6 @@ function textSection() {
     "text",
     "To repeat it",
     null,
-    notes.length ? el("ul", { class: "notes" }, notes) : null,
     DATA.command ? el("pre", { tabindex: 0 }, DATA.command) : null,
     folded("The case", DATA.case),
     folded(DATA.wear ? "The summary of the first window, every number" : "The summary, every number", DATA.summary && JSON.stringify(DATA.summary, null, 2)),
@@ -196,6 +200,7 @@ if (hasSupports || DATA.wear)
     ...(DATA.wear ? HISTORY_WORDS : []),
     ...((DATA.draws?.seeds || []).length ? DRAW_WORDS : []),
   ]);
+noteSection();
 textSection();
 menu.append(
   ...sections

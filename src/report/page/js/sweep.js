@@ -88,14 +88,17 @@ function sweepSection() {
     command,
   );
   if (attractors) attractorSection(attractors);
+  const ok = columns.status && columns.status.every((status) => status === "ok") && !columns.error.some(Boolean);
   section(
     "rows",
     "Rows",
-    null,
+    ok ? `All ${table.count} are ok.` : null,
     sortable(
       columnsOf(
         table,
-        table.names.map((name) => [name, columnLabel(name)]),
+        table.names
+          .filter((name) => !ok || !["status", "error"].includes(name))
+          .map((name) => [name, columnLabel(name)]),
       ),
       table.rows,
       { height: 400, pick },

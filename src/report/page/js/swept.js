@@ -27,14 +27,17 @@ function extremesInWords(measure, columns, axes) {
   const span = extent(columns[measure]);
   const [name, unit] = nameAndUnit(measure);
   if (!span) return null;
-  if (span[0] === span[1]) return `${name} ${digits(span[0])}${unit} everywhere`;
   const [axis] = axes;
+  // As of the speed of impacts where there is none.
+  const missing = Array.from(columns[measure]).filter(Number.isNaN).length;
+  const none = missing ? `, none at ${missing} value${missing === 1 ? "" : "s"}` : "";
+  if (span[0] === span[1]) return `${name} ${digits(span[0])}${unit} everywhere${none}`;
   const at = (value) => {
     if (axes.length > 1 || Array.isArray(columns[axis.column])) return "";
     const where = columns[axis.column][columns[measure].indexOf(value)];
     return ` (at ${digits(where)}${nameAndUnit(axis.column)[1]})`;
   };
-  return `${name} ${digits(span[0])}${at(span[0])} to ${digits(span[1])}${unit}${at(span[1])}`;
+  return `${name} ${digits(span[0])}${at(span[0])} to ${digits(span[1])}${unit}${at(span[1])}${none}`;
 }
 
 /** How many starts lead to which attractor. */
