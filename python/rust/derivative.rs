@@ -12,7 +12,7 @@ use signorini::study::derivatives::Derivatives;
 use signorini::variation::{ContactDerivative, MeanDerivative, SceneTangent};
 
 /// A key: its name, its value, and a function that returns the scene at another value.
-type Key = (String, f64, Py<PyAny>);
+pub type Key = (String, f64, Py<PyAny>);
 
 /// The derivatives of the exact run of a scene by keys, with displacements and velocities of its
 /// probes at these times.
@@ -21,7 +21,7 @@ pub fn _derivative<'py>(scene: &Bound<'py, Scene>, keys: Vec<Key>, times: Vec<f6
     let py = scene.py();
     let inner = &scene.get().scene;
     Derivatives::check(inner).map_err(raise)?;
-    let tangents = keys.iter().map(|key| tangent(py, key)).collect::<PyResult<Vec<_>>>()?;
+    let tangents = tangents(py, &keys)?;
     let found = compute_beside(py, || Derivatives::new(inner, &tangents, &times), &mut |_| Ok(()))?;
     let dict = PyDict::new(py);
     let of =
@@ -74,6 +74,11 @@ fn named_means(scene: &sg::Scene, means: &MeanDerivative) -> Vec<(String, f64, V
     add("rms", &probes, &means.rms, &means.rms_by);
     add("force", &walls, &means.force, &means.force_by);
     rows
+}
+
+/// The derivatives of scenes by these keys.
+pub fn tangents(py: Python<'_>, keys: &[Key]) -> PyResult<Vec<SceneTangent>> {
+    keys.iter().map(|key| tangent(py, key)).collect()
 }
 
 /// The derivative of the scenes that a function returns.

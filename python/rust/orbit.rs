@@ -1,5 +1,6 @@
 //! Periodic orbits: of one degree of freedom by their events, of structures by their states.
 
+use crate::derivative::{Key, tangents};
 use crate::error::raise;
 use crate::subject::Subject;
 use crate::work::compute_beside;
@@ -8,6 +9,8 @@ use pyo3::types::PyDict;
 use signorini as sg;
 use signorini::orbit::{Orbit, Problem, Shot};
 use signorini::output::first_orbit::FirstOrbit;
+use signorini::study::orbit_derivatives::{Differentiated, OrbitDerivatives};
+use signorini::variation::SceneTangent;
 use signorini::{Path, Scheme, State, Stepper};
 
 /// An orbit with its results.
@@ -23,23 +26,33 @@ struct Found {
     /// Displacement and velocity of every degree of freedom at the first instant of the motion.
     state: State,
     motion: Motion,
+    /// By keys, where any were asked for.
+    derivatives: Option<OrbitDerivatives>,
 }
 
 /// Instants (s), displacement (m) and velocity (m/s) at one place.
 type Motion = [Vec<f64>; 3];
 
-/// The orbit on which a run settles, with `rows` rows of the motion over its period.
+/// The orbit on which a run settles, with `rows` rows of the motion over its period, and its
+/// derivatives by `keys`.
 #[pyfunction]
-pub fn _orbit<'py>(py: Python<'py>, scene: Subject<'py>, settle: u32, rows: u32) -> PyResult<Bound<'py, PyDict>> {
+pub fn _orbit<'py>(
+    py: Python<'py>,
+    scene: Subject<'py>,
+    settle: u32,
+    rows: u32,
+    keys: Vec<Key>,
+) -> PyResult<Bound<'py, PyDict>> {
     let inner = scene.inner();
     scene.case().map_or(Ok(()), sg::case::Case::check_repeats).map_err(raise)?;
+    let tangents = &tangents(py, &keys)?[..];
     let work = || {
         let structure = matches!(inner.system, sg::System::Structure(_));
         let problem = if structure { None } else { Some(Problem::new(inner.clone())?) };
         match (FirstOrbit::settled(inner, problem.as_ref(), settle, &|_| {})?, &problem) {
-            (FirstOrbit::Orbit(orbit), Some(problem)) => by_events(problem, orbit, rows),
-            (FirstOrbit::Orbit(orbit), None) => by_events(&Problem::new(inner.clone())?, orbit, rows),
-            (FirstOrbit::Shot(shot), _) => by_state(inner, shot, rows),
+            (FirstOrbit::Orbit(orbit), Some(problem)) => by_events(problem, orbit, rows, tangents),
+            (FirstOrbit::Orbit(orbit), None) => by_events(&Problem::new(inner.clone())?, orbit, rows, tangents),
+            (FirstOrbit::Shot(shot), _) => by_state(inner, shot, rows, tangents),
         }
     };
     let found = compute_beside(py, work, &mut |_| Ok(()))?;
@@ -62,11 +75,31 @@ pub fn _orbit<'py>(py: Python<'py>, scene: Subject<'py>, settle: u32, rows: u32)
     for (name, column) in ["time", "displacement", "velocity"].into_iter().zip(found.motion) {
         dict.set_item(name, column)?;
     }
+    let by = found.derivatives.map(|by| derivatives(py, inner, by)).transpose()?;
+    dict.set_item("derivative", by)?;
+    Ok(dict)
+}
+
+/// The derivatives: walls, kinds and numbers of the events, each number with its name, its values
+/// and its derivatives, and the multipliers with theirs.
+fn derivatives<'py>(py: Python<'py>, scene: &sg::Scene, by: OrbitDerivatives) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    let walls = by.events.iter().map(|event| scene.wall_name(event.wall).unwrap_or_default());
+    dict.set_item("walls", walls.collect::<Vec<_>>())?;
+    dict.set_item("kinds", by.events.iter().map(|event| event.kind).collect::<Vec<_>>())?;
+    let number = |one: Differentiated| (one.name, one.value, one.by);
+    let numbers = by.events.into_iter().map(|event| event.numbers.into_iter().map(number).collect::<Vec<_>>());
+    dict.set_item("numbers", numbers.collect::<Vec<_>>())?;
+    dict.set_item("forcing_period", by.forcing_period)?;
+    let multipliers = by.multipliers.map(|all| all.into_iter().map(|one| (one.value, one.by)).collect::<Vec<_>>());
+    dict.set_item("multipliers", multipliers)?;
     Ok(dict)
 }
 
 /// An orbit of one degree of freedom, judged by a free run over its period.
-fn by_events(problem: &Problem, orbit: Orbit, rows: u32) -> sg::Result<Found> {
+fn by_events(problem: &Problem, orbit: Orbit, rows: u32, tangents: &[SceneTangent]) -> sg::Result<Found> {
+    let asked = !tangents.is_empty();
+    let derivatives = asked.then(|| OrbitDerivatives::of_events(problem, &orbit, tangents)).transpose()?;
     let (floquet, admissible) = (problem.floquet(&orbit)?, problem.admissible(&orbit)?);
     let judged = problem.judge(&orbit, rows)?;
     let column = |value: fn(&sg::orbit::Instant) -> f64| judged.motion.iter().map(value).collect::<Vec<_>>();
@@ -81,12 +114,15 @@ fn by_events(problem: &Problem, orbit: Orbit, rows: u32) -> sg::Result<Found> {
         state: State { q: q.iter().take(1).copied().collect(), v: v.iter().take(1).copied().collect() },
         motion,
         orbit,
+        derivatives,
     })
 }
 
 /// An orbit that is told by its state; the run that found it came back.
-fn by_state(scene: &sg::Scene, shot: Shot, rows: u32) -> sg::Result<Found> {
+fn by_state(scene: &sg::Scene, shot: Shot, rows: u32, tangents: &[SceneTangent]) -> sg::Result<Found> {
+    let asked = !tangents.is_empty();
     Ok(Found {
+        derivatives: asked.then(|| OrbitDerivatives::of_state(scene, &shot, tangents)).transpose()?,
         motion: motion(scene, &shot, rows)?,
         stable: shot.is_stable(),
         refused: None,

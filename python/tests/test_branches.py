@@ -15,6 +15,7 @@ import pytest
 import signorini as sg
 
 FREQUENCY = "load.1.harmonic.frequency"
+AMPLITUDE = "load.1.harmonic.amplitude"
 RESTITUTION = {"wall.*.restitution": 0.8}
 RANGE = (4.4, 5.0)
 
@@ -118,6 +119,37 @@ def test_an_orbit_of_a_structure_is_found_by_shooting() -> None:
     assert repr(found).startswith("<Orbit: 1 event in 0.520833 s")
     found.plot().figure.canvas.draw()
     plt.close("all")
+
+
+def test_keys_change_an_orbit_as_in_the_tool(tool: Callable[..., Path]) -> None:
+    keys = ["wall.upper.restitution", "load.1.harmonic.frequency"]
+    for name, values in (("rigid-walls-sine", {"wall.*.restitution": 0.8}), ("two-masses", {AMPLITUDE: 60.0})):
+        asked = keys if name == "rigid-walls-sine" else [AMPLITUDE, "wall.stop.position"]
+        given = [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
+        written = tool("orbit", name, *given, "--derivative", ",".join(asked), "--force")
+        known = json.loads((written / "orbit.json").read_text(encoding="utf-8"))["derivatives"]
+        case = sg.load(name, set=dict(values))
+        for source in (case, case.scene):
+            by = sg.orbit(source, derivative=asked).derivative
+            assert by is not None and by.keys == asked and len(by.events) == len(known["events"]) == 2
+            for own, event in zip(by.events, known["events"], strict=True):
+                assert (own["wall"], own["kind"]) == (event["wall"], event["kind"])
+                for number in event["numbers"]:
+                    assert own[number["name"]] == pytest.approx(number["value"], rel=1e-12)
+                    derivatives = list(own[f"{number['name']}_by"])
+                    assert derivatives == pytest.approx(number["derivative"], rel=1e-8, abs=1e-12)
+            assert list(by.forcing_period) == pytest.approx(known["forcing_period_s"], rel=1e-12)
+            if known["multipliers"] is None:
+                assert by.multipliers is None and by.multipliers_by is None
+            else:
+                assert by.multipliers is not None and by.multipliers_by is not None
+                first = complex(*known["multipliers"][0]["value"])
+                assert by.multipliers[0] == pytest.approx(first, rel=1e-12)
+                of_first = [complex(*pair) for pair in known["multipliers"][0]["derivative"]]
+                assert list(by.multipliers_by[0]) == pytest.approx(of_first, rel=1e-8, abs=1e-12)
+        assert sg.orbit(case).derivative is None
+    with pytest.raises(ValueError, match="side"):
+        sg.orbit(sg.load("rigid-walls-sine"), derivative=["wall.side.restitution"])
 
 
 def test_an_orbit_of_a_structure_is_that_of_the_tool(tool: Callable[..., Path]) -> None:

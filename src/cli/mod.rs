@@ -4,14 +4,14 @@
 //! # Files
 //!
 //! Parses, calls, prints: one file per command (`run/`, `compare.rs` with `compare_seeds.rs` and
-//! `verdicts.rs`, `chart.rs`, `stability.rs`, `wear.rs`, `sweep/`,
-//! `merge.rs`, `orbit/`, `continuation/`, `report.rs`, `explain/`, `new/`, `figures.rs`,
-//! `verify.rs`, `completions.rs`), `case_args.rs`, `request.rs`, `formats.rs` and `drawing.rs` for
-//! arguments that several have, `command_line.rs` for lines as a shell takes them, `pipeline.rs`
-//! for what all commands share (the folder of results, the report, what is printed), `ui.rs` for
-//! stdout and stderr (`bar.rs` shows progress, `terminal.rs` breaks lines), `estimate.rs` says how
-//! long work will take, `realisations.rs` makes the study of realisations of `run` and `wear`,
-//! `values.rs` lists the values that shells complete (feature `cli`).
+//! `verdicts.rs`, `chart.rs`, `stability.rs`, `wear.rs`, `sweep/`, `merge.rs`, `orbit/`,
+//! `continuation/`, `report.rs`, `explain/`, `new/`, `figures.rs`, `verify.rs`, `completions.rs`),
+//! `case_args.rs`, `request.rs`, `formats.rs`, `derivative_keys.rs` and `drawing.rs` for arguments
+//! that several have, `command_line.rs` for lines as a shell takes them, `pipeline.rs` for what all
+//! commands share (the folder of results, the report, what is printed), `ui.rs` for stdout and
+//! stderr (`bar.rs` shows progress, `terminal.rs` breaks lines), `estimate.rs` says how long work
+//! will take, `realisations.rs` makes the study of realisations of `run` and `wear`, `values.rs`
+//! lists the values that shells complete (feature `cli`).
 
 mod bar;
 mod case_args;
@@ -21,6 +21,7 @@ mod compare;
 mod compare_seeds;
 mod completions;
 mod continuation;
+mod derivative_keys;
 mod drawing;
 mod estimate;
 mod explain;

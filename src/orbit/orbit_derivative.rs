@@ -4,11 +4,13 @@
 //!
 //! δu = −(∂r/∂u)⁻¹ ∂r/∂λ.
 //!
-//! The multipliers follow from these changes, see `monodromy_derivative.rs`.
+//! The multipliers follow from these changes, see `monodromy_derivative.rs`. A symmetric orbit is
+//! differentiated as a whole: a key may change one of two mirrored walls alone.
 
 use super::equations::{CYCLE, Closure, Equations};
 use super::periodic::Orbit;
 use super::problem::Problem;
+use super::signature::Event;
 use crate::error::{Error, Result};
 use crate::variation::SceneTangent;
 use nalgebra::{DMatrix, DVector};
@@ -26,7 +28,8 @@ const SOLVED: f64 = 1e-6;
 pub struct OrbitDerivative {
     /// Of the forcing period, s per unit of each key.
     pub forcing_period: Vec<f64>,
-    /// Of the phase of each event, cycles per unit of each key: for each event a list of keys.
+    /// Of the phase of each event, cycles per unit of each key: for each event a list of keys. For
+    /// a symmetric orbit the events of both halves, as [`Problem::whole`] has them.
     pub phases: Vec<Vec<f64>>,
     /// Of the speed of each event, m/s per unit of each key.
     pub speeds: Vec<Vec<f64>>,
@@ -34,9 +37,10 @@ pub struct OrbitDerivative {
     /// [`Floquet::multipliers`](super::Floquet::multipliers), per unit of each key. `None` where
     /// two multipliers coincide: they part like a square root, whose derivative is infinite.
     pub multipliers: Option<Vec<Vec<[f64; 2]>>>,
-    /// Of [`Floquet::trace`](super::Floquet::trace), per unit of each key.
+    /// Of [`Floquet::trace`](super::Floquet::trace) of the whole orbit, per unit of each key.
     pub trace: Vec<f64>,
-    /// Of [`Floquet::determinant`](super::Floquet::determinant), per unit of each key.
+    /// Of [`Floquet::determinant`](super::Floquet::determinant) of the whole orbit, per unit of
+    /// each key.
     pub determinant: Vec<f64>,
 }
 
@@ -73,6 +77,7 @@ impl Problem {
         if orbit.signature.chatters() {
             return Err(Error::no_orbit("impacts that accumulate are infinitely many: such an orbit is not solved"));
         }
+        let orbit = &self.whole(orbit);
         let equations = Equations::new(self, &orbit.signature, self.scales());
         let unknowns = equations.gather(orbit);
         let longer: Vec<f64> =
@@ -111,6 +116,20 @@ impl Problem {
             trace: traces,
             determinant: determinants,
         })
+    }
+
+    /// The orbit by the events of its whole period: of a symmetric one those of the first half,
+    /// then those of its mirror image. The same orbit for a problem that is not symmetric.
+    #[must_use]
+    pub fn whole(&self, orbit: &Orbit) -> Orbit {
+        let Some(mirror) = self.mirror().filter(|_| orbit.signature.symmetric) else { return orbit.clone() };
+        let mut whole = orbit.clone();
+        whole.signature.symmetric = false;
+        let opposite = |event: &Event| mirror.get(event.wall).map(|&wall| Event { wall, ..*event });
+        whole.signature.events.extend(orbit.signature.events.iter().filter_map(opposite));
+        whole.phases.extend(orbit.phases.iter().map(|phase| phase + orbit.signature.cycles()));
+        whole.speeds.extend(&orbit.speeds);
+        whole
     }
 
     /// The change of the scaled unknowns by each key.

@@ -2,6 +2,7 @@
 //! changes.
 
 use super::csv::{self, digits};
+use super::effects::{self, Effect, Varied};
 use super::table::Table;
 use crate::error::Result;
 use crate::order::sort_by_number;
@@ -12,38 +13,11 @@ use crate::variation::{MeanDerivative, NoDerivative};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// A key by which a run is differentiated.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Varied {
-    /// Its path in the case file.
-    pub key: String,
-    /// Its value.
-    pub value: f64,
-    /// Its unit as in column names; `None` for a number without one.
-    pub unit: Option<&'static str>,
-    /// The error of the derivative of the scene, as a share.
-    pub error: f64,
-}
-
-impl Varied {
-    /// The header of the derivative of a number by the key.
-    fn header(&self, what: &str, unit: &str) -> String {
-        let per = self.unit.map_or_else(String::new, |unit| format!("_per_{unit}"));
-        format!("{what}_by_{}_{unit}{per}", self.key.replace(['.', '-'], "_"))
-    }
-}
-
 /// The table of contacts.
 pub const FILE: &str = "derivatives.csv";
 
 /// The table of the states at the output times.
 pub const STATES_FILE: &str = "output-derivatives.csv";
-
-/// The share of a key by which the table changes it.
-const SHARE: f64 = 0.01;
-
-/// The change by that share from which on a number need not change as its derivative says.
-const MUCH: f64 = 0.1;
 
 /// The numbers of a contact that are differentiated, with their units.
 const NUMBERS: [(&str, &str); 5] =
@@ -103,63 +77,28 @@ fn name(scene: &Scene, wall: usize) -> String {
     scene.wall_name(wall).unwrap_or_default().to_owned()
 }
 
-/// The share of each key by which the table changes it: 1 %, or where that would change a number of
-/// the table by much, so that it need not change it as the derivative says, a tenth, a hundredth, …
-/// of it.
-fn shares(keys: &[Varied], measured: &[Measured]) -> Vec<f64> {
-    let share = |(number, key): (usize, &Varied)| {
-        let changes = measured.iter().filter_map(|one| Some(key.value * one.derivative.get(number)? / one.value));
-        let largest = changes.filter(|change| change.is_finite()).fold(0.0, |most: f64, x| most.max(x.abs()));
-        if SHARE * largest <= MUCH {
-            return SHARE;
-        }
-        // The power of ten below that which makes the largest change 1 %.
-        10.0_f64.powi((SHARE / largest).log10().floor() as i32)
-    };
-    keys.iter().enumerate().map(share).collect()
-}
-
-/// The number of decimals that a share, a power of ten, has in per cent.
-fn decimals(share: f64) -> usize {
-    (SHARE / share).log10().round().max(0.0) as usize
-}
-
-/// A share in per cent, in words.
-fn in_per_cent(share: f64) -> String {
-    format!("{:.*} %", decimals(share), 100.0 * share)
-}
-
 /// What 1 % more of each key changes, or a smaller share; `None` without contacts.
 #[must_use]
 pub fn table(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Option<Table> {
-    let measured = derivatives.measured();
-    let shares = shares(keys, &measured);
-    let mut header = vec!["wall".to_owned(), "number".to_owned(), "value".to_owned()];
-    header.extend(keys.iter().zip(&shares).map(|(key, &share)| match key.value == 0.0 {
-        true => format!("per unit of {}", key.key),
-        false => format!("{} more of {}", in_per_cent(share), key.key),
-    }));
-    let row = |one: &Measured| {
-        let cell = |((key, share), derivative): ((&Varied, &f64), &f64)| {
-            let unit = if key.value == 0.0 { 1.0 } else { share * key.value };
-            let change = 100.0 * unit * derivative / one.value;
-            match (derivative.is_finite(), key.value != 0.0 && change.is_finite()) {
-                (false, _) => "none".to_owned(),
-                (true, true) => format!("{change:+.*} %", 3 + decimals(*share)),
-                (true, false) => format!("{:+.3e} {}", unit * derivative, one.unit),
-            }
-        };
-        let of_keys = keys.iter().zip(&shares).zip(&one.derivative).map(cell);
-        let own = [name(scene, one.wall), one.words.to_owned(), format!("{:.4e} {}", one.value, one.unit)];
-        own.into_iter().chain(of_keys).collect()
+    effects::table(keys, &effects_of(scene, derivatives))
+}
+
+/// The numbers of the table.
+fn effects_of(scene: &Scene, derivatives: &Derivatives) -> Vec<Effect> {
+    let effect = |one: Measured| Effect {
+        wall: name(scene, one.wall),
+        words: one.words.to_owned(),
+        unit: one.unit,
+        value: one.value,
+        by: one.derivative,
+        absolute: false,
     };
-    let rows: Vec<Vec<String>> = measured.iter().map(row).collect();
-    (!rows.is_empty()).then(|| Table::new(&header, rows))
+    derivatives.measured().into_iter().map(effect).collect()
 }
 
 /// What a reader of the derivatives must know, a sentence each.
 #[must_use]
-pub fn remarks(keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
+pub fn remarks(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
     let mut remarks = Vec::new();
     let (counted, all) = (derivatives.predictable().count(), derivatives.contacts.len());
     if counted < all {
@@ -168,17 +107,7 @@ pub fn remarks(keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
              {LARGEST_GROWTH:.0}, and one of 1 % is no longer small; {FILE} has {all}"
         ));
     }
-    let shares = shares(keys, &derivatives.measured());
-    let smaller = keys.iter().zip(shares).filter(|(key, share)| key.value != 0.0 && *share < SHARE);
-    remarks.extend(smaller.map(|(key, share)| {
-        format!(
-            "by its derivatives 1 % more of {} would change a number of the table by more than {:.0} %, which is no \
-             small change: the table has what {} more changes",
-            key.key,
-            100.0 * MUCH,
-            in_per_cent(share)
-        )
-    }));
+    remarks.extend(effects::remarks(keys, &effects_of(scene, derivatives)));
     let lost = keys.iter().zip(&derivatives.lost).filter_map(|(key, lost)| Some((key, lost.as_ref()?)));
     remarks.extend(lost.map(|(key, reason)| reason.by(&key.key)));
     if derivatives.lost.iter().any(Option::is_none) {
@@ -189,10 +118,7 @@ pub fn remarks(keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
         let contacts = if open == 1 { "1 contact that is" } else { &format!("{open} contacts that are") };
         remarks.push(format!("{FILE} has no row for {contacts} still open at the end"));
     }
-    let coarse = keys.iter().filter(|key| key.error > 1e-12);
-    remarks.extend(coarse.map(|key| {
-        format!("the derivative of the scene with respect to {} errs by {:.0e} of itself", key.key, key.error)
-    }));
+    remarks.extend(effects::inexact(keys));
     remarks
 }
 

@@ -11,7 +11,7 @@
 //! | `lock` | one writer in a folder at a time |
 //! | [`request`], `values` | the request, as recorded beside its results, and the case by its keys |
 //! | [`csv`] | `trajectory.csv`, `output.csv` and `contacts.csv` |
-//! | [`derivatives`] | `derivatives.csv`, and the table of what 1 % more of a key changes |
+//! | [`derivatives`], [`orbit_derivatives`], [`effects`] | `derivatives.csv` of a run or an orbit, and the table of what 1 % more of a key changes |
 //! | [`supports`] | `supports.csv`, `sectors.csv`, the table of supports and their part of the summary |
 //! | `turbulence` | `turbulence.csv`, `turbulence-pairs.csv`: forces on modes, asked and applied |
 //! | [`summary`], `json` | `summary.json`, and how JSON is written |
@@ -70,6 +70,7 @@ pub mod csv;
 pub mod derivatives;
 mod detail;
 pub mod document;
+pub mod effects;
 pub mod episodes;
 pub mod error_parts;
 pub use signorini_figure as figure;
@@ -85,6 +86,7 @@ pub(crate) mod manifest;
 pub mod method_realisations;
 mod motion;
 mod orbit;
+pub mod orbit_derivatives;
 pub mod orbits;
 pub mod overlay;
 mod part;

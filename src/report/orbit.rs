@@ -3,8 +3,9 @@
 use super::cards::{State, card, short};
 use super::column;
 use super::folder::{Folder, Numbers};
-use super::run::case_text;
+use super::run::{case_text, derivatives};
 use crate::error::Result;
+use crate::output::derivatives::FILE;
 use crate::output::periodic;
 use serde_json::{Value, json};
 
@@ -38,9 +39,11 @@ pub(super) fn contents(folder: &Folder<'_>) -> Result<Value> {
         }
         orbit["contacts"] = contacts.for_page(None);
     }
+    let derivatives = if folder.has(FILE) { derivatives(folder)? } else { Value::Null };
     Ok(json!({
         "subtitle": format!("periodic orbit: {}", headline(&document)),
         "orbit": orbit,
+        "derivatives": derivatives,
         "facts": facts(&document),
         "cards": cards(&document),
         "case": case_text(&folder.manifest["case_file"]),

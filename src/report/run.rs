@@ -7,6 +7,7 @@ use super::older;
 use super::scene::{period, scene};
 use crate::error::Result;
 use crate::output::derivatives::{FILE, STATES_FILE};
+use crate::output::orbit_derivatives::MULTIPLIERS_FILE;
 use crate::output::{realisations, sector_means, turbulence};
 use crate::study::horizon::LARGEST_GROWTH;
 use serde_json::{Value, json};
@@ -78,9 +79,9 @@ pub(super) fn tell_draw(page: &mut Value, folder: &Folder<'_>, count: u64) {
 
 /// What 1 % more of each key changes; the tables of the derivatives, each with its file, its number
 /// of rows and the first of them; and the growth from which on a change is no longer small.
-fn derivatives(folder: &Folder<'_>) -> Result<Value> {
+pub(super) fn derivatives(folder: &Folder<'_>) -> Result<Value> {
     let mut tables = Vec::new();
-    for file in [FILE, STATES_FILE].into_iter().filter(|file| folder.has(file)) {
+    for file in [FILE, STATES_FILE, MULTIPLIERS_FILE].into_iter().filter(|file| folder.has(file)) {
         let mut cells = folder.cells(file)?;
         let count = cells.rows.len();
         cells.rows.truncate(MOST_ROWS);

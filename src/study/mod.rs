@@ -6,8 +6,9 @@
 //! motion as a reference), `horizon.rs`, `perturbation.rs` and `growth.rs` (growth of a small
 //! change), `attractor/` (which motion a start leads to), `difference.rs` and `change.rs` (between
 //! two runs), `verdict/` (half the step), `realisations/` (means over random loads with their
-//! intervals), `wear_history/` (gaps that grow by wear), `derivatives.rs` (what a key changes),
-//! `truncation/`, `accuracy/`, `work_precision/`, `stability/` (runs in parallel: feature `cli`).
+//! intervals), `wear_history/` (gaps that grow by wear), `derivatives.rs`, `orbit_derivatives.rs`
+//! (what a key changes), `truncation/`, `accuracy/`, `work_precision/`, `stability/` (runs in
+//! parallel: feature `cli`).
 
 pub mod accuracy;
 pub mod attractor;
@@ -19,6 +20,7 @@ pub(crate) mod difference;
 mod exact;
 mod growth;
 pub mod horizon;
+pub mod orbit_derivatives;
 mod perturbation;
 pub mod realisations;
 #[cfg(feature = "cli")]

@@ -12,6 +12,85 @@ fn json(path: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
 }
 
+/// The determinant of the monodromy matrix of one impact at each of two walls is
+/// (e₁ e₂)² exp(−c T/m), that of two multipliers of one modulus the square of it.
+#[test]
+fn keys_change_an_orbit_as_its_closed_form_says() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path();
+    let keys = ["wall.upper.restitution", "load.1.harmonic.frequency", "load.1.harmonic.amplitude"];
+    let asked = ["--derivative", &keys.join(","), "--out", "a"];
+    let (out, _) = said(path, &[&["orbit"], &SOFT[..], &asked].concat(), 0);
+    let found = &json(&path.join("a/orbit.json"))["derivatives"];
+    // e = 0.8, T = 0.2 s and c/m = 0.2 1/s; δT = −T δf/f.
+    let shares = [1.0 / 0.8, 0.5 * 0.2 * 0.2 / 5.0, 0.0];
+    for multiplier in found["multipliers"].as_array().unwrap() {
+        let part = |value: &Value| [0, 1].map(|part| value[part].as_f64().unwrap());
+        let [re, im] = part(&multiplier["value"]);
+        for (key, share) in shares.iter().enumerate() {
+            let [by_re, by_im] = part(&multiplier["derivative"][key]);
+            let of_modulus = (re * by_re + im * by_im) / (re * re + im * im);
+            assert!((of_modulus - share).abs() < 1e-12, "{}: {of_modulus} {share}", keys[key]);
+        }
+    }
+    let row = out.lines().find(|line| line.contains("largest |multiplier|")).unwrap();
+    assert!(row.split_whitespace().collect::<Vec<_>>().join(" ").contains("+1.000 % +0.020 %"), "{row}");
+    // Both walls and each of their events; a table with the same numbers, and one of multipliers.
+    let events = found["events"].as_array().unwrap();
+    assert_eq!([&events[0]["wall"], &events[1]["wall"]], ["lower", "upper"]);
+    let table = fs::read_to_string(path.join("a/derivatives.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert!(lines[0].starts_with("wall,kind,phase_cycles,speed_m_per_s,phase_by_wall_upper_restitution_cycles,"));
+    assert_eq!(lines.len(), 3);
+    let speed = &events[1]["numbers"][1];
+    assert_eq!(lines[2].split(',').nth(5).unwrap().parse::<f64>().unwrap(), speed["derivative"][0]);
+    assert_eq!(fs::read_to_string(path.join("a/multipliers.csv")).unwrap().lines().count(), 3);
+    // The orbits on both sides, whose difference errs by the square of 1e-4.
+    fs::write(path.join("whole.json"), whole(&json(&path.join("a/orbit.json"))).to_string()).unwrap();
+    let [less, more] = ["0.7999", "0.8001"].map(|e| {
+        let near = ["--set", &format!("wall.upper.restitution={e}"), "--from", "whole.json", "--out", e];
+        said(path, &[&["orbit"], &SOFT[..], &near].concat(), 0);
+        json(&path.join(e).join("orbit.json"))
+    });
+    for (index, event) in events.iter().enumerate() {
+        let speed = |orbit: &Value| orbit["events"][index]["speed_m_per_s"].as_f64().unwrap();
+        let by = event["numbers"][1]["derivative"][0].as_f64().unwrap();
+        let difference = (speed(&more) - speed(&less)) / 2e-4;
+        assert!((difference - by).abs() < 1e-3 * by.abs(), "{difference} {by}");
+    }
+    // Of a structure: load and gap larger by one share make the same orbit larger by it.
+    let set = ["orbit", "two-masses", "--set", "load.1.harmonic.amplitude=60", "--out", "c"];
+    let keys = ["--derivative", "load.1.harmonic.amplitude,wall.stop.position"];
+    said(path, &[&set[..], &keys].concat(), 0);
+    let found = &json(&path.join("c/orbit.json"))["derivatives"];
+    assert_eq!(found["events"].as_array().unwrap().len(), 2);
+    for number in found["events"].as_array().unwrap().iter().flat_map(|event| event["numbers"].as_array().unwrap()) {
+        let by = |key: usize| number["derivative"][key].as_f64().unwrap();
+        let (together, value) = (60.0 * by(0) + 5e-3 * by(1), number["value"].as_f64().unwrap());
+        let expected = if number["name"] == "phase" { 0.0 } else { value };
+        assert!((together - expected).abs() < 1e-8 * value.abs(), "{number}");
+    }
+    for (more, words) in [
+        ("time.step", "expected a key on which the scene depends"),
+        ("wall.upper.restitution,wall.upper.restitution", "for the second time"),
+        ("wall.side.restitution", "no wall is named \"side\""),
+    ] {
+        let (_, err) = said(path, &[&["orbit"], &SOFT[..], &["--derivative", more]].concat(), 2);
+        assert!(err.contains(words), "{more}: {err}");
+    }
+}
+
+/// The document of an orbit that is its own mirror image, by the events of both halves.
+fn whole(half: &Value) -> Value {
+    let mut whole = half.clone();
+    whole["symmetric"] = false.into();
+    let mut mirrored = half["events"][0].clone();
+    mirrored["wall"] = if mirrored["wall"] == "lower" { "upper" } else { "lower" }.into();
+    mirrored["phase_cycles"] = (mirrored["phase_cycles"].as_f64().unwrap() + 0.5).into();
+    whole["events"].as_array_mut().unwrap().push(mirrored);
+    whole
+}
+
 #[test]
 fn an_orbit_is_written_and_read_back() {
     let dir = tempfile::tempdir().unwrap();

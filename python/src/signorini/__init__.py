@@ -43,7 +43,7 @@ from ._derivative import Derivative, derivative
 from ._document import case
 from ._fit import Fit, fit
 from ._flow import FlowMargin, FluidElastic
-from ._orbit import Orbit, orbit
+from ._orbit import Orbit, OrbitDerivative, orbit
 from ._realisations import Realisations, realisations
 from ._report import report
 from ._studies import Chart, Stability, chart, stability
@@ -75,6 +75,7 @@ __all__ = [
     "MethodRealisations",
     "NotSolvedError",
     "Orbit",
+    "OrbitDerivative",
     "PlaceMeans",
     "Rayleigh",
     "Realisations",

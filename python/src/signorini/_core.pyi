@@ -431,7 +431,9 @@ def _bifurcation(
     samples: str,
     threads: int,
 ) -> tuple[list[dict[str, Any]], list[tuple[str | None, str | None]]]: ...
-def _orbit(scene: Scene | Case, settle: int, rows: int) -> dict[str, Any]: ...
+def _orbit(
+    scene: Scene | Case, settle: int, rows: int, keys: list[tuple[str, float, Callable[[float], Scene]]]
+) -> dict[str, Any]: ...
 def _branches(
     case: Case,
     key: str,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +11,58 @@ import numpy.typing as npt
 
 from . import _core, _plot
 from ._core import Case, RunError, Scene
+from ._derivative import builds, resolved
 from ._types import Array, whole
+
+
+@dataclass(frozen=True, repr=False)
+class OrbitDerivative:
+    """The derivatives of a periodic orbit with respect to keys: see `orbit`."""
+
+    keys: list[str]
+    """The names of the keys."""
+    values: Array
+    """Their values; shape (keys,)."""
+    events: npt.NDArray[np.void]
+    """The events of the whole orbit: ``wall``, ``kind``, ``phase`` (periods of the load) and
+    ``speed`` (m/s), of a structure ``approach_speed`` (m/s) and ``impulse`` (N s); ``phase_by`` and
+    so on have the derivatives under the names of the keys, per unit of the key."""
+    forcing_period: Array
+    """Of the period of the load, s per unit of each key; shape (keys,)."""
+    multipliers: npt.NDArray[np.complex128] | None
+    """The Floquet multipliers that ``multipliers_by`` differentiates; None for a structure, and where
+    two of them coincide."""
+    multipliers_by: npt.NDArray[np.void] | None
+    """Their derivatives under the names of the keys."""
+
+    def __repr__(self) -> str:
+        return f"<OrbitDerivative by {', '.join(self.keys)}: {len(self.events)} events>"
+
+
+def _differentiated(made: dict[str, Any], values: dict[str, float]) -> OrbitDerivative:
+    keys = list(values)
+    by = np.dtype([(key, np.float64) for key in keys])
+    names = [name for name, _, _ in made["numbers"][0]] if made["numbers"] else ["phase", "speed"]
+    walls, kinds = np.array(made["walls"] or [""]), np.array(made["kinds"] or [""])
+    fields = [("wall", walls.dtype), ("kind", kinds.dtype), *((name, np.float64) for name in names)]
+    events = np.empty(len(made["numbers"]), [*fields, *((f"{name}_by", by) for name in names)])
+    for index, numbers in enumerate(made["numbers"]):
+        events["wall"][index], events["kind"][index] = walls[index], kinds[index]
+        for name, value, derivatives in numbers:
+            events[name][index], events[f"{name}_by"][index] = value, tuple(derivatives)
+    multipliers, multipliers_by = None, None
+    if made["multipliers"] is not None:
+        multipliers = np.array([complex(*value) for value, _ in made["multipliers"]])
+        rows = [tuple(complex(*pair) for pair in pairs) for _, pairs in made["multipliers"]]
+        multipliers_by = np.array(rows, [(key, np.complex128) for key in keys])
+    return OrbitDerivative(
+        keys=keys,
+        values=np.array(list(values.values()), np.float64),
+        events=events,
+        forcing_period=np.array(made["forcing_period"], np.float64),
+        multipliers=multipliers,
+        multipliers_by=multipliers_by,
+    )
 
 
 @dataclass(frozen=True, repr=False)
@@ -45,6 +97,8 @@ class Orbit:
     """Of a structure that of its first probe, m; shape (rows,), or (0,) without a probe."""
     velocity: Array
     """The same, m/s."""
+    derivative: OrbitDerivative | None
+    """Its derivatives by the keys asked for."""
 
     def __repr__(self) -> str:
         count = len(self.kinds) * (2 if self.symmetric else 1)
@@ -81,7 +135,9 @@ class Orbit:
         return _plot.orbit(self, ax)
 
 
-def orbit(scene: Scene | Case, *, settle: int = _core._SETTLE, rows: int = 400) -> Orbit:
+def orbit(
+    scene: Scene | Case, *, settle: int = _core._SETTLE, rows: int = 400, derivative: Sequence[str] = ()
+) -> Orbit:
     """The periodic orbit on which a motion settles, to rounding, with its Floquet multipliers.
 
     Parameters
@@ -94,6 +150,9 @@ def orbit(scene: Scene | Case, *, settle: int = _core._SETTLE, rows: int = 400) 
         by default, as in ``signorini orbit``.
     rows : int
         Instants of its motion that are kept beside the events.
+    derivative : sequence of str
+        Keys by which the orbit is differentiated, as in `derivative`: exactly, no orbit beside it is
+        computed.
 
     Returns
     -------
@@ -107,7 +166,8 @@ def orbit(scene: Scene | Case, *, settle: int = _core._SETTLE, rows: int = 400) 
     TypeError
         For something else than a scene or a case.
     RunError
-        Where the motion does not repeat itself, or no orbit is found near it.
+        Where the motion does not repeat itself, or no orbit is found near it, and at a fold or a
+        graze, where an orbit has no derivative.
 
     Examples
     --------
@@ -118,8 +178,16 @@ def orbit(scene: Scene | Case, *, settle: int = _core._SETTLE, rows: int = 400) 
     (0.2, True, 0.169410591)
     >>> sg.orbit(sg.load("two-masses")).multipliers.shape
     (4,)
+    >>> by = sg.orbit(case, derivative=["wall.upper.restitution"]).derivative
+    >>> [round(float(slope), 6) for slope in by.events["speed_by"]["wall.upper.restitution"]]
+    [-0.008906, -0.074417]
     """
-    made = _core._orbit(scene, whole("settle", settle), whole("rows", rows, 1))
+    values: dict[str, float] = {}
+    keys: list[Any] = []
+    if len(derivative):
+        scene_of, values = resolved(scene, derivative)
+        keys = builds(scene_of, values)
+    made = _core._orbit(scene, whole("settle", settle), whole("rows", rows, 1), keys)
     refused, holds = made.pop("refused"), made.pop("holds")
     if refused is not None or not holds:
         reason = refused or f"a free run misses it by {made['closure']:.1e} after a period"
@@ -128,4 +196,5 @@ def orbit(scene: Scene | Case, *, settle: int = _core._SETTLE, rows: int = 400) 
         made[name] = np.array(made[name], np.float64)
     made["state"] = tuple(np.array(part, np.float64) for part in made["state"])
     made["multipliers"] = np.array([complex(*pair) for pair in made["multipliers"]])
-    return Orbit(**made)
+    by = made.pop("derivative")
+    return Orbit(**made, derivative=None if by is None else _differentiated(by, values))

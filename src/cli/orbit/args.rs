@@ -19,6 +19,9 @@ Examples:
       --signature U --symmetric --start 0.743,0.033
   signorini orbit rigid-walls-sine --set 'wall.*.restitution=0.8' \\
       --from out/rigid-walls-sine/orbit/orbit.json
+  signorini orbit rigid-walls-sine --set 'wall.*.restitution=0.8' \\
+      --derivative load.1.harmonic.frequency,wall.upper.restitution
+      what 1 % more of each changes
 
 A signature is a list of walls, one for each impact, by name (upper,lower) or, where no two names
 begin alike, by letter (UL); other events are written upper:rest, upper:release, pad:enter,
@@ -57,6 +60,11 @@ pub struct Args {
     /// Start from an orbit that was written before, of this case or one near it
     #[arg(long, value_name = "FILE", conflicts_with = "settle", value_hint = clap::ValueHint::FilePath)]
     pub(super) from: Option<PathBuf>,
+    /// Derivatives of the orbit by these keys of the case: of phases and speeds, of a structure
+    /// also of impulses, in derivatives.csv, of multipliers in multipliers.csv, and a table of what
+    /// 1 % more of each changes
+    #[arg(long, value_name = "KEY,...", value_delimiter = ',', conflicts_with = "list")]
+    pub(super) derivative: Vec<String>,
     #[command(flatten)]
     pub(super) place: Destination,
 }
@@ -71,6 +79,7 @@ impl Args {
             "periods": self.periods,
             "symmetric": self.symmetric,
             "from": self.from,
+            "derivative": self.derivative,
         });
         let mut results = self.place.open(case, "orbit", extended(request("orbit", case, &[]), settings))?;
         results.add_to_manifest("case_file", case.document.json()?);

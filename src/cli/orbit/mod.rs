@@ -1,6 +1,7 @@
 //! `signorini orbit`: a periodic orbit of a case, and its Floquet multipliers.
 
 mod args;
+mod derivative;
 mod list;
 mod structure;
 
@@ -15,6 +16,7 @@ use crate::output::json;
 use crate::output::periodic::{self, Known, closure_of, tells_state};
 use crate::output::table::Table;
 use crate::scene::System;
+use derivative::Wanted;
 use list::list;
 use structure::{structure, told};
 
@@ -27,9 +29,10 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         return list(&case);
     }
     case.check_repeats()?;
+    let wanted = Wanted::of(args, &case)?;
     let is_state = args.from.as_deref().map(tells_state).transpose()?.unwrap_or(false);
     if is_state || matches!(case.scene.system, System::Structure(_)) {
-        return structure(args, &case, ui);
+        return structure(args, &case, &wanted, ui);
     }
     let problem = Problem::new(case.scene.clone())?;
     let start = args.start_orbit(&problem)?;
@@ -44,14 +47,19 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
             })?;
             match settled {
                 FirstOrbit::Orbit(orbit) => orbit,
-                FirstOrbit::Shot(shot) => return told(args, &case, &shot, results),
+                FirstOrbit::Shot(shot) => return told(args, &case, &wanted, &shot, results),
             }
         }
     };
     let judged = problem.judge(&orbit, POINTS)?;
     let (floquet, admissible) = (problem.floquet(&orbit)?, problem.admissible(&orbit)?);
     let known = Known { problem: &problem, orbit: &orbit, floquet, admissible, judged: &judged };
-    let document = known.document(&case.name);
+    let mut document = known.document(&case.name);
+    let derivatives = wanted.of_events(&known)?;
+    if let Some(found) = &derivatives {
+        document["derivatives"] = wanted.document(&case, found);
+        wanted.write(&case, found, &mut results)?;
+    }
     results.write("orbit.json", json::text(&document))?;
     if !judged.motion.is_empty() {
         known.motion(&results.place("orbit.csv")?)?;
@@ -62,6 +70,9 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
     }
     let mut answer = Answer::of(results, !args.place.no_report, document);
     show(&mut answer, &known);
+    if let Some(found) = &derivatives {
+        wanted.show(&mut answer, &case, found);
+    }
     answer.fall_short(fault(&known));
     Ok(answer)
 }

@@ -1,6 +1,7 @@
 //! An orbit of a structure.
 
 use super::args::Args;
+use super::derivative::Wanted;
 use crate::case::Case;
 use crate::cli::pipeline::Answer;
 use crate::cli::ui::Ui;
@@ -14,7 +15,7 @@ use crate::output::table::Table;
 use crate::scene::{Scene, Wall};
 
 /// The orbit of a structure, by shooting.
-pub(super) fn structure(args: &Args, case: &Case, ui: &Ui) -> Result<Answer> {
+pub(super) fn structure(args: &Args, case: &Case, wanted: &Wanted, ui: &Ui) -> Result<Answer> {
     if args.signature.is_some() {
         let expected = "a case of one degree of freedom; the orbit of a structure is the one on which its run settles \
                         (--settle), or one near that of a file (--from)";
@@ -27,16 +28,24 @@ pub(super) fn structure(args: &Args, case: &Case, ui: &Ui) -> Result<Answer> {
         Some(from) => from.corrected(scene),
         None => shoot(scene, args.settle, &|share| bar.set_share(share)),
     })?;
-    told(args, case, &found, results)
+    told(args, case, wanted, &found, results)
 }
 
 /// The answer that tells an orbit by its state.
-pub(super) fn told(args: &Args, case: &Case, found: &Shot, mut results: Results) -> Result<Answer> {
+pub(super) fn told(args: &Args, case: &Case, wanted: &Wanted, found: &Shot, mut results: Results) -> Result<Answer> {
     let (scene, modal) = (&case.scene, case.truncated.is_some());
-    let document = shot(found, scene, &case.name, modal);
+    let mut document = shot(found, scene, &case.name, modal);
+    let derivatives = wanted.of_state(scene, found)?;
+    if let Some(by_key) = &derivatives {
+        document["derivatives"] = wanted.document(case, by_key);
+        wanted.write(case, by_key, &mut results)?;
+    }
     results.write("orbit.json", json::text(&document))?;
     let mut answer = Answer::of(results, !args.place.no_report, document);
     show_structure(&mut answer, found, scene);
+    if let Some(by_key) = &derivatives {
+        wanted.show(&mut answer, case, by_key);
+    }
     Ok(answer)
 }
 

@@ -1,9 +1,11 @@
 //! `run --derivative`: what the keys of the case change.
 
-use crate::case::{Case, Key};
+use crate::case::Case;
+use crate::cli::derivative_keys::varied;
 use crate::cli::pipeline::Answer;
 use crate::error::{Error, Result};
-use crate::output::derivatives::{self as output, FILE, STATES_FILE, Varied};
+use crate::output::derivatives::{self as output, FILE, STATES_FILE};
+use crate::output::effects::Varied;
 use crate::output::results::Results;
 use crate::scheme::Scheme;
 use crate::study::derivatives::Derivatives;
@@ -55,23 +57,8 @@ impl DerivativeKeys {
         }
         // Before the keys are looked at: of what no run has, no key is at fault.
         Derivatives::check(&case.scene)?;
-        let mut wanted = Wanted { keys: Vec::new(), tangents: Vec::new() };
-        for name in &self.derivative {
-            let key: Key = name.parse()?;
-            if wanted.keys.iter().any(|other| other.key == key.to_string()) {
-                let found = format!("{key}, for the second time");
-                return Err(Error::invalid("--derivative", found, "each key once"));
-            }
-            let tangent = case.tangent(&key)?;
-            wanted.keys.push(Varied {
-                key: key.to_string(),
-                value: tangent.value(),
-                unit: key.unit(),
-                error: tangent.error(),
-            });
-            wanted.tangents.push(tangent);
-        }
-        Ok(Some(wanted))
+        let (keys, tangents) = varied(case, &self.derivative)?;
+        Ok(Some(Wanted { keys, tangents }))
     }
 }
 
@@ -88,7 +75,7 @@ impl Wanted {
         }
         let effects = output::table(&case.scene, &self.keys, &found).map(|table| table.document());
         results.add_to_manifest("effects", json!(effects));
-        results.add_to_manifest("effect_remarks", json!(output::remarks(&self.keys, &found)));
+        results.add_to_manifest("effect_remarks", json!(output::remarks(&case.scene, &self.keys, &found)));
         Ok(found)
     }
 
@@ -102,6 +89,6 @@ impl Wanted {
         if let Some(table) = output::table(&case.scene, &self.keys, found) {
             answer.table(table, FILE);
         }
-        answer.remarks(output::remarks(&self.keys, found));
+        answer.remarks(output::remarks(&case.scene, &self.keys, found));
     }
 }

@@ -1,4 +1,4 @@
-// The derivatives of a run by keys of its case.
+// The derivatives of a run or an orbit by keys of its case.
 
 function derivativeSection() {
   const { tables, growth, effects, remarks } = DATA.derivatives;
@@ -20,9 +20,11 @@ function derivativeSection() {
   section(
     "derivatives",
     "Derivatives",
-    "Of each contact, and of the state at each output time, by each key: by_KEY in a column's name. " +
-      `Where growth is above ${digits(growth)}, a small change of the start has grown as many times, ` +
-      "and a change of 1 % of a key is no longer small.",
+    DATA.orbit
+      ? "Of each event of the orbit, and of its multipliers, by each key: by_KEY in a column's name."
+      : "Of each contact, and of the state at each output time, by each key: by_KEY in a column's name. " +
+        `Where growth is above ${digits(growth)}, a small change of the start has grown as many times, ` +
+        "and a change of 1 % of a key is no longer small.",
     effects ? effectTable(effects) : null,
     remarks ? el("ul", { class: "notes" }, remarks.map((text) => el("li", {}, text))) : null,
     ...content,
