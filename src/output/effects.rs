@@ -95,7 +95,8 @@ pub(super) fn table(keys: &[Varied], effects: &[Effect]) -> Option<Table> {
             match (by.is_finite(), key.value != 0.0 && change.is_finite() && !one.absolute) {
                 (false, _) => "none".to_owned(),
                 (true, true) => format!("{change:+.*} %", 3 + decimals(*share)),
-                (true, false) => format!("{:+.3e} {}", unit * by, one.unit).trim_end().to_owned(),
+                // A sum with 0 turns −0 into 0.
+                (true, false) => format!("{:+.3e} {}", unit * by + 0.0, one.unit).trim_end().to_owned(),
             }
         };
         let value = format!("{:.4e} {}", one.value, one.unit).trim_end().to_owned();

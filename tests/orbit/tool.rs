@@ -71,7 +71,8 @@ fn keys_change_an_orbit_as_its_closed_form_says() {
         assert!((together - expected).abs() < 1e-8 * value.abs(), "{number}");
     }
     for (more, words) in [
-        ("time.step", "expected a key on which the scene depends"),
+        ("time.step", "--derivative is time.step; expected a key on which orbits depend"),
+        ("initial.velocity", "--derivative is initial.velocity; expected a key on which orbits depend"),
         ("wall.upper.restitution,wall.upper.restitution", "for the second time"),
         ("wall.side.restitution", "no wall is named \"side\""),
     ] {

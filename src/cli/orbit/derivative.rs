@@ -11,6 +11,7 @@ use crate::output::effects::Varied;
 use crate::output::orbit_derivatives::{self as output, MULTIPLIERS_FILE};
 use crate::output::periodic::Known;
 use crate::output::results::Results;
+use crate::output::varied::check_changes_orbits;
 use crate::scene::Scene;
 use crate::study::orbit_derivatives::OrbitDerivatives;
 use crate::variation::SceneTangent;
@@ -24,6 +25,9 @@ pub(super) struct Wanted {
 
 impl Wanted {
     pub fn of(args: &Args, case: &Case) -> Result<Self> {
+        for name in &args.derivative {
+            check_changes_orbits("--derivative", &name.parse()?)?;
+        }
         let (keys, tangents) = varied(case, &args.derivative)?;
         Ok(Self { keys, tangents })
     }
