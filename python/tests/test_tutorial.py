@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGES = {
-    "docs/python.md": 17,
+    "docs/python.md": 18,
     "docs/fit.md": 4,
     "docs/own-tube.md": 1,
     "docs/own-paper-figure.md": 1,

@@ -47,7 +47,7 @@ pub(super) const ENTRY: SchemeEntry = SchemeEntry {
     kind: SchemeKind::Qp,
     restitution: Realised::PerWall,
     realises: "e, per wall",
-    purpose: "impacts and lasting contact by positions; order 2 at e = 0",
+    purpose: "impacts and lasting contact by positions; order 2 at restitution 0",
     order: Some(1),
     fails: "order 1 at e > 0; penetrates by up to 2ehv/(1+e)",
     round: Coverage::Refused(NO_ENERGY_ON_A_CIRCLE),

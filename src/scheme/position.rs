@@ -41,7 +41,7 @@ pub(super) const IMPLICIT_EULER: SchemeEntry = SchemeEntry {
     kind: SchemeKind::Qp,
     restitution: Realised::Zero,
     realises: "0, whatever the case asks for",
-    purpose: "plastic impacts, e = 0",
+    purpose: "plastic impacts (restitution 0)",
     order: Some(1),
     fails: "order 1; damps, also what slides round a hole; force of an impact ∝ 1/h",
     round: Coverage::Stepped(
