@@ -39,7 +39,13 @@ const MET: f64 = 1e-11;
 const PRESSED: f64 = 1e3;
 
 /// Weights of the artificial unknown that are tried.
-const TRIES: usize = 8;
+const TRIES: usize = 9;
+
+/// The differences below which ratios of rows count as equal, one after the other. Where impulses
+/// that press against each other are far larger than the momenta, rows that block at once differ by
+/// more than in an ordinary problem, and a path that takes the wrong one of them ends in a ray that
+/// is rounding, or goes round.
+const EQUAL: [f64; 3] = [1e-12, 1e-10, 1e-8];
 
 /// Most combinations of states that are tried: six contacts that rub.
 const MOST_COMBINATIONS: usize = 4096;
@@ -132,7 +138,7 @@ impl Coulomb {
             // Any positive weights will do.
             let weight = |k: usize| 1.0 + 0.7 * ((attempt * (7 * k + 13)) as f64).sin();
             let weights: Vec<f64> = (0..unknowns.len()).map(weight).collect();
-            match lemke(&matrix, &free, &weights) {
+            match lemke(&matrix, &free, &weights, EQUAL[attempt % EQUAL.len()]) {
                 Lemke::Solution(z) => {
                     let mut impulses = self.impulses(&unknowns, &z, largest);
                     let raw = (self.residual(&impulses), impulses.clone());

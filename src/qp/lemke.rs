@@ -13,9 +13,6 @@
 /// A number in the tableau below this, relative to the largest of its column, is rounding.
 const PIVOT: f64 = 1e-11;
 
-/// Ratios that differ by less are equal: the problem is scaled to numbers near 1.
-const EQUAL: f64 = 1e-12;
-
 /// Most exchanges, as a multiple of the number of unknowns.
 const MOST: usize = 50;
 
@@ -40,8 +37,8 @@ struct Tableau {
 }
 
 /// Solves for z from `m`, row by row, and `q`, both scaled to numbers near 1, with these weights of
-/// z₀.
-pub(crate) fn lemke(m: &[f64], q: &[f64], weights: &[f64]) -> Lemke {
+/// z₀. Ratios of rows that differ by less than `equal` are equal.
+pub(crate) fn lemke(m: &[f64], q: &[f64], weights: &[f64], equal: f64) -> Lemke {
     let n = q.len();
     let artificial = 2 * n;
     if q.iter().all(|q| *q >= 0.0) {
@@ -54,7 +51,7 @@ pub(crate) fn lemke(m: &[f64], q: &[f64], weights: &[f64]) -> Lemke {
     let mut left = tableau.exchange(first, artificial);
     for _ in 0..MOST * n {
         let enters = if left < n { left + n } else { left - n };
-        let Some(row) = tableau.leaves(enters) else { return Lemke::Ray(tableau.ray(enters)) };
+        let Some(row) = tableau.leaves(enters, equal) else { return Lemke::Ray(tableau.ray(enters)) };
         left = tableau.exchange(row, enters);
         if left == artificial {
             return Lemke::Solution(tableau.solution());
@@ -85,7 +82,7 @@ impl Tableau {
 
     /// The row whose unknown becomes 0 first as `enters` grows, the least in lexicographic order;
     /// that of z₀ wherever it is among those that block. `None` if none does.
-    fn leaves(&self, enters: usize) -> Option<usize> {
+    fn leaves(&self, enters: usize, equal: f64) -> Option<usize> {
         let n = self.n;
         let largest = (0..n).fold(1.0_f64, |most, row| most.max(self.at(row, enters).abs()));
         let blocks = |row: &usize| self.at(*row, enters) > PIVOT * largest;
@@ -97,7 +94,7 @@ impl Tableau {
                 break;
             }
             let least = rows.iter().fold(f64::INFINITY, |least, &row| least.min(ratio(row, column)));
-            rows.retain(|&row| ratio(row, column) <= least + EQUAL * (1.0 + least.abs()));
+            rows.retain(|&row| ratio(row, column) <= least + equal * (1.0 + least.abs()));
             if let Some(&row) = rows.iter().find(|row| self.basis[**row] == 2 * n) {
                 return Some(row);
             }
@@ -155,18 +152,22 @@ mod tests {
     #[test]
     fn the_solution_of_small_problems_is_the_known_one() {
         // Nothing to do; one unknown; two of two unknowns.
-        assert_eq!(lemke(&[1.0], &[2.0], &[1.0]), Lemke::Solution(vec![0.0]));
-        assert_eq!(lemke(&[2.0], &[-1.0], &[1.0]), Lemke::Solution(vec![0.5]));
-        let one = lemke(&[1.0, 0.0, 2.0, 1.0], &[-1.0, -1.0], &[1.0, 1.0]);
+        assert_eq!(lemke(&[1.0], &[2.0], &[1.0], 1e-12), Lemke::Solution(vec![0.0]));
+        assert_eq!(lemke(&[2.0], &[-1.0], &[1.0], 1e-12), Lemke::Solution(vec![0.5]));
+        let one = lemke(&[1.0, 0.0, 2.0, 1.0], &[-1.0, -1.0], &[1.0, 1.0], 1e-12);
         assert_eq!(one, Lemke::Solution(vec![1.0, 0.0]));
-        let Lemke::Solution(z) = lemke(&[2.0, 1.0, 1.0, 2.0], &[-5.0, -6.0], &[1.0, 1.0]) else { panic!("a ray") };
+        let Lemke::Solution(z) = lemke(&[2.0, 1.0, 1.0, 2.0], &[-5.0, -6.0], &[1.0, 1.0], 1e-12) else {
+            panic!("a ray")
+        };
         assert!((z[0] - 4.0 / 3.0).abs() < 1e-15 && (z[1] - 7.0 / 3.0).abs() < 1e-15, "{z:?}");
     }
 
     #[test]
     fn a_problem_without_a_solution_ends_in_a_ray_that_contradicts_it() {
         // w₁ = z₁ − z₂ − 1 and w₂ = z₂ − z₁ − 1 have the sum −2.
-        let Lemke::Ray(z) = lemke(&[1.0, -1.0, -1.0, 1.0], &[-1.0, -1.0], &[1.0, 1.0]) else { panic!("a solution") };
+        let Lemke::Ray(z) = lemke(&[1.0, -1.0, -1.0, 1.0], &[-1.0, -1.0], &[1.0, 1.0], 1e-12) else {
+            panic!("a solution")
+        };
         assert!(z[0] == z[1] && z[0] > 0.0, "{z:?}");
     }
 
@@ -174,7 +175,9 @@ mod tests {
     fn equal_rows_that_block_together_do_not_make_the_method_go_round() {
         // n equal rows, any of which may carry the whole: Σz = 1.
         for n in 2..12 {
-            let Lemke::Solution(z) = lemke(&vec![1.0; n * n], &vec![-1.0; n], &vec![1.0; n]) else { panic!("{n}") };
+            let Lemke::Solution(z) = lemke(&vec![1.0; n * n], &vec![-1.0; n], &vec![1.0; n], 1e-12) else {
+                panic!("{n}")
+            };
             assert!((z.iter().sum::<f64>() - 1.0).abs() < 1e-15, "{z:?}");
         }
     }
