@@ -1,9 +1,14 @@
-//! The keys of `--derivative`.
+//! The keys of `--derivative`, and the table of what 1 % more of each changes.
 
 use crate::case::{Case, Key};
+use crate::cli::pipeline::Answer;
 use crate::error::{Error, Result};
+use crate::output::derivatives::FILE;
 use crate::output::effects::Varied;
+use crate::output::results::Results;
+use crate::output::table::Table;
 use crate::variation::SceneTangent;
+use serde_json::json;
 
 /// The keys of these names in `case`, and the derivatives of its scene by them.
 ///
@@ -22,4 +27,18 @@ pub(super) fn varied(case: &Case, names: &[String]) -> Result<(Vec<Varied>, Vec<
         tangents.push(tangent);
     }
     Ok((keys, tangents))
+}
+
+/// Keeps the table and its remarks for the page.
+pub(super) fn record_effects(results: &mut Results, table: Option<Table>, remarks: &[String]) {
+    results.add_to_manifest("effects", json!(table.map(|table| table.document())));
+    results.add_to_manifest("effect_remarks", json!(remarks));
+}
+
+/// Shows the table and its remarks.
+pub(super) fn show_effects(answer: &mut Answer, table: Option<Table>, remarks: Vec<String>) {
+    if let Some(table) = table {
+        answer.table(table, FILE);
+    }
+    answer.remarks(remarks);
 }

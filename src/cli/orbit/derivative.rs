@@ -2,7 +2,7 @@
 
 use super::args::Args;
 use crate::case::Case;
-use crate::cli::derivative_keys::varied;
+use crate::cli::derivative_keys::{record_effects, show_effects, varied};
 use crate::cli::pipeline::Answer;
 use crate::error::Result;
 use crate::orbit::Shot;
@@ -11,11 +11,12 @@ use crate::output::effects::Varied;
 use crate::output::orbit_derivatives::{self as output, MULTIPLIERS_FILE};
 use crate::output::periodic::Known;
 use crate::output::results::Results;
+use crate::output::table::Table;
 use crate::output::varied::check_changes_orbits;
 use crate::scene::Scene;
 use crate::study::orbit_derivatives::OrbitDerivatives;
 use crate::variation::SceneTangent;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 /// The keys asked for, and the derivatives of the scene by them; none where none are asked for.
 pub(super) struct Wanted {
@@ -50,11 +51,14 @@ impl Wanted {
         if let Some(multipliers) = &found.multipliers {
             output::write_multipliers(&results.place(MULTIPLIERS_FILE)?, &self.keys, multipliers)?;
         }
-        let effects = output::table(&case.scene, &self.keys, found).map(|table| table.document());
-        results.add_to_manifest("effects", json!(effects));
-        let remarks = output::remarks(&case.scene, &self.keys, found);
-        results.add_to_manifest("effect_remarks", json!(remarks));
+        let (table, remarks) = self.effects(case, found);
+        record_effects(results, table, &remarks);
         Ok(())
+    }
+
+    /// The table of what 1 % more of each key changes, and what a reader of it must know.
+    fn effects(&self, case: &Case, found: &OrbitDerivatives) -> (Option<Table>, Vec<String>) {
+        (output::table(&case.scene, &self.keys, found), output::remarks(&case.scene, &self.keys, found))
     }
 
     /// The derivatives as JSON.
@@ -64,9 +68,7 @@ impl Wanted {
 
     /// Shows the table of what 1 % more of each key changes.
     pub fn show(&self, answer: &mut Answer, case: &Case, found: &OrbitDerivatives) {
-        if let Some(table) = output::table(&case.scene, &self.keys, found) {
-            answer.table(table, FILE);
-        }
-        answer.remarks(output::remarks(&case.scene, &self.keys, found));
+        let (table, remarks) = self.effects(case, found);
+        show_effects(answer, table, remarks);
     }
 }

@@ -1,16 +1,17 @@
 //! `run --derivative`: what the keys of the case change.
 
 use crate::case::Case;
-use crate::cli::derivative_keys::varied;
+use crate::cli::derivative_keys::{record_effects, show_effects, varied};
 use crate::cli::pipeline::Answer;
 use crate::error::{Error, Result};
 use crate::output::derivatives::{self as output, FILE, STATES_FILE};
 use crate::output::effects::Varied;
 use crate::output::results::Results;
+use crate::output::table::Table;
 use crate::scheme::Scheme;
 use crate::study::derivatives::Derivatives;
 use crate::variation::SceneTangent;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 /// Keys by which a run is differentiated.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -73,10 +74,14 @@ impl Wanted {
         if !found.motion.time.is_empty() {
             output::write_states(&results.place(STATES_FILE)?, &case.scene, &self.keys, &found)?;
         }
-        let effects = output::table(&case.scene, &self.keys, &found).map(|table| table.document());
-        results.add_to_manifest("effects", json!(effects));
-        results.add_to_manifest("effect_remarks", json!(output::remarks(&case.scene, &self.keys, &found)));
+        let (table, remarks) = self.effects(case, &found);
+        record_effects(results, table, &remarks);
         Ok(found)
+    }
+
+    /// The table of what 1 % more of each key changes, and what a reader of it must know.
+    fn effects(&self, case: &Case, found: &Derivatives) -> (Option<Table>, Vec<String>) {
+        (output::table(&case.scene, &self.keys, found), output::remarks(&case.scene, &self.keys, found))
     }
 
     /// The derivatives as JSON.
@@ -86,9 +91,7 @@ impl Wanted {
 
     /// Shows the table of what 1 % more of each key changes.
     pub fn show(&self, answer: &mut Answer, case: &Case, found: &Derivatives) {
-        if let Some(table) = output::table(&case.scene, &self.keys, found) {
-            answer.table(table, FILE);
-        }
-        answer.remarks(output::remarks(&case.scene, &self.keys, found));
+        let (table, remarks) = self.effects(case, found);
+        show_effects(answer, table, remarks);
     }
 }
