@@ -6,13 +6,15 @@ use crate::scene::{Row, Scene, Side, distinct};
 use crate::step::Step;
 
 /// The motion of a row in a step: displacements at both ends, m, and velocities that enter and
-/// leave the balance, m/s.
+/// leave the balance, m/s, with the sum of the impulses of its walls, N s, each counted as
+/// positive.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RowMotion {
     pub start: f64,
     pub end: f64,
     pub before: f64,
     pub after: f64,
+    pub impulses: f64,
 }
 
 /// The walls of one row.
@@ -49,7 +51,8 @@ impl RowWalls {
     #[inline(always)]
     pub fn seen(&self, step: &Step<'_>, start: &[f64]) -> RowMotion {
         let [start, end, before, after] = self.row.each([start, step.q, step.velocity_before, step.velocity_after]);
-        RowMotion { start, end, before, after }
+        let impulses = self.walls.iter().map(|&wall| step.impulse[wall].abs()).sum();
+        RowMotion { start, end, before, after, impulses }
     }
 
     /// True if the row reaches several degrees of freedom and one of its walls is rigid.

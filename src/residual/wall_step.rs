@@ -19,6 +19,8 @@ struct Seen {
     before: f64,
     struck: f64,
     after: f64,
+    /// Impulses of all walls of its row, each counted as positive, N s.
+    impulses: f64,
 }
 
 impl Judge {
@@ -75,8 +77,8 @@ impl Judge {
         let end = if bound_there || !beyond { row.end } else { wall.row().dot(&self.blows.arrived) };
         // Without blows what they give is zero.
         let given = if is_rigid && self.loads.has_blows() { wall.row().dot(&self.blows.struck) } else { 0.0 };
-        let &RowMotion { start, before, after, .. } = row;
-        let seen = Seen { index, pressure, w: (start, end), before, struck: before + given, after };
+        let &RowMotion { start, before, after, impulses, .. } = row;
+        let seen = Seen { index, pressure, w: (start, end), before, struck: before + given, after, impulses };
         self.walls.observe_depth(index, -wall.gap(row.end));
         if is_rigid {
             self.hold_rigid(step, seen);
@@ -139,7 +141,9 @@ impl Judge {
             error = error.max((mean - 0.5 * (*last + force)).abs());
             *last = force;
         }
-        let size = self.size(step, seen.index);
+        // Where several walls of a row push against each other, what they leave to the body is
+        // known to the rounding error of their impulses, and so is where it goes.
+        let size = self.size(step, seen.index) + self.h * self.noise.kick(seen.index, seen.impulses);
         let depth = (-wall.gap(seen.w.0)).max(-wall.gap(seen.w.1)).max(f64::MIN_POSITIVE);
         let dashpot = wall.law.dashpot(wall.law.pressure(depth, 0.0));
         let rate = (seen.w.1 - seen.w.0).abs() / self.h;

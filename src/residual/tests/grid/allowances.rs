@@ -67,7 +67,8 @@ fn the_law_of_a_spring_is_known_to_its_slope_times_the_rounding_of_the_place() {
     let found = |law, (w0, w1): (f64, f64), pressure: f64, slope: f64| {
         let mut judge = judge(&scene(law), contract, w0, 0.0);
         judge.walls_on_grid(&Claim::of(w1, 2.0, -4.0, 1).pushed(-H * (pressure + SMALL), 0.0).step(), false);
-        let size = w0 + w1 + 1.0 + H * (2.0 + 4.0);
+        // The impulse moves the body, of 1 kg, by `H` times as much.
+        let size = w0 + w1 + 1.0 + H * (2.0 + 4.0) + H * H * (pressure + SMALL);
         let place = judge.noise.of(size) + MET;
         small_less(judge.walls.law.excess.value, slope * place + judge.noise.wall_force(0));
     };
@@ -80,6 +81,19 @@ fn the_law_of_a_spring_is_known_to_its_slope_times_the_rounding_of_the_place() {
     // is the mean of 2 and 4 N and 4 N s/m times ¼ m in a step.
     let damped = WallLaw::Elastic { stiffness: 8.0, damping: 4.0 };
     found(damped, (1.25, 1.5), 3.0 + 4.0 * 0.25 / H, 8.0 + 2.0 * 4.0 / H);
+    // A wall on the other side, with 1024 N/m times 1.5 and 1.25 m: its impulse moves the body,
+    // too.
+    let spring = WallLaw::Elastic { stiffness: 8.0, damping: 0.0 };
+    let floor = Wall::lower("floor", 2.75).with_elasticity(1024.0, 0.0);
+    let mut between = scene(spring).with_wall(floor);
+    between.walls.swap(0, 1);
+    let mut judge = judge(&between, contract, 1.25, 0.0);
+    let mut claim = Claim::of(1.5, 2.0, -4.0, 2).pushed(H * 1408.0, 0.0);
+    claim.impulse[1] = -H * (3.0 + SMALL);
+    judge.walls_on_grid(&claim.step(), false);
+    let size = 1.25 + 1.5 + 1.0 + H * (2.0 + 4.0) + H * H * (3.0 + SMALL + 1408.0);
+    let place = judge.noise.of(size) + MET * between.gap_scale();
+    small_less(judge.walls.law.excess.value, 8.0 * place + judge.noise.wall_force(1));
 }
 
 #[test]
