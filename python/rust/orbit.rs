@@ -9,6 +9,7 @@ use pyo3::types::PyDict;
 use signorini as sg;
 use signorini::orbit::{Orbit, Problem, Shot};
 use signorini::output::first_orbit::FirstOrbit;
+use signorini::output::varied::check_changes_orbits;
 use signorini::study::orbit_derivatives::{Differentiated, OrbitDerivatives};
 use signorini::variation::SceneTangent;
 use signorini::{Path, Scheme, State, Stepper};
@@ -45,6 +46,7 @@ pub fn _orbit<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let inner = scene.inner();
     scene.case().map_or(Ok(()), sg::case::Case::check_repeats).map_err(raise)?;
+    keys.iter().try_for_each(|(key, ..)| check_changes_orbits("derivative", key)).map_err(raise)?;
     let tangents = &tangents(py, &keys)?[..];
     let work = || {
         let structure = matches!(inner.system, sg::System::Structure(_));

@@ -59,6 +59,7 @@ VALUES: list[tuple[Callable[[], object], str]] = [
     (lambda: sg.bifurcation(CASE, HARMONIC, [5.0], settle=-1), "settle is -1; expected 0 or more"),
     (lambda: sg.bifurcation(CASE, HARMONIC, [5.0], keep=2**40), "keep is 1099511627776; expected at most"),
     (lambda: sg.orbit(SCENE, settle=-1), "settle is -1; expected 0 or more"),
+    (lambda: sg.orbit(SCENE, derivative=["initial.velocity.0"]), "expected a key on which orbits depend: none of initial"),
     (lambda: sg.Stepper(SCENE, "moreau-jean", 1e-3).advance(-1.0), r"end is -1\.0; expected a time, 0 or more"),
     (lambda: sg.Load.random(rms=1.0, band=(1.0, 2.0), seed=-1), "seed is -1; expected 0 or more"),
     (lambda: sg.Load.random(psd=[(1.0, math.nan), (2.0, 1.0)]), "load: psd is NaN; expected finite numbers"),

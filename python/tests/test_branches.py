@@ -152,6 +152,29 @@ def test_keys_change_an_orbit_as_in_the_tool(tool: Callable[..., Path]) -> None:
         sg.orbit(sg.load("rigid-walls-sine"), derivative=["wall.side.restitution"])
 
 
+def test_an_orbit_has_derivatives_by_the_arguments_of_a_function() -> None:
+    def scene(initial: float, restitution: float) -> sg.Scene:
+        # The first argument is the amplitude, whatever a table of a case is called.
+        stop = sg.Wall.upper("stop", 5e-3, restitution=restitution)
+        return sg.oscillator(1.0, 0.2, 100.0, walls=[stop], loads=[sg.Load.harmonic(initial, 4.0)])
+
+    values = {"initial": 3.0, "restitution": 0.8}
+    found = sg.orbit(scene, derivative=values)
+    same = sg.orbit(scene(3.0, 0.8), derivative=["load.1.harmonic.amplitude", "wall.stop.restitution"])
+    assert found.derivative is not None and same.derivative is not None
+    assert found.derivative.keys == list(values) and found.speeds[0] == same.speeds[0]
+    by, expected = found.derivative.events["speed_by"], same.derivative.events["speed_by"]
+    for key, of_scene in zip(values, same.derivative.keys, strict=True):
+        np.testing.assert_allclose(by[key], expected[of_scene], rtol=1e-9)
+    # Keys with their values change the scene.
+    changed = sg.orbit(scene(2.9, 0.8), derivative={"load.1.harmonic.amplitude": 3.0})
+    assert changed.speeds[0] == found.speeds[0] and changed.derivative is not None
+    with pytest.raises(ValueError, match="derivative is empty; expected one or more"):
+        sg.orbit(scene)
+    with pytest.raises(ValueError, match="expected a mapping of the arguments of the function"):
+        sg.orbit(scene, derivative=["initial"])
+
+
 def test_an_orbit_of_a_structure_is_that_of_the_tool(tool: Callable[..., Path]) -> None:
     written = tool("orbit", "two-masses", "--set", f"{FREQUENCY}=1.92")
     known = json.loads((written / "orbit.json").read_text(encoding="utf-8"))

@@ -4,7 +4,7 @@ use crate::case::{Case, Key};
 use crate::cli::pipeline::Answer;
 use crate::error::{Error, Result};
 use crate::output::derivatives::FILE;
-use crate::output::effects::Varied;
+use crate::output::effects::DerivativeKey;
 use crate::output::results::Results;
 use crate::output::table::Table;
 use crate::variation::SceneTangent;
@@ -14,8 +14,8 @@ use serde_json::json;
 ///
 /// # Errors
 /// [`Error::Invalid`] for a key that is asked for twice; as [`Case::tangent`].
-pub(super) fn varied(case: &Case, names: &[String]) -> Result<(Vec<Varied>, Vec<SceneTangent>)> {
-    let (mut keys, mut tangents): (Vec<Varied>, Vec<SceneTangent>) = (Vec::new(), Vec::new());
+pub(super) fn derivative_keys(case: &Case, names: &[String]) -> Result<(Vec<DerivativeKey>, Vec<SceneTangent>)> {
+    let (mut keys, mut tangents): (Vec<DerivativeKey>, Vec<SceneTangent>) = (Vec::new(), Vec::new());
     for name in names {
         let key: Key = name.parse()?;
         if keys.iter().any(|other| other.key == key.to_string()) {
@@ -23,7 +23,12 @@ pub(super) fn varied(case: &Case, names: &[String]) -> Result<(Vec<Varied>, Vec<
             return Err(Error::invalid("--derivative", found, "each key once"));
         }
         let tangent = case.tangent(&key)?;
-        keys.push(Varied { key: key.to_string(), value: tangent.value(), unit: key.unit(), error: tangent.error() });
+        keys.push(DerivativeKey {
+            key: key.to_string(),
+            value: tangent.value(),
+            unit: key.unit(),
+            error: tangent.error(),
+        });
         tangents.push(tangent);
     }
     Ok((keys, tangents))

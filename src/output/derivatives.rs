@@ -2,7 +2,7 @@
 //! changes.
 
 use super::csv::{self, digits};
-use super::effects::{self, Effect, Varied};
+use super::effects::{self, DerivativeKey, Effect};
 use super::table::Table;
 use crate::error::Result;
 use crate::order::sort_by_number;
@@ -27,7 +27,7 @@ const NUMBERS: [(&str, &str); 5] =
 /// speed, departure speed and impulse by each key:
 /// `impulse_by_wall_stop_stiffness_N_s_per_N_per_m`. Cells of what is not known are empty, also
 /// those by a key from where the derivatives by it alone end.
-pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Result<()> {
+pub fn write(path: &Path, scene: &Scene, keys: &[DerivativeKey], derivatives: &Derivatives) -> Result<()> {
     let mut header: Vec<String> = csv::CONTACT.iter().copied().chain(["growth"]).map(str::to_owned).collect();
     header.extend(keys.iter().flat_map(|key| NUMBERS.map(|(what, unit)| key.header(what, unit))));
     // In the order of contacts.csv.
@@ -49,7 +49,7 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivati
 /// Writes displacement and velocity of each probe at the output times of the scene, with their
 /// derivatives by each key: `displacement_tip_by_wall_stop_stiffness_m_per_N_per_m`. Cells of what
 /// is not known are empty.
-pub fn write_states(path: &Path, scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Result<()> {
+pub fn write_states(path: &Path, scene: &Scene, keys: &[DerivativeKey], derivatives: &Derivatives) -> Result<()> {
     let names: Vec<&str> = scene.probes.iter().map(|probe| &*probe.name).collect();
     let mut header = vec!["time_s".to_owned()];
     for (what, unit) in csv::probe_numbers(&names).into_iter().flatten() {
@@ -79,7 +79,7 @@ fn name(scene: &Scene, wall: usize) -> String {
 
 /// What 1 % more of each key changes, or a smaller share; `None` without contacts.
 #[must_use]
-pub fn table(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Option<Table> {
+pub fn table(scene: &Scene, keys: &[DerivativeKey], derivatives: &Derivatives) -> Option<Table> {
     effects::table(keys, &effects_of(scene, derivatives))
 }
 
@@ -98,7 +98,7 @@ fn effects_of(scene: &Scene, derivatives: &Derivatives) -> Vec<Effect> {
 
 /// What a reader of the derivatives must know, a sentence each.
 #[must_use]
-pub fn remarks(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Vec<String> {
+pub fn remarks(scene: &Scene, keys: &[DerivativeKey], derivatives: &Derivatives) -> Vec<String> {
     let mut remarks = Vec::new();
     let (counted, all) = (derivatives.predictable().count(), derivatives.contacts.len());
     if counted < all {
@@ -141,7 +141,7 @@ fn means_document(scene: &Scene, means: &MeanDerivative) -> Value {
 
 /// The same as JSON.
 #[must_use]
-pub fn document(scene: &Scene, keys: &[Varied], derivatives: &Derivatives) -> Value {
+pub fn document(scene: &Scene, keys: &[DerivativeKey], derivatives: &Derivatives) -> Value {
     let all = derivatives.measured();
     let measured = all.iter().map(|one| {
         json!({

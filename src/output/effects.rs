@@ -4,7 +4,7 @@ use super::table::Table;
 
 /// A key by which a run or an orbit is differentiated.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Varied {
+pub struct DerivativeKey {
     /// Its path in the case file.
     pub key: String,
     /// Its value.
@@ -38,7 +38,7 @@ const MUCH: f64 = 0.1;
 /// A larger error of the derivative of a scene, as a share, is told.
 const INEXACT: f64 = 1e-12;
 
-impl Varied {
+impl DerivativeKey {
     /// The header of the derivative of a number by the key; `unit` is empty for one without.
     pub(super) fn header(&self, what: &str, unit: &str) -> String {
         let per = self.unit.map_or_else(String::new, |unit| format!("_per_{unit}"));
@@ -57,8 +57,8 @@ impl Effect {
 /// The share of each key by which the table changes it: 1 %, or where that would change a number of
 /// the table by much, so that it need not change it as the derivative says, a tenth, a hundredth, …
 /// of it.
-fn shares(keys: &[Varied], effects: &[Effect]) -> Vec<f64> {
-    let share = |(number, key): (usize, &Varied)| {
+fn shares(keys: &[DerivativeKey], effects: &[Effect]) -> Vec<f64> {
+    let share = |(number, key): (usize, &DerivativeKey)| {
         let changes = effects.iter().filter_map(|one| Some(key.value * one.by.get(number)? / one.scale()));
         let largest = changes.filter(|change| change.is_finite()).fold(0.0, |most: f64, x| most.max(x.abs()));
         if SHARE * largest <= MUCH {
@@ -81,7 +81,7 @@ fn in_per_cent(share: f64) -> String {
 }
 
 /// What 1 % more of each key changes, or a smaller share; `None` without numbers.
-pub(super) fn table(keys: &[Varied], effects: &[Effect]) -> Option<Table> {
+pub(super) fn table(keys: &[DerivativeKey], effects: &[Effect]) -> Option<Table> {
     let shares = shares(keys, effects);
     let mut header = vec!["wall".to_owned(), "number".to_owned(), "value".to_owned()];
     header.extend(keys.iter().zip(&shares).map(|(key, &share)| match key.value == 0.0 {
@@ -89,7 +89,7 @@ pub(super) fn table(keys: &[Varied], effects: &[Effect]) -> Option<Table> {
         false => format!("{} more of {}", in_per_cent(share), key.key),
     }));
     let row = |one: &Effect| {
-        let cell = |((key, share), by): ((&Varied, &f64), &f64)| {
+        let cell = |((key, share), by): ((&DerivativeKey, &f64), &f64)| {
             let unit = if key.value == 0.0 { 1.0 } else { share * key.value };
             let change = 100.0 * unit * by / one.value;
             match (by.is_finite(), key.value != 0.0 && change.is_finite() && !one.absolute) {
@@ -108,9 +108,9 @@ pub(super) fn table(keys: &[Varied], effects: &[Effect]) -> Option<Table> {
 }
 
 /// Which keys the table changes by less than 1 %, a sentence each.
-pub(super) fn remarks(keys: &[Varied], effects: &[Effect]) -> Vec<String> {
+pub(super) fn remarks(keys: &[DerivativeKey], effects: &[Effect]) -> Vec<String> {
     let smaller = keys.iter().zip(shares(keys, effects)).filter(|(key, share)| key.value != 0.0 && *share < SHARE);
-    let remark = |(key, share): (&Varied, f64)| {
+    let remark = |(key, share): (&DerivativeKey, f64)| {
         format!(
             "by its derivatives 1 % more of {} would change a number of the table by more than {:.0} %, which is no \
              small change: the table has what {} more changes",
@@ -123,7 +123,7 @@ pub(super) fn remarks(keys: &[Varied], effects: &[Effect]) -> Vec<String> {
 }
 
 /// Of which keys the derivative of the scene is known to fewer digits, a sentence each.
-pub(super) fn inexact(keys: &[Varied]) -> impl Iterator<Item = String> {
+pub(super) fn inexact(keys: &[DerivativeKey]) -> impl Iterator<Item = String> {
     keys.iter().filter(|key| key.error > INEXACT).map(|key| {
         format!("the derivative of the scene with respect to {} errs by {:.0e} of itself", key.key, key.error)
     })

@@ -2,7 +2,7 @@
 //! more of a key changes.
 
 use super::csv::{self, digits};
-use super::effects::{self, Effect, Varied};
+use super::effects::{self, DerivativeKey, Effect};
 use super::table::Table;
 use crate::error::Result;
 use crate::scene::Scene;
@@ -15,7 +15,7 @@ pub const MULTIPLIERS_FILE: &str = "multipliers.csv";
 
 /// Writes the events, one per row, with their numbers and the derivatives of these by each key:
 /// `speed_by_wall_stop_restitution_m_per_s`.
-pub fn write(path: &Path, scene: &Scene, keys: &[Varied], found: &OrbitDerivatives) -> Result<()> {
+pub fn write(path: &Path, scene: &Scene, keys: &[DerivativeKey], found: &OrbitDerivatives) -> Result<()> {
     let Some(first) = found.events.first() else {
         return csv::table(path, &["wall".to_owned(), "kind".to_owned()], std::iter::empty::<Vec<String>>());
     };
@@ -33,7 +33,7 @@ pub fn write(path: &Path, scene: &Scene, keys: &[Varied], found: &OrbitDerivativ
 }
 
 /// Writes the multipliers, real and imaginary part, with their derivatives by each key.
-pub fn write_multipliers(path: &Path, keys: &[Varied], multipliers: &[MultiplierDerivative]) -> Result<()> {
+pub fn write_multipliers(path: &Path, keys: &[DerivativeKey], multipliers: &[MultiplierDerivative]) -> Result<()> {
     let parts = ["real", "imaginary"];
     let mut header: Vec<String> = parts.iter().map(|part| (*part).to_owned()).collect();
     header.extend(keys.iter().flat_map(|key| parts.map(|part| key.header(part, ""))));
@@ -91,13 +91,13 @@ fn unit(number: &Differentiated) -> &'static str {
 /// What 1 % more of each key changes, or a smaller share; `None` for an orbit without events and
 /// multipliers.
 #[must_use]
-pub fn table(scene: &Scene, keys: &[Varied], found: &OrbitDerivatives) -> Option<Table> {
+pub fn table(scene: &Scene, keys: &[DerivativeKey], found: &OrbitDerivatives) -> Option<Table> {
     effects::table(keys, &effects_of(scene, found))
 }
 
 /// What a reader of the derivatives must know, a sentence each.
 #[must_use]
-pub fn remarks(scene: &Scene, keys: &[Varied], found: &OrbitDerivatives) -> Vec<String> {
+pub fn remarks(scene: &Scene, keys: &[DerivativeKey], found: &OrbitDerivatives) -> Vec<String> {
     let longer = keys.iter().zip(&found.forcing_period).filter(|(_, longer)| **longer != 0.0);
     let longer = longer.map(|(key, longer)| {
         let per = key.unit.map_or_else(String::new, |unit| format!(" per {}", unit.replace("_per_", "/")));
@@ -111,7 +111,7 @@ pub fn remarks(scene: &Scene, keys: &[Varied], found: &OrbitDerivatives) -> Vec<
 
 /// The same as JSON.
 #[must_use]
-pub fn document(scene: &Scene, keys: &[Varied], found: &OrbitDerivatives) -> Value {
+pub fn document(scene: &Scene, keys: &[DerivativeKey], found: &OrbitDerivatives) -> Value {
     let numbers =
         |one: &Differentiated| json!({ "name": one.name, "unit": one.unit, "value": one.value, "derivative": one.by });
     let events = found.events.iter().map(|event| {

@@ -36,7 +36,7 @@ impl Varied {
     pub fn new(file: &CaseFile, asked: &KeyRange<'_>) -> Result<Self> {
         let KeyRange { names: [called, of_range], range, .. } = *asked;
         let key: Key = asked.key.parse()?;
-        check_changes_orbits(called, &key)?;
+        check_changes_orbits(called, asked.key)?;
         let value = start_value(file, called, &key)?;
         let [low, high] = range;
         let wrong = |expected: String| Error::invalid(of_range, format_args!("{low}:{high}"), expected);
@@ -84,13 +84,13 @@ fn start_value(file: &CaseFile, by: &'static str, key: &Key) -> Result<f64> {
 /// is recorded of the run.
 const NO_PART_OF_ORBITS: [&str; 6] = ["initial", "penalty", "probe", "statistics", "time", "wear"];
 
-/// Refuses a key over which no orbit changes.
+/// Refuses a key of a case or a scene on which no periodic orbit depends; errors call it
+/// `argument`.
 ///
 /// # Errors
 /// [`Error::Invalid`] for the key of a start, a time or a probe, for one.
-pub(crate) fn check_changes_orbits(argument: &'static str, key: &Key) -> Result<()> {
-    let key = key.to_string();
-    if NO_PART_OF_ORBITS.contains(&key.split('.').next().unwrap_or_default()) {
+pub fn check_changes_orbits(argument: &'static str, key: &str) -> Result<()> {
+    if key.split_once('.').is_some_and(|(table, _)| NO_PART_OF_ORBITS.contains(&table)) {
         let expected = format!("a key on which orbits depend: none of {}", NO_PART_OF_ORBITS.join(", "));
         return Err(Error::invalid(argument, key, expected));
     }

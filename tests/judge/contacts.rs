@@ -152,7 +152,8 @@ fn the_table_joins_the_steps_in_which_a_wall_pushes() {
         ("elastic", common::all_elastic(1.0)),
     ];
     for (name, scene) in scenes {
-        for scheme in schemes() {
+        // `located` divides its steps: the instants of its contacts are none of the grid.
+        for scheme in schemes().into_iter().filter(|scheme| *scheme != Scheme::Located) {
             let h = 1e-4;
             let mut stepper = Stepper::new(&scene, &scheme, h).expect("a sound scene");
             let rigid: Vec<bool> = stepper.scene().walls.iter().map(|wall| wall.law.is_rigid()).collect();

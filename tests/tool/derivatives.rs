@@ -103,6 +103,11 @@ fn the_file_has_five_derivatives_of_each_contact_by_each_key() {
         assert!((number(name) - value).abs() <= 1e-12 * speed, "{name}: {} {value}", number(name));
     }
     assert!(rows.iter().flatten().all(|cell| cell != "-0.0"), "{rows:?}");
+    let text = fs::read_to_string(dir.path().join("out/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let impulse = &summary["derivatives"]["measured"][1];
+    assert_eq!((&impulse["wall"], &impulse["name"]), (&"floor".into(), &"impulse".into()));
+    assert_eq!(impulse["derivative"][0].as_f64(), Some(number("impulse_by_wall_floor_restitution_N_s")));
 }
 
 #[test]

@@ -73,9 +73,12 @@ class Derivative:
         return f"<Derivative by {', '.join(self.keys)}: {len(self.contacts)} contacts to {self.until:.6g} s{ended}>"
 
 
-def resolved(source: Source, keys: Keys) -> tuple[Callable[[Mapping[str, float]], Scene], dict[str, float]]:
-    """The function from the values of `keys` to a scene, and their values in `source`."""
-    names("keys", keys, "wall.stop.position")
+def resolved(
+    source: Source, keys: Keys, called: str = "keys"
+) -> tuple[Callable[[Mapping[str, float]], Scene], dict[str, float]]:
+    """The function from the values of `keys`, which errors call `called`, to a scene, and their
+    values in `source`."""
+    names(called, keys, "wall.stop.position")
 
     def given(own: dict[str, float]) -> dict[str, float]:
         return {**own, **keys} if isinstance(keys, Mapping) else own
@@ -89,7 +92,7 @@ def resolved(source: Source, keys: Keys) -> tuple[Callable[[Mapping[str, float]]
         case = source
         return lambda values: _core._case_scene_at(case, list(values.items())), given(own)
     if not isinstance(keys, Mapping):
-        raise ValueError(f"keys is {keys!r}; expected a mapping of the arguments of the function to their values")
+        raise ValueError(f"{called} is {keys!r}; expected a mapping of the arguments of the function to their values")
     return lambda values: source(**values), dict(keys)
 
 

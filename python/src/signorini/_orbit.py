@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _core, _plot
 from ._core import Case, RunError, Scene
-from ._derivative import builds, resolved
+from ._derivative import Keys, Source, builds, resolved
 from ._types import Array, whole
 
 
@@ -136,23 +136,24 @@ class Orbit:
 
 
 def orbit(
-    scene: Scene | Case, *, settle: int = _core._SETTLE, rows: int = 400, derivative: Sequence[str] = ()
+    scene: Source, *, settle: int = _core._SETTLE, rows: int = 400, derivative: Keys = ()
 ) -> Orbit:
     """The periodic orbit on which a motion settles, to rounding, with its Floquet multipliers.
 
     Parameters
     ----------
-    scene : Scene or Case
+    scene : Scene, Case or callable
         Under loads with a common period: one degree of freedom between walls, or a structure of up
-        to 200 degrees of freedom or modes, whose orbit is found by shooting.
+        to 200 degrees of freedom or modes, whose orbit is found by shooting; or a function that
+        returns such a scene of the numbers in ``derivative``.
     settle : int
         Periods of the load that are run, exactly, before the motion is checked for repetition; 400
         by default, as in ``signorini orbit``.
     rows : int
         Instants of its motion that are kept beside the events.
-    derivative : sequence of str
-        Keys by which the orbit is differentiated, as in `derivative`: exactly, no orbit beside it is
-        computed.
+    derivative : sequence of str or mapping of str to float
+        Keys, or keys with their values, by which the orbit is differentiated, as in `derivative`: exactly, no orbit beside it is
+        computed. Those of the start and of the time are refused, since no orbit depends on them.
 
     Returns
     -------
@@ -184,10 +185,13 @@ def orbit(
     """
     values: dict[str, float] = {}
     keys: list[Any] = []
-    if len(derivative):
-        scene_of, values = resolved(scene, derivative)
+    subject: Any = scene
+    if len(derivative) or (callable(scene) and not isinstance(scene, (Scene, Case))):
+        scene_of, values = resolved(scene, derivative, "derivative")
         keys = builds(scene_of, values)
-    made = _core._orbit(scene, whole("settle", settle), whole("rows", rows, 1), keys)
+        if isinstance(derivative, Mapping):
+            subject = scene_of(values)
+    made = _core._orbit(subject, whole("settle", settle), whole("rows", rows, 1), keys)
     refused, holds = made.pop("refused"), made.pop("holds")
     if refused is not None or not holds:
         reason = refused or f"a free run misses it by {made['closure']:.1e} after a period"

@@ -2,12 +2,12 @@
 
 use super::args::Args;
 use crate::case::Case;
-use crate::cli::derivative_keys::{record_effects, show_effects, varied};
+use crate::cli::derivative_keys::{derivative_keys, record_effects, show_effects};
 use crate::cli::pipeline::Answer;
 use crate::error::Result;
 use crate::orbit::Shot;
 use crate::output::derivatives::FILE;
-use crate::output::effects::Varied;
+use crate::output::effects::DerivativeKey;
 use crate::output::orbit_derivatives::{self as output, MULTIPLIERS_FILE};
 use crate::output::periodic::Known;
 use crate::output::results::Results;
@@ -20,16 +20,16 @@ use serde_json::Value;
 
 /// The keys asked for, and the derivatives of the scene by them; none where none are asked for.
 pub(super) struct Wanted {
-    keys: Vec<Varied>,
+    keys: Vec<DerivativeKey>,
     tangents: Vec<SceneTangent>,
 }
 
 impl Wanted {
     pub fn of(args: &Args, case: &Case) -> Result<Self> {
         for name in &args.derivative {
-            check_changes_orbits("--derivative", &name.parse()?)?;
+            check_changes_orbits("--derivative", name)?;
         }
-        let (keys, tangents) = varied(case, &args.derivative)?;
+        let (keys, tangents) = derivative_keys(case, &args.derivative)?;
         Ok(Self { keys, tangents })
     }
 

@@ -1,11 +1,11 @@
 //! `run --derivative`: what the keys of the case change.
 
 use crate::case::Case;
-use crate::cli::derivative_keys::{record_effects, show_effects, varied};
+use crate::cli::derivative_keys::{derivative_keys, record_effects, show_effects};
 use crate::cli::pipeline::Answer;
 use crate::error::{Error, Result};
 use crate::output::derivatives::{self as output, FILE, STATES_FILE};
-use crate::output::effects::Varied;
+use crate::output::effects::DerivativeKey;
 use crate::output::results::Results;
 use crate::output::table::Table;
 use crate::scheme::Scheme;
@@ -29,7 +29,7 @@ pub struct DerivativeKeys {
 
 /// The derivatives of the scene of a case with respect to the keys asked for.
 pub(super) struct Wanted {
-    keys: Vec<Varied>,
+    keys: Vec<DerivativeKey>,
     tangents: Vec<SceneTangent>,
 }
 
@@ -58,7 +58,7 @@ impl DerivativeKeys {
         }
         // Before the keys are looked at: of what no run has, no key is at fault.
         Derivatives::check(&case.scene)?;
-        let (keys, tangents) = varied(case, &self.derivative)?;
+        let (keys, tangents) = derivative_keys(case, &self.derivative)?;
         Ok(Some(Wanted { keys, tangents }))
     }
 }

@@ -48,19 +48,18 @@ pub fn answer(args: &Args, ui: &Ui) -> Result<Answer> {
         None => None,
     };
     let first = format!("{method}: {reason}");
+    let changes = derivatives.as_ref().map(|(wanted, found)| wanted.document(&case, found));
     let checks = Checks {
         refinement: succeeded(refinement.as_ref()),
         truncation: succeeded(truncation.as_ref()),
         modes: succeeded(modes.as_ref()),
         accuracy: succeeded(accuracy.as_ref()),
+        derivatives: changes.as_ref(),
         realisations: study.as_ref().map(|study| &study.realisations),
         ..Checks::default()
     };
     // Last, since the summary records the tables beside it.
     let mut document = run_folder::write(&mut results, "", &case, (&run, &method, reason), checks, span)?;
-    if let Some((wanted, found)) = &derivatives {
-        document["derivatives"] = wanted.document(&case, found);
-    }
     if let Some(error) = &shortfall {
         document["error"] = json!(error.to_string());
     }

@@ -56,7 +56,8 @@ struct Summary<'a> {
     notes: Vec<String>,
 }
 
-/// The checks of the run against other runs; each is null where it was not made.
+/// What was computed beside the run: checks against other runs, each null where it was not made,
+/// and what was asked for.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub struct Checks<'a> {
     /// Against the same run with half the step.
@@ -67,6 +68,9 @@ pub struct Checks<'a> {
     pub truncation: Option<&'a Truncation>,
     /// How the number of modes was chosen.
     pub modes: Option<&'a ChosenModes>,
+    /// What the keys asked for change; absent where none were.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub derivatives: Option<&'a Value>,
     /// The run among further realisations of its random loads; absent where they were not asked
     /// for.
     #[serde(skip_serializing_if = "Option::is_none")]

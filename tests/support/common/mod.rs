@@ -132,7 +132,7 @@ pub const SECOND_IMPACT: [(f64, f64); 4] =
 pub const INTEGRATORS: [Integrator; 4] = Integrator::ALL;
 
 /// The schemes on a grid that constrain by a QP.
-pub const CONSTRAINED: [Scheme; 7] = [
+pub const CONSTRAINED: [Scheme; 8] = [
     Scheme::ImplicitEuler,
     Scheme::PaoliSchatzman,
     MOREAU_JEAN,
@@ -140,6 +140,7 @@ pub const CONSTRAINED: [Scheme; 7] = [
     Scheme::MoreauJean { theta: 1.0 },
     Scheme::GeneralizedAlpha { rho: 0.8 },
     Scheme::Newmark,
+    Scheme::Located,
 ];
 
 /// Every scheme on a grid; the penalty with a spring that a step of 0.1 ms resolves.
