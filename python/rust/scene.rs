@@ -127,6 +127,9 @@ impl Scene {
         origin.damping = damping.map(|damping| damping.0).or(origin.damping);
         origin.modes = modes.or(origin.modes);
         origin.static_correction = static_correction.unwrap_or(origin.static_correction);
+        if origin.static_correction && origin.modes.is_none() {
+            return Err(wrong("static_correction", "True, without modes", "modes: it replaces those left out"));
+        }
         let built = if n < LARGE {
             compute(py, || origin.built())?
         } else {

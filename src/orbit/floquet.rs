@@ -51,10 +51,17 @@ impl Floquet {
 
     /// The multipliers of a derivative with the eigenvalues `own` and the given trace and
     /// determinant, over half an orbit (`half`) or a whole one.
-    pub(super) fn of(own: Vec<[f64; 2]>, [trace, determinant]: [f64; 2], half: bool) -> Self {
+    pub(super) fn of(mut own: Vec<[f64; 2]>, [trace, determinant]: [f64; 2], half: bool) -> Self {
         if !half {
             return Self { multipliers: own, half: None, trace, determinant };
         }
+        // Of a conjugate pair of squares the one with the positive imaginary part comes first, as
+        // of every map.
+        let order = |one: &[f64; 2]| (one[0].hypot(one[1]), square(*one)[1]);
+        own.sort_by(|a, b| {
+            let (a, b) = (order(a), order(b));
+            b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1))
+        });
         Self { multipliers: own.iter().copied().map(square).collect(), half: Some(own), trace, determinant }
     }
 }

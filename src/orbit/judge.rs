@@ -128,7 +128,7 @@ impl Problem {
         }
         let whole = orbit.unfolded(self.mirror());
         let Scales { length: scale, speed } = self.scales();
-        let length = self.scene().gap().or(Some(admissible.largest).filter(|q| *q > 0.0)).unwrap_or(scale);
+        let length = self.scene().orbit_gap().or(Some(admissible.largest).filter(|q| *q > 0.0)).unwrap_or(scale);
         let (speed, rounding_scale) = (speed * (length / scale), scale / length);
         let Midway { time: start, state, rounding } = self.midway(&whole)?;
         let end = start + whole.period();

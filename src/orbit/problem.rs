@@ -77,7 +77,7 @@ impl Problem {
         let boundaries = scene.walls.iter().map(boundary).collect::<Result<Vec<_>>>()?;
         let period = forcing_period(&scene)?;
         let forcing = Forcing::on(0, &scene.loads);
-        let (length, mirror) = (scene.gap_scale(), mirror(&scene, period));
+        let (length, mirror) = (scene.orbit_length(), mirror(&scene, period));
         Ok(Self { scene, body, forcing, boundaries, period, length, mirror })
     }
 

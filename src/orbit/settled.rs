@@ -118,7 +118,7 @@ impl Problem {
 /// those of one such stretch.
 fn repeated(passages: &[Passage], problem: &Problem) -> Option<(u32, Vec<Passage>)> {
     let fastest = || passages.iter().fold(0.0, |most: f64, passage| most.max(passage.speed.abs()));
-    let speed = problem.scene().gap().map_or_else(fastest, |_| problem.scales().speed);
+    let speed = problem.scene().orbit_gap().map_or_else(fastest, |_| problem.scales().speed);
     // A body released from rest always moves in the same way: only the instant of the release
     // matters.
     let released = |passage: &Passage| passage.event.kind == Kind::Release;

@@ -146,7 +146,7 @@ struct Shooting<'a> {
 impl<'a> Shooting<'a> {
     fn new(scene: &'a Scene) -> Result<Self> {
         let period = posed(scene)?;
-        Ok(Self { scene, period, scales: Scales::new(scene.gap_scale(), period) })
+        Ok(Self { scene, period, scales: Scales::new(scene.orbit_length(), period) })
     }
 
     /// An instant (s) between two events after `settle` periods, the state then, and the number of
@@ -197,7 +197,7 @@ impl<'a> Shooting<'a> {
         let count = states.len();
         // Without a gap the motion is measured by its own size.
         let largest = || states.iter().fold(0.0, |most: f64, x| most.max(self.scales.size(x)));
-        let near = NEAR * self.scene.gap().map_or_else(largest, |_| 1.0);
+        let near = NEAR * self.scene.orbit_gap().map_or_else(largest, |_| 1.0);
         let apart = |j: usize, n: usize| self.scales.size(&(&states[j] - &states[j - n]));
         let back = |n: usize| (count - REPEATS * n..count).all(|j| apart(j, n) <= near);
         (1..=LONGEST).find(|&n| count >= (REPEATS + 1) * n && back(n)).map(|n| n as u32)

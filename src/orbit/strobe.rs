@@ -81,9 +81,32 @@ pub(crate) fn multipliers(derivative: &DMatrix<f64>) -> Vec<Complex<f64>> {
     all
 }
 
+/// A multiplier nearer to the unit circle than this lies on it: more than the rounding of an orbit
+/// of some dozen events, and less than any damping that a run can show.
+const ON_THE_CIRCLE: f64 = 1e-10;
+
 /// True if all multipliers, real and imaginary part, lie inside the unit circle.
-pub(super) fn is_stable(multipliers: &[[f64; 2]]) -> bool {
-    multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
+pub(crate) fn is_stable(multipliers: &[[f64; 2]]) -> bool {
+    multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0 - ON_THE_CIRCLE)
+}
+
+/// True if a multiplier of this modulus lies on the unit circle.
+#[cfg(feature = "cli")]
+pub(crate) fn is_on_the_circle(modulus: f64) -> bool {
+    (modulus - 1.0).abs() <= ON_THE_CIRCLE
+}
+
+/// `stable`, `unstable`, or `neutral` for an orbit whose largest multiplier lies on the unit
+/// circle, as without damping at restitution 1: runs neither settle on it nor leave it, as far as
+/// the linear part of their motion tells.
+#[cfg(feature = "cli")]
+pub(crate) fn stability_in_words(multipliers: &[[f64; 2]]) -> &'static str {
+    let largest = multipliers.iter().map(|[re, im]| re.hypot(*im)).fold(0.0, f64::max);
+    match (is_stable(multipliers), is_on_the_circle(largest)) {
+        (true, _) => "stable",
+        (false, true) => "neutral",
+        (false, false) => "unstable",
+    }
 }
 
 /// The square of a multiplier.

@@ -39,7 +39,7 @@ impl<'a> Watch<'a> {
         Self {
             walls: &scene.walls,
             period,
-            length: scene.gap_scale(),
+            length: scene.orbit_length(),
             resting: Vec::new(),
             touching: Vec::new(),
             q: zero.clone(),

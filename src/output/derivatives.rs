@@ -101,6 +101,12 @@ fn effects_of(scene: &Scene, derivatives: &Derivatives) -> Vec<Effect> {
 pub fn remarks(scene: &Scene, keys: &[DerivativeKey], derivatives: &Derivatives) -> Vec<String> {
     let mut remarks = Vec::new();
     let (counted, all) = (derivatives.predictable().count(), derivatives.contacts.len());
+    if all == 0 && derivatives.open == 0 && derivatives.ended.is_none() {
+        remarks.push(format!(
+            "{FILE} has no rows, since the motion meets no wall; summary.json has the derivatives of its means, and \
+             times in `[output]` add those of displacement and velocity"
+        ));
+    }
     if counted < all {
         remarks.push(format!(
             "the table counts the first {counted} contacts: after them a small change has grown by more than \

@@ -2,6 +2,7 @@
 //! more of a key changes.
 
 use super::csv::{self, digits};
+use super::derivatives::FILE;
 use super::effects::{self, DerivativeKey, Effect};
 use super::table::Table;
 use crate::error::Result;
@@ -104,6 +105,9 @@ pub fn remarks(scene: &Scene, keys: &[DerivativeKey], found: &OrbitDerivatives) 
         format!("{} changes the period of the load by {longer:.6e} s{per}; phases are shares of it", key.key)
     });
     let mut remarks = effects::remarks(keys, &effects_of(scene, found));
+    if found.events.is_empty() {
+        remarks.push(format!("{FILE} has no rows, since the orbit meets no wall"));
+    }
     remarks.extend(longer);
     remarks.extend(effects::inexact(keys));
     remarks

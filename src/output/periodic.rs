@@ -41,13 +41,13 @@ pub(crate) fn headline(signature: &str, symmetric: bool, periods: u64) -> String
 /// What the closure of an orbit of one degree of freedom is a share of.
 #[must_use]
 pub fn closure_of(scene: &Scene) -> &'static str {
-    if scene.gap().is_some() { "the gap" } else { "max |u|" }
+    if scene.orbit_gap().is_some() { "the gap" } else { "max |u|" }
 }
 
 /// What the closure of an orbit of a structure is a share of.
 #[must_use]
 pub fn shot_closure_of(scene: &Scene) -> String {
-    scene.gap().map_or_else(|| format!("{:?} m", scene.gap_scale()), |_| "the gap".to_owned())
+    scene.orbit_gap().map_or_else(|| format!("{:?} m", scene.orbit_length()), |_| "the gap".to_owned())
 }
 
 fn pairs(multipliers: &[[f64; 2]]) -> Value {

@@ -5,6 +5,7 @@ use super::column;
 use super::folder::{Folder, Numbers};
 use super::run::{case_text, derivatives};
 use crate::error::Result;
+use crate::orbit::strobe::is_on_the_circle;
 use crate::output::derivatives::FILE;
 use crate::output::periodic;
 use serde_json::{Value, json};
@@ -126,12 +127,12 @@ fn facts(document: &Value) -> Value {
 /// runs settle on it.
 fn cards(document: &Value) -> Vec<Value> {
     let mut cards = Vec::new();
-    let stable = document["stable"] == true;
     let largest = moduli(&document["multipliers"]).into_iter().fold(0.0, f64::max);
     // For an orbit that no body can follow, the multipliers say nothing about runs.
-    let (state, verdict) = match (document["admissible"] == false, stable) {
+    let (state, verdict) = match (document["admissible"] == false, document["stable"] == true) {
         (true, _) => (State::Open, "As a solution of the equations only"),
         (false, true) => (State::Good, "Stable: runs settle on it"),
+        (false, false) if is_on_the_circle(largest) => (State::Mind, "Neutral: runs stay beside it"),
         (false, false) => (State::Mind, "Unstable: runs leave it"),
     };
     let text = format!("The largest multiplier has the modulus {}; below 1 a small change dies out.", short(largest));

@@ -11,6 +11,8 @@ use super::{Scene, Side, Wall, distinct};
 const ON_WALL: f64 = 1e-9;
 /// A wall that is this many times as far away as the nearest one is far.
 const FAR: f64 = 100.0;
+/// A wall nearer to 0 than this share of how far the loads move the structure stands at 0.
+const SNUG: f64 = 1e-3;
 
 fn positive(x: &f64) -> bool {
     x.is_finite() && *x > 0.0
@@ -25,7 +27,7 @@ impl Scene {
     /// ignored, and walls more than 100 times as far from the start and from zero as the nearest.
     #[must_use]
     pub fn gap_scale(&self) -> f64 {
-        let near = self.near_walls();
+        let near = self.near_walls(&self.initial.q);
         gap_of(&near)
             .or_else(|| largest(near.iter().map(|(wall, _)| wall.position().abs())))
             .or_else(|| largest(self.initial.q.iter().map(|q| q.abs())))
@@ -52,7 +54,29 @@ impl Scene {
     /// the initial position, unless the start is on it. `None` where there is none above 0. Walls
     /// that are far have no part in it.
     pub(crate) fn gap(&self) -> Option<f64> {
-        gap_of(&self.near_walls())
+        gap_of(&self.near_walls(&self.initial.q))
+    }
+
+    /// The gap by which periodic motions are measured, m, of which the start is no part: as
+    /// [`Scene::gap`] of a start at 0, to which springs draw the structure. `None` where there is
+    /// none, or where the loads move the structure a thousand times as far.
+    pub(crate) fn orbit_gap(&self) -> Option<f64> {
+        let near = self.near_walls(&vec![0.0; self.initial.q.len()]);
+        let held = |wall: &Wall| {
+            let mut row = vec![0.0; self.initial.q.len()];
+            wall.row().add_transposed(1.0, &mut row);
+            self.system.stiffness_form(&row, &row) > 0.0
+        };
+        let alone = || largest(near.iter().filter(|(wall, _)| held(wall)).map(|(_, start)| *start));
+        let least = SNUG * self.length_of_vibration();
+        gap_between(&near).or_else(|| alone().filter(|gap| *gap >= least))
+    }
+
+    /// A length of periodic motions, m: [`Scene::orbit_gap`], else how far the loads that change
+    /// move the structure, else [`Scene::gap_scale`].
+    pub(crate) fn orbit_length(&self) -> f64 {
+        let moved = || Some(self.length_of_vibration()).filter(positive);
+        self.orbit_gap().or_else(moved).unwrap_or_else(|| self.gap_scale())
     }
 
     /// Distance within which a wall counts as in contact, m: 1e-12 of [`Scene::gap_scale`].
@@ -61,10 +85,9 @@ impl Scene {
         1e-12 * self.gap_scale()
     }
 
-    /// The walls that are not far, with their distance from the start (m), which is 0 for a start
-    /// on the wall.
-    fn near_walls(&self) -> Vec<(&Wall, f64)> {
-        let q = &self.initial.q;
+    /// The walls that are not far, with their distance from the displacement `q` (m), which is 0
+    /// where it is on the wall.
+    fn near_walls(&self, q: &[f64]) -> Vec<(&Wall, f64)> {
         let size = q.iter().fold(0.0, |largest: f64, q| largest.max(q.abs()));
         let start = |wall: &Wall| {
             let gap = wall.gap(wall.row().dot(q)).abs();
@@ -86,6 +109,12 @@ fn largest(lengths: impl Iterator<Item = f64>) -> Option<f64> {
 
 /// The gap of these walls, each with its distance from the start.
 fn gap_of(near: &[(&Wall, f64)]) -> Option<f64> {
+    gap_between(near).or_else(|| largest(near.iter().map(|(_, start)| *start)))
+}
+
+/// The smallest of half the distances between an upper and a lower wall on one row and of the gaps
+/// of round supports.
+fn gap_between(near: &[(&Wall, f64)]) -> Option<f64> {
     let rows = distinct(near.iter().map(|(wall, _)| wall.row()));
     let mut lower = vec![Vec::new(); rows.rows.len()];
     let flat = |side| {
@@ -99,8 +128,7 @@ fn gap_of(near: &[(&Wall, f64)]) -> Option<f64> {
     }
     let spans = flat(Side::Upper).flat_map(|(upper, row)| lower[row].iter().map(move |lower| 0.5 * (upper - lower)));
     let gaps = near.iter().filter(|(wall, _)| wall.is_round()).map(|(wall, _)| wall.position());
-    let least = spans.chain(gaps).filter(positive).reduce(f64::min);
-    least.or_else(|| largest(near.iter().map(|(_, start)| *start)))
+    spans.chain(gaps).filter(positive).reduce(f64::min)
 }
 
 #[cfg(test)]

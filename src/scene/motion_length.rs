@@ -49,6 +49,13 @@ impl Scene {
         motions.iter().map(|motion| motion.constant.abs() * motion.time * motion.time).fold(0.0, f64::max)
     }
 
+    /// The largest way by which the loads that change move a degree of freedom by itself, m: the
+    /// part of [`Self::length_of_motion`] in which neither the start nor the duration has a part.
+    pub(super) fn length_of_vibration(&self) -> f64 {
+        let all = self.clone().with_duration(f64::INFINITY).motions();
+        all.iter().map(|motion| motion.varying).filter(|length| length.is_finite()).fold(0.0, f64::max)
+    }
+
     fn motions(&self) -> Vec<Motion> {
         let structure = self.system.structure();
         let mass = structure.mass.diagonal_entries();

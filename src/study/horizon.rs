@@ -15,6 +15,7 @@ use super::perturbation;
 use crate::error::Result;
 use crate::scene::{Scene, System};
 use crate::scheme::{Method, Scheme, Stepper};
+use crate::step::Path;
 use crate::variation::Product;
 use nalgebra::DMatrix;
 
@@ -77,6 +78,12 @@ impl Growth {
         let (mut time, mut products, mut speed) = (vec![0.0], vec![product.matrix().clone()], 0.0_f64);
         while stepper.time() < scene.duration {
             let step = stepper.step()?;
+            // A change that an impact makes grow has not grown before it.
+            if let (Path::Exact(arc), true) = (step.path, step.jump.iter().any(|&p| p != 0.0)) {
+                let [[a, b], [c, d]] = arc.propagator();
+                time.push(step.end);
+                products.push(DMatrix::from_row_slice(2, 2, &[a, b, c, d]) * product.matrix());
+            }
             // Without a derivative the change may be anything from here on.
             let known = product.observe(&step).is_ok();
             speed = speed.max(step.v.first().copied().unwrap_or(0.0).abs());

@@ -168,6 +168,6 @@ impl Plan {
 /// `None` where it does not.
 fn repeating(strobes: &[[f64; 2]], lane: &Lane, scene: &Scene) -> Option<(usize, State)> {
     let states: Vec<State> = strobes.iter().map(|[q, v]| State { q: vec![*q], v: vec![*v] }).collect();
-    let periods = repeats(&states.iter().collect::<Vec<_>>(), lane.period, scene.gap())?;
+    let periods = repeats(&states.iter().collect::<Vec<_>>(), lane.period, scene.orbit_gap())?;
     Some((periods, states.last()?.clone()))
 }

@@ -209,7 +209,7 @@ impl RowObserver {
             }
             (Measure::Lyapunov, _) => Some(exponent?.per_s),
             (Measure::LyapunovError, _) => exponent?.error_per_s,
-            (Measure::Period, _) => Some(self.strobe.as_ref()?.repeats(scene.gap())? as f64),
+            (Measure::Period, _) => Some(self.strobe.as_ref()?.repeats(scene.orbit_gap())? as f64),
             // The row itself fills the attractor in: it is run in another way.
             _ => None,
         }
@@ -220,7 +220,7 @@ impl RowObserver {
     fn exponent(&self, scene: &Checked) -> Option<Exponent> {
         let exponents = self.growth.as_ref()?.as_ref().ok()?;
         let orbit = self.strobe.as_ref().and_then(|strobe| {
-            let count = strobe.repeats(scene.gap())?;
+            let count = strobe.repeats(scene.orbit_gap())?;
             let (_, state) = strobe.taken.last()?;
             attractor::exponent(scene, strobe.period(), count, state)
         });

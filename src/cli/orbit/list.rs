@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::cli::pipeline::Answer;
 use crate::error::Result;
+use crate::orbit::strobe::stability_in_words;
 use crate::orbit::{ClosedForm, Problem, closed_forms};
 use crate::output::periodic::listed;
 use crate::output::table::Table;
@@ -39,7 +40,7 @@ pub(super) fn list(case: &Case) -> Result<Answer> {
             format!("{:.9}", form.phase),
             format!("{:.9e}", form.speed),
             format!("{largest:.6e}"),
-            if form.is_stable() { "stable" } else { "unstable" }.to_owned(),
+            stability_in_words(&form.multipliers).to_owned(),
             match admissible {
                 Some(true) => "yes",
                 Some(false) => "no, passes a wall",

@@ -10,6 +10,7 @@ pub use args::Args;
 use super::pipeline::Answer;
 use super::ui::Ui;
 use crate::error::{Error, Result};
+use crate::orbit::strobe::stability_in_words;
 use crate::orbit::{Floquet, Kind, Orbit, Problem};
 use crate::output::first_orbit::FirstOrbit;
 use crate::output::json;
@@ -150,7 +151,7 @@ fn multipliers(floquet: &Floquet) -> Vec<String> {
         values.iter().map(one).collect::<Vec<_>>().join(", ")
     };
     let largest = floquet.multipliers.iter().map(|[re, im]| re.hypot(*im)).fold(0.0, f64::max);
-    let verdict = if floquet.is_stable() { "stable" } else { "unstable" };
+    let verdict = stability_in_words(&floquet.multipliers);
     let mut lines =
         vec![format!("Floquet multipliers: {} ({verdict}, largest |μ| {largest:.9})", shown(&floquet.multipliers))];
     lines.extend(floquet.half.as_deref().map(|half| format!("of the half map: {}", shown(half))));

@@ -7,6 +7,7 @@ use crate::cli::pipeline::Answer;
 use crate::cli::ui::Ui;
 use crate::error::counted;
 use crate::error::{Error, Result};
+use crate::orbit::strobe::stability_in_words;
 use crate::orbit::{Shot, shoot};
 use crate::output::json;
 use crate::output::periodic::{read_shot, shot, shot_closure_of};
@@ -57,7 +58,7 @@ fn show_structure(answer: &mut Answer, found: &Shot, scene: &Scene) {
         0.0 => format!("{re:.9}"),
         im => format!("{re:.9} {im:+.9}i"),
     });
-    let verdict = if found.is_stable() { "stable" } else { "unstable" };
+    let verdict = stability_in_words(&found.multipliers);
     answer.prose(format!(
         "largest of {} Floquet multipliers: {} ({verdict})",
         found.multipliers.len(),

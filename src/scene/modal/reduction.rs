@@ -90,15 +90,17 @@ impl Scene {
     ///
     /// With `static_correction` the residual compliance s = g (K⁺ − ΦΩ⁻²Φᵀ) gᵀ of each wall, that
     /// of the modes left out, becomes a spring between structure and wall. A rigid wall thus
-    /// becomes an elastic one of stiffness 1/s; it loses its restitution, since the spring has no
-    /// mass that could rebound. An elastic wall of stiffness k and damping c gets k′ = 1/(1/k + s),
-    /// and c (k′/k)², which dissipates the same power at slow rates. Each wall is corrected
-    /// separately: s between walls at different places is neglected, and reported.
+    /// becomes an elastic one of stiffness 1/s, of restitution 1: a smaller one is refused, since
+    /// the spring has no mass that could lose energy. An elastic wall of stiffness k and damping c
+    /// gets k′ = 1/(1/k + s), and c (k′/k)², which dissipates the same power at slow rates. Each
+    /// wall is corrected separately: s between walls at different places is neglected, and
+    /// reported.
     ///
     /// # Errors
     /// [`Error::Invalid`] under `modes` for a number of modes that is out of range, fewer than the
     /// rigid-body motions, or so small that the reduced initial state lies behind a wall; under
-    /// `static correction` for a wall whose law is not linear; or any error of [`Scene::validate`].
+    /// `static correction` for a wall whose law is not linear or that has a restitution below 1; or
+    /// any error of [`Scene::validate`].
     pub fn reduced(&self, modes: usize, static_correction: bool) -> Result<Reduction> {
         self.validate()?;
         self.cut(modes, static_correction, Start::Kept)
@@ -249,6 +251,12 @@ fn split(structure: &Structure, count: usize) -> Result<(Modes, Option<f64>)> {
 
 /// Adds the residual compliance to a wall.
 fn correct(wall: &mut Wall, truncation: &mut WallTruncation) -> Result<()> {
+    if let Some(e) = wall.law.restitution().filter(|e| *e < 1.0) {
+        let value = format!("true, beside the restitution {e} of the wall {:?}", wall.name);
+        let expected = "no restitution below 1: the rigid wall becomes a spring without mass, which cannot rebound \
+                        otherwise";
+        return Err(Error::invalid("static correction", value, expected));
+    }
     let s = truncation.residual();
     if s <= NOTHING * truncation.compliance {
         return Ok(());

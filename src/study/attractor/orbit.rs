@@ -1,7 +1,7 @@
 //! A periodic motion near a state: Newton's method on the map over N periods of the load.
 
 use super::motion::{Attractor, Lasts, Touch};
-use crate::orbit::strobe::{Scales, multipliers, newton_step, state, vector};
+use crate::orbit::strobe::{Scales, is_stable, multipliers, newton_step, state, vector};
 use crate::order::sort_by_number;
 use crate::scene::Checked;
 use crate::scheme::{Method, Scheme, Stepper};
@@ -115,7 +115,7 @@ pub(super) fn find(scene: &Checked, period: f64, count: usize, from: &DVector<f6
 
 /// A stable motion of that kind no further than [`FAR`] from `x`.
 pub(super) fn near(scene: &Checked, period: f64, count: usize, x: &DVector<f64>) -> Option<Orbit> {
-    let scales = Scales::new(scene.gap_scale(), period);
+    let scales = Scales::new(scene.orbit_length(), period);
     let is_near = |orbit: &Orbit| orbit.strobes.first().is_some_and(|first| scales.size(&(x - first)) < FAR);
     find(scene, period, count, x, scales).filter(Orbit::is_stable).filter(is_near)
 }
@@ -136,7 +136,7 @@ impl Orbit {
 
     /// True if it attracts.
     pub fn is_stable(&self) -> bool {
-        self.multipliers().first().is_some_and(|largest| largest.norm() < 1.0)
+        is_stable(&self.multipliers().iter().map(|one| [one.re, one.im]).collect::<Vec<_>>())
     }
 
     /// True if it touches no wall.
@@ -173,7 +173,14 @@ impl Orbit {
         }
         let mut shown: Vec<Touch> = Vec::new();
         for touch in touches {
-            let before = shown.iter().rev().take_while(|t| t.wall == touch.wall && t.lasts == Lasts::Instant).count();
+            // Impacts that accumulate become weaker from one to the next.
+            let mut speed = touch.speed;
+            let leads = |t: &&Touch| {
+                let leads = t.wall == touch.wall && t.lasts == Lasts::Instant && t.speed > speed;
+                speed = t.speed;
+                leads
+            };
+            let before = shown.iter().rev().take_while(leads).count();
             match (touch.lasts, shown.len().checked_sub(before).and_then(|at| shown.get(at).copied())) {
                 (Lasts::Rest, Some(first)) if before >= CHATTER => {
                     shown.truncate(shown.len() - before);

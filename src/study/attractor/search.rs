@@ -105,7 +105,7 @@ pub(crate) fn follow(
     let mut search = Search {
         scene,
         period,
-        scales: Scales::new(scene.gap_scale(), period),
+        scales: Scales::new(scene.orbit_length(), period),
         strobes: VecDeque::from([vector(&start.q, &start.v)]),
         quiet: false,
         steady: false,

@@ -74,7 +74,7 @@ impl<'a> Shots<'a> {
         let scene = family(value)?;
         let period = posed(&scene)?;
         start.check(scene.system.degrees_of_freedom())?;
-        let scales = Scales::new(scene.gap_scale(), period);
+        let scales = Scales::new(scene.orbit_length(), period);
         let other = family(beside)?;
         let keeps = forcing_period(&other).is_ok_and(|period| symmetry::mirror(&other, period).is_some());
         let mirror = symmetry::mirror(&scene, period).filter(|_| keeps);
