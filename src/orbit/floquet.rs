@@ -28,7 +28,7 @@ pub struct Floquet {
     /// of them for n degrees of freedom.
     pub multipliers: Vec<[f64; 2]>,
     /// For a symmetric orbit the multipliers of its half map (half an orbit and the mirror), whose
-    /// squares `multipliers` are.
+    /// squares `multipliers` are, in an order of their own.
     pub half: Option<Vec<[f64; 2]>>,
     /// Trace of the derivative, that of the half map for a symmetric orbit.
     pub trace: f64,
@@ -51,18 +51,15 @@ impl Floquet {
 
     /// The multipliers of a derivative with the eigenvalues `own` and the given trace and
     /// determinant, over half an orbit (`half`) or a whole one.
-    pub(super) fn of(mut own: Vec<[f64; 2]>, [trace, determinant]: [f64; 2], half: bool) -> Self {
+    pub(super) fn of(own: Vec<[f64; 2]>, [trace, determinant]: [f64; 2], half: bool) -> Self {
         if !half {
             return Self { multipliers: own, half: None, trace, determinant };
         }
-        // Of a conjugate pair of squares the one with the positive imaginary part comes first, as
-        // of every map.
-        let order = |one: &[f64; 2]| (one[0].hypot(one[1]), square(*one)[1]);
-        own.sort_by(|a, b| {
-            let (a, b) = (order(a), order(b));
-            b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1))
-        });
-        Self { multipliers: own.iter().copied().map(square).collect(), half: Some(own), trace, determinant }
+        let mut multipliers: Vec<[f64; 2]> = own.iter().copied().map(square).collect();
+        // Of a conjugate pair the one with the positive imaginary part comes first, as of every
+        // map.
+        multipliers.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])).then(b[1].total_cmp(&a[1])));
+        Self { multipliers, half: Some(own), trace, determinant }
     }
 }
 

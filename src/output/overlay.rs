@@ -119,16 +119,21 @@ fn branches(folder: &Path, column: &str) -> Result<Vec<(f64, f64)>> {
 fn sweep(path: &Path, column: &str) -> Result<Vec<(f64, f64)>> {
     let table = Table::open(path)?;
     let own = table.place(column)?;
+    let without_speeds = || {
+        let reason = "the sweep has no approach speeds; expected one with --samples impacts, or with --measure \
+                      approach_speed_max";
+        Error::io(path.display(), reason, true)
+    };
     let rows = table.records()?;
     let samples = path.with_file_name("samples.csv");
     if !samples.is_file() {
         let speed = table.header.iter().position(|name| name.starts_with("approach_speed"));
-        let speed = speed.ok_or_else(|| table.unknown("approach_speed"))?;
+        let speed = speed.ok_or_else(without_speeds)?;
         return Ok(rows.iter().filter_map(|row| Some((number(row, own)?, number(row, speed)?))).collect());
     }
     let of_row: BTreeMap<&str, f64> = rows.iter().filter_map(|row| Some((row.get(0)?, number(row, own)?))).collect();
     let table = Table::open(&samples)?;
-    let speed = table.place(SPEED)?;
+    let speed = table.header.iter().position(|name| name == SPEED).ok_or_else(without_speeds)?;
     let point = |record: &::csv::StringRecord| Some((*of_row.get(record.get(0)?)?, number(record, speed)?));
     Ok(table.records()?.iter().filter_map(point).collect())
 }

@@ -80,7 +80,7 @@ impl Known<'_> {
                 "rigid": wall.law.is_rigid(),
                 "contacts": share.contacts,
                 "impulse_n_s": share.impulse,
-                "peak_force_n": share.peak_force,
+                "peak_force_n": Some(share.peak_force).filter(|peak| *peak > 0.0),
                 "approach_speed_max_m_per_s": share.approach_speed,
             })
         });

@@ -69,6 +69,27 @@ fn an_orbit_that_rests_is_superstable() {
     assert!(multipliers.iter().all(|m| m.norm() == 0.0));
 }
 
+#[test]
+fn impacts_before_a_chatter_that_are_none_of_it_are_touches_of_their_own() {
+    // A ball on a floor that shakes it: three throws, and then impacts that accumulate. Phases and
+    // speeds are those of a free run from the first state.
+    let scene = Scene::oscillator(1.0, 0.0, 0.0)
+        .with_wall(Wall::lower("floor", 0.0).with_restitution(0.5))
+        .with_load(Load::constant(-9.81))
+        .with_load(Load::harmonic(30.0, 2.0, 0.0))
+        .with_initial(&[0.1], &[0.0]);
+    let (strobes, touches, _) = periodic(Attractor::of(&scene, 0.5, 200, 40).unwrap());
+    let lasts: Vec<Lasts> = touches.iter().map(|touch| touch.lasts).collect();
+    assert_eq!(lasts, [Lasts::Instant, Lasts::Instant, Lasts::Instant, Lasts::Chatter]);
+    let scene = scene.with_initial(&strobes[0].q, &strobes[0].v).with_duration(4.0);
+    let run = signorini::run(&scene, &Scheme::Event, &signorini::Options::with_step(4.0)).unwrap();
+    for touch in &touches {
+        let near = |contact: &&signorini::Contact| (contact.start / 0.5 - touch.phase).abs() < 1e-6;
+        let contact = run.trajectory.contacts().iter().find(near).unwrap_or_else(|| panic!("{touch:?}"));
+        assert!((contact.approach_speed - touch.speed).abs() < 1e-8, "{touch:?} {contact:?}");
+    }
+}
+
 /// Pressed on its wall with more than the load lifts: no flight, though it makes no contact either.
 #[test]
 fn a_motion_that_never_leaves_its_wall_is_not_quiet() {

@@ -244,6 +244,22 @@ fn stable_orbits_attract_runs() {
 }
 
 #[test]
+fn at_restitution_0_a_grazing_impact_is_no_fold() {
+    // The place of the wall changes by the square of the speed of the impact that vanishes, so that
+    // its derivative by the speed is 0 there; all multipliers are 0, and none is 1.
+    let family = |position: f64| {
+        Ok(Scene::oscillator(1.0, 0.02, 1.0)
+            .with_wall(Wall::upper("stop", position).with_restitution(0.0))
+            .with_load(Load::harmonic(1.0, 0.47, 0.0))
+            .with_initial(&[-0.5], &[0.0]))
+    };
+    let start = settled(family(0.0).unwrap());
+    let graph = follow(&family, &start, 0.0, [-0.3, 0.3], (Switch::No, 0));
+    assert!(graph.specials.iter().any(|special| special.label == Label::GrazingOut), "{:?}", values(&graph));
+    assert!(graph.specials.iter().all(|special| special.label != Label::Fold), "{:?}", values(&graph));
+}
+
+#[test]
 fn an_orbit_that_rests_is_followed_until_its_rest_ends() {
     let family = |f: f64| Ok(source(f, 0.0));
     let start = settled(source(1.0, 0.0));

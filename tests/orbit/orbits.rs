@@ -44,6 +44,56 @@ fn a_settled_run_leads_to_the_symmetric_orbit() {
     }
 }
 
+#[test]
+fn an_orbit_does_not_depend_on_how_far_from_its_wall_a_run_began() {
+    // At a wall where the spring rests, and on a table without a spring, no gap is that of the
+    // scene: the distance of the start is none either.
+    let pressed = Scene::oscillator(1.0, 0.02, 1.0)
+        .with_wall(Wall::upper("stop", 0.0).with_restitution(0.8))
+        .with_load(Load::harmonic(1.0, 0.4, 0.0));
+    let found = |start: f64| {
+        let problem = Problem::new(pressed.clone().with_initial(&[start], &[0.0])).unwrap();
+        let orbit = problem.settled(600).unwrap();
+        let judged = problem.judge(&orbit, 100).unwrap();
+        assert!(judged.holds(), "{start}: {}", judged.closure);
+        orbit
+    };
+    let first = found(-0.5);
+    for start in [-1e2, -1e-3, -1e-6, -1e-9] {
+        let orbit = found(start);
+        assert_eq!(orbit.signature, first.signature, "{start}");
+        // Two Newton solutions of one orbit, whose largest multiplier is 0.78.
+        near(orbit.speeds[0], first.speeds[0], 1e-11);
+    }
+}
+
+#[test]
+fn multipliers_of_a_symmetric_orbit_have_the_order_of_any_other() {
+    let problem = Problem::new(source(5.0, 0.8)).unwrap();
+    let floquet = problem.floquet(&problem.settled(200).unwrap()).unwrap();
+    let [first, second] = floquet.multipliers[..] else { panic!("{floquet:?}") };
+    assert!(first[1] > 0.0 && second[1] == -first[1] && second[0] == first[0], "{floquet:?}");
+}
+
+#[test]
+fn an_orbit_without_losses_is_not_stable_by_rounding() {
+    // e = 1 and no dashpot: multipliers on the unit circle, which rounding moves to either side.
+    let family = |f: f64| {
+        Scene::oscillator(1.0, 0.0, 1.0)
+            .with_wall(Wall::upper("stop", 0.0).with_restitution(1.0))
+            .with_load(Load::harmonic(1.0, f, 0.0))
+    };
+    let mut neutral = 0;
+    for f in [0.36, 0.37, 0.38, 0.39, 0.4, 0.41] {
+        for form in closed_forms(&family(f), 1).unwrap() {
+            let largest = form.multipliers.iter().map(|[re, im]| re.hypot(*im)).fold(0.0, f64::max);
+            neutral += usize::from((largest - 1.0).abs() < 1e-10);
+            assert!(!form.is_stable(), "{f} Hz: {form:?}");
+        }
+    }
+    assert!(neutral >= 6, "{neutral}");
+}
+
 /// Under 4 Hz between no second wall: an orbit of two impacts in three forcing periods.
 fn one_sided() -> Scene {
     Scene::oscillator(1.0, 0.2, 100.0)

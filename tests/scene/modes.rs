@@ -493,6 +493,16 @@ fn the_effective_mass_of_a_string_falls_as_modes_are_added() {
 }
 
 #[test]
+fn static_correction_refuses_a_restitution_that_its_springs_cannot_have() {
+    let (_, mut scene) = tube(20);
+    let rigid = scene.walls.iter().position(|wall| wall.law.is_rigid()).unwrap();
+    scene.walls[rigid].law = WallLaw::Rigid { restitution: 0.5 };
+    let said = scene.reduced(4, true).unwrap_err().to_string();
+    assert!(said.contains("beside the restitution 0.5 of the wall") && said.contains("cannot rebound"), "{said}");
+    assert!(scene.reduced(4, false).is_ok());
+}
+
+#[test]
 fn static_correction_gives_back_the_whole_compliance() {
     let (_, scene) = tube(20);
     for k in [1, 4, 12] {

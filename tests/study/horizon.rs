@@ -75,6 +75,21 @@ fn the_source_scene_is_chaotic_at_e_1_and_forgets_its_start_at_e_08() {
     assert_eq!(settled.horizon(1e2), 10.0);
 }
 
+/// A body that grazes a wall by 1e-7 of its amplitude at its first impact: the change grows by the
+/// impact, not before it.
+#[test]
+fn a_growth_by_an_impact_begins_at_the_impact() {
+    let scene = Scene::oscillator(1.0, 0.0, 100.0)
+        .with_wall(Wall::upper("stop", 5e-3).with_restitution(0.8))
+        .with_initial(&[-5.000_1e-3], &[0.0])
+        .with_duration(3.0);
+    // −cos ωt = g/a, with a little over half a period of π/10 s.
+    let impact = 0.1 * (-5e-3_f64 / 5.000_1e-3).acos();
+    let horizon = Growth::of(&scene).unwrap().horizon(1e2);
+    // Rounding of the acos near its end, √ε.
+    assert!((horizon - impact).abs() < 1e-8, "{horizon} {impact}");
+}
+
 /// Between walls a thousand times as far as it goes, a vibration is linear: no change grows.
 #[test]
 fn a_vibration_far_from_its_walls_is_predictable_to_the_end() {

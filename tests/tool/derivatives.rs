@@ -111,6 +111,14 @@ fn the_file_has_five_derivatives_of_each_contact_by_each_key() {
 }
 
 #[test]
+fn a_motion_that_meets_no_wall_says_why_the_file_is_empty() {
+    let dir = folder();
+    let args = ["run", "linear-sine", "--derivative", "load.1.harmonic.amplitude", "--end", "1", "--no-report"];
+    let (out, _) = said(dir.path(), &args, 0);
+    assert!(out.contains("derivatives.csv has no rows, since the motion meets no wall"), "{out}");
+}
+
+#[test]
 fn a_key_that_the_file_leaves_out_has_the_derivative_at_its_default() {
     let dir = tempfile::tempdir().unwrap();
     let written = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/cases/elastic-wall.toml")).unwrap();

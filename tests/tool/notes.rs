@@ -73,6 +73,17 @@ fn a_phase_that_looks_like_degrees_is_said() {
 }
 
 #[test]
+fn walls_that_leave_no_room_are_said() {
+    let between = |gap: f64| {
+        let walls = [Wall::upper("above", gap), Wall::lower("below", -gap)];
+        let body = Scene::oscillator(1.0, 0.5, 200.0).with_initial(&[0.0], &[1.0]).with_duration(0.1);
+        notes(&walls.into_iter().fold(body, Scene::with_wall), &Scheme::Event, 1e-3)
+    };
+    assert!(between(0.0).contains("\"below\" and \"above\" leave no room between them"), "{}", between(0.0));
+    assert_eq!(between(1e-3), "");
+}
+
+#[test]
 fn a_step_that_passes_over_the_load_is_said() {
     let buzz = scene().with_load(Load::harmonic(1.0, 400.0, 0.0));
     let said = notes(&buzz, &MOREAU, 1e-3);

@@ -248,9 +248,12 @@ fn forget_echoes(crossed: &mut Vec<Crossed>, point: &Point, near: f64) {
     let corners: Vec<f64> = crossed.iter().filter(corner).map(|crossed| crossed.at).collect();
     crossed.retain(|crossed| crossed.label != Label::ContactEnds || !among(&corners, crossed.at));
     // Beyond an impact of speed 0 the motion turns back behind its wall: this is not a new contact.
+    // Nor is it a fold, though at restitution 0, where the key changes by the square of the speed,
+    // the key's part of the tangent vanishes there.
     let gone = |crossed: &&Crossed| crossed.label == Label::GrazingOut;
     let turns: Vec<f64> = crossed.iter().filter(gone).map(|crossed| crossed.at).collect();
-    crossed.retain(|crossed| crossed.label != Label::GrazingIn || !among(&turns, crossed.at));
+    let echoes = [Label::GrazingIn, Label::Fold];
+    crossed.retain(|crossed| !echoes.contains(&crossed.label) || !among(&turns, crossed.at));
     // Where a contact vanishes, its entry and its exit coincide: the first of the two tests stands
     // for both.
     let enters = crossed.iter().filter(gone).any(|crossed| kind(crossed.event) == Some(Kind::Enter));

@@ -2,7 +2,7 @@
 
 use crate::error::amount;
 use crate::linear::Symmetric;
-use crate::scene::{Load, LoadKind, Row, Scene, Structure, System, Table, WallLaw};
+use crate::scene::{Load, LoadKind, Row, Scene, Side, Structure, System, Table, Wall, WallLaw};
 use crate::scheme::Scheme;
 use std::f64::consts::{PI, TAU};
 
@@ -29,6 +29,7 @@ pub(crate) fn setup(scene: &Scene, scheme: &Scheme, step: f64, touched: bool) ->
     notes.extend(scene.loads.iter().enumerate().filter_map(|(i, load)| turned(i, load)));
     notes.extend(unusual(scene));
     notes.extend(unstable(scene));
+    notes.extend(clamped(scene));
     if !scheme.is_exact() {
         notes.extend(
             scene.loads.iter().enumerate().filter_map(|(i, load)| load_resolved(scene, i, load, (scheme, step))),
@@ -77,6 +78,24 @@ fn unusual(scene: &Scene) -> Option<String> {
             amount(slowest, 4)
         )
     })
+}
+
+/// A note on two rigid walls that leave a row no room. The rebounds between them at gaps above 0
+/// take ever less time as the gap closes, and come to rest unless e is 1; at a gap of 0 there is no
+/// sequence of impacts to follow.
+fn clamped(scene: &Scene) -> Option<String> {
+    let rigid =
+        |side| scene.walls.iter().filter(move |wall| wall.law.is_rigid() && !wall.is_round() && wall.side() == side);
+    let closed = |upper: &Wall, lower: &Wall| {
+        upper.row() == lower.row() && upper.position() - lower.position() <= scene.touching_distance()
+    };
+    let (upper, lower) = rigid(Side::Upper)
+        .find_map(|upper| rigid(Side::Lower).find(|lower| closed(upper, lower)).map(|lower| (upper, lower)))?;
+    Some(format!(
+        "walls {:?} and {:?} leave no room between them: their restitution means nothing, the structure is held there, \
+         and how impulses divide between the two differs from scheme to scheme; only their sum is that of the motion",
+        lower.name, upper.name
+    ))
 }
 
 /// Most unstable modes that are named.
