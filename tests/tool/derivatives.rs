@@ -114,8 +114,8 @@ fn the_file_has_five_derivatives_of_each_contact_by_each_key() {
 fn a_motion_that_meets_no_wall_says_why_the_file_is_empty() {
     let dir = folder();
     let args = ["run", "linear-sine", "--derivative", "load.1.harmonic.amplitude", "--end", "1", "--no-report"];
-    let (out, _) = said(dir.path(), &args, 0);
-    assert!(out.contains("derivatives.csv has no rows, since the motion meets no wall"), "{out}");
+    let (_, err) = said(dir.path(), &args, 0);
+    assert!(err.contains("derivatives.csv has no rows, since the motion meets no wall"), "{err}");
 }
 
 #[test]
