@@ -3,6 +3,7 @@
 use crate::case::CaseFile;
 use crate::error::{Error, Result};
 use crate::scene::MOST_MODES;
+use std::f64::consts::FRAC_PI_4;
 
 /// Modes of each plane for a span, and the least number of all.
 const MODES_OF_A_SPAN: u32 = 8;
@@ -82,6 +83,7 @@ impl Tube {
             ("%SPANS%", vec![format!("{span:?}"); spans as usize].join(", ")),
             ("%OUTER%", format!("{outer:?}")),
             ("%INNER%", format!("{inner:?}")),
+            ("%ADDED%", format!("{:.3}", added_mass(outer, inner))),
             ("%SUPPORTS%", (1..=supports).map(support).collect::<Vec<_>>().join("\n")),
         ];
         let text = values.iter().fold(TEXT.to_owned(), |text, (mark, value)| text.replace(mark, value));
@@ -91,6 +93,12 @@ impl Tube {
         CaseFile::from_text(&filled(1, ""), name, "").case()?;
         Ok(filled(modes, &flow))
     }
+}
+
+/// kg/m of water inside a tube of these diameters (m), and outside of 1.3 times what it displaces,
+/// as beside other tubes.
+fn added_mass(outer: f64, inner: f64) -> f64 {
+    1000.0 * FRAC_PI_4 * (inner * inner + 1.3 * outer * outer)
 }
 
 /// The file, with marks for values.
@@ -111,7 +119,7 @@ youngs_modulus = 200e9      # Pa, steel
 density = 7850.0            # kg/m^3, steel
 outer_diameter = %OUTER%   # m
 inner_diameter = %INNER%   # m
-added_mass = 0.0            # kg/m: the fluid inside, and what the tube moves outside
+added_mass = %ADDED%          # kg/m: water inside, and 1.3 times what the tube displaces; assumed
 left = "pinned"             # or "clamped", "free", { stiffness = .. }
 right = "pinned"
 
@@ -136,6 +144,11 @@ from = 5.0                  # Hz
 to = 150.0
 correlation_length = %COHERENT%   # m, three diameters; assumed
 seed = 1
+
+# Beyond the limit of fluid-elastic instability work rates mean nothing. With these lines `explain`
+# and `run` tell how far this flow is from it:
+# [flow]
+# connors = 3.0             # Connors' constant of the bundle
 
 [wear]
 coefficient = 1e-14         # 1/Pa, of the tube; assumed
