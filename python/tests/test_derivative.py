@@ -141,6 +141,38 @@ def test_a_record_is_fitted_up_to_its_horizon() -> None:
     assert 0.8 < found.scale < 1.2 and found.until <= 8.0
 
 
+def test_a_record_and_contacts_are_fitted_together() -> None:
+    # The record ends before the first impact, so that it does not tell the restitution; three
+    # starts tell little of it.
+    time = np.linspace(0.01, 0.08, 8)
+    contacts = stopped(**TRUTH).run("event").contacts[:4]
+    record = sg.derivative(stopped, TRUTH, times=time).displacement
+    starts = contacts["start"] + 4e-3 * np.random.default_rng(0).standard_normal(4)
+    data = {"time": time, "displacement": record, "start": starts, "wall": "stop"}
+    error = {"displacement": 1e-6, "start": 4e-3}
+
+    def of(stiffness: float, restitution: float) -> sg.Scene:
+        stop = sg.Wall.upper("stop", 5e-3, restitution=restitution)
+        return sg.oscillator(1.0, 0.2, stiffness, walls=[stop], loads=[sg.Load.harmonic(3.0, 2.5)], duration=9.0)
+
+    start = {"stiffness": 101.0, "restitution": 0.55}
+    found = sg.fit(of, start, data, error=error)
+    assert len(found.residuals) == 12 and 0.9 < found.until < 1.0
+    half = 0.5 * (found.intervals["stiffness"][1] - found.intervals["stiffness"][0])
+    assert abs(found.values["stiffness"] - 100.0) < half < 0.5
+    # What least squares of both say: the gradient of one is that of the other, with its sign turned.
+    parts = {"displacement": slice(0, 8), "start": slice(8, 12)}
+    by = sg.derivative(of, found.values, times=time)
+    columns = {"displacement": by.displacement_by, "start": by.contacts["start_by"][:4]}
+    for key in start:
+        own = [columns[kind][key] @ found.residuals[rows] / error[kind] for kind, rows in parts.items()]
+        # The search ends where a step changes the sum of squares by 1e-12 of itself.
+        sizes = [float(np.linalg.norm(columns[kind][key])) / error[kind] for kind in parts]
+        assert abs(float(np.sum(own))) < 1e-5 * max(sizes)
+    with pytest.raises(ValueError, match="error has no start; expected a standard error for each kind"):
+        sg.fit(of, start, data, error={"displacement": 1e-6})
+
+
 def test_a_fit_says_what_it_needs() -> None:
     data, error = measured(0)
     start = {"gap": 5.3e-3, "restitution": 0.5}

@@ -16,6 +16,7 @@ from ._types import Array, known
 from ._types import times as checked_times
 
 _OF_CONTACTS = ("start", "approach_speed", "impulse")
+_KINDS = ("displacement", *_OF_CONTACTS)
 
 _MOST_GROWTH = 1e2
 """A small change may grow by this much: beyond, a record tells of the start more than of the keys."""
@@ -63,11 +64,13 @@ class Fit:
 
 @dataclass(frozen=True)
 class _Column:
-    """Values of one kind, with their standard errors, and how they are read from derivatives."""
+    """Values of one kind, with their standard errors, and how they and their times are read from
+    derivatives."""
 
     values: Array
     errors: Array
     read: Callable[[Derivative], tuple[Array, npt.NDArray[np.void]]]
+    times: Callable[[Derivative], Array]
 
 
 def _numbers(name: str, values: Any) -> Array:
@@ -91,7 +94,28 @@ def _errors(name: str, values: Array, error: Mapping[str, Any] | None, several: 
     return np.array(errors)
 
 
-def _contact_columns(data: Mapping[str, Any], error: Mapping[str, Any] | None, walls: Sequence[str]) -> list[_Column]:
+def _check_kinds(data: Mapping[str, Any], error: Mapping[str, Any] | None) -> list[str]:
+    """The kinds of the data, unless some of them, or of their errors, would not be used."""
+    kinds = [name for name in _KINDS if name in data]
+    expected = "displacement over time, start, approach_speed, impulse, and the wall of these three"
+    if not kinds:
+        raise ValueError(f"data has {', '.join(data) or 'nothing'}; expected {expected}")
+    for name in data:
+        if name not in (*_KINDS, "time", "wall"):
+            raise ValueError(f"data has {name!r}; expected {expected}")
+    if "time" in data and "displacement" not in data:
+        raise ValueError("data has 'time' without displacement; expected both or none of them")
+    if "wall" in data and kinds == ["displacement"]:
+        raise ValueError("data has 'wall' beside displacement alone; expected start, approach_speed or impulse with it")
+    for name in error or ():
+        if name not in kinds:
+            raise ValueError(f"error has {name!r}; expected kinds that data has: {', '.join(map(repr, kinds))}")
+    return kinds
+
+
+def _contact_columns(
+    data: Mapping[str, Any], error: Mapping[str, Any] | None, walls: Sequence[str], several: bool
+) -> list[_Column]:
     """The columns of contact data: number i at a wall is its contact i in the run."""
     names = [name for name in _OF_CONTACTS if name in data]
     columns = {name: _numbers(name, data[name]) for name in names}
@@ -130,8 +154,11 @@ def _contact_columns(data: Mapping[str, Any], error: Mapping[str, Any] | None, w
 
         return read
 
-    several = len(names) > 1
-    return [_Column(columns[name], _errors(name, columns[name], error, several), reader(name)) for name in names]
+    def times(by: Derivative) -> Array:
+        at = rows(by)
+        return np.empty(0) if at is None else by.contacts["start"][at]
+
+    return [_Column(columns[name], _errors(name, columns[name], error, several), reader(name), times) for name in names]
 
 
 def fit(
@@ -165,7 +192,8 @@ def fit(
         and ``wall``, a name or one for each, where there are several walls; number i at a wall is
         its contact i in the motion. Or a record: ``time`` (s, increasing) and ``displacement`` (m).
         Of a record the rows are left out beyond which a small change has grown by 100 in the
-        motion from which the search starts: those tell nothing of the keys.
+        motion from which the search starts: those tell nothing of the keys. Contacts and a record
+        may be given together.
     error : mapping of str to float or array, optional
         The standard error of each kind of data; needed where there is more than one kind.
     probe : str, optional
@@ -216,20 +244,19 @@ def fit(
     if not 0.0 < confidence < 1.0:
         raise ValueError(f"confidence is {confidence!r}; expected a number between 0 and 1")
     bounds = known("bounds", bounds, names)
-    known("error", error, ("displacement", *_OF_CONTACTS))
+    kinds = _check_kinds(data, error)
     for name, value in zip(names, x0, strict=True):
         lowest, highest = bounds.get(name, (-np.inf, np.inf))
         if not lowest <= value <= highest:
             raise ValueError(f"{name} starts from {value:g}; expected from {lowest:g} to {highest:g}, its bounds")
     first = scene_of(values)
     times: Array = np.empty(0)
+    columns: list[_Column] = []
     if "displacement" in data:
-        record = _record(scene_of, values, data, error, probe)
+        record = _record(scene_of, values, data, error, probe, len(kinds) > 1)
         times, columns = record.times, [record.column]
-    elif any(name in data for name in _OF_CONTACTS):
-        columns = _contact_columns(data, error, list(first._wall_names))
-    else:
-        raise ValueError(f"data has {', '.join(data) or 'nothing'}; expected displacement over time, or start, approach_speed, impulse")
+    if kinds != ["displacement"]:
+        columns += _contact_columns(data, error, list(first._wall_names), len(kinds) > 1)
     count = sum(len(column.values) for column in columns)
     if count <= len(names):
         raise ValueError(f"data has {count} usable values; expected more than the {len(names)} keys")
@@ -345,6 +372,7 @@ def _record(
     data: Mapping[str, Any],
     error: Mapping[str, Any] | None,
     probe: str | None,
+    several: bool,
 ) -> _Record:
     """A record of displacements, up to the horizon of the motion from which the search starts."""
     if "time" not in data:
@@ -353,7 +381,7 @@ def _record(
     if times.shape != measured.shape:
         raise ValueError(f"data has {len(times)} times and {len(measured)} displacements; expected as many")
     checked_times("data: time", times, scene_of(values).duration)
-    errors = _errors("displacement", measured, error, several=False)
+    errors = _errors("displacement", measured, error, several)
     by = found(scene_of, values, (), None)
     late = by.contacts["start"][by.contacts["growth"] > _MOST_GROWTH]
     until = min([*by.until_by.values(), *late.tolist()])
@@ -362,7 +390,7 @@ def _record(
     def read(by: Derivative) -> tuple[Array, npt.NDArray[np.void]]:
         return by.displacement, by.displacement_by
 
-    return _Record(times[kept], _Column(measured[kept], errors[kept], read))
+    return _Record(times[kept], _Column(measured[kept], errors[kept], read, lambda by: by.time))
 
 
 class _Model:
@@ -407,6 +435,6 @@ class _Model:
             residuals.append((model - column.values) / column.errors)
             jacobian.append(np.column_stack([derived[name] for name in self._names]) / column.errors[:, None])
         self.reason = next(iter(by.ended_by.values()), by.ended or "it has fewer contacts than the data")
-        self.until = float(self._times[-1]) if len(self._times) else by.until
+        self.until = float(np.concatenate([column.times(by) for column in self._columns]).max(initial=0.0))
         known = np.isfinite(np.concatenate(jacobian)).all(axis=1)
         return np.where(known, np.concatenate(residuals), np.nan), np.concatenate(jacobian)
