@@ -141,6 +141,30 @@ def test_a_record_is_fitted_up_to_its_horizon() -> None:
     assert 0.8 < found.scale < 1.2 and found.until <= 8.0
 
 
+def test_impulses_have_the_sign_of_their_wall() -> None:
+    start = {"gap": 5.3e-3, "restitution": 0.5}
+    impulses = stopped(**TRUTH).run("event").contacts["impulse"][:20]
+    message = r"impulse at wall 'stop' is 0\.\d+ N s; expected negative ones on the structure by this upper wall"
+    for given in (None, {"impulse": 0.01}):
+        with pytest.raises(ValueError, match=message):
+            sg.fit(stopped, start, {"impulse": np.abs(impulses)}, error=given)
+    with pytest.raises(ValueError, match="expected positive ones on the structure by this lower wall"):
+        sg.fit(ball, {"height": 0.4, "restitution": 0.7}, {"impulse": [-5.0, -4.0, -3.0]})
+    # One so small that its error may have turned its sign is taken.
+    small = np.where(np.arange(20) == 3, 0.01, impulses)
+    error = {"impulse": np.where(np.arange(20) == 3, 1.0, 0.01)}
+    found = sg.fit(stopped, start, {"impulse": small}, error=error)
+    assert abs(found.values["gap"] / TRUTH["gap"] - 1.0) < 0.1
+
+
+def test_data_that_the_scene_cannot_give_are_told_by_their_scatter() -> None:
+    data, error = measured(0)
+    small = {name: 0.01 * own for name, own in error.items()}
+    with pytest.warns(sg.ResultWarning, match=r"^scale is [\d.]+: the residuals are so many standard errors"):
+        found = sg.fit(stopped, {"gap": 5.3e-3, "restitution": 0.5}, data, error=small)
+    assert found.scale > 50.0
+
+
 def test_a_record_and_contacts_are_fitted_together() -> None:
     # The record ends before the first impact, so that it does not tell the restitution; three
     # starts tell little of it.

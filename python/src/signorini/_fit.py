@@ -21,6 +21,12 @@ _KINDS = ("displacement", *_OF_CONTACTS)
 _MOST_GROWTH = 1e2
 """A small change may grow by this much: beyond, a record tells of the start more than of the keys."""
 
+_MOST_SCATTER = 10.0
+"""Beyond this size, in units of their standard errors, residuals are no errors of the data."""
+
+_OPPOSITE = 3.0
+"""So many standard errors beyond zero an impulse is no small one of the other sign."""
+
 _NO_EFFECT = 1e-12
 """A key does not change the data where its whole value changes them by less than this share of the
 values: rounding."""
@@ -114,9 +120,10 @@ def _check_kinds(data: Mapping[str, Any], error: Mapping[str, Any] | None) -> li
 
 
 def _contact_columns(
-    data: Mapping[str, Any], error: Mapping[str, Any] | None, walls: Sequence[str], several: bool
+    data: Mapping[str, Any], error: Mapping[str, Any] | None, scene: Scene, several: bool
 ) -> list[_Column]:
     """The columns of contact data: number i at a wall is its contact i in the run."""
+    walls = list(scene._wall_names)
     names = [name for name in _OF_CONTACTS if name in data]
     columns = {name: _numbers(name, data[name]) for name in names}
     sizes = {len(column) for column in columns.values()}
@@ -129,6 +136,10 @@ def _contact_columns(
     wall = [given] * count if isinstance(given, str) else [str(name) for name in given]
     if len(wall) != count or not set(wall) <= set(walls):
         raise ValueError(f"data: wall is {given!r}; expected {count} of {', '.join(walls) or 'a scene with walls'}")
+    errors = {name: _errors(name, column, error, several) for name, column in columns.items()}
+    if "impulse" in columns:
+        least = _OPPOSITE * errors["impulse"] if error is not None and "impulse" in error else np.zeros(count)
+        _check_signs(columns["impulse"], least, wall, {one.name: one.side for one in scene.walls})
     number = [wall[:i].count(name) for i, name in enumerate(wall)]
     for name in set(wall) if "start" in columns else ():
         own = columns["start"][[one == name for one in wall]]
@@ -158,7 +169,17 @@ def _contact_columns(
         at = rows(by)
         return np.empty(0) if at is None else by.contacts["start"][at]
 
-    return [_Column(columns[name], _errors(name, columns[name], error, several), reader(name), times) for name in names]
+    return [_Column(columns[name], errors[name], reader(name), times) for name in names]
+
+
+def _check_signs(impulses: Array, least: Array, walls: Sequence[str], sides: Mapping[str, str]) -> None:
+    """Refuses impulses that a wall cannot give, by more than ``least``: magnitudes, at an upper wall."""
+    signs = {"upper": -1.0, "lower": 1.0}
+    for impulse, one, name in zip(impulses, least, walls, strict=True):
+        if (side := sides.get(name)) in signs and signs[side] * impulse < -one:
+            sign = "negative" if side == "upper" else "positive"
+            expected = f"{sign} ones on the structure by this {side} wall, as in run.contacts"
+            raise ValueError(f"data: impulse at wall {name!r} is {impulse:g} N s; expected {expected}")
 
 
 def fit(
@@ -188,12 +209,12 @@ def fit(
     keys : sequence of str or mapping of str to float
         The keys, or the values from which the search starts; else those of the source.
     data : mapping
-        Contacts: one or several of ``start`` (s), ``approach_speed`` (m/s) and ``impulse`` (N s),
-        and ``wall``, a name or one for each, where there are several walls; number i at a wall is
-        its contact i in the motion. Or a record: ``time`` (s, increasing) and ``displacement`` (m).
-        Of a record the rows are left out beyond which a small change has grown by 100 in the
-        motion from which the search starts: those tell nothing of the keys. Contacts and a record
-        may be given together.
+        Contacts: one or several of ``start`` (s), ``approach_speed`` (m/s) and ``impulse`` (N s, on
+        the structure: negative at an upper wall, as in `Run.contacts`), and ``wall``, a name or one
+        for each, where there are several walls; number i at a wall is its contact i in the motion.
+        Or a record: ``time`` (s, increasing) and ``displacement`` (m). Of a record the rows are
+        left out beyond which a small change has grown by 100 in the motion from which the search
+        starts: those tell nothing of the keys. Contacts and a record may be given together.
     error : mapping of str to float or array, optional
         The standard error of each kind of data; needed where there is more than one kind.
     probe : str, optional
@@ -210,8 +231,9 @@ def fit(
     Raises
     ------
     ValueError
-        For data that do not fit the scene, as fewer contacts in its motion than in the data, for a
-        key that starts outside of its bounds, and as `derivative`.
+        For data that do not fit the scene, as fewer contacts in its motion than in the data, or
+        impulses of the other sign than a wall gives, for a key that starts outside of its bounds,
+        and as `derivative`.
     RunError
         Where the search does not converge.
     ImportError
@@ -220,7 +242,7 @@ def fit(
     Warns
     -----
     ResultWarning
-        For keys that the data do not tell.
+        For keys that the data do not tell, and where the residuals are above 10 standard errors.
 
     Examples
     --------
@@ -256,7 +278,7 @@ def fit(
         record = _record(scene_of, values, data, error, probe, len(kinds) > 1)
         times, columns = record.times, [record.column]
     if kinds != ["displacement"]:
-        columns += _contact_columns(data, error, list(first._wall_names), len(kinds) > 1)
+        columns += _contact_columns(data, error, first, len(kinds) > 1)
     count = sum(len(column.values) for column in columns)
     if count <= len(names):
         raise ValueError(f"data has {count} usable values; expected more than the {len(names)} keys")
@@ -285,7 +307,13 @@ def fit(
     for text in _untold(names, told):
         warnings.warn(text, ResultWarning, stacklevel=2)
     freedom = count - told.rank
-    return _summary(made.x, names, (residuals, told), (model, scene_of), freedom, float(student.ppf(0.5 + confidence / 2, freedom)))
+    quantile = float(student.ppf(0.5 + confidence / 2, freedom))
+    summary = _summary(made.x, names, (residuals, told), (model, scene_of), freedom, quantile)
+    if error and summary.scale > _MOST_SCATTER:
+        text = f"scale is {summary.scale:.3g}: the residuals are so many standard errors of the data, "
+        text += "so the scene with these values does not describe them"
+        warnings.warn(text, ResultWarning, stacklevel=2)
+    return summary
 
 
 @dataclass(frozen=True)
