@@ -141,6 +141,44 @@ def test_a_record_is_fitted_up_to_its_horizon() -> None:
     assert 0.8 < found.scale < 1.2 and found.until <= 8.0
 
 
+def damped(damping: float, stiffness: float) -> sg.Scene:
+    return free(1.0, damping, stiffness, 3.0)
+
+
+def test_a_key_at_a_limit_of_its_own_is_named() -> None:
+    # Without damping; with this noise less than none would fit the starts best.
+    exact = damped(0.0, 100.0).run("event").contacts["start"][:20]
+    start = exact + 2e-3 * np.random.default_rng(0).standard_normal(20)
+    with pytest.warns(sg.ResultWarning) as caught:
+        found = sg.fit(damped, {"damping": 0.2, "stiffness": 101.0}, {"start": start}, error={"start": 2e-3})
+    expected = "damping is at its limit 0: its interval and those of the others are no 95 % intervals"
+    assert [str(one.message) for one in caught] == [expected]
+    # The other key is known as little as damping leaves it.
+    by = sg.derivative(damped, found.values)
+    columns = np.column_stack([by.contacts["start_by"][key][:20] for key in found.values])
+    assert all(math.isfinite(high - low) for low, high in found.intervals.values())
+    variance = found.residuals @ found.residuals / 18 * np.linalg.inv(columns.T @ columns) * 4e-6
+    np.testing.assert_allclose(found.covariance, variance, rtol=1e-6)
+
+
+def test_a_key_at_a_bound_is_named_and_an_interval_beyond_one() -> None:
+    data, error = measured(0)
+    start = {"gap": 5.3e-3, "restitution": 0.5}
+    best = sg.fit(stopped, start, data, error=error)
+    low, high = best.intervals["restitution"]
+    lower = best.values["restitution"] - 0.01
+    with pytest.warns(sg.ResultWarning) as caught:
+        found = sg.fit(stopped, start, data, error=error, bounds={"restitution": (0.4, lower)}, confidence=0.9)
+    expected = f"restitution is at its limit {lower:.6g}: its interval and those of the others are no 90 % intervals"
+    assert [str(one.message) for one in caught] == [expected]
+    assert abs(found.values["restitution"] - lower) < 1e-6
+    upper = 0.5 * (best.values["restitution"] + high)
+    with pytest.warns(sg.ResultWarning) as caught:
+        found = sg.fit(stopped, start, data, error=error, bounds={"restitution": (0.4, upper)})
+    expected = f"the interval of restitution, {low:.6g} to {high:.6g}, reaches beyond its bounds, 0.4 to {upper:g}"
+    assert [str(one.message) for one in caught] == [expected]
+
+
 def test_impulses_have_the_sign_of_their_wall() -> None:
     start = {"gap": 5.3e-3, "restitution": 0.5}
     impulses = stopped(**TRUTH).run("event").contacts["impulse"][:20]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -28,8 +29,11 @@ _OPPOSITE = 3.0
 """So many standard errors beyond zero an impulse is no small one of the other sign."""
 
 _NO_EFFECT = 1e-12
-"""A key does not change the data where its whole value changes them by less than this share of the
-values: rounding."""
+"""A key does not change the data where its whole value, that from which the search starts if it is
+larger, changes them by less than this share of the values: rounding."""
+
+_AT_LIMIT = 1e-6
+"""So near to a bound, as a share of its size, a key is at it."""
 
 _APART = 1e-8
 """Data that one key changes as others together do, to this share, do not tell it from them: the
@@ -243,6 +247,9 @@ def fit(
     -----
     ResultWarning
         For keys that the data do not tell, and where the residuals are above 10 standard errors.
+        For keys that end at a bound, or where the scene takes no values beyond, as at a damping of
+        0: intervals of a linearised model are none of the confidence asked for there. And for an
+        interval that reaches beyond the bounds of its key.
 
     Examples
     --------
@@ -288,7 +295,6 @@ def fit(
         raise ValueError(f"no residuals in the motion from which the search starts: {model.reason}")
     low = [bounds.get(name, (-np.inf, np.inf))[0] for name in names]
     high = [bounds.get(name, (-np.inf, np.inf))[1] for name in names]
-    scale = np.where(x0 == 0.0, 1.0, np.abs(x0))
 
     def residuals_at(x: Array) -> Array:
         return model.at(x)[0]
@@ -298,17 +304,26 @@ def fit(
 
     # No bound of the gradient: it has the unit of the residuals.
     made = least_squares(
-        residuals_at, x0, jac=jacobian_at, bounds=(low, high), x_scale=scale, xtol=1e-12, ftol=1e-12, gtol=None
-    )
+        residuals_at, x0, jac=jacobian_at, bounds=(low, high), x_scale=np.where(x0 == 0.0, 1.0, np.abs(x0)),
+        xtol=1e-12, ftol=1e-12, gtol=None,
+    )  # fmt: skip
     if not made.success:
         raise RunError(f"the search did not converge: {made.message}")
     residuals, jacobian = model.at(made.x)
-    told = _told(made.x, jacobian, model.size())
-    for text in _untold(names, told):
+    scale = _scale(x0, made.x, np.subtract(high, low))
+    told = _told(scale, jacobian, model.size())
+    limits = _limits(scene_of, dict(zip(names, made.x.tolist(), strict=True)), scale, bounds)
+    limits = {name: limit for (name, limit), unseen in zip(limits.items(), told.unseen, strict=True) if not unseen}
+    for text in [*_untold(names, told), *_limited(limits, confidence, len(names))]:
         warnings.warn(text, ResultWarning, stacklevel=2)
     freedom = count - told.rank
     quantile = float(student.ppf(0.5 + confidence / 2, freedom))
     summary = _summary(made.x, names, (residuals, told), (model, scene_of), freedom, quantile)
+    for name, (least, most) in bounds.items():
+        (a, b), at = summary.intervals[name], limits.get(name)
+        if at is None and math.isfinite(b - a) and not least <= a <= b <= most:
+            text = f"the interval of {name}, {a:.6g} to {b:.6g}, reaches beyond its bounds, {least:g} to {most:g}"
+            warnings.warn(text, ResultWarning, stacklevel=2)
     if error and summary.scale > _MOST_SCATTER:
         text = f"scale is {summary.scale:.3g}: the residuals are so many standard errors of the data, "
         text += "so the scene with these values does not describe them"
@@ -330,14 +345,64 @@ class _Told:
     """The pseudo-inverse of the Jacobian; shape (keys, data)."""
 
 
-def _told(x: Array, jacobian: Array, data: float) -> _Told:
-    """By the Jacobian at ``x`` of data of the size ``data``, both in units of the standard errors."""
+def _scale(x0: Array, x: Array, width: Array) -> Array:
+    """The sizes of keys that go from ``x0`` to ``x`` between bounds that are ``width`` apart."""
+    size = np.maximum(np.abs(x0), np.abs(x))
+    return np.where(size > 0.0, np.minimum(size, width), np.where(np.isfinite(width), width, 1.0))
+
+
+def _limits(
+    scene_of: Callable[[Mapping[str, float]], Scene],
+    values: Mapping[str, float],
+    scale: Array,
+    bounds: Mapping[str, tuple[float, float]],
+) -> dict[str, float | None]:
+    """The limit at which each key is: a bound, or where there is no scene with larger or smaller values."""
+
+    def taken(key: str, value: float) -> bool:
+        try:
+            scene_of({**values, key: value})
+        except Exception:  # Whatever a function raises beyond the values that it was made for.
+            return False
+        return True
+
+    def at(key: str, near: float) -> float | None:
+        value = values[key]
+        for end in bounds.get(key, ()):
+            if abs(value - end) <= near:
+                return end
+        for beyond in (value - near, value + near):
+            if not taken(key, beyond):
+                inside = value
+                for _ in range(10):
+                    middle = 0.5 * (inside + beyond)
+                    inside, beyond = (middle, beyond) if taken(key, middle) else (inside, middle)
+                # To a digit that the halves have told; no minus before 0.
+                return round(inside, 2 - math.floor(math.log10(near))) + 0.0
+        return None
+
+    return {key: at(key, _AT_LIMIT * float(size)) for key, size in zip(values, scale, strict=True)}
+
+
+def _limited(limits: Mapping[str, float | None], confidence: float, keys: int) -> list[str]:
+    """Which keys are at their limits, in words."""
+    what = "its interval is no" if keys == 1 else "its interval and those of the others are no"
+    return [
+        f"{name} is at its limit {limit:.6g}: {what} {100.0 * confidence:g} % interval{'' if keys == 1 else 's'}"
+        for name, limit in limits.items()
+        if limit is not None
+    ]
+
+
+def _told(scale: Array, jacobian: Array, data: float) -> _Told:
+    """By the Jacobian for keys of the sizes ``scale``, of data of the size ``data``, both in units of
+    the standard errors."""
     size = np.linalg.norm(jacobian, axis=0)
-    unseen = size * np.where(x == 0.0, 1.0, np.abs(x)) <= _NO_EFFECT * data
+    unseen = size * scale <= _NO_EFFECT * data
     # In units of the columns, which may differ by far.
     size[unseen] = 1.0
     columns = np.where(unseen, 0.0, jacobian / size)
-    mixed = np.zeros(len(x), bool)
+    mixed = np.zeros(len(scale), bool)
     for key in np.flatnonzero(~unseen):
         others = np.delete(columns, key, axis=1)
         like = others @ (np.linalg.pinv(others, rcond=_APART) @ columns[:, key])
