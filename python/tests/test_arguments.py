@@ -84,6 +84,13 @@ VALUES: list[tuple[Callable[[], object], str]] = [
         lambda: sg.sweep(lambda gap: SCENE, {"gap": [1.0]}, "event"),  # type: ignore[dict-item]
         "points is .* expected a mapping for each point",
     ),
+    *(
+        (
+            lambda name=name: sg.sweep(lambda **_: SCENE, [{name: 1.0}], "event"),
+            f"the parameter '{name}', a column of results",
+        )
+        for name in ("error", "status", "impulse_upper_N_s")
+    ),
     (lambda: sg.compare(SCENE, [], step=1e-3), "methods is empty"),
     (lambda: SCENE.run("event").probe("zz"), 'no probe is named "zz"; there is ""'),
     (lambda: sg.orbit(sg.chain([1.0], [])), "no load is a sine; expected a harmonic load"),

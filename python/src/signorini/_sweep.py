@@ -199,10 +199,10 @@ def sweep(
         Returns the Scene of a point. For an executor of other processes it has to be pickled: a
         function of a module (Dask also takes one of a notebook).
     points : iterable of mapping, or mapping of str to sequence
-        All with the same names; `grid` makes them. Of a case: the values of each key of the case
-        format, ``{"support.*.gap": [1e-4, 2e-4]}``; the last key varies fastest. With ``random``
-        the bounds of each, ``{"support.*.gap": (1e-4, 4e-4)}``, or ``(1e-4, 4e-4, "log")`` to draw
-        its logarithm.
+        All with the same names, none of them that of a column of results; `grid` makes them. Of a
+        case: the values of each key of the case format, ``{"support.*.gap": [1e-4, 2e-4]}``; the
+        last key varies fastest. With ``random`` the bounds of each, ``{"support.*.gap": (1e-4,
+        4e-4)}``, or ``(1e-4, 4e-4, "log")`` to draw its logarithm.
     scheme
         As in `run_many`.
     measures : sequence of str
@@ -301,7 +301,11 @@ def sweep(
             raise ValueError(f"point {i} has {', '.join(point)}; expected {', '.join(names)}, as the first point")
     options = _options(scheme, step, statistics_from, judge, threads if executor is None else threads or 1)
     walls = _first_walls(make, points)
-    width = len(_columns(walls))
+    columns = _columns(walls)
+    for name in names:
+        if name in (*columns, "status", "error"):
+            raise ValueError(f"points has the parameter {name!r}, a column of results; expected another name for it")
+    width = len(columns)
     values, errors = np.full((len(points), width), np.nan), list[str | None]([None] * len(points))
     cautions: list[Caution] = []
     store = Store(folder, make, points, options, width)
