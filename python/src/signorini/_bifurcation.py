@@ -20,14 +20,21 @@ from ._types import whole
 
 @dataclass(frozen=True, repr=False)
 class Bifurcation:
-    """The motions that runs settle on, over the values of a key: see `bifurcation`."""
+    """The motions that runs settle on, over the values of a key: see `bifurcation`.
+
+    Attributes
+    ----------
+    table : dict of str to numpy.ndarray
+        One row per sample: ``value``, ``direction`` (up, down or None), ``error``; of impacts
+        ``wall``, ``time_s``, ``phase_cycles``, ``approach_speed_m_per_s``,
+        ``departure_speed_m_per_s``, ``impulse_N_s``; of periods ``time_s``, ``displacement_m``,
+        ``velocity_m_per_s``.
+    key : str
+        The key that was varied.
+    """
 
     table: Table
-    """One row per sample: ``value``, ``direction`` (up, down or None), ``error``; of impacts ``wall``,
-    ``time_s``, ``phase_cycles``, ``approach_speed_m_per_s``, ``departure_speed_m_per_s``,
-    ``impulse_N_s``; of periods ``time_s``, ``displacement_m``, ``velocity_m_per_s``."""
     key: str
-    """The key that was varied."""
 
     def __repr__(self) -> str:
         values = self.table["value"]

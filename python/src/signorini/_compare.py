@@ -83,19 +83,29 @@ class MethodRealisations:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Methods side by side: see `compare`."""
+    """Methods side by side: see `compare`.
+
+    Attributes
+    ----------
+    table : dict of str to numpy.ndarray
+        One row per method: ``method``, ``error`` (share of the gap, up to the horizon),
+        ``agrees_until_s``, ``restitution`` (median over the impacts), ``step_ns``, ``failure`` and
+        ``refuted`` (words).
+    runs : list of Run or None
+        The runs, as the rows; None where one failed.
+    findings : list of str
+        Findings of the comparison, in sentences.
+    horizon : float
+        Time up to which errors are meaningful, s.
+    realisations : MethodRealisations or None
+        The methods over several realisations of the random loads, where ``seeds`` are asked for.
+    """
 
     table: Table
-    """One row per method: ``method``, ``error`` (share of the gap, up to the horizon), ``agrees_until_s``,
-    ``restitution`` (median over the impacts), ``step_ns``, ``failure`` and ``refuted`` (words)."""
     runs: list[Run | None]
-    """The runs, as the rows; None where one failed."""
     findings: list[str]
-    """Findings of the comparison, in sentences."""
     horizon: float
-    """Time up to which errors are meaningful, s."""
     realisations: MethodRealisations | None = None
-    """The methods over several realisations of the random loads, where ``seeds`` are asked for."""
 
     def __repr__(self) -> str:
         lines = ["method                             error   agrees until (s)   ns a step"]

@@ -42,27 +42,39 @@ derivatives are exact to it."""
 
 @dataclass(frozen=True, repr=False)
 class Fit:
-    """Numbers of a scene that fit data: see `fit`."""
+    """Numbers of a scene that fit data: see `fit`.
+
+    Attributes
+    ----------
+    values : dict of str to float
+        The fitted values of the keys.
+    intervals : dict of str to pair of float
+        The interval of each at the confidence asked for; from minus to plus infinity for a key that
+        the data do not tell, whose value is one of many.
+    covariance : numpy.ndarray
+        That of the values; shape (keys, keys). Infinite variances, and NaN beside them, of keys that the
+        data do not tell.
+    residuals : numpy.ndarray
+        Model less data, in units of the standard errors of the data; shape (data,).
+    scale : float
+        The root mean square of the residuals, by the degrees of freedom: 1 where the standard
+        errors given are those of the data.
+    until : float
+        The time of the last datum used, s.
+    runs : int
+        Number of exact runs.
+    scene : Scene
+        The scene with the fitted values.
+    """
 
     values: dict[str, float]
-    """The fitted values of the keys."""
     intervals: dict[str, tuple[float, float]]
-    """The interval of each at the confidence asked for; from minus to plus infinity for a key that
-    the data do not tell, whose value is one of many."""
     covariance: Array
-    """Of the values; shape (keys, keys). Infinite variances, and NaN beside them, of keys that the
-    data do not tell."""
     residuals: Array
-    """Model less data, in units of the standard errors of the data; shape (data,)."""
     scale: float
-    """The root mean square of the residuals, by the degrees of freedom: 1 where the standard errors
-    given are those of the data."""
     until: float
-    """The time of the last datum used, s."""
     runs: int
-    """Number of exact runs."""
     scene: Scene
-    """The scene with the fitted values."""
 
     def __repr__(self) -> str:
         of = [f"{key} = {value:.6g} ({low:.6g} to {high:.6g})" for (key, value), (low, high) in self._rows()]

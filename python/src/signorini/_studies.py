@@ -26,15 +26,23 @@ def columns_of(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> Table
 
 @dataclass(frozen=True, repr=False)
 class Chart:
-    """Computing time against error: see `chart`."""
+    """Computing time against error: see `chart`.
+
+    Attributes
+    ----------
+    table : dict of str to numpy.ndarray
+        One row per method and step: ``method``, ``kind``, ``step_s``, ``seconds``,
+        ``displacement_error``, ``impulse_error``, ``contact_time_error`` (shares), ``failure``
+        (words).
+    reference : str
+        The reference of the errors.
+    horizon : float
+        Time up to which errors are taken, s.
+    """
 
     table: Table
-    """One row per method and step: ``method``, ``kind``, ``step_s``, ``seconds``, ``displacement_error``,
-    ``impulse_error``, ``contact_time_error`` (shares), ``failure`` (words)."""
     reference: str
-    """The reference of the errors."""
     horizon: float
-    """Time up to which errors are taken, s."""
 
     def __repr__(self) -> str:
         methods = len(set(self.table["method"]))
@@ -189,14 +197,21 @@ def chart(
 
 @dataclass(frozen=True, repr=False)
 class Stability:
-    """Where each scheme fails: see `stability`."""
+    """Where each scheme fails: see `stability`.
+
+    Attributes
+    ----------
+    table : dict of str to numpy.ndarray
+        One row per scheme, parameter and step: ``scheme``, ``parameter`` and its ``value``,
+        ``step_s``, ``class`` (stable, dissipative, frozen, another-motion, energy-gaining,
+        diverged) and its ``reason``.
+    stable : dict of str to numpy.ndarray
+        One row per scheme at the scene's own parameters: its largest ``stable_step_s`` (nan: there
+        is none), and the first failure ``beyond`` it, in words.
+    """
 
     table: Table
-    """One row per scheme, parameter and step: ``scheme``, ``parameter`` and its ``value``, ``step_s``,
-    ``class`` (stable, dissipative, frozen, another-motion, energy-gaining, diverged) and its ``reason``."""
     stable: Table
-    """One row per scheme at the scene's own parameters: its largest ``stable_step_s`` (nan: there is
-    none), and the first failure ``beyond`` it, in words."""
 
     def __repr__(self) -> str:
         schemes = len(set(self.table["scheme"]))
