@@ -15,7 +15,7 @@ from . import _core, _plot
 from ._core import Case
 from ._studies import columns_of
 from ._sweep import Table, warn_of_runs
-from ._types import whole
+from ._types import sequence, whole
 
 
 @dataclass(frozen=True, repr=False)
@@ -118,6 +118,8 @@ def bifurcation(
     ------
     ValueError
         For a wrong request.
+    TypeError
+        For something else than a case, or values that are no sequence.
 
     Warns
     -----
@@ -136,7 +138,8 @@ def bifurcation(
     """
     count = (os.cpu_count() or 1) if threads is None else whole("threads", threads, 1)
     settle, keep = whole("settle", settle), whole("keep", keep, 1)
-    rows, cautions = _core._bifurcation(case, key, list(values), scheme, settle, keep, follow, samples, count)
+    listed = sequence("values", values)
+    rows, cautions = _core._bifurcation(case, key, listed, scheme, settle, keep, follow, samples, count)
     warn_of_runs(cautions)
     failed = [row for row in rows if row["error"] is not None]
     if failed:

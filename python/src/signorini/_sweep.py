@@ -19,7 +19,7 @@ from ._case_sweep import SweepResult, sweep_case
 from ._core import Case, ResultWarning, Scene, _cautioned, _columns, _run_many
 from ._progress import Progress
 from ._store import Store
-from ._types import check_given, whole
+from ._types import check_given, sequence, whole
 
 Table = dict[str, npt.NDArray[Any]]
 """Columns of equal length, by name."""
@@ -255,6 +255,8 @@ def sweep(
     ------
     ValueError
         For a wrong request.
+    TypeError
+        For points that are no mappings, or no sequence of them.
     Exception
         Whatever ``make`` raises besides ValueError.
 
@@ -292,9 +294,9 @@ def sweep(
     of_case |= {"measures": measures, "settle": settle, "keep": keep, "rows": rows, "seed": seed}
     _refuse(of_case, "a case in place of a function beside it")
     if isinstance(points, Mapping):
-        raise ValueError(f"points is {points!r}; expected a mapping for each point beside a function: grid makes them")
+        raise ValueError(f"points is {points!r}; expected {_POINTS}")
     statistics_from, judge = statistics_from or 0.0, judge is not False
-    points = [dict(point) for point in points]
+    points = [_point(i, point) for i, point in enumerate(sequence("points", points, _POINTS))]
     names = list(points[0]) if points else []
     for i, point in enumerate(points):
         if list(point) != names:
@@ -343,6 +345,18 @@ def warn_of_runs(cautions: Sequence[Caution]) -> None:
     """A warning of a study for the notes of its runs, and one for those that have not settled."""
     for text in _cautioned(cautions):
         warnings.warn(text, ResultWarning, stacklevel=3)
+
+
+_POINTS = "a mapping for each point beside a function: grid makes them, or to_dict('records') of a DataFrame"
+
+
+def _point(number: int, point: Any) -> dict[str, Any]:
+    try:
+        if not isinstance(point, str):
+            return dict(point)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"points has {point!r} as point {number}; expected {_POINTS}")
 
 
 def _refuse(arguments: Mapping[str, Any], expected: str) -> None:
