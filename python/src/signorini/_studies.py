@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core, _plot
 from ._core import Case, Scene
-from ._sweep import Table
+from ._sweep import Table, warn_of_failures
 from ._types import Array, names, positive, whole
 
 
@@ -176,9 +176,15 @@ def chart(
     Raises
     ------
     ValueError
-        For a wrong request.
+        For a wrong request. What one method cannot do, such as a penalty without stiffness, is the
+        ``failure`` of its rows.
     TypeError
         For something else than a scene or a case.
+
+    Warns
+    -----
+    RuntimeWarning
+        Where methods failed at every step, with their number and the first reason.
 
     Examples
     --------
@@ -192,6 +198,11 @@ def chart(
     levels = None if levels is None else whole("levels", levels, 1)
     repeats, most_seconds = whole("repeats", repeats, 1), positive("most_seconds", most_seconds)
     rows, reference, horizon = _core._chart(scene, given, coarsest, finest, levels, repeats, most_seconds)
+    # At some steps a method may diverge, or take too long, in a sound request: not at all of them.
+    reasons: dict[str, list[str | None]] = {}
+    for row in rows:
+        reasons.setdefault(row["method"], []).append(row["failure"])
+    warn_of_failures([own[0] if all(own) else None for own in reasons.values()], "methods")
     return Chart(columns_of(rows, ("method", "kind", "failure")), reference, horizon)
 
 

@@ -100,13 +100,17 @@ def run_many(
     Raises
     ------
     ValueError
-        For a wrong request.
+        For a scheme that there is not, a step that is missing, and walls of other names. What a
+        scene cannot be run with (a step or a window beyond its duration, a penalty without
+        stiffness) is the ``error`` of its row.
 
     Warns
     -----
     ResultWarning
         Once, with their number, where runs have notes that limit the use of their results, and once
         where more have not settled when their statistics begin than chance finds.
+    RuntimeWarning
+        Where rows failed, with their number and the first reason.
 
     Examples
     --------
@@ -123,6 +127,7 @@ def run_many(
     names = scenes[0]._wall_names if scenes else ()
     with Progress(len(scenes), progress) as shown:
         rows = _run_many(scenes, *options, shown.tell)
+    warn_of_failures(rows[1])
     warn_of_runs(rows[2])
     return _table(names, rows, judge)
 
@@ -333,12 +338,17 @@ def sweep(
             _send(executor, make, points, _pieces(missing, size), walls, options, take, shown)
     table: Table = {name: np.array([point[name] for point in points]) for name in names}
     table |= _table(walls, (values, errors, cautions), judge)
-    failed = [text for text in errors if text is not None]
-    if failed:
-        text = f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}"
-        warnings.warn(text, RuntimeWarning, stacklevel=2)
+    warn_of_failures(errors)
     warn_of_runs(cautions)
     return table
+
+
+def warn_of_failures(reasons: Sequence[str | None], what: str = "rows") -> None:
+    """A warning of a study for those that have a reason why there is no result."""
+    failed = [text for text in reasons if text is not None]
+    if failed:
+        text = f"{len(failed)} of {len(reasons)} {what} failed; the first: {failed[0]}"
+        warnings.warn(text, RuntimeWarning, stacklevel=3)
 
 
 def warn_of_runs(cautions: Sequence[Caution]) -> None:
