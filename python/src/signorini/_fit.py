@@ -118,6 +118,10 @@ def _errors(name: str, values: Array, error: Mapping[str, Any] | None, several: 
 
 def _check_kinds(data: Mapping[str, Any], error: Mapping[str, Any] | None) -> list[str]:
     """The kinds of the data, unless some of them, or of their errors, would not be used."""
+    if not hasattr(data, "keys"):
+        raise TypeError(f"data is {data!r}; expected a mapping of kinds to their values")
+    if error is not None and not isinstance(error, Mapping):
+        raise TypeError(f"error is {error!r}; expected a mapping of kinds to their standard errors")
     kinds = [name for name in _KINDS if name in data]
     expected = "displacement over time, start, approach_speed, impulse, and the wall of these three"
     if not kinds:
@@ -250,6 +254,8 @@ def fit(
         For data that do not fit the scene, as fewer contacts in its motion than in the data, or
         impulses of the other sign than a wall gives, for a key that starts outside of its bounds,
         and as `derivative`.
+    TypeError
+        For data or errors that are no mapping.
     RunError
         Where the search does not converge.
     ImportError
