@@ -5,6 +5,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
 import pytest
 
 import signorini as sg
@@ -14,6 +17,9 @@ SCENE = CASE.scene
 TUBE = sg.load("tube-in-cross-flow")
 AMPLITUDE = ["load.1.harmonic.amplitude"]
 HARMONIC = "load.1.harmonic.frequency"
+
+
+STEEL: dict[str, Any] = {"youngs_modulus": 2e11, "density": 7850.0, "outer_diameter": 0.02}
 
 
 def pair(**scene: Any) -> sg.Scene:
@@ -41,7 +47,19 @@ VALUES: list[tuple[Callable[[], object], str]] = [
     (lambda: SCENE.run("event").derivative([]), "keys is empty"),
     (lambda: sg.derivative(pair(probes={}), {}), "keys is empty"),
     (lambda: fitted({"start": [0.1, 0.3]}, bounds={"foo": (0.0, 1.0)}), "bounds has 'foo'; expected 'load.1.harmonic"),
-    (lambda: fitted({"start": [0.1, 0.3], "wall": "upper"}, error={"force": 1.0}), "error has 'force'; expected 'disp"),
+    (lambda: fitted({"start": [0.1, 0.3], "wall": "upper"}, error={"force": 1.0}), "error has 'force'; expected kinds"),
+    (lambda: fitted({"start": [0.1, 0.3], "wall": "upper"}, error={"impulse": 0.1}), "error has 'impulse'; .* 'start'"),
+    (lambda: fitted({"start": [0.1, 0.3], "wall": "upper", "foo": 1}), "data has 'foo'; expected displacement over"),
+    (lambda: fitted({"time": [0.1], "displacement": [0.0], "foo": 1}), "data has 'foo'; expected displacement over t"),
+    (lambda: fitted({"time": [0.1], "displacement": [0.0], "wall": "upper"}), "data has 'wall' beside displacement"),
+    (lambda: fitted({"time": [0.1], "start": [0.1], "wall": "upper"}), "data has 'time' without displacement"),
+    (
+        lambda: fitted(
+            {"time": [0.1], "displacement": [0.0], "start": [0.1], "wall": "roof"},
+            error={"displacement": 1e-6, "start": 1e-3},
+        ),
+        "wall is 'roof'; expected 1 of upper, lower",
+    ),
     (lambda: fitted({"start": [0.3, 0.1], "wall": "upper"}), "starts at wall 'upper' do not increase"),
     (lambda: fitted({"time": [0.1, 0.6], "displacement": [0.0, 0.0]}), r"data: time has 0\.6 s"),
     (lambda: fitted({"time": [0.2, 0.1], "displacement": [0.0, 0.0]}), "data: time does not increase"),
@@ -75,7 +93,15 @@ VALUES: list[tuple[Callable[[], object], str]] = [
         lambda: sg.sweep(lambda gap: SCENE, {"gap": [1.0]}, "event"),  # type: ignore[dict-item]
         "points is .* expected a mapping for each point",
     ),
+    *(
+        (
+            lambda name=name: sg.sweep(lambda **_: SCENE, [{name: 1.0}], "event"),
+            f"the parameter '{name}', a column of results",
+        )
+        for name in ("error", "status", "impulse_upper_N_s")
+    ),
     (lambda: sg.compare(SCENE, [], step=1e-3), "methods is empty"),
+    (lambda: SCENE.run("event").plot(axes=plt.subplots(2)[1]), "^axes has 2; expected three matplotlib axes"),
     (lambda: SCENE.run("event").probe("zz"), 'no probe is named "zz"; there is ""'),
     (lambda: sg.orbit(sg.chain([1.0], [])), "no load is a sine; expected a harmonic load"),
     (lambda: sg.run_many([SCENE, sg.oscillator(1.0, 0.0, 1.0)], "event"), "walls are none; expected upper, lower"),
@@ -87,7 +113,16 @@ VALUES: list[tuple[Callable[[], object], str]] = [
 def test_a_wrong_value_is_refused_by_its_name(call: Callable[[], object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         call()
+    plt.close("all")
 
+
+# Called with what their types refuse.
+sweep: Any = sg.sweep
+bifurcation: Any = sg.bifurcation
+one_at_a_time: Any = sg.one_at_a_time
+tube: Any = sg.tube
+support: Any = sg.support
+fit: Any = sg.fit
 
 TYPES: list[tuple[Callable[[], object], str]] = [
     (lambda: sg.compare(SCENE, "moreau-jean", step=1e-3), r"methods is 'moreau-jean'; expected a sequence"),
@@ -108,6 +143,28 @@ TYPES: list[tuple[Callable[[], object], str]] = [
     (lambda: sg.run_many([SCENE], step="1e-3"), "^step is '1e-3'; expected a number"),  # type: ignore[arg-type]
     (lambda: sg.compare(CASE, ["event"], sample="1e-3"), "^sample is '1e-3'; expected a number"),  # type: ignore[arg-type]
     (lambda: sg.grid(gap=3.0), "gap is 3.0; expected a sequence"),  # type: ignore[arg-type]
+    (lambda: support("a", np.array([1, 2])), r"support 'a': gap is array\(\[1, 2\]\); expected a number"),
+    (lambda: support("a", "1"), "support 'a': gap is '1'; expected a number"),
+    (lambda: support("a", 1.0, centre="0"), "support 'a': centre is '0'; expected a number"),
+    (lambda: fit(SCENE, AMPLITUDE, {"start": [0.1, 0.3]}, error=1e-3), "error is 0.001; expected a mapping"),
+    (lambda: fit(SCENE, AMPLITUDE, [0.1, 0.3]), "data is .*; expected a mapping"),
+    (lambda: sweep(starting, pd.DataFrame({"t": [0.0]})), r"points has 't' as point 0; expected .* to_dict\('records"),
+    (lambda: sweep(starting, [1e-3]), "points has 0.001 as point 0; expected a mapping for each point"),
+    (lambda: sweep(starting, 1e-3), "points is 0.001; expected a mapping for each point"),
+    (lambda: bifurcation(CASE, HARMONIC, 5.0), "^values is 5.0; expected a sequence of values"),
+    (lambda: sweep(CASE, {HARMONIC: 0.5}, measures=["contacts"]), f"^{HARMONIC} is 0.5; expected a sequence"),
+    (
+        lambda: one_at_a_time(CASE, {HARMONIC: 0.5}, measures=["contacts"]),
+        f"^{HARMONIC} is 0.5; expected its lower and upper bound",
+    ),
+    (
+        lambda: tube(**STEEL, duration=1.0, supports=sg.hole("h", 1e-4)),
+        r"^supports is Support\(.*; expected a sequence of what sg.hole, sg.flats and sg.slider make",
+    ),
+    (lambda: tube(**STEEL, duration=1.0, supports=sg.support("a", 1e-4)), "^supports has Wall.*; expected what"),
+    (lambda: tube(**STEEL, duration=1.0, loads=sg.Load.gravity(9.81)), "^loads is .*; expected a sequence of what"),
+    (lambda: SCENE.run("event").plot(axes=plt.figure().gca()), "^axes is <Axes.*; expected three matplotlib axes"),
+    (lambda: SCENE.run("event").plot(axes="abc"), "^axes is 'abc'; expected three matplotlib axes"),
 ]
 
 
@@ -115,6 +172,7 @@ TYPES: list[tuple[Callable[[], object], str]] = [
 def test_a_wrong_type_is_refused_by_its_name(call: Callable[[], object], message: str) -> None:
     with pytest.raises(TypeError, match=message):
         call()
+    plt.close("all")
 
 
 def test_a_force_that_is_no_number_names_its_load_and_the_time() -> None:
@@ -153,8 +211,6 @@ def test_a_hole_has_the_radius_of_what_wears_in_it() -> None:
     })  # fmt: skip
     assert case.run().wear["h"].depth_one_scar is not None
 
-
-STEEL: dict[str, Any] = {"youngs_modulus": 2e11, "density": 7850.0, "outer_diameter": 0.02}
 
 MISSPELT: list[tuple[Callable[[], object], str]] = [
     (lambda: sg.oscillator(1.0, 0.2, 100.0, plane=2), "^oscillator has no argument plane; expected mass, damping, "),  # type: ignore[call-arg]

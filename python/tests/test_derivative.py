@@ -141,6 +141,100 @@ def test_a_record_is_fitted_up_to_its_horizon() -> None:
     assert 0.8 < found.scale < 1.2 and found.until <= 8.0
 
 
+def damped(damping: float, stiffness: float) -> sg.Scene:
+    return free(1.0, damping, stiffness, 3.0)
+
+
+def test_a_key_at_a_limit_of_its_own_is_named() -> None:
+    # Without damping; with this noise less than none would fit the starts best.
+    exact = damped(0.0, 100.0).run("event").contacts["start"][:20]
+    start = exact + 2e-3 * np.random.default_rng(0).standard_normal(20)
+    with pytest.warns(sg.ResultWarning) as caught:
+        found = sg.fit(damped, {"damping": 0.2, "stiffness": 101.0}, {"start": start}, error={"start": 2e-3})
+    expected = "damping is at its limit 0: its interval and those of the others are no 95 % intervals"
+    assert [str(one.message) for one in caught] == [expected]
+    # The other key is known as little as damping leaves it.
+    by = sg.derivative(damped, found.values)
+    columns = np.column_stack([by.contacts["start_by"][key][:20] for key in found.values])
+    assert all(math.isfinite(high - low) for low, high in found.intervals.values())
+    variance = found.residuals @ found.residuals / 18 * np.linalg.inv(columns.T @ columns) * 4e-6
+    np.testing.assert_allclose(found.covariance, variance, rtol=1e-6)
+
+
+def test_a_key_at_a_bound_is_named_and_an_interval_beyond_one() -> None:
+    data, error = measured(0)
+    start = {"gap": 5.3e-3, "restitution": 0.5}
+    best = sg.fit(stopped, start, data, error=error)
+    low, high = best.intervals["restitution"]
+    lower = best.values["restitution"] - 0.01
+    with pytest.warns(sg.ResultWarning) as caught:
+        found = sg.fit(stopped, start, data, error=error, bounds={"restitution": (0.4, lower)}, confidence=0.9)
+    expected = f"restitution is at its limit {lower:.6g}: its interval and those of the others are no 90 % intervals"
+    assert [str(one.message) for one in caught] == [expected]
+    assert abs(found.values["restitution"] - lower) < 1e-6
+    upper = 0.5 * (best.values["restitution"] + high)
+    with pytest.warns(sg.ResultWarning) as caught:
+        found = sg.fit(stopped, start, data, error=error, bounds={"restitution": (0.4, upper)})
+    expected = f"the interval of restitution, {low:.6g} to {high:.6g}, reaches beyond its bounds, 0.4 to {upper:g}"
+    assert [str(one.message) for one in caught] == [expected]
+
+
+def test_impulses_have_the_sign_of_their_wall() -> None:
+    start = {"gap": 5.3e-3, "restitution": 0.5}
+    impulses = stopped(**TRUTH).run("event").contacts["impulse"][:20]
+    message = r"impulse at wall 'stop' is 0\.\d+ N s; expected negative ones on the structure by this upper wall"
+    for given in (None, {"impulse": 0.01}):
+        with pytest.raises(ValueError, match=message):
+            sg.fit(stopped, start, {"impulse": np.abs(impulses)}, error=given)
+    with pytest.raises(ValueError, match="expected positive ones on the structure by this lower wall"):
+        sg.fit(ball, {"height": 0.4, "restitution": 0.7}, {"impulse": [-5.0, -4.0, -3.0]})
+    # One so small that its error may have turned its sign is taken.
+    small = np.where(np.arange(20) == 3, 0.01, impulses)
+    error = {"impulse": np.where(np.arange(20) == 3, 1.0, 0.01)}
+    found = sg.fit(stopped, start, {"impulse": small}, error=error)
+    assert abs(found.values["gap"] / TRUTH["gap"] - 1.0) < 0.1
+
+
+def test_data_that_the_scene_cannot_give_are_told_by_their_scatter() -> None:
+    data, error = measured(0)
+    small = {name: 0.01 * own for name, own in error.items()}
+    with pytest.warns(sg.ResultWarning, match=r"^scale is [\d.]+: the residuals are so many standard errors"):
+        found = sg.fit(stopped, {"gap": 5.3e-3, "restitution": 0.5}, data, error=small)
+    assert found.scale > 50.0
+
+
+def test_a_record_and_contacts_are_fitted_together() -> None:
+    # The record ends before the first impact, so that it does not tell the restitution; three
+    # starts tell little of it.
+    time = np.linspace(0.01, 0.08, 8)
+    contacts = stopped(**TRUTH).run("event").contacts[:4]
+    record = sg.derivative(stopped, TRUTH, times=time).displacement
+    starts = contacts["start"] + 4e-3 * np.random.default_rng(0).standard_normal(4)
+    data = {"time": time, "displacement": record, "start": starts, "wall": "stop"}
+    error = {"displacement": 1e-6, "start": 4e-3}
+
+    def of(stiffness: float, restitution: float) -> sg.Scene:
+        stop = sg.Wall.upper("stop", 5e-3, restitution=restitution)
+        return sg.oscillator(1.0, 0.2, stiffness, walls=[stop], loads=[sg.Load.harmonic(3.0, 2.5)], duration=9.0)
+
+    start = {"stiffness": 101.0, "restitution": 0.55}
+    found = sg.fit(of, start, data, error=error)
+    assert len(found.residuals) == 12 and 0.9 < found.until < 1.0
+    half = 0.5 * (found.intervals["stiffness"][1] - found.intervals["stiffness"][0])
+    assert abs(found.values["stiffness"] - 100.0) < half < 0.5
+    # What least squares of both say: the gradient of one is that of the other, with its sign turned.
+    parts = {"displacement": slice(0, 8), "start": slice(8, 12)}
+    by = sg.derivative(of, found.values, times=time)
+    columns = {"displacement": by.displacement_by, "start": by.contacts["start_by"][:4]}
+    for key in start:
+        own = [columns[kind][key] @ found.residuals[rows] / error[kind] for kind, rows in parts.items()]
+        # The search ends where a step changes the sum of squares by 1e-12 of itself.
+        sizes = [float(np.linalg.norm(columns[kind][key])) / error[kind] for kind in parts]
+        assert abs(float(np.sum(own))) < 1e-5 * max(sizes)
+    with pytest.raises(ValueError, match="error has no start; expected a standard error for each kind"):
+        sg.fit(of, start, data, error={"displacement": 1e-6})
+
+
 def test_a_fit_says_what_it_needs() -> None:
     data, error = measured(0)
     start = {"gap": 5.3e-3, "restitution": 0.5}

@@ -1,7 +1,10 @@
 """Every public function has an example, and every example is right."""
 
+import ast
+import dataclasses
 import doctest
 import inspect
+import textwrap
 from collections.abc import Iterator
 from typing import Any, is_typeddict
 
@@ -42,6 +45,22 @@ def test_the_example_of_the_package() -> None:
     examples = doctest.DocTestParser().get_doctest(sg.__doc__ or "", {}, "signorini", None, None)
     assert examples.examples
     assert doctest.DocTestRunner(verbose=False).run(examples).failed == 0
+
+
+@pytest.mark.parametrize(
+    "name, thing", [(name, thing) for name, thing, _ in public() if dataclasses.is_dataclass(thing)]
+)
+def test_help_of_a_class_has_what_is_written_of_its_fields(name: str, thing: Any) -> None:
+    text = inspect.getdoc(thing) or ""
+    fields = [field.name for field in dataclasses.fields(thing) if not field.name.startswith("_")]
+    listed = [line.split(" : ")[0] for line in lists_of(text, "Attributes")]
+    assert listed == fields or not listed
+    assert listed or name not in ("Derivative", "Fit", "Orbit", "OrbitDerivative")
+    # Other classes say it in sentences. A string under a field is not shown by help().
+    tree = ast.parse(textwrap.dedent(inspect.getsource(thing))).body[0]
+    assert isinstance(tree, ast.ClassDef)
+    strings = [node for node in tree.body if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)]
+    assert len(strings) == 1
 
 
 def lists_of(text: str, section: str) -> list[str]:

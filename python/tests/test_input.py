@@ -248,6 +248,7 @@ def many(scene: sg.Scene) -> float:
     ],
 )
 @pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.filterwarnings("ignore:1 of 1 rows failed:RuntimeWarning")
 def test_a_load_that_runs_its_own_scene_is_an_error(run: Callable[[sg.Scene, float], float], beside: bool) -> None:
     def start() -> None:
         with pytest.raises(RecursionError, match="5 runs within one another"):

@@ -92,6 +92,34 @@ def test_points_that_fail_are_rows_with_a_reason() -> None:
         sg.sweep(lambda gap: cluster.make(gap, 1.0).replace(velocity=1.0), [{"gap": 1e-12}], "event")
 
 
+@pytest.mark.parametrize(
+    "options, reason",
+    [
+        ({"scheme": "moreau-jean", "step": 1e-3, "statistics_from": 5.0}, r"statistics_from is 5\.0; expected 0 or"),
+        ({"scheme": "moreau-jean", "step": 5.0}, r"step is 5\.0; expected less than the duration, 2\.0"),
+        ({"scheme": "penalty", "step": 1e-3}, "setting of penalty is neither epsilon nor stiffness"),
+    ],
+)
+def test_requests_that_cannot_be_run_are_told(scene: sg.Scene, options: dict[str, Any], reason: str) -> None:
+    with pytest.warns(RuntimeWarning, match=f"^2 of 2 rows failed; the first: {reason}") as caught:
+        table = sg.run_many([scene, scene], **options)
+    assert len(caught) == 1 and caught[0].filename == __file__
+    assert list(table["status"]) == ["failed"] * 2
+
+
+def test_methods_that_fail_are_told(scene: sg.Scene) -> None:
+    message = "^1 of 2 methods failed; the first: setting of penalty is neither epsilon nor stiffness"
+    with pytest.warns(RuntimeWarning, match=message) as caught:
+        compared = sg.compare(scene, ["penalty", "event"], step=1e-3)
+    assert compared.runs[0] is None and compared.runs[1] is not None and caught[0].filename == __file__
+    with pytest.warns(RuntimeWarning, match=message) as caught:
+        sg.chart(scene, ["penalty", "event"], levels=3, repeats=1)
+    assert caught[0].filename == __file__
+    # A method that diverges at some steps is no wrong request.
+    made = sg.chart(scene, ["penalty:epsilon=1e-9,integrator=central-difference"], levels=3, repeats=1)
+    assert 0 < sum(text is not None for text in made.table["failure"]) < len(made.table["failure"])
+
+
 def test_walls_are_those_of_the_first_point() -> None:
     def make(name: str) -> sg.Scene:
         return sg.oscillator(1.0, 0.0, 1.0, walls=[sg.Wall.upper(name, 1.0)])

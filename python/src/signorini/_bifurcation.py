@@ -15,19 +15,26 @@ from . import _core, _plot
 from ._core import Case
 from ._studies import columns_of
 from ._sweep import Table, warn_of_runs
-from ._types import whole
+from ._types import sequence, whole
 
 
 @dataclass(frozen=True, repr=False)
 class Bifurcation:
-    """The motions that runs settle on, over the values of a key: see `bifurcation`."""
+    """The motions that runs settle on, over the values of a key: see `bifurcation`.
+
+    Attributes
+    ----------
+    table : dict of str to numpy.ndarray
+        One row per sample: ``value``, ``direction`` (up, down or None), ``error``; of impacts
+        ``wall``, ``time_s``, ``phase_cycles``, ``approach_speed_m_per_s``,
+        ``departure_speed_m_per_s``, ``impulse_N_s``; of periods ``time_s``, ``displacement_m``,
+        ``velocity_m_per_s``.
+    key : str
+        The key that was varied.
+    """
 
     table: Table
-    """One row per sample: ``value``, ``direction`` (up, down or None), ``error``; of impacts ``wall``,
-    ``time_s``, ``phase_cycles``, ``approach_speed_m_per_s``, ``departure_speed_m_per_s``,
-    ``impulse_N_s``; of periods ``time_s``, ``displacement_m``, ``velocity_m_per_s``."""
     key: str
-    """The key that was varied."""
 
     def __repr__(self) -> str:
         values = self.table["value"]
@@ -111,6 +118,8 @@ def bifurcation(
     ------
     ValueError
         For a wrong request.
+    TypeError
+        For something else than a case, or values that are no sequence.
 
     Warns
     -----
@@ -129,7 +138,8 @@ def bifurcation(
     """
     count = (os.cpu_count() or 1) if threads is None else whole("threads", threads, 1)
     settle, keep = whole("settle", settle), whole("keep", keep, 1)
-    rows, cautions = _core._bifurcation(case, key, list(values), scheme, settle, keep, follow, samples, count)
+    listed = sequence("values", values)
+    rows, cautions = _core._bifurcation(case, key, listed, scheme, settle, keep, follow, samples, count)
     warn_of_runs(cautions)
     failed = [row for row in rows if row["error"] is not None]
     if failed:

@@ -12,7 +12,7 @@ from . import _core
 from ._core import Load, Rayleigh, Scene, Wall
 from ._keywords import keywords
 from ._matrix import Entries, lower
-from ._types import End, Place, whole
+from ._types import End, Place, check_number, whole
 
 
 class SceneOptions(TypedDict, total=False):
@@ -343,6 +343,8 @@ def support(
     ------
     ValueError
         For values that make no sense.
+    TypeError
+        For a gap or a centre that is no number.
 
     Examples
     --------
@@ -350,6 +352,8 @@ def support(
     >>> sg.support("first", 2e-4, at=1.0, restitution=0.5)[0]
     Wall.upper("first-upper", 0.0002, restitution=0.5, at=1.0)
     """
+    for label, value in (("gap", gap), ("centre", centre)):
+        check_number(f"support {name!r}: {label}", value)
     if not gap >= 0.0:
         raise ValueError(f"support {name!r}: gap is {gap!r}; expected a number of m, 0 or more")
     upper = Wall.upper(

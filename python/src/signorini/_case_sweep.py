@@ -17,7 +17,7 @@ from . import _core
 from ._columns import Column, ReadOnly, TableResult, Variables, dataset, frame, read
 from ._core import Case, ResultWarning
 from ._progress import Progress
-from ._types import check_given, names, whole
+from ._types import check_given, names, sequence, whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -215,7 +215,8 @@ def sweep_case(
     check_given({"until_interval": until_interval}, {"seeds": seeds, "most_seeds": most_seeds})
     if measures:
         names("measures", measures, "work_rate")
-    axes = [(key, list(values)) for key, values in keys.items()]
+    expected = "a sequence of values" if design == "grid" else "its lower and upper bound"
+    axes = [(key, sequence(key, values, expected)) for key, values in keys.items()]
     for key, values in axes:
         bounds = values[:2] if values[2:] == ["log"] else values
         if design == "random" and not (len(bounds) == 2 and all(isinstance(bound, Real) for bound in bounds)):

@@ -13,7 +13,7 @@ from ._core import AccuracyWarning, Case, ResultWarning, Run, Scene
 from ._progress import Progress
 from ._realisations import Means, Realisations, by_place, made, of_case
 from ._studies import columns_of
-from ._sweep import Table, warn_of_runs
+from ._sweep import Table, warn_of_failures, warn_of_runs
 from ._types import check_given, names
 
 if TYPE_CHECKING:
@@ -83,19 +83,29 @@ class MethodRealisations:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Methods side by side: see `compare`."""
+    """Methods side by side: see `compare`.
+
+    Attributes
+    ----------
+    table : dict of str to numpy.ndarray
+        One row per method: ``method``, ``error`` (share of the gap, up to the horizon),
+        ``agrees_until_s``, ``restitution`` (median over the impacts), ``step_ns``, ``failure`` and
+        ``refuted`` (words).
+    runs : list of Run or None
+        The runs, as the rows; None where one failed.
+    findings : list of str
+        Findings of the comparison, in sentences.
+    horizon : float
+        Time up to which errors are meaningful, s.
+    realisations : MethodRealisations or None
+        The methods over several realisations of the random loads, where ``seeds`` are asked for.
+    """
 
     table: Table
-    """One row per method: ``method``, ``error`` (share of the gap, up to the horizon), ``agrees_until_s``,
-    ``restitution`` (median over the impacts), ``step_ns``, ``failure`` and ``refuted`` (words)."""
     runs: list[Run | None]
-    """The runs, as the rows; None where one failed."""
     findings: list[str]
-    """Findings of the comparison, in sentences."""
     horizon: float
-    """Time up to which errors are meaningful, s."""
     realisations: MethodRealisations | None = None
-    """The methods over several realisations of the random loads, where ``seeds`` are asked for."""
 
     def __repr__(self) -> str:
         lines = ["method                             error   agrees until (s)   ns a step"]
@@ -168,7 +178,8 @@ def compare(
     Raises
     ------
     ValueError
-        For a wrong request, such as ``seeds`` of a case without random loads.
+        For a wrong request, such as ``seeds`` of a case without random loads. What one method
+        cannot do, such as a penalty without stiffness, is the ``failure`` of its row.
     TypeError
         For something else than a scene or a case; with ``seeds`` for a scene, which knows none.
 
@@ -180,6 +191,8 @@ def compare(
         method of which the judge refutes a realisation, and for each of which one failed.
     AccuracyWarning
         For each check of means that failed, so that a part of their errors is not known.
+    RuntimeWarning
+        Where methods failed, with their number and the first reason.
 
     Examples
     --------
@@ -200,6 +213,7 @@ def compare(
     runs = [row.pop("run") for row in rows]
     # One motion by several methods, whose window is asked for: that it has not settled is among the
     # notes of its runs.
+    warn_of_failures([row["failure"] for row in rows], "methods")
     warn_of_runs([(row.pop("note"), None) for row in rows])
     if known is not None:
         for kind, texts in ((ResultWarning, known["warnings"]), (AccuracyWarning, known["unknown"])):

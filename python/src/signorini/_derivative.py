@@ -26,44 +26,61 @@ Build = tuple[str, float, Callable[[float], Scene]]
 
 @dataclass(frozen=True, repr=False)
 class Derivative:
-    """The derivatives of an exact run: see `derivative`."""
+    """The derivatives of an exact run: see `derivative`.
+
+    Attributes
+    ----------
+    keys : list of str
+        The names of the keys.
+    values : numpy.ndarray
+        Their values; shape (keys,).
+    contacts : structured numpy.ndarray
+        The contacts in the order of their ends, shape (contacts,): ``wall``, ``start`` and ``end``
+        (s), ``approach_speed`` and ``departure_speed`` (m/s), ``impulse`` (N s), ``growth``;
+        ``start_by``, ``end_by``, ``approach_speed_by``, ``departure_speed_by`` and ``impulse_by``
+        have the derivatives under the names of the keys, per unit of the key. Those of end and
+        departure speed are NaN where several impacts elsewhere at once end a lasting contact.
+    time : numpy.ndarray
+        The times asked for, s; shape (times,).
+    displacement : numpy.ndarray
+        Of the probe at these times, m; shape (times,). NaN after ``until``.
+    velocity : numpy.ndarray
+        The same, m/s; shape (times,).
+    displacement_by : structured numpy.ndarray
+        Its derivatives under the names of the keys, m per unit of the key; shape (times,).
+    velocity_by : structured numpy.ndarray
+        Those of the velocity, m/s per unit of the key; shape (times,).
+    mean : structured numpy.ndarray or None
+        Means over the whole run, one row for each number: ``name`` (``displacement`` and ``rms``,
+        in m, with the name of the probe after a colon where it has one, and ``force:``, in N, with
+        that of the wall), ``value``, and ``by``, the derivatives under the names of the keys. None
+        if the derivatives end before the run does.
+    growth : float
+        The largest growth of a small change of the start since it was smallest.
+    until : float
+        The time up to which there are derivatives, s.
+    ended : str or None
+        Why there are none after it; None if they reach to the end.
+    until_by : dict of str to float
+        For each key the time up to which there are derivatives by it, s; they are NaN afterwards.
+    ended_by : dict of str to str
+        Why they end, of the keys by which they end alone while those by other keys go on.
+    """
 
     keys: list[str]
-    """The names of the keys."""
     values: Array
-    """Their values; shape (keys,)."""
     contacts: npt.NDArray[np.void]
-    """The contacts in the order of their ends, shape (contacts,): ``wall``, ``start`` and ``end``
-    (s), ``approach_speed`` and ``departure_speed`` (m/s), ``impulse`` (N s), ``growth``;
-    ``start_by``, ``end_by``, ``approach_speed_by``, ``departure_speed_by`` and ``impulse_by`` have
-    the derivatives under the names of the keys, per unit of the key. Those of end and departure
-    speed are NaN where several impacts elsewhere at once end a lasting contact."""
     time: Array
-    """The times asked for, s; shape (times,)."""
     displacement: Array
-    """Of the probe at these times, m; shape (times,). NaN after ``until``."""
     velocity: Array
-    """m/s; shape (times,)."""
     displacement_by: npt.NDArray[np.void]
-    """Its derivatives under the names of the keys, m per unit of the key; shape (times,)."""
     velocity_by: npt.NDArray[np.void]
-    """m/s per unit of the key; shape (times,)."""
     mean: npt.NDArray[np.void] | None
-    """Means over the whole run, one row for each number: ``name`` (``displacement`` and ``rms``, in m,
-    with the name of the probe after a colon where it has one, and ``force:``, in N, with that of
-    the wall),
-    ``value``, and ``by``, the derivatives under the names of the keys. None if the derivatives end
-    before the run does."""
     growth: float
-    """The largest growth of a small change of the start since it was smallest."""
     until: float
-    """The time up to which there are derivatives, s."""
     ended: str | None
-    """Why there are none after it; None if they reach to the end."""
     until_by: dict[str, float]
-    """For each key the time up to which there are derivatives by it, s; they are NaN afterwards."""
     ended_by: dict[str, str]
-    """Why they end, of the keys by which they end alone while those by other keys go on."""
 
     def __repr__(self) -> str:
         reasons = list(self.ended_by.values())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -16,13 +17,23 @@ from ._types import Array, known
 from ._types import times as checked_times
 
 _OF_CONTACTS = ("start", "approach_speed", "impulse")
+_KINDS = ("displacement", *_OF_CONTACTS)
 
 _MOST_GROWTH = 1e2
 """A small change may grow by this much: beyond, a record tells of the start more than of the keys."""
 
+_MOST_SCATTER = 10.0
+"""Beyond this size, in units of their standard errors, residuals are no errors of the data."""
+
+_OPPOSITE = 3.0
+"""So many standard errors beyond zero an impulse is no small one of the other sign."""
+
 _NO_EFFECT = 1e-12
-"""A key does not change the data where its whole value changes them by less than this share of the
-values: rounding."""
+"""A key does not change the data where its whole value, that from which the search starts if it is
+larger, changes them by less than this share of the values: rounding."""
+
+_AT_LIMIT = 1e-6
+"""So near to a bound, as a share of its size, a key is at it."""
 
 _APART = 1e-8
 """Data that one key changes as others together do, to this share, do not tell it from them: the
@@ -31,27 +42,39 @@ derivatives are exact to it."""
 
 @dataclass(frozen=True, repr=False)
 class Fit:
-    """Numbers of a scene that fit data: see `fit`."""
+    """Numbers of a scene that fit data: see `fit`.
+
+    Attributes
+    ----------
+    values : dict of str to float
+        The fitted values of the keys.
+    intervals : dict of str to pair of float
+        The interval of each at the confidence asked for; from minus to plus infinity for a key that
+        the data do not tell, whose value is one of many.
+    covariance : numpy.ndarray
+        That of the values; shape (keys, keys). Infinite variances, and NaN beside them, of keys that the
+        data do not tell.
+    residuals : numpy.ndarray
+        Model less data, in units of the standard errors of the data; shape (data,).
+    scale : float
+        The root mean square of the residuals, by the degrees of freedom: 1 where the standard
+        errors given are those of the data.
+    until : float
+        The time of the last datum used, s.
+    runs : int
+        Number of exact runs.
+    scene : Scene
+        The scene with the fitted values.
+    """
 
     values: dict[str, float]
-    """The fitted values of the keys."""
     intervals: dict[str, tuple[float, float]]
-    """The interval of each at the confidence asked for; from minus to plus infinity for a key that
-    the data do not tell, whose value is one of many."""
     covariance: Array
-    """Of the values; shape (keys, keys). Infinite variances, and NaN beside them, of keys that the
-    data do not tell."""
     residuals: Array
-    """Model less data, in units of the standard errors of the data; shape (data,)."""
     scale: float
-    """The root mean square of the residuals, by the degrees of freedom: 1 where the standard errors
-    given are those of the data."""
     until: float
-    """The time of the last datum used, s."""
     runs: int
-    """Number of exact runs."""
     scene: Scene
-    """The scene with the fitted values."""
 
     def __repr__(self) -> str:
         of = [f"{key} = {value:.6g} ({low:.6g} to {high:.6g})" for (key, value), (low, high) in self._rows()]
@@ -63,11 +86,13 @@ class Fit:
 
 @dataclass(frozen=True)
 class _Column:
-    """Values of one kind, with their standard errors, and how they are read from derivatives."""
+    """Values of one kind, with their standard errors, and how they and their times are read from
+    derivatives."""
 
     values: Array
     errors: Array
     read: Callable[[Derivative], tuple[Array, npt.NDArray[np.void]]]
+    times: Callable[[Derivative], Array]
 
 
 def _numbers(name: str, values: Any) -> Array:
@@ -91,8 +116,34 @@ def _errors(name: str, values: Array, error: Mapping[str, Any] | None, several: 
     return np.array(errors)
 
 
-def _contact_columns(data: Mapping[str, Any], error: Mapping[str, Any] | None, walls: Sequence[str]) -> list[_Column]:
+def _check_kinds(data: Mapping[str, Any], error: Mapping[str, Any] | None) -> list[str]:
+    """The kinds of the data, unless some of them, or of their errors, would not be used."""
+    if not hasattr(data, "keys"):
+        raise TypeError(f"data is {data!r}; expected a mapping of kinds to their values")
+    if error is not None and not isinstance(error, Mapping):
+        raise TypeError(f"error is {error!r}; expected a mapping of kinds to their standard errors")
+    kinds = [name for name in _KINDS if name in data]
+    expected = "displacement over time, start, approach_speed, impulse, and the wall of these three"
+    if not kinds:
+        raise ValueError(f"data has {', '.join(data) or 'nothing'}; expected {expected}")
+    for name in data:
+        if name not in (*_KINDS, "time", "wall"):
+            raise ValueError(f"data has {name!r}; expected {expected}")
+    if "time" in data and "displacement" not in data:
+        raise ValueError("data has 'time' without displacement; expected both or none of them")
+    if "wall" in data and kinds == ["displacement"]:
+        raise ValueError("data has 'wall' beside displacement alone; expected start, approach_speed or impulse with it")
+    for name in error or ():
+        if name not in kinds:
+            raise ValueError(f"error has {name!r}; expected kinds that data has: {', '.join(map(repr, kinds))}")
+    return kinds
+
+
+def _contact_columns(
+    data: Mapping[str, Any], error: Mapping[str, Any] | None, scene: Scene, several: bool
+) -> list[_Column]:
     """The columns of contact data: number i at a wall is its contact i in the run."""
+    walls = list(scene._wall_names)
     names = [name for name in _OF_CONTACTS if name in data]
     columns = {name: _numbers(name, data[name]) for name in names}
     sizes = {len(column) for column in columns.values()}
@@ -105,6 +156,10 @@ def _contact_columns(data: Mapping[str, Any], error: Mapping[str, Any] | None, w
     wall = [given] * count if isinstance(given, str) else [str(name) for name in given]
     if len(wall) != count or not set(wall) <= set(walls):
         raise ValueError(f"data: wall is {given!r}; expected {count} of {', '.join(walls) or 'a scene with walls'}")
+    errors = {name: _errors(name, column, error, several) for name, column in columns.items()}
+    if "impulse" in columns:
+        least = _OPPOSITE * errors["impulse"] if error is not None and "impulse" in error else np.zeros(count)
+        _check_signs(columns["impulse"], least, wall, {one.name: one.side for one in scene.walls})
     number = [wall[:i].count(name) for i, name in enumerate(wall)]
     for name in set(wall) if "start" in columns else ():
         own = columns["start"][[one == name for one in wall]]
@@ -130,8 +185,21 @@ def _contact_columns(data: Mapping[str, Any], error: Mapping[str, Any] | None, w
 
         return read
 
-    several = len(names) > 1
-    return [_Column(columns[name], _errors(name, columns[name], error, several), reader(name)) for name in names]
+    def times(by: Derivative) -> Array:
+        at = rows(by)
+        return np.empty(0) if at is None else by.contacts["start"][at]
+
+    return [_Column(columns[name], errors[name], reader(name), times) for name in names]
+
+
+def _check_signs(impulses: Array, least: Array, walls: Sequence[str], sides: Mapping[str, str]) -> None:
+    """Refuses impulses that a wall cannot give, by more than ``least``: magnitudes, at an upper wall."""
+    signs = {"upper": -1.0, "lower": 1.0}
+    for impulse, one, name in zip(impulses, least, walls, strict=True):
+        if (side := sides.get(name)) in signs and signs[side] * impulse < -one:
+            sign = "negative" if side == "upper" else "positive"
+            expected = f"{sign} ones on the structure by this {side} wall, as in run.contacts"
+            raise ValueError(f"data: impulse at wall {name!r} is {impulse:g} N s; expected {expected}")
 
 
 def fit(
@@ -161,11 +229,12 @@ def fit(
     keys : sequence of str or mapping of str to float
         The keys, or the values from which the search starts; else those of the source.
     data : mapping
-        Contacts: one or several of ``start`` (s), ``approach_speed`` (m/s) and ``impulse`` (N s),
-        and ``wall``, a name or one for each, where there are several walls; number i at a wall is
-        its contact i in the motion. Or a record: ``time`` (s, increasing) and ``displacement`` (m).
-        Of a record the rows are left out beyond which a small change has grown by 100 in the
-        motion from which the search starts: those tell nothing of the keys.
+        Contacts: one or several of ``start`` (s), ``approach_speed`` (m/s) and ``impulse`` (N s, on
+        the structure: negative at an upper wall, as in `Run.contacts`), and ``wall``, a name or one
+        for each, where there are several walls; number i at a wall is its contact i in the motion.
+        Or a record: ``time`` (s, increasing) and ``displacement`` (m). Of a record the rows are
+        left out beyond which a small change has grown by 100 in the motion from which the search
+        starts: those tell nothing of the keys. Contacts and a record may be given together.
     error : mapping of str to float or array, optional
         The standard error of each kind of data; needed where there is more than one kind.
     probe : str, optional
@@ -182,8 +251,11 @@ def fit(
     Raises
     ------
     ValueError
-        For data that do not fit the scene, as fewer contacts in its motion than in the data, for a
-        key that starts outside of its bounds, and as `derivative`.
+        For data that do not fit the scene, as fewer contacts in its motion than in the data, or
+        impulses of the other sign than a wall gives, for a key that starts outside of its bounds,
+        and as `derivative`.
+    TypeError
+        For data or errors that are no mapping.
     RunError
         Where the search does not converge.
     ImportError
@@ -192,7 +264,10 @@ def fit(
     Warns
     -----
     ResultWarning
-        For keys that the data do not tell.
+        For keys that the data do not tell, and where the residuals are above 10 standard errors.
+        For keys that end at a bound, or where the scene takes no values beyond, as at a damping of
+        0: intervals of a linearised model are none of the confidence asked for there. And for an
+        interval that reaches beyond the bounds of its key.
 
     Examples
     --------
@@ -216,20 +291,19 @@ def fit(
     if not 0.0 < confidence < 1.0:
         raise ValueError(f"confidence is {confidence!r}; expected a number between 0 and 1")
     bounds = known("bounds", bounds, names)
-    known("error", error, ("displacement", *_OF_CONTACTS))
+    kinds = _check_kinds(data, error)
     for name, value in zip(names, x0, strict=True):
         lowest, highest = bounds.get(name, (-np.inf, np.inf))
         if not lowest <= value <= highest:
             raise ValueError(f"{name} starts from {value:g}; expected from {lowest:g} to {highest:g}, its bounds")
     first = scene_of(values)
     times: Array = np.empty(0)
+    columns: list[_Column] = []
     if "displacement" in data:
-        record = _record(scene_of, values, data, error, probe)
+        record = _record(scene_of, values, data, error, probe, len(kinds) > 1)
         times, columns = record.times, [record.column]
-    elif any(name in data for name in _OF_CONTACTS):
-        columns = _contact_columns(data, error, list(first._wall_names))
-    else:
-        raise ValueError(f"data has {', '.join(data) or 'nothing'}; expected displacement over time, or start, approach_speed, impulse")
+    if kinds != ["displacement"]:
+        columns += _contact_columns(data, error, first, len(kinds) > 1)
     count = sum(len(column.values) for column in columns)
     if count <= len(names):
         raise ValueError(f"data has {count} usable values; expected more than the {len(names)} keys")
@@ -239,7 +313,6 @@ def fit(
         raise ValueError(f"no residuals in the motion from which the search starts: {model.reason}")
     low = [bounds.get(name, (-np.inf, np.inf))[0] for name in names]
     high = [bounds.get(name, (-np.inf, np.inf))[1] for name in names]
-    scale = np.where(x0 == 0.0, 1.0, np.abs(x0))
 
     def residuals_at(x: Array) -> Array:
         return model.at(x)[0]
@@ -249,16 +322,31 @@ def fit(
 
     # No bound of the gradient: it has the unit of the residuals.
     made = least_squares(
-        residuals_at, x0, jac=jacobian_at, bounds=(low, high), x_scale=scale, xtol=1e-12, ftol=1e-12, gtol=None
-    )
+        residuals_at, x0, jac=jacobian_at, bounds=(low, high), x_scale=np.where(x0 == 0.0, 1.0, np.abs(x0)),
+        xtol=1e-12, ftol=1e-12, gtol=None,
+    )  # fmt: skip
     if not made.success:
         raise RunError(f"the search did not converge: {made.message}")
     residuals, jacobian = model.at(made.x)
-    told = _told(made.x, jacobian, model.size())
-    for text in _untold(names, told):
+    scale = _scale(x0, made.x, np.subtract(high, low))
+    told = _told(scale, jacobian, model.size())
+    limits = _limits(scene_of, dict(zip(names, made.x.tolist(), strict=True)), scale, bounds)
+    limits = {name: limit for (name, limit), unseen in zip(limits.items(), told.unseen, strict=True) if not unseen}
+    for text in [*_untold(names, told), *_limited(limits, confidence, len(names))]:
         warnings.warn(text, ResultWarning, stacklevel=2)
     freedom = count - told.rank
-    return _summary(made.x, names, (residuals, told), (model, scene_of), freedom, float(student.ppf(0.5 + confidence / 2, freedom)))
+    quantile = float(student.ppf(0.5 + confidence / 2, freedom))
+    summary = _summary(made.x, names, (residuals, told), (model, scene_of), freedom, quantile)
+    for name, (least, most) in bounds.items():
+        (a, b), at = summary.intervals[name], limits.get(name)
+        if at is None and math.isfinite(b - a) and not least <= a <= b <= most:
+            text = f"the interval of {name}, {a:.6g} to {b:.6g}, reaches beyond its bounds, {least:g} to {most:g}"
+            warnings.warn(text, ResultWarning, stacklevel=2)
+    if error and summary.scale > _MOST_SCATTER:
+        text = f"scale is {summary.scale:.3g}: the residuals are so many standard errors of the data, "
+        text += "so the scene with these values does not describe them"
+        warnings.warn(text, ResultWarning, stacklevel=2)
+    return summary
 
 
 @dataclass(frozen=True)
@@ -275,14 +363,64 @@ class _Told:
     """The pseudo-inverse of the Jacobian; shape (keys, data)."""
 
 
-def _told(x: Array, jacobian: Array, data: float) -> _Told:
-    """By the Jacobian at ``x`` of data of the size ``data``, both in units of the standard errors."""
+def _scale(x0: Array, x: Array, width: Array) -> Array:
+    """The sizes of keys that go from ``x0`` to ``x`` between bounds that are ``width`` apart."""
+    size = np.maximum(np.abs(x0), np.abs(x))
+    return np.where(size > 0.0, np.minimum(size, width), np.where(np.isfinite(width), width, 1.0))
+
+
+def _limits(
+    scene_of: Callable[[Mapping[str, float]], Scene],
+    values: Mapping[str, float],
+    scale: Array,
+    bounds: Mapping[str, tuple[float, float]],
+) -> dict[str, float | None]:
+    """The limit at which each key is: a bound, or where there is no scene with larger or smaller values."""
+
+    def taken(key: str, value: float) -> bool:
+        try:
+            scene_of({**values, key: value})
+        except Exception:  # Whatever a function raises beyond the values that it was made for.
+            return False
+        return True
+
+    def at(key: str, near: float) -> float | None:
+        value = values[key]
+        for end in bounds.get(key, ()):
+            if abs(value - end) <= near:
+                return end
+        for beyond in (value - near, value + near):
+            if not taken(key, beyond):
+                inside = value
+                for _ in range(10):
+                    middle = 0.5 * (inside + beyond)
+                    inside, beyond = (middle, beyond) if taken(key, middle) else (inside, middle)
+                # To a digit that the halves have told; no minus before 0.
+                return round(inside, 2 - math.floor(math.log10(near))) + 0.0
+        return None
+
+    return {key: at(key, _AT_LIMIT * float(size)) for key, size in zip(values, scale, strict=True)}
+
+
+def _limited(limits: Mapping[str, float | None], confidence: float, keys: int) -> list[str]:
+    """Which keys are at their limits, in words."""
+    what = "its interval is no" if keys == 1 else "its interval and those of the others are no"
+    return [
+        f"{name} is at its limit {limit:.6g}: {what} {100.0 * confidence:g} % interval{'' if keys == 1 else 's'}"
+        for name, limit in limits.items()
+        if limit is not None
+    ]
+
+
+def _told(scale: Array, jacobian: Array, data: float) -> _Told:
+    """By the Jacobian for keys of the sizes ``scale``, of data of the size ``data``, both in units of
+    the standard errors."""
     size = np.linalg.norm(jacobian, axis=0)
-    unseen = size * np.where(x == 0.0, 1.0, np.abs(x)) <= _NO_EFFECT * data
+    unseen = size * scale <= _NO_EFFECT * data
     # In units of the columns, which may differ by far.
     size[unseen] = 1.0
     columns = np.where(unseen, 0.0, jacobian / size)
-    mixed = np.zeros(len(x), bool)
+    mixed = np.zeros(len(scale), bool)
     for key in np.flatnonzero(~unseen):
         others = np.delete(columns, key, axis=1)
         like = others @ (np.linalg.pinv(others, rcond=_APART) @ columns[:, key])
@@ -345,6 +483,7 @@ def _record(
     data: Mapping[str, Any],
     error: Mapping[str, Any] | None,
     probe: str | None,
+    several: bool,
 ) -> _Record:
     """A record of displacements, up to the horizon of the motion from which the search starts."""
     if "time" not in data:
@@ -353,7 +492,7 @@ def _record(
     if times.shape != measured.shape:
         raise ValueError(f"data has {len(times)} times and {len(measured)} displacements; expected as many")
     checked_times("data: time", times, scene_of(values).duration)
-    errors = _errors("displacement", measured, error, several=False)
+    errors = _errors("displacement", measured, error, several)
     by = found(scene_of, values, (), None)
     late = by.contacts["start"][by.contacts["growth"] > _MOST_GROWTH]
     until = min([*by.until_by.values(), *late.tolist()])
@@ -362,7 +501,7 @@ def _record(
     def read(by: Derivative) -> tuple[Array, npt.NDArray[np.void]]:
         return by.displacement, by.displacement_by
 
-    return _Record(times[kept], _Column(measured[kept], errors[kept], read))
+    return _Record(times[kept], _Column(measured[kept], errors[kept], read, lambda by: by.time))
 
 
 class _Model:
@@ -407,6 +546,6 @@ class _Model:
             residuals.append((model - column.values) / column.errors)
             jacobian.append(np.column_stack([derived[name] for name in self._names]) / column.errors[:, None])
         self.reason = next(iter(by.ended_by.values()), by.ended or "it has fewer contacts than the data")
-        self.until = float(self._times[-1]) if len(self._times) else by.until
+        self.until = float(np.concatenate([column.times(by) for column in self._columns]).max(initial=0.0))
         known = np.isfinite(np.concatenate(jacobian)).all(axis=1)
         return np.where(known, np.concatenate(residuals), np.nan), np.concatenate(jacobian)

@@ -17,23 +17,33 @@ from ._types import Array, whole
 
 @dataclass(frozen=True, repr=False)
 class OrbitDerivative:
-    """The derivatives of a periodic orbit with respect to keys: see `orbit`."""
+    """The derivatives of a periodic orbit with respect to keys: see `orbit`.
+
+    Attributes
+    ----------
+    keys : list of str
+        The names of the keys.
+    values : numpy.ndarray
+        Their values; shape (keys,).
+    events : structured numpy.ndarray
+        The events of the whole orbit: ``wall``, ``kind``, ``phase`` (periods of the load) and
+        ``speed`` (m/s), of a structure ``approach_speed`` (m/s) and ``impulse`` (N s); ``phase_by``
+        and so on have the derivatives under the names of the keys, per unit of the key.
+    forcing_period : numpy.ndarray
+        The derivatives of the period of the load, s per unit of each key; shape (keys,).
+    multipliers : numpy.ndarray of complex or None
+        The Floquet multipliers that ``multipliers_by`` differentiates; None for a structure, and
+        where two of them coincide.
+    multipliers_by : structured numpy.ndarray or None
+        Their derivatives under the names of the keys.
+    """
 
     keys: list[str]
-    """The names of the keys."""
     values: Array
-    """Their values; shape (keys,)."""
     events: npt.NDArray[np.void]
-    """The events of the whole orbit: ``wall``, ``kind``, ``phase`` (periods of the load) and
-    ``speed`` (m/s), of a structure ``approach_speed`` (m/s) and ``impulse`` (N s); ``phase_by`` and
-    so on have the derivatives under the names of the keys, per unit of the key."""
     forcing_period: Array
-    """Of the period of the load, s per unit of each key; shape (keys,)."""
     multipliers: npt.NDArray[np.complex128] | None
-    """The Floquet multipliers that ``multipliers_by`` differentiates; None for a structure, and where
-    two of them coincide."""
     multipliers_by: npt.NDArray[np.void] | None
-    """Their derivatives under the names of the keys."""
 
     def __repr__(self) -> str:
         return f"<OrbitDerivative by {', '.join(self.keys)}: {len(self.events)} events>"
@@ -67,38 +77,58 @@ def _differentiated(made: dict[str, Any], values: dict[str, float]) -> OrbitDeri
 
 @dataclass(frozen=True, repr=False)
 class Orbit:
-    """A periodic orbit, by its events: see `orbit`."""
+    """A periodic orbit, by its events: see `orbit`.
+
+    Attributes
+    ----------
+    kinds : list of str
+        The kind of each event: impact, rest, release, enter, leave and so on.
+    walls : list of str
+        The wall of each event.
+    phases : numpy.ndarray
+        The instant of each event, in periods of the load from t = 0; shape (events,).
+    speeds : numpy.ndarray
+        Speed at each event, m/s; shape (events,).
+    symmetric : bool
+        Whether the events are the first half of an orbit whose second half is the mirror image.
+    period : float
+        Its period, s.
+    forcing_period : float
+        Period of the load, s.
+    multipliers : numpy.ndarray of complex
+        The Floquet multipliers, the largest first, two for each degree of freedom.
+    stable : bool
+        Whether all multipliers are within the unit circle.
+    closure : float
+        Distance between start and end of a free run over one period, as a share of the scales.
+    state : pair of numpy.ndarray
+        Displacement (m) and velocity (m/s) of every degree of freedom at the first instant of that
+        run.
+    time : numpy.ndarray
+        Instants of that run, s; shape (rows,).
+    displacement : numpy.ndarray
+        Of a structure that of its first probe, m; shape (rows,), or (0,) without a probe.
+    velocity : numpy.ndarray
+        The same, m/s.
+    derivative : OrbitDerivative or None
+        Its derivatives by the keys asked for.
+    """
 
     kinds: list[str]
-    """The kind of each event: impact, rest, release, enter, leave and so on."""
     walls: list[str]
-    """The wall of each event."""
     phases: Array
-    """The instant of each event, in periods of the load from t = 0; shape (events,)."""
     speeds: Array
-    """Speed at each event, m/s; shape (events,)."""
     symmetric: bool
-    """Whether the events are the first half of an orbit whose second half is the mirror image."""
     period: float
-    """s."""
     forcing_period: float
-    """Period of the load, s."""
     multipliers: npt.NDArray[np.complex128]
-    """The Floquet multipliers, the largest first, two for each degree of freedom; the orbit is stable
-    if all are within the unit circle."""
     stable: bool
     closure: float
-    """Distance between start and end of a free run over one period, as a share of the scales."""
     state: tuple[Array, Array]
-    """Displacement (m) and velocity (m/s) of every degree of freedom at the first instant of that run."""
     time: Array
-    """Instants of that run, s; shape (rows,)."""
     displacement: Array
-    """Of a structure that of its first probe, m; shape (rows,), or (0,) without a probe."""
     velocity: Array
-    """The same, m/s."""
     derivative: OrbitDerivative | None
-    """Its derivatives by the keys asked for."""
 
     def __repr__(self) -> str:
         count = len(self.kinds) * (2 if self.symmetric else 1)

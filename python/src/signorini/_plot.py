@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._core import _unit
+from ._types import sequence
 
 if TYPE_CHECKING:
     from ._bifurcation import Bifurcation
@@ -84,7 +85,13 @@ def label(column: str) -> str:
 def run(made: Run, axes: Any = None) -> Any:
     """Displacement between its walls, velocity, and contact forces or impulses: see `Run.plot`."""
     axes = _new(3, 5.6) if axes is None else axes
-    position, speed, wall_axes = axes
+    expected = "three matplotlib axes, such as plt.subplots(3, 1)[1]"
+    own = sequence("axes", axes, expected)
+    if len(own) != 3:
+        raise ValueError(f"axes has {len(own)}; expected {expected}")
+    if not all(hasattr(one, "plot") for one in own):
+        raise TypeError(f"axes is {axes!r}; expected {expected}")
+    position, speed, wall_axes = own
     for name, dash in zip(made.probes, DASHES * (1 + len(made.probes) // len(DASHES))):
         q, v = made.probe(name)
         style: dict[str, Any] = {"color": COLOURS[0], "linewidth": 1.2, "linestyle": dash, "label": name}

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core, _plot
 from ._core import Case, Scene
-from ._sweep import Table
+from ._sweep import Table, warn_of_failures
 from ._types import Array, names, positive, whole
 
 
@@ -26,15 +26,23 @@ def columns_of(rows: Sequence[Mapping[str, Any]], words: Iterable[str]) -> Table
 
 @dataclass(frozen=True, repr=False)
 class Chart:
-    """Computing time against error: see `chart`."""
+    """Computing time against error: see `chart`.
+
+    Attributes
+    ----------
+    table : dict of str to numpy.ndarray
+        One row per method and step: ``method``, ``kind``, ``step_s``, ``seconds``,
+        ``displacement_error``, ``impulse_error``, ``contact_time_error`` (shares), ``failure``
+        (words).
+    reference : str
+        The reference of the errors.
+    horizon : float
+        Time up to which errors are taken, s.
+    """
 
     table: Table
-    """One row per method and step: ``method``, ``kind``, ``step_s``, ``seconds``, ``displacement_error``,
-    ``impulse_error``, ``contact_time_error`` (shares), ``failure`` (words)."""
     reference: str
-    """The reference of the errors."""
     horizon: float
-    """Time up to which errors are taken, s."""
 
     def __repr__(self) -> str:
         methods = len(set(self.table["method"]))
@@ -168,9 +176,15 @@ def chart(
     Raises
     ------
     ValueError
-        For a wrong request.
+        For a wrong request. What one method cannot do, such as a penalty without stiffness, is the
+        ``failure`` of its rows.
     TypeError
         For something else than a scene or a case.
+
+    Warns
+    -----
+    RuntimeWarning
+        Where methods failed at every step, with their number and the first reason.
 
     Examples
     --------
@@ -184,19 +198,31 @@ def chart(
     levels = None if levels is None else whole("levels", levels, 1)
     repeats, most_seconds = whole("repeats", repeats, 1), positive("most_seconds", most_seconds)
     rows, reference, horizon = _core._chart(scene, given, coarsest, finest, levels, repeats, most_seconds)
+    # At some steps a method may diverge, or take too long, in a sound request: not at all of them.
+    reasons: dict[str, list[str | None]] = {}
+    for row in rows:
+        reasons.setdefault(row["method"], []).append(row["failure"])
+    warn_of_failures([own[0] if all(own) else None for own in reasons.values()], "methods")
     return Chart(columns_of(rows, ("method", "kind", "failure")), reference, horizon)
 
 
 @dataclass(frozen=True, repr=False)
 class Stability:
-    """Where each scheme fails: see `stability`."""
+    """Where each scheme fails: see `stability`.
+
+    Attributes
+    ----------
+    table : dict of str to numpy.ndarray
+        One row per scheme, parameter and step: ``scheme``, ``parameter`` and its ``value``,
+        ``step_s``, ``class`` (stable, dissipative, frozen, another-motion, energy-gaining,
+        diverged) and its ``reason``.
+    stable : dict of str to numpy.ndarray
+        One row per scheme at the scene's own parameters: its largest ``stable_step_s`` (nan: there
+        is none), and the first failure ``beyond`` it, in words.
+    """
 
     table: Table
-    """One row per scheme, parameter and step: ``scheme``, ``parameter`` and its ``value``, ``step_s``,
-    ``class`` (stable, dissipative, frozen, another-motion, energy-gaining, diverged) and its ``reason``."""
     stable: Table
-    """One row per scheme at the scene's own parameters: its largest ``stable_step_s`` (nan: there is
-    none), and the first failure ``beyond`` it, in words."""
 
     def __repr__(self) -> str:
         schemes = len(set(self.table["scheme"]))

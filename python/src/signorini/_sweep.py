@@ -19,7 +19,7 @@ from ._case_sweep import SweepResult, sweep_case
 from ._core import Case, ResultWarning, Scene, _cautioned, _columns, _run_many
 from ._progress import Progress
 from ._store import Store
-from ._types import check_given, whole
+from ._types import check_given, sequence, whole
 
 Table = dict[str, npt.NDArray[Any]]
 """Columns of equal length, by name."""
@@ -100,13 +100,17 @@ def run_many(
     Raises
     ------
     ValueError
-        For a wrong request.
+        For a scheme that there is not, a step that is missing, and walls of other names. What a
+        scene cannot be run with (a step or a window beyond its duration, a penalty without
+        stiffness) is the ``error`` of its row.
 
     Warns
     -----
     ResultWarning
         Once, with their number, where runs have notes that limit the use of their results, and once
         where more have not settled when their statistics begin than chance finds.
+    RuntimeWarning
+        Where rows failed, with their number and the first reason.
 
     Examples
     --------
@@ -123,6 +127,7 @@ def run_many(
     names = scenes[0]._wall_names if scenes else ()
     with Progress(len(scenes), progress) as shown:
         rows = _run_many(scenes, *options, shown.tell)
+    warn_of_failures(rows[1])
     warn_of_runs(rows[2])
     return _table(names, rows, judge)
 
@@ -199,10 +204,10 @@ def sweep(
         Returns the Scene of a point. For an executor of other processes it has to be pickled: a
         function of a module (Dask also takes one of a notebook).
     points : iterable of mapping, or mapping of str to sequence
-        All with the same names; `grid` makes them. Of a case: the values of each key of the case
-        format, ``{"support.*.gap": [1e-4, 2e-4]}``; the last key varies fastest. With ``random``
-        the bounds of each, ``{"support.*.gap": (1e-4, 4e-4)}``, or ``(1e-4, 4e-4, "log")`` to draw
-        its logarithm.
+        All with the same names, none of them that of a column of results; `grid` makes them. Of a
+        case: the values of each key of the case format, ``{"support.*.gap": [1e-4, 2e-4]}``; the
+        last key varies fastest. With ``random`` the bounds of each, ``{"support.*.gap": (1e-4,
+        4e-4)}``, or ``(1e-4, 4e-4, "log")`` to draw its logarithm.
     scheme
         As in `run_many`.
     measures : sequence of str
@@ -255,6 +260,8 @@ def sweep(
     ------
     ValueError
         For a wrong request.
+    TypeError
+        For points that are no mappings, or no sequence of them.
     Exception
         Whatever ``make`` raises besides ValueError.
 
@@ -292,16 +299,20 @@ def sweep(
     of_case |= {"measures": measures, "settle": settle, "keep": keep, "rows": rows, "seed": seed}
     _refuse(of_case, "a case in place of a function beside it")
     if isinstance(points, Mapping):
-        raise ValueError(f"points is {points!r}; expected a mapping for each point beside a function: grid makes them")
+        raise ValueError(f"points is {points!r}; expected {_POINTS}")
     statistics_from, judge = statistics_from or 0.0, judge is not False
-    points = [dict(point) for point in points]
+    points = [_point(i, point) for i, point in enumerate(sequence("points", points, _POINTS))]
     names = list(points[0]) if points else []
     for i, point in enumerate(points):
         if list(point) != names:
             raise ValueError(f"point {i} has {', '.join(point)}; expected {', '.join(names)}, as the first point")
     options = _options(scheme, step, statistics_from, judge, threads if executor is None else threads or 1)
     walls = _first_walls(make, points)
-    width = len(_columns(walls))
+    columns = _columns(walls)
+    for name in names:
+        if name in (*columns, "status", "error"):
+            raise ValueError(f"points has the parameter {name!r}, a column of results; expected another name for it")
+    width = len(columns)
     values, errors = np.full((len(points), width), np.nan), list[str | None]([None] * len(points))
     cautions: list[Caution] = []
     store = Store(folder, make, points, options, width)
@@ -327,18 +338,35 @@ def sweep(
             _send(executor, make, points, _pieces(missing, size), walls, options, take, shown)
     table: Table = {name: np.array([point[name] for point in points]) for name in names}
     table |= _table(walls, (values, errors, cautions), judge)
-    failed = [text for text in errors if text is not None]
-    if failed:
-        text = f"{len(failed)} of {len(points)} rows failed; the first: {failed[0]}"
-        warnings.warn(text, RuntimeWarning, stacklevel=2)
+    warn_of_failures(errors)
     warn_of_runs(cautions)
     return table
+
+
+def warn_of_failures(reasons: Sequence[str | None], what: str = "rows") -> None:
+    """A warning of a study for those that have a reason why there is no result."""
+    failed = [text for text in reasons if text is not None]
+    if failed:
+        text = f"{len(failed)} of {len(reasons)} {what} failed; the first: {failed[0]}"
+        warnings.warn(text, RuntimeWarning, stacklevel=3)
 
 
 def warn_of_runs(cautions: Sequence[Caution]) -> None:
     """A warning of a study for the notes of its runs, and one for those that have not settled."""
     for text in _cautioned(cautions):
         warnings.warn(text, ResultWarning, stacklevel=3)
+
+
+_POINTS = "a mapping for each point beside a function: grid makes them, or to_dict('records') of a DataFrame"
+
+
+def _point(number: int, point: Any) -> dict[str, Any]:
+    try:
+        if not isinstance(point, str):
+            return dict(point)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"points has {point!r} as point {number}; expected {_POINTS}")
 
 
 def _refuse(arguments: Mapping[str, Any], expected: str) -> None:

@@ -9,9 +9,8 @@ from typing import Any
 from ._core import Case, Load
 from ._document import case
 from ._keywords import keywords
-from ._types import Place
 from ._turbulence import Turbulence, shown
-from ._types import End
+from ._types import End, Place, sequence
 
 SECONDS_PER_YEAR = 365.25 * 86400.0
 
@@ -268,6 +267,15 @@ def _end(end: End) -> Any:
     return end
 
 
+def _parts(name: str, given: Any, kinds: tuple[type, ...], makers: str) -> list[Any]:
+    """The parts ``given``, unless it is one part, or has others than these ``kinds``."""
+    parts = sequence(name, given, f"a sequence of what {makers} make")
+    for part in parts:
+        if not isinstance(part, kinds):
+            raise TypeError(f"{name} has {part!r}; expected what {makers} make")
+    return parts
+
+
 @keywords()
 def tube(
     *,
@@ -349,6 +357,8 @@ def tube(
     ValueError
         For the first value that makes no sense: line and key of the case, and what would be
         accepted.
+    TypeError
+        For supports or loads that are no sequence, or made by other functions.
 
     Examples
     --------
@@ -360,6 +370,8 @@ def tube(
     >>> case.scene
     <Scene: 20 of 120 modes, 1 wall, 1 load, 0.1 s>
     """
+    supports = _parts("supports", supports, (Support, Mapping), "sg.hole, sg.flats and sg.slider")
+    loads = _parts("loads", loads, (Load, Turbulence, Mapping), "sg.Load and sg.turbulence")
     beam = {
         "length": length, "spans": spans, "youngs_modulus": youngs_modulus, "density": density,
         "outer_diameter": outer_diameter, "inner_diameter": inner_diameter, "added_mass": added_mass,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -38,7 +39,8 @@ def check_whole(name: str, value: Any, least: int = 0) -> None:
 
 def check_number(name: str, value: Any) -> None:
     """Refuses what is no number; which of them are accepted is judged elsewhere."""
-    if not isinstance(value, (int, float, np.integer, np.floating)) or isinstance(value, bool):
+    one = value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
+    if not isinstance(one, Real) or isinstance(one, bool):
         raise TypeError(f"{name} is {value!r}; expected a number")
 
 
@@ -68,6 +70,13 @@ def positive(name: str, value: Any) -> float:
     if not value > 0.0:
         raise ValueError(f"{name} is {value!r}; expected a number above 0")
     return float(value)
+
+
+def sequence(name: str, values: Any, expected: str = "a sequence of values") -> list[Any]:
+    """``values`` as a list, unless they are one value or one text."""
+    if isinstance(values, (str, Mapping)) or not isinstance(values, Iterable):
+        raise TypeError(f"{name} is {values!r}; expected {expected}")
+    return list(values)
 
 
 def names(name: str, values: Any, example: str) -> list[str]:
