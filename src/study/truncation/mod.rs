@@ -298,14 +298,20 @@ impl fmt::Display for Truncation {
         {
             write!(
                 f,
-                " the impulse changes by up to {:.2} % of what it is then ({} {:?}: {:+.4} to {:+.4} N s)",
+                " the impulse changes by up to {:.2} % of the largest ({} {:?}: {:+.4} to {:+.4} N s)",
                 100.0 * impulse,
                 at.kind.word(),
                 at.wall,
                 at.impulse_n_s[0],
                 at.impulse_n_s[1]
             )?;
-            write!(f, ", the peak by up to {:.2} % ({} {:?}: ", 100.0 * peak, peak_at.kind.word(), peak_at.wall)?;
+            write!(
+                f,
+                ", the peak by up to {:.2} % of the largest ({} {:?}: ",
+                100.0 * peak,
+                peak_at.kind.word(),
+                peak_at.wall
+            )?;
             match (peak_at.peak_force_n, peak_at.largest_impulse_n_s) {
                 ([Some(a), Some(b)], _) => write!(f, "{a:.4} to {b:.4} N)")?,
                 (_, [a, b]) => {
