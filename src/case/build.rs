@@ -56,7 +56,7 @@ impl Builder<'_> {
         self.describe(file, (built.model, built.planes), total)?;
         let modes = self.modes_of_planes()?.or(self.modes_of_data(file, total));
         self.is_changed_later = modes.is_some_and(|modes| modes < total) || built.pending.is_some();
-        let duration = self.required("duration", &time, "end");
+        let duration = self.end_of_run(&time)?;
         let (scene, places, sliders) = self.scene(file, built.system, duration)?;
         let (wear, sectors) = self.wear(file.section("wear").as_ref())?;
         let turbulence = self.fields(file, scene.duration, modes.is_some())?;

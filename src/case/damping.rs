@@ -6,7 +6,7 @@ use super::value::Section;
 use crate::error::{Result, Subject};
 use crate::linear::Symmetric;
 use crate::scene::matrices::{read_csv, read_matrix_market};
-use crate::scene::{Damping, Structure};
+use crate::scene::{Damping, Structure, of_size};
 use std::path::Path;
 use toml::Spanned;
 
@@ -19,6 +19,10 @@ impl Builder<'_> {
             Some(file) => self.matrix("damping", &file)?,
             None => Symmetric::zeros(mass.size()),
         };
+        // What is computed of them before the structure is checked takes them to be of one size.
+        for (name, matrix) in [("stiffness", &stiffness), ("damping", &damping)] {
+            of_size(name, matrix, mass.size()).map_err(|error| self.at_key(error))?;
+        }
         Ok(Structure { mass, damping, stiffness })
     }
 

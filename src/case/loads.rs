@@ -1,7 +1,7 @@
 //! Reads the tables `[[load]]`.
 
 use super::builder::Builder;
-use super::place::Site;
+use super::place::{Located, Site};
 use super::random::{FORCE, NewRandom};
 use super::table::{self, TableColumns};
 use super::value::{Section, Value};
@@ -68,7 +68,7 @@ impl Builder<'_> {
             let beside = (load.span_of("at"), angle.as_ref());
             return self.massive((index, &owner, kind), &section, beside, (system, end));
         }
-        let mut sites = self.sites((&owner, Subject::nth("load", index)), load, true)?;
+        let mut sites = self.sites((&owner, Subject::nth("load", index)), load, Located::Load)?;
         let site = sites.pop().ok_or_else(|| self.refuse(load.span.clone(), &owner, "a place"))?;
         let sites = match both {
             Some(both) => self.sites_of_both(&owner, &site, both)?,

@@ -21,6 +21,17 @@ pub(super) struct Site {
 /// Most walls, and most probes, of a scene; each of them has its own results.
 pub(super) const MOST_PLACES: usize = 4096;
 
+/// What is located, on which the values of `at` depend.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Located {
+    /// A load, which may be spread.
+    Load,
+    /// A support, around one place with a displacement along y and one along z.
+    Support,
+    /// A wall, slider or probe, of which each place may have one.
+    Other,
+}
+
 /// True for the name of a plane.
 fn is_plane(name: &str) -> bool {
     name == "y" || name == "z"
@@ -28,16 +39,19 @@ fn is_plane(name: &str) -> bool {
 
 impl Builder<'_> {
     /// The values of `at` that this system, or the body whose places are read, accepts.
-    fn takes(&self, spread: bool) -> String {
+    fn takes(&self, located: Located) -> String {
+        // A row has one displacement, and a support surrounds one place.
+        let (spread, around) = (located == Located::Load, located == Located::Support);
         if let Model::Bodies(_) = self.model {
+            let row = if around { "" } else { ", row" };
             return format!(
-                "at = {{ body = .., position = .. }}, or dof, joint, point, row in place of position; body is {}",
+                "at = {{ body = .., position = .. }}, or dof, joint, point{row} in place of position; body is {}",
                 self.names_of_bodies()
             );
         }
         let each = match &self.body {
             Some(body) => format!(", each beside body = {body:?}"),
-            None if spread => String::new(),
+            None if spread || around => String::new(),
             None => ", or \"each\"".to_owned(),
         };
         let last = self.n.saturating_sub(1);
@@ -47,18 +61,18 @@ impl Builder<'_> {
             let of = if names.is_empty() { "shapes names none".to_owned() } else { format!("of {}", listed(&names)) };
             let points = format!("at = {{ point = {first:?} }} ({of}), {{ points = [[{first:?}, 1.0], [.., -1.0]] }}");
             return if self.planes == Planes::Named {
-                format!(
-                    "{points}, with the shapes {first}-y and {first}-z, or {{ row = [[0, 1.0]] }} without direction"
-                )
+                let row = if around { "" } else { ", or { row = [[0, 1.0]] } without direction" };
+                format!("{points}, with the shapes {first}-y and {first}-z{row}")
             } else {
                 format!("{points}, {{ dof = 0 to {last} }}, a mode{each}")
             };
         }
         let dof = match self.planes {
             Planes::Named => {
-                let row = "{ row = [[0, 1.0], [1, -1.0]] } without direction";
-                return format!("at = {{ y = [[0, 1.0]], z = [[1, 1.0]] }}, degrees of freedom 0 to {last}, or {row}");
+                let row = if around { "" } else { ", or { row = [[0, 1.0], [1, -1.0]] } without direction" };
+                return format!("at = {{ y = [[0, 1.0]], z = [[1, 1.0]] }}, degrees of freedom 0 to {last}{row}");
             }
+            _ if around => format!("{{ dof = 0 to {last} }}"),
             _ => format!("{{ dof = 0 to {last} }}, {{ row = [[0, 1.0], [1, -1.0]] }}"),
         };
         // The last joint is the right end, where nothing can touch what is held.
@@ -80,14 +94,19 @@ impl Builder<'_> {
 
     /// The locations that `at` in the table of `owner` refers to. `owner` is the wall, load or
     /// probe, by name and as the subject of errors. Only loads may be spread.
-    pub fn sites(&mut self, (owner, subject): (&str, Subject), table: &Section<'_>, load: bool) -> Result<Vec<Site>> {
+    pub fn sites(
+        &mut self,
+        (owner, subject): (&str, Subject),
+        table: &Section<'_>,
+        located: Located,
+    ) -> Result<Vec<Site>> {
         let key = format!("{owner}: at");
         let Some(at) = table.get("at") else {
             if self.n == 1 {
                 return Ok(vec![Site { suffix: String::new(), place: Place::Dof(0), row: Row::dof(0) }]);
             }
             let title = format!("`at` is missing in {owner}");
-            return Err(self.source.error(table.span.clone(), &title, &format!("expected {}", self.takes(load))));
+            return Err(self.source.error(table.span.clone(), &title, &format!("expected {}", self.takes(located))));
         };
         let kind = match subject.parts() {
             [Part::Named(kind, _)] => kind,
@@ -96,7 +115,7 @@ impl Builder<'_> {
         self.positions.push((subject.part("at"), at.span()));
         if let Value::Word(word) = at.get_ref()
             && word == "each"
-            && !load
+            && located != Located::Load
             && self.planes != Planes::Named
             && !matches!(self.model, Model::Bodies(_))
         {
@@ -111,29 +130,29 @@ impl Builder<'_> {
             };
             return self.model.each(self.n).into_iter().map(site).collect();
         }
-        let place = self.place_of(&key, at, load)?;
+        let place = self.place_of(&key, at, located)?;
         let (row, moves) = self.row_there(&place)?;
         if !moves {
             let title = format!("{key}: nothing moves there");
             return Err(self.source.error(
                 at.span(),
                 &title,
-                &format!("expected {}, where the structure is not held", self.takes(load)),
+                &format!("expected {}, where the structure is not held", self.takes(located)),
             ));
         }
         Ok(vec![Site { suffix: String::new(), place, row }])
     }
 
     /// The place that the table `at` gives: alone, on a body, or relative to another place.
-    fn place_of(&mut self, key: &str, at: &Spanned<Value<'_>>, load: bool) -> Result<Place> {
-        let refuse = |builder: &Self| Err(builder.refuse(at.span(), key, &builder.takes(load)));
+    fn place_of(&mut self, key: &str, at: &Spanned<Value<'_>>, located: Located) -> Result<Place> {
+        let refuse = |builder: &Self| Err(builder.refuse(at.span(), key, &builder.takes(located)));
         let Value::Table(entries) = at.get_ref() else { return refuse(self) };
         let named = |word: &str| entries.iter().find(|entry| entry.0.get_ref() == word).map(|entry| &entry.1);
         let own: Vec<&Entry<'_>> =
             entries.iter().filter(|entry| !["body", "relative_to"].contains(&entry.0.get_ref().as_ref())).collect();
         let place = match (&self.model, named("body")) {
             (Model::Bodies(_), None) => return refuse(self),
-            (_, None) => self.place_alone(key, at, &own, load)?,
+            (_, None) => self.place_alone(key, at, &own, located)?,
             (_, Some(name)) => {
                 let body_key = format!("{key}: body");
                 let Value::Word(word) = name.get_ref() else {
@@ -145,11 +164,11 @@ impl Builder<'_> {
                     let title = format!("{key}: row on a body, and the system moves in two planes");
                     return Err(self.source.error(row.0.span(), &title, "expected dof, position or joint"));
                 }
-                self.on_body(body, |builder| builder.place_alone(key, at, &own, load))?.on(Some(word))
+                self.on_body(body, |builder| builder.place_alone(key, at, &own, located))?.on(Some(word))
             }
         };
         let Some(to) = named("relative_to") else { return Ok(place) };
-        let to = (self.place_of(&format!("{key}: relative_to"), to, load)?, to.span());
+        let to = (self.place_of(&format!("{key}: relative_to"), to, located)?, to.span());
         if self.planes.is_two() && [&place, &to.0].iter().any(|place| matches!(place, Place::Row(_))) {
             let title = format!("{key}: relative_to and row, and the system moves in two planes");
             return Err(self.source.error(to.1, &title, "expected no relative_to: a row may hold the difference"));
@@ -158,20 +177,26 @@ impl Builder<'_> {
     }
 
     /// The place of `entries`, of the table `at` without its body and the place it is relative to.
-    fn place_alone(&mut self, key: &str, at: &Spanned<Value<'_>>, entries: &[&Entry<'_>], load: bool) -> Result<Place> {
+    fn place_alone(
+        &mut self,
+        key: &str,
+        at: &Spanned<Value<'_>>,
+        entries: &[&Entry<'_>],
+        located: Located,
+    ) -> Result<Place> {
         match entries {
             [_] | [_, _] if self.planes == Planes::Named && entries.iter().all(|entry| is_plane(entry.0.get_ref())) => {
                 self.rows_of(key, entries)
             }
             [(kind, value)] => {
-                let place = self.place(key, kind, value, load)?;
+                let place = self.place(key, kind, value, located)?;
                 self.row_there(&place).map_err(|error| self.at_value(key, error, value))?;
                 Ok(place)
             }
-            [] => Err(self.refuse(at.span(), key, &self.takes(load))),
+            [] => Err(self.refuse(at.span(), key, &self.takes(located))),
             [_, .., last] => {
                 let title = format!("{key} gives more than one place");
-                Err(self.source.error(last.0.span(), &title, &format!("expected one of {}", self.takes(load))))
+                Err(self.source.error(last.0.span(), &title, &format!("expected one of {}", self.takes(located))))
             }
         }
     }
@@ -187,14 +212,14 @@ impl Builder<'_> {
         Ok((row, moves))
     }
 
-    fn place(&self, key: &str, kind: &Name<'_>, value: &Spanned<Value<'_>>, load: bool) -> Result<Place> {
+    fn place(&self, key: &str, kind: &Name<'_>, value: &Spanned<Value<'_>>, located: Located) -> Result<Place> {
         let on_line = matches!(self.model, Model::Bar(_) | Model::Beam(_));
         match kind.get_ref().as_ref() {
             "dof" if self.planes == Planes::Named => {
                 let kind_of_dof =
                     if let Model::Modal(_) = self.model { "mode" } else { "degree of freedom of matrices" };
                 let title = format!("{key}: a {kind_of_dof} in two planes has no direction");
-                Err(self.source.error(kind.span(), &title, &format!("expected {}", self.takes(load))))
+                Err(self.source.error(kind.span(), &title, &format!("expected {}", self.takes(located))))
             }
             "dof" => Ok(Place::Dof(self.dof(&format!("{key}: dof"), value, self.n)?)),
             "row" => Ok(Place::Row(self.row(&format!("{key}: row"), value)?)),
@@ -203,7 +228,7 @@ impl Builder<'_> {
             }
             word @ ("position" | "spread") if !on_line => {
                 let title = format!("{key}: a {} has no positions", self.model.kind());
-                let hint = if word == "spread" { "one load for each place, or a row" } else { &self.takes(load) };
+                let hint = if word == "spread" { "one load for each place, or a row" } else { &self.takes(located) };
                 Err(self.source.error(kind.span(), &title, &format!("expected {hint}")))
             }
             "position" => {
@@ -222,7 +247,7 @@ impl Builder<'_> {
                     }
                 }
             }
-            "spread" if load => {
+            "spread" if located == Located::Load => {
                 let wanted = "[from, to], two numbers in m from the left end";
                 let Value::List(ends) = value.get_ref() else {
                     return Err(self.refuse(value.span(), &format!("{key}: spread"), wanted));
@@ -236,7 +261,7 @@ impl Builder<'_> {
             }
             other => {
                 let title = format!("unknown key `{other}` in {key}");
-                Err(self.source.error(kind.span(), &title, &format!("expected {}", self.takes(load))))
+                Err(self.source.error(kind.span(), &title, &format!("expected {}", self.takes(located))))
             }
         }
     }

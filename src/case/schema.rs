@@ -76,7 +76,9 @@ impl Schema {
                 format!("{} = {{ {} }}", entry.word, keys(&|child| format!("{} = {}", child.word, unit(child))))
             }
             _ => {
-                let (values, remark) = accepted.split_once(": ").map_or((*accepted, None), |(a, b)| (a, Some(b)));
+                // What stands below in the table of keys does not stand below a message.
+                let accepted = &*accepted.replace(", see below", "");
+                let (values, remark) = accepted.split_once(": ").map_or((accepted, None), |(a, b)| (a, Some(b)));
                 let unit =
                     if entry.unit.is_empty() { String::new() } else { format!(", in {}", entry.unit_in_words()) };
                 let remark = remark.map_or_else(String::new, |remark| format!(": {remark}"));

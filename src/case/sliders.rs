@@ -2,7 +2,7 @@
 
 use super::Case;
 use super::builder::Builder;
-use super::place::{MOST_PLACES, Site};
+use super::place::{Located, MOST_PLACES, Site};
 use super::supports::Owner;
 use super::value::Section;
 use super::walls::NewWall;
@@ -67,7 +67,7 @@ impl Builder<'_> {
             return Err(self.source.error(table.span.clone(), &title, help));
         }
         let mut sliders = Vec::new();
-        for site in self.sites((&name, Subject::slider(&base)), table, false)? {
+        for site in self.sites((&name, Subject::slider(&base)), table, Located::Other)? {
             let name = format!("{base}{}", site.suffix);
             let subject = Subject::slider(&name);
             let normal_force = self.required(subject.clone().part("normal_force"), table, "normal_force");

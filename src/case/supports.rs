@@ -2,7 +2,7 @@
 
 use super::builder::Builder;
 use super::model::Place;
-use super::place::MOST_PLACES;
+use super::place::{Located, MOST_PLACES};
 use super::value::{Section, Value};
 use super::walls::NewWall;
 use super::written::{Support, SupportShape, WearData};
@@ -197,7 +197,7 @@ impl Builder<'_> {
 
     /// The place that a support surrounds.
     fn place_in_two_planes(&mut self, owner: &Owner, support: &Section<'_>) -> Result<Place> {
-        let sites = self.sites((&owner.name, owner.subject.clone()), support, false)?;
+        let sites = self.sites((&owner.name, owner.subject.clone()), support, Located::Support)?;
         match sites.into_iter().map(|site| (site.suffix, site.place)).collect::<Vec<_>>().as_slice() {
             [(suffix, place)] if suffix.is_empty() && !matches!(place, Place::Row(_)) => Ok(place.clone()),
             _ => {

@@ -4,7 +4,7 @@ use super::Case;
 use super::builder::Builder;
 use super::value::Section;
 use crate::error::{Result, Subject};
-use crate::scene::System;
+use crate::scene::{System, positive};
 use crate::time::TimeOptions;
 use std::f64::consts::TAU;
 use toml::Spanned;
@@ -13,6 +13,13 @@ use toml::Spanned;
 const LARGEST: f64 = 5e-5;
 
 impl Builder<'_> {
+    /// The end of the run, s. It is checked at once: random loads, which are made up to it, would
+    /// be blamed for one that is none.
+    pub fn end_of_run(&mut self, time: &Section<'_>) -> Result<f64> {
+        let end = self.required("duration", time, "end");
+        positive("duration", end).map_err(|error| self.at_key(error)).map(|()| end)
+    }
+
     /// The table `[time]` of a run of `duration` (s); where it gives no step it has one for now.
     pub fn time(&mut self, time: &Section<'_>, duration: f64, sectors: usize) -> TimeOptions {
         TimeOptions {

@@ -2,7 +2,7 @@
 
 use super::builder::Builder;
 use super::model::Place;
-use super::place::{MOST_PLACES, Site};
+use super::place::{Located, MOST_PLACES, Site};
 use super::planes::Planes;
 use super::value::Section;
 use crate::error::{Error, Result, Subject};
@@ -51,7 +51,7 @@ impl Builder<'_> {
         let sides = self.sides(&owner, wall)?;
         let law = self.wall_law(&owner, wall)?;
         let mut walls = Vec::new();
-        let sites = self.sites((&owner, Subject::wall(&base)), wall, false)?;
+        let sites = self.sites((&owner, Subject::wall(&base)), wall, Located::Other)?;
         let count = first + sites.len() * sides.len();
         if count > MOST_PLACES {
             let place = wall.span_of("at").unwrap_or(wall.span.clone());
@@ -185,7 +185,7 @@ impl Builder<'_> {
             let key = format!("probe {}: name", index + 1);
             let base = self.name_of(&key, probe)?;
             let owner = format!("probe {base:?}");
-            for site in self.sites((&owner, Subject::probe(&base)), probe, false)? {
+            for site in self.sites((&owner, Subject::probe(&base)), probe, Located::Other)? {
                 let ways = match probe.number("direction") {
                     Some(direction) => vec![("", self.towards(site, Some(&direction), &owner, &probe.span)?)],
                     None => self.both_ways(&site)?,

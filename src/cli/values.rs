@@ -53,9 +53,9 @@ pub fn integrators() -> impl TypedValueParser<Value = Integrator> {
     PossibleValuesParser::new(Integrator::ALL.map(Integrator::name)).try_map(|name| name.parse::<Integrator>())
 }
 
-/// A number of things.
+/// A number of realisations; those that take it refuse 0.
 pub fn whole(text: &str) -> Result<u64, &'static str> {
-    text.parse().map_err(|_| "expected a whole number, 0 or more")
+    text.parse().map_err(|_| "expected a whole number, 1 or more")
 }
 
 /// A format of pictures.

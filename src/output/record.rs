@@ -4,7 +4,7 @@
 use crate::case::open_regular;
 use crate::error::{Error, Result, counted};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 use std::io::{self, Read};
 use std::path::Path;
@@ -58,6 +58,18 @@ impl Record {
     pub fn read(manifest: &Value, name: &str) -> Option<Self> {
         let found = [TABLES, DOCUMENTS].iter().find_map(|key| manifest.get(key)?.get(name))?;
         serde_json::from_value(found.clone()).ok()
+    }
+
+    /// Checks that every file of which `manifest`, the manifest in `folder`, has a record is as it
+    /// was written.
+    ///
+    /// # Errors
+    /// As [`Record::bytes`].
+    pub fn verify_all(folder: &Path, manifest: &Value) -> Result<()> {
+        let of = |key: &str| manifest.get(key).and_then(Value::as_object).into_iter().flat_map(Map::keys);
+        let recorded = [TABLES, DOCUMENTS].into_iter().flat_map(of);
+        let mut records = recorded.filter_map(|name| Some((folder.join(name), Self::read(manifest, name)?)));
+        records.try_for_each(|(path, record)| record.verify(&path))
     }
 
     /// The bytes of the file at `path`, which is the one that was recorded.

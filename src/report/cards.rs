@@ -200,7 +200,7 @@ fn modes(summary: &Value) -> Option<Value> {
         [] => State::Mind,
     };
     let verdict = format!(
-        "More modes change impulses by up to {} of what they are then, peaks by up to {}",
+        "More modes change impulses by up to {} of the largest, peaks by up to {} of the largest",
         percent(impulse),
         percent(peak)
     );

@@ -61,7 +61,7 @@ pub use html::FILE;
 use crate::error::{Error, Result};
 use crate::output::atomic::write_whole;
 use crate::output::manifest::{self, MANIFEST};
-use crate::output::record::TABLES;
+use crate::output::record::{Record, TABLES};
 use crate::output::results::Results;
 use folder::Folder;
 use serde_json::{Map, Value, json};
@@ -83,14 +83,22 @@ pub struct Written {
 /// as [`FILE`] in that folder.
 ///
 /// # Errors
-/// As [`page`] and [`page_over`]; [`Error::Io`] for a folder without results, and where the page
-/// cannot be written.
+/// As [`page`] and [`page_over`]; [`Error::Io`] for a folder without results, for one in which any
+/// table or document that was recorded is not as it was written, and where the page cannot be
+/// written.
 pub fn write(folder: &Path, over: Option<&Path>, out: Option<&Path>) -> Result<Written> {
     let manifest = manifest_of(folder)?;
-    let page = match over {
-        Some(over) => page_over(folder, &manifest, (over, &manifest_of(over)?))?,
+    let over = over.map(|over| Ok((over, manifest_of(over)?))).transpose()?;
+    let page = match &over {
+        Some((over, theirs)) => page_over(folder, &manifest, (over, theirs))?,
         None => page(folder, &manifest)?,
     };
+    // Those that the page shows were verified as they were read; results are damaged where one of
+    // the others is.
+    for (folder, manifest) in [(folder, &manifest)].into_iter().chain(over.iter().map(|(over, theirs)| (*over, theirs)))
+    {
+        Record::verify_all(folder, manifest)?;
+    }
     let verified = manifest.get(TABLES).is_some();
     let path = out.map_or_else(|| folder.join(FILE), Path::to_owned);
     match out {

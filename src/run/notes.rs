@@ -65,6 +65,7 @@ pub(crate) fn remarks<J: Judging, R: Recording>(scene: &Checked, run: &Run<J, R>
         notes.push(format!("the rows are {spacing:e} s apart, closer than asked for, so that the last is at the end"));
     }
     notes.extend(run.recorded().and_then(|trajectory| approach::untouched(scene, trajectory)));
+    notes.extend(run.recorded().into_iter().flat_map(|trajectory| approach::untouched_supports(scene, trajectory)));
     notes.extend(run.recorded().and_then(|_| late_output(scene)));
     notes.extend(run.recorded().filter(|_| scene.probes.is_empty()).map(|_| {
         "the scene has no probe: no displacement or velocity is recorded, only contacts and forces of walls".to_owned()

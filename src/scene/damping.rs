@@ -2,6 +2,7 @@
 
 use super::Structure;
 use super::modal::{MOST_DENSE, Modes};
+use super::structure::of_size;
 use super::system::{above_minus_one, nonnegative};
 use crate::error::{Error, Result, Subject};
 use crate::linear::Symmetric;
@@ -37,10 +38,12 @@ impl Damping {
     /// C for the M and K of `structure`.
     ///
     /// # Errors
-    /// [`Error::Invalid`] under the damping's `mass`, `stiffness`, `ratios` or `matrix`; where
-    /// modal ratios meet a structure too large; or the errors of [`Modes::lowest`].
+    /// [`Error::Invalid`] under the damping's `mass`, `stiffness`, `ratios` or `matrix`; for a K
+    /// that has another size than M; where modal ratios meet a structure too large; or the errors
+    /// of [`Modes::lowest`].
     pub fn matrix(&self, structure: &Structure) -> Result<Symmetric> {
         let n = structure.mass.size();
+        of_size("stiffness", &structure.stiffness, n)?;
         match self {
             Self::None => Ok(Symmetric::zeros(n)),
             Self::Rayleigh { mass, stiffness } => {

@@ -82,6 +82,8 @@ pub use scene_key::SceneKey;
 pub use shared::SharedStructure;
 pub use slider::Slider;
 pub use structure::Structure;
+#[cfg(feature = "case")]
+pub(crate) use structure::of_size;
 pub use support::{Hole, Support};
 pub use system::{Oscillator, System};
 pub(crate) use system::{finite, nonnegative, positive};

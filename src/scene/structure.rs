@@ -55,22 +55,27 @@ pub(super) fn validate(
     structure: &Structure,
     mass: impl FnOnce() -> std::result::Result<(), NotDefinite>,
 ) -> Result<()> {
-    let n = structure.mass.size();
-    if n == 0 {
+    if structure.mass.size() == 0 {
         return Err(Error::invalid("system", "without degrees of freedom", "one or more"));
     }
     for (name, matrix) in
         [("mass", &structure.mass), ("damping", &structure.damping), ("stiffness", &structure.stiffness)]
     {
-        if matrix.size() != n {
-            let size = format!("{0} × {0}", matrix.size());
-            return Err(Error::invalid(matrix_of(name), size, format!("{n} × {n}, as the mass")));
-        }
+        of_size(name, matrix, structure.mass.size())?;
         finite_matrix(name, matrix)?;
     }
     definite(&structure.mass, mass)?;
     damped(structure)?;
     semidefinite("stiffness", &structure.stiffness)
+}
+
+/// Refuses a matrix without a row for each of the `n` of the mass; it is named as in [`matrix_of`].
+pub(crate) fn of_size(name: &str, matrix: &Symmetric, n: usize) -> Result<()> {
+    if matrix.size() == n {
+        return Ok(());
+    }
+    let size = format!("{0} × {0}", matrix.size());
+    Err(Error::invalid(matrix_of(name), size, format!("{n} × {n}, as the mass")))
 }
 
 /// M, C or K by its name.

@@ -450,3 +450,33 @@ fn every_wrong_start_and_ratio_is_refused_at_its_place() {
         assert!(said.contains(words), "{said}");
     }
 }
+
+/// What a message offers is accepted: a support stands around one place, and no row has two
+/// displacements.
+#[test]
+fn what_is_offered_for_a_place_of_a_support_is_accepted_there() {
+    let said = |old: &str, new: &str| {
+        assert!(RIGHT.contains(old));
+        Case::parse(&RIGHT.replacen(old, new, 1), "wrong.toml", "").unwrap_err().to_string()
+    };
+    let of_support = |at: &str| said("at = { position = 1.0 }", at);
+    for at in ["at = { joint = 4 }", "at = { there = 1.0 }", "at = 1.0", "at = {}", "at = { dof = 0, position = 1.0 }"]
+    {
+        let told = of_support(at);
+        assert!(told.contains("position = 0 to 3.0 m") && told.contains("{ dof = 0 to 15 }"), "{at}: {told}");
+        assert!(!told.contains("row") && !told.contains("\"each\""), "{at}: {told}");
+    }
+    // A wall may stand on a row, and at each place.
+    let of_wall = said("at = { position = 2.0 }", "at = { joint = 4 }");
+    assert!(of_wall.contains("{ row = ") && of_wall.contains("\"each\""), "{of_wall}");
+    // Masses have no positions.
+    let chain = "[system]\nplanes = 2\n[system.chain]\nmasses = [1.0, 2.0]\nsprings = 1e3\n\
+        left = { stiffness = 1e3 }\n[[support]]\nname = \"bars\"\nat = { position = 2.0 }\nshape = \"round\"\n\
+        gap = 1e-3\nrestitution = 0.5\n[time]\nend = 1.0\nstep = 1e-3\n";
+    let told = Case::parse(chain, "wrong.toml", "").unwrap_err().to_string();
+    assert!(told.contains("expected at = { dof = 0 to 1 }") && !told.contains("row"), "{told}");
+    assert!(!told.contains("each"), "{told}");
+    // What stands below in the table of keys does not stand below a message.
+    let planes = said("planes = 2", "planes = 3");
+    assert!(planes.contains("planes y and z; matrices") && !planes.contains("see below"), "{planes}");
+}

@@ -657,3 +657,23 @@ fn one_mode_has_the_displacement_of_the_place_of_its_walls() {
     // Without walls: at the first point.
     assert_eq!(file("").probes, [Probe { name: "p".into(), at: Row::new(vec![(0, 2.0)]) }]);
 }
+
+/// More modes than are computed of a large structure are refused with the number that was asked
+/// for, of each plane.
+#[test]
+fn too_many_modes_of_a_large_structure_are_told_as_they_were_asked_for() {
+    let tube = |planes: usize, modes: usize| {
+        let (direction, second) = if planes == 2 { ("direction = 0\n", "planes = 2\n") } else { ("", "") };
+        format!(
+            "[system]\n{second}modes = {modes}\n[system.beam]\nlength = 3.0\nyoungs_modulus = 2e11\ndensity = 7850.0\n\
+             outer_diameter = 0.02\nelements = 310\nleft = \"pinned\"\nright = \"pinned\"\n\
+             [[load]]\nat = {{ position = 1.0 }}\n{direction}constant = {{ force = 1.0 }}\n\
+             [time]\nend = 0.1\nstep = 1e-3\n"
+        )
+    };
+    for (planes, asked, words) in [(1, 500, "at most 499, of"), (2, 500, "at most 249 in each plane, of")] {
+        let said = signorini::case::Case::parse(&tube(planes, asked), "tube.toml", "").unwrap_err().to_string();
+        assert!(said.contains(&format!("modes is {asked}")) && said.contains(words), "{said}");
+        assert!(said.contains("more than 600 degrees of freedom"), "{said}");
+    }
+}

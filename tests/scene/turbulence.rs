@@ -2,7 +2,7 @@
 //! under other numbers of modes, its seeds and planes, and files that are refused.
 use crate::fluid_elastic::{case, with};
 use crate::refused::{Wrong, not_refused};
-use signorini::case::Case;
+use signorini::case::{Case, Embedded};
 use signorini::{Load, LoadKind, Options, Scheme, Table, run};
 use std::f64::consts::PI;
 
@@ -216,4 +216,26 @@ fn what_is_no_tube_has_no_turbulence_and_no_joints() {
     assert!(told.contains("turbulence 1 acts on no tube") && told.contains("[system.beam]"), "{told}");
     let told = said(&TUBE.replace("spans = [1.0, 2.0]", "length = 3.0").replace("{ position = 1.5 }", "{ joint = 1 }"));
     assert!(told.contains("unknown key `joint`") && told.contains("position"), "{told}");
+}
+
+#[test]
+fn an_end_that_is_none_is_told_of_itself_and_not_of_a_random_load() {
+    let text = Embedded::named("tube-in-cross-flow").unwrap().text;
+    let line = text.lines().find(|line| line.starts_with("end = ")).unwrap();
+    let random = "[[load]]\nat = { position = 1.0 }\ndirection = 0.0\n\
+                  random = { rms = 1.0, from = 1.0, to = 50.0, seed = 1 }\n\n[time]";
+    for text in [text.to_owned(), text.replace("[time]", random)] {
+        for end in ["-0.6", "0.0", "inf"] {
+            let wrong = text.replace(line, &format!("end = {end}"));
+            let number = 1 + wrong.lines().position(|line| line == format!("end = {end}")).unwrap();
+            let said = Case::parse(&wrong, "flow.toml", "").unwrap_err().to_string();
+            assert!(said.contains(&format!("flow.toml:{number}:7")), "{said}");
+            for words in ["time.end is", "a finite number above 0"] {
+                assert!(said.contains(words), "{said}");
+            }
+        }
+    }
+    let case = Case::parse(text, "flow.toml", "").unwrap();
+    let said = case.with("time.end", -1.0).unwrap_err().to_string();
+    assert!(said.contains("time.end is -1.0") && !said.contains("turbulence"), "{said}");
 }

@@ -449,6 +449,12 @@ fn a_run_of_a_structure_names_its_probes_and_walls_and_tells_its_truncation() {
     let said = text(&output.stderr);
     assert!(output.status.success(), "{said}");
     assert!(said.contains("truncation: with 4 of 8 modes in place of 2 the impulse changes by up to"), "{said}");
+    // Of the largest impulse of any wall, and not of what that wall has.
+    let told = said.split("the impulse changes by up to ").nth(1).unwrap();
+    assert!(told.split_once(" % ").unwrap().1.starts_with("of the largest (wall \"support"), "{said}");
+    assert!(told.contains(", the peak by up to ") && told.matches(" % of the largest (wall ").count() == 2, "{said}");
+    let page = fs::read_to_string(dir.path().join("o/report.html")).unwrap();
+    assert!(page.contains("More modes change impulses by up to ") && !page.contains("of what they are then"));
     let (header, rows) = csv(&dir.path().join("o/trajectory.csv"));
     let expected = "time_s,displacement_middle_m,velocity_middle_m_per_s,\
         contact_force_support_upper_N,contact_impulse_support_upper_N_s,\

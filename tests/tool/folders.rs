@@ -203,6 +203,45 @@ fn a_report_names_the_table_that_is_not_as_it_was_written() {
     }
 }
 
+/// Tables that no page shows, too, and those in the folders of a folder.
+#[test]
+fn a_report_names_any_recorded_file_that_is_not_as_it_was_written() {
+    let dir = tempfile::tempdir().unwrap();
+    let tube = ["new", "tube", "--length", "2", "--supports", "3", "--out", "t.toml"];
+    said(dir.path(), &tube, 0);
+    let short = ["--set", "time.end=0.02", "--set", "system.modes=6", "--set", "time.step=4e-5", "--no-verdict"];
+    let short = [&short[..], &["--set", "time.statistics_from=0.004"]].concat();
+    said(dir.path(), &[&["run", "t.toml", "--seeds", "2", "--out", "run"], &short[..]].concat(), 0);
+    said(dir.path(), &[&["compare", "t.toml", "--out", "compare"], &short[..]].concat(), 0);
+    for (folder, least) in [("run", 8), ("compare", 8)] {
+        let manifest = json(&dir.path().join(folder).join("request.json"));
+        let names = |key: &str| manifest[key].as_object().unwrap().keys().cloned().collect::<Vec<String>>();
+        let all = [names("tables"), names("documents")].concat();
+        assert!(all.len() >= least && all.iter().any(|name| name.ends_with("supports.csv")), "{all:?}");
+        for name in all {
+            let path = dir.path().join(folder).join(&name);
+            let whole = fs::read(&path).unwrap();
+            let last = whole.len() - 2;
+            let changed = [&whole[..last], b"~", &whole[last + 1..]].concat();
+            for (words, damage) in
+                [("was changed", Some(&changed[..])), ("is empty", Some(&[])), ("no such file", None)]
+            {
+                fs::remove_file(&path).unwrap();
+                damage.into_iter().for_each(|bytes| fs::write(&path, bytes).unwrap());
+                let told = said(dir.path(), &["report", folder], 2);
+                assert!(told.contains(&name) && told.contains(words), "{folder}/{name}, {words}: {told}");
+                // Nor is another page drawn over it.
+                if folder == "run" && damage.is_none() {
+                    let over = said(dir.path(), &["report", "compare", "--over", folder, "--out", "over.html"], 2);
+                    assert!(over.contains(&name), "{name}: {over}");
+                }
+                fs::write(&path, &whole).unwrap();
+            }
+        }
+        said(dir.path(), &["report", folder], 0);
+    }
+}
+
 #[test]
 fn a_report_names_the_summary_that_was_changed() {
     let dir = tempfile::tempdir().unwrap();

@@ -270,3 +270,40 @@ fn windows_that_begin_before_the_motion_has_settled_are_told_by_sweeps_as_by_run
     let later = sweep("later", &["--set", "time.statistics_from=2", "--set", "time.end=8", "--force"]);
     assert!(!later.contains("not settled"), "{later}");
 }
+
+/// Two masses in two planes, of which only the first is driven into its hole.
+#[test]
+fn a_support_that_is_never_touched_is_said_where_others_are() {
+    let case = |second: &str, probe: &str| {
+        let text = format!(
+            "[system]\nplanes = 2\n[system.chain]\nmasses = [1.0, 1.0]\nsprings = 0.0\n\
+             left = {{ stiffness = 100.0 }}\nright = {{ stiffness = 100.0 }}\n\
+             [[support]]\nname = \"near\"\nat = {{ dof = 0 }}\nshape = \"round\"\ngap = 1e-3\nrestitution = 0.5\n\
+             [[support]]\nname = \"far\"\nat = {{ dof = 1 }}\n{second}\nrestitution = 0.5\n\
+             [[wall]]\nname = \"stop\"\nat = {{ dof = 1 }}\ndirection = 0\nside = \"upper\"\nposition = 1.0\n\
+             restitution = 0.5\n[[load]]\nat = {{ dof = 0 }}\ndirection = 0\nconstant = {{ force = 1.0 }}\n\
+             [[load]]\nat = {{ dof = 1 }}\ndirection = 90\nconstant = {{ force = 0.1 }}\n\
+             {probe}[time]\nend = 1.0\nstep = 1e-3\n"
+        );
+        let case = signorini::case::Case::parse(&text, "two.toml", "").unwrap_or_else(|error| panic!("{error}"));
+        notes(&case.scene, &MOREAU, 1e-3)
+    };
+    let probe = "[[probe]]\nname = \"second\"\nat = { dof = 1 }\n";
+    // The body swings to twice the static 1 mm, along z.
+    let round = case("shape = \"round\"\ngap = 3e-3", probe);
+    let said = "no contact at the support \"far\": in the rows, the body stays within 2.000e-3 m of its centre, and \
+                its gap is 3.000e-3 m";
+    assert_eq!(round, said);
+    let flats = case("shape = \"flats\"\nsides = 4\ngap = 3e-3", probe);
+    assert_eq!(
+        flats,
+        "no contact at the support \"far\": in the rows, the body stays 1.000e-3 m from its wall \"far-flat-2\""
+    );
+    let blind = case("shape = \"round\"\ngap = 3e-3", "[[probe]]\nname = \"first\"\nat = { dof = 0 }\n");
+    assert_eq!(blind, "no contact at the support \"far\"; no probe there shows how near the body came");
+    // Where both are touched there is nothing to say: the wall is far on purpose.
+    assert_eq!(case("shape = \"round\"\ngap = 1e-3", probe), "");
+    // Sliders are pressed, and never apart.
+    let pad = signorini::case::Embedded::named("dry-friction-damper").unwrap().case().unwrap();
+    assert!(!notes(&pad.scene, &Scheme::Located, 1e-3).contains("no contact"));
+}

@@ -130,7 +130,7 @@ fn seeds_that_make_no_sense_are_refused() {
     let path = dir.path();
     for (args, words) in [
         (&["square.toml", "--seeds", "0"][..], &["--seeds", "1 or more"][..]),
-        (&["square.toml", "--seeds", "-1"], &["--seeds", "expected a whole number, 0 or more"]),
+        (&["square.toml", "--seeds", "-1"], &["--seeds", "expected a whole number, 1 or more"]),
         (&["square.toml", "--seeds", "2.5"], &["--seeds"]),
         (&["rigid-walls-sine", "--seeds", "3"], &["--seeds", "a random load"]),
         (&["rigid-walls-sine", "--seeds", "3", "--accuracy", "1e-3"], &["--seeds", "a random load"]),

@@ -144,3 +144,40 @@ fn fields_of_bodies_are_set_by_their_keys() {
     let (_, err) = said(dir.path(), &["explain", "two.toml", "--set", "initial.velocity.c=0.1"], 2);
     assert!(err.contains("unknown key `c` in `initial.velocity`"), "{err}");
 }
+
+/// M of another size than K, by a key, beside damping that is computed from both.
+#[test]
+fn a_matrix_of_another_size_is_refused_whatever_is_computed_of_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| std::fs::write(dir.path().join(name), text).unwrap();
+    file("K.csv", "2000,-1000,0\n-1000,2000,-1000\n0,-1000,1000\n");
+    file("M.csv", "1,0,0\n0,1,0\n0,0,1\n");
+    file("M2.csv", "1,0\n0,1\n");
+    file("M4.csv", "1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n");
+    let matrices = "[system.matrices]\nmass = \"M.csv\"\nstiffness = \"K.csv\"\n";
+    let rest = "[[load]]\nat = { dof = 0 }\nconstant = { force = 1.0 }\n[time]\nend = 0.1\nstep = 1e-3\n";
+    for (damping, start) in [
+        ("[system.damping]\nratio = 0.01\n", ""),
+        ("[system.damping]\nrayleigh = { mass = 0.1, stiffness = 1e-4 }\n", ""),
+        ("", "[initial]\nequilibrium = true\n"),
+        ("", ""),
+    ] {
+        file("k.toml", &format!("{matrices}{damping}{start}{rest}"));
+        said(dir.path(), &["explain", "k.toml"], 0);
+        for (mass, n) in [("M2.csv", 2), ("M4.csv", 4)] {
+            let set = format!("system.matrices.mass={mass}");
+            for command in ["run", "explain"] {
+                let (_, err) = said(dir.path(), &[command, "k.toml", "--set", &set], 2);
+                assert!(
+                    err.contains("stiffness matrix is 3 × 3")
+                        && err.contains(&format!("expected {n} × {n}, as the mass")),
+                    "{err}"
+                );
+                assert!(err.contains(":3:13\n"), "{err}");
+            }
+        }
+    }
+    let other = signorini::Structure { mass: signorini::linear::Symmetric::diagonal(&[1.0; 2]), ..Default::default() };
+    let refused = other.with_damping(&signorini::Damping::Modal(vec![0.01])).unwrap_err();
+    assert!(refused.to_string().contains("stiffness matrix is 0 × 0; expected 2 × 2"), "{refused}");
+}

@@ -16,7 +16,7 @@ use super::difference::error_length;
 use crate::error::{Error, Result, Subject};
 use crate::residual::Finding;
 use crate::run::{Options, Run, run_with_progress};
-use crate::scene::{Damping, Load, Modes, Reduction, Scatter, Scene, Slider, Turbulence};
+use crate::scene::{Damping, Load, MOST_DENSE, MOST_MODES, Modes, Reduction, Scatter, Scene, Slider, Turbulence};
 use crate::scheme::{Method, equilibrium};
 use crate::statistics::PlaceKind;
 use crate::time::TimeOptions;
@@ -61,6 +61,7 @@ impl Unreduced {
     /// # Errors
     /// As [`Scene::reduced`] and [`Scene::with_slider`].
     pub fn cut(&self, modes: usize) -> Result<Reduction> {
+        self.check_many(modes)?;
         let reduction = match self.start {
             Start::Given => self.scene.reduced(modes, self.static_correction),
             Start::Equilibrium => self.scene.reduced_without_start(modes, self.static_correction),
@@ -80,6 +81,18 @@ impl Unreduced {
         }
         reduction.scene.loads.extend(self.turbulent_loads(&reduction.modes, self.scene.duration)?);
         Ok(reduction)
+    }
+
+    /// Refuses more `modes` in all planes, with the number of one plane, than are computed of a
+    /// large structure: one more than are kept.
+    fn check_many(&self, modes: usize) -> Result<()> {
+        let (n, most) = (self.scene.system.degrees_of_freedom(), (MOST_MODES - 1) / self.planes);
+        if n <= MOST_DENSE || modes <= most * self.planes {
+            return Ok(());
+        }
+        let each = if self.planes > 1 { " in each plane" } else { "" };
+        let expected = format!("at most {most}{each}, of a structure with more than {MOST_DENSE} degrees of freedom");
+        Err(Error::invalid("modes", modes / self.planes, expected))
     }
 
     /// The error that `modes` in all planes are too few or too many, with the number of one plane,
@@ -298,14 +311,20 @@ impl fmt::Display for Truncation {
         {
             write!(
                 f,
-                " the impulse changes by up to {:.2} % of what it is then ({} {:?}: {:+.4} to {:+.4} N s)",
+                " the impulse changes by up to {:.2} % of the largest ({} {:?}: {:+.4} to {:+.4} N s)",
                 100.0 * impulse,
                 at.kind.word(),
                 at.wall,
                 at.impulse_n_s[0],
                 at.impulse_n_s[1]
             )?;
-            write!(f, ", the peak by up to {:.2} % ({} {:?}: ", 100.0 * peak, peak_at.kind.word(), peak_at.wall)?;
+            write!(
+                f,
+                ", the peak by up to {:.2} % of the largest ({} {:?}: ",
+                100.0 * peak,
+                peak_at.kind.word(),
+                peak_at.wall
+            )?;
             match (peak_at.peak_force_n, peak_at.largest_impulse_n_s) {
                 ([Some(a), Some(b)], _) => write!(f, "{a:.4} to {b:.4} N)")?,
                 (_, [a, b]) => {
